@@ -19,11 +19,14 @@ SERIAL := build/serial
 CHECK := build/check
 # An environment of Python with the package, its tests' and its documentation's packages.
 VENV := build/python/venv
+# The core as WebAssembly, the package for JavaScript and the studio.
+WASM := build/wasm
+PORT ?= 8000
 # Debian 12 has two versions of Boost, one of which can be installed; CGAL and GDAL ask for the older.
 BENCH_BOOST := build/boost-1.81
 SOURCES = $(shell git ls-files '*.h' '*.cpp')
 
-.PHONY: help setup build demo check test papers bench bench-flo-mat bench-images fuzz fuzz-coverage certain silhouettes corpus offsets tsan serial portable python python-leaks spark wheels docs format lint clean install
+.PHONY: help setup build demo check test papers bench bench-flo-mat bench-images fuzz fuzz-coverage certain silhouettes corpus offsets tsan serial portable python python-leaks spark wheels web docs format lint clean install
 .DEFAULT_GOAL := help
 
 help:     ## list the targets
@@ -47,6 +50,8 @@ check: setup    ## after a change: compile what changed, run the quick tests
 
 test: setup     ## run all tests, in release and with the address and undefined-behaviour sanitizers
 	@tools/python.sh environment $(VENV) || echo "python: its tests are skipped"
+	@tools/setup.sh web || true
+	@UNITY=$(UNITY) JOBS=$(JOBS) tools/wasm.sh build $(WASM) || echo "web: its tests are skipped"
 	@cmake --preset release -DMEDIAL_UNITY=$(UNITY) $$(tools/python.sh options $(VENV))
 	@cmake --build $(RELEASE) -j $(JOBS)
 	@cmake --preset asan -DMEDIAL_UNITY=$(UNITY)
@@ -68,6 +73,12 @@ spark: python   ## test the Python package on Spark, Sedona, Dask and DuckDB (Py
 
 wheels: setup   ## build the wheels of the Python package, checked by auditwheel: out/wheels
 	@tools/wheels.sh out/wheels $(JOBS)
+
+web: setup      ## build the package for JavaScript and the studio, and serve it: make web PORT=8000
+	@tools/setup.sh web
+	@UNITY=$(UNITY) JOBS=$(JOBS) tools/wasm.sh build $(WASM)
+	@echo "the studio: http://127.0.0.1:$(PORT)/"
+	@tools/wasm.sh serve $(WASM) $(PORT)
 
 docs: python    ## the documentation as a static site: out/docs
 	@tools/docs.sh site $(VENV)

@@ -52,7 +52,7 @@ struct AxisArguments : FileArguments {
 };
 
 /// The pixels of an image that an axis passes through.
-void draw_pixels(const MedialAxis& axis, const io::PixelPlacement& t, Image& image) {
+void draw_pixels(const MedialAxis& axis, const PixelPlacement& t, Image& image) {
   const double side = std::hypot(t[1], t[4]), area = t[1] * t[5] - t[2] * t[4];
   for (const Edge& edge : axis.edges) {
     for (const Disk& disk : sample_by_step(axis, edge, 0.25 * side)) {
@@ -166,11 +166,10 @@ void add_grid_options(CLI::App& command, MethodArguments& arguments) {
                   "moves the boundary by a quarter of a pixel at most (default: 5; 0 keeps\n"
                   "every edge).")
       ->option_text("A");
-  add_choice<RidgeSearch>(
-      command, "--ridge-search", ridge.search,
-      {{"tree", RidgeSearch::tree}, {"sorted-list", RidgeSearch::sorted_list}},
-      "How the nearest edges are found: tree (default) or sorted-list, as in the\n"
-      "report. The pixels are the same.");
+  add_choice<bool>(command, "--ridge-search", ridge.sorted_list,
+                   {{"tree", false}, {"sorted-list", true}},
+                   "How the nearest edges are found: tree (default) or sorted-list, as in the\n"
+                   "report. The pixels are the same.");
   add_choice<RidgeRule>(
       command, "--ridge-rule", ridge.rule,
       {{"crossing", RidgeRule::crossing}, {"difference", RidgeRule::difference}},

@@ -15,8 +15,8 @@
 #include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/pipeline.h"
+#include "medial/document.h"
 #include "medial/io/write.h"
-#include "medial/units.h"
 
 namespace medial::cli {
 namespace {
@@ -144,7 +144,7 @@ Result<int> finish_carve(const Document<io::CarveItem>& file, const CarveArgumen
   const std::string& input = arguments.input.path;
   const std::string unit = name_of(file.unit);
   if (deepest * millimetres(file.unit) > unlikely_depth && !arguments.common.quiet)
-    say("medial: {}: note: the cut is {:.3g} {} deep; --units says what the input is in, --depth "
+    say("medial: {}: note: the cut is {:.3g} {} deep; --units gives the unit of the input, --depth "
         "limits the cut\n",
         input, deepest, unit);
   const auto seconds = static_cast<std::uint64_t>(std::ceil(report.seconds));

@@ -15,8 +15,8 @@
 #include <optional>
 #include <system_error>
 
+#include "medial/document.h"
 #include "medial/threads.h"
-#include "medial/units.h"
 
 namespace medial::cli {
 namespace {
@@ -203,8 +203,8 @@ void add_input_options(CLI::App& command, InputOptions& input) {
       ->check(CLI::IsMember({"make-valid", "even-odd", "non-zero"}).description(""))
       ->each([&read](const std::string& rule) { read.repair = rules.at(rule); });
   command.add_flag("--skip-invalid", read.skip_invalid,
-                   "Leave out features that make no shape, instead of refusing the file: a\n"
-                   "note on each says why, and one how many.");
+                   "Leave out invalid features instead of refusing the file; a note on each\n"
+                   "says why, and another one how many.");
   command
       .add_option("--crs", read.crs,
                   "The reference system of the coordinates, in place of the file's own.")
@@ -224,7 +224,7 @@ void add_input_options(CLI::App& command, InputOptions& input) {
 void add_image_options(CLI::App& command, io::ImageOptions& options) {
   command
       .add_option("--threshold", options.threshold,
-                  "Images: pixels from this value on are foreground (default: half of\n"
+                  "Images: pixels of at least this value are foreground (default: half of\n"
                   "the format's range; 128 of 8 bits).")
       ->option_text("VALUE");
   command.add_flag("--invert", options.invert,
@@ -251,7 +251,7 @@ void add_output_options(CLI::App& command, FileArguments& arguments, const std::
                   formats));
   if (lists(formats, "gpkg"))
     command.add_flag("--overwrite", arguments.write.overwrite,
-                     "Replace layers of the same name in a .gpkg that is there; others stay.");
+                     "Replace layers of the same name in an existing .gpkg; other layers stay.");
   add_format_option(command, arguments.format, piped);
 }
 

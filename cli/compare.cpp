@@ -177,35 +177,6 @@ Result<std::vector<Method>> methods_of(const std::string& names) {
   return chosen;
 }
 
-/// One picture of all axes: each in a rectangle of its own, side by side in the plane, with its
-/// method below.
-Status write_comparison(const std::string& path, const Shape& shape, const Box& box,
-                        const std::vector<Row>& rows, const Document<ShapeItem>& file) {
-  Document<AxisItem> axes = empty_like<AxisItem>(file);
-  const Vec2 size = box.high - box.low;
-  const Vec2 pitch{1.1 * size.x, size.y + 0.1 * std::max(size.x, size.y)};
-  constexpr std::size_t columns = 3;
-  for (const Row& row : rows) {
-    if (!row.refused.empty()) continue;
-    const std::size_t count = axes.items.size();
-    const Vec2 move{static_cast<double>(count % columns) * pitch.x,
-                    (file.y_down ? 1 : -1) * static_cast<double>(count / columns) * pitch.y};
-    AxisItem item{shape, row.axis, {{"title", row.method}}};
-    for (Vec2& p : item.shape.points) p = p + move;
-    for (Site& site : item.axis.sites) {
-      site.start = site.start + move;
-      site.end = site.end + move;
-    }
-    for (Node& node : item.axis.nodes) node.disk.center = node.disk.center + move;
-    for (Edge& edge : item.axis.edges) edge.control.center = edge.control.center + move;
-    axes.items.push_back(std::move(item));
-  }
-  io::WriteOptions options;
-  options.width = 1500;
-  options.titles = true;
-  return io::write_axes(path, {}, axes, options);
-}
-
 Result<int> run_compare(const CompareArguments& arguments) {
   const CommonOptions& common = arguments.common;
   auto methods = methods_of(arguments.methods);
@@ -239,8 +210,12 @@ Result<int> run_compare(const CompareArguments& arguments) {
       list.push_back(json_of(row));
     }
     if (i == 0 && !arguments.output.empty()) {
-      Status written = write_comparison(arguments.output, item.shape,
-                                        bounding_box(reference->region), rows, file);
+      std::vector<Panel> panels;
+      for (Row& row : rows)
+        if (row.refused.empty())
+          panels.push_back({row.method, {{item.shape, std::move(row.axis), {}}}});
+      Status written =
+          write_panels(arguments, file, bounding_box(reference->region), std::move(panels), 1500);
       if (!written) return std::move(written).error();
     }
   }
@@ -273,10 +248,10 @@ Command make_compare_command(CLI::App& program) {
       "Each method runs on one thread. Distances are to the axis of the method disks, by\n"
       "samples; Hausdorff is the larger of both directions. A method that does not take\n"
       "the input says why. Of a sampled axis only radii and graph can be verified, not that\n"
-      "it is where the exact one is: the distance says that. An axis of pixels is unresolved if "
-      "its grid is too coarse for\n"
-      "parts or holes of the shape. Exit status 1: an axis is wrong in another way, a\n"
-      "method failed, or one named by --methods does not take the input.\n"
+      "it is where the exact one is: the distance says that. An axis of pixels is\n"
+      "unresolved if its grid is too coarse for parts or holes of the shape. Exit status 1:\n"
+      "an axis is wrong in another way, a method failed, or one named by --methods does not\n"
+      "take the input.\n"
       "\n"
       "Examples:\n"
       "  medial compare plan.wkt\n"

@@ -88,7 +88,7 @@ Command make_distance_command(CLI::App& program) {
   command->add_flag("--squared", arguments->format.squared,
                     "Write squared distances, which are whole numbers.");
   add_value(*command, "--scale", arguments->format.scale, "S", in_range(1e-6, 1e6, true),
-            "Write so many times the distance, in formats of 16 bits rounded to the\n"
+            "Multiply distances by this, in formats of 16 bits rounded to the\n"
             "nearest whole number (default: 1).");
   command->add_flag("--cracks", arguments->cracks,
                     "Measure to the boundary of the pixels' squares, not to the centre of\n"

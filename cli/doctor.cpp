@@ -9,7 +9,7 @@
 
 #include "cli/commands.h"
 #include "medial/compute.h"
-#include "medial/io/build_info.h"
+#include "medial/io/read.h"
 #include "medial/threads.h"
 #include "medial/verify.h"
 

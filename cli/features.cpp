@@ -113,11 +113,11 @@ void add_thresholds(CLI::App& command, FeatureOptions& options) {
     add_value(command, name, value, "X", in_range(0, most),
               fmt::format("{} (default: {}).", help, value));
   };
-  add("--parallel", options.parallel, "A worm's radius changes by at most this times its length,");
-  add("--even", options.even, "and by at most this times its mean radius");
-  add("--bend", options.bend, "A cup's or flare's rate of the radius changes by more");
+  add("--parallel", options.parallel, "A worm's radius changes by at most this times its length");
+  add("--even", options.even, "and also by at most this times its mean radius");
+  add("--bend", options.bend, "The rate of a cup's or flare's radius changes by more");
   add("--turn", options.turn, "A straight run turns by at most this, in radians");
-  add("--spiral", options.spiral, "A spiral's curvature changes by more, over its mean");
+  add("--spiral", options.spiral, "A spiral's curvature changes by more than this times its mean");
   add("--shortest", options.shortest,
       "Runs shorter than this times their radius are\njoined to a neighbour");
 }

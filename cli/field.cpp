@@ -56,7 +56,7 @@ Command make_field_command(CLI::App& program) {
   add_value(*command, "--order", arguments->order, "N", in_range(1.0, 256.0, true),
             "The n of the potential 1 / r^n (default: 1).");
   add_value(*command, "--lines", arguments->picture.lines, "N", in_range(0, 1000, true),
-            "Force lines begin on a grid, so many along the longer side (default: 40).");
+            "Force lines start on a grid with N along the longer side (default: 40).");
   add_width_option(*command, arguments->picture.width);
   command->add_flag("!--no-brightness", arguments->picture.brightness, "Draw the lines only.");
   add_common_options(*command, arguments->common);

@@ -118,7 +118,7 @@ void add_path_options(CLI::App& command, PathOptions& arguments) {
                     "Which way around holes: roomy (default), where a passage twice as wide may\n"
                     "be twice as long; or shortest.");
   add_value(command, "--trim", arguments.path.trim, "RADII", in_range(0, 1e6),
-            "Ends do not run into corners: what protrudes from a disk by at most so\n"
+            "Ends do not run into corners: what protrudes from a disk by at most this\n"
             "many of its radii is cut (default: 1, corners of 60 degrees and more; 0\n"
             "cuts nothing).");
 }

@@ -182,12 +182,12 @@ Command make_match_command(CLI::App& program) {
   command->add_flag("--each", arguments->each,
                     "Every feature of OTHER is a shape; otherwise each file is one.");
   add_value(*command, "--best", arguments->best, "N", a_whole_number(),
-            "Print so many, the most similar first (default: 10; 0: all).");
+            "Print the N most similar (default: 10; 0: all).");
   add_common_options(*command, arguments->common);
   command->footer(
-      "The numbers are dissimilarities: 0 the same, about 1 two shapes at random. They come\n"
-      "from distributions over the axis (thickness, distances, erosion) that rotation,\n"
-      "scale and reflection do not change, and noise of the outline hardly.\n"
+      "The numbers are dissimilarities: 0 for the same shape, about 1 for two at random. They\n"
+      "come from distributions over the axis (thickness, distances, erosion) that rotation,\n"
+      "scale and reflection do not change and that noise of the outline hardly changes.\n"
       "\n"
       "Examples:\n"
       "  medial match horse.png silhouettes/\n"

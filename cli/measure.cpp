@@ -415,16 +415,16 @@ Command make_measure_command(CLI::App& program) {
             "Steps of a width profile (default: 200), from end to end of the line.");
   CLI::Option* transects = add_value(*command, "--transects", arguments->transects, "N",
                                      in_range(1, most_transects, true),
-                                     "So many transects along each line, from foot to foot.");
+                                     "N transects along each line, from boundary to boundary.");
   add_value(*command, "--spacing", arguments->spacing, "D", a_positive_number(),
             "Transects at this distance from each other, in units of the input.")
       ->excludes(transects);
   add_value(*command, "--necks", arguments->necks, "K", in_range(1, most_transects, true),
-            "So many necks, first those that open most on both sides.");
+            "The N necks that open most on both sides.");
   add_value(*command, "--widening", arguments->widening, "FACTOR", in_range(1 + 1e-9, 1e9),
-            "A neck opens on both sides to so many times its width (default: 1.1).");
+            "A neck opens on both sides to at least this many times its width (default: 1.1).");
   add_value(*command, "--disks", arguments->disks, "K", in_range(1, most_measured_disks, true),
-            "So many disks, the largest inside the shape that do not overlap, one after\n"
+            "The N largest disks inside the shape that do not overlap, one after\n"
             "another: they are measured, not only drawn.");
   add_path_options(*command, arguments->path);
   add_exterior_options(*command, arguments->options,

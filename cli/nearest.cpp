@@ -90,7 +90,8 @@ void add_nearest_options(CLI::App& command, NearestArguments& nearest) {
 Result<int> run_nearest(const FileArguments& arguments, const NearestArguments& asked) {
   const auto& [input, common, output, format, write] = arguments;
   if (input.source.read.project)
-    return invalid_option("--project is not for places: their projection is not known beforehand");
+    return invalid_option(
+        "--project cannot be used with places: their projection is not known beforehand");
   Status writable = check_output(arguments, answer_formats);
   if (writable && !asked.queries.empty())
     writable = check_output(output, format, answer_formats, asked.queries, common.json);

@@ -215,8 +215,8 @@ Command make_pack_command(CLI::App& program) {
                     "For an image: maximal squares of pixels instead; without loss, or with\n"
                     "--error N --absolute at most N pixels away.");
   command->add_flag("--compare", arguments->compare,
-                    "Also print the size of the boundary: within the same error, coded alike;\n"
-                    "and as text, through zstd.");
+                    "Also print what the boundary takes: within the same error, coded alike;\n"
+                    "and as text compressed by zstd.");
   add_common_options(*command, arguments->common);
   command->footer(
       "A pack holds disks along the branches that matter, in whole numbers, compressed\n"

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "medial/document.h"
 #include "medial/features.h"
 #include "medial/measure.h"
 #include "medial/query.h"
-#include "medial/units.h"
 
 namespace medial::cli {
 namespace {
@@ -268,6 +268,39 @@ Json to_json(const AxisSummary& summary) {
             {"y", summary.deepest.center.y},
             {"radius", summary.deepest.radius},
             {"feature", summary.deepest_feature}}}};
+}
+
+Status write_panels(const FileArguments& arguments, const DocumentInfo& info, const Box& box,
+                    std::vector<Panel> panels, double width) {
+  auto file = empty_like<AxisItem>(info);
+  const Vec2 size = box.high - box.low;
+  const Vec2 pitch{1.1 * size.x, size.y + 0.1 * std::max(size.x, size.y)};
+  constexpr std::size_t columns = 3;
+  const double up = info.y_down ? -1 : 1;
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    const Vec2 move{static_cast<double>(i % columns) * pitch.x,
+                    -up * static_cast<double>(i / columns) * pitch.y};
+    const auto bottom = [up](const AxisItem& item) {
+      const Box own = bounding_box(item.shape);
+      return up > 0 ? own.low.y : -own.high.y;
+    };
+    std::ranges::min_element(panels[i].items, {}, bottom)->attributes = {
+        {"title", panels[i].title}};
+    for (AxisItem& item : panels[i].items) {
+      for (Vec2& p : item.shape.points) p = p + move;
+      for (Site& site : item.axis.sites) {
+        site.start = site.start + move;
+        site.end = site.end + move;
+      }
+      for (Node& node : item.axis.nodes) node.disk.center = node.disk.center + move;
+      for (Edge& edge : item.axis.edges) edge.control.center = edge.control.center + move;
+      file.items.push_back(std::move(item));
+    }
+  }
+  io::WriteOptions options;
+  options.width = width;
+  options.titles = true;
+  return io::write_axes(arguments.output, arguments.format, file, options);
 }
 
 Result<int> finish_axes(LoadedAxes& axes, const FileArguments& arguments) {

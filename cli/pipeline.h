@@ -91,6 +91,15 @@ Status write_output(const FileArguments& arguments, Phases& phases, Write&& writ
   return written;
 }
 
+/// Axes of the same shapes, for a picture beside others, and what stands below them.
+struct Panel {
+  std::string title;
+  std::vector<AxisItem> items;
+};
+/// A picture of panels in rows, `width` pixels wide, each in a place as large as `box`.
+Status write_panels(const FileArguments& arguments, const DocumentInfo& info, const Box& box,
+                    std::vector<Panel> panels, double width);
+
 /// The end of a command that made axes: writes them, and prints a summary, statistics or both.
 /// Returns the exit status.
 Result<int> finish_axes(LoadedAxes& axes, const FileArguments& arguments);

@@ -19,19 +19,20 @@ namespace {
 
 /// What each measure judges, in the order of PruneMeasure.
 constexpr std::array measure_helps = {
-    "Branches by the geometric mean of significance and of the same by R",
-    "Branches by how far the shape reaches out beyond the disk where they\n"
-    "begin, by that disk's radius (Ho and Dyer)",
-    "Branches by their longest way to an end, by that radius",
-    "Branches by the boundary beyond that disk, by its chord",
-    "Points by their radius, by R",
+    "Branches by the geometric mean of --significance and --erosion",
+    "Branches by how far the shape reaches beyond the disk where they\n"
+    "begin, relative to that disk's radius (Ho and Dyer)",
+    "Branches by their longest way to an end, relative to that radius",
+    "Branches by the boundary beyond that disk, relative to its chord",
+    "Points by their radius, relative to R",
     "Points by the angle between the radii to the boundary, in degrees",
-    "Points by erosion thickness: how far the shape reaches out, by R",
-    "Points by the length of the boundary beyond, by 2 pi R",
-    "Points by that length minus its chord, by 2 R",
-    "Points by the area that would be lost, by that of the shape",
-    "The lambda medial axis: the smallest circle around the feet, by R",
-    "The scale axis: the growth that hides a disk in another, from 1 up",
+    "Points by erosion thickness: how far the shape reaches beyond the\n"
+    "disk, relative to R",
+    "Points by the length of the boundary beyond, relative to 2 pi R",
+    "Points by that length minus its chord, relative to 2 R",
+    "Points by the area that would be lost, relative to the shape's",
+    "Lambda medial axis: the smallest circle around the feet, relative to R",
+    "Scale axis: the growth at which another disk covers this one, from 1 up",
 };
 
 }  // namespace
@@ -58,7 +59,7 @@ void add_prune_options(CLI::App& command, PruneArguments& arguments) {
                                     "(default: prominence).")
                         ->option_text("MEASURE");
   CLI::Option* keep = add_value(command, "--keep", arguments.keep, "N", a_whole_number(),
-                                "The most important branches, so many at most for each\n"
+                                "The most important branches, at most N for each\n"
                                 "feature, instead of a threshold.");
   for (CLI::Option* option : options) {
     by->excludes(option);
@@ -165,21 +166,21 @@ double scaled_threshold(PruneMeasure measure, double chosen, double factor) {
 Status write_previews(const Document<AxisItem>& file, const PruneOptions& options,
                       const PruneCommandArguments& arguments) {
   const double chosen = options.threshold.value_or(default_threshold(options.measure));
+  std::vector<Panel> panels;
   std::vector<double> thresholds;
-  std::vector<io::PreviewPanel> panels;
   for (const double factor : {0.0, 0.25, 0.5, 1.0, 2.0, 4.0}) {
     thresholds.push_back(scaled_threshold(options.measure, chosen, factor));
     panels.push_back({fmt::format("{} {:.3g}", name_of(options.measure), thresholds.back()), {}});
   }
-  std::vector<Shape> shapes;
+  Box box = Box::nothing();
   for (const AxisItem& item : file.items) {
-    shapes.push_back(item.shape);
+    if (!item.shape.points.empty()) box.add(bounding_box(item.shape));
+    for (const Node& node : item.axis.nodes) box.add(node.disk.center);
     const PruneOrder order(item.axis, options.measure, options.tips);
     for (std::size_t i = 0; i < panels.size(); ++i)
-      panels[i].axes.push_back(order.at(thresholds[i]));
+      panels[i].items.push_back({item.shape, order.at(thresholds[i]), {}});
   }
-  return io::write_preview(arguments.output, arguments.format, shapes, panels,
-                           arguments.write.width, file.y_down);
+  return write_panels(arguments, file, box, std::move(panels), arguments.write.width);
 }
 
 Result<int> run_prune(const PruneCommandArguments& arguments) {
@@ -189,7 +190,7 @@ Result<int> run_prune(const PruneCommandArguments& arguments) {
   auto options = prune_options(arguments.prune);
   if (!options) return options.error();
   Status writable =
-      check_output(arguments, arguments.preview ? io::formats_of(io::DocumentKind::preview)
+      check_output(arguments, arguments.preview ? io::formats_of(io::DocumentKind::field)
                                                 : io::formats_of(io::DocumentKind::axes));
   if (!writable) return std::move(writable).error();
   auto axes = load_axes(arguments.input, common, arguments.prune.specks, arguments.options);

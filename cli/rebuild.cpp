@@ -1,7 +1,5 @@
 // medial rebuild and medial smooth: from axes back to shapes.
 
-#include "medial/rebuild.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,6 +13,7 @@
 #include "medial/io/read.h"
 #include "medial/io/write.h"
 #include "medial/query.h"
+#include "medial/sides.h"
 #include "medial/verify.h"
 
 namespace medial::cli {
@@ -151,11 +150,8 @@ Status write_pixels(const Document<AxisItem>& axes, const RebuildArguments& argu
   }
   io::ImageFile placed;
   placed.crs_wkt = axes.crs_wkt;
-  const double h = image->pixel;
-  const double height = h * image->image.height();
-  placed.placement =
-      axes.y_down ? io::PixelPlacement{image->corner.x, h, 0, image->corner.y, 0, h}
-                  : io::PixelPlacement{image->corner.x, h, 0, image->corner.y + height, 0, -h};
+  placed.placement = image->placement;
+  const double h = image->placement[1];
   object["pixel"] = h;
   object["pixels"] = image->image.count();
   object["area"] = static_cast<double>(image->image.count()) * h * h;
@@ -264,7 +260,7 @@ void add_rebuild_options(CLI::App& command, RebuildArguments& arguments) {
             "With --tangents: points on the axis, about (default: the samples, or\n"
             "1000 of an exact axis).");
   add_value(command, "--pixels", arguments.pixels, "N", in_range(1, 32768),
-            fmt::format("The union of the disks as an image, its longer side so many\n"
+            fmt::format("The union of the disks as an image with a longer side of N\n"
                         "pixels: {}",
                         image_formats))
       ->excludes(tangents);

@@ -113,12 +113,13 @@ Result<int> run_voronoi(const VoronoiArguments& arguments) {
   if (arguments.nearest.any()) {
     if (by_lee || enclosed)
       return invalid_option(
-          "the nearest site is that of the whole plane: no enclosure, not by lee");
+          "--nearest and --queries search the whole plane: they take neither an enclosure nor "
+          "--method lee");
     return run_nearest(arguments, arguments.nearest);
   }
   Status writable = check_output(arguments, io::formats_of(io::DocumentKind::voronoi));
   if (!writable) return std::move(writable).error();
-  if (by_lee && enclosed) return invalid_option("the method lee has no enclosure but its polygons");
+  if (by_lee && enclosed) return invalid_option("the method lee takes no enclosure");
   auto diagrams = by_lee ? compute_by_lee(arguments) : compute_together(arguments);
   if (!diagrams) return std::move(diagrams).error();
   Status written =

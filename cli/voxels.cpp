@@ -170,7 +170,7 @@ void add_own_options(CLI::App& command, VoxelArguments& arguments) {
             "Instead of that: the edge of a voxel, in units of the input.")
       ->excludes(voxels);
   add_value(command, "--angle", options.angle, "A", in_range(1.0, 120.0, true),
-            "In degrees: two feet of a voxel count as two if they lie so far apart as\n"
+            "In degrees: two feet of a voxel count as two if they are this far apart as\n"
             "seen from it, 1 to 120 (default: 30). Smaller angles give the axis of\n"
             "the faces as they are; meshes of curved surfaces need larger ones.");
   add_choice<Thinning>(
@@ -179,10 +179,10 @@ void add_own_options(CLI::App& command, VoxelArguments& arguments) {
       "What the axis is thinned to: sheets, one voxel thick (default);\n"
       "curves; or none.")
       ->option_text("KIND");
-  add_choice<FaceSearch>(command, "--search", options.search,
-                         {{"tree", FaceSearch::tree}, {"sorted-list", FaceSearch::sorted_list}},
-                         "How the nearest faces are found: tree (default), or sorted-list, as\n"
-                         "published, slow for many faces. Both give the same voxels.");
+  add_choice<bool>(command, "--search", options.sorted_list,
+                   {{"tree", false}, {"sorted-list", true}},
+                   "How the nearest faces are found: tree (default), or sorted-list, as\n"
+                   "published, slow for many faces. Both give the same voxels.");
   add_value(command, "--memory", arguments.memory, "G", in_range(0.001, 1e6, true),
             "Give up before more than about G gibibytes are used (default: 4).");
   add_value(command, "--width", arguments.width, "W", in_range(48.0, 8000.0, true),

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "axis/steps.h"
 #include "medial/medial.h"
 #include "support/generate_arcs.h"
 

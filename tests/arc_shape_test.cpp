@@ -33,7 +33,7 @@ Ring reversed(const Ring& ring) {
 }
 
 Shape built(const Rings& rings, ShapeReport* report = nullptr) {
-  Result<Shape> shape = build_shape(rings, report);
+  Result<Shape> shape = build_shape(rings, {}, report);
   EXPECT_TRUE(shape.ok()) << (shape ? "" : to_string(shape.error()));
   return shape ? std::move(shape).value() : Shape{};
 }

@@ -278,7 +278,7 @@ std::optional<std::vector<SeparatingEdge>> edges_of_boost(const PlanarGraph& pla
 
 /// What one graph has and the other has not, in words; nothing where Boost errs.
 std::optional<std::string> compare_planar_graphs(const PlanarGraph& planar_graph) {
-  const Box frame = frame_around(planar_graph);
+  const Box frame = enclosure_around(planar_graph);
   const auto diagram = voronoi_diagram(planar_graph, {.threads = 1}, frame);
   if (!diagram) return "not computed: " + to_string(diagram.error());
   const double near = agreement * diagonal(frame);

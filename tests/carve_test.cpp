@@ -8,7 +8,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "axis/steps.h"
 #include "medial/compute.h"
+#include "medial/measure.h"
 #include "medial/query.h"
 #include "support/computed.h"
 #include "support/cut.h"
@@ -164,7 +166,7 @@ TEST(Carve, PassesInDepthTakeOffNoMoreThanAsked) {
     const Box box = bounding_box(shape);
     const auto axis = compute(shape);
     ASSERT_TRUE(axis.ok());
-    const double deepest = axis->nodes[deepest_node(*axis)].disk.radius;
+    const double deepest = deepest_disk(*axis).radius;
     if (deepest < 1e-2 * diagonal(box)) continue;
     CarveOptions options{.angle = seed % 4 == 3 ? 0.0 : 60.0, .chord = 1e-4 * deepest};
     if (seed % 4 != 0) options.tool = deepest;
@@ -248,7 +250,7 @@ TEST(Carve, PassesFollowTheWayOfOne) {
     SCOPED_TRACE(random.kind + " " + std::to_string(seed));
     const auto axis = compute(shape_of(random.rings));
     ASSERT_TRUE(axis.ok());
-    const double deepest = axis->nodes[deepest_node(*axis)].disk.radius;
+    const double deepest = deepest_disk(*axis).radius;
     const auto one = carve(*axis, {.angle = 60});
     const auto many = carve(*axis, {.angle = 60, .pass_depth = 0.1 * deepest});
     ASSERT_TRUE(one.ok() && many.ok());
@@ -269,7 +271,7 @@ TEST(Carve, AMillClearsBeforeAVAndTouchesNoWall) {
     const Box box = bounding_box(shape);
     const auto axis = compute(shape);
     ASSERT_TRUE(axis.ok());
-    const double deepest = axis->nodes[deepest_node(*axis)].disk.radius;
+    const double deepest = deepest_disk(*axis).radius;
     if (deepest < 1e-2 * diagonal(box)) continue;
     CarveOptions options{.angle = 60, .depth = 0.4 * deepest, .chord = 1e-4 * deepest};
     if (seed % 2 == 0) options.tip = 0.1 * deepest;
@@ -328,7 +330,7 @@ TEST(Carve, CutsTheSameUnderSymmetries) {
     const Box box = bounding_box(shape);
     const auto axis = compute(shape);
     ASSERT_TRUE(axis.ok());
-    const double deepest = axis->nodes[deepest_node(*axis)].disk.radius;
+    const double deepest = deepest_disk(*axis).radius;
     if (deepest < 1e-2 * diagonal(box)) continue;
     CarveOptions options{.angle = seed % 3 == 2 ? 0.0 : 60.0, .chord = 1e-4 * deepest};
     if (seed % 3 > 0) options.tool = deepest;
@@ -371,7 +373,7 @@ TEST(Carve, NeitherGougesNorLeavesAnything) {
     const double size = diagonal(box);
     const auto axis = compute(shape);
     ASSERT_TRUE(axis.ok());
-    const double deepest = axis->nodes[deepest_node(*axis)].disk.radius;
+    const double deepest = deepest_disk(*axis).radius;
     if (deepest < 1e-3 * size) continue;
     test::Random numbers(seed);
     CarveOptions options;

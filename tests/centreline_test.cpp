@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 
+#include "axis/steps.h"
 #include "medial/compute.h"
 #include "medial/measure.h"
 #include "medial/query.h"

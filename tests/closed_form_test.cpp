@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "axis/steps.h"
+#include "medial/measure.h"
 #include "medial/medial.h"
 #include "support/generate.h"
 
@@ -91,7 +93,7 @@ void check(const Case& expected, const Symmetry& symmetry) {
   const double edges = static_cast<double>(axis->edges.size());
   EXPECT_NEAR(total_length(*axis), scale * expected.length, (edges + 1) * tolerance);
   if (!axis->nodes.empty()) {
-    EXPECT_NEAR(axis->nodes[deepest_node(*axis)].disk.radius, deepest, tolerance);
+    EXPECT_NEAR(deepest_disk(*axis).radius, deepest, tolerance);
   }
 }
 

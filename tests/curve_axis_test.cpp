@@ -167,10 +167,10 @@ TEST(CurveAxis, TellsTheCurvaturesOfItsBoundary) {
   ASSERT_TRUE(result.ok());
   std::size_t checked = 0;
   for (const Branch& branch : branches(result->axis)) {
-    for (const AxisJet& frame : jets_along(result->axis, branch)) {
-      const double x = frame.disk.center.x;
+    for (const AxisJet& jet : jets_along(result->axis, branch)) {
+      const double x = jet.disk.center.x;
       if (std::abs(x) > 1.2) continue;  // near the tips differences lose their meaning
-      const BoundaryJet left = boundary_at(frame, Side::left);
+      const BoundaryJet left = boundary_at(jet, Side::left);
       // Of an ellipse: a b / (a^2 sin^2 + b^2 cos^2)^(3/2).
       const double cosine = left.point.x / 2, sine = left.point.y;
       const double wanted = 2 / std::pow(4 * sine * sine + cosine * cosine, 1.5);
@@ -217,8 +217,8 @@ std::vector<CurvatureError> curvature_errors(const Contour& contour) {
       one.edges.push_back({{to - 1, to}, {0, 0}, {}, 1});
       branch.steps.push_back({to - 1, true});
     }
-    const std::vector<AxisJet> frames = jets_along(one, branch);
-    EXPECT_EQ(frames.size() + 2, points.size());
+    const std::vector<AxisJet> jets = jets_along(one, branch);
+    EXPECT_EQ(jets.size() + 2, points.size());
     // What moving the disks by 1e-13 changes, over what they are off by.
     constexpr double moved = 1e-13, off = 1e-16;
     for (Node& node : one.nodes) {
@@ -227,13 +227,13 @@ std::vector<CurvatureError> curvature_errors(const Contour& contour) {
       node.disk.radius += random.between(-moved, moved);
     }
     const std::vector<AxisJet> others = jets_along(one, branch);
-    EXPECT_EQ(others.size(), frames.size());
-    for (std::size_t i = 0; i < std::min(frames.size(), others.size()); ++i) {
-      if (std::abs(frames[i].radius_rate) > 0.95) continue;  // the feet are nearly one
+    EXPECT_EQ(others.size(), jets.size());
+    for (std::size_t i = 0; i < std::min(jets.size(), others.size()); ++i) {
+      if (std::abs(jets[i].radius_rate) > 0.95) continue;  // the feet are nearly one
       for (const Side side : {Side::left, Side::right}) {
         const double wanted =
             curvature_at(side == Side::left ? points[i + 1].left : points[i + 1].right);
-        const double found = boundary_at(frames[i], side).curvature;
+        const double found = boundary_at(jets[i], side).curvature;
         const double other = boundary_at(others[i], side).curvature;
         const double unit = std::max(1.0, std::abs(wanted));
         errors.push_back(

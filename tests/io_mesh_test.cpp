@@ -12,6 +12,7 @@
 #include <random>
 #include <sstream>
 
+#include "base/vec3.h"
 #include "medial/io/read.h"
 #include "medial/io/write.h"
 #include "support/environment.h"

@@ -8,8 +8,10 @@
 #include <numbers>
 #include <numeric>
 
+#include "axis/steps.h"
 #include "medial/compute.h"
 #include "medial/query.h"
+#include "ops/routes.h"
 #include "support/computed.h"
 #include "support/random_shapes.h"
 
@@ -164,7 +166,7 @@ TEST(Necks, AreLocalMinima) {
       const std::uint32_t node = edge.node[neck.place.t == 0 ? 0 : 1];
       int rising = 0;
       for (const std::uint32_t e : incidence.edges(node)) {
-        const EdgePlace low = narrowest_place(axis, e);
+        const EdgePlace low = ops::narrowest_place(axis, e);
         rising += disk_at(axis, axis.edges[e], low.t).radius >= r - slack ? 1 : 0;
       }
       EXPECT_GE(rising, 2);

@@ -15,6 +15,7 @@
 #include "support/environment.h"
 #include "support/nasty_check.h"
 #include "support/true_graph.h"
+#include "support/wkt.h"
 
 namespace medial::test {
 namespace {
@@ -85,6 +86,56 @@ TEST(Needle, ThatRoundingTurnsAroundIsComputed) {
   EXPECT_TRUE(compute(*shape)) << to_string(compute(*shape).error());
 }
 
+/// Shapes that double precision alone gets wrong, as WKT: what is certain about them in which step.
+struct Certain {
+  std::string_view name, wkt;
+};
+void PrintTo(const Certain& shape, std::ostream* out) { *out << shape.name; }
+
+class CertainShapes : public testing::TestWithParam<Certain> {};
+
+TEST_P(CertainShapes, HaveTheTrueGraphUnderAllSymmetries) {
+  const auto rings = rings_of_wkt(GetParam().wkt);
+  ASSERT_TRUE(rings);
+  const Finding finding = examine_nasty(*rings, {.oracle = true});
+  EXPECT_TRUE(finding.fault == Fault::none || finding.fault == Fault::loose) << finding.words;
+  EXPECT_TRUE(finding.compared);
+}
+
+constexpr std::array<Certain, 8> certain_shapes{
+    {{"ACornerOfAThinStrip",
+      "POLYGON ((2008245147.1 0, 17977095740.7 0, 15993690534.9 0.8, 15993690534.9 1, "
+      "2008245147.1 1, 2008245147.1 0))"},
+     {"AStripThatEndsInTwoNeedles",
+      "POLYGON ((2433056298723.5 0, 12200767275377.5 0, 9721616357707.4 0.8, 9721616357707.4 1, "
+      "0 1, 2433056298723.5 0))"},
+     // The disk at a joint that a bisector passes beside.
+     {"AHoleStretchedBesideAJoint",
+      "POLYGON ((0 0, 3583532359 0, 3583532359 3, 0 3, 0 0), "
+      "(1194510786 1, 1194510786 2, 2389021573 1, 1194510786 1))"},
+     // A disk that is off by much of its radius.
+     {"ABendStretched",
+      "POLYGON ((1001015271691 0, 1001015271691 664, 1426329272104 664, 1426329272104 1389, "
+      "0 1389, 0 0, 1001015271691 0))"},
+     // A tie at a disk that misses the edge it is on.
+     {"TwoHolesStretched",
+      "POLYGON ((0 0, 17882058912 0, 17882058912 5, 0 5, 0 0), "
+      "(3576411782 2, 7152823565 2, 7152823565 1, 3576411782 2), "
+      "(3576411782 3, 3576411782 4, 7152823565 3, 3576411782 3))"},
+     // 256 bits that cancel.
+     {"APocketInAStrip",
+      "POLYGON ((3527734523634.9521 0, 3527734523634.9521 -0.052, 3527734523635.1069 -0.047, "
+      "3527734523635.1069 0, 5697309318717.376 -0.303, 5697309318717.376 0, 46419604956155.391 1, "
+      "0 1, 3527734523634.9521 0))"},
+     {"ASplinterOfAnEdge",
+      "POLYGON ((59.00000000000007 8.000000000000082, 59 25, 35 23, "
+      "35.00000000000001 22.99999999999996, 22 30, 59.00000000000007 8.000000000000082))"},
+     // Less than 256 bits can tell.
+     {"AllButParallel", "POLYGON ((0 0, 0.3 -1e-72, 1 0, 1 1, 0 0))"}}};
+
+INSTANTIATE_TEST_SUITE_P(Cases, CertainShapes, testing::ValuesIn(certain_shapes),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
 // ---- Classes.
 
 /// How many of a thousand shapes of a class may fail: none where it is mended.
@@ -126,18 +177,18 @@ TEST_P(NastyShapes, HaveTheTrueGraphUnderAllSymmetries) {
   expect_at_most(GetParam(), faults(false));
 }
 
-constexpr std::array<Mended, 12> shapes{{{"strips", 300},
-                                         {"slits", 20},
-                                         {"stretched", 450},
-                                         {"needles", 30},
-                                         {"polygons", 10},
+constexpr std::array<Mended, 12> shapes{{{"strips"},
+                                         {"slits"},
+                                         {"stretched"},
+                                         {"needles"},
+                                         {"polygons"},
                                          {"rings"},
                                          {"grids"},
-                                         {"splinters", 20},
-                                         {"rounds", 10},
-                                         {"circles", 30},
+                                         {"splinters"},
+                                         {"rounds", 5},
+                                         {"circles", 20},
                                          {"bars", 40},
-                                         {"tangents", 50}}};
+                                         {"tangents", 40}}};
 
 INSTANTIATE_TEST_SUITE_P(Classes, NastyShapes, testing::ValuesIn(shapes),
                          [](const auto& tested) { return std::string(tested.param.name); });

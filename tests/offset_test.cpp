@@ -223,7 +223,7 @@ TEST(Offset, RefusesWhatItCannotDo) {
 
 /// Clearances inside and outside of a shape: small ones, and some at which things happen.
 std::vector<double> interesting(const MedialAxis& axis, double size, test::Random& random) {
-  const double deepest = axis.nodes[deepest_node(axis)].disk.radius;
+  const double deepest = deepest_disk(axis).radius;
   std::vector<double> out{deepest * random.unit(), deepest * random.unit(), deepest * 0.999,
                           -size * random.unit(), -size * 0.01 * random.unit()};
   const auto node = random.integer(0, static_cast<std::int64_t>(axis.nodes.size()) - 1);
@@ -267,7 +267,7 @@ TEST(Offset, MovesWithTheShape) {
     test::Random numbers(seed);
     const auto axis = compute(shape);
     ASSERT_TRUE(axis.ok());
-    const double deepest = axis->nodes[deepest_node(*axis)].disk.radius;
+    const double deepest = deepest_disk(*axis).radius;
     if (deepest < 1e-3 * size) continue;
     const std::vector<double> levels{deepest * numbers.between(0.1, 0.9), -0.1 * size};
     const auto original = offset_curves(shape, levels);
@@ -304,7 +304,7 @@ TEST(Offset, CountsRingsAsPixelsDo) {
     const Box box = bounding_box(shape);
     const auto axis = compute(shape);
     ASSERT_TRUE(axis.ok());
-    const double deepest = axis->nodes[deepest_node(*axis)].disk.radius;
+    const double deepest = deepest_disk(*axis).radius;
     for (const double level : {0.3 * deepest, 0.7 * deepest, -0.5 * deepest}) {
       const std::size_t pixels = 150;
       const Vec2 extent = box.high - box.low;

@@ -9,7 +9,7 @@
 
 #include "medial/compute.h"
 #include "medial/query.h"
-#include "medial/rebuild.h"
+#include "medial/sides.h"
 #include "support/computed.h"
 #include "support/random_shapes.h"
 

@@ -28,15 +28,15 @@ namespace {
 using Chains = std::vector<Chain>;
 
 PlanarGraph planar_graph_of(const Chains& chains, const PlanarGraphOptions& options = {},
-                            PlanarGraphReport* report = nullptr) {
+                            ShapeReport* report = nullptr) {
   auto planar_graph = build_planar_graph(chains, options, report);
   EXPECT_TRUE(planar_graph.ok()) << (planar_graph ? "" : to_string(planar_graph.error()));
   return planar_graph ? std::move(planar_graph).value() : PlanarGraph{};
 }
 
-VoronoiDiagram diagram_of(const Chains& chains, const std::optional<Box>& frame = {}) {
+VoronoiDiagram diagram_of(const Chains& chains, const std::optional<Box>& enclosure = {}) {
   const PlanarGraph planar_graph = planar_graph_of(chains);
-  auto diagram = voronoi_diagram(planar_graph, {.threads = 1}, frame);
+  auto diagram = voronoi_diagram(planar_graph, {.threads = 1}, enclosure);
   EXPECT_TRUE(diagram.ok()) << (diagram ? "" : to_string(diagram.error()));
   return diagram ? std::move(diagram).value() : VoronoiDiagram{};
 }
@@ -54,10 +54,11 @@ double area_of(const std::vector<Vec2>& outline) {
 }
 
 /// What is wrong with a diagram, empty if nothing: every sample of every edge is at its radius from
-/// its sites and no nearer to any other; faces are closed, counter-clockwise, and fill the frame.
+/// its sites and no nearer to any other; faces are closed, counter-clockwise, and fill the
+/// enclosure.
 std::string fault_of(const VoronoiDiagram& diagram) {
-  const Box frame = *diagram.enclosure;
-  const double size = diagonal(frame);
+  const Box enclosure = *diagram.enclosure;
+  const double size = diagonal(enclosure);
   const double tolerance = std::max(1e-13 * size, 4 * diagram.tolerance);
   for (std::size_t e = 0; e < diagram.edges.size(); ++e) {
     const VoronoiEdge& edge = diagram.edges[e];
@@ -98,9 +99,9 @@ std::string fault_of(const VoronoiDiagram& diagram) {
     area += own;
   }
   if (uses != sides) return "an edge is not in two faces";
-  const Vec2 extent = frame.high - frame.low;
+  const Vec2 extent = enclosure.high - enclosure.low;
   if (!(std::abs(area - extent.x * extent.y) <= 1e-5 * extent.x * extent.y))
-    return "the faces do not fill the frame";
+    return "the faces do not fill the enclosure";
   return "";
 }
 
@@ -118,17 +119,17 @@ std::size_t count_nodes(const VoronoiDiagram& diagram, Vec2 center, double radiu
   return count;
 }
 
-constexpr Box whole_frame{{-4.5, -4.25}, {5.5, 5.75}};
+constexpr Box whole_enclosure{{-4.5, -4.25}, {5.5, 5.75}};
 
 TEST(PlanarGraph, OnePointHasAllOfTheFrame) {
-  const auto diagram = diagram_of({{{{1, 2}}}}, whole_frame);
+  const auto diagram = diagram_of({{{{1, 2}}}}, whole_enclosure);
   EXPECT_EQ(diagram.sites.size(), 1u);
   EXPECT_EQ(diagram.edges.size(), 4u);
   EXPECT_EQ(fault_of(diagram), "");
 }
 
 TEST(PlanarGraph, TwoPointsHaveOneBisector) {
-  const auto diagram = diagram_of({{{{0, 0}}}, {{{2, 0}}}}, whole_frame);
+  const auto diagram = diagram_of({{{{0, 0}}}, {{{2, 0}}}}, whole_enclosure);
   EXPECT_EQ(fault_of(diagram), "");
   std::size_t inner = 0;
   for (const VoronoiEdge& edge : diagram.edges) {
@@ -141,7 +142,7 @@ TEST(PlanarGraph, TwoPointsHaveOneBisector) {
 }
 
 TEST(PlanarGraph, APointAndASegmentHaveAParabolaBetween) {
-  const auto diagram = diagram_of({{{{0, 2}}}, {{{-3, 0}, {3, 0}}}}, whole_frame);
+  const auto diagram = diagram_of({{{{0, 2}}}, {{{-3, 0}, {3, 0}}}}, whole_enclosure);
   EXPECT_EQ(fault_of(diagram), "");
   // y = (x^2 + 4) / 4, cut off by the perpendiculars at x = -3 and 3.
   EXPECT_EQ(count_nodes(diagram, {3, 3.25}, 3.25), 1u);
@@ -152,7 +153,7 @@ TEST(PlanarGraph, APointAndASegmentHaveAParabolaBetween) {
 }
 
 TEST(PlanarGraph, ASquareHasItsDiagonalsInsideAndSpokesOutside) {
-  const auto diagram = diagram_of({{{{0, 0}, {2, 0}, {2, 2}, {0, 2}}, {}, true}}, whole_frame);
+  const auto diagram = diagram_of({{{{0, 0}, {2, 0}, {2, 2}, {0, 2}}, {}, true}}, whole_enclosure);
   EXPECT_EQ(fault_of(diagram), "");
   EXPECT_EQ(count_nodes(diagram, {1, 1}, 1), 1u);
   EXPECT_EQ(diagram.sites.size(), 8u);
@@ -160,7 +161,7 @@ TEST(PlanarGraph, ASquareHasItsDiagonalsInsideAndSpokesOutside) {
 }
 
 TEST(PlanarGraph, ACircleHasItsCentre) {
-  const auto diagram = diagram_of({{{{0, 0}, {2, 0}}, {1, 1}, true}}, whole_frame);
+  const auto diagram = diagram_of({{{{0, 0}, {2, 0}}, {1, 1}, true}}, whole_enclosure);
   EXPECT_EQ(fault_of(diagram), "");
   EXPECT_EQ(count_nodes(diagram, {1, 0}, 1), 1u);
 }
@@ -334,7 +335,7 @@ TEST(PlanarGraph, WhatIsNearBesideEdgesIsRightOrRefused) {
 }
 
 TEST(PlanarGraph, WhatIsThereTwiceIsThereOnce) {
-  PlanarGraphReport report;
+  ShapeReport report;
   const PlanarGraph planar_graph = planar_graph_of({{{{0, 0}, {1, 0}}},
                                                     {{{1, 0}, {0, 0}}},
                                                     {{{0, 0}}},
@@ -350,7 +351,7 @@ TEST(PlanarGraph, WhatIsThereTwiceIsThereOnce) {
 }
 
 TEST(PlanarGraph, EndsMayTouchEdges) {
-  PlanarGraphReport report;
+  ShapeReport report;
   const PlanarGraph planar_graph =
       planar_graph_of({{{{0, 0}, {4, 0}}}, {{{2, 0}, {2, 3}}}, {{{1, 0}}}}, {}, &report);
   EXPECT_EQ(planar_graph.edges.size(), 4u);
@@ -386,7 +387,7 @@ TEST(PlanarGraph, CrossingsAreRefusedWithTheirPlaceOrNoded) {
   ASSERT_TRUE(refused.error().place.point.has_value());
   EXPECT_EQ(*refused.error().place.point, (Vec2{1, 1}));
   EXPECT_NE(refused.error().text.find("chain 2"), std::string::npos) << refused.error().text;
-  PlanarGraphReport report;
+  ShapeReport report;
   const PlanarGraph planar_graph = planar_graph_of(chains, {.node_crossings = true}, &report);
   EXPECT_EQ(planar_graph.edges.size(), 4u);
   EXPECT_EQ(report.crossings, 1u);
@@ -424,7 +425,7 @@ TEST(PlanarGraph, OverlapsAreThereOnceIfAskedFor) {
     double expected = 0;
     for (const auto& [kind, which, where] : steps)
       expected += kind == 2 ? std::numbers::pi / 18 * (20 + which) : 1;
-    PlanarGraphReport report;
+    ShapeReport report;
     const PlanarGraph planar_graph = planar_graph_of(chains, {.node_crossings = true}, &report);
     double length = 0;
     for (const PlanarGraphEdge& edge : planar_graph.edges) {
@@ -505,7 +506,7 @@ TEST(PlanarGraph, ErrorsAreTyped) {
 TEST(PlanarGraph, NearestSiteIsTheOneByDistance) {
   const auto diagram = diagram_of(
       {{{{0, 2}}}, {{{-3, 0}, {3, 0}}}, {{{1, 3}, {2, 3}}, {0.7}}, {{{-2, -2}, {-1, -3}}}},
-      whole_frame);
+      whole_enclosure);
   const SiteLocator locator(diagram.sites);
   Random random(7);
   for (int i = 0; i < 2000; ++i) {
@@ -614,7 +615,7 @@ TEST_P(RandomPlanarGraphs, HaveRightDiagrams) {
 
 INSTANTIATE_TEST_SUITE_P(Random, RandomPlanarGraphs, testing::Range<std::uint64_t>(0, 4));
 
-/// The disks of a planar graph's nodes that are away from the frame.
+/// The disks of a planar graph's nodes that are away from the enclosure.
 std::vector<Disk> inner_nodes(const VoronoiDiagram& diagram, Vec2 middle, double within) {
   std::vector<Disk> disks;
   for (const Node& node : diagram.nodes)

@@ -7,6 +7,8 @@
 #include <limits>
 #include <random>
 
+#include "axis/node_kinds.h"
+#include "axis/steps.h"
 #include "support/hand_made.h"
 
 namespace medial {

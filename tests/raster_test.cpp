@@ -231,7 +231,7 @@ void expect_outline(const Image& image) {
   EXPECT_EQ(doubled, 2 * static_cast<double>(image.count()));
   if (rings->empty()) return;
   ShapeReport report;
-  const auto shape = build_shape(*rings, &report);
+  const auto shape = build_shape(*rings, {}, &report);
   ASSERT_TRUE(shape.ok()) << to_string(shape.error()) << text(image);
   EXPECT_EQ(area(*shape), static_cast<double>(image.count()));
   EXPECT_EQ(report.collinear_points + report.repeated_points, 0U);

@@ -1,6 +1,4 @@
 // From axes back to shapes: exactly, after pruning, by tangents of samples, as pixels.
-#include "medial/rebuild.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include "medial/compute.h"
 #include "medial/prune.h"
 #include "medial/query.h"
+#include "medial/sides.h"
 #include "medial/verify.h"
 #include "support/random_shapes.h"
 
@@ -319,11 +318,12 @@ TEST(Rebuild, AsPixels) {
   const Case one = case_of({{1, 1}, {9, 1}, {9, 4}, {4, 4}, {4, 6}, {1, 6}});
   const auto up = rebuild_image(one.axis, 400), down = rebuild_image(one.axis, 400, true);
   ASSERT_TRUE(up.ok() && down.ok());
-  EXPECT_NEAR(up->pixel, 0.02, 1e-12);
+  EXPECT_NEAR(up->placement[1], 0.02, 1e-12);
   EXPECT_EQ(up->image.width(), 402U);
   EXPECT_EQ(up->image.height(), 252U);
   const auto pixels = static_cast<double>(up->image.count());
-  EXPECT_NEAR(pixels * up->pixel * up->pixel, area(one.shape), 0.005 * area(one.shape));
+  EXPECT_NEAR(pixels * up->placement[1] * up->placement[1], area(one.shape),
+              0.005 * area(one.shape));
   EXPECT_TRUE(up->image.at(380, 240));  // the arm below is long: the last rows
   EXPECT_FALSE(up->image.at(380, 10));
   EXPECT_TRUE(down->image.at(380, 10));  // and the first ones where y points down

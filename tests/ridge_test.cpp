@@ -144,7 +144,7 @@ TEST(Ridge, BothSearchesFindTheSamePixels) {
         own(options).rule = rule;
         own(options).collinear = collinear;
         const MedialAxis by_tree = ridge_axis(*shape, options);
-        own(options).search = RidgeSearch::sorted_list;
+        own(options).sorted_list = true;
         const MedialAxis by_list = ridge_axis(*shape, options);
         EXPECT_TRUE(identical(by_tree, by_list)) << random.kind << ", seed " << seed;
       }

@@ -21,7 +21,7 @@
 
 #include "medial/io/read.h"
 #include "medial/medial.h"
-#include "medial/rebuild.h"
+#include "medial/sides.h"
 #include "medial/verify.h"
 
 namespace medial::test {

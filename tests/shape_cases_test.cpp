@@ -95,7 +95,7 @@ TEST_P(Cases, AgreeWithGeosExceptThatTouchingIsLegal) {
       continue;
     }
     ShapeReport report;
-    const Result<Shape> shape = build_shape(*rings, &report);
+    const Result<Shape> shape = build_shape(*rings, {}, &report);
     if (geos_accepts) {
       // An empty polygon is valid to GEOS, and nothing to us.
       const bool empty = rings->empty();

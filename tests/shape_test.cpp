@@ -31,7 +31,7 @@ std::vector<Ring> loose(std::vector<Ring> rings) {
 }
 
 Shape built(std::span<const Ring> rings, ShapeReport* report = nullptr) {
-  Result<Shape> shape = build_shape(rings, report);
+  Result<Shape> shape = build_shape(rings, {}, report);
   EXPECT_TRUE(shape.ok()) << (shape ? "" : to_string(shape.error()));
   if (!shape) return {};
   expect_contract(rings, *shape);
@@ -388,7 +388,7 @@ TEST(Magnitudes, WholeRangeOfDoubles) {
                                    {{{-m, 0}, {-1, -m / 2}, {m / 2, 1}, {0, m / 2}}},
                                    {{{0, 0}, {s, 0}, {s, s}, {0, s}}}};
   ShapeReport report;
-  const Result<Shape> shape = build_shape(rings, &report);
+  const Result<Shape> shape = build_shape(rings, {}, &report);
   ASSERT_TRUE(shape.ok()) << to_string(shape.error());
   EXPECT_EQ(shape->component_count(), 2U);
   EXPECT_EQ(shape->hole_count(), 0U);
@@ -430,7 +430,7 @@ TEST(Random, GridRingsAgainstBruteForce) {
       for (std::size_t i = 0; i < size; ++i) ring.points.push_back({coordinate(), coordinate()});
     }
     ShapeReport report;
-    const Result<Shape> shape = build_shape(rings, &report);
+    const Result<Shape> shape = build_shape(rings, {}, &report);
     const test::Faults faults = test::brute_force_faults(rings);
     if (shape) {
       EXPECT_TRUE(faults.none()) << "trial " << trial;
@@ -503,7 +503,7 @@ TEST(Adversarial, ManyVerticesOnOneEdge) {
   rings.push_back({{{-1, 0}, {4.0 * count, 0}, {4.0 * count, 9}, {-1, 9}}});
   for (int i = 0; i < count; ++i) rings.push_back({{{4.0 * i, 0}, {4.0 * i + 1, 1}, {4.0 * i, 2}}});
   ShapeReport report;
-  const Result<Shape> shape = build_shape(rings, &report);
+  const Result<Shape> shape = build_shape(rings, {}, &report);
   ASSERT_TRUE(shape.ok()) << to_string(shape.error());
   EXPECT_EQ(report.split_edges, static_cast<std::uint64_t>(count));
   EXPECT_EQ(shape->loop_count(), 1U);
@@ -519,7 +519,7 @@ TEST(Adversarial, ManyEdgesInOneVertex) {
     rings.push_back({{{0, 0}, {1e5, y}, {1e5, y + 2}}, RingRole::outer});
   }
   ShapeReport report;
-  const Result<Shape> shape = build_shape(rings, &report);
+  const Result<Shape> shape = build_shape(rings, {}, &report);
   ASSERT_TRUE(shape.ok()) << to_string(shape.error());
   EXPECT_EQ(report.touching_vertices, 1U);
   EXPECT_EQ(shape->component_count(), static_cast<std::size_t>(count));

@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "base/vec3.h"
 #include "medial/volume.h"
 #include "support/solids.h"
 #include "volume/closest.h"

@@ -1,7 +1,7 @@
 // Units of length: documents of features in other units.
-#include "medial/units.h"
-
 #include <gtest/gtest.h>
+
+#include "medial/document.h"
 
 namespace medial {
 namespace {

@@ -137,7 +137,7 @@ TEST(VerifyFinds, WrongRadius) {
   }
   HandMade m = rectangle();
   m.axis.nodes[2].disk.radius = 1e-3;
-  expect_failure(m, "1 of 4 convex corners are no leaf of radius 0; the first is (0, 0)");
+  expect_failure(m, "1 of 4 convex corners are not leaves of radius 0; the first is (0, 0)");
   expect_failure(
       m,
       "1 leaves have a radius above 0 and are at no arc of largest curvature; the first is node 2");
@@ -192,7 +192,7 @@ TEST(VerifyFinds, DroppedLeaf) {
   m.axis.edges.pop_back();
   m.axis.nodes.pop_back();
   m.finish();
-  expect_failure(m, "1 of 4 convex corners are no leaf of radius 0; the first is (0, 2)");
+  expect_failure(m, "1 of 4 convex corners are not leaves of radius 0; the first is (0, 2)");
   expect_failure(m, "A stretch of the boundary is touched by no disk");
   expect_failure(m, "The disks cover an area of");
 }
@@ -241,7 +241,8 @@ TEST(VerifyFinds, WrongSite) {
 TEST(VerifyFinds, ForeignSite) {
   HandMade m = ell();
   m.axis.sites[2].start.x += 1e-6;
-  expect_failure(m, "1 sites are no edge and no reflex vertex of the shape; the first is site 2");
+  expect_failure(
+      m, "1 sites are neither an edge nor a reflex vertex of the shape; the first is site 2");
 }
 
 TEST(VerifyFinds, MissingReflexVertex) {

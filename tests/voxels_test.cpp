@@ -9,6 +9,7 @@
 #include <random>
 #include <set>
 
+#include "base/vec3.h"
 #include "medial/compute.h"
 #include "medial/query.h"
 #include "medial/volume.h"
@@ -487,7 +488,7 @@ TEST(Voxels, FollowingMissesNoMedialVoxel) {
     const VoxelAxis axis = axis_of(solid, with(n, Thinning::none));
     const VoxelSet found = set_of(axis.voxels, axis.cells);
     const volume::FaceTree tree(grid.vertices, grid.faces);
-    const volume::FeetFinder finder(grid, tree, FaceSearch::tree, 30, 1 + 1e-6);
+    const volume::FeetFinder finder(grid, tree, false, 30, 1 + 1e-6);
     volume::FeetFinder::Scratch scratch;
     const volume::Digitized digitized = volume::digitize(grid, [] { return false; });
     std::uint64_t medial = 0, missed = 0;
@@ -579,7 +580,7 @@ TEST(Voxels, BothSearchesAndAnyNumberOfThreadsAgree) {
     EXPECT_TRUE(same(one, axis_of(solid, options))) << known.name;
     options.threads = 5;
     EXPECT_TRUE(same(one, axis_of(solid, options))) << known.name;
-    options.search = FaceSearch::sorted_list;
+    options.sorted_list = true;
     EXPECT_TRUE(same(one, axis_of(solid, options))) << known.name;
     options.threads = 1;
     EXPECT_TRUE(same(one, axis_of(solid, options))) << known.name;

@@ -75,7 +75,7 @@ std::optional<std::vector<test::SeparatingEdge>> edges_of_cgal(const PlanarGraph
 long compare(std::uint64_t seed) {
   const auto planar_graph = build_planar_graph(test::random_integer_planar_graph(seed));
   if (!planar_graph) std::abort();
-  const Box frame = test::frame_around(*planar_graph);
+  const Box frame = test::enclosure_around(*planar_graph);
   const auto diagram = voronoi_diagram(*planar_graph, {.threads = 1}, frame);
   if (!diagram) {
     std::printf("planar graph %lu: %s\n", seed, to_string(diagram.error()).c_str());

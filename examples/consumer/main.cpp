@@ -8,7 +8,7 @@ int main() {
   if (!shape) return std::puts(medial::to_string(shape.error()).c_str());
   const auto axis = medial::compute(*shape);
   if (!axis) return std::puts(medial::to_string(axis.error()).c_str());
-  const medial::Disk deepest = axis->nodes[medial::deepest_node(*axis)].disk;
+  const medial::Disk deepest = medial::deepest_disk(*axis);
   std::printf("%zu edges, length %.4f, deepest disk of radius %.4f\n", axis->edges.size(),
               medial::total_length(*axis), deepest.radius);
 }

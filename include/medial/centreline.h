@@ -32,9 +32,6 @@ struct AxisPath {
   double gap = 0;        ///< of a main path: how much longer the largest reach may be
 };
 
-/// The place of the smallest or largest radius on an edge; the middle where it is constant. O(1).
-EdgePlace narrowest_place(const MedialAxis& axis, std::uint32_t edge);
-EdgePlace widest_place(const MedialAxis& axis, std::uint32_t edge);
 /// The pieces as an axis, exactly: all sites, edges in the order and direction of the pieces;
 /// pieces that end at one place share a node. O(pieces).
 MedialAxis part_of(const MedialAxis& axis, std::span<const PathPiece> pieces);

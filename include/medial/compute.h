@@ -25,9 +25,8 @@ struct Options {
   /// Distance from the shape's bounding box to the enclosure, in units of the input, within [1e-6,
   /// 1e6] of the diagonal; 0: half of the longer side.
   double margin = 0;
-  /// Called now and then, from any thread and out of order, with the share of the work done, in
-  /// [0, 1], at last with 1. It is the share of the walk, which takes over half of the time: what
-  /// comes before the walk counts as 0, what comes after it as 1. Must not throw.
+  /// Called now and then, from any thread and out of order, with the share of the walk that is
+  /// done, in [0, 1], at last with 1. Must not throw.
   std::function<void(double)> progress = {};
   /// Once the caller sets it to true, compute() returns ErrorCode::cancelled: from the walk at
   /// once, from other phases when they end.

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "medial/axis.h"
@@ -24,11 +26,20 @@ enum class Unit : std::uint8_t {
   pixel,      ///< of an image
   degree,
 };
+/// "mm", "in", "px" ...; empty: unknown. Of an image's pixels "pixel".
+const char* name_of(Unit unit);
+/// A unit of length by its name; nothing for other words.
+std::optional<Unit> unit_of(std::string_view name);
+/// "um, mm, ...": the names that unit_of() takes.
+std::string unit_names();
+/// Of one unit; of pixels of drawings 25.4 / 96; 0: it has no length.
+double millimetres(Unit unit);
 
-/// What a file holds: items of one kind (features, shapes, axes ...), and what holds for all.
-template <class T>
-struct Document {
-  std::vector<T> items;
+/// The unit that is so many millimetres long; unknown: none.
+Unit unit_of_length(double millimetres);
+
+/// What holds for all items of a file.
+struct DocumentInfo {
   std::string crs_wkt;             ///< coordinate reference system as WKT, empty if none
   bool geographic = false;         ///< coordinates are longitude and latitude
   bool y_down = false;             ///< the y axis points down, as in SVG; for pictures
@@ -42,11 +53,16 @@ struct Document {
   std::uint64_t index_of(std::size_t i) const { return indices.empty() ? i : indices[i]; }
 };
 
+/// What a file holds: items of one kind (features, shapes, axes ...), and what holds for all.
+template <class T>
+struct Document : DocumentInfo {
+  std::vector<T> items;
+};
+
 /// A document without items that has all else of another.
-template <class To, class From>
-Document<To> empty_like(const Document<From>& from) {
-  return {{},         from.crs_wkt,       from.geographic, from.y_down,  from.unit,
-          from.pixel, from.dots_per_inch, from.notes,      from.indices, from.corner_angle};
+template <class T>
+Document<T> empty_like(const DocumentInfo& from) {
+  return {from, {}};
 }
 
 /// What a file says of a feature besides its geometry: names and values as text, in their order.
@@ -63,6 +79,20 @@ struct Feature {
   bool filled = false;                ///< a drawing: its fill rule decides, whatever crosses
   Attributes attributes;
 };
+
+struct UnitOptions {
+  Unit given = Unit::unknown;    ///< what the input is in, whatever it says itself
+  Unit assumed = Unit::unknown;  ///< the same for an input that does not say, with a note
+  double pixel_size = 0;         ///< of an image, in units `given`; 0: as it says
+  double scale = 1;              ///< enlarges by this factor, above 0
+  Unit wanted = Unit::unknown;   ///< of the result; unknown: as the input
+};
+
+/// Converts all lengths of features; bulges and weights stay. A conversion that rests on 96 pixels
+/// or on an image's dots per inch leaves a note, and a reference system in other units is dropped
+/// with one. Errors: invalid_option (degrees, an input without a unit where one is wanted, a pixel
+/// size of what is no image).
+Status convert_units(Document<Feature>& features, const UnitOptions& options);
 
 struct ShapeItem {
   Shape shape;

@@ -42,7 +42,7 @@ enum class RepairRule : std::uint8_t {
 
 struct LoadOptions {
   /// Splits edges that cross (ShapeOptions::node_crossings); the rule decides what is inside. Rings
-  /// of straight edges alone are first tried as they are.
+  /// of straight edges alone are first tried unsplit.
   RepairRule repair = RepairRule::none;
   ArcOptions arcs;            ///< how free-form curves become arcs
   bool skip_invalid = false;  ///< leaves features out that make no shape, with a note each

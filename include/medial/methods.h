@@ -8,12 +8,6 @@
 
 namespace medial {
 
-/// How `ridge` finds the edges nearest to a pixel. Both give the same pixels.
-enum class RidgeSearch : std::uint8_t {
-  tree,         ///< by the boundary tree: for real sizes
-  sorted_list,  ///< by the report's list of all edges, sorted by lower bounds of their distances
-};
-
 /// Which pixels `ridge` takes for medial.
 enum class RidgeRule : std::uint8_t {
   /// The axis passes between the pixel and one of its four neighbours, whose nearest edges are two
@@ -57,7 +51,9 @@ struct Ridge {
   /// Drops vertices between straight edges that turn by less than this, in degrees, in [0, 45],
   /// where the combined edge stays within a quarter of a pixel of them; 0 keeps all.
   double collinear = 5;
-  RidgeSearch search = RidgeSearch::tree;
+  /// Finds the nearest edges by the report's list of all, sorted by lower bounds of distances, in
+  /// place of a tree: slower, the same pixels.
+  bool sorted_list = false;
   RidgeRule rule = RidgeRule::crossing;
 };
 
@@ -145,8 +141,6 @@ class PotentialField {
   /// Errors: invalid_option (order outside of [1, 4096]), empty, unsupported (coordinates beyond
   /// the limits of compute()). Arcs become chords within 1e-5 of the shape's larger side.
   static Result<PotentialField> make(const Shape& shape, double order);
-  ~PotentialField();
-  PotentialField(PotentialField&&) noexcept;
 
   struct Sample {
     double log_potential = 0;
@@ -161,8 +155,8 @@ class PotentialField {
 
  private:
   struct Parts;
-  explicit PotentialField(std::unique_ptr<Parts> parts);
-  std::unique_ptr<Parts> parts_;
+  explicit PotentialField(std::shared_ptr<const Parts> parts) : parts_(std::move(parts)) {}
+  std::shared_ptr<const Parts> parts_;
 };
 
 }  // namespace medial

@@ -7,9 +7,7 @@
 #include <span>
 
 #include "medial/axis.h"
-#include "medial/error.h"
 #include "medial/raster.h"
-#include "medial/shape.h"
 
 namespace medial {
 

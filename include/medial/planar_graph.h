@@ -39,14 +39,6 @@ struct PlanarGraph {
   std::vector<LonePoint> lone_points;
   std::uint32_t face_count = 1;
 
-  std::uint32_t start(std::uint32_t half_edge) const {
-    const PlanarGraphEdge& edge = edges[half_edge / 2];
-    return half_edge % 2 == 0 ? edge.from : edge.to;
-  }
-  double bulge(std::uint32_t half_edge) const {
-    const double forward = edges[half_edge / 2].bulge;
-    return half_edge % 2 == 0 ? forward : 0 - forward;
-  }
   std::size_t loop_count() const { return face.size(); }
 };
 
@@ -57,22 +49,13 @@ struct PlanarGraphOptions {
   double reach = 0;
 };
 
-struct PlanarGraphReport {
-  std::uint64_t input_chains = 0, input_points = 0;
-  std::uint64_t repeated_points = 0;  ///< points that repeat another, or lie on an end
-  std::uint64_t repeated_edges = 0;   ///< edges that repeat another, in either direction
-  std::uint64_t touching_places = 0;  ///< points that several edges share
-  std::uint64_t split_edges = 0;      ///< edges split where something touches their inside
-  std::uint64_t crossings = 0;        ///< places where edges crossed (PlanarGraphOptions)
-};
-
 /// Makes a planar graph of loose pieces: drops repeated points and edges, and splits an edge where
 /// an end or a point lies inside it. Decisions are exact, or within the tolerance with arcs, and
 /// arcs are split and straightened, as in build_shape(). O(n log n). Errors: not_finite, crossing,
 /// overlap, unsupported (with chain, vertex and point), empty, too_large.
 Result<PlanarGraph> build_planar_graph(std::span<const Chain> chains,
                                        const PlanarGraphOptions& options = {},
-                                       PlanarGraphReport* report = nullptr);
+                                       ShapeReport* report = nullptr);
 
 /// The bounding box, arcs included. Requires a point.
 Box bounding_box(const PlanarGraph& planar_graph);

@@ -59,8 +59,6 @@ struct PruneReport {
 class PruneOrder {
  public:
   PruneOrder(const MedialAxis& axis, PruneMeasure measure, bool tips = false);
-  ~PruneOrder();
-  PruneOrder(PruneOrder&&) noexcept;
   /// The largest threshold that keeps some of an edge. Infinite on cycles and between them.
   double of_edge(std::uint32_t edge) const;
   /// What matters at least `threshold`, by increasing edge; as an axis with nodes and edges in
@@ -74,7 +72,7 @@ class PruneOrder {
 
  private:
   struct Parts;
-  std::unique_ptr<Parts> parts_;
+  std::shared_ptr<const Parts> parts_;
 };
 
 /// PruneOrder::at() the threshold. Errors: invalid_option (a threshold that is negative or no

@@ -24,20 +24,6 @@ double total_length(const MedialAxis& axis);
 std::vector<Disk> sample_by_chord(const MedialAxis& axis, const Edge& edge, double chord);
 std::vector<Disk> sample_by_step(const MedialAxis& axis, const Edge& edge, double step);
 
-/// The edges around each node, by increasing index; loops twice. Built in O(edges).
-class Incidence {
- public:
-  explicit Incidence(const MedialAxis& axis);
-  std::span<const std::uint32_t> edges(std::uint32_t node) const {
-    return std::span(edges_).subspan(begin_[node], degree(node));
-  }
-  std::size_t degree(std::uint32_t node) const { return begin_[node + 1] - begin_[node]; }
-
- private:
-  std::vector<std::uint32_t> begin_;
-  std::vector<std::uint32_t> edges_;
-};
-
 /// One edge of a branch, and whether the branch runs from its node[0] to its node[1].
 struct Step {
   std::uint32_t edge = 0;
@@ -54,10 +40,6 @@ struct Branch {
 std::vector<Branch> branches(const MedialAxis& axis);
 std::uint64_t branch_count(const MedialAxis& axis);
 
-/// The node of the largest radius (the lowest index among equals): its disk is the maximum
-/// inscribed circle if no arc bounds the shape; see deepest_disk() otherwise. Requires a node.
-std::uint32_t deepest_node(const MedialAxis& axis);
-
 struct AxisPoint {
   std::uint32_t edge = 0;
   double t = 0;  ///< parameter on that edge
@@ -69,14 +51,12 @@ struct AxisPoint {
 class AxisLocator {
  public:
   explicit AxisLocator(const MedialAxis& axis);
-  ~AxisLocator();
-  AxisLocator(AxisLocator&&) noexcept;
   /// Of edges at equal distance, the lowest index. Without edges, only an infinite distance.
   AxisPoint nearest(Vec2 p) const;
 
  private:
   struct Index;
-  std::unique_ptr<Index> index_;
+  std::shared_ptr<const Index> index_;
 };
 
 /// The distance from p to the boundary of the shape, negative outside. O(n).

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <functional>
 #include <limits>
@@ -56,6 +57,16 @@ class Image {
   std::uint32_t height_ = 0;
   std::size_t stride_ = 0;
   std::vector<std::uint64_t> words_;
+};
+
+/// The upper left corner of pixel (c, r): (t[0] + c t[1] + r t[2], t[3] + c t[4] + r t[5]).
+using PixelPlacement = std::array<double, 6>;
+constexpr PixelPlacement unplaced = {0, 1, 0, 0, 0, 1};
+
+struct PlacedImage {
+  Image image;
+  PixelPlacement placement = unplaced;
+  bool placed() const { return placement != unplaced; }
 };
 
 struct Topology {

@@ -32,17 +32,20 @@ struct VertexSource {
   std::uint32_t ring = 0, vertex = 0;
 };
 
+/// What building a shape, or a planar graph of chains, counted.
 struct ShapeReport {
   std::uint64_t input_rings = 0, input_points = 0;
-  std::uint64_t closing_points = 0;     ///< last points equal to the first, dropped
-  std::uint64_t unclosed_rings = 0;     ///< rings without a closing point
-  std::uint64_t repeated_points = 0;    ///< zero-length edges, dropped
-  std::uint64_t collinear_points = 0;   ///< vertices inside a straight run or arc, dropped
-  std::uint64_t reversed_rings = 0;     ///< rings that had the interior on the right
-  std::uint64_t dropped_rings = 0;      ///< rings inside of others by the non-zero rule
-  std::uint64_t touching_vertices = 0;  ///< places where rings touch, in vertices or edges
-  std::uint64_t split_edges = 0;        ///< edges split where a vertex touches their inside
-  std::uint64_t crossings = 0;          ///< places where edges crossed (ShapeOptions)
+  std::uint64_t closing_points = 0;    ///< last points equal to the first, dropped
+  std::uint64_t unclosed_rings = 0;    ///< rings without a closing point
+  std::uint64_t repeated_points = 0;   ///< zero-length edges, dropped; points on other pieces
+  std::uint64_t repeated_edges = 0;    ///< of a planar graph: edges that repeat another, dropped
+  std::uint64_t collinear_points = 0;  ///< vertices inside a straight run or arc, dropped
+  std::uint64_t reversed_rings = 0;    ///< rings that had the interior on the right
+  std::uint64_t dropped_rings = 0;     ///< rings inside of others by the non-zero rule
+  std::uint64_t touching_vertices =
+      0;                          ///< places where rings or chains touch, in vertices or edges
+  std::uint64_t split_edges = 0;  ///< edges split where a vertex touches their inside
+  std::uint64_t crossings = 0;    ///< places where edges crossed (ShapeOptions)
 };
 
 struct ShapeOptions {
@@ -98,8 +101,7 @@ double area(const Shape& shape);
 /// Errors: not_finite, too_few_points, no_area, crossing, overlap, unsupported (outlines with arcs
 /// below 1,024 tolerances in size) with ring, vertex and point; hole_outside, nested_outer, empty,
 /// too_large (2^30 points), out_of_memory.
-Result<Shape> build_shape(std::span<const Ring> rings, ShapeReport* report = nullptr);
-Result<Shape> build_shape(std::span<const Ring> rings, const ShapeOptions& options,
+Result<Shape> build_shape(std::span<const Ring> rings, const ShapeOptions& options = {},
                           ShapeReport* report = nullptr);
 
 /// The exterior of a shape: a rectangular enclosure, `margin` away from the bounding box on all

@@ -1,11 +1,11 @@
 #pragma once
 
-// The boundary on the two sides of an axis, and whether it can be an axis at all: Shaked and
+// From an axis back to its boundary, as a shape, as pixels, and on the two sides: Shaked and
 // Bruckstein, "The Curve Axis", 1996, Sections 2 and 3, with their equations in brackets; `a` is
 // the length along the axis, subscripts are derivatives by it.
 
-#include "medial/contour.h"
 #include "medial/query.h"
+#include "medial/raster.h"
 
 namespace medial {
 
@@ -18,8 +18,6 @@ struct AxisJet {
   double curvature = 0;    ///< K_A, 1 / length, positive where the axis turns left
   double rate_error = 0;   ///< of R_a, by rounding, or of packs their own; 0 on other samples
   double bend_error = 0;   ///< of R_aa and K_A in the same way
-
-  AxisJet reversed() const;  ///< the same in the other direction
 };
 
 /// The jet at t in [0, 1] of an edge; of length 0 the tangent is 0 and the rest undefined.
@@ -52,11 +50,6 @@ std::vector<double> boundary_curvatures(const MedialAxis& axis, const Edge& edge
 std::vector<AxisJet> jets_along(const MedialAxis& axis, const Branch& branch,
                                 int samples_per_edge = 8);
 
-/// The boundary of an axis as closed contours with the interior on the left, by increasing lowest
-/// edge: segments and arcs of an exact axis, straight pieces between the points of (3) of a sampled
-/// one, a circle around a node without edges. Arcs of its disks close gaps. O(edges log(degree)).
-std::vector<Contour> boundary_of(const MedialAxis& axis);
-
 /// How far a branch is from breaking the two conditions that every medial axis meets: no unit,
 /// positive where it breaks them. Jets whose errors leave the answer open do not count.
 struct Legality {
@@ -74,5 +67,39 @@ struct Legality {
 
 /// One for each of branches(axis), in that order. O(edges).
 std::vector<Legality> legality(const MedialAxis& axis, int samples_per_edge = 8);
+
+enum class RebuildBy : std::uint8_t {
+  /// boundary_of() exact axes; hulls of packs and, without `points`, of pixels; tangents of others
+  outline,
+  tangents,  ///< a polygon from tangents of disks (Volkmann and St. Clair, Section II.C)
+  hulls,     ///< a polygon around the convex hulls of the disks at both ends of each edge
+};
+
+struct RebuildOptions {
+  RebuildBy by = RebuildBy::outline;
+  /// Of tangents: about how many points on the axis, evenly by its length, besides ends and
+  /// branching points. 0: the nodes of samples, 1000 of an exact axis.
+  std::uint64_t points = 0;
+  /// Arcs become chords within this distance, in units of the input; 0: they stay arcs. Hulls
+  /// always have chords: within a sixteenth of the axis's resolution, or 1e-6 of its extent.
+  double chord = 0;
+};
+
+struct RebuildReport {
+  std::uint64_t medial_points = 0;  ///< of tangents and hulls: points on the axis that were used
+  std::uint64_t crossings = 0;      ///< where the new boundary crossed itself, and was split
+};
+/// The shape of an axis. An exact one gives back its shape, with ends of sites bit for bit; a
+/// pruned one the union of its disks; that of an exterior the surroundings within the enclosure.
+/// O(n log n). Errors: empty (an axis without nodes), those of build_shape().
+Result<Shape> rebuild(const MedialAxis& axis, const RebuildOptions& options = {},
+                      RebuildReport* report = nullptr);
+
+/// The union of the disks: the pixels whose centres lie in one of them, `pixels` along the longer
+/// side of their box, with a margin of one around. The first row has the largest y, or with
+/// `y_down` the smallest. Where radii exceed a pixel, every point a tenth of a pixel inside the
+/// union is covered. Errors: empty, invalid_option (pixels is 0 or above 32768).
+Result<PlacedImage> rebuild_image(const MedialAxis& axis, std::uint32_t pixels,
+                                  bool y_down = false);
 
 }  // namespace medial

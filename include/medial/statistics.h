@@ -24,9 +24,6 @@ struct Statistics {
   double seconds_walk = 0, seconds_collect = 0, seconds_exact = 0;
   double seconds = 0;  ///< all of compute()
   int threads = 1;
-
-  /// Adds the counts and times of another part of the work; `threads` stays.
-  Statistics& operator+=(const Statistics& part);
 };
 
 /// Of compute_voxels().

@@ -5,18 +5,25 @@
 
 namespace medial {
 
-/// What verify() measured. Lengths and areas in units of the input.
-struct Certificate {
+/// What verify() found of the disks of an axis or of a diagram. Lengths in units of the input.
+struct DiskCertificate {
   double tolerance = 0;            ///< bound of the residuals
-  double resolution = 0;           ///< of a sampled axis: MedialAxis::resolution
-  double largest_residual = 0;     ///< max |distance to the boundary - r|, nodes and edge samples
-  double largest_intrusion = 0;    ///< max (r - distance to the nearest boundary point), >= 0
-  double largest_contact_gap = 0;  ///< max |distance to an edge's own two sites - r|
-  double largest_uncovered = 0;    ///< max distance from a boundary sample to the union of disks
+  double largest_residual = 0;     ///< max |distance to what is nearest - r|, samples of all edges
+  double largest_contact_gap = 0;  ///< max |distance to an edge's own sites - r|
+  Vec2 worst;                      ///< where the largest residual is
+  std::uint64_t disks_checked = 0;
+  bool passed = false;                ///< all demands hold
+  std::vector<std::string> failures;  ///< one sentence for each demand that does not hold
+};
+
+/// Of an axis, whose nodes count as samples.
+struct Certificate : DiskCertificate {
+  double resolution = 0;         ///< of a sampled axis: MedialAxis::resolution
+  double largest_intrusion = 0;  ///< max (r - distance to the nearest boundary point), >= 0
+  double largest_uncovered = 0;  ///< max distance from a boundary sample to the union of disks
   double shape_area = 0;
   double disks_area = 0;      ///< of the union of the disks
   double worst_legality = 0;  ///< max excess over Shaked and Bruckstein's (9), (10); no unit
-  std::uint64_t disks_checked = 0;
   std::uint64_t components = 0, holes = 0;    ///< of the shape
   std::uint64_t graph_parts = 0, cycles = 0;  ///< of the graph: connected parts, independent cycles
   std::uint64_t convex_corners = 0, corners_without_leaf = 0;
@@ -24,9 +31,6 @@ struct Certificate {
   std::uint64_t curvature_leaves = 0;  ///< at the centre of an arc of locally largest curvature
   std::uint64_t blunt_joints = 0;      ///< convex, with an arc, below the corner angle: no leaf
   double largest_blunt_angle = 0;      ///< among them, in degrees
-  Vec2 worst;                          ///< where the largest residual is
-  bool passed = false;                 ///< all demands hold
-  std::vector<std::string> failures;   ///< one sentence for each demand that does not hold
   /// How many of the failures say only that the graph of a sampled axis has other parts or cycles
   /// than the shape, which happens where the shape is narrower than a pixel.
   std::uint64_t unresolved = 0;
@@ -55,19 +59,12 @@ struct VerifyOptions {
 /// at the enclosure are missing.
 Certificate verify(const Shape& shape, const MedialAxis& axis, const VerifyOptions& options = {});
 
-struct VoronoiCertificate {
-  double tolerance = 0;            ///< bound of the residuals
-  double largest_residual = 0;     ///< max |distance to the nearest site - r|, samples of all edges
-  double largest_contact_gap = 0;  ///< max |distance to an edge's own sites - r|
-  Vec2 worst;                      ///< where the largest residual is
-  std::uint64_t disks_checked = 0;
+struct VoronoiCertificate : DiskCertificate {
   std::uint64_t sites = 0;
   std::uint64_t faces = 0;         ///< that are not empty
   std::uint64_t broken_faces = 0;  ///< not closed, not counter-clockwise, or of other sites' edges
   double enclosure_area = 0;
   double faces_area = 0;  ///< the sum of all
-  bool passed = false;
-  std::vector<std::string> failures;
 };
 
 /// Checks the diagram of a planar graph: its sites are the graph's; every sample of an edge is at

@@ -51,12 +51,6 @@ struct Solid {
 /// non_manifold, crossing, overlap (of faces beyond corners and edges), no_area, out_of_memory.
 Result<Solid> build_solid(TriangleMesh mesh);
 
-/// How the two nearest faces of a voxel are found, with the same answers, bit for bit.
-enum class FaceSearch : std::uint8_t {
-  tree,         ///< a tree of boxes over the faces
-  sorted_list,  ///< the report's: all faces, nearly sorted by lower bounds; O(faces) a voxel
-};
-
 enum class Thinning : std::uint8_t {
   none,    ///< all voxels below the tolerance: sheets up to several voxels thick
   sheets,  ///< sheets one voxel thick
@@ -69,7 +63,9 @@ struct VoxelOptions {
   /// Between the two feet of a voxel at least, seen from its centre, in degrees, in [1, 120]; for
   /// fine meshes of curved surfaces, larger than the angles between their faces.
   double angle = 30;
-  FaceSearch search = FaceSearch::tree;
+  /// Finds the nearest faces by the report's nearly sorted list of all, in place of a tree: the
+  /// same answers, bit for bit, in O(faces) for each voxel.
+  bool sorted_list = false;
   Thinning thinning = Thinning::sheets;
   std::uint64_t memory = std::uint64_t{4} << 30U;  ///< of the computation, in bytes, about
   int threads = 0;                                 ///< see Options, as the next two

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "medial/axis.h"
 #include "medial/compute.h"
 #include "medial/planar_graph.h"
 
@@ -31,15 +30,13 @@ struct NearestSite {
 class SiteLocator {
  public:
   explicit SiteLocator(std::span<const Site> sites);
-  ~SiteLocator();
-  SiteLocator(SiteLocator&&) noexcept;
   /// Of sites at equal distance the lowest index, so of a planar graph a point rather than an edge.
   /// Without sites: no_site at infinite distance.
   NearestSite nearest(Vec2 p) const;
 
  private:
   struct Index;
-  std::unique_ptr<Index> index_;
+  std::shared_ptr<const Index> index_;
 };
 
 }  // namespace medial

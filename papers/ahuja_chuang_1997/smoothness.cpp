@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "axis/steps.h"
 #include "medial/query.h"
 
 namespace medial::papers {

@@ -132,14 +132,13 @@ struct Times {
 /// One way to the medial pixels. The report's own is the first one.
 struct Way {
   const char* name;
-  RidgeSearch search;
+  bool sorted_list;
   RidgeRule rule;
   double collinear;  ///< degrees; 0 keeps every edge
 };
-constexpr std::array<Way, 3> ways = {
-    {{"sorted list", RidgeSearch::sorted_list, RidgeRule::difference, 5},
-     {"tree", RidgeSearch::tree, RidgeRule::difference, 5},
-     {"tree, crossing", RidgeSearch::tree, RidgeRule::crossing, 0}}};
+constexpr std::array<Way, 3> ways = {{{"sorted list", true, RidgeRule::difference, 5},
+                                      {"tree", false, RidgeRule::difference, 5},
+                                      {"tree, crossing", false, RidgeRule::crossing, 0}}};
 
 /// One shape: a point in each plot of its series.
 struct Row {
@@ -158,7 +157,7 @@ MedialAxis measure(const Shape& shape, const Way& way, const Request& request, T
   constexpr double never = std::numeric_limits<double>::infinity();
   const double step = request.quick ? 1.0 / 6 : 1.0 / 20;  // pixels along a unit of length
   const Options options{
-      .method = method::Ridge{{.resolution = step}, way.collinear, way.search, way.rule},
+      .method = method::Ridge{{.resolution = step}, way.collinear, way.sorted_list, way.rule},
       .threads = 1};
   times = {never, never, never, never};
   MedialAxis axis;

@@ -141,7 +141,7 @@ class _WellKnownText:
         self._at = 0
 
     def _fail(self) -> MedialError:
-        return MedialError(f"this is no well-known text at place {self._at}", "malformed")
+        return MedialError(f"this is not well-known text at place {self._at}", "malformed")
 
     def _next(self) -> str:
         found = _WORD.match(self._text, self._at)

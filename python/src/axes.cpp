@@ -43,7 +43,7 @@ void take_own(Named& named, method::Ridge& own) {
   std::string search = "tree", rule = "crossing";
   take_grid(named, own.grid).take("collinear", own.collinear);
   named.take("search", search).take("rule", rule);
-  own.search = search == "tree" ? RidgeSearch::tree : RidgeSearch::sorted_list;
+  own.sorted_list = search != "tree";
   own.rule = rule == "crossing" ? RidgeRule::crossing : RidgeRule::difference;
 }
 void take_own(Named& named, method::Brushfire& own) {

@@ -92,10 +92,11 @@ nb::tuple outline_of(const Pixels& pixels, double neck) {
 }
 
 nb::tuple disk_image(const AxisOf& self, std::uint32_t pixels, bool y_down) {
-  const DiskImage from =
+  const PlacedImage from =
       value_of(without_lock([&] { return rebuild_image(self.axis, pixels, y_down); }));
-  return nb::make_tuple(array_of_image(from.image), from.pixel,
-                        nb::make_tuple(from.corner.x, from.corner.y));
+  const PixelPlacement& t = from.placement;
+  const double low = y_down ? t[3] : t[3] + t[5] * from.image.height();
+  return nb::make_tuple(array_of_image(from.image), t[1], nb::make_tuple(t[0], low));
 }
 
 }  // namespace

@@ -76,9 +76,7 @@ struct AxisLocator::Index {
   }
 };
 
-AxisLocator::AxisLocator(const MedialAxis& axis) : index_(std::make_unique<Index>(axis)) {}
-AxisLocator::~AxisLocator() = default;
-AxisLocator::AxisLocator(AxisLocator&&) noexcept = default;
+AxisLocator::AxisLocator(const MedialAxis& axis) : index_(std::make_shared<Index>(axis)) {}
 
 AxisPoint AxisLocator::nearest(Vec2 p) const {
   AxisPoint best;

@@ -17,6 +17,9 @@ constexpr NodeKind kind_of_degree(std::size_t degree) {
 /// The number of edges at each node; an edge from a node to itself counts twice. O(nodes + edges).
 std::vector<std::uint32_t> degrees_of(const MedialAxis& axis);
 
+/// The node of the largest radius, of equal ones the lowest. Requires a node.
+std::uint32_t deepest_node(const MedialAxis& axis);
+
 /// How many branches() there would be if it were for the edges that count alone. O(edges).
 std::uint64_t branch_count(const MedialAxis& axis,
                            const std::function<bool(std::uint32_t edge)>& counts);

@@ -4,11 +4,11 @@
 
 namespace medial {
 
-Statistics& Statistics::operator+=(const Statistics& part) {
-  for (const auto& [name, number] : statistics_counts) this->*number += part.*number;
-  for (const auto& [name, number] : statistics_times) this->*number += part.*number;
-  largest_residual = std::max(largest_residual, part.largest_residual);
-  return *this;
+Statistics& operator+=(Statistics& sum, const Statistics& part) {
+  for (const auto& [name, number] : statistics_counts) sum.*number += part.*number;
+  for (const auto& [name, number] : statistics_times) sum.*number += part.*number;
+  sum.largest_residual = std::max(sum.largest_residual, part.largest_residual);
+  return sum;
 }
 
 }  // namespace medial

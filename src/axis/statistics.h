@@ -4,6 +4,9 @@
 
 namespace medial {
 
+/// Adds the counts and times of another part of the work; `threads` stays.
+Statistics& operator+=(Statistics& sum, const Statistics& part);
+
 /// A number of Statistics and its name in files.
 template <class Number>
 struct StatisticsField {

@@ -11,6 +11,20 @@
 
 namespace medial {
 
+/// The edges around each node, by increasing index; loops twice. Built in O(edges).
+class Incidence {
+ public:
+  explicit Incidence(const MedialAxis& axis);
+  std::span<const std::uint32_t> edges(std::uint32_t node) const {
+    return std::span(edges_).subspan(begin_[node], degree(node));
+  }
+  std::size_t degree(std::uint32_t node) const { return begin_[node + 1] - begin_[node]; }
+
+ private:
+  std::vector<std::uint32_t> begin_;
+  std::vector<std::uint32_t> edges_;
+};
+
 /// The node at the other end of an edge.
 inline std::uint32_t other_end(const Edge& edge, std::uint32_t node) {
   return edge.node[0] == node ? edge.node[1] : edge.node[0];

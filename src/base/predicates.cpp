@@ -5,6 +5,8 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstdint>
 
+#include "base/whole.h"
+
 // g++ 12 warns, wrongly, of limbs inside cpp_int where its moves are inlined here.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
@@ -70,35 +72,13 @@ class Sum {
 
 using Integer = boost::multiprecision::cpp_int;
 
-/// value * 2^1074, an integer for every finite double.
-Integer scaled_to_integer(double value) {
-  int exponent = 0;
-  const double fraction = std::frexp(value, &exponent);
-  auto mantissa = static_cast<std::int64_t>(std::ldexp(fraction, 53));
-  int shift = exponent - 53 + 1074;
-  // Subnormal numbers have fewer bits: their mantissa ends in zeros.
-  for (; shift < 0; ++shift) mantissa /= 2;
-  return Integer(mantissa) << static_cast<unsigned>(shift);
-}
-
 int orientation_in_integers(Vec2 a, Vec2 b, Vec2 c) {
-  const Integer cx = scaled_to_integer(c.x);
-  const Integer cy = scaled_to_integer(c.y);
-  const Integer left = (scaled_to_integer(a.x) - cx) * (scaled_to_integer(b.y) - cy);
-  const Integer right = (scaled_to_integer(a.y) - cy) * (scaled_to_integer(b.x) - cx);
+  const std::array coordinates{a.x, a.y, b.x, b.y, c.x, c.y};
+  const int lowest = binary_range(coordinates).lowest;
+  std::array<Integer, 6> n;
+  for (std::size_t i = 0; i < 6; ++i) n[i] = multiple_of<Integer>(coordinates[i], lowest);
+  const Integer left = (n[0] - n[4]) * (n[3] - n[5]), right = (n[1] - n[5]) * (n[2] - n[4]);
   return left.compare(right);
-}
-
-/// value * 2^-exponent. Requires an integer.
-template <class Number>
-Number scaled_to_integer_by(double value, int exponent) {
-  if (value == 0) return Number(0);
-  int own = 0;
-  const double fraction = std::frexp(value, &own);
-  auto mantissa = static_cast<std::int64_t>(std::ldexp(fraction, 53));
-  int shift = own - 53 - exponent;
-  for (; shift < 0; ++shift) mantissa /= 2;
-  return Number(mantissa) << static_cast<unsigned>(shift);
 }
 
 template <class Number>
@@ -111,11 +91,11 @@ int in_circle_of(const std::array<Number, 6>& d) {
 }
 
 template <class Number>
-int in_circle_in_integers(const std::array<double, 8>& coordinates, int exponent) {
+int in_circle_in_integers(const std::array<double, 8>& coordinates, int lowest) {
   std::array<Number, 6> d;
   for (std::size_t i = 0; i < 6; ++i)
-    d[i] = scaled_to_integer_by<Number>(coordinates[i], exponent) -
-           scaled_to_integer_by<Number>(coordinates[6 + i % 2], exponent);
+    d[i] = multiple_of<Number>(coordinates[i], lowest) -
+           multiple_of<Number>(coordinates[6 + i % 2], lowest);
   return in_circle_of(d);
 }
 
@@ -154,15 +134,7 @@ int exact_in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 p) {
     if (whole) return in_circle_of(units);
   }
   // In units of the lowest bit of all coordinates: of n bits each, the sum has at most 4 n + 8.
-  int lowest = 2000, highest = -2000;
-  for (const double value : coordinates) {
-    if (value == 0) continue;
-    int exponent = 0;
-    const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(value, &exponent), 53));
-    const int trailing = __builtin_ctzll(static_cast<unsigned long long>(mantissa));
-    lowest = std::min(lowest, exponent - 53 + trailing);
-    highest = std::max(highest, exponent);
-  }
+  const auto [lowest, highest] = binary_range(coordinates);
   if (highest - lowest <= 120)
     return in_circle_in_integers<boost::multiprecision::int512_t>(coordinates, lowest);
   return in_circle_in_integers<Integer>(coordinates, lowest);

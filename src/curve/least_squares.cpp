@@ -11,9 +11,9 @@ namespace {
 constexpr std::size_t most_knots = std::size_t{1} << 17;
 
 /// A closed polygon as a function of the length along it.
-class Outline {
+class Polygon {
  public:
-  explicit Outline(std::vector<Vec2> points) : points_(std::move(points)) {
+  explicit Polygon(std::vector<Vec2> points) : points_(std::move(points)) {
     ways_.push_back(0);
     for (std::size_t i = 0; i < points_.size(); ++i)
       ways_.push_back(ways_.back() + distance(points_[i], points_[(i + 1) % points_.size()]));
@@ -102,21 +102,21 @@ class Spline {
   double length_;
 };
 
-/// Visits samples of an outline, span by span: what spans of one length have in common is their
+/// Visits samples of an polygon, span by span: what spans of one length have in common is their
 /// number, which grows with the vertices in a span.
 template <class Visit>
-void visit_samples(const Outline& outline, const Spline& spline, const Visit& visit) {
+void visit_samples(const Polygon& polygon, const Spline& spline, const Visit& visit) {
   std::size_t edge = 0;
   for (std::size_t i = 0; i < spline.size(); ++i) {
     const double begin = spline.begin(i), span = spline.span(i);
-    const auto& ways = outline.ways();
+    const auto& ways = polygon.ways();
     const auto vertices = std::lower_bound(ways.begin(), ways.end(), begin + span) -
                           std::lower_bound(ways.begin(), ways.end(), begin);
     const auto count = 8 + 2 * static_cast<std::size_t>(vertices);
     const auto shares = spline.shares(i);
     for (std::size_t k = 0; k < count; ++k) {
       const double t = (static_cast<double>(k) + 0.5) / static_cast<double>(count);
-      const Vec2 p = outline.at(begin + t * span, edge);
+      const Vec2 p = polygon.at(begin + t * span, edge);
       visit(i, t, span / static_cast<double>(count), Spline::row(shares, t), p);
     }
   }
@@ -169,10 +169,10 @@ struct Equations {
   }
 };
 
-void fit(const Outline& outline, Spline& spline) {
+void fit(const Polygon& polygon, Spline& spline) {
   const std::size_t n = spline.size();
   Equations equations{std::vector<std::array<double, 7>>(n), std::vector<Vec2>(n)};
-  visit_samples(outline, spline,
+  visit_samples(polygon, spline,
                 [&](std::size_t i, double, double weight, const Spline::Row& row, Vec2 p) {
                   for (std::size_t a = 0; a < 4; ++a) {
                     const std::size_t j = spline.index(i, static_cast<int>(a) - 1);
@@ -182,21 +182,21 @@ void fit(const Outline& outline, Spline& spline) {
                   }
                 });
   std::size_t edge = 0;
-  for (std::size_t i = 0; i < n; ++i) spline.control()[i] = outline.at(spline.begin(i), edge);
+  for (std::size_t i = 0; i < n; ++i) spline.control()[i] = polygon.at(spline.begin(i), edge);
   equations.solve(spline.control());
   // Along an axis the influence of far points decays to values that no coordinate may have.
-  const double least = outline.length() * 0x1p-60;
+  const double least = polygon.length() * 0x1p-60;
   for (Vec2& p : spline.control()) {
     if (std::abs(p.x) < least) p.x = 0;
     if (std::abs(p.y) < least) p.y = 0;
   }
 }
 
-/// The knots with one more in the middle of each span that strays from the outline; as many as
+/// The knots with one more in the middle of each span that strays from the polygon; as many as
 /// before where none does.
-std::vector<double> refined(const Outline& outline, const Spline& spline, double tolerance) {
+std::vector<double> refined(const Polygon& polygon, const Spline& spline, double tolerance) {
   std::vector<bool> strays(spline.size());
-  visit_samples(outline, spline,
+  visit_samples(polygon, spline,
                 [&](std::size_t i, double, double, const Spline::Row& row, Vec2 p) {
                   if (!(distance(spline.point(i, row), p) <= tolerance)) strays[i] = true;
                 });
@@ -228,15 +228,15 @@ Result<std::vector<Vec2>> points_to_fit(std::span<const Vec2> polygon, double to
 Result<Contour> smoothed_contour(std::span<const Vec2> polygon, double tolerance) {
   auto points = points_to_fit(polygon, tolerance);
   if (!points) return std::move(points).error();
-  const Outline outline(std::move(points).value());
+  const Polygon closed(std::move(points).value());
   constexpr std::size_t fewest = 8;
   std::vector<double> knots;
   for (std::size_t i = 0; i < fewest; ++i)
-    knots.push_back(static_cast<double>(i) * outline.length() / static_cast<double>(fewest));
+    knots.push_back(static_cast<double>(i) * closed.length() / static_cast<double>(fewest));
   while (true) {
-    Spline spline(std::move(knots), outline.length());
-    fit(outline, spline);
-    knots = refined(outline, spline, tolerance);
+    Spline spline(std::move(knots), closed.length());
+    fit(closed, spline);
+    knots = refined(closed, spline, tolerance);
     if (knots.size() == spline.size()) return spline.contour();
     if (knots.size() > most_knots)
       return Error{ErrorCode::unsupported, "no smooth curve of 2^17 knots is that near", {}};

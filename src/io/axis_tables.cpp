@@ -9,6 +9,7 @@
 #include "io/tables.h"
 #include "medial/centreline.h"
 #include "medial/query.h"
+#include "ops/routes.h"
 
 namespace medial::io {
 
@@ -62,8 +63,8 @@ Status add_branches(TableSink& sink, const Row& row, const WriteOptions& options
     for (const Step& step : branch.steps) {
       const Edge& edge = axis.edges[step.edge];
       total += length(axis, edge);
-      const double low = narrowest_place(axis, step.edge).t;
-      const double high = widest_place(axis, step.edge).t;
+      const double low = ops::narrowest_place(axis, step.edge).t;
+      const double high = ops::widest_place(axis, step.edge).t;
       smallest = std::min(smallest, disk_at(axis, edge, low).radius);
       largest = std::max(largest, disk_at(axis, edge, high).radius);
     }

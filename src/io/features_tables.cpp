@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "axis/steps.h"
 #include "io/attribute_columns.h"
 #include "io/axis_samples.h"
 

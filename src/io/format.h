@@ -53,13 +53,6 @@ struct FieldOutput {
   std::span<const PotentialField> fields;
   const FieldPictureOptions& options;
 };
-struct PreviewOutput {
-  static constexpr DocumentKind kind = DocumentKind::preview;
-  std::span<const Shape> shapes;
-  std::span<const PreviewPanel> panels;
-  double width;
-  bool y_down;
-};
 struct VoxelsOutput {
   static constexpr DocumentKind kind = DocumentKind::voxels;
   const VoxelAxis& axis;
@@ -120,6 +113,8 @@ struct Format {
   bool has_layers = false;
   bool has_filters = false;
   bool has_loose_curves = false;
+  bool by_content = false;    ///< `sniff` decides, whatever the file's name
+  bool reads_others = false;  ///< what no other row reads
   bool gdal_chooses = false;  ///< GDAL reads it instead where layers or attributes choose
 
   // Writing.
@@ -128,8 +123,8 @@ struct Format {
   bool adds_layers = false;  ///< to a file that is there; `own_files` then
   std::tuple<Writer<AxesOutput>, Writer<ShapesOutput>, Writer<VoronoiOutput>, Writer<OffsetsOutput>,
              Writer<CarvingOutput>, Writer<FeaturesOutput>, Writer<LayersOutput>,
-             Writer<FieldOutput>, Writer<PreviewOutput>, Writer<VoxelsOutput>,
-             Writer<DistancesOutput>, Writer<ImageOutput>>
+             Writer<FieldOutput>, Writer<VoxelsOutput>, Writer<DistancesOutput>,
+             Writer<ImageOutput>>
       writers{};
   unsigned kinds = 0;  ///< of documents that are written, a bit each
 
@@ -170,13 +165,10 @@ Format edgelist_format();
 Format gcode_format();
 Format dxf_format();
 Format svg_format();
-Format pdf_format();
 Format png_format();
-Format ps_format();
 Format ply_format();
 Format vtk_format();
 Format obj_format();
-Format stl_format();
 Format off_format();
 Format tif_format();
 Format pgm_format();
@@ -184,5 +176,9 @@ Format pbm_format();
 Format gdal_format();   ///< whatever else GDAL reads
 Format image_format();  ///< images, by their first bytes
 Format ros_map_format();
+/// The row, with pictures by Cairo of every kind of document that it does not write and but voxels.
+Format with_pictures(Format format);
+/// The row, with meshes that Assimp reads.
+Format with_meshes(Format format);
 
 }  // namespace medial::io

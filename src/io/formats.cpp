@@ -5,20 +5,58 @@
 
 namespace medial::io {
 
+// Without a library its part of a row is missing.
+#ifndef MEDIAL_GIS
+Format with_pictures(Format format) { return format; }
+#endif
+#ifndef MEDIAL_MESH
+Format with_meshes(Format format) { return format; }
+#endif
+
+/// In the order in which texts are recognised, and lists of formats printed.
 const std::vector<Format>& formats() {
   static const std::vector<Format> all{
-      json_format(),     geojson_format(), gpkg_format(), shp_format(),     fgb_format(),
-      wkt_format(),      csv_format(),     xy_format(),   graphml_format(), nodelink_format(),
-      edgelist_format(), gcode_format(),
+      json_format(),
+      geojson_format(),
+#ifdef MEDIAL_GIS
+      gpkg_format(),
+      shp_format(),
+      fgb_format(),
+#endif
+      wkt_format(),
+      csv_format(),
+      xy_format(),
+      graphml_format(),
+      nodelink_format(),
+      edgelist_format(),
+      gcode_format(),
 #ifdef MEDIAL_DXF
       dxf_format(),
 #endif
-      svg_format(),      pdf_format(),     png_format(),  ps_format(),      ply_format(),
-      vtk_format(),      obj_format(),
-#ifdef MEDIAL_MESH
-      stl_format(),
+#ifdef MEDIAL_GIS
 #endif
-      off_format(),      ros_map_format(), tif_format(),  pgm_format(),     pbm_format()};
+      with_pictures(svg_format()),
+#ifdef MEDIAL_GIS
+      with_pictures(Format{".pdf"}),
+      png_format(),
+      with_pictures(Format{".ps"}),
+#endif
+      ply_format(),
+      vtk_format(),
+      with_meshes(obj_format()),
+#ifdef MEDIAL_MESH
+      with_meshes(Format{".stl"}),
+#endif
+      off_format(),
+#ifdef MEDIAL_GIS
+      ros_map_format(),
+      tif_format(),
+      pgm_format(),
+      pbm_format(),
+      image_format(),
+      gdal_format(),
+#endif
+  };
   return all;
 }
 

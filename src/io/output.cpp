@@ -171,11 +171,18 @@ Result<OutputStream> OutputStream::open(const std::string& path) {
   return OutputStream(path, descriptor, true);
 }
 
+OutputStream OutputStream::to(std::string& text) {
+  OutputStream out({}, -1, false);
+  out.text_ = &text;
+  return out;
+}
+
 OutputStream::OutputStream(std::string path, int descriptor, bool owned)
     : path_(std::move(path)), descriptor_(descriptor), owned_(owned), buffer_(buffer) {}
 
 OutputStream::OutputStream(OutputStream&& other) noexcept
     : path_(std::move(other.path_)),
+      text_(other.text_),
       descriptor_(std::exchange(other.descriptor_, -1)),
       owned_(std::exchange(other.owned_, false)),
       problem_(other.problem_),
@@ -205,6 +212,10 @@ void OutputStream::flush() {
 }
 
 void OutputStream::write(const char* data, std::size_t count) {
+  if (text_ != nullptr) {
+    text_->append(data, count);
+    return;
+  }
   while (count > 0 && problem_ == 0) {
     const ssize_t written = ::write(descriptor_, data, count);
     if (written < 0) {
@@ -232,15 +243,17 @@ std::string json_quoted(const std::string& text) {
   return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-Status write_whole(const std::string& path, const std::function<Status(OutputStream&)>& write) {
-  const auto to = [&](const std::string& where) -> Status {
-    Result<OutputStream> out = OutputStream::open(where);
+Status write_whole(const Destination& target, const std::function<Status(OutputStream&)>& write) {
+  const std::string& path = target.path;
+  const auto put = [&](Result<OutputStream> out) -> Status {
     if (!out) return std::move(out).error();
     Status written = write(*out);
     if (!written) return written;
     return out->finish();
   };
+  const auto to = [&put](const std::string& where) { return put(OutputStream::open(where)); };
   const auto run = [&]() -> Status {
+    if (target.text != nullptr) return put(OutputStream::to(*target.text));
     if (is_stream(path)) return to(path);
     Result<PendingFile> pending = PendingFile::create(path);
     if (!pending) return std::move(pending).error();

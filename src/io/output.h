@@ -8,7 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "base/compat.h"
 #include "medial/error.h"
+#include "medial/io/write.h"
 
 namespace medial::io {
 
@@ -45,6 +47,8 @@ class OutputStream {
  public:
   /// Creates a file; `-` is standard output; a device or a pipe is opened as it is.
   static Result<OutputStream> open(const std::string& path);
+  /// To the end of a text, which must outlive it.
+  static OutputStream to(std::string& text);
   ~OutputStream();
   OutputStream(OutputStream&& other) noexcept;
   OutputStream& operator=(OutputStream&&) = delete;
@@ -58,18 +62,16 @@ class OutputStream {
   /// finish() fails.
   void put(double value) {
     finite_ = finite_ && std::isfinite(value);
-    reserve(longest_number);
-    used_ = static_cast<std::size_t>(
-        std::to_chars(buffer_.data() + used_, buffer_.data() + buffer_.size(), value).ptr -
-        buffer_.data());
+#ifdef __cpp_lib_to_chars
+    put_chars(value);
+#else
+    put(std::string_view(shortest_text(value)));
+#endif
   }
   template <class Integer>
   requires std::is_integral_v<Integer> &&
       (!std::is_same_v<Integer, char>)&&(!std::is_same_v<Integer, bool>)void put(Integer value) {
-    reserve(longest_number);
-    used_ = static_cast<std::size_t>(
-        std::to_chars(buffer_.data() + used_, buffer_.data() + buffer_.size(), value).ptr -
-        buffer_.data());
+    put_chars(value);
   }
   bool failed() const { return problem_ != 0; }
   /// Writes what is left and closes. Errors: unwritable, internal (a number was not finite).
@@ -78,13 +80,18 @@ class OutputStream {
  private:
   static constexpr std::size_t longest_number = 40;
   OutputStream(std::string path, int descriptor, bool owned);
-  void reserve(std::size_t count) {
-    if (buffer_.size() - used_ < count) flush();
+  template <class Number>
+  void put_chars(Number value) {
+    if (buffer_.size() - used_ < longest_number) flush();
+    char* const end = buffer_.data() + buffer_.size();
+    used_ = static_cast<std::size_t>(std::to_chars(buffer_.data() + used_, end, value).ptr -
+                                     buffer_.data());
   }
   void flush();
   void write(const char* data, std::size_t count);
 
   std::string path_;
+  std::string* text_ = nullptr;  ///< in place of a file
   int descriptor_ = -1;
   bool owned_ = false;
   int problem_ = 0;  ///< errno of the first failure
@@ -97,8 +104,8 @@ class OutputStream {
 std::string json_quoted(const std::string& text);
 void put_quoted(OutputStream& out, std::string_view text);
 
-/// Writes a file all at once, or to a stream: `write` puts the bytes. Exceptions become errors, and
-/// errors name the file.
-Status write_whole(const std::string& path, const std::function<Status(OutputStream&)>& write);
+/// Writes a file all at once, or to a stream or a text: `write` puts the bytes. Exceptions become
+/// errors, and errors name the file.
+Status write_whole(const Destination& target, const std::function<Status(OutputStream&)>& write);
 
 }  // namespace medial::io

@@ -1,42 +1,26 @@
 #pragma once
 
-#include <memory>
-#include <optional>
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "io/back_to_geographic.h"
 #include "medial/axis.h"
-#include "medial/io/read.h"
-
-class OGRSpatialReference;
+#include "medial/document.h"
+#include "medial/error.h"
 
 namespace medial::io {
 
-/// The reference system of an output: that of the document, or its longitudes and latitudes again
-/// where that is a local projection of project_to_local().
-class OutputCrs {
- public:
-  /// None: points stay.
-  OutputCrs();
-  /// Errors: unsupported (a local projection that cannot be undone).
-  static Result<OutputCrs> make(const std::string& crs_wkt, Unit unit);
-  ~OutputCrs();
-  OutputCrs(OutputCrs&&) noexcept;
-  OutputCrs& operator=(OutputCrs&&) noexcept;
+/// The reference system of an output, see output_crs_of().
+struct OutputCrs {
+  std::string wkt;            ///< empty: none, but lengths may have a unit
+  Unit unit = Unit::unknown;  ///< of a plane without a reference system
+  /// Points of the document become points of the output; null: they stay. Errors: unsupported.
+  std::function<Status(std::vector<Vec2>&)> change;
 
-  /// For GDAL; null where there is none.
-  OGRSpatialReference* reference() const { return reference_.get(); }
-  /// Whether points have to be transformed.
-  bool changes_points() const { return back_.has_value(); }
-  /// Points of the document become points of the output. Errors: unsupported.
-  Status transform(std::vector<Vec2>& points) const;
+  bool changes_points() const { return change != nullptr; }
+  Status transform(std::vector<Vec2>& points) const { return change ? change(points) : success(); }
   /// The same for the centres of disks; radii stay.
   Status transform(std::vector<Disk>& disks) const;
-
- private:
-  std::unique_ptr<OGRSpatialReference> reference_;
-  std::optional<BackToGeographic> back_;
 };
 
 }  // namespace medial::io

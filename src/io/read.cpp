@@ -6,12 +6,13 @@
 #include <array>
 #include <cmath>
 
+#include "io/degrees.h"
 #include "io/format.h"
 #include "io/format_name.h"
 #include "io/formats/json.h"
-#include "io/gdal_support.h"
 #include "io/guarded.h"
 #include "io/place.h"
+#include "io/reference_system.h"
 #include "io/repair.h"
 #include "medial/raster.h"
 
@@ -40,6 +41,20 @@ const Format* format_of_text(std::string_view text) {
   return row == formats().end() ? nullptr : &*row;
 }
 
+/// The row that reads files that begin like this, whatever their name; null: none.
+const Format* format_by_content(std::string_view beginning) {
+  const auto row = std::ranges::find_if(formats(), [&](const Format& format) {
+    return format.by_content && format.sniff(beginning);
+  });
+  return row == formats().end() ? nullptr : &*row;
+}
+
+/// The row that reads what no other does.
+const Format* format_of_others() {
+  const auto row = std::ranges::find_if(formats(), &Format::reads_others);
+  return row == formats().end() ? nullptr : &*row;
+}
+
 bool is_font(std::string_view beginning) {
   using namespace std::string_view_literals;
   constexpr std::array begins{"\0\1\0\0"sv,       "OTTO"sv,        "ttcf"sv,
@@ -61,9 +76,9 @@ std::optional<Error> refused(const Format& format, const ReadOptions& options,
   return std::nullopt;
 }
 
-Result<Document<Feature>> read_any(const std::string& path, const ReadOptions& options) {
-  static const Format image = image_format(), others = gdal_format();
-  Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
+Result<Document<Feature>> read_any(const std::string& path,
+                                   const Result<std::shared_ptr<TextSource>>& source,
+                                   const ReadOptions& options) {
   const std::string_view beginning = source ? (*source)->lookahead(sniffed) : std::string_view();
   if (is_font(beginning))
     return Error{ErrorCode::unsupported,
@@ -73,8 +88,8 @@ Result<Document<Feature>> read_any(const std::string& path, const ReadOptions& o
   // Plain text may hold what another format begins like.
   if (format != nullptr && lists_extension(format->extensions, "txt"))
     if (const Format* other = format_of_text(beginning)) format = other;
-  if (image.sniff(beginning)) {
-    format = &image;
+  if (const Format* image = format_by_content(beginning)) {
+    format = image;
   } else if (format != nullptr && !source) {
     return source.error();
   } else if (format != nullptr && format->accepts != nullptr && !format->accepts(beginning)) {
@@ -84,7 +99,10 @@ Result<Document<Feature>> read_any(const std::string& path, const ReadOptions& o
   if (format == nullptr && source && beginning.empty() && !(*source)->failure())
     return Error{ErrorCode::empty, "there is nothing to read", in_file(path)};
   if (format == nullptr || (format->gdal_chooses && refused(*format, options, path)))
-    format = &others;
+    if (const Format* others = format_of_others()) format = others;
+  if (format == nullptr)
+    return Error{ErrorCode::unsupported, "this build has no GDAL and reads other formats only",
+                 in_file(path)};
   if (const auto error = refused(*format, options, path)) return *error;
   return format->read({path, source ? *source : nullptr}, options);
 }
@@ -193,13 +211,14 @@ void note_unclosed_rings(Document<Feature>& dataset) {
 
 /// The reference system that is asked for, or the one of the file if its numbers can be degrees.
 Status settle_crs(Document<Feature>& dataset, const std::string& crs) {
-  if (!crs.empty()) return read_crs_by_name(crs, dataset);
+  if (!crs.empty()) return describe_crs(crs, dataset);
+  describe_crs(dataset);
   if (!dataset.geographic || can_be_degrees(dataset)) return success();
   dataset.crs_wkt.clear();
   dataset.geographic = false;
   dataset.unit = Unit::unknown;
   dataset.notes.push_back(
-      "the coordinates are no degrees, whatever the format says: they are taken as plane "
+      "the coordinates are not degrees, whatever the format says: they are taken as plane "
       "coordinates without a reference system; --crs EPSG:n names theirs");
   return success();
 }
@@ -240,10 +259,10 @@ Result<Document<Feature>> finish(Document<Feature> document, const ReadOptions& 
   if (options.project) {
     if (Status status = project_to_local(document); !status) return status.error();
   }
-  if (options.repair != RepairRule::none) {
+  if (options.repair == RepairRule::make_valid) {
     Status repaired = check_each(document, options.skip_invalid, [&](Feature& feature, auto index) {
       if (has_curves(feature) || feature.filled) return success();  // see ReadOptions
-      return repair(feature, index, options.repair, document.notes);
+      return make_valid(feature, index, document.notes);
     });
     if (!repaired) return std::move(repaired).error();
   }
@@ -254,7 +273,15 @@ Result<Document<Feature>> finish(Document<Feature> document, const ReadOptions& 
 
 Result<Document<Feature>> read_document(const std::string& path, const ReadOptions& options) {
   return guarded(path, [&]() -> Result<Document<Feature>> {
-    Result<Document<Feature>> document = read_any(path, options);
+    Result<Document<Feature>> document = read_any(path, TextSource::open(path), options);
+    if (!document) return document;
+    return finish(std::move(*document), options);
+  });
+}
+
+Result<Document<Feature>> read_document_text(std::string_view text, const ReadOptions& options) {
+  return guarded({}, [&]() -> Result<Document<Feature>> {
+    Result<Document<Feature>> document = read_any("-", TextSource::of(text), options);
     if (!document) return document;
     return finish(std::move(*document), options);
   });
@@ -264,16 +291,18 @@ namespace {
 
 /// What `read` makes of a file that begins as `sniff` says.
 template <class T>
-Result<Document<T>> read_json(const std::string& path, Sniff sniff, const char* otherwise,
-                              Result<Document<T>> (*read)(TextSource&)) {
+Result<Document<T>> read_json(const std::string& path,
+                              const Result<std::shared_ptr<TextSource>>& source, Sniff sniff,
+                              const char* otherwise, Result<Document<T>> (*read)(TextSource&)) {
   return guarded(path, [&]() -> Result<Document<T>> {
-    Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
     if (!source) return source.error();
     if (otherwise != nullptr && !sniff((*source)->lookahead(sniffed)))
       return (*source)->error(ErrorCode::malformed, otherwise);
     return read(**source);
   });
 }
+
+constexpr const char* no_native = "this is not one of medial's own JSON files";
 
 bool begins(const std::string& path, Sniff sniff) {
   const Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
@@ -285,14 +314,19 @@ bool begins(const std::string& path, Sniff sniff) {
 bool is_native(const std::string& path) { return begins(path, begins_like_native); }
 
 Result<Document<AxisItem>> read_native(const std::string& path) {
-  return read_json<AxisItem>(path, begins_like_native, "this is not one of medial's own JSON files",
+  return read_json<AxisItem>(path, TextSource::open(path), begins_like_native, no_native,
                              read_native);
+}
+
+Result<Document<AxisItem>> read_native_text(std::string_view text) {
+  return read_json<AxisItem>({}, TextSource::of(text), begins_like_native, no_native, read_native);
 }
 
 bool is_voronoi(const std::string& path) { return begins(path, begins_like_voronoi); }
 
 Result<Document<VoronoiItem>> read_voronoi(const std::string& path) {
-  return read_json<VoronoiItem>(path, begins_like_voronoi, nullptr, read_voronoi);
+  return read_json<VoronoiItem>(path, TextSource::open(path), begins_like_voronoi, nullptr,
+                                read_voronoi);
 }
 
 Result<TriangleMesh> read_mesh(const std::string& path) {
@@ -300,7 +334,7 @@ Result<TriangleMesh> read_mesh(const std::string& path) {
   const Format* format = find_format(extension, DocumentKind::mesh);
   if (format == nullptr)
     return Error{ErrorCode::unsupported,
-                 fmt::format("'{}' is no mesh format; known are {}", extension,
+                 fmt::format("'{}' is not a mesh format; known are {}", extension,
                              formats_of(DocumentKind::mesh)),
                  in_file(path)};
   return guarded(path, [&]() -> Result<TriangleMesh> {

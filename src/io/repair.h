@@ -8,15 +8,10 @@
 
 namespace medial::io {
 
-/// Rings that bound a valid region, by a rule:
-///   make_valid  every polygon by itself by GEOS's MakeValid (method "structure": outer rings made
-///               valid and united, holes taken away). Rings without a role go by even_odd.
-///   even_odd    what an odd number of rings encloses; roles and orientations do not count
-///   non_zero    what the rings wind around a number of times that is not zero; orientations count
-/// Rings that are valid by the rule are left as they are. What changed becomes a note.
-/// Where GEOS gives up the rings stay as well, for load_shapes() to node them. Errors: not_finite,
-/// no_area (nothing is left).
-Status repair(Feature& feature, std::size_t index, RepairRule rule,
-              std::vector<std::string>& notes);
+/// Makes the polygons of a feature without curves valid, each by itself, by GEOS's MakeValid
+/// (method "structure": outer rings are made valid and united, holes taken away); what changed
+/// becomes a note. Rings without a role stay, and so does what GEOS gives up: load_shapes() nodes
+/// these. Errors: no_area (nothing is left).
+Status make_valid(Feature& feature, std::size_t index, std::vector<std::string>& notes);
 
 }  // namespace medial::io

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/arc.h"
 
@@ -11,6 +12,16 @@ namespace {
 
 Vec2 next_point(const Ring& ring, std::size_t i) {
   return ring.points[i + 1 == ring.points.size() ? 0 : i + 1];
+}
+
+/// The bulge of the arc from a through m to b: tangent of half the angle by which its chords turn
+/// at m, which is half of the arc's angle. Not a number where a coordinate is none, or overflows.
+double bulge_of(Vec2 a, Vec2 m, Vec2 b) {
+  const Vec2 u = m - a;
+  const Vec2 v = b - m;
+  const double scale = norm(u) * norm(v) + dot(u, v);
+  if (!std::isfinite(scale)) return std::numeric_limits<double>::quiet_NaN();
+  return scale > 0 ? cross(u, v) / scale : 0;
 }
 
 }  // namespace
@@ -43,6 +54,29 @@ double chord_of(const OffsetItem& item, const WriteOptions& options) {
   for (const OffsetRegion& region : item.offsets.regions)
     reach = std::max(reach, size - 2 * region.clearance);
   return options.chord * reach;
+}
+
+void add_piece(std::span<const Vec2> points, bool circular, Ring& ring) {
+  if (points.empty()) return;
+  if (ring.points.empty()) ring.points.push_back(points[0]);
+  if (circular || !ring.bulges.empty()) ring.bulges.resize(ring.points.size(), 0);
+  if (!circular) {
+    ring.points.insert(ring.points.end(), points.begin() + 1, points.end());
+    if (!ring.bulges.empty()) ring.bulges.resize(ring.points.size(), 0);
+    return;
+  }
+  for (std::size_t i = 2; i < points.size(); i += 2) {
+    const Vec2 a = ring.points.back(), m = points[i - 1], b = points[i];
+    if (a == b) {  // a whole circle, by its diameter
+      ring.bulges.back() = 1;
+      ring.points.push_back(m);
+      ring.bulges.push_back(1);
+    } else {
+      ring.bulges.back() = bulge_of(a, m, b);
+    }
+    ring.points.push_back(b);
+    ring.bulges.push_back(0);
+  }
 }
 
 double bulge_after(const Ring& ring, std::size_t i) {

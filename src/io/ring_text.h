@@ -2,6 +2,7 @@
 
 // Rings, shared by the writers of shapes and of offset curves.
 
+#include <span>
 #include <vector>
 
 #include "io/output.h"
@@ -20,6 +21,10 @@ Box box_of(const OffsetItem& item);
 /// The allowed deviation of chords for an item, in units of the input.
 double chord_of(const ShapeItem& item, const WriteOptions& options);
 double chord_of(const OffsetItem& item, const WriteOptions& options);
+
+/// Appends a piece of a ring or line: a line string, or a `circular` string of arcs, each with a
+/// point between its ends. The first point is the last one of the piece before.
+void add_piece(std::span<const Vec2> points, bool circular, Ring& ring);
 
 /// The bulge of the edge that begins at point i; 0: it is straight.
 double bulge_after(const Ring& ring, std::size_t i);

@@ -59,7 +59,17 @@ Result<std::shared_ptr<TextSource>> TextSource::open(const std::string& path) {
   return source;
 }
 
+std::shared_ptr<TextSource> TextSource::of(std::string_view text) {
+  std::shared_ptr<TextSource> source(new TextSource({}, nullptr));
+  source->window_.assign(text.begin(), text.end());
+  source->next_ = source->window_.data();
+  source->end_ = source->next_ + text.size();
+  source->at_end_ = true;
+  return source;
+}
+
 bool TextSource::refill(std::size_t wanted) {
+  if (at_end_) return available() >= wanted;
   std::size_t kept = available();
   std::memmove(window_.data(), next_, kept);
   next_ = window_.data();
@@ -94,6 +104,7 @@ void TextSource::skip_space() {
 }
 
 std::size_t TextSource::length_hint() const {
+  if (handle_ == nullptr) return available();
   struct stat status {};
   const bool plain = gzdirect(handle_->file) != 0;
   if (!plain || stat(path_.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return 0;

@@ -25,6 +25,9 @@ class TextSource {
   /// what one reader peeks at, the next one finds.
   static Result<std::shared_ptr<TextSource>> open(const std::string& path);
 
+  /// A text in memory.
+  static std::shared_ptr<TextSource> of(std::string_view text);
+
   ~TextSource();
   TextSource(const TextSource&) = delete;
   TextSource& operator=(const TextSource&) = delete;

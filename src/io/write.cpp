@@ -9,7 +9,8 @@
 #include "io/format_name.h"
 #include "io/guarded.h"
 #include "io/place.h"
-#include "medial/units.h"
+#include "io/reference_system.h"
+#include "medial/document.h"
 
 namespace medial::io {
 
@@ -24,22 +25,24 @@ struct Standard {
 /// The one way from a document to a file: looks the format up, decides on the reference system,
 /// opens, writes, and puts the file in its place.
 template <class Output>
-Status write_document(const std::string& path, const std::string& asked, const Standard& standard,
-                      const std::string& crs_wkt, const Output& output, Unit unit = Unit::unknown) {
+Status write_document(const Destination& destination, const std::string& asked,
+                      const Standard& standard, const std::string& crs_wkt, const Output& output,
+                      Unit unit = Unit::unknown) {
+  const std::string& path = destination.path;
   Target target;
   if (crs_wkt.empty()) target.unit = name_of(unit);
   target.format = path == "-" && asked.empty() ? standard.format : format_name(path, asked);
   const Format* format = find_format(target.format, Output::kind);
   if (format == nullptr)
     return Error{ErrorCode::unsupported,
-                 fmt::format("'{}' is no format to write here; known are {}", target.format,
-                             formats_of(Output::kind)),
+                 fmt::format("'{}' is not a format that can be written here; use one of {}",
+                             target.format, formats_of(Output::kind)),
                  in_file(path)};
   const bool stream = is_stream(path);
   target.name = stream ? standard.name : std::filesystem::path(path).stem().string();
   const auto write = [&]() -> Status {
     if (format->geographic) {
-      Result<OutputCrs> crs = OutputCrs::make(crs_wkt, unit);
+      Result<OutputCrs> crs = output_crs_of(crs_wkt, unit);
       if (!crs) return std::move(crs).error();
       target.crs = std::move(*crs);
     }
@@ -47,7 +50,7 @@ Status write_document(const std::string& path, const std::string& asked, const S
     return target.status() ? written : target.status();
   };
   if (!format->own_files || stream)
-    return write_whole(path, [&](OutputStream& out) {
+    return write_whole(destination, [&](OutputStream& out) {
       target.out = &out;
       return write();
     });
@@ -71,37 +74,37 @@ Status write_document(const std::string& path, const std::string& asked, const S
 
 /// The same for documents with options, which are checked.
 template <class Output>
-Status write_checked(const std::string& path, const std::string& asked, const Standard& standard,
+Status write_checked(const Destination& target, const std::string& asked, const Standard& standard,
                      const Output& output) {
   if (!(output.options.chord > 0) || !std::isfinite(output.options.chord))
-    return Error{ErrorCode::invalid_option, "chord is not a positive number", in_file(path)};
-  return write_document(path, asked, standard, output.document.crs_wkt, output,
+    return Error{ErrorCode::invalid_option, "chord is not a positive number", in_file(target.path)};
+  return write_document(target, asked, standard, output.document.crs_wkt, output,
                         output.document.unit);
 }
 
 }  // namespace
 
-Status write_axes(const std::string& path, const std::string& format,
+Status write_axes(const Destination& target, const std::string& format,
                   const Document<AxisItem>& file, const WriteOptions& options) {
-  return write_checked(path, format, {"json"}, AxesOutput{file, options});
+  return write_checked(target, format, {"json"}, AxesOutput{file, options});
 }
 
-Status write_shapes(const std::string& path, const std::string& format,
+Status write_shapes(const Destination& target, const std::string& format,
                     const Document<ShapeItem>& file, const WriteOptions& options) {
-  return write_checked(path, format, {"json"}, ShapesOutput{file, options});
+  return write_checked(target, format, {"json"}, ShapesOutput{file, options});
 }
 
-Status write_voronoi(const std::string& path, const std::string& format,
+Status write_voronoi(const Destination& target, const std::string& format,
                      const Document<VoronoiItem>& file, const WriteOptions& options) {
-  return write_checked(path, format, {"json"}, VoronoiOutput{file, options});
+  return write_checked(target, format, {"json"}, VoronoiOutput{file, options});
 }
 
-Status write_offsets(const std::string& path, const std::string& format,
+Status write_offsets(const Destination& target, const std::string& format,
                      const Document<OffsetItem>& file, const WriteOptions& options, bool chords) {
-  return write_checked(path, format, {"json"}, OffsetsOutput{{file, options}, chords});
+  return write_checked(target, format, {"json"}, OffsetsOutput{{file, options}, chords});
 }
 
-Status write_carving(const std::string& path, const std::string& format,
+Status write_carving(const Destination& target, const std::string& format,
                      const Document<CarveItem>& file, const MachineOptions& machine,
                      const WriteOptions& options) {
   for (const double value :
@@ -109,32 +112,26 @@ Status write_carving(const std::string& path, const std::string& format,
         machine.clearing.feed, machine.clearing.plunge})
     if (!(value > 0) || !std::isfinite(value) || !(machine.chord >= 0))
       return Error{ErrorCode::invalid_option, "heights, feeds and chords must be positive", {}};
-  return write_checked(path, format, {"nc"}, CarvingOutput{{file, options}, machine});
+  return write_checked(target, format, {"nc"}, CarvingOutput{{file, options}, machine});
 }
 
-Status write_features(const std::string& path, const std::string& format,
+Status write_features(const Destination& target, const std::string& format,
                       const Document<AxisItem>& axes, std::span<const AxisFeatures> features,
                       const FeatureWriteOptions& options) {
-  return write_checked(path, format, {"json", "features"},
+  return write_checked(target, format, {"json", "features"},
                        FeaturesOutput{{axes, options.write}, features, options});
 }
 
-Status write_layers(const std::string& path, const std::string& format,
+Status write_layers(const Destination& target, const std::string& format,
                     const Document<Layer>& layers, const Document<AxisItem>& background,
                     const WriteOptions& options) {
-  return write_checked(path, format, {"geojson"}, LayersOutput{{layers, options}, background});
+  return write_checked(target, format, {"geojson"}, LayersOutput{{layers, options}, background});
 }
 
 Status write_field(const std::string& path, const std::string& format,
                    std::span<const Shape> shapes, std::span<const PotentialField> fields,
                    const FieldPictureOptions& options) {
   return write_document(path, format, {"svg"}, {}, FieldOutput{shapes, fields, options});
-}
-
-Status write_preview(const std::string& path, const std::string& format,
-                     std::span<const Shape> shapes, std::span<const PreviewPanel> panels,
-                     double width, bool y_down) {
-  return write_document(path, format, {"svg"}, {}, PreviewOutput{shapes, panels, width, y_down});
 }
 
 Status write_voxels(const std::string& path, const std::string& format, const VoxelAxis& axis,

@@ -4,6 +4,7 @@
 #include <utility>
 #include <variant>
 
+#include "axis/statistics.h"
 #include "base/threads.h"
 #include "load/file_index.h"
 #include "load/progress.h"

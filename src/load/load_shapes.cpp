@@ -73,11 +73,13 @@ Result<Shape> shape_of(Feature& feature, const LoadOptions& options, LoadReport&
     feature.contours = {};
   }
   const bool repaired = options.repair != RepairRule::none;
+  // A rule that was asked for decides on rings that do not cross as well.
+  if (repaired && options.repair != RepairRule::make_valid) apply_rule(options.repair, rings);
   if (!repaired || !curved) {
-    auto shape = build_shape(rings, &report.shapes);
+    auto shape = build_shape(rings, {}, &report.shapes);
     if (shape || !(repaired || feature.filled) || !is_tangled(shape.error())) return shape;
   }
-  if (repaired) apply_rule(options.repair, rings);
+  if (options.repair == RepairRule::make_valid) apply_rule(options.repair, rings);
   report.shapes = {};
   return build_shape(rings, {.node_crossings = true}, &report.shapes);
 }

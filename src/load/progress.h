@@ -23,11 +23,19 @@ class SharedProgress {
       share = std::clamp(share, 0.0, 1.0);
       const double more = weight * (share - last->exchange(share));
       // Rounding must not report an unfinished job as complete, nor more than that.
-      tell_(std::clamp((done_.fetch_add(more) + more) / total_, 0.0, 1.0));
+      tell_(std::clamp(done_after(more) / total_, 0.0, 1.0));
     };
   }
 
  private:
+  /// Adds to `done_`; a loop, as fetch_add() of doubles is not in every library of C++20.
+  double done_after(double more) {
+    double before = done_.load();
+    while (!done_.compare_exchange_weak(before, before + more)) {
+    }
+    return before + more;
+  }
+
   std::function<void(double)> tell_;
   double total_;
   std::atomic<double> done_ = 0;

@@ -1,7 +1,7 @@
-#include "medial/units.h"
-
 #include <array>
 #include <cmath>
+
+#include "medial/document.h"
 
 namespace medial {
 namespace {
@@ -64,7 +64,7 @@ double length_of_unit(Document<Feature>& features) {
 Status take_units(Document<Feature>& features, const UnitOptions& options) {
   const bool unplaced = features.unit == Unit::pixel && features.pixel > 0;
   if (options.pixel_size > 0 && !unplaced)
-    return refused("a pixel size is for an image without a place on the earth");
+    return refused("a pixel size is for images that are not georeferenced");
   if (options.pixel_size > 0) scale(features, options.pixel_size);
   const bool says_nothing =
       features.unit == Unit::unknown || (unplaced && !(features.dots_per_inch > 0));
@@ -72,8 +72,8 @@ Status take_units(Document<Feature>& features, const UnitOptions& options) {
     features.unit = options.given;
   } else if (says_nothing && options.assumed != Unit::unknown) {
     features.unit = options.assumed;
-    features.notes.push_back(std::string("no unit is given: taken for ") +
-                             name_of(options.assumed) + "; --units names another one");
+    features.notes.push_back(std::string("no unit is given; assumed: ") + name_of(options.assumed) +
+                             "; --units overrides that");
   }
   return success();
 }
@@ -118,8 +118,7 @@ Status convert_units(Document<Feature>& features, const UnitOptions& options) {
   double factor = options.scale;
   if (options.wanted != Unit::unknown && options.wanted != features.unit) {
     const double from = length_of_unit(features);
-    if (!(from > 0))
-      return refused("the input has no unit to convert; --units says which it is in");
+    if (!(from > 0)) return refused("the input has no unit to convert; --units gives it one");
     factor *= from / millimetres(options.wanted);
     features.unit = options.wanted;
   }

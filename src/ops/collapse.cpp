@@ -5,6 +5,7 @@
 
 #include "axis/curve.h"
 #include "axis/node_kinds.h"
+#include "axis/steps.h"
 #include "base/compat.h"
 #include "base/disjoint_sets.h"
 #include "medial/centreline.h"
@@ -252,7 +253,7 @@ class Collapse {
 
 Result<CollapsedShape> collapse_narrow(const MedialAxis& axis, double width, double trim) {
   if (!(width > 0) || !std::isfinite(width) || !(trim >= 0))
-    return Error{ErrorCode::invalid_option, "a width to collapse is a positive number", {}};
+    return Error{ErrorCode::invalid_option, "the width to collapse must be positive", {}};
   const DividedAxis divided = divided_at(axis, 0.5 * width);
   Collapse collapse(divided, 0.5 * width, trim);
   collapse.run();
@@ -266,7 +267,7 @@ Result<CollapsedShape> collapse_narrow(const MedialAxis& axis, double width, dou
     // Between sites that join smoothly an outline may have steps of some roundings, in any
     // direction, that would overlap their neighbours.
     std::vector<Ring> rings;
-    for (const Contour& contour : boundary_of(part)) {
+    for (const Contour& contour : ops::boundary_of(part)) {
       rings.push_back(ops::ring_of(contour, 0x1p12 * axis.tolerance));
       rings.back().role = RingRole::winding;
     }

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "axis/steps.h"
 #include "base/arc.h"
 #include "base/compat.h"
 
@@ -106,7 +107,7 @@ void HalfEdges::link_by_site(std::span<const HalfEdge> leaving) {
 AxisJet HalfEdges::jet(HalfEdge half, bool at_end) const {
   const bool forward = half % 2 == 0;
   const AxisJet jet = jet_at(axis_, edge(half), forward == at_end ? 1 : 0);
-  return forward ? jet : jet.reversed();
+  return forward ? jet : reversed(jet);
 }
 
 Vec2 HalfEdges::touch(HalfEdge half, bool at_end) const {

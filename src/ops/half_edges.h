@@ -81,6 +81,14 @@ class HalfEdges {
   std::vector<HalfEdge> next_;
 };
 
+/// The boundary of an axis as closed contours with the interior on the left, by increasing lowest
+/// edge: segments and arcs of an exact axis, straight pieces between the points of (3) of a sampled
+/// one, a circle around a node without edges. Arcs of its disks close gaps. O(edges log(degree)).
+std::vector<Contour> boundary_of(const MedialAxis& axis);
+
+/// The same jet in the other direction.
+AxisJet reversed(AxisJet jet);
+
 /// Feet of one disk that are apart by no more than this are one.
 double slack_of(const MedialAxis& axis, const Disk& disk);
 

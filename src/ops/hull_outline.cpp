@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "axis/node_kinds.h"
+#include "axis/steps.h"
 #include "base/arc.h"
 #include "base/compat.h"
 #include "base/predicates.h"

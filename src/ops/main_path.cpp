@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 
+#include "axis/steps.h"
 #include "base/compat.h"
 #include "base/numbers.h"
 #include "ops/routes.h"

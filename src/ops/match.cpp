@@ -3,6 +3,8 @@
 #include <vector>
 
 #include "axis/curve.h"
+#include "axis/node_kinds.h"
+#include "axis/steps.h"
 #include "medial/features.h"
 #include "medial/geometry.h"
 #include "medial/query.h"

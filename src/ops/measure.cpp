@@ -101,7 +101,7 @@ Sums integral(const Curve& curve, double low, double high) {
 Disk deepest_disk(const MedialAxis& axis) {
   Disk deepest = axis.nodes[deepest_node(axis)].disk;
   for (std::uint32_t i = 0; i < axis.edges.size(); ++i) {
-    const EdgePlace place = widest_place(axis, i);
+    const EdgePlace place = ops::widest_place(axis, i);
     if (place.t == 0 || place.t == 1) continue;
     const Disk disk = disk_at(axis, axis.edges[i], place.t);
     if (disk.radius > deepest.radius) deepest = disk;

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "axis/curve.h"
+#include "axis/steps.h"
 #include "base/compat.h"
 #include "base/disjoint_sets.h"
 #include "medial/measure.h"
@@ -28,7 +29,7 @@ bool is_inner(EdgePlace place) { return place.t > 0 && place.t < 1; }
 
 /// Whether the radius does not change along an edge but for rounding.
 bool is_flat(const MedialAxis& axis, std::uint32_t edge) {
-  return narrowest_place(axis, edge).t == 0.5 && widest_place(axis, edge).t == 0.5;
+  return ops::narrowest_place(axis, edge).t == 0.5 && ops::widest_place(axis, edge).t == 0.5;
 }
 
 /// The middle of the flat edges that a place lies on, or at the end of.
@@ -83,14 +84,15 @@ std::vector<Neck> necks(const MedialAxis& axis, double widening) {
   for (const Node& node : axis.nodes) widest.push_back(node.disk.radius);
   for (std::uint32_t i = 0; i < axis.edges.size(); ++i) {
     const auto [from, to] = axis.edges[i].node;
-    const EdgePlace top = widest_place(axis, i);
+    const EdgePlace top = ops::widest_place(axis, i);
     if (is_inner(top) && !is_flat(axis, i)) {
       const auto node = static_cast<std::uint32_t>(widest.size());
       widest.push_back(disk_at(axis, axis.edges[i], top.t).radius);
       links.push_back({from, node, {i, 0}, axis.nodes[from].disk.radius});
       links.push_back({node, to, {i, 1}, axis.nodes[to].disk.radius});
     } else {
-      links.push_back({from, to, narrowest_place(axis, i), ops::narrowest_radius(axis, {i, 0, 1})});
+      links.push_back(
+          {from, to, ops::narrowest_place(axis, i), ops::narrowest_radius(axis, {i, 0, 1})});
     }
   }
   ranges::stable_sort(links, std::greater<>(), &Link::narrowest);

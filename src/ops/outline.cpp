@@ -209,6 +209,6 @@ class BoundaryWalk {
 
 }  // namespace
 
-std::vector<Contour> boundary_of(const MedialAxis& axis) { return BoundaryWalk(axis).run(); }
+std::vector<Contour> ops::boundary_of(const MedialAxis& axis) { return BoundaryWalk(axis).run(); }
 
 }  // namespace medial

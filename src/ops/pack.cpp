@@ -140,7 +140,7 @@ class AxisDecoder {
     const auto count = structure_.number();
     if (!quantum || !error || !count) return malformed("the code ends early");
     if (!(*quantum > 0) || !std::isfinite(*quantum) || !(*error > 0) || !std::isfinite(*error))
-      return malformed("the code's steps are no positive numbers");
+      return malformed("the code's steps are not positive numbers");
     quantum_ = static_cast<double>(*quantum);
     // An item takes a byte at least.
     if (*count > structure_.left()) return malformed("the code has fewer shapes than it says");

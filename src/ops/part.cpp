@@ -64,11 +64,11 @@ EdgePlace extreme_place(const MedialAxis& axis, std::uint32_t edge, double sign)
 
 }  // namespace
 
-EdgePlace narrowest_place(const MedialAxis& axis, std::uint32_t edge) {
+EdgePlace ops::narrowest_place(const MedialAxis& axis, std::uint32_t edge) {
   return extreme_place(axis, edge, 1);
 }
 
-EdgePlace widest_place(const MedialAxis& axis, std::uint32_t edge) {
+EdgePlace ops::widest_place(const MedialAxis& axis, std::uint32_t edge) {
   return extreme_place(axis, edge, -1);
 }
 

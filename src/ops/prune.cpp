@@ -155,9 +155,7 @@ struct PruneOrder::Parts {
 };
 
 PruneOrder::PruneOrder(const MedialAxis& axis, PruneMeasure measure, bool tips)
-    : parts_(std::make_unique<Parts>(axis, measure, tips)) {}
-PruneOrder::~PruneOrder() = default;
-PruneOrder::PruneOrder(PruneOrder&&) noexcept = default;
+    : parts_(std::make_shared<Parts>(axis, measure, tips)) {}
 
 double PruneOrder::of_edge(std::uint32_t edge) const { return parts_->inner[edge]; }
 
@@ -248,10 +246,10 @@ double PruneOrder::threshold_of(std::uint64_t branches) const {
 Result<MedialAxis> prune(const MedialAxis& axis, const PruneOptions& options, PruneReport* report) {
   if (options.threshold && options.keep)
     return Error{ErrorCode::invalid_option,
-                 "both a threshold of pruning and a number of branches to keep",
+                 "a pruning threshold and a number of branches to keep exclude each other",
                  {}};
   if (options.threshold && !(*options.threshold >= 0))
-    return Error{ErrorCode::invalid_option, "a threshold of pruning is not a number from 0 up", {}};
+    return Error{ErrorCode::invalid_option, "a pruning threshold must not be negative", {}};
   const PruneOrder order(axis, options.measure, options.tips);
   const double threshold = options.keep
                                ? order.threshold_of(*options.keep)

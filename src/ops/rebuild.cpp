@@ -1,5 +1,3 @@
-#include "medial/rebuild.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -323,11 +321,11 @@ Result<Shape> shape_of_hulls(const MedialAxis& axis, double resolution,
 /// Around the outline of an exact axis, which crosses itself by rounding only.
 Result<Shape> shape_of_outline(const MedialAxis& axis, double chord, RebuildReport& report) {
   std::vector<Ring> rings;
-  for (const Contour& contour : boundary_of(axis)) rings.push_back(ops::ring_of(contour));
+  for (const Contour& contour : ops::boundary_of(axis)) rings.push_back(ops::ring_of(contour));
   if (chord > 0)
     for (Ring& ring : rings) ring = polygon_of(ring, chord);
   ShapeReport shaping;
-  auto shape = build_shape(rings, &shaping);
+  auto shape = build_shape(rings, {}, &shaping);
   if (!shape) shape = shape_of_crossing(rings, shaping);
   report.crossings = shaping.crossings;
   return shape;
@@ -377,7 +375,7 @@ Result<Shape> rebuild(const MedialAxis& axis, const RebuildOptions& options,
                       RebuildReport* report) {
   if (axis.nodes.empty()) return Error{ErrorCode::empty, "an axis without nodes", {}};
   if (!(options.chord >= 0))
-    return Error{ErrorCode::invalid_option, "chord is not a number from 0 up", {}};
+    return Error{ErrorCode::invalid_option, "the chord must not be negative", {}};
   const bool by_outline = options.by == RebuildBy::outline;
   const bool of_pixels =
       by_outline && axis.resolution > 0 && options.points == 0 && is_of_pixels(axis.method);
@@ -395,30 +393,29 @@ Result<Shape> rebuild(const MedialAxis& axis, const RebuildOptions& options,
   return shape;
 }
 
-Result<DiskImage> rebuild_image(const MedialAxis& axis, std::uint32_t pixels, bool y_down) {
+Result<PlacedImage> rebuild_image(const MedialAxis& axis, std::uint32_t pixels, bool y_down) {
   constexpr std::uint32_t most = 32768;
   if (pixels == 0 || pixels > most)
     return Error{ErrorCode::invalid_option, "the number of pixels is not in 1 to 32768", {}};
   if (axis.nodes.empty()) return Error{ErrorCode::empty, "an axis without nodes", {}};
   const Box box = box_of_disks(axis);
   const Vec2 low = box.low, high = box.high;
-  DiskImage result;
   const double size = std::max(high.x - low.x, high.y - low.y);
   if (!std::isfinite(2 * size * size))
     return Error{
         ErrorCode::unsupported, "the axis is so large that squares of lengths overflow", {}};
-  result.pixel = size > 0 ? size / pixels : 1;
-  result.corner = low - result.pixel * Vec2{1, 1};
+  const double pixel = size > 0 ? size / pixels : 1;
+  const Vec2 corner = low - pixel * Vec2{1, 1};
   const auto cells = [&](double extent) {
-    return static_cast<std::uint32_t>(std::ceil(extent / result.pixel * (1 - 1e-12))) + 2;
+    return static_cast<std::uint32_t>(std::ceil(extent / pixel * (1 - 1e-12))) + 2;
   };
   const std::uint32_t width = cells(high.x - low.x), height = cells(high.y - low.y);
   constexpr double slack = 0.05;  // of a pixel
   std::vector<Disk> disks;
   const auto add = [&](const Disk& disk) {
-    Vec2 center = (1 / result.pixel) * (disk.center - result.corner);
+    Vec2 center = (1 / pixel) * (disk.center - corner);
     if (!y_down) center.y = height - center.y;
-    disks.push_back({center, std::max(disk.radius, 0.0) / result.pixel});
+    disks.push_back({center, std::max(disk.radius, 0.0) / pixel});
   };
   // All of an axis lies between its disks' extremes. The curve of a forged one may leave it,
   // however far, or be no number; what lies there is not refined.
@@ -426,12 +423,12 @@ Result<DiskImage> rebuild_image(const MedialAxis& axis, std::uint32_t pixels, bo
     const Vec2 c = disk.center;
     return low.x <= c.x && c.x <= high.x && low.y <= c.y && c.y <= high.y;
   };
-  for (const std::uint32_t i : uncovered(axis, slack * result.pixel)) add(axis.nodes[i].disk);
+  for (const std::uint32_t i : uncovered(axis, slack * pixel)) add(axis.nodes[i].disk);
   for (const Edge& edge : axis.edges) {
     // Between two disks of radius r at a distance d, d^2 / 8 r is missed.
     const double radius =
         std::min(axis.nodes[edge.node[0]].disk.radius, axis.nodes[edge.node[1]].disk.radius);
-    const double step = std::max(result.pixel / 2, std::sqrt(8 * slack * result.pixel * radius));
+    const double step = std::max(pixel / 2, std::sqrt(8 * slack * pixel * radius));
     const Curve curve = curve_of(axis, edge);
     const auto halve = [&](const auto& self, double t0, const Disk& a, double t1, const Disk& b,
                            int depth) -> void {
@@ -447,8 +444,10 @@ Result<DiskImage> rebuild_image(const MedialAxis& axis, std::uint32_t pixels, bo
     };
     halve(halve, 0, axis.nodes[edge.node[0]].disk, 1, axis.nodes[edge.node[1]].disk, 0);
   }
-  result.image = union_of_disks(width, height, disks);
-  return result;
+  const double x = corner.x, y = corner.y, top = y + pixel * height;
+  return PlacedImage{union_of_disks(width, height, disks),
+                     y_down ? PixelPlacement{x, pixel, 0, y, 0, pixel}
+                            : PixelPlacement{x, pixel, 0, top, 0, -pixel}};
 }
 
 }  // namespace medial

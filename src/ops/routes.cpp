@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "axis/curve.h"
+#include "axis/steps.h"
 #include "base/compat.h"
 #include "base/numbers.h"
 #include "base/quadrature.h"
@@ -115,7 +116,7 @@ Status check_places(const MedialAxis& axis, EdgePlace from, EdgePlace to) {
 }
 
 Error no_way() {
-  return {ErrorCode::invalid_option, "no way along the axis joins the two places", {}};
+  return {ErrorCode::invalid_option, "no path along the axis joins the two places", {}};
 }
 
 /// The ways from a place to the two nodes of its edge.

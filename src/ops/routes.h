@@ -69,6 +69,10 @@ AxisPath path_of(const MedialAxis& axis, std::span<const Step> steps);
 /// Sets the length and the narrowest radius from the pieces.
 void measure(const MedialAxis& axis, AxisPath& path);
 
+/// The place of the smallest or largest radius on an edge; the middle where it is constant. O(1).
+EdgePlace narrowest_place(const MedialAxis& axis, std::uint32_t edge);
+EdgePlace widest_place(const MedialAxis& axis, std::uint32_t edge);
+
 /// The smallest radius on a part of an edge.
 double narrowest_radius(const MedialAxis& axis, const PathPiece& piece);
 

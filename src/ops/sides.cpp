@@ -9,6 +9,7 @@
 
 #include "axis/curve.h"
 #include "axis/steps.h"
+#include "ops/half_edges.h"
 #include "ops/power_series.h"
 
 namespace medial {
@@ -161,12 +162,11 @@ PowerSeries quadratic(double c0, double c1, double c2, double t, std::size_t siz
 
 }  // namespace
 
-AxisJet AxisJet::reversed() const {
-  AxisJet back = *this;
-  back.tangent = -tangent;
-  back.radius_rate = -radius_rate;
-  back.curvature = -curvature;
-  return back;
+AxisJet ops::reversed(AxisJet jet) {
+  jet.tangent = -jet.tangent;
+  jet.radius_rate = -jet.radius_rate;
+  jet.curvature = -jet.curvature;
+  return jet;
 }
 
 AxisJet jet_at(const MedialAxis& axis, const Edge& edge, double t) {
@@ -257,7 +257,7 @@ std::vector<AxisJet> jets_along(const MedialAxis& axis, const Branch& branch,
     for (int i = 1; i <= samples_per_edge; ++i) {
       const double t = static_cast<double>(i) / (samples_per_edge + 1);
       const AxisJet jet = jet_at(axis, edge, step.forward ? t : 1 - t);
-      if (!(jet.tangent == Vec2{0, 0})) jets.push_back(step.forward ? jet : jet.reversed());
+      if (!(jet.tangent == Vec2{0, 0})) jets.push_back(step.forward ? jet : ops::reversed(jet));
     }
   }
   return jets;

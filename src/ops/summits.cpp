@@ -6,6 +6,7 @@
 #include "axis/curve.h"
 #include "medial/centreline.h"
 #include "medial/query.h"
+#include "ops/routes.h"
 
 namespace medial::ops {
 namespace {

@@ -15,7 +15,8 @@ std::vector<Vec2> points_along(const MedialAxis& axis, const AxisPath& path,
                                const std::vector<double>& lengths) {
   std::vector<std::size_t> order(lengths.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, {}, [&lengths](std::size_t i) { return lengths[i]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&lengths](std::size_t a, std::size_t b) { return lengths[a] < lengths[b]; });
   std::vector<double> sorted;
   for (const std::size_t i : order) sorted.push_back(std::clamp(lengths[i], 0.0, path.length));
   const std::vector<LocalWidth> found = widths_along(axis, path, sorted);

@@ -4,6 +4,7 @@
 
 #include "base/disjoint_sets.h"
 #include "medial/centreline.h"
+#include "ops/routes.h"
 
 namespace medial::ops {
 Trees::Trees(const MedialAxis& axis) : inwards(axis.nodes.size(), none), part(axis.nodes.size()) {

@@ -29,8 +29,8 @@ Shape around(const PlanarGraph& planar_graph, const Box& enclosure) {
   const auto add_loop_of = [&](std::uint32_t i) {
     add_loop(planar_graph.face[i], planar_graph.hole[i]);
     for (std::uint32_t k = planar_graph.loop_begin[i]; k < planar_graph.loop_begin[i + 1]; ++k) {
-      const std::uint32_t h = planar_graph.half_edges[k], from = planar_graph.start(h);
-      add_point(planar_graph.points[from], planar_graph.bulge(h), {from, h});
+      const std::uint32_t h = planar_graph.half_edges[k], from = start_of(planar_graph, h);
+      add_point(planar_graph.points[from], bulge_of(planar_graph, h), {from, h});
     }
   };
 
@@ -49,9 +49,8 @@ Shape around(const PlanarGraph& planar_graph, const Box& enclosure) {
   std::vector<Vec2> places;
   places.reserve(holes.size() + planar_graph.lone_points.size());
   for (const std::uint32_t i : holes)
-    places.push_back(
-        planar_graph
-            .points[planar_graph.start(planar_graph.half_edges[planar_graph.loop_begin[i]])]);
+    places.push_back(planar_graph.points[start_of(
+        planar_graph, planar_graph.half_edges[planar_graph.loop_begin[i]])]);
   for (const LonePoint& lone : planar_graph.lone_points)
     places.push_back(planar_graph.points[lone.point]);
   for (const std::uint32_t i : z_order(places)) {

@@ -5,6 +5,16 @@
 
 namespace medial {
 
+/// The point at which a half-edge of a planar graph begins; and its bulge.
+inline std::uint32_t start_of(const PlanarGraph& graph, std::uint32_t half_edge) {
+  const PlanarGraphEdge& edge = graph.edges[half_edge / 2];
+  return half_edge % 2 == 0 ? edge.from : edge.to;
+}
+inline double bulge_of(const PlanarGraph& graph, std::uint32_t half_edge) {
+  const double forward = graph.edges[half_edge / 2].bulge;
+  return half_edge % 2 == 0 ? forward : 0 - forward;
+}
+
 /// What lies around a planar graph, within an enclosure, as the boundary that an engine walks
 /// along: one component for each face, of which the unbounded one (the first) has the enclosure as
 /// its outer loop.

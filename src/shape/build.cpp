@@ -81,10 +81,6 @@ Result<Shape> build(std::span<const Ring> rings, const ShapeOptions& options, Sh
 
 }  // namespace
 
-Result<Shape> build_shape(std::span<const Ring> rings, ShapeReport* report) {
-  return build_shape(rings, {}, report);
-}
-
 Result<Shape> build_shape(std::span<const Ring> rings, const ShapeOptions& options,
                           ShapeReport* report) {
   try {

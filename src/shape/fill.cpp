@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "shape/around.h"
 #include "shape/errors.h"
 
 namespace medial {
@@ -81,9 +82,9 @@ FilledRings rings_of(const WeightedGraph& weighted) {
     std::vector<VertexSource>& sources = result.sources.emplace_back();
     for (std::uint32_t h = first; !done[h]; h = filling.after(h)) {
       done[h] = true;
-      ring.points.push_back(graph.points[graph.start(h)]);
-      ring.bulges.push_back(graph.bulge(h));
-      sources.push_back(graph.point_sources[graph.start(h)]);
+      ring.points.push_back(graph.points[start_of(graph, h)]);
+      ring.bulges.push_back(bulge_of(graph, h));
+      sources.push_back(graph.point_sources[start_of(graph, h)]);
     }
   }
   return result;
@@ -92,7 +93,7 @@ FilledRings rings_of(const WeightedGraph& weighted) {
 /// The graph for growing distances within which things touch, until rounding can separate what is
 /// left: with_planar_graph() does the same.
 Result<WeightedGraph> noded(std::span<const Chain> chains, std::span<const EdgeWeight> weights,
-                            double size, PlanarGraphReport& report) {
+                            double size, ShapeReport& report) {
   Result<WeightedGraph> graph = build_weighted_graph(chains, weights, 0, report);
   for (const double share : {0x1p-43, 0x1p-39, 0x1p-35, 0x1p-31}) {
     if (graph || graph.error().code == ErrorCode::not_finite) break;
@@ -117,7 +118,7 @@ Result<FilledRings> fill(std::span<const Ring> rings, ShapeReport& report) {
     for (const Vec2 p : ring.points) box.add(p);
   }
   report.input_rings += rings.size();
-  PlanarGraphReport found;
+  ShapeReport found;
   const auto graph = noded(chains, weights, diagonal(box), found);
   if (!graph) return graph.error();
   report.crossings = found.crossings;

@@ -19,7 +19,7 @@ struct WeightedGraph {
 /// of their weights. `weights` are those of each chain's edges; `reach` as in PlanarGraphOptions.
 Result<WeightedGraph> build_weighted_graph(std::span<const Chain> chains,
                                            std::span<const EdgeWeight> weights, double reach,
-                                           PlanarGraphReport& report);
+                                           ShapeReport& report);
 
 /// The boundary of what rings fill, as rings that neither cross nor overlap.
 struct FilledRings {

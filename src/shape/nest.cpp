@@ -73,8 +73,8 @@ std::optional<Error> check_roles(std::span<const Ring> rings, const Arrangement&
     const std::uint32_t first = arrangement.begin[i];
     const bool hole = role == RingRole::hole;
     return error_at(hole ? ErrorCode::hole_outside : ErrorCode::nested_outer,
-                    hole ? "the hole does not lie in the inside of an outer ring"
-                         : "the outer ring lies in the inside of another outer ring",
+                    hole ? "the hole does not lie inside an outer ring"
+                         : "the outer ring lies inside another outer ring",
                     arrangement.sources[first], arrangement.original(first));
   }
   return std::nullopt;

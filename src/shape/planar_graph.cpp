@@ -41,8 +41,8 @@ struct Input {
 };
 
 Result<Input> input_of(std::span<const Chain> chains, std::span<const EdgeWeight> weights,
-                       PlanarGraphReport& report) {
-  report.input_chains = chains.size();
+                       ShapeReport& report) {
+  report.input_rings = chains.size();
   double largest = 0;
   for (const Chain& chain : chains) {
     report.input_points += chain.points.size();
@@ -94,7 +94,7 @@ Result<Input> input_of(std::span<const Chain> chains, std::span<const EdgeWeight
 }
 
 /// Drops edges and points that were there before. O(n log n).
-void drop_repeated(Input& input, PlanarGraphReport& report) {
+void drop_repeated(Input& input, ShapeReport& report) {
   const auto key = [](const InputEdge& e) {
     const bool forward = lexicographic_less(e.from, e.to);
     const Vec2 a = forward ? e.from : e.to, b = forward ? e.to : e.from;
@@ -420,13 +420,13 @@ Error in_terms_of_input(Error error, const Input& input) {
 }
 
 Result<PlanarGraph> build_once(const Input& input, const PlanarGraphOptions& options,
-                               PlanarGraphReport& report, std::vector<EdgeWeight>* weights) {
+                               ShapeReport& report, std::vector<EdgeWeight>* weights) {
   CleanRings cleaned = cleaned_of(input);
   if (options.node_crossings || options.reach > 0) cleaned.bulges.resize(cleaned.points.size());
   if (!cleaned.bulges.empty()) {
     Result<SweptArcs> swept = sweep_arcs(cleaned, options.node_crossings, options.reach);
     if (!swept) return in_terms_of_input(std::move(swept).error(), input);
-    report.touching_places = swept->sweep.place_count;
+    report.touching_vertices = swept->sweep.place_count;
     report.split_edges = swept->split_edges;
     report.crossings = swept->crossings;
     report.repeated_edges += swept->repeated_edges;
@@ -436,7 +436,7 @@ Result<PlanarGraph> build_once(const Input& input, const PlanarGraphOptions& opt
   }
   Result<Sweep> swept = sweep(cleaned);
   if (!swept) return in_terms_of_input(std::move(swept).error(), input);
-  report.touching_places = swept->place_count;
+  report.touching_vertices = swept->place_count;
   report.split_edges = swept->splits.size();
   Faces faces(cleaned, *swept);
   faces.run();
@@ -444,7 +444,7 @@ Result<PlanarGraph> build_once(const Input& input, const PlanarGraphOptions& opt
 }
 
 Result<PlanarGraph> build(std::span<const Chain> chains, const PlanarGraphOptions& options,
-                          PlanarGraphReport& report) {
+                          ShapeReport& report) {
   Result<Input> input = input_of(chains, {}, report);
   if (!input) return std::move(input).error();
   const std::uint64_t points = input->points.size();
@@ -462,10 +462,9 @@ Result<PlanarGraph> build(std::span<const Chain> chains, const PlanarGraphOption
 }  // namespace
 
 Result<PlanarGraph> build_planar_graph(std::span<const Chain> chains,
-                                       const PlanarGraphOptions& options,
-                                       PlanarGraphReport* report) {
+                                       const PlanarGraphOptions& options, ShapeReport* report) {
   try {
-    PlanarGraphReport counted;
+    ShapeReport counted;
     Result<PlanarGraph> planar_graph = build(chains, options, counted);
     if (report != nullptr) *report = counted;
     return planar_graph;
@@ -476,7 +475,7 @@ Result<PlanarGraph> build_planar_graph(std::span<const Chain> chains,
 
 Result<WeightedGraph> build_weighted_graph(std::span<const Chain> chains,
                                            std::span<const EdgeWeight> weights, double reach,
-                                           PlanarGraphReport& report) {
+                                           ShapeReport& report) {
   Result<Input> input = input_of(chains, weights, report);
   if (!input) return std::move(input).error();
   WeightedGraph result;

@@ -40,7 +40,7 @@ bool is_simple(std::span<const Vec2> points) {
 
 /// Requires a simple ring.
 bool is_counter_clockwise(std::span<const Vec2> points) {
-  const auto leftmost = std::ranges::min_element(points, lexicographic_less);
+  const auto leftmost = std::min_element(points.begin(), points.end(), lexicographic_less);
   const Vec2 before = leftmost == points.begin() ? points.back() : *(leftmost - 1);
   const Vec2 after = leftmost + 1 == points.end() ? points.front() : *(leftmost + 1);
   return orientation(before, *leftmost, after) > 0;

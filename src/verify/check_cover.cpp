@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "axis/curve.h"
+#include "axis/steps.h"
 #include "base/compat.h"
 #include "medial/query.h"
 #include "verify/checks.h"

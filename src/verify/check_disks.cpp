@@ -9,33 +9,6 @@
 namespace medial::verify_detail {
 namespace {
 
-/// The largest of something, and where.
-struct Worst {
-  double value = 0;
-  Vec2 where;
-  std::size_t index = 0;
-  std::uint64_t over = 0;  ///< how many are over the tolerance
-
-  void add(double amount, double tolerance, Vec2 point, std::size_t i) {
-    // What cannot even be computed is as wrong as can be.
-    if (std::isnan(amount)) amount = std::numeric_limits<double>::infinity();
-    if (amount > tolerance) ++over;
-    if (amount > value) {
-      value = amount;
-      where = point;
-      index = i;
-    }
-  }
-  void add(const Worst& other) {
-    over += other.over;
-    if (other.value > value) {
-      const std::uint64_t all = over;
-      *this = other;
-      over = all;
-    }
-  }
-};
-
 /// Fails the certificate if something of `which` parts is `what`, over a limit in words.
 void report_worst(const Worst& worst, const char* what, const char* which, const std::string& limit,
                   Certificate& certificate) {

@@ -284,7 +284,7 @@ void locate_sites(Problem& problem, Certificate& certificate) {
   if (foreign.count == 0) return;
   const Site& site = axis.sites[foreign.first];
   certificate.failures.push_back(sentence(
-      "%zu sites are no edge and no reflex vertex of the shape; the first is site %zu from "
+      "%zu sites are neither an edge nor a reflex vertex of the shape; the first is site %zu from "
       "(%.17g, %.17g) to (%.17g, %.17g).",
       foreign.count, foreign.first, site.start.x, site.start.y, site.end.x, site.end.y));
 }
@@ -449,11 +449,11 @@ void check_leaves(const Problem& problem, Certificate& certificate) {
   certificate.convex_corners = corners.size();
   certificate.corners_without_leaf = bare.size();
   if (!bare.empty())
-    failures.push_back(
-        sentence("%zu of %zu convex corners are no leaf of radius 0; the first is (%.17g, %.17g).",
-                 bare.size(), corners.size(), bare[0].point.x, bare[0].point.y));
+    failures.push_back(sentence(
+        "%zu of %zu convex corners are not leaves of radius 0; the first is (%.17g, %.17g).",
+        bare.size(), corners.size(), bare[0].point.x, bare[0].point.y));
   if (!extra.empty())
-    failures.push_back(sentence("%zu leaves are no convex corner; the first is (%.17g, %.17g).",
+    failures.push_back(sentence("%zu leaves are not convex corners; the first is (%.17g, %.17g).",
                                 extra.size(), extra[0].point.x, extra[0].point.y));
   if (raised.count > 0) {
     const Disk& disk = problem.disk(static_cast<std::uint32_t>(raised.first));

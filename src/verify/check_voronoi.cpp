@@ -13,29 +13,6 @@ namespace medial {
 namespace verify_detail {
 namespace {
 
-/// The largest of something, and where; what cannot even be computed is as large as can be.
-struct Largest {
-  double value = 0;
-  Vec2 where;
-  std::uint64_t over = 0;  ///< how many are over the tolerance
-
-  void add(double amount, double tolerance, Vec2 point) {
-    if (std::isnan(amount)) amount = std::numeric_limits<double>::infinity();
-    if (amount > tolerance) ++over;
-    if (amount > value) {
-      value = amount;
-      where = point;
-    }
-  }
-  void add(const Largest& other) {
-    over += other.over;
-    if (other.value > value) {
-      value = other.value;
-      where = other.where;
-    }
-  }
-};
-
 class VoronoiCheck {
  public:
   VoronoiCheck(const PlanarGraph& planar_graph, const VoronoiDiagram& diagram,
@@ -70,7 +47,7 @@ class VoronoiCheck {
     };
     const std::size_t sites = diagram_.sites.size(), nodes = diagram_.nodes.size();
     bool sound = diagram_.enclosure.has_value() && diagram_.face_begin.size() == sites + 1;
-    if (!diagram_.enclosure) fail("The diagram has no enclosure: it is none of a planar graph.");
+    if (!diagram_.enclosure) fail("The diagram has no enclosure, so it is not of a planar graph.");
     for (const Node& node : diagram_.nodes)
       sound = sound && finite(node.disk) && node.disk.radius >= 0;
     for (const VoronoiEdge& edge : diagram_.edges) {
@@ -123,7 +100,7 @@ class VoronoiCheck {
     }
     const DistanceTree tree(edges, enclosure_, arcs);
     struct Findings {
-      Largest residual, contact, off_enclosure;
+      Worst residual, contact, off_enclosure;
       std::uint64_t disks = 0;
     };
     const int parts = 1 + std::clamp(options_.samples_per_edge, 0, 1 << 20);
@@ -155,7 +132,7 @@ class VoronoiCheck {
     certificate_.largest_contact_gap = all.contact.value;
     certificate_.worst = all.residual.where;
     certificate_.disks_checked = all.disks;
-    const auto tell = [&](const Largest& largest, const char* what) {
+    const auto tell = [&](const Worst& largest, const char* what) {
       if (largest.over > 0)
         fail(sentence("%llu disks %s, the worst by %.3g at (%.10g, %.10g).",
                       static_cast<unsigned long long>(largest.over), what, largest.value,
@@ -250,7 +227,7 @@ class VoronoiCheck {
     }
     certificate_.enclosure_area = whole;
     if (certificate_.broken_faces > 0)
-      fail(sentence("%llu faces are no closed walks around their sites.",
+      fail(sentence("%llu faces are not closed walks around their sites.",
                     static_cast<unsigned long long>(certificate_.broken_faces)));
     std::uint64_t missing = 0;
     for (std::size_t e = 0; e < diagram_.edges.size(); ++e)

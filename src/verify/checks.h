@@ -1,8 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <exception>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -46,6 +48,33 @@ struct Problem {
   const Disk& disk(std::uint32_t node) const { return axis.nodes[node].disk; }
 };
 
+/// The largest of something, and where.
+struct Worst {
+  double value = 0;
+  Vec2 where;
+  std::size_t index = 0;   ///< of the node, edge ... there
+  std::uint64_t over = 0;  ///< how many are over the tolerance
+
+  void add(double amount, double tolerance, Vec2 point, std::size_t i = 0) {
+    // What cannot even be computed is as wrong as can be.
+    if (std::isnan(amount)) amount = std::numeric_limits<double>::infinity();
+    if (amount > tolerance) ++over;
+    if (amount > value) {
+      value = amount;
+      where = point;
+      index = i;
+    }
+  }
+  void add(const Worst& other) {
+    over += other.over;
+    if (other.value > value) {
+      const std::uint64_t all = over;
+      *this = other;
+      over = all;
+    }
+  }
+};
+
 /// A sentence in printf's manner.
 std::string sentence(const char* format, ...) __attribute__((format(printf, 1, 2)));
 
@@ -53,8 +82,8 @@ std::string sentence(const char* format, ...) __attribute__((format(printf, 1, 2
 constexpr std::size_t block_size = 1024;
 
 /// Runs a check on so many threads; what it throws is a failure, and none at all a pass.
-template <class OneCertificate, class Check>
-void certify(int threads, OneCertificate& certificate, const Check& check) {
+template <class Check>
+void certify(int threads, DiskCertificate& certificate, const Check& check) {
   try {
     on_threads(threads, check);
   } catch (const std::exception& failure) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/vec3.h"
 #include "volume/face_tree.h"
 
 namespace medial::volume {

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "base/threads.h"
+#include "base/vec3.h"
 #include "volume/predicates.h"
 #include "volume/topology.h"
 

@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "base/vec3.h"
+
 namespace medial::volume {
 
 Box3 box_of(std::span<const Vec3> points) {

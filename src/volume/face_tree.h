@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/vec3.h"
 #include "medial/geometry.h"
 
 namespace medial::volume {

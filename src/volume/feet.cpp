@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/vec3.h"
+
 namespace medial::volume {
 namespace {
 
@@ -14,10 +16,10 @@ constexpr double rounding = 1e-10;
 
 }  // namespace
 
-FeetFinder::FeetFinder(const Grid& grid, const FaceTree& tree, FaceSearch search, double angle,
+FeetFinder::FeetFinder(const Grid& grid, const FaceTree& tree, bool sorted_list, double angle,
                        double tolerance)
     : tree_(tree),
-      search_(search),
+      sorted_list_(sorted_list),
       cosine_(std::cos(angle * std::numbers::pi / 180)),
       sine_(std::sin(angle * std::numbers::pi / 180)),
       strong_(std::cos(std::min(1.5 * angle, 0.5 * (angle + 180)) * std::numbers::pi / 180)),
@@ -133,7 +135,7 @@ FeetFinder::Foot FeetFinder::nearest(Vec3 p, std::uint32_t start, bool by_tree,
 }
 
 Feet FeetFinder::feet(Vec3 p, std::uint32_t hint, Scratch& scratch) const {
-  const bool by_tree = search_ == FaceSearch::tree;
+  const bool by_tree = !sorted_list_;
   const Foot first = nearest(p, hint, by_tree, scratch);
   Feet result;
   result.radius = std::sqrt(first.at.squared_distance);

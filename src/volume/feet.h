@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/vec3.h"
 #include "volume/closest.h"
 #include "volume/grid.h"
 
@@ -66,7 +67,7 @@ class FeetFinder {
 
   /// `angle` in degrees, positive; `tolerance` in units of the grid.
   /// Keeps a reference to the tree.
-  FeetFinder(const Grid& grid, const FaceTree& tree, FaceSearch search, double angle,
+  FeetFinder(const Grid& grid, const FaceTree& tree, bool sorted_list, double angle,
              double tolerance);
 
   /// The feet of p. Requires p at least 1/2 away from the surface, inside. `hint` is any face,
@@ -105,7 +106,7 @@ class FeetFinder {
   void sort_list(Vec3 p, Scratch& scratch) const;
 
   const FaceTree& tree_;
-  FaceSearch search_;
+  bool sorted_list_;
   double cosine_, sine_;
   double strong_;  ///< the cosine of what axis_point() asks for
   double tolerance_, reach_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/vec3.h"
 #include "volume/predicates.h"
 
 namespace medial::volume {

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "base/vec3.h"
 #include "medial/volume.h"
 #include "volume/face_tree.h"
 #include "volume/voxel_set.h"

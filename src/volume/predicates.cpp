@@ -8,6 +8,8 @@
 #include <limits>
 
 #include "base/predicates.h"
+#include "base/vec3.h"
+#include "base/whole.h"
 
 // g++ 12 warns, wrongly, of limbs inside cpp_int where its moves are inlined here.
 #if defined(__GNUC__) && !defined(__clang__)
@@ -19,44 +21,15 @@ namespace {
 
 using Integer = boost::multiprecision::cpp_int;
 
-/// A number as mantissa * 2^exponent with an integer mantissa.
-struct Scaled {
-  std::int64_t mantissa = 0;
-  int exponent = 0;
-};
-
-Scaled scaled(double value) {
-  int exponent = 0;
-  const double fraction = std::frexp(value, &exponent);
-  auto mantissa = static_cast<std::int64_t>(std::ldexp(fraction, 53));
-  exponent -= 53;
-  // Few digits make short integers.
-  while (mantissa != 0 && mantissa % 2 == 0) {
-    mantissa /= 2;
-    ++exponent;
-  }
-  return {mantissa, exponent};
-}
-
 int exact_orientation(const std::array<Vec3, 4>& points) {
-  std::array<std::array<Scaled, 3>, 4> numbers;
-  int lowest = std::numeric_limits<int>::max();
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const Scaled number = scaled(points[i][axis]);
-      numbers[i][static_cast<std::size_t>(axis)] = number;
-      if (number.mantissa != 0) lowest = std::min(lowest, number.exponent);
-    }
-  }
-  const auto integer = [lowest](const Scaled& number) {
-    return number.mantissa == 0
-               ? Integer(0)
-               : Integer(number.mantissa) << static_cast<unsigned>(number.exponent - lowest);
-  };
+  std::array<double, 12> coordinates;
+  for (std::size_t i = 0; i < 12; ++i) coordinates[i] = points[i / 3][static_cast<int>(i % 3)];
+  const int lowest = binary_range(coordinates).lowest;
   std::array<std::array<Integer, 3>, 3> row;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Integer last = integer(numbers[3][axis]);
-    for (std::size_t i = 0; i < 3; ++i) row[i][axis] = integer(numbers[i][axis]) - last;
+    const auto last = multiple_of<Integer>(coordinates[9 + axis], lowest);
+    for (std::size_t i = 0; i < 3; ++i)
+      row[i][axis] = multiple_of<Integer>(coordinates[3 * i + axis], lowest) - last;
   }
   const Integer left = row[0][0] * (row[1][1] * row[2][2] - row[1][2] * row[2][1]) +
                        row[1][0] * (row[2][1] * row[0][2] - row[2][2] * row[0][1]) +

@@ -2,6 +2,7 @@
 
 // Decisions in space that are exact for all finite coordinates.
 
+#include "base/vec3.h"
 #include "medial/geometry.h"
 
 namespace medial::volume {

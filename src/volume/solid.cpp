@@ -9,6 +9,7 @@
 
 #include "base/in_flight.h"
 #include "base/predicates.h"
+#include "base/vec3.h"
 #include "medial/volume.h"
 #include "shape/limits.h"
 #include "volume/face_tree.h"
@@ -56,7 +57,7 @@ std::optional<Error> refuse(const TriangleMesh& mesh) {
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
     for (const std::uint32_t vertex : mesh.faces[i]) {
       if (vertex < mesh.vertices.size()) continue;
-      Error error{ErrorCode::malformed, "a face names a vertex that is not there", {}};
+      Error error{ErrorCode::malformed, "a face refers to a vertex that does not exist", {}};
       error.place.face = i;
       return error;
     }

@@ -9,6 +9,7 @@
 #include "base/in_flight.h"
 #include "base/stopwatch.h"
 #include "base/threads.h"
+#include "base/vec3.h"
 #include "medial/volume.h"
 #include "volume/control.h"
 #include "volume/digitize.h"
@@ -151,7 +152,7 @@ Result<VoxelAxis> run(const Solid& solid, const VoxelOptions& options) {
   if (!made) return std::move(made).error();
   const Grid& grid = *made;
   const FaceTree tree(grid.vertices, grid.faces);
-  const FeetFinder finder(grid, tree, options.search, options.angle, tolerance);
+  const FeetFinder finder(grid, tree, options.sorted_list, options.angle, tolerance);
   VoxelAxis axis;
   VoxelStatistics& statistics = axis.statistics;
   statistics.seconds_tree = lap.lap();

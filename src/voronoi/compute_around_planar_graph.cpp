@@ -42,8 +42,7 @@ Result<Box> enclosure_for(const PlanarGraph& planar_graph, const Options& option
     const bool holds = enclosure->low.x < box.low.x && enclosure->low.y < box.low.y &&
                        enclosure->high.x > box.high.x && enclosure->high.y > box.high.y;
     if (!holds || !(diagonal(*enclosure) <= most * std::max(largest, 1.0)))
-      return Error{
-          ErrorCode::invalid_option, "the enclosure must hold all of the input inside", {}};
+      return Error{ErrorCode::invalid_option, "the enclosure must contain all of the input", {}};
     return *enclosure;
   }
   double margin = margin_for(box, options.margin);

@@ -21,8 +21,10 @@ struct SiteLocator::Index {
   std::unique_ptr<site::BoundaryTree> tree;
 };
 
-SiteLocator::SiteLocator(std::span<const Site> sites) : index_(std::make_unique<Index>()) {
-  Index& index = *index_;
+SiteLocator::SiteLocator(std::span<const Site> sites) {
+  const auto own = std::make_shared<Index>();
+  index_ = own;
+  Index& index = *own;
   index.sites.assign(sites.begin(), sites.end());
   if (sites.empty()) return;
   Box box{sites[0].start, sites[0].start};
@@ -55,9 +57,6 @@ SiteLocator::SiteLocator(std::span<const Site> sites) : index_(std::make_unique<
   }
   index.tree = std::make_unique<site::BoundaryTree>(index.pieces);
 }
-
-SiteLocator::~SiteLocator() = default;
-SiteLocator::SiteLocator(SiteLocator&&) noexcept = default;
 
 NearestSite SiteLocator::nearest(Vec2 p) const {
   NearestSite result;

@@ -19,6 +19,7 @@
 #include "base/memory.h"
 #include "base/numbers.h"
 #include "base/threads.h"
+#include "shape/around.h"
 #include "site/bisector.h"
 #include "site/site.h"
 #include "site/tangent_disk.h"
@@ -249,7 +250,7 @@ class Assembly {
         const std::uint32_t node = first_[own];
         closed = closed && last_[before] == node;
         const std::uint32_t point =
-            is_vertex(own) ? own_[own] : planar_graph_.start(half_edge(own));
+            is_vertex(own) ? own_[own] : start_of(planar_graph_, half_edge(own));
         if (diagram_.nodes[node].disk.radius == 0) {
           node_of_axis_[node] = point;
         } else {

@@ -133,7 +133,7 @@ class Errors(CommandLine):
             report = self.refuse("invalid_option", "info", "a.dxf", "--layer", "c")
             self.assertRegex(report, "but: a[^\\x00-\\x1f\\x7f-\\x9f]*b \\[")
         self.write("b.dxf", b"\xff\n")
-        self.assertIn("'\ufffd' is no group code", self.refuse("malformed", "info", "b.dxf"))
+        self.assertIn("'\ufffd' is not a group code", self.refuse("malformed", "info", "b.dxf"))
 
 
 class Words(CommandLine):

@@ -158,7 +158,7 @@ class Inputs(CommandLine):
         self.assertNotIn(b"--project", done.stderr)
         self.assertIn("--crs", self.refuse("invalid_option", "axis", "metres.geojson", "--project"))
         done = self.succeed("axis", "metres.geojson", "--crs", "EPSG:32632", "-o", "a.json")
-        self.assertNotIn(b"no degrees", done.stderr)
+        self.assertNotIn(b"not degrees", done.stderr)
         self.assertIn(b"UTM zone 32N", self.read("a.json"))
         self.refuse("invalid_option", "axis", "metres.geojson", "--crs", "EPSG:99999999")
 

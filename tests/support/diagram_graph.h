@@ -20,7 +20,7 @@
 namespace medial::test {
 
 /// An edge by the two sites that it separates and its ends; `nowhere` for an end outside of the
-/// frame.
+/// enclosure.
 struct SeparatingEdge {
   std::array<std::uint32_t, 2> sites;  ///< points of the planar graph, then edges; increasing
   std::array<Vec2, 2> ends;
@@ -46,21 +46,21 @@ inline std::vector<Chain> random_integer_planar_graph(std::uint64_t seed) {
   return chains;
 }
 
-/// A frame far around a planar graph.
-inline Box frame_around(const PlanarGraph& planar_graph) {
+/// An enclosure far around a planar graph.
+inline Box enclosure_around(const PlanarGraph& planar_graph) {
   const Box box = bounding_box(planar_graph);
   const double margin = 20.37 * (1 + diagonal(box));
   return {box.low - Vec2{margin, margin}, box.high + Vec2{margin, margin}};
 }
 
 /// Puts edges of any diagram of this planar graph into the form in which they are compared: without
-/// those shorter than `near` (ties) and those outside of the frame. What separates an edge from its
-/// own end is divided there; where the next edge goes straight on, so that the end's face is empty,
-/// it separates the two edges.
+/// those shorter than `near` (ties) and those outside of the enclosure. What separates an edge from
+/// its own end is divided there; where the next edge goes straight on, so that the end's face is
+/// empty, it separates the two edges.
 class EdgesInForm {
  public:
-  EdgesInForm(const PlanarGraph& planar_graph, const Box& frame, double near)
-      : planar_graph_(planar_graph), frame_(frame), near_(near) {}
+  EdgesInForm(const PlanarGraph& planar_graph, const Box& enclosure, double near)
+      : planar_graph_(planar_graph), enclosure_(enclosure), near_(near) {}
 
   void add(std::uint32_t one, std::uint32_t other, Vec2 from, Vec2 to) {
     from = inside(from) ? from : nowhere;
@@ -82,8 +82,8 @@ class EdgesInForm {
 
  private:
   bool inside(Vec2 p) const {
-    return p.x > frame_.low.x + near_ && p.x < frame_.high.x - near_ &&
-           p.y > frame_.low.y + near_ && p.y < frame_.high.y - near_;
+    return p.x > enclosure_.low.x + near_ && p.x < enclosure_.high.x - near_ &&
+           p.y > enclosure_.low.y + near_ && p.y < enclosure_.high.y - near_;
   }
   bool ends_at(std::uint32_t site, std::uint32_t point) const {
     if (point >= planar_graph_.points.size() || site < planar_graph_.points.size()) return false;
@@ -110,7 +110,7 @@ class EdgesInForm {
   }
 
   const PlanarGraph& planar_graph_;
-  Box frame_;
+  Box enclosure_;
   double near_;
   std::vector<SeparatingEdge> edges_;
 };

@@ -238,7 +238,7 @@ class WindingRows {
 };
 
 /// Pixels side by side that are all inside, or all outside.
-struct PixelRun {
+struct RowRun {
   std::size_t begin = 0, end = 0;
   bool in = false;
   bool far = false;  ///< whether one of them is further than one and a half pixels from the curve
@@ -337,7 +337,7 @@ PixelCount count_by_pixels(const Shape& shape, double clearance, std::size_t pix
   const WindingRows windings(rings_of(shape), grid);
   DisjointSets sets;
   std::vector<std::uint32_t> far_in, far_out;
-  std::vector<PixelRun> before, runs;
+  std::vector<RowRun> before, runs;
   double expected = grid.step;
   for (std::size_t y = 0; y < grid.rows; ++y) {
     const std::vector<int> around = windings.row(y);
@@ -365,7 +365,7 @@ PixelCount count_by_pixels(const Shape& shape, double clearance, std::size_t pix
           sets.join(before[j].set, runs[i].set);
       }
     }
-    for (const PixelRun& run : runs)
+    for (const RowRun& run : runs)
       if (run.far) (run.in ? far_in : far_out).push_back(run.set);
   }
   // What pixels break off at the tip of a cusp is nowhere far from the curve.

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "axis/steps.h"
 #include "base/disjoint_sets.h"
 #include "base/predicates.h"
 #include "medial/query.h"

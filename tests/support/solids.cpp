@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "base/vec3.h"
+
 namespace medial::test {
 
 TriangleMesh box_mesh(Vec3 low, Vec3 high) {

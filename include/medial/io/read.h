@@ -8,7 +8,6 @@
 #include "medial/load.h"
 #include "medial/pack.h"
 #include "medial/raster.h"
-#include "medial/units.h"
 #include "medial/volume.h"
 #include "medial/voronoi.h"
 
@@ -26,12 +25,15 @@ struct ImageOptions {
 struct ReadOptions {
   std::string layer;  ///< name of the layer; empty: the first
   std::string where;  ///< attribute filter of OGR SQL; empty: all
-  /// Of polygons of straight edges; features with curves stay as they are, for load_shapes().
+  /// make_valid repairs polygons of straight edges by GEOS; all else is left to load_shapes().
   RepairRule repair = RepairRule::none;
   /// Leaves out features that cannot be read, repaired or made a shape, with a note each.
   bool skip_invalid = false;
-  std::string crs;       ///< "EPSG:n" or WKT, in place of the file's own; empty: that
-  bool project = false;  ///< project_to_local() geographic coordinates
+  std::string crs;  ///< "EPSG:n" or WKT, in place of the file's own; empty: that
+  /// Projects longitudes and latitudes to metres, all features alike: within 300 km of their middle
+  /// by transverse Mercator (conformal: disks stay disks), else by azimuthal equal-area. Without a
+  /// reference system they count as WGS 84 if they can be degrees; projected ones only get a note.
+  bool project = false;
   /// Of loose curves (DXF): joins ends at most this far apart, in units of the input, and drops
   /// what stays open; infinity closes all. Nothing: 1e-6 of the bounding box's diagonal.
   std::optional<double> close;
@@ -50,6 +52,14 @@ struct ReadOptions {
 /// Recognises WKT, GeoJSON, SVG, DXF, `x y` text and medial's own on standard input by their first
 /// characters. Errors: also no_area, invalid_option.
 Result<Document<Feature>> read_document(const std::string& path, const ReadOptions& options = {});
+
+/// The same of a text in memory, as of standard input.
+Result<Document<Feature>> read_document_text(std::string_view text,
+                                             const ReadOptions& options = {});
+
+/// The subpaths of the path data of SVG, the attribute `d`: contours of the non-zero rule, open
+/// where `loose` is set and they are not closed. Errors: malformed.
+Result<std::vector<Contour>> read_path_data(std::string_view text, bool loose = false);
 
 /// The outlines of a UTF-8 text in one line, with the advances and kerning of a scalable font file
 /// (TrueType, OpenType, Type 1): a feature for each character with an outline, in font units, the
@@ -76,6 +86,7 @@ Result<LoosePieces> load_loose(const std::string& path, const SourceOptions& opt
 /// Whether the file begins like medial's own JSON; and its content.
 bool is_native(const std::string& path);
 Result<Document<AxisItem>> read_native(const std::string& path);
+Result<Document<AxisItem>> read_native_text(std::string_view text);
 
 struct VoronoiItem {
   Shape shape;
@@ -88,30 +99,16 @@ struct VoronoiItem {
 bool is_voronoi(const std::string& path);
 Result<Document<VoronoiItem>> read_voronoi(const std::string& path);
 
-/// Projects longitudes and latitudes to metres in one local projection of all features: within 300
-/// km of their middle transverse Mercator (conformal: disks stay disks), else azimuthal equal-area.
-/// A document without a reference system counts as WGS 84 if its coordinates can be degrees; a
-/// projected one only gets a note. Errors: invalid_option (no degrees), unsupported (points that
-/// cannot be projected).
-Status project_to_local(Document<Feature>& dataset);
-
-/// Takes points of a reference system that project_to_local() made back to longitude and latitude,
-/// within 2 mm; those of any other stay. Errors: unsupported (a point that has no counterpart).
+/// Takes points of a reference system that ReadOptions::project made back to longitude and
+/// latitude, within 2 mm; those of any other stay. Errors: unsupported (a point that has no
+/// counterpart).
 Status back_to_geographic(const std::string& crs_wkt, std::vector<Vec2>& points);
 
-/// The upper left corner of pixel (c, r): (t[0] + c t[1] + r t[2], t[3] + c t[4] + r t[5]).
-using PixelPlacement = std::array<double, 6>;
-constexpr PixelPlacement unplaced = {0, 1, 0, 0, 0, 1};
-
-struct ImageFile {
-  Image image;
-  PixelPlacement placement = unplaced;
+struct ImageFile : PlacedImage {
   std::string crs_wkt;  ///< coordinate reference system as WKT, empty if none
   bool geographic = false;
   double dots_per_inch = 0;  ///< 0: the file does not say
   std::vector<std::string> notes;
-
-  bool placed() const { return placement != unplaced; }
 };
 
 /// Whether a file begins like an image of read_image(); false if it cannot be opened.
@@ -148,5 +145,18 @@ Result<PackFile> unpack_bytes(std::span<const std::uint8_t> bytes);
 /// shapes that could not be built, which stay without points.
 Result<Document<AxisItem>> native_of(const PackFile& file,
                                      std::vector<std::string>* notes = nullptr);
+
+struct Library {
+  std::string name, version;
+};
+/// What medial::io is made of, for reports of problems.
+struct BuildInfo {
+  std::vector<Library> libraries;  ///< as they are loaded, which may be newer than those built with
+  std::string extensions;          ///< read without GDAL, as ".json .svg"
+  /// GDAL's names of the formats that it reads as features and as images.
+  std::vector<std::string> vectors, rasters;
+  bool projections = false;  ///< whether PROJ finds its database, which --project needs
+};
+BuildInfo build_info();
 
 }  // namespace medial::io

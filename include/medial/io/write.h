@@ -3,8 +3,9 @@
 // Documents as files and pictures. Functions write by the extension of `path`, or by `format` (an
 // extension without its dot) in its place; `-` is standard output, but of images and distances.
 // There is never a partial file: it is written beside its target, then renamed. Formats of GIS,
-// .wkt and .csv get longitudes and latitudes again after project_to_local(); radii and lengths stay
-// in metres. Errors of all: unsupported, unwritable, invalid_option (chord, width), out_of_memory.
+// .wkt and .csv get longitudes and latitudes again after ReadOptions::project; radii and lengths
+// stay in metres. Errors of all: unsupported, unwritable, invalid_option (chord, width),
+// out_of_memory.
 
 #include "medial/carve.h"
 #include "medial/features.h"
@@ -13,6 +14,15 @@
 #include "medial/offset.h"
 
 namespace medial::io {
+
+/// A file, `-`, or a text in memory, to whose end it goes.
+struct Destination {
+  Destination(std::string file) : path(std::move(file)) {}       // NOLINT: implicit
+  Destination(const char* file) : path(file) {}                  // NOLINT: implicit
+  Destination(std::string* end_of) : path("-"), text(end_of) {}  // NOLINT: implicit
+  std::string path;
+  std::string* text = nullptr;
+};
 
 enum class DocumentKind : std::uint8_t {
   axes,
@@ -23,7 +33,6 @@ enum class DocumentKind : std::uint8_t {
   features,
   layers,
   field,
-  preview,
   voxels,
   distances,
   image,
@@ -52,17 +61,17 @@ struct WriteOptions {
 /// Axes: exact in .json (native, docs/format.md) and .dxf, else chords; .gpkg also has the nodes;
 /// .graphml, .nodelink (JSON, as networkx reads it) and .edgelist hold nodes and branches as a
 /// graph.
-Status write_axes(const std::string& path, const std::string& format,
+Status write_axes(const Destination& target, const std::string& format,
                   const Document<AxisItem>& file, const WriteOptions& options = {});
 
 /// Shapes. .json (native), .svg (but for the shift of its viewport), .dxf (polylines with bulges)
 /// and .wkt (a geometry per line; with arcs a MULTISURFACE) are lossless, .geojson has chords.
-Status write_shapes(const std::string& path, const std::string& format,
+Status write_shapes(const Destination& target, const std::string& format,
                     const Document<ShapeItem>& file, const WriteOptions& options = {});
 
 /// Voronoi diagrams: .json is lossless (docs/format.md), .geojson and .wkt have the faces as
 /// polygons, .geojson and .csv the edges.
-Status write_voronoi(const std::string& path, const std::string& format,
+Status write_voronoi(const Destination& target, const std::string& format,
                      const Document<VoronoiItem>& file, const WriteOptions& options = {});
 
 /// What features lie in one region of a buffer, and what they have in common.
@@ -82,7 +91,7 @@ struct OffsetItem {
 /// Offset curves: .json is lossless; .wkt has a multi-surface with exact circular strings for each
 /// clearance of a feature, or a multi-polygon of chords with `chords`; .geojson a polygon of chords
 /// for each region; .dxf closed polylines with bulges, a layer for each clearance.
-Status write_offsets(const std::string& path, const std::string& format,
+Status write_offsets(const Destination& target, const std::string& format,
                      const Document<OffsetItem>& file, const WriteOptions& options = {},
                      bool chords = false);
 
@@ -129,7 +138,7 @@ void place(Document<CarveItem>& file, Vec2 zero);
 /// plane, arcs by I and J, six decimals), .csv (path, kind, x, y, z), .dxf (space polylines on a
 /// layer for each kind; passes at one depth as polylines with bulges and elevation), pictures of
 /// the cut. place() has been called. Errors: also invalid_option (a template without its parts).
-Status write_carving(const std::string& path, const std::string& format,
+Status write_carving(const Destination& target, const std::string& format,
                      const Document<CarveItem>& file, const MachineOptions& machine = {},
                      const WriteOptions& options = {});
 
@@ -148,7 +157,7 @@ struct FeatureWriteOptions {
 
 /// One of `features` for each item of `axes`; docs/features.md has the columns. Tables of GIS and
 /// .json have the attributes of the items, too.
-Status write_features(const std::string& path, const std::string& format,
+Status write_features(const Destination& target, const std::string& format,
                       const Document<AxisItem>& axes, std::span<const AxisFeatures> features,
                       const FeatureWriteOptions& options = {});
 
@@ -175,7 +184,7 @@ struct Layer {
 /// Layers of measurements: .geojson and .wkt (all layers one after another, .geojson with a member
 /// "layer"), .gpkg (a layer each), .shp and .fgb (one layer only), pictures drawn over the shapes
 /// and axes of `background`, whose items are the features of the input.
-Status write_layers(const std::string& path, const std::string& format,
+Status write_layers(const Destination& target, const std::string& format,
                     const Document<Layer>& layers, const Document<AxisItem>& background,
                     const WriteOptions& options = {});
 
@@ -190,15 +199,6 @@ struct FieldPictureOptions {
 Status write_field(const std::string& path, const std::string& format,
                    std::span<const Shape> shapes, std::span<const PotentialField> fields,
                    const FieldPictureOptions& options = {});
-
-struct PreviewPanel {
-  std::string title;
-  std::vector<MedialAxis> axes;
-};
-/// Pictures of the same shapes in rows, one for each panel, with its axes and its title below.
-Status write_preview(const std::string& path, const std::string& format,
-                     std::span<const Shape> shapes, std::span<const PreviewPanel> panels,
-                     double width, bool y_down);
 
 /// An axis of voxels: .ply (binary) and .vtk (legacy, text) have points with radius and quality,
 /// and edges; .obj points and edges; .png three views of solid and axis, `width` pixels wide.

@@ -66,8 +66,7 @@ Result<TriangleMesh> read_by_assimp(const Input& input) {
   return mesh;
 }
 
-Format stl_format() {
-  Format format{".stl"};
+Format with_meshes(Format format) {
   format.read_mesh = read_by_assimp;
   return format;
 }

@@ -432,7 +432,7 @@ class Features {
       std::string text;
       for (const auto& [name, count] : others)
         text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name);
-      dataset_.notes.push_back("left out, being no outlines: " + text);
+      dataset_.notes.push_back("left out because they are not outlines: " + text);
     }
     if (hidden_ > 0)
       dataset_.notes.push_back(fmt::format("{} hidden layers were left out", hidden_));

@@ -81,7 +81,8 @@ class Filter {
       const auto code = whole_number<int>(*code_line);
       if (!code) {
         if (code_line->empty() && ended) continue;
-        return error(ErrorCode::malformed, fmt::format("'{}' is no group code", shown(*code_line)));
+        return error(ErrorCode::malformed,
+                     fmt::format("'{}' is not a group code", shown(*code_line)));
       }
       const auto value = lines_.next();
       if (!value) return error(ErrorCode::malformed, "a group code without a value");
@@ -132,8 +133,7 @@ class Filter {
     if (is_count(name_, code)) {
       const auto count = whole_number<std::int64_t>(value);
       if (!count || *count < 0 || *count > most_) {
-        return error(ErrorCode::malformed,
-                     fmt::format("'{}' is no count of what follows", shown(value)));
+        return error(ErrorCode::malformed, fmt::format("'{}' is not a count", shown(value)));
       }
     }
     if (!is_real(code)) return success();

@@ -86,7 +86,7 @@ struct GlyphPen {
   }
 };
 
-using Library = std::unique_ptr<FT_LibraryRec_, decltype(&FT_Done_FreeType)>;
+using FreeType = std::unique_ptr<FT_LibraryRec_, decltype(&FT_Done_FreeType)>;
 using Face = std::unique_ptr<FT_FaceRec_, decltype(&FT_Done_Face)>;
 
 Result<Face> open_face(FT_Library library, const std::string& path) {
@@ -98,7 +98,7 @@ Result<Face> open_face(FT_Library library, const std::string& path) {
   FT_Face face = nullptr;
   const FT_Error problem = FT_New_Face(library, path.c_str(), 0, &face);
   if (problem == FT_Err_Unknown_File_Format) {
-    return Error{ErrorCode::unsupported, "this is no font that FreeType knows", {}};
+    return Error{ErrorCode::unsupported, "this is not a font that FreeType can read", {}};
   }
   if (problem != 0) {
     return Error{
@@ -106,7 +106,7 @@ Result<Face> open_face(FT_Library library, const std::string& path) {
   }
   Face result(face, &FT_Done_Face);
   if (!FT_IS_SCALABLE(face)) {
-    return Error{ErrorCode::unsupported, "the font has bitmaps, no outlines", {}};
+    return Error{ErrorCode::unsupported, "the font has bitmaps but no outlines", {}};
   }
   return result;
 }
@@ -174,7 +174,7 @@ Result<Document<Feature>> read_text(const std::string& text, const std::string& 
     if (FT_Init_FreeType(&raw) != 0) {
       return Error{ErrorCode::internal, "FreeType cannot be started", {}};
     }
-    const Library library(raw, &FT_Done_FreeType);
+    const FreeType library(raw, &FT_Done_FreeType);
     Result<Face> face = open_face(raw, font);
     if (!face) return face.error();
     return set_text(*characters, face->get());

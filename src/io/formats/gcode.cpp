@@ -8,7 +8,7 @@
 #include "io/format.h"
 #include "io/formats/gcode_posts.h"
 #include "io/tool_paths.h"
-#include "medial/units.h"
+#include "medial/document.h"
 
 namespace medial::io {
 

@@ -2,16 +2,15 @@
 // as long.
 
 #include <fmt/format.h>
-#include <ogr_spatialref.h>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <memory>
 
 #include "io/formats/json.h"
 #include "io/formats/json_text.h"
+#include "io/reference_system.h"
 #include "io/ring_text.h"
 #include "io/tables.h"
 #include "io/voronoi_parts.h"
@@ -19,19 +18,6 @@
 namespace medial::io {
 
 namespace {
-
-/// The name of a reference system, as a uniform resource name of the OGC; empty where it has no
-/// code.
-std::string urn_of(const OGRSpatialReference& reference) {
-  const std::unique_ptr<OGRSpatialReference> copy(reference.Clone());
-  if (copy->GetAuthorityCode(nullptr) == nullptr) copy->AutoIdentifyEPSG();
-  const char* authority = copy->GetAuthorityName(nullptr);
-  const char* code = copy->GetAuthorityCode(nullptr);
-  if (authority == nullptr || code == nullptr) return {};
-  // Coordinates are longitude before latitude.
-  if (EQUAL(authority, "EPSG") && EQUAL(code, "4326")) return "urn:ogc:def:crs:OGC:1.3:CRS84";
-  return fmt::format("urn:ogc:def:crs:{}::{}", authority, code);
-}
 
 /// A number that readers take for a real one, also where it is whole.
 void put_real(OutputStream& out, double value) {
@@ -49,8 +35,7 @@ class Collection {
   explicit Collection(Target& target, bool named = false) : target_(target), out_(*target.out) {
     out_.put("{\"type\":\"FeatureCollection\",");
     if (named) out_.put(fmt::format("\"name\":{},", json_quoted(target.name)));
-    const auto* reference = target.crs.reference();
-    const std::string urn = reference == nullptr ? std::string() : urn_of(*reference);
+    const std::string urn = urn_of_crs(target.crs.wkt);
     if (!urn.empty())
       out_.put(fmt::format("\"crs\":{{\"type\":\"name\",\"properties\":{{\"name\":{}}}}},",
                            json_quoted(urn)));

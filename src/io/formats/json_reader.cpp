@@ -4,8 +4,7 @@
 #include "axis/statistics.h"
 #include "io/formats/json.h"
 #include "io/formats/json_rows.h"
-#include "io/gdal_support.h"
-#include "medial/units.h"
+#include "medial/document.h"
 
 namespace medial::io {
 
@@ -246,7 +245,7 @@ AxisItem read_item(json::value value) {
       value.get_object(),
       Member{"attributes",
              [&](json::value v) {
-               read_attributes(v, "an attribute is no pair of texts", item.attributes);
+               read_attributes(v, "an attribute is not a pair of strings", item.attributes);
              }},
       Member{"shape", [&](json::value v) { read_shape(v, item.shape); }},
       Member{"contours", [&](json::value v) { append_all(v, item.contours, read_contour); }},
@@ -313,9 +312,7 @@ namespace {
 Result<Document<Feature>> read_native_features(const Input& input, const ReadOptions&) {
   Result<Document<AxisItem>> file = read_native(*input.source);
   if (!file) return file.error();
-  Document<Feature> dataset = dataset_of(std::move(*file));
-  read_crs_of_wkt(std::string(dataset.crs_wkt), dataset);
-  return dataset;
+  return dataset_of(std::move(*file));
 }
 
 }  // namespace

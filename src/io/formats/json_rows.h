@@ -158,7 +158,7 @@ std::vector<Item> read_items(json::document& document, const char* version, std:
                       }},
                others...);
   demand(document.current_location().error() != simdjson::SUCCESS,
-         "something follows the last bracket");
+         "there is more after the last bracket");
   demand(versioned, "the version is missing");
   demand(itemized, "the items are missing");
   return items;

@@ -9,7 +9,7 @@
 #include "io/text_source.h"
 #include "medial/io/read.h"
 #include "medial/io/write.h"
-#include "medial/rebuild.h"
+#include "medial/sides.h"
 #include "ops/code_bytes.h"
 
 namespace medial::io {
@@ -50,11 +50,11 @@ Result<Bytes> expanded(std::span<const std::uint8_t> frame) {
   if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN)
     return malformed("the pack holds no zstd frame of known size");
   if (size > always + most_ratio * frame.size())
-    return Error{ErrorCode::too_large, "the pack would grow beyond all measure", {}};
+    return Error{ErrorCode::too_large, "the pack would grow too large", {}};
   Bytes out(static_cast<std::size_t>(size));
   const std::size_t got = ZSTD_decompress(out.data(), out.size(), frame.data(), frame.size());
   if (ZSTD_isError(got) != 0 || got != out.size())
-    return malformed("the pack is damaged: its zstd frame does not check");
+    return malformed("the pack is damaged: its checksum is wrong");
   return out;
 }
 
@@ -184,7 +184,7 @@ Result<PackFile> unpack_bytes(std::span<const std::uint8_t> bytes) {
       if (!frame) return std::move(frame).error();
       whole = std::move(frame).value();
     }
-    if (!cut(whole, file.code)) return malformed("the pack's streams do not fit into it");
+    if (!cut(whole, file.code)) return malformed("the pack's streams are longer than the pack");
     return file;
   });
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/predicates.h"
+#include "base/vec3.h"
 #include "io/formats/meshes.h"
 #include "shape/limits.h"
 
@@ -117,8 +118,9 @@ Result<TriangleMesh> mesh_of(Polygons table, const TextSource& source) {
     corner += table.sides[i];
     for (const std::uint32_t index : polygon) {
       if (index < table.vertices.size()) continue;
-      return source.error(ErrorCode::malformed,
-                          fmt::format("face {} names a vertex that is not there: {}", i, index));
+      return source.error(
+          ErrorCode::malformed,
+          fmt::format("face {} refers to a vertex that does not exist: {}", i, index));
     }
     if (polygon.size() == 3) mesh.faces.push_back({polygon[0], polygon[1], polygon[2]});
     if (polygon.size() <= 3) continue;
@@ -160,7 +162,7 @@ Result<double> read_value(TextSource& source, const char* what) {
 Result<std::uint32_t> whole(double value, const TextSource& source, const char* what) {
   if (!(value >= 0 && value < static_cast<double>(most_items)) || value != std::floor(value))
     return source.error(ErrorCode::malformed,
-                        fmt::format("{} is no whole number below 2^31", what));
+                        fmt::format("{} is not a whole number below 2^31", what));
   return static_cast<std::uint32_t>(value);
 }
 
@@ -271,14 +273,15 @@ class PlyReader {
         element.name = words[1];
         const std::string& digits = words[2];
         if (digits.size() > 10 || digits.find_first_not_of("0123456789") != std::string::npos)
-          return malformed("the header counts with no number below 2^31");
+          return malformed("a count in the header is not a number below 2^31");
         element.count = std::stoull(digits);
         if (element.count >= most_items)
-          return malformed("the header counts with no number below 2^31");
+          return malformed("a count in the header is not a number below 2^31");
       } else if (words[0] == "property" && !elements_.empty()) {
         Property property;
         property.list = words.size() == 5 && words[1] == "list";
-        if (words.size() != 3 && !property.list) return malformed("a property that is none");
+        if (words.size() != 3 && !property.list)
+          return malformed("a property without a type and a name");
         const auto type = type_of(words[words.size() - 2]);
         const auto count = property.list ? type_of(words[2]) : Type::uint8;
         if (!type || !count) return malformed("a property of an unknown type");

@@ -22,8 +22,8 @@
 #include <svgpp/svgpp.hpp>
 
 #include "io/formats/svg_document.h"
-#include "io/path_builder.h"
-#include "medial/units.h"
+#include "io/formats/svg_path.h"
+#include "medial/document.h"
 
 namespace medial::io {
 
@@ -57,33 +57,8 @@ struct Drawing {
   std::uint64_t unfilled = 0;
 };
 
-/// A step of a path in the coordinates of its element: the transformation may stand behind it.
-struct PathStep {
-  enum class Kind : std::uint8_t { start, line, quadratic, cubic, arc, close } kind;
-  std::array<Vec2, 3> points{};
-  EllipticalArc arc{};
-};
-
-/// The elliptical arc of SVG's command A; `Kind::line` where the radii vanish (SVG 1.1, F.6.2).
-PathStep arc_step(Vec2 from, Vec2 to, double rx, double ry, double degrees, bool large,
-                  bool sweep) {
-  rx = std::fabs(rx);
-  ry = std::fabs(ry);
-  if (!(rx > 0) || !(ry > 0)) return {PathStep::Kind::line, {to}, {}};
-  const double phi = degrees * (std::numbers::pi / 180);
-  Vec2 center;
-  double begin = 0;
-  double end = 0;
-  svgpp::arc_endpoint_to_center(from.x, from.y, to.x, to.y, rx, ry, phi, large, sweep, center.x,
-                                center.y, begin, end);
-  if (sweep && end < begin) end += 2 * std::numbers::pi;
-  if (!sweep && end > begin) end -= 2 * std::numbers::pi;
-  const Vec2 axis{std::cos(phi), std::sin(phi)};
-  return {PathStep::Kind::arc, {to}, {center, rx * axis, ry * left_of(axis), begin, end}};
-}
-
 /// The context that svgpp fills for every element; what is inherited is copied from the parent.
-class Element {
+class Element : public SvgPath {
  public:
   using length_factory_type = svgpp::factory::length::unitless<>;
 
@@ -172,37 +147,14 @@ class Element {
   void set(tag::attribute::width, double width) { use_size_[0] = width; }
   void set(tag::attribute::height, double height) { use_size_[1] = height; }
 
-  // Paths; all coordinates are absolute.
-  using Absolute = tag::coordinate::absolute;
-  void path_move_to(double x, double y, Absolute) {
-    start_ = last_ = {x, y};
-    add({PathStep::Kind::start, {last_}, {}});
+  void path_exit() {
+    is_path_ = true;
+    if (!copied_) return;
+    drawing_.copied_points += step_count();
+    if (drawing_.copied_points > most_copied)
+      refuse(ErrorCode::too_large,
+             fmt::format("'use' unfolds to more than {} points", most_copied));
   }
-  void path_line_to(double x, double y, Absolute) {
-    last_ = {x, y};
-    add({PathStep::Kind::line, {last_}, {}});
-  }
-  void path_quadratic_bezier_to(double x1, double y1, double x, double y, Absolute) {
-    last_ = {x, y};
-    add({PathStep::Kind::quadratic, {Vec2{x1, y1}, last_}, {}});
-  }
-  void path_cubic_bezier_to(double x1, double y1, double x2, double y2, double x, double y,
-                            Absolute) {
-    last_ = {x, y};
-    add({PathStep::Kind::cubic, {Vec2{x1, y1}, Vec2{x2, y2}, last_}, {}});
-  }
-  void path_elliptical_arc_to(double rx, double ry, double degrees, bool large, bool sweep,
-                              double x, double y, Absolute) {
-    const Vec2 to{x, y};
-    if (to == last_) return;  // F.6.2: nothing
-    add(arc_step(last_, to, rx, ry, degrees, large, sweep));
-    last_ = to;
-  }
-  void path_close_subpath() {
-    last_ = start_;
-    add({PathStep::Kind::close, {}, {}});
-  }
-  void path_exit() { is_path_ = true; }
 
  private:
   void apply(const Affine& inner) { transform_ = transform_ * inner; }
@@ -212,14 +164,6 @@ class Element {
     for (double* factor : {&transform_.x.x, &transform_.y.y})
       if (std::fabs(*factor - 1) < rounding) *factor = 1;
   }
-  void add(const PathStep& step) {
-    if (copied_ && ++drawing_.copied_points > most_copied) {
-      refuse(ErrorCode::too_large,
-             fmt::format("'use' unfolds to more than {} points", most_copied));
-    }
-    steps_.push_back(step);
-  }
-  std::vector<Contour> contours() const;
   void add_feature();
   void draw_copy();
 
@@ -241,57 +185,7 @@ class Element {
   std::array<std::optional<double>, 2> use_size_{};
   std::string target_;
   bool is_path_ = false;
-  Vec2 start_;
-  Vec2 last_;
-  std::vector<PathStep> steps_;
 };
-
-std::vector<Contour> Element::contours() const {
-  std::vector<Contour> result;
-  Contour contour;
-  contour.role = even_odd_ ? RingRole::any : RingRole::winding;
-  Vec2 start;
-  bool closed = false;
-  const auto finish = [&] {
-    const bool drawn = drawing_.loose ? !contour.pieces.empty() : !is_degenerate(contour);
-    contour.open = drawing_.loose && !filled_ && !closed;
-    if (drawn) result.push_back(std::move(contour));
-    contour = {};
-    closed = false;
-    contour.role = even_odd_ ? RingRole::any : RingRole::winding;
-  };
-  for (const PathStep& step : steps_) {
-    if (step.kind != PathStep::Kind::start && step.kind != PathStep::Kind::close &&
-        contour.points.empty()) {
-      contour.start_at(start);
-    }
-    const auto at = [&](std::size_t i) { return transform_(step.points[i]); };
-    switch (step.kind) {
-      case PathStep::Kind::start:
-        finish();
-        start = at(0);
-        break;
-      case PathStep::Kind::close:
-        closed = true;
-        finish();
-        break;
-      case PathStep::Kind::line:
-        contour.line_to(at(0));
-        break;
-      case PathStep::Kind::quadratic:
-        contour.bezier_to(std::array{at(0), at(1)});
-        break;
-      case PathStep::Kind::cubic:
-        contour.bezier_to(std::array{at(0), at(1), at(2)});
-        break;
-      case PathStep::Kind::arc:
-        add_arc(contour, transformed(transform_, step.arc), at(0));
-        break;
-    }
-  }
-  finish();
-  return result;
-}
 
 void Element::add_feature() {
   if (!displayed_ || !visible_) return;
@@ -300,7 +194,8 @@ void Element::add_feature() {
     return;
   }
   Feature feature;
-  feature.contours = contours();
+  feature.contours = contours(transform_, even_odd_ ? RingRole::any : RingRole::winding,
+                              drawing_.loose, drawing_.loose && !filled_);
   if (feature.contours.empty()) return;
   feature.filled = true;
   feature.id = static_cast<std::int64_t>(drawing_.dataset.items.size());

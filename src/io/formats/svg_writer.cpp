@@ -7,9 +7,8 @@
 
 #include "base/arc.h"
 #include "io/formats/svg.h"
-#include "io/pictures/pictures.h"
 #include "io/ring_text.h"
-#include "medial/units.h"
+#include "medial/document.h"
 
 namespace medial::io {
 
@@ -83,7 +82,7 @@ Status write_svg(Target& target, const ShapesOutput& output) {
 }  // namespace
 
 Format svg_format() {
-  Format format = picture_format(".svg").writes<ShapesOutput>(write_svg);
+  Format format = Format{".svg"}.writes<ShapesOutput>(write_svg);
   format.also_read = ".svgz";
   format.read = read_svg;
   format.sniff = begins_like_svg;

@@ -118,12 +118,6 @@ Format ply_format() {
 
 Format vtk_format() { return Format{".vtk"}.writes<VoxelsOutput>(write_voxel_table<write_vtk>); }
 
-Format obj_format() {
-  Format format{".obj"};
-#ifdef MEDIAL_MESH
-  format.read_mesh = read_by_assimp;
-#endif
-  return format.writes<VoxelsOutput>(write_voxel_table<write_obj>);
-}
+Format obj_format() { return Format{".obj"}.writes<VoxelsOutput>(write_voxel_table<write_obj>); }
 
 }  // namespace medial::io

@@ -10,7 +10,6 @@
 
 #include "io/axis_samples.h"
 #include "io/formats/text.h"
-#include "io/gdal_support.h"
 #include "io/ring_text.h"
 #include "io/voronoi_parts.h"
 
@@ -30,12 +29,15 @@ enum class Kind : std::uint8_t {
   polygon,
   multipolygon,
   collection,
-  curved,
+  curve_polygon,
+  multisurface,
   point,
   multipoint,
   line,
   multiline,
-  curve,  ///< open, with arcs
+  circular,
+  compound,
+  multicurve,
   other
 };
 
@@ -44,17 +46,17 @@ Kind kind_of(std::string_view name) {
       {{"POLYGON", Kind::polygon},
        {"MULTIPOLYGON", Kind::multipolygon},
        {"GEOMETRYCOLLECTION", Kind::collection},
-       {"CURVEPOLYGON", Kind::curved},
-       {"MULTISURFACE", Kind::curved},
-       {"TRIANGLE", Kind::curved},
+       {"CURVEPOLYGON", Kind::curve_polygon},
+       {"MULTISURFACE", Kind::multisurface},
+       {"TRIANGLE", Kind::polygon},
        {"POINT", Kind::point},
        {"MULTIPOINT", Kind::multipoint},
        {"LINESTRING", Kind::line},
        {"LINEARRING", Kind::line},
        {"MULTILINESTRING", Kind::multiline},
-       {"CIRCULARSTRING", Kind::curve},
-       {"COMPOUNDCURVE", Kind::curve},
-       {"MULTICURVE", Kind::curve},
+       {"CIRCULARSTRING", Kind::circular},
+       {"COMPOUNDCURVE", Kind::compound},
+       {"MULTICURVE", Kind::multicurve},
        {"TIN", Kind::other},
        {"POLYHEDRALSURFACE", Kind::other}}};
   const auto* const found =
@@ -97,7 +99,7 @@ class WktReader {
                      {}};
       }
       dataset_.notes.push_back(
-          fmt::format("{} geometries are no polygons and were left out", others_));
+          fmt::format("{} geometries are not polygons and were left out", others_));
     }
     return std::move(dataset_);
   }
@@ -179,7 +181,7 @@ class WktReader {
     }
     if (!srid_) {
       srid_ = static_cast<int>(code);
-      read_crs_of_epsg(*srid_, dataset_);
+      dataset_.crs_wkt = fmt::format("EPSG:{}", *srid_);
     }
     return success();
   }
@@ -205,7 +207,7 @@ class WktReader {
         continue;
       }
       if (*body) {
-        if (Status status = read_body(kind, name, feature); !status) return status;
+        if (Status status = read_body(kind, feature); !status) return status;
       }
       while (depth > 0 && !accept(',')) {
         if (!accept(')')) return expected("',' or ')'");
@@ -216,15 +218,18 @@ class WktReader {
   }
 
   /// Points and lines for a planar graph.
-  Status read_loose(Kind kind, const std::string& name, Feature& feature) {
-    const auto add_line = [&]() -> Status {
-      Chain chain;
-      Status status = read_points(chain.points);
-      if (status) feature.chains.push_back(std::move(chain));
+  Status read_loose(Kind kind, Feature& feature) {
+    const auto add_curve = [&](Kind one) -> Status {
+      Ring line;
+      Status status = read_curve(one, line);
+      if (status && !line.points.empty())
+        feature.chains.push_back({std::move(line.points), std::move(line.bulges), false});
       return status;
     };
-    if (kind == Kind::point || kind == Kind::line) return add_line();
-    if (kind == Kind::curve) return read_by_gdal(name, feature, true);
+    const auto add_line = [&] { return add_curve(Kind::line); };
+    if (kind == Kind::point) return add_line();
+    if (kind == Kind::multicurve) return read_named_list(Kind::line, add_curve);
+    if (is_curve(kind)) return add_curve(kind);
     source_.skip_space();
     if (kind == Kind::multipoint && source_.peek() != '(' && !is_letter(source_.peek())) {
       std::vector<Vec2> points;  // without brackets of their own
@@ -235,28 +240,80 @@ class WktReader {
     return read_list(add_line);
   }
 
-  Status read_by_gdal(const std::string& name, Feature& feature, bool loose) {
-    std::string text = name + "(";
-    if (Status status = read_balanced(&text); !status) return status;
-    Status status = add_wkt(text, loose, feature);
-    if (!status) return source_.error(status.error().code, status.error().text);
-    return status;
+  static bool is_curve(Kind kind) {
+    return kind == Kind::line || kind == Kind::circular || kind == Kind::compound;
   }
 
-  Status read_body(Kind kind, const std::string& name, Feature& feature) {
-    if (loose_ && (kind == Kind::point || kind == Kind::multipoint || kind == Kind::line ||
-                   kind == Kind::multiline || kind == Kind::curve))
-      return read_loose(kind, name, feature);
+  /// Reads "element, element, ...)" by `read(kind)`; elements without a name are of the kind
+  /// `bare`.
+  template <class Read>
+  Status read_named_list(Kind bare, const Read& read) {
+    do {
+      const std::string word = without_dimension(read_word());
+      if (word == "EMPTY") continue;
+      const bool named = !word.empty() && word != "Z" && word != "M" && word != "ZM";
+      const Kind kind = named ? kind_of(word) : bare;
+      if (kind == Kind::unknown)
+        return source_.error(ErrorCode::malformed, fmt::format("'{}' names no geometry", word));
+      Result<bool> body = open_body();
+      if (!body) return body.error();
+      if (!*body) continue;
+      if (Status status = read(kind); !status) return status;
+    } while (accept(','));
+    return accept(')') ? success() : Status(expected("',' or ')'"));
+  }
+
+  /// Appends a line, a circular string, or several of them end to end.
+  Status read_curve(Kind kind, Ring& ring) {
+    if (kind == Kind::compound)
+      return read_named_list(Kind::line, [&](Kind part) {
+        return part == Kind::compound ? Status(expected("a line or an arc"))
+                                      : read_curve(part, ring);
+      });
+    if (!is_curve(kind)) return expected("a line or an arc");
+    std::vector<Vec2> points;
+    if (Status status = read_points(points); !status) return status;
+    if (kind == Kind::circular && points.size() % 2 == 0)
+      return source_.error(ErrorCode::malformed, "a circular string has an even number of points");
+    constexpr double rounding = 1e-14;
+    if (!ring.points.empty() &&
+        distance(ring.points.back(), points[0]) > rounding * norm(points[0]))
+      return source_.error(ErrorCode::malformed, "the parts of a compound curve do not join");
+    add_piece(points, kind == Kind::circular, ring);
+    return success();
+  }
+
+  Status read_curve_polygon(std::vector<Ring>& rings) {
+    RingRole role = RingRole::outer;
+    return read_named_list(Kind::line, [&](Kind kind) {
+      Ring& ring = rings.emplace_back();
+      ring.role = std::exchange(role, RingRole::hole);
+      return read_curve(kind, ring);
+    });
+  }
+
+  Status read_surface(Kind kind, std::vector<Ring>& rings) {
+    if (kind == Kind::polygon) return read_polygon(rings);
+    return kind == Kind::curve_polygon ? read_curve_polygon(rings) : Status(expected("a polygon"));
+  }
+
+  Status read_body(Kind kind, Feature& feature) {
+    if (loose_ && (kind == Kind::point || kind == Kind::multipoint || kind == Kind::multiline ||
+                   kind == Kind::multicurve || is_curve(kind)))
+      return read_loose(kind, feature);
     switch (kind) {
       case Kind::polygon:
         return read_polygon(feature.rings);
       case Kind::multipolygon:
         return read_list([&] { return read_polygon(feature.rings); });
-      case Kind::curved:
-        return read_by_gdal(name, feature, false);
+      case Kind::curve_polygon:
+        return read_curve_polygon(feature.rings);
+      case Kind::multisurface:
+        return read_named_list(Kind::polygon,
+                               [&](Kind part) { return read_surface(part, feature.rings); });
       default:
         ++others_;
-        return read_balanced(nullptr);
+        return skip_balanced();
     }
   }
 
@@ -308,14 +365,13 @@ class WktReader {
     }
   }
 
-  /// Goes past the brackets that close what is open, and keeps the text where it is asked for.
-  Status read_balanced(std::string* text) {
+  /// Goes past the brackets that close what is open.
+  Status skip_balanced() {
     for (std::uint64_t depth = 1; depth > 0;) {
       const int next = source_.peek();
       if (next < 0) return expected("')'");
       if (next == '(') ++depth;
       if (next == ')') --depth;
-      if (text != nullptr) text->push_back(static_cast<char>(next));
       source_.skip();
     }
     return success();

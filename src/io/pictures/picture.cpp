@@ -76,15 +76,13 @@ Status write_picture(Target& target, const VoronoiOutput& output) {
   return draw_picture(target, axes, output.options, &output.document, nullptr);
 }
 
-Format picture_format(const char* extension) {
-  return Format{extension}
-      .writes<AxesOutput, ShapesOutput, VoronoiOutput, LayersOutput, OffsetsOutput, CarvingOutput,
-              FeaturesOutput, FieldOutput, PreviewOutput>(
-          write_picture, write_picture, write_picture, write_picture, write_picture, write_picture,
-          write_picture, write_picture, write_picture);
+Format with_pictures(Format format) {
+  Writer<ShapesOutput> shapes = std::get<Writer<ShapesOutput>>(format.writers);
+  if (shapes == nullptr) shapes = write_picture;
+  return format.writes<AxesOutput, ShapesOutput, VoronoiOutput, LayersOutput, OffsetsOutput,
+                       CarvingOutput, FeaturesOutput, FieldOutput>(
+      write_picture, shapes, write_picture, write_picture, write_picture, write_picture,
+      write_picture, write_picture);
 }
-
-Format pdf_format() { return picture_format(".pdf"); }
-Format ps_format() { return picture_format(".ps"); }
 
 }  // namespace medial::io

@@ -8,9 +8,6 @@
 
 namespace medial::io {
 
-/// A row that draws every kind of document but voxels, by Cairo.
-Format picture_format(const char* extension);
-
 /// Shapes and axes: edges are drawn as what they are, straight lines and cubic Bezier curves that
 /// equal the parabolas, coloured by radius (dark: thin, bright: thick). Errors: invalid_option
 /// (width).
@@ -27,7 +24,6 @@ Status write_picture(Target& target, const CarvingOutput& output);
 /// Shapes with their runs coloured by primitive, and their names.
 Status write_picture(Target& target, const FeaturesOutput& output);
 Status write_picture(Target& target, const FieldOutput& output);
-Status write_picture(Target& target, const PreviewOutput& output);
 
 // The parts of a picture of axes.
 

@@ -11,7 +11,8 @@
 #include <memory>
 #include <vector>
 
-#include "io/formats/rasters.h"
+#include "base/vec3.h"
+#include "io/gis/rasters.h"
 #include "io/pictures/pictures.h"
 #include "medial/geometry.h"
 
@@ -247,8 +248,9 @@ Status write_voxel_picture(Target& target, const VoxelsOutput& output) {
 }  // namespace
 
 Format png_format() {
-  return picture_format(".png").writes<VoxelsOutput, DistancesOutput, ImageOutput>(
-      write_voxel_picture, write_raster, write_raster);
+  return with_pictures(Format{".png"})
+      .writes<VoxelsOutput, DistancesOutput, ImageOutput>(write_voxel_picture, write_raster,
+                                                          write_raster);
 }
 
 }  // namespace medial::io

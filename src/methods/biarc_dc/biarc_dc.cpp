@@ -94,7 +94,7 @@ Result<MedialAxis> attempt(const Problem& problem, std::uint64_t seed, Report* r
 Result<MedialAxis> run(const Problem& problem, Report* report) {
   constexpr std::uint64_t most_attempts = 4;
   const std::optional<Vec2> doubtful = doubtful_place(problem);
-  Error refused{ErrorCode::unsupported, "rounding alone decides what a disk touches here", {}};
+  Error refused{ErrorCode::unsupported, "what a disk touches here depends on rounding alone", {}};
   refused.place.point = doubtful;
   for (std::uint64_t i = 0; i < most_attempts; ++i) {
     auto axis = attempt(problem, problem.own<method::BiarcDc>().seed + i, report);

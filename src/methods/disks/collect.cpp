@@ -8,6 +8,7 @@
 
 #include "axis/node_kinds.h"
 #include "axis/sites.h"
+#include "axis/statistics.h"
 #include "base/memory.h"
 #include "base/numbers.h"
 #include "base/threads.h"

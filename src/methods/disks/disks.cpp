@@ -4,6 +4,7 @@
 #include <atomic>
 #include <optional>
 
+#include "axis/statistics.h"
 #include "base/memory.h"
 #include "base/stopwatch.h"
 #include "methods/checks.h"
@@ -143,7 +144,7 @@ Result<Outcome> run(const Problem& problem) {
     std::optional<double> share;
     Decides decides = Decides::in_double;
   };
-  std::vector<Attempt> attempts{{{}, Decides::in_stages}, {{}, Decides::in_precise}, {}, {1.0}};
+  std::vector<Attempt> attempts{{{}, Decides::in_stages}, {{}, Decides::in_precise}, {}};
   if (!problem.shape.bulges.empty())
     attempts = {{}, {in_centers_share}, {0.25}, {0.0625}, {0.5}, {1.0}};
   for (const auto& [share, decides] : attempts) {
@@ -154,10 +155,12 @@ Result<Outcome> run(const Problem& problem) {
       continue;
     }
     outcome->axis.edges = std::move(edges);
-    if (!outcome->in_centers || problem.is_cancelled()) return outcome;
-    if (!share) continue;  // a finer one is due
-    error = error_if_refused(problem, outcome->axis);
-    if (!error) return outcome;
+    const bool is_doubtful = outcome->in_centers || (error && decides == Decides::in_double);
+    if (!is_doubtful || problem.is_cancelled()) return outcome;
+    if (outcome->in_centers && !share) continue;  // a finer one is due
+    auto refused = error_if_refused(problem, outcome->axis);
+    if (!refused) return outcome;
+    if (!error) error = std::move(refused);
   }
   return std::move(*error);
 }

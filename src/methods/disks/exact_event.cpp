@@ -57,7 +57,7 @@ class ExactEvents::Search {
       std::erase_if(candidates, [&](std::uint32_t site) { return is_seen(site); });
       if (!candidates.empty()) continue;
       // Only carriers were touched, beside their sites: look further around.
-      if (reach > furthest) return std::nullopt;
+      if (!(reach <= furthest)) return std::nullopt;
       reach *= 4;
       events_.tree_.within(from_.center, reach, span_.right + 1, span_.left - 1, candidates);
     }

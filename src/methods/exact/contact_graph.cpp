@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "axis/steps.h"
 #include "medial/query.h"
 
 namespace medial::exact {

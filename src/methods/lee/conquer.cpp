@@ -5,6 +5,7 @@
 #include <bit>
 #include <mutex>
 
+#include "axis/statistics.h"
 #include "base/stopwatch.h"
 #include "base/threads.h"
 #include "methods/lee/fan.h"

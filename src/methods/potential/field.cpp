@@ -23,16 +23,12 @@ struct PotentialField::Parts {
   }
 };
 
-PotentialField::PotentialField(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
-PotentialField::~PotentialField() = default;
-PotentialField::PotentialField(PotentialField&&) noexcept = default;
-
 Result<PotentialField> PotentialField::make(const Shape& shape, double order) {
   if (!(order >= 1 && order <= potential::largest_order))
     return Error{ErrorCode::invalid_option, "the order of the potential must be in [1, 4096]", {}};
   if (shape.points.empty()) return Error{ErrorCode::empty, "the shape is empty", {}};
   if (auto error = beyond_limits(shape)) return std::move(*error);
-  auto parts = std::make_unique<Parts>();
+  auto parts = std::make_shared<Parts>();
   const Options options;
   const Problem problem(shape, options);
   parts->frame = problem.frame;

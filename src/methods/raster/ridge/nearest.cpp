@@ -164,8 +164,8 @@ class Tree final : public NearestEdges {
 
 }  // namespace
 
-std::unique_ptr<NearestEdges> make_search(const EdgeOutline& outline, RidgeSearch kind) {
-  if (kind == RidgeSearch::sorted_list) return std::make_unique<SortedList>(outline);
+std::unique_ptr<NearestEdges> make_search(const EdgeOutline& outline, bool sorted_list) {
+  if (sorted_list) return std::make_unique<SortedList>(outline);
   return std::make_unique<Tree>(outline);
 }
 

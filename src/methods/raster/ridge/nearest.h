@@ -43,6 +43,6 @@ class NearestEdges {
   const EdgeOutline& outline_;
 };
 
-std::unique_ptr<NearestEdges> make_search(const EdgeOutline& outline, RidgeSearch kind);
+std::unique_ptr<NearestEdges> make_search(const EdgeOutline& outline, bool sorted_list);
 
 }  // namespace medial::ridge

@@ -203,7 +203,7 @@ MedialAxis run(const Problem& problem, Report* report) {
   const EdgeOutline outline = outline_of(problem, local.grid.step);
   raster::BitMap boundary = boundary_map(outline, local);
   statistics.seconds_sites = watch.lap();
-  const auto search = make_search(outline, own.search);
+  const auto search = make_search(outline, own.sorted_list);
   statistics.seconds_tree = watch.lap();
   measured.seconds_start = processor.lap();
 

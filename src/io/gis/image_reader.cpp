@@ -10,8 +10,8 @@
 #include <string_view>
 
 #include "io/format.h"
-#include "io/formats/rasters.h"
-#include "io/gdal_support.h"
+#include "io/gis/gdal_support.h"
+#include "io/gis/rasters.h"
 #include "io/guarded.h"
 #include "io/place.h"
 #include "io/text_source.h"
@@ -57,7 +57,7 @@ class Values {
   std::vector<std::string> notes(double threshold) const {
     if (different_ < 3) return {};
     return {
-        fmt::format("the image has more than two values: pixels from {:g} on are its "
+        fmt::format("the image has more than two values: pixels of at least {:g} are its "
                     "foreground; --threshold chooses another, --labels takes each value for "
                     "a feature",
                     threshold)};
@@ -394,7 +394,7 @@ Result<ImageFile> read_raster(const std::string& name, const ImageOptions& optio
   if (!fits_image(width, height)) return too_large_image(width, height);
   ImageFile file;
   Bands bands(*dataset, options);
-  if (!bands.usable()) return Error{ErrorCode::unsupported, "its pixels are no numbers", {}};
+  if (!bands.usable()) return Error{ErrorCode::unsupported, "its pixels are not numbers", {}};
   do {
     file.image = Image(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
     const char* problem = read_rows(bands, options, file.image, labels);
@@ -432,7 +432,7 @@ Result<ImageFile> read_pixels(const Input& input, const ImageOptions& options, L
   if (beginning.empty()) return Error{ErrorCode::empty, "there is nothing to read", {}};
   if (!begins_like_raster(beginning))
     return Error{
-        ErrorCode::unsupported, "this is no PNG, JPEG, BMP, WebP, GIF, TIFF, PBM or PGM", {}};
+        ErrorCode::unsupported, "this is not a PNG, JPEG, BMP, WebP, GIF, TIFF, PBM or PGM", {}};
   const double dots = dots_per_inch_of_png(source.lookahead(png_header));
   const auto read = [&](const std::string& name) {
     Result<ImageFile> file = read_raster(name, options, labels);
@@ -523,7 +523,7 @@ Status add_labelled(std::span<const std::uint32_t> labels, std::uint32_t width,
 
 Result<Document<Feature>> read_outline(const Input& input, const ReadOptions& options) {
   if (options.repair != RepairRule::none)
-    return Error{ErrorCode::invalid_option, "an image has nothing to repair", in_file(input.path)};
+    return Error{ErrorCode::invalid_option, "--repair is not for images", in_file(input.path)};
   Labels labels;
   Result<ImageFile> file = read_foreground(input, options.image, labels);
   if (!file) return file.error();
@@ -568,6 +568,7 @@ Format image_format() {
   Format format;
   format.read = read_outline;
   format.sniff = begins_like_image;
+  format.by_content = true;
   return format;
 }
 

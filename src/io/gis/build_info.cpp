@@ -1,4 +1,3 @@
-#include "medial/io/build_info.h"
 
 #include <cairo.h>
 #include <fmt/format.h>
@@ -19,7 +18,7 @@
 #endif
 
 #include "io/format.h"
-#include "io/gdal_support.h"
+#include "io/gis/gdal_support.h"
 
 namespace medial::io {
 namespace {

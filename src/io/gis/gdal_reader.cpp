@@ -13,7 +13,7 @@
 
 #include "io/format.h"
 #include "io/format_name.h"
-#include "io/gdal_support.h"
+#include "io/gis/gdal_support.h"
 #include "io/place.h"
 
 namespace medial::io {
@@ -114,9 +114,10 @@ class GdalReader {
       return error(ErrorCode::malformed,
                    failure.empty() ? "the content is not what the format says" : failure);
     }
-    return error(ErrorCode::unsupported,
-                 "this is no image, no drawing and none of the vector formats that GDAL knows; "
-                 "medial axis --help lists what is read");
+    return error(
+        ErrorCode::unsupported,
+        "this is neither an image nor a drawing nor one of the vector formats that GDAL knows; "
+        "medial axis --help lists what is read");
   }
 
   Result<OGRLayer*> choose_layer(GDALDataset& source) {
@@ -188,7 +189,7 @@ class GdalReader {
     }
     if (counts_.others > 0) {
       dataset_.notes.push_back(
-          fmt::format("{} geometries are no polygons and were left out", counts_.others));
+          fmt::format("{} geometries are not polygons and were left out", counts_.others));
     }
     if (without_geometry_ > 0) {
       dataset_.notes.push_back(
@@ -249,7 +250,7 @@ Result<Document<Feature>> read_vectors(const Input& input, const ReadOptions& op
 Format gdal_format() {
   Format format;
   format.read = read_vectors;
-  format.has_layers = format.has_filters = true;
+  format.has_layers = format.has_filters = format.reads_others = true;
   return format;
 }
 

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "io/back_to_geographic.h"
-#include "io/gdal_support.h"
+#include "io/degrees.h"
+#include "io/gis/back_to_geographic.h"
+#include "io/gis/gdal_support.h"
+#include "io/gis/project_curves.h"
 #include "io/path_builder.h"
 #include "io/place.h"
-#include "io/project_curves.h"
+#include "io/reference_system.h"
 #include "medial/io/read.h"
 
 namespace medial::io {
@@ -92,21 +94,6 @@ Direction direction_of(Vec2 position) {
           std::sin(latitude)};
 }
 
-template <class Action>
-void for_each_point(const Document<Feature>& dataset, Action action) {
-  for (const Feature& feature : dataset.items) {
-    for (const Ring& ring : feature.rings) {
-      for (const Vec2 point : ring.points) action(point);
-    }
-    for (const Contour& contour : feature.contours) {
-      for (const Vec2 point : contour.points) action(point);
-    }
-    for (const Chain& chain : feature.chains) {
-      for (const Vec2 point : chain.points) action(point);
-    }
-  }
-}
-
 /// The middle of all vertices on the globe (so the date line does no harm), and the angle to the
 /// farthest vertex.
 struct GlobeExtent {
@@ -135,14 +122,6 @@ GlobeExtent extent_of(const Document<Feature>& dataset) {
 
 }  // namespace
 
-bool can_be_degrees(const Document<Feature>& dataset) {
-  bool possible = true;
-  for_each_point(dataset, [&possible](Vec2 point) {
-    if (!(std::fabs(point.x) <= 360 && std::fabs(point.y) <= 90)) possible = false;
-  });
-  return possible;
-}
-
 Status project_to_local(Document<Feature>& dataset) {
   const GdalMessages messages;
   OGRSpatialReference geographic;
@@ -159,7 +138,7 @@ Status project_to_local(Document<Feature>& dataset) {
   if (!can_be_degrees(dataset)) {
     return Error{
         ErrorCode::invalid_option,
-        "the coordinates are no degrees, so they cannot be projected: leave --project out, or "
+        "the coordinates are not degrees, so they cannot be projected: leave out --project, or "
         "name their reference system by --crs EPSG:n",
         {}};
   }
@@ -215,8 +194,9 @@ Result<BackToGeographic> BackToGeographic::make(const std::string& crs_wkt) {
   const GdalMessages messages;
   OGRSpatialReference local;
   if (!is_local_projection(crs_wkt) || local.importFromWkt(crs_wkt.c_str()) != OGRERR_NONE) {
-    return Error{
-        ErrorCode::unsupported, "the reference system is no local projection of medial's", {}};
+    return Error{ErrorCode::unsupported,
+                 "the reference system is not a local projection made by medial",
+                 {}};
   }
   OGRSpatialReference geographic;
   geographic.CopyGeogCSFrom(&local);
@@ -235,6 +215,29 @@ Status BackToGeographic::transform(std::vector<Vec2>& points) const {
   const GdalMessages messages;
   if (transform_points(*transformation_, points)) return success();
   return Error{ErrorCode::unsupported, "a point of the axis has no longitude and latitude", {}};
+}
+
+Result<OutputCrs> output_crs_of(const std::string& crs_wkt, Unit unit) {
+  if (!is_local_projection(crs_wkt)) return OutputCrs{crs_wkt, unit, nullptr};
+  Result<BackToGeographic> back = BackToGeographic::make(crs_wkt);
+  if (!back) return std::move(back).error();
+  return OutputCrs{back->crs_wkt(), unit, [back = std::move(*back)](std::vector<Vec2>& points) {
+                     return back.transform(points);
+                   }};
+}
+
+std::string urn_of_crs(const std::string& crs_wkt) {
+  const GdalMessages messages;
+  OGRSpatialReference reference;
+  if (crs_wkt.empty() || reference.importFromWkt(crs_wkt.c_str()) != OGRERR_NONE) return {};
+  reference.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  if (reference.GetAuthorityCode(nullptr) == nullptr) reference.AutoIdentifyEPSG();
+  const char* authority = reference.GetAuthorityName(nullptr);
+  const char* code = reference.GetAuthorityCode(nullptr);
+  if (authority == nullptr || code == nullptr) return {};
+  // Coordinates are longitude before latitude.
+  if (EQUAL(authority, "EPSG") && EQUAL(code, "4326")) return "urn:ogc:def:crs:OGC:1.3:CRS84";
+  return fmt::format("urn:ogc:def:crs:{}::{}", authority, code);
 }
 
 }  // namespace medial::io

@@ -60,17 +60,7 @@ void add_rings(const OGRGeometry& geometry, std::vector<Ring>& rings, GeometryCo
 /// The same for a planar graph: also its lines, open or closed, and points, as chains.
 void add_loose(const OGRGeometry& geometry, Feature& feature, GeometryCounts& counts);
 
-/// Both for a geometry as well-known text. Errors: malformed, unsupported (nested too deeply).
-Status add_wkt(const std::string& text, bool loose, Feature& feature);
-
 /// Sets crs_wkt, geographic and the unit; a reference system that is not understood becomes a note.
 void set_crs(const OGRSpatialReference& reference, Document<Feature>& dataset);
-void read_crs_of_epsg(int code, Document<Feature>& dataset);
-void read_crs_of_wkt(const std::string& wkt, Document<Feature>& dataset);
-/// The same by "EPSG:n" or WKT. Errors: invalid_option (it names none).
-Status read_crs_by_name(const std::string& name, Document<Feature>& dataset);
-
-/// Whether all coordinates may be longitudes and latitudes.
-bool can_be_degrees(const Document<Feature>& dataset);
 
 }  // namespace medial::io

@@ -1,5 +1,3 @@
-#include "io/formats/gis.h"
-
 #include <fmt/format.h>
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
@@ -8,8 +6,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "io/gdal_support.h"
-#include "medial/units.h"
+#include "io/gis/gdal_support.h"
+#include "io/gis/make_file.h"
+#include "medial/document.h"
 
 namespace medial::io {
 
@@ -115,15 +114,30 @@ Status make_room(GDALDataset& dataset, const Target& target, const TableSource& 
   return success();
 }
 
+/// Null where there is none.
+std::unique_ptr<OGRSpatialReference> reference_of(const OutputCrs& crs) {
+  auto reference = std::make_unique<OGRSpatialReference>();
+  if (!crs.wkt.empty()) {
+    if (reference->importFromWkt(crs.wkt.c_str()) != OGRERR_NONE) return nullptr;
+    reference->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    return reference;
+  }
+  if (!(millimetres(crs.unit) > 0)) return nullptr;
+  reference->SetLocalCS("plane");
+  reference->SetLinearUnits(name_of(crs.unit), 1e-3 * millimetres(crs.unit));
+  return reference;
+}
+
 Status create_layers(GDALDataset& dataset, const Target& target, const TableSource& source,
                      const GdalMessages& messages) {
   const bool several = target.format == "gpkg";
   // An index is left to who reads: row by row it takes three times as long as all else.
   std::array<char, 17> no_index{"SPATIAL_INDEX=NO"};
   std::array<char*, 2> options{no_index.data(), nullptr};
+  const auto reference = reference_of(target.crs);
   for (const Table& table : source.tables) {
     OGRLayer* layer =
-        dataset.CreateLayer((several ? table.name : target.name).c_str(), target.crs.reference(),
+        dataset.CreateLayer((several ? table.name : target.name).c_str(), reference.get(),
                             type_of(table.kind), several ? options.data() : nullptr);
     if (layer == nullptr) return cannot_write(messages);
     for (const Column& column : table.columns) {
@@ -174,49 +188,6 @@ Status put_gdal_tables(Target& target, const TableSource& source) {
 }
 
 }  // namespace
-
-OutputCrs::OutputCrs() = default;
-OutputCrs::~OutputCrs() = default;
-OutputCrs::OutputCrs(OutputCrs&&) noexcept = default;
-OutputCrs& OutputCrs::operator=(OutputCrs&&) noexcept = default;
-
-Result<OutputCrs> OutputCrs::make(const std::string& crs_wkt, Unit unit) {
-  OutputCrs result;
-  std::string wkt = crs_wkt;
-  if (is_local_projection(wkt)) {
-    Result<BackToGeographic> back = BackToGeographic::make(wkt);
-    if (!back) return std::move(back).error();
-    result.back_ = std::move(*back);
-    wkt = result.back_->crs_wkt();
-  }
-  if (wkt.empty()) {
-    if (!(millimetres(unit) > 0)) return result;
-    result.reference_ = std::make_unique<OGRSpatialReference>();
-    result.reference_->SetLocalCS("plane");
-    result.reference_->SetLinearUnits(name_of(unit), 1e-3 * millimetres(unit));
-    return result;
-  }
-  const GdalMessages messages;
-  auto reference = std::make_unique<OGRSpatialReference>();
-  if (reference->importFromWkt(wkt.c_str()) != OGRERR_NONE) return result;
-  reference->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  result.reference_ = std::move(reference);
-  return result;
-}
-
-Status OutputCrs::transform(std::vector<Vec2>& points) const {
-  return back_ ? back_->transform(points) : success();
-}
-
-Status OutputCrs::transform(std::vector<Disk>& disks) const {
-  if (!back_) return success();
-  std::vector<Vec2> points;
-  points.reserve(disks.size());
-  for (const Disk& disk : disks) points.push_back(disk.center);
-  if (Status done = back_->transform(points); !done) return done;
-  for (std::size_t i = 0; i < disks.size(); ++i) disks[i].center = points[i];
-  return success();
-}
 
 Status make_file(Target& target, const std::function<Status(const std::string&)>& make) {
   if (target.out == nullptr) return make(target.path);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "medial/error.h"
+#include "medial/document.h"
 
 class OGRCoordinateTransformation;
 

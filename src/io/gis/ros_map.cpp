@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "io/format.h"
-#include "io/formats/rasters.h"
+#include "io/gis/rasters.h"
 #include "io/place.h"
 
 namespace medial::io {
@@ -93,7 +93,7 @@ Result<Document<Feature>> read_ros_map(const Input& input, const ReadOptions& op
   const auto map = map_of(text);
   if (!map)
     return Error{ErrorCode::malformed,
-                 "this is no map of ROS: it needs the keys image, resolution and origin",
+                 "this is not a ROS map: it needs the keys image, resolution and origin",
                  in_file(input.path)};
   const ImageOptions& given = options.image;
   if (given.threshold || given.invert || given.labels || options.repair != RepairRule::none)

@@ -1,4 +1,4 @@
-#include "io/gdal_support.h"
+#include "io/gis/gdal_support.h"
 
 #include <cpl_vsi.h>
 #include <fmt/format.h>
@@ -7,53 +7,22 @@
 #include <ogr_spatialref.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <memory>
+#include <cstdlib>
 #include <mutex>
-#include <string_view>
+
+#include "io/reference_system.h"
+#include "io/ring_text.h"
 
 namespace medial::io {
 
 namespace {
 
-/// The bulge of the arc from a through m to b: tangent of half the angle by which its chords turn
-/// at m, which is half of the arc's angle. Not a number where a coordinate is none, or overflows.
-double bulge_of(Vec2 a, Vec2 m, Vec2 b) {
-  const Vec2 u = m - a;
-  const Vec2 v = b - m;
-  const double scale = norm(u) * norm(v) + dot(u, v);
-  if (!std::isfinite(scale)) return std::numeric_limits<double>::quiet_NaN();
-  return scale > 0 ? cross(u, v) / scale : 0;
-}
-
 /// Appends the points of a piece of a ring; its first one is the last of the piece before.
 void add_curve(const OGRSimpleCurve& curve, Ring& ring) {
-  const int count = curve.getNumPoints();
-  const auto point = [&curve](int i) { return Vec2{curve.getX(i), curve.getY(i)}; };
-  const bool circular = wkbFlatten(curve.getGeometryType()) == wkbCircularString;
-  if (ring.points.empty() && count > 0) ring.points.push_back(point(0));
-  if (circular || !ring.bulges.empty()) ring.bulges.resize(ring.points.size(), 0);
-  ring.points.reserve(ring.points.size() + static_cast<std::size_t>(count));
-  if (!circular) {
-    for (int i = 1; i < count; ++i) ring.points.push_back(point(i));
-    if (!ring.bulges.empty()) ring.bulges.resize(ring.points.size(), 0);
-    return;
-  }
-  for (int i = 2; i < count; i += 2) {
-    const Vec2 a = ring.points.back();
-    const Vec2 m = point(i - 1);
-    const Vec2 b = point(i);
-    if (a == b) {  // a whole circle, by its diameter
-      ring.bulges.back() = 1;
-      ring.points.push_back(m);
-      ring.bulges.push_back(1);
-    } else {
-      ring.bulges.back() = bulge_of(a, m, b);
-    }
-    ring.points.push_back(b);
-    ring.bulges.push_back(0);
-  }
+  std::vector<Vec2> points;
+  points.reserve(static_cast<std::size_t>(curve.getNumPoints()));
+  for (int i = 0; i < curve.getNumPoints(); ++i) points.push_back({curve.getX(i), curve.getY(i)});
+  add_piece(points, wkbFlatten(curve.getGeometryType()) == wkbCircularString, ring);
 }
 
 void add_ring(const OGRCurve& source, Ring& ring) {
@@ -194,32 +163,6 @@ void add_rings(const OGRGeometry& geometry, std::vector<Ring>& rings, GeometryCo
   }
 }
 
-Status add_wkt(const std::string& text, bool loose, Feature& feature) {
-  constexpr std::ptrdiff_t deepest_bracket = 8;  // GDAL reads nested brackets by recursion
-  std::ptrdiff_t depth = 0;
-  for (const char c : text) {
-    if (c == '(' && ++depth > deepest_bracket) {
-      return Error{ErrorCode::unsupported, "brackets nested too deeply", {}};
-    }
-    if (c == ')') --depth;
-  }
-  const GdalMessages messages;
-  OGRGeometry* read = nullptr;
-  const OGRErr code = OGRGeometryFactory::createFromWkt(text.c_str(), nullptr, &read);
-  const std::unique_ptr<OGRGeometry> geometry(read);
-  if (code != OGRERR_NONE || !geometry) {
-    return Error{ErrorCode::malformed,
-                 messages.failure().empty() ? "this is no well-known text" : messages.failure(),
-                 {}};
-  }
-  GeometryCounts counts;
-  if (loose)
-    add_loose(*geometry, feature, counts);
-  else
-    add_rings(*geometry, feature.rings, counts);
-  return success();
-}
-
 namespace {
 
 void describe_units(const OGRSpatialReference& reference, Document<Feature>& dataset) {
@@ -242,34 +185,30 @@ void set_crs(const OGRSpatialReference& reference, Document<Feature>& dataset) {
   CPLFree(text);
 }
 
-Status read_crs_by_name(const std::string& name, Document<Feature>& dataset) {
+Status describe_crs(const std::string& name, Document<Feature>& dataset) {
   const GdalMessages messages;
   OGRSpatialReference reference;
   if (reference.SetFromUserInput(
           name.c_str(), OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) != OGRERR_NONE)
     return Error{ErrorCode::invalid_option,
-                 fmt::format("'{}' names no reference system; EPSG:n or WKT does", name),
+                 fmt::format("'{}' does not name a reference system; use EPSG:n or WKT", name),
                  {}};
   set_crs(reference, dataset);
   return success();
 }
 
-void read_crs_of_epsg(int code, Document<Feature>& dataset) {
+void describe_crs(Document<Feature>& dataset) {
+  const std::string& name = dataset.crs_wkt;
+  if (name.empty() || dataset.geographic || dataset.unit != Unit::unknown) return;
   const GdalMessages messages;
   OGRSpatialReference reference;
-  if (reference.importFromEPSG(code) == OGRERR_NONE) {
+  const bool coded = name.starts_with("EPSG:");
+  if (coded && reference.importFromEPSG(std::atoi(name.c_str() + 5)) == OGRERR_NONE) {
     set_crs(reference, dataset);
-  } else {
-    dataset.notes.push_back(fmt::format("the reference system EPSG:{} is not known", code));
-  }
-}
-
-void read_crs_of_wkt(const std::string& wkt, Document<Feature>& dataset) {
-  if (wkt.empty()) return;
-  const GdalMessages messages;
-  dataset.crs_wkt = wkt;
-  OGRSpatialReference reference;
-  if (reference.importFromWkt(wkt.c_str()) == OGRERR_NONE) {
+  } else if (coded) {
+    dataset.notes.push_back(fmt::format("the reference system {} is not known", name));
+    dataset.crs_wkt.clear();
+  } else if (reference.importFromWkt(name.c_str()) == OGRERR_NONE) {
     describe_units(reference, dataset);
   } else {
     dataset.notes.push_back("the reference system is not understood");

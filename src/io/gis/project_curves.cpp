@@ -1,4 +1,4 @@
-#include "io/project_curves.h"
+#include "io/gis/project_curves.h"
 
 #include <array>
 #include <cmath>

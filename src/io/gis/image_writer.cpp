@@ -6,9 +6,9 @@
 #include <cmath>
 #include <memory>
 
-#include "io/formats/gis.h"
-#include "io/formats/rasters.h"
-#include "io/gdal_support.h"
+#include "io/gis/gdal_support.h"
+#include "io/gis/make_file.h"
+#include "io/gis/rasters.h"
 
 namespace medial::io {
 
@@ -102,9 +102,10 @@ Status write_raster(Target& target, const DistancesOutput& output) {
   const std::uint32_t largest =
       distances.squared.empty() ? 0 : *std::ranges::max_element(distances.squared);
   if (largest == DistanceMap::unbounded)
-    return Error{ErrorCode::invalid_option,
-                 "without background there is no distance; count the outside as background",
-                 {}};
+    return Error{
+        ErrorCode::invalid_option,
+        "the image has no background to measure distances to; count the outside as background",
+        {}};
   const double unit = distances.to == DistanceTo::cracks ? 0.5 : 1;
   const auto value_of = [&format, unit](double squared) {
     return format.scale * (format.squared ? unit * unit * squared : unit * std::sqrt(squared));

@@ -1,0 +1,175 @@
+// Calls of the WebAssembly module: arguments in, answers and errors out.
+
+/** An input or an option that has no answer. */
+export class MedialError extends Error {
+  constructor(text, code = "invalid_option", place = {}) {
+    const { feature, ring, vertex, point } = place;
+    const named = Object.entries({ feature, ring, vertex }).filter(([, index]) => index !== undefined);
+    let where = named.map(([name, index]) => `${name} ${index}`).join(", ");
+    if (point) where += ` at (${point.map((x) => (x === null ? "?" : +x.toPrecision(10))).join(", ")})`;
+    super(`${where ? `${where.trim()}: ` : ""}${text} [${code}]`);
+    this.name = "MedialError";
+    Object.assign(this, { text, code, feature, ring, vertex, point });
+  }
+}
+
+let module; // what the WebAssembly module exports
+let starting;
+
+/** Compiles the module, once; from another place if `source` gives its bytes or its URL. */
+export function init(source) {
+  starting ??= start(source).catch((error) => {
+    starting = undefined;
+    throw error;
+  });
+  return starting;
+}
+
+async function start(source = new URL("./medial.wasm", import.meta.url)) {
+  const compiled = await compile(source);
+  const { exports } = await WebAssembly.instantiate(compiled, imports(compiled));
+  exports._initialize();
+  module = exports;
+}
+
+async function compile(source) {
+  if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return WebAssembly.compile(source);
+  if (String(source).startsWith("file:") && typeof process !== "undefined") {
+    const { readFile } = await import(/* @vite-ignore */ "node:fs/promises");
+    return WebAssembly.compile(await readFile(new URL(source)));
+  }
+  const response = await fetch(source);
+  if (!response.ok) throw new Error(`medial-axis: ${source} cannot be read (${response.status})`);
+  return WebAssembly.compile(await response.arrayBuffer());
+}
+
+/** What the module asks of the system: a clock. Its library can do more, which is never called. */
+function imports(compiled) {
+  const clock_time_get = (_id, _precision, at) => {
+    const now = BigInt(Math.round(performance.now() * 1e6));
+    new DataView(module.memory.buffer).setBigUint64(at, now, true);
+    return 0;
+  };
+  const given = {};
+  for (const { module: from, name } of WebAssembly.Module.imports(compiled))
+    (given[from] ??= {})[name] = name === "clock_time_get" ? clock_time_get : () => 0;
+  return given;
+}
+
+/** The module once init() is done. */
+export function loaded() {
+  if (!module) throw new Error("medial-axis: await init() before the first call");
+  return module;
+}
+
+/** The module's memory; it moves when it grows, so ask each time. */
+export const memory = () => loaded().memory.buffer;
+
+const text = new TextDecoder();
+const bytes = new TextEncoder();
+
+function text_at(address) {
+  const all = new Uint8Array(memory());
+  return text.decode(all.subarray(address, all.indexOf(0, address)));
+}
+
+/** The text that goes with the last answer, as JSON. */
+export const answer_text = () => text_at(module.medial_text());
+export const answer_json = () => camel(JSON.parse(answer_text()));
+
+/** A copy of table i of the last answer. */
+export function table(i = 0) {
+  const size = module.medial_table_size(i);
+  if (size === 0) return new Float64Array(0);
+  return new Float64Array(memory(), module.medial_table(i), size).slice();
+}
+
+/** Keys in JavaScript's spelling. */
+export function camel(object) {
+  const renamed = Object.entries(object).map(([key, value]) => [
+    key.replace(/_(\w)/g, (_, letter) => letter.toUpperCase()),
+    value ?? undefined,
+  ]);
+  return Object.fromEntries(renamed);
+}
+
+/** Options as the module reads them: names in the spelling of C++, without those left undefined. */
+export function options(given) {
+  return Object.entries(given)
+    .filter(([, value]) => value !== undefined && value !== null)
+    .map(([key, value]) => `${key.replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`)}=${value}`)
+    .join(";");
+}
+
+/** Copies an array or a text into the module's memory. */
+function place(value) {
+  const from =
+    typeof value === "string"
+      ? bytes.encode(`${value}\0`)
+      : new Uint8Array(value.buffer, value.byteOffset, value.byteLength);
+  const address = module.malloc(Math.max(from.length, 1));
+  if (address === 0) throw new MedialError("memory ran out", "out_of_memory");
+  new Uint8Array(memory()).set(from, address);
+  return address;
+}
+
+/**
+ * Calls a function of the module. Arrays and texts are copied there for the call; null is no array.
+ * An answer of 0 is an error.
+ */
+export function call(name, ...given) {
+  loaded();
+  const placed = [];
+  try {
+    const values = given.map((value) => {
+      if (value === null || value === undefined) return 0;
+      if (typeof value !== "string" && typeof value !== "object") return Number(value);
+      placed.push(place(value));
+      return placed.at(-1);
+    });
+    const result = module[`medial_${name}`](...values);
+    if (result === 0) {
+      const { code, text: what, ...where } = JSON.parse(answer_text());
+      throw new MedialError(what, code, where);
+    }
+    return result >>> 0;
+  } finally {
+    placed.forEach((address) => module.free(address));
+  }
+}
+
+/** A function of the module that gives a number and cannot fail. */
+export const number_of = (name, ...values) => loaded()[`medial_${name}`](...values);
+
+// Objects of the module are freed when JavaScript's garbage collector takes their owners.
+const registry = new FinalizationRegistry(({ free, address }) => module[free](address));
+
+/** What owns an object of the module. */
+export class Handle {
+  #address;
+  #free;
+
+  constructor(address, kind) {
+    this.#address = address;
+    this.#free = `medial_free_${kind}`;
+    registry.register(this, { free: this.#free, address }, this);
+  }
+
+  /** The object's address; an error once it is freed. */
+  get address() {
+    if (this.#address === 0) throw new MedialError("the object is freed", "invalid_option");
+    return this.#address;
+  }
+
+  /** Frees the module's memory now, not when the garbage collector comes. */
+  free() {
+    if (this.#address === 0) return;
+    registry.unregister(this);
+    module[this.#free](this.#address);
+    this.#address = 0;
+  }
+
+  [Symbol.dispose ?? Symbol.for("dispose")]() {
+    this.free();
+  }
+}

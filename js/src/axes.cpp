@@ -1,0 +1,246 @@
+// The axis of one shape: computing it, its arrays, questions to it.
+
+#include <algorithm>
+#include <cmath>
+
+#include "binding.h"
+
+namespace medial::js {
+namespace {
+
+Named& take_grid(Named& named, PixelGrid& grid) {
+  return named.take("resolution", grid.resolution).take_whole("pixels", grid.pixels);
+}
+
+void take_own(Named&, method::Disks&) {}
+void take_own(Named&, method::Lee&) {}
+void take_own(Named&, method::Auto&) {}
+void take_own(Named& named, method::BiarcDc& own) { named.take_whole("seed", own.seed); }
+void take_own(Named& named, method::Ridge& own) {
+  std::string search = "tree", rule = "crossing";
+  take_grid(named, own.grid).take("collinear", own.collinear);
+  named.take("search", search).take("rule", rule);
+  own.search = search == "tree" ? RidgeSearch::tree : RidgeSearch::sorted_list;
+  own.rule = rule == "crossing" ? RidgeRule::crossing : RidgeRule::difference;
+}
+void take_own(Named& named, method::Brushfire& own) {
+  std::string family = name_of(own.family);
+  take_grid(named, own.grid).take("family", family);
+  const auto found = brushfire_from(family);
+  if (!found) refuse(ErrorCode::invalid_option, "there is no such family of brushfires");
+  own.family = *found;
+}
+void take_own(Named& named, method::Potential& own) {
+  named.take("order", own.order).take("base_order", own.base_order).take("step", own.step);
+  named.take("coarse", own.coarse).take("angle", own.angle).take("movement", own.movement);
+}
+void take_own(Named& named, method::CurveAxis& own) {
+  named.take("step", own.step).take_whole("first_maximum", own.first_maximum);
+}
+
+Options options_from(const char* given) {
+  Named named(given);
+  std::string name = "disks";
+  named.take("method", name);
+  const std::optional<Method> method = method_from(name);
+  if (!method) refuse(ErrorCode::invalid_option, "there is no method '" + name + "'");
+  Options options;
+  options.method = *method;
+  named.take("tolerance", options.tolerance).take("corner_angle", options.corner_angle);
+  named.take("exact", options.exact).take("exterior", options.exterior);
+  named.take("margin", options.margin);
+  std::visit([&](auto& own) { take_own(named, own); }, options.method);
+  named.finish();
+  return options;
+}
+
+/// Polylines along all branches: rows of x, y, radius; where each begins; the branch's nodes.
+void answer_lines(const MedialAxis& axis, double chord, double step) {
+  std::vector<Disk> disks;
+  std::vector<double> begin{0};
+  std::vector<double> ends;
+  for (const Branch& branch : branches(axis)) {
+    bool first = true;
+    for (const Step& piece : branch.steps) {
+      const Edge& edge = axis.edges[piece.edge];
+      std::vector<Disk> samples =
+          step > 0 ? sample_by_step(axis, edge, step) : sample_by_chord(axis, edge, chord);
+      if (!piece.forward) std::reverse(samples.begin(), samples.end());
+      disks.insert(disks.end(), samples.begin() + (first ? 0 : 1), samples.end());
+      first = false;
+    }
+    begin.push_back(number(disks.size()));
+    ends.push_back(branch.from);
+    ends.push_back(branch.to);
+  }
+  answer().tables = {table_of(disks), std::move(begin), std::move(ends)};
+}
+
+Json& add_statistics(Json& json, const Statistics& from) {
+  return json.add("queries", number(from.queries))
+      .add("apollonius", number(from.apollonius))
+      .add("bridges", number(from.bridges))
+      .add("precision_retries", number(from.precision_retries))
+      .add("exact_changes", number(from.exact_changes))
+      .add("largest_residual", from.largest_residual)
+      .add("seconds", from.seconds);
+}
+
+/// By name and without a unit, for each measure its default threshold.
+std::string measures() {
+  Json json;
+  for (const PruneMeasure measure : prune_measures())
+    json.add(name_of(measure), default_threshold(measure));
+  return json.text();
+}
+
+}  // namespace
+
+AxisOf* new_axis(SharedShape shape, MedialAxis axis) {
+  return new AxisOf{std::move(shape), std::move(axis)};
+}
+
+MEDIAL_JS AxisOf* medial_axis(const ShapeOf* of, const char* given) {
+  return answered([&] {
+    const Options options = options_from(given);
+    return new_axis(of->shape, value_of(compute(*of->shape, options, of->contours)));
+  });
+}
+
+/// The addresses and numbers of nodes, edges and sites, then tolerance, resolution, exterior,
+/// length, branches; text: method and statistics.
+MEDIAL_JS int medial_axis_numbers(const AxisOf* of) {
+  return answered([&] {
+    const MedialAxis& axis = of->axis;
+    static_assert(sizeof(Node) == 32 && sizeof(Edge) == 48 && sizeof(Site) == 56);
+    answer().tables = {{address_of(axis.nodes.data()), number(axis.nodes.size()),
+                        address_of(axis.edges.data()), number(axis.edges.size()),
+                        address_of(axis.sites.data()), number(axis.sites.size()), axis.tolerance,
+                        axis.resolution, axis.exterior}};
+    Json json;
+    json.add("method", axis.method);
+    answer().text = add_statistics(json, axis.statistics).text();
+    return 1;
+  });
+}
+
+MEDIAL_JS double medial_total_length(const AxisOf* of) { return total_length(of->axis); }
+MEDIAL_JS double medial_branch_count(const AxisOf* of) { return number(branch_count(of->axis)); }
+
+MEDIAL_JS int medial_edge_lengths(const AxisOf* of) {
+  return answered([&] {
+    std::vector<double> lengths;
+    for (const Edge& edge : of->axis.edges) lengths.push_back(length(of->axis, edge));
+    answer().tables = {std::move(lengths)};
+    return 1;
+  });
+}
+
+MEDIAL_JS int medial_lines(const AxisOf* of, double chord, double step) {
+  return answered([&] {
+    answer_lines(of->axis, chord, step);
+    return 1;
+  });
+}
+
+/// Rows of x, y, radius, distance, t, edge (-1: none).
+MEDIAL_JS int medial_nearest(AxisOf* of, const double* points, std::size_t count) {
+  return answered([&] {
+    if (!of->locator) of->locator = std::make_unique<AxisLocator>(of->axis);
+    std::vector<double> rows;
+    for (const Vec2 p : points_at(points, count)) {
+      const AxisPoint at = of->locator->nearest(p);
+      const double edge = std::isfinite(at.distance) ? number(at.edge) : -1;
+      rows.insert(rows.end(),
+                  {at.disk.center.x, at.disk.center.y, at.disk.radius, at.distance, at.t, edge});
+    }
+    answer().tables = {std::move(rows)};
+    return 1;
+  });
+}
+
+/// The place whose disk touches the boundary nearest to a point: edge, t, and its disk.
+MEDIAL_JS int medial_place_at(const AxisOf* of, double x, double y) {
+  return answered([&] {
+    answer().tables = {{}};
+    const auto place = place_on_axis(of->axis, {x, y});
+    if (!place) return 1;
+    const Disk disk = disk_at(of->axis, of->axis.edges[place->edge], place->t);
+    answer().tables = {{number(place->edge), place->t, disk.center.x, disk.center.y, disk.radius}};
+    return 1;
+  });
+}
+
+/// The disk at a parameter of an edge, and its feet on both sites: x, y, radius, left x, y, right
+/// x, y; feet only where sites are known.
+MEDIAL_JS int medial_disk_at(const AxisOf* of, std::uint32_t edge, double t) {
+  return answered([&] {
+    const MedialAxis& axis = of->axis;
+    if (edge >= axis.edges.size() || !(t >= 0 && t <= 1))
+      refuse(ErrorCode::invalid_option, "there is no such edge, or t is not in [0, 1]");
+    const Disk disk = disk_at(axis, axis.edges[edge], t);
+    std::vector<double> row{disk.center.x, disk.center.y, disk.radius};
+    for (const std::uint32_t site : axis.edges[edge].site) {
+      if (site == no_site) continue;
+      const Vec2 at = foot(axis.sites[site], disk.center);
+      row.insert(row.end(), {at.x, at.y});
+    }
+    answer().tables = {std::move(row)};
+    return 1;
+  });
+}
+
+/// An axis from records of a stored one, as they lie in memory.
+MEDIAL_JS AxisOf* medial_restored_axis(const ShapeOf* of, const char* method, double tolerance,
+                                       double resolution, double exterior, const Site* sites,
+                                       std::size_t site_count, const Node* nodes,
+                                       std::size_t node_count, const Edge* edges,
+                                       std::size_t edge_count) {
+  return answered([&] {
+    const auto known = [&](std::uint32_t site) { return site < site_count || site == no_site; };
+    const bool fits = std::all_of(edges, edges + edge_count, [&](const Edge& edge) {
+      return edge.node[0] < node_count && edge.node[1] < node_count && known(edge.site[0]) &&
+             known(edge.site[1]) && edge.weight > 0;
+    });
+    if (!fits) refuse(ErrorCode::malformed, "the arrays of the axis do not fit together");
+    return new_axis(of->shape, {method,
+                                tolerance,
+                                resolution,
+                                exterior,
+                                {sites, sites + site_count},
+                                {nodes, nodes + node_count},
+                                {edges, edges + edge_count},
+                                {}});
+  });
+}
+
+MEDIAL_JS ShapeOf* medial_shape_of(const AxisOf* of) {
+  return answered([&] { return new ShapeOf{of->shape}; });
+}
+
+/// The methods as rows of name, summary and what they take, in the text.
+MEDIAL_JS int medial_methods() {
+  return answered([&] {
+    for (const MethodInfo& method : methods())
+      answer().text += Json()
+                           .add("name", method.name)
+                           .add("summary", method.summary)
+                           .add("exact", method.exact())
+                           .add("holes", method.holes)
+                           .add("arcs", method.arcs)
+                           .add("exterior", method.exterior)
+                           .text() +
+                       "\n";
+    return 1;
+  });
+}
+MEDIAL_JS int medial_prune_measures() {
+  return answered([&] {
+    answer().text = measures();
+    return 1;
+  });
+}
+
+MEDIAL_JS void medial_free_axis(AxisOf* of) { delete of; }
+
+}  // namespace medial::js

@@ -1,0 +1,146 @@
+// Answers, errors and options: what JavaScript reads and writes of every call.
+
+#include "binding.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace medial::js {
+namespace {
+
+std::string quoted(std::string_view text) {
+  std::string result = "\"";
+  for (const char letter : text) {
+    if (letter == '"' || letter == '\\') result += '\\';
+    result += letter == '\n' ? ' ' : letter;
+  }
+  return result + '"';
+}
+
+/// As JSON has numbers; what is not finite becomes null.
+std::string literal(double value) {
+  if (!std::isfinite(value)) return "null";
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.17g", value);
+  return text.data();
+}
+
+}  // namespace
+
+void Json::begin(std::string_view name) {
+  if (text_.size() > 1) text_ += ',';
+  text_ += quoted(name) + ":";
+}
+Json& Json::add(std::string_view name, double value) {
+  begin(name);
+  text_ += literal(value);
+  return *this;
+}
+Json& Json::add(std::string_view name, std::string_view value) {
+  begin(name);
+  text_ += quoted(value);
+  return *this;
+}
+Json& Json::add(std::string_view name, bool value) {
+  begin(name);
+  text_ += value ? "true" : "false";
+  return *this;
+}
+Json& Json::add(std::string_view name, const std::vector<std::string>& values) {
+  begin(name);
+  text_ += '[';
+  for (const std::string& value : values) {
+    if (text_.back() != '[') text_ += ',';
+    text_ += quoted(value);
+  }
+  text_ += ']';
+  return *this;
+}
+Json& Json::add(std::string_view name, Vec2 p) {
+  begin(name);
+  text_ += "[" + literal(p.x) + "," + literal(p.y) + "]";
+  return *this;
+}
+
+Answer& answer() {
+  static Answer kept;
+  return kept;
+}
+
+void answer_error(const Error& error) {
+  Json json;
+  json.add("code", name_of(error.code)).add("text", error.text);
+  const auto add = [&](const char* name, const std::optional<std::uint64_t>& index) {
+    if (index) json.add(name, number(*index));
+  };
+  add("feature", error.place.feature);
+  add("ring", error.place.ring);
+  add("vertex", error.place.vertex);
+  if (error.place.point) json.add("point", *error.place.point);
+  answer() = {{}, json.text()};
+}
+
+Named::Named(const char* text) {
+  std::string_view rest = text;
+  while (!rest.empty()) {
+    const std::string_view one = rest.substr(0, rest.find(';'));
+    rest.remove_prefix(std::min(rest.size(), one.size() + 1));
+    const std::size_t sign = one.find('=');
+    left_.emplace_back(one.substr(0, sign), one.substr(sign + 1));
+  }
+}
+
+Named& Named::take(std::string_view name, std::string& to) {
+  for (auto it = left_.begin(); it != left_.end(); ++it) {
+    if (it->first != name) continue;
+    to = it->second;
+    left_.erase(it);
+    break;
+  }
+  return *this;
+}
+bool Named::take_number(std::string_view name, double& to) {
+  std::string text;
+  take(name, text);
+  if (text.empty()) return false;
+  char* end = nullptr;
+  to = std::strtod(text.c_str(), &end);
+  if (*end != '\0') refuse(ErrorCode::invalid_option, std::string(name) + " is a number");
+  return true;
+}
+Named& Named::take(std::string_view name, double& to) {
+  take_number(name, to);
+  return *this;
+}
+Named& Named::take(std::string_view name, bool& to) {
+  std::string text;
+  take(name, text);
+  if (!text.empty()) to = text == "true";
+  return *this;
+}
+void Named::finish() const {
+  if (!left_.empty())
+    refuse(ErrorCode::invalid_option, "there is no option '" + left_.front().first + "'");
+}
+
+std::vector<Ring> rings_from(const double* coordinates, const std::uint32_t* begin,
+                             std::size_t count, const std::uint8_t* roles, const double* bulges) {
+  std::vector<Ring> rings(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto points = points_at(coordinates + 2 * begin[i], begin[i + 1] - begin[i]);
+    rings[i].points.assign(points.begin(), points.end());
+    if (roles != nullptr) rings[i].role = static_cast<RingRole>(roles[i]);
+    if (bulges != nullptr) rings[i].bulges.assign(bulges + begin[i], bulges + begin[i + 1]);
+  }
+  return rings;
+}
+
+MEDIAL_JS std::size_t medial_tables() { return answer().tables.size(); }
+MEDIAL_JS const double* medial_table(std::size_t i) { return answer().tables[i].data(); }
+MEDIAL_JS std::size_t medial_table_size(std::size_t i) { return answer().tables[i].size(); }
+MEDIAL_JS const char* medial_text() { return answer().text.c_str(); }
+MEDIAL_JS void medial_clear() { answer() = {}; }
+
+}  // namespace medial::js

@@ -1,0 +1,179 @@
+// The package in Node: values that are known, errors, memory, the worker.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import * as medial from "../index.mjs";
+import { inWorker } from "../worker.mjs";
+
+const close = (a, b, within = 1e-12) => assert.ok(Math.abs(a - b) <= within * Math.max(1, Math.abs(b)), `${a} is not ${b}`);
+const box = (width, height) => [[0, 0], [width, 0], [width, height], [0, height]];
+
+test("the axis of a rectangle", () => {
+  const axis = medial.axis(box(4, 2));
+  assert.deepEqual([axis.nodes.length, axis.edges.length, axis.sites.length], [6, 5, 4]);
+  assert.equal(axis.branchCount, 5);
+  close(axis.length, 2 + 4 * Math.SQRT2);
+  close(axis.edgeLengths.reduce((a, b) => a + b), axis.length);
+  assert.equal(axis.method, "disks");
+  close(Math.max(...axis.nodes.radius), 1);
+  assert.equal(axis.nodes.at(0).radius, axis.nodes.radius[0]);
+  assert.equal(medial.NODE_KINDS[axis.nodes.kind[axis.nodes.radius.indexOf(0)]], "leaf");
+});
+
+test("every way to give a shape", () => {
+  const ring = [...box(6, 2), [0, 0]];
+  const ways = [
+    box(6, 2),
+    [0, 0, 6, 0, 6, 2, 0, 2],
+    Float64Array.of(0, 0, 6, 0, 6, 2, 0, 2),
+    [box(6, 2)],
+    { type: "Polygon", coordinates: [ring] },
+    { type: "Feature", properties: {}, geometry: { type: "Polygon", coordinates: [ring] } },
+    JSON.stringify({ type: "MultiPolygon", coordinates: [[ring]] }),
+    "POLYGON ((0 0, 6 0, 6 2, 0 2, 0 0))",
+    "M 0 0 h 6 v 2 h -6 z",
+    new medial.Contour([0, 0]).lineTo([6, 0]).lineTo([6, 2]).lineTo([0, 2]),
+    new medial.Shape(box(6, 2)),
+  ];
+  for (const way of ways) close(medial.axis(way).length, 4 + 4 * Math.SQRT2);
+});
+
+test("holes, arcs and curves", () => {
+  const holed = medial.axis([box(10, 10), [[4, 4], [6, 4], [6, 6], [4, 6]]]);
+  assert.equal(medial.verify(holed).cycles, 1);
+  assert.equal(holed.shape.holeCount, 1);
+  close(holed.shape.area, 96);
+  const stadium = new medial.Contour([0, 0]).lineTo([4, 0]).arcTo([4, 2], 1).lineTo([0, 2]).arcTo([0, 0], 1);
+  close(medial.axis(stadium).length, 4);
+  close(medial.axis("M 0 0 h 4 a 1 1 0 0 1 0 2 h -4 a 1 1 0 0 1 0 -2 z").length, 4);
+  const blob = medial.axis("M 0 0 C 2 -3 6 -3 8 0 S 2 6 0 0 z");
+  assert.ok(medial.verify(blob).passed);
+});
+
+test("every exact method gives the same graph", () => {
+  const shape = new medial.Shape([[0, 0], [7, 1], [9, 6], [5, 4], [3, 8], [1, 5]]);
+  const rows = medial.compare(shape, ["disks", "lee", "biarc-dc", "auto"]);
+  for (const row of rows) close(row.length, rows[0].length, 1e-9);
+  assert.ok(medial.methods().length >= 8);
+  assert.equal(medial.compare([box(4, 4), [[1, 1], [2, 1], [2, 2]]], ["lee"])[0].error.code, "unsupported");
+});
+
+test("operations", () => {
+  const bar = medial.axis([[0, 0], [9, 0], [9, 2], [5, 2], [4.5, 2.1], [4, 2], [0, 2]]);
+  assert.deepEqual([bar.branchCount, bar.prune("erosion", 0.5).branchCount], [7, 1]);
+  assert.ok("prominence" in medial.pruneMeasures());
+  const line = medial.centerline(box(10, 2), { extend: true });
+  close(line.length, 8);
+  const ends = line.coordinates().map(([x, y]) => [x, y]);
+  close(Math.min(...ends.map(([x]) => x)), 0);
+  close(Math.max(...ends.map(([x]) => x)), 10);
+  for (const { width, span } of medial.widthProfile(box(10, 2), 3)) {
+    close(width, 2);
+    close(span, 2);
+  }
+  close(medial.maximumInscribedCircle([[0, 0], [4, 0], [0, 4]]).radius, 4 - 2 * Math.SQRT2);
+  assert.equal(medial.inscribedCircles(box(4, 2), 2).length, 2);
+  close(medial.offset(box(4, 4), 1)[0].area, 4);
+  close(medial.offset(box(4, 4), -1)[0].area, 16 + 16 + Math.PI);
+  close(medial.buffer([[0, 0]], 1)[0].area, Math.PI);
+  close(medial.rebuild(medial.axis(box(4, 2))).area, 8);
+  assert.equal(medial.features(box(4, 2)).ends, 4);
+  assert.equal(medial.features(box(4, 2)).branches.length, 5);
+  assert.equal(medial.necks([[0, 0], [4, 0], [4, 1], [6, 1], [6, 0], [9, 0], [9, 4], [6, 4], [6, 2], [4, 2], [4, 4], [0, 4]]).length, 1);
+  const carving = medial.carve(box(4, 2));
+  close(carving.deepest, 1, 1e-4);
+  assert.match(carving.toGcode(), /^\(medial carve[^]*M2\n$/);
+  close(medial.distance(box(4, 2), box(4, 3)).hausdorff, 1);
+  close(medial.field(box(4, 2)).sample([[2, 0.25]])[0].clearance, 0.25);
+  const diagram = medial.voronoi([[0, 0], [2, 0], [1, 2]]);
+  assert.equal(diagram.cells.length, 3);
+  const collapsed = medial.collapse([[0, 0], [4, 0], [4, 1.8], [9, 1.8], [9, 2.2], [4, 2.2], [4, 4], [0, 4]], 1);
+  assert.ok(collapsed.polygons.area > 15 && collapsed.lines.length > 4);
+});
+
+test("questions to an axis", () => {
+  const axis = medial.axis(box(4, 2));
+  const [place] = axis.nearest([[2, 1.5]]);
+  close(place.x, 2);
+  close(place.radius, 1);
+  const disk = axis.diskAt(place.edge, place.t);
+  assert.equal(disk.feet.length, 2);
+  for (const [x, y] of disk.feet) close(Math.hypot(x - disk.x, y - disk.y), disk.radius);
+  assert.deepEqual([...axis.clearance([[2, 1], [9, 1]])], [1, -5]);
+});
+
+test("errors have a code and a place", () => {
+  const crossing = () => medial.axis([[0, 0], [2, 2], [2, 0], [0, 2]]);
+  assert.throws(crossing, (error) => {
+    assert.ok(error instanceof medial.MedialError);
+    assert.equal(error.code, "crossing");
+    assert.deepEqual(error.point, [1, 1]);
+    assert.equal(error.ring, 0);
+    return true;
+  });
+  const code = (work) => {
+    try {
+      work();
+    } catch (error) {
+      return error.code;
+    }
+    return "none";
+  };
+  assert.equal(code(() => medial.axis([[0, 0], [NaN, 1], [1, 1]])), "not_finite");
+  assert.equal(code(() => medial.axis("LINESTRING (0 0, 1 1)")), "unsupported");
+  assert.equal(code(() => medial.axis("POLYGON ((0 0, 1 1")), "malformed");
+  assert.equal(code(() => medial.axis([["a", "b"]])), "malformed");
+  assert.equal(code(() => medial.axis(box(1, 1), { method: "none" })), "invalid_option");
+  assert.equal(code(() => medial.axis(box(1, 1), { seed: 3 })), "invalid_option");
+  assert.equal(code(() => medial.prune(box(1, 1), "none")), "invalid_option");
+  assert.equal(code(() => medial.axis([])), "unsupported");
+  assert.equal(medial.axis([[0, 0], [2, 2], [2, 0], [0, 2]], { repair: "even_odd" }).shape.componentCount, 2);
+});
+
+test("exact decisions", () => {
+  const plain = medial.axis(box(3, 1));
+  const exact = medial.axis(box(3, 1), { exact: true });
+  assert.equal(exact.edges.length, plain.edges.length);
+});
+
+test("the native format", () => {
+  const shape = [box(10, 10), [[4, 4], [6, 4], [6, 6], [4, 6]]];
+  const axis = medial.axis(shape);
+  const [item] = medial.loads(medial.dumps(axis));
+  for (const kind of ["nodes", "edges", "sites"])
+    for (const name of Object.keys(axis[kind])) assert.deepEqual(item.axis[kind][name], axis[kind][name]);
+  assert.ok(medial.verify(item.axis).passed);
+  assert.throws(() => medial.loads("{}"), { code: "malformed" });
+  assert.throws(() => medial.loads('{"medial":1,"items":[{"shape":{"points":[]}}]}'), { code: "malformed" });
+});
+
+test("memory", () => {
+  const axis = medial.axis(box(4, 2));
+  const { shape } = axis;
+  const view = axis.nodes.view();
+  assert.equal(view.length, 6 * 4);
+  assert.equal(view[2], axis.nodes.radius[0]);
+  axis.free();
+  axis.free();
+  assert.throws(() => axis.edgeLengths, { code: "invalid_option" });
+  close(shape.area, 8);
+  const size = () => axis.constructor && medial.axis(box(4, 2)).nodes.view(Uint8Array).buffer.byteLength;
+  const before = size();
+  for (let i = 0; i < 20000; ++i) medial.axis(box(4, 2 + i * 1e-6)).free();
+  assert.equal(size(), before, "the module's memory grew");
+});
+
+test("a worker", async () => {
+  const worker = await inWorker();
+  try {
+    const { nodes, lines, length } = await worker.axis(box(4, 2));
+    close(length, 2 + 4 * Math.SQRT2);
+    assert.equal(nodes.x.length, 6);
+    assert.equal(lines.length, 5);
+    await assert.rejects(worker.axis([[0, 0], [2, 2], [2, 0], [0, 2]]), { code: "crossing", point: [1, 1] });
+    close((await worker.offset(box(4, 4), 1))[0].area, 4);
+  } finally {
+    worker.terminate();
+  }
+});

@@ -1,0 +1,20 @@
+// Compiled by `tsc --noEmit`: what a program with types writes.
+
+import * as medial from "../index.js";
+import { inWorker } from "../worker.js";
+
+const axis: medial.MedialAxis = medial.axis([[0, 0], [4, 0], [4, 2], [0, 2]], { method: "disks", exact: true });
+const radii: Float64Array = axis.nodes.radius;
+const first: Record<"x" | "y" | "radius" | "component" | "kind", number> = axis.nodes.at(0);
+const line: number[][] = medial.centerline(axis, { extend: true }).coordinates();
+const regions: medial.Region[] = medial.offset(axis, [0.25, 0.5]);
+const gcode: string = medial.carve(axis, { angle: 60, depth: 1 }).toGcode({ feed: 800 });
+for (const row of medial.compare(axis, ["disks", "lee"])) if (row.error) throw row.error;
+else console.log(row.nodes, row.seconds);
+const { passed }: medial.Certificate = medial.verify(axis);
+const worker = await inWorker();
+const { lines } = await worker.axis("POLYGON ((0 0, 1 0, 1 1, 0 0))", { method: "lee" });
+console.log(radii.length, first.radius, line.length, regions[0]?.area, gcode.length, passed, lines.length);
+// @ts-expect-error: there is no such method
+medial.axis("", { method: "voronoi" });
+worker.terminate();

@@ -1,0 +1,29 @@
+import type * as medial from "./index.js";
+
+/** An axis, a line or a shape as plain data. */
+export interface PlainAxis {
+  nodes: Record<string, Float64Array | Uint32Array | Uint8Array>;
+  edges: Record<string, Float64Array | Uint32Array | Uint8Array>;
+  sites: Record<string, Float64Array | Uint32Array | Uint8Array>;
+  method: string;
+  tolerance: number;
+  resolution: number;
+  length: number;
+  branchCount: number;
+  /** Each branch as rows of x, y, radius. */
+  lines: Float64Array[];
+}
+export interface PlainShape { area: number; bounds: [number, number, number, number]; polygons: medial.Position[][][] }
+export interface PlainLine { length: number; narrowest: number; closed: boolean; coordinates: number[][] }
+
+type Plain<T> = T extends medial.MedialAxis ? PlainAxis
+  : T extends medial.Shape ? PlainShape
+  : T extends medial.Line ? PlainLine
+  : T extends (infer U)[] ? Plain<U>[]
+  : T;
+type Functions = { [K in keyof typeof medial as (typeof medial)[K] extends (...given: never[]) => unknown ? K : never]:
+  (typeof medial)[K] extends (...given: infer A) => infer R ? (...given: A) => Promise<Plain<R>> : never };
+
+export type WorkerModule = Functions & { terminate(): void };
+/** Starts a worker whose methods are the functions of the package, each giving a promise. */
+export function inWorker(): Promise<WorkerModule>;

@@ -1,0 +1,32 @@
+#pragma once
+
+// What libraries of GIS do for all formats. gis/ has it from GDAL and GEOS; without_gis.cpp stands
+// in where the library is built without them.
+
+#include <string>
+
+#include "io/output_crs.h"
+#include "medial/io/read.h"
+
+namespace medial::io {
+
+/// A document's reference system may be named "EPSG:n" or WKT: makes it WKT, and sets the unit and
+/// whether it is geographic. One that is not understood becomes a note.
+void describe_crs(Document<Feature>& document);
+/// The same of the one that is named. Errors: invalid_option (it names none).
+Status describe_crs(const std::string& name, Document<Feature>& document);
+
+/// See ReadOptions::project. Errors: invalid_option (no degrees), unsupported (points that cannot
+/// be projected).
+Status project_to_local(Document<Feature>& document);
+
+/// The reference system of an output: that of the document, or its longitudes and latitudes again
+/// where that is a local projection of project_to_local(). Errors: unsupported (a local projection
+/// that cannot be undone).
+Result<OutputCrs> output_crs_of(const std::string& crs_wkt, Unit unit);
+
+/// The name of a reference system as a uniform resource name of the OGC; empty where it has no
+/// code.
+std::string urn_of_crs(const std::string& crs_wkt);
+
+}  // namespace medial::io

@@ -1,0 +1,43 @@
+// Stands in for gis/ in a library without GDAL and GEOS: reference systems stay the names that
+// files give them.
+
+#include "io/reference_system.h"
+#include "io/repair.h"
+
+namespace medial::io {
+
+namespace {
+
+Error missing(const char* libraries, const char* work) {
+  return {ErrorCode::unsupported,
+          std::string("this build has no ") + libraries + ", and cannot " + work,
+          {}};
+}
+
+}  // namespace
+
+void describe_crs(Document<Feature>&) {}
+
+Status describe_crs(const std::string& name, Document<Feature>& document) {
+  document.crs_wkt = name;
+  return success();
+}
+
+Result<OutputCrs> output_crs_of(const std::string& crs_wkt, Unit unit) {
+  return OutputCrs{crs_wkt, unit, nullptr};
+}
+
+std::string urn_of_crs(const std::string&) { return {}; }
+
+Status project_to_local(Document<Feature>&) { return missing("GDAL", "project"); }
+
+Status back_to_geographic(const std::string&, std::vector<Vec2>&) { return success(); }
+
+/// load_shapes() mends these by noding.
+Status make_valid(Feature&, std::size_t, std::vector<std::string>&) { return success(); }
+
+Result<Document<Feature>> read_text(const std::string&, const std::string&) {
+  return missing("FreeType", "draw a text");
+}
+
+}  // namespace medial::io

@@ -1,0 +1,83 @@
+#!/usr/bin/env bash
+# The package for JavaScript (js/) and the studio (web/), by Debian's emscripten.
+#
+#   tools/wasm.sh build TREE         compile the module; TREE/package is the package, TREE/studio the page
+#   tools/wasm.sh serve TREE [PORT]  serve the page on 127.0.0.1
+#   tools/wasm.sh test TREE          run the tests in Node and, where it is installed, in Chromium
+#
+# `build` fails, and `test` ends with status 77, which counts as skipped, where emscripten is missing.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+task=$1 tree=$2
+npm="$tree/npm"
+
+# em++ for CMake. Boost's headers are linked into a folder where they are alone: the system's other
+# headers would shadow those of emscripten.
+configure() {
+  mkdir -p "$tree/headers"
+  ln -sfn /usr/include/boost "$tree/headers/boost"
+  cmake -G Ninja -B "$tree" -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG" \
+    -DCMAKE_TOOLCHAIN_FILE=/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake \
+    -DBoost_NO_BOOST_CMAKE=ON -DBoost_INCLUDE_DIR="$(realpath -s "$tree")/headers" \
+    -DMEDIAL_THREADS=OFF -DMEDIAL_GMP=OFF -DMEDIAL_IO=OFF -DMEDIAL_TESTS=OFF -DMEDIAL_JS=ON \
+    -DMEDIAL_UNITY="${UNITY:-ON}" > /dev/null
+}
+
+# What npm has for the studio and the tests; what needs it does without where it cannot be had.
+packages() {
+  command -v npm > /dev/null || return 1
+  mkdir -p "$npm"
+  cmp -s web/package.json "$npm/package.json" && [ -d "$npm/node_modules" ] && return
+  cp web/package.json "$npm/"
+  npm install --prefix "$npm" --no-audit --no-fund --silent || { rm "$npm/package.json"; return 1; }
+}
+
+build() {
+  if ! command -v em++ > /dev/null; then
+    echo "web: emscripten is not installed"
+    return 1
+  fi
+  # Where Debian keeps the packages of Node that emscripten itself needs.
+  export NODE_PATH=/usr/share/nodejs
+  command -v ccache > /dev/null && export EM_COMPILER_WRAPPER=ccache
+  configure
+  cmake --build "$tree" -j "${JOBS:-$(nproc)}" --target medial_js
+  rm -rf "$tree/package"
+  mkdir "$tree/package"
+  cp -r js/*.mjs js/*.d.ts js/lib js/package.json js/README.md LICENSE "$tree/package/"
+  cp "$tree/js/medial.wasm" "$tree/package/lib/"
+  if [ ! -f web/build.mjs ]; then return; fi
+  if packages; then
+    node web/build.mjs "$tree"
+  else
+    echo "web: npm's packages cannot be had; the studio is not built"
+  fi
+}
+
+run_tests() {
+  if [ ! -f "$tree/package/lib/medial.wasm" ]; then
+    echo "web: skipped, $(ls js/test/*.test.mjs web/test/*.test.mjs | wc -l) files of tests: emscripten is not installed"
+    exit 77
+  fi
+  rm -rf "$tree/package/test"
+  cp -r js/test "$tree/package/test"
+  MEDIAL_DATA=$PWD/data node --test "$tree"/package/test/
+  rm -r "$tree/package/test"
+  if [ -x "$npm/node_modules/.bin/tsc" ]; then
+    "$npm/node_modules/.bin/tsc" --noEmit --strict --target es2022 --module nodenext \
+      --moduleResolution nodenext js/*.d.ts js/types/*.mts
+  else
+    echo "web: the types are not checked: npm's packages cannot be had"
+  fi
+  if [ -f "$tree/studio/index.html" ] && command -v chromium > /dev/null; then
+    MEDIAL_STUDIO=$(realpath "$tree/studio") MEDIAL_NPM=$(realpath "$npm") node --test web/test/
+  elif [ -d web/test ]; then
+    echo "web: $(grep -c '^test(' web/test/*.test.mjs) tests of the studio are skipped: they need npm and chromium"
+  fi
+}
+
+case $task in
+  build) build ;;
+  serve) exec python3 -m http.server --bind 127.0.0.1 --directory "$tree/studio" "${3:-8000}" ;;
+  test) run_tests ;;
+esac
