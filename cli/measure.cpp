@@ -15,10 +15,10 @@
 #include "cli/lines.h"
 #include "cli/pipeline.h"
 #include "cli/plot.h"
+#include "medial/document.h"
 #include "medial/io/read.h"
 #include "medial/io/write.h"
 #include "medial/query.h"
-#include "medial/units.h"
 
 namespace medial::cli {
 namespace {
