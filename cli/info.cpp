@@ -71,7 +71,8 @@ Result<int> summarize_polygons(const FileArguments& arguments) {
   auto loaded = load_shapes(arguments.input, arguments.common);
   if (!loaded) return std::move(loaded).error();
   const auto& [file, report, phases] = *loaded;
-  const auto& [cleaned, arcs] = report;
+  const ShapeReport& cleaned = report.shapes;
+  const ArcReport& arcs = report.arcs;
   const ShapeSummary summary = summarize_shapes(file);
   Json object = {{"input", arguments.input.path},
                  {"kind", "polygons"},
