@@ -27,7 +27,8 @@ bool is_folded(const std::string& group) {
                                  picture_group,
                                  common_group,
                                  std::string_view("Units"),
-                                 std::string_view("Clearing before a V")};
+                                 std::string_view("Clearing before a V"),
+                                 std::string_view("Tabs")};
   return std::ranges::find(shared, group) != shared.end() ||
          group.find("(--method") != std::string::npos;
 }
