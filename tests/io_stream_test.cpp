@@ -11,18 +11,18 @@
 namespace medial::io {
 namespace {
 
-constexpr std::size_t count = 4000;  // several parts
+constexpr std::size_t many = 4000;  // several parts
 
 class Stream : public test::ScratchFolder {
  protected:
   /// L-shapes on a grid; those that are named have no area, or cross themselves.
-  std::string footprints(std::size_t flat = count, std::size_t crossing = count) {
+  std::string footprints(std::size_t flat = many, std::size_t crossing = many) {
     std::mt19937 random(1);
     std::string text;
     const auto put = [&text](double x, double y) {
       text += std::to_string(x) + " " + std::to_string(y) + ", ";
     };
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < many; ++i) {
       const double x = static_cast<double>(30 * (i % 60)), y = static_cast<double>(30 * (i / 60));
       const auto size = [&random] { return 3 + 1e-2 * static_cast<double>(random() % 500); };
       const double a = 8 + size(), b = 8 + size(), c = size(), d = size();
@@ -80,9 +80,9 @@ TEST_F(Stream, BytesAreThoseOfTheWhole) {
       ASSERT_TRUE(report) << to_string(report.error());
       ASSERT_TRUE(*report);
       EXPECT_TRUE(text == expected) << format << ", " << threads << " threads";
-      EXPECT_EQ(seen, count);
+      EXPECT_EQ(seen, many);
       EXPECT_GT(parts, 2U);
-      EXPECT_EQ((*report)->load.features, count);
+      EXPECT_EQ((*report)->load.features, many);
     }
   }
 }
