@@ -259,9 +259,9 @@ TEST(VerifyFinds, AxisOfAnotherShape) {
   HandMade m = notch();
   m.axis = rectangle().axis;
   for (Node& node : m.axis.nodes) node.disk.radius /= 2;  // or one touches the notch by chance
-  expect_failure(m, "convex corners are no leaf");
+  expect_failure(m, "convex corners are not leaves of radius 0");
   expect_failure(m, "1 of 1 reflex vertices are touched by no disk; the first is (3, 2)");
-  expect_failure(m, "sites are no edge and no reflex vertex");
+  expect_failure(m, "sites are neither an edge nor a reflex vertex");
 }
 
 TEST(VerifyFinds, KindsThatDoNotFit) {

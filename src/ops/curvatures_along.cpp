@@ -41,7 +41,8 @@ void add_samples(const std::vector<AxisJet>& jets, Side side, std::vector<FootCu
   for (const AxisJet& jet : jets) {
     feet.push_back(boundary_at(jet, side));
     const bool first = feet.size() == 1;
-    places.push_back(first ? 0 : places.back() + length_between(feet[feet.size() - 2], feet.back()));
+    places.push_back(first ? 0
+                           : places.back() + length_between(feet[feet.size() - 2], feet.back()));
   }
   for (std::size_t i = 0; i < feet.size(); ++i) {
     if (feet.size() < window || !std::isfinite(feet[i].curvature)) continue;

