@@ -202,10 +202,10 @@ TEST(VerifyArcsFinds, WrongSites) {
   // An arc that is not the shape's, or none.
   m = lens();
   m.axis.sites[0].bulge *= 1 + 1e-15;
-  EXPECT_NE(joined(verify(m.shape, m.axis)).find("1 sites are no edge"), std::string::npos);
+  EXPECT_NE(joined(verify(m.shape, m.axis)).find("1 sites are neither an edge"), std::string::npos);
   m = lens();
   m.axis.sites[0].kind = SiteKind::segment;
-  EXPECT_NE(joined(verify(m.shape, m.axis)).find("1 sites are no edge"), std::string::npos);
+  EXPECT_NE(joined(verify(m.shape, m.axis)).find("1 sites are neither an edge"), std::string::npos);
 }
 
 TEST(VerifyArcsFinds, MalformedBulges) {
