@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -9,6 +10,7 @@
 
 #include "base/arc.h"
 #include "base/box_tree.h"
+#include "base/compat.h"
 #include "base/disjoint_sets.h"
 #include "base/numbers.h"
 #include "medial/query.h"
@@ -122,7 +124,7 @@ void tie(const std::vector<TabPlace>& places, std::size_t loops,
   std::vector<const TabPlace*> others;
   for (const TabPlace& place : places)
     if (tied.find(place.loop) != tied.find(place.across)) others.push_back(&place);
-  std::ranges::stable_sort(others, {}, [](const TabPlace* place) { return place->radius; });
+  ranges::stable_sort(others, std::less<>(), [](const TabPlace* place) { return place->radius; });
   for (const TabPlace* place : others)
     if (tied.join(place->loop, place->across)) chosen.push_back(place);
 }
@@ -249,7 +251,7 @@ class Lift {
     ends.push_back(1);
     for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
       const double middle = (ends[k] + ends[k + 1]) / 2;
-      const bool lifted = std::ranges::any_of(
+      const bool lifted = ranges::any_of(
           inside, [&](const auto& part) { return part.first <= middle && middle <= part.second; });
       const auto z = [&](double share) {
         const double plain = share < 1 ? from.z + share * (to.z - from.z) : to.z;
