@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <set>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -45,6 +46,21 @@ TEST(Pipeline, TasksArriveInOrderAndNeverMoreThanTheWindow) {
     for (int i = 0; i < count; ++i) EXPECT_EQ(arrived[static_cast<std::size_t>(i)], i);
     EXPECT_LE(most.load(), static_cast<int>(window));
   }
+}
+
+TEST(Pipeline, OneThreadIsTheCaller) {
+  std::set<std::thread::id> seen;
+  int made = 0;
+  const std::vector<PipelineStage> stages{
+      {false, [&seen](void*) { seen.insert(std::this_thread::get_id()); }}};
+  run_pipeline(
+      1, 8,
+      [&]() -> std::shared_ptr<void> {
+        return made < 200 ? std::make_shared<Number>(Number{made++}) : nullptr;
+      },
+      stages);
+  EXPECT_EQ(made, 200);
+  EXPECT_EQ(seen, std::set{std::this_thread::get_id()});
 }
 
 TEST(Pipeline, AnExceptionReachesTheCaller) {

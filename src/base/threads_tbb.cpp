@@ -138,7 +138,11 @@ void run_pipeline(int requested, std::size_t window,
                                               return task;
                                             });
   const tbb::filter<Task, void> end(tbb::filter_mode::parallel, [](const Task&) {});
-  on_threads(requested, [&] { tbb::parallel_pipeline(window, chain & end); });
+  on_threads(requested, [&] {
+    if (!alone) return tbb::parallel_pipeline(window, chain & end);
+    while (const Task task = next())
+      for (const PipelineStage& stage : stages) stage.run(task.get());
+  });
 }
 
 }  // namespace medial
