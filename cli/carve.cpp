@@ -322,7 +322,7 @@ void add_tab_options(CLI::App& command, CarveArguments& arguments) {
       command
           .add_option(
               "--tabs", tabs.count,
-              "Leave so many bars at each part that would come loose: at each hole, with\n"
+              "Leave this many bars at each part that would come loose: at each hole, with\n"
               "--exterior around each shape. They lie on the bottom, from side to side, and\n"
               "need --depth.")
           ->check(CLI::Range(1, 1000))

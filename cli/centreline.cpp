@@ -331,7 +331,7 @@ CLI::Option* add_line_options(CLI::App& command, CentrelineArguments& arguments)
   add_path_options(command, arguments.path);
   command.add_flag("--extend", arguments.line.extend, "Extend both ends to the boundary.");
   add_value(command, "--smooth", arguments.line.smooth, "RADII", in_range(0, 1000),
-            "Average the line over so many of its mean radii (Gaussian weights). It\n"
+            "Average the line over this many mean radii (Gaussian weights). It\n"
             "stays inside the shape.");
   CLI::Option* all = command.add_flag(
       "--all", arguments.all,

@@ -71,7 +71,7 @@ class Progress {
   /// Takes the share in [0, 1] that is done, from any thread; empty if nothing is shown. The
   /// Progress must outlive it.
   std::function<void(double)> callback();
-  /// The same for work on so many features: it shows how many a second, and the time left, too.
+  /// The same for a known number of features: it also shows the rate and the time left.
   std::function<void(double, std::uint64_t)> counting_callback();
 
  private:

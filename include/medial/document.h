@@ -35,7 +35,7 @@ std::string unit_names();
 /// Of one unit; of pixels of drawings 25.4 / 96; 0: it has no length.
 double millimetres(Unit unit);
 
-/// The unit that is so many millimetres long; unknown: none.
+/// The unit of this length in millimetres; unknown if there is none.
 Unit unit_of_length(double millimetres);
 
 /// What holds for all items of a file.

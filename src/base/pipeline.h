@@ -14,8 +14,8 @@ struct PipelineStage {
 };
 
 /// Passes tasks through stages on effective_threads(requested) threads: `next` makes one after
-/// another until it returns null. At most `window` of them are under way, so that those behind a
-/// slow one go on until so many wait for it.
+/// another until it returns null. At most `window` of them are under way: those behind a slow
+/// one go on until the window is full.
 void run_pipeline(int requested, std::size_t window,
                   const std::function<std::shared_ptr<void>()>& next,
                   std::span<const PipelineStage> stages);

@@ -18,7 +18,7 @@ struct StreamOptions {
       compute;
   /// Sees the parts in order, before they are written; may be empty.
   std::function<void(const Document<AxisItem>& part)> visit;
-  /// The share in [0, 1] that is done, of so many features; may be empty.
+  /// Gets the share that is done, in [0, 1], and the number of features; may be empty.
   std::function<void(double share, std::uint64_t features)> progress;
   std::uint64_t least_bytes = std::uint64_t{1} << 20;  ///< of a file; smaller ones are read whole
 };

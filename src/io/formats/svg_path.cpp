@@ -105,7 +105,7 @@ Result<std::vector<Contour>> read_path_data(std::string_view text, bool loose) {
         Parser::parse(svgpp::tag::attribute::d(), path,
                       boost::iterator_range<const char*>(text.data(), text.data() + text.size()),
                       svgpp::tag::source::attribute());
-    if (!read) return Error{ErrorCode::malformed, "this is no path data of SVG", {}};
+    if (!read) return Error{ErrorCode::malformed, "this is not SVG path data", {}};
     return path.contours({}, RingRole::winding, loose, loose);
   });
 }

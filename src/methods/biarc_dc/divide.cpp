@@ -19,7 +19,7 @@ constexpr int most_tries = 8;
 /// A cut of a large sub-shape is taken if none of the parts has more than this share of it.
 constexpr double most_share = 0.75;
 
-/// Sub-shapes of so many elements are divided by one task to the end.
+/// A sub-shape of at most this many elements is divided by one task to the end.
 constexpr std::size_t task_size = 4096;
 
 /// A disk, where it touches, and the part that has most elements: from one seam to the next.
