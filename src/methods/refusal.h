@@ -7,7 +7,7 @@
 
 namespace medial {
 
-/// The error instead of an axis that verify() refuses, for shapes of arcs of almost one circle.
+/// The error instead of an axis that verify() refuses, where decisions alone do not make it certain.
 /// Disks there touch nearly all of these, so that every search takes O(n): of large axes fewer
 /// disks are measured.
 std::optional<Error> error_if_refused(const Problem& problem, const MedialAxis& axis);

@@ -9,9 +9,9 @@ namespace {
 /// The boundary that the method disks walks along, with its disks between loops.
 disks::Boundary boundary_of(const Problem& problem, std::vector<disks::Bridge>& bridges,
                             Statistics& statistics) {
-  disks::Boundary loops = disks::loops_boundary(problem, false);
+  disks::Boundary loops = disks::loops_boundary(problem, problem.numbers(), false);
   if (problem.shape.hole_count() == 0) return loops;
-  bridges = disks::connecting_disks(problem.shape, loops, problem.fine_tolerance, nullptr, 0,
+  bridges = disks::connecting_disks(problem.shape, loops, problem.fine_tolerance, nullptr, {},
                                     statistics.queries);
   statistics.bridges = bridges.size();
   return disks::connect(problem.shape, loops, bridges);

@@ -182,9 +182,8 @@ bool in_wedge(Vec2 first, Vec2 last, Vec2 to) {
   return angle <= wedge + beyond || angle >= 2 * std::numbers::pi - beyond;
 }
 
-Boundary loops_boundary(const Problem& problem, bool two_sided) {
+Boundary loops_boundary(const Problem& problem, const SiteNumbers& numbers, bool two_sided) {
   const Shape& shape = problem.shape;
-  const SiteNumbers& numbers = problem.numbers();
   Boundary boundary;
   boundary.has_arcs = !shape.bulges.empty();
   boundary.two_sided = two_sided;

@@ -106,7 +106,7 @@ struct Boundary {
 /// else at the joint where its curvature is smallest; a hole at its furthest point in the direction
 /// `outreach`: a reflex vertex, or a place inside an arc, which is divided there. A loop of one
 /// point is a vertex with the shape all around it, and without a neighbour.
-Boundary loops_boundary(const Problem& problem, bool two_sided);
+Boundary loops_boundary(const Problem& problem, const SiteNumbers& numbers, bool two_sided);
 
 /// The angle from one direction to another, clockwise, in [0, 2 pi).
 double clockwise_turn(Vec2 from, Vec2 to);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "axis/statistics.h"
+#include "base/compat.h"
 #include "base/memory.h"
 #include "base/stopwatch.h"
 #include "methods/checks.h"
@@ -13,7 +14,6 @@
 #include "methods/disks/connect.h"
 #include "methods/disks/exact_event.h"
 #include "methods/disks/merge_ties.h"
-#include "methods/disks/near_circle.h"
 #include "methods/disks/walk.h"
 #include "methods/refusal.h"
 #include "site/boundary_tree.h"
@@ -23,14 +23,9 @@ namespace medial::disks {
 namespace {
 
 /// The walk separates contacts to a share of the tolerance, which is still some roundings: narrow
-/// gaps may leave only some tolerances between two contacts, and so does the whole axis where arcs
-/// are within so many tolerances of one circle. What remains of a tie is merged at the end. Among
-/// other arcs ties are known to the tolerance only, since their bulges round, too.
-constexpr double fine_share = 0.25, in_centers_share = 0.125, near_circle = 1 << 12;
-
-/// The axis of such arcs is certified before it is returned. With more of them that takes too long,
-/// as searches among them take O(n).
-constexpr std::size_t most_arcs_in_near_circle = 1 << 14;
+/// gaps may leave only some tolerances between two contacts. What remains of a tie is merged at the
+/// end. Among arcs ties are known to the tolerance only, since their bulges round, too.
+constexpr double fine_share = 0.25;
 
 /// Reports the share of the walk that is done, if the caller wants it.
 std::function<void(std::uint64_t)> reporter(const Options& options, const Boundary& boundary,
@@ -41,29 +36,35 @@ std::function<void(std::uint64_t)> reporter(const Options& options, const Bounda
   };
 }
 
-Error error_of_too_many_arcs(const Box& box) {
-  Error error{ErrorCode::unsupported, "too many arcs are of one circle but for rounding", {}};
-  error.place.point = midpoint(box.low, box.high);
-  return error;
+/// How an attempt decides what ends an edge: in double where that is certain and else in 256 bits,
+/// or in double only.
+struct Way {
+  bool in_double = false;
+  std::vector<bool> parted;      ///< points whose joints are taken as they stand; empty: none
+  std::vector<bool> in_precise;  ///< components in which double is never asked; empty: none
+};
+
+/// Adds the sites, as the boundary has them, where the walk found that a step before was wrong.
+void find_lost(const Chunk& chunk, std::vector<std::uint32_t>& lost) {
+  lost.insert(lost.end(), chunk.lost.begin(), chunk.lost.end());
+  for (const auto& child : chunk.children) find_lost(*child, lost);
 }
 
 /// Connects the holes of the boundary, walks it, and joins what the walk finds. Nothing where the
-/// caller cancels.
-std::optional<Graph> graph_of(const Problem& problem, double walk_tolerance, Decides decides,
-                              Boundary& boundary, Statistics& statistics) {
+/// caller cancels, and where sites are lost.
+std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers,
+                              double walk_tolerance, const Way& way, Boundary& boundary,
+                              Statistics& statistics, std::vector<std::uint32_t>& lost) {
   Stopwatch watch;
 #ifdef MEDIAL_HAS_EXACT
-  const bool takes_exact =
-      !boundary.two_sided &&
-      (decides == Decides::in_precise || (decides == Decides::in_stages && !boundary.has_arcs));
+  const bool takes_exact = !boundary.two_sided && !way.in_double;
 #else
   constexpr bool takes_exact = false;
 #endif
-  const bool always_exact = decides == Decides::in_precise;
-  const ExactSites sites(problem);
+  const ExactSites sites(problem, numbers);
   const std::vector<Bridge> bridges =
       connecting_disks(problem.shape, boundary, walk_tolerance, takes_exact ? &sites : nullptr,
-                       always_exact ? problem.radius_limit : exact_bridges, statistics.queries);
+                       way.in_precise, statistics.queries);
   if (!bridges.empty()) boundary = connect(problem.shape, boundary, bridges);
   statistics.bridges = bridges.size();
   statistics.seconds_connect = watch.lap();
@@ -73,12 +74,14 @@ std::optional<Graph> graph_of(const Problem& problem, double walk_tolerance, Dec
   statistics.seconds_tree = watch.lap();
 
   std::atomic<std::uint64_t> finished = 0;
-  const ExactEvents exact(sites, boundary, tree, always_exact);
+  const ExactEvents exact(sites, boundary, tree, way.in_precise);
   auto chunks = walk({boundary, bridges, tree, walk_tolerance, problem.radius_limit,
                       takes_exact ? &exact : nullptr, problem.options.cancel,
                       reporter(problem.options, boundary, finished)});
   statistics.seconds_walk = watch.lap();
   if (problem.is_cancelled()) return std::nullopt;
+  for (const auto& chunk : chunks) find_lost(*chunk, lost);
+  if (!lost.empty()) return std::nullopt;
 
   // A diagram has nodes for a planar graph's points, and edges that lead there, as well.
   const std::size_t spare_nodes = boundary.two_sided ? problem.shape.points.size() : 0;
@@ -88,33 +91,46 @@ std::optional<Graph> graph_of(const Problem& problem, double walk_tolerance, Dec
   return graph;
 }
 
-/// The engine: sites, holes connected, tree, walk, graph. Contacts are separated to a share of the
-/// tolerance, which by default depends on the shape. The edges are returned apart from the axis.
+/// The sites of a boundary get the names that the axis has for them.
+void rename(const std::vector<std::uint32_t>& names, Boundary& boundary) {
+  for (std::size_t i = 0; i < boundary.originals.size(); ++i)
+    if (boundary.elements[i] != Element::bridge)
+      boundary.originals[i] = names[boundary.originals[i]];
+}
+
+/// The engine: sites, holes connected, tree, walk, graph. The edges are returned apart from the
+/// axis. `lost` gets the sites, as the axis names them, where a step was wrong.
 template <class E>
-Result<Outcome> attempt(const Problem& problem, bool two_sided, std::optional<double> share,
-                        Decides decides, std::vector<E>& edges) {
-  Outcome outcome;
-  MedialAxis& axis = outcome.axis;
+Result<MedialAxis> attempt(const Problem& problem, bool two_sided, const Way& way,
+                           std::vector<E>& edges, std::vector<std::uint32_t>& lost) {
+  MedialAxis axis;
   axis.method = "disks";
   axis.tolerance = problem.tolerance;
   Stopwatch all, watch;
 
-  Boundary boundary = loops_boundary(problem, two_sided);
-  const double near = near_circle * problem.fine_tolerance;
-  outcome.in_centers = !two_sided && is_near_circle(boundary, problem.local_box(), near);
-  if (outcome.in_centers && boundary.sites.size() > most_arcs_in_near_circle)
-    return error_of_too_many_arcs(problem.box);
-  if (outcome.in_centers && !share) return outcome;
-  const double usual_share = boundary.has_arcs ? 1 : fine_share;
+  const SiteNumbers* numbers = &problem.numbers();
+#ifdef MEDIAL_HAS_EXACT
+  std::optional<exact::PartedNumbers> parted;
+  if (!way.parted.empty()) {
+    parted = exact::parted_numbers(problem, way.parted);
+    numbers = &parted->numbers;
+  }
+#endif
+  Boundary boundary = loops_boundary(problem, *numbers, two_sided);
   axis.statistics.seconds_sites = watch.lap();
 
-  auto graph = graph_of(problem, share.value_or(usual_share) * problem.fine_tolerance, decides,
-                        boundary, axis.statistics);
-  if (!graph) return outcome;
-  if (graph->statistics.exact_changes > 0)
+  const double share = boundary.has_arcs ? 1 : fine_share;
+  auto graph = graph_of(problem, *numbers, share * problem.fine_tolerance, way, boundary,
+                        axis.statistics, lost);
+#ifdef MEDIAL_HAS_EXACT
+  if (parted) rename(parted->names, boundary);
+#endif
+  if (!graph) {
+    if (problem.is_cancelled()) return axis;
+    for (std::uint32_t& site : lost) site = boundary.originals[site];
     return Error{ErrorCode::internal, "the walk lost its way: please report this shape", {}};
+  }
   watch.lap();
-  if (!two_sided && !outcome.in_centers) outcome.in_centers = is_in_centers(boundary, *graph, near);
   constexpr double loose = 0x1p-20;  // of the size: no near tie is that far off
   const double slack = std::max(loose * diagonal(problem.box), 4 * axis.tolerance);
   reserve_large(edges, graph->links.size() + (two_sided ? problem.numbers().count : 0));
@@ -133,44 +149,85 @@ Result<Outcome> attempt(const Problem& problem, bool two_sided, std::optional<do
     if (!touches_its_sites(axis, edges[edge], slack))
       return error_of_wrong_axis(
           axis, "a disk of the axis misses a site that it should touch: please report this shape");
-  return outcome;
+  return axis;
+}
+
+/// Marks points along the boundary, so many on both sides of each of these sites.
+std::vector<bool> points_around(const Problem& problem, const std::vector<std::uint32_t>& sites,
+                                std::size_t around) {
+  const std::vector<std::uint32_t>& edge = problem.numbers().edge;
+  std::vector<bool> marked(edge.size(), false);
+  for (const std::uint32_t site : sites) {
+    const auto point = static_cast<std::size_t>(ranges::lower_bound(edge, site) - edge.begin());
+    const auto& begin = problem.shape.loop_begin;
+    const auto loop = std::upper_bound(begin.begin(), begin.end(), point) - 1;
+    const std::size_t size = loop[1] - loop[0];
+    for (std::size_t i = 0; i <= std::min(2 * around, size); ++i)
+      marked[loop[0] + (point - loop[0] + size + i - std::min(around, size)) % size] = true;
+  }
+  return marked;
+}
+
+/// Marks the components of these sites, and all of their points.
+void mark_components(const Problem& problem, const std::vector<std::uint32_t>& sites, Way& way) {
+  const Shape& shape = problem.shape;
+  const std::vector<bool> points = points_around(problem, sites, 0);
+  way.in_precise.assign(shape.component_count(), sites.empty());
+  way.parted.assign(shape.points.size(), false);
+  for (const bool marks_points : {false, true})
+    for (std::size_t loop = 0; loop < shape.loop_count(); ++loop)
+      for (std::size_t i = shape.loop_begin[loop]; i < shape.loop_begin[loop + 1]; ++i)
+        if (marks_points)
+          way.parted[i] = way.in_precise[shape.component[loop]];
+        else if (points[i])
+          way.in_precise[shape.component[loop]] = true;
+}
+
+/// What to try after an attempt that lost its way at these sites, or failed: joints of arcs as they
+/// stand around the sites, in ever more of them; 256 bits in their components; double only.
+Way next_way(const Problem& problem, const Way& before, int attempts,
+             const std::vector<std::uint32_t>& lost) {
+  constexpr int most_parted = 3;
+  constexpr std::size_t around = 4;
+  Way way;
+  way.in_double = !before.in_precise.empty();
+  if (way.in_double) return way;
+  if (has_arcs(problem.shape) && !lost.empty() && attempts < most_parted) {
+    way.parted = points_around(problem, lost, around << (2 * attempts));
+    for (std::size_t i = 0; i < before.parted.size(); ++i)
+      if (before.parted[i]) way.parted[i] = true;
+    return way;
+  }
+  mark_components(problem, lost, way);
+  return way;
 }
 
 }  // namespace
 
-Result<Outcome> run(const Problem& problem) {
+Result<MedialAxis> run(const Problem& problem) {
+  Way way;
   std::optional<Error> error;
-  // Next to arcs double decides. To another share of the tolerance, what misled it may be one
-  // contact, or two; in 256 bits it is what the shape has.
-  struct Attempt {
-    std::optional<double> share;
-    Decides decides = Decides::in_double;
-  };
-  std::vector<Attempt> attempts{{{}, Decides::in_stages}, {{}, Decides::in_precise}, {}};
-  if (!problem.shape.bulges.empty())
-    attempts = {{}, {in_centers_share}, {1.0}, {1.0, Decides::in_precise}};
-  for (const auto& [share, decides] : attempts) {
+  for (int attempts = 1;; ++attempts) {
     std::vector<Edge> edges;
-    Result<Outcome> outcome = attempt(problem, false, share, decides, edges);
-    if (!outcome) {
-      if (!error) error = std::move(outcome).error();
-      continue;
+    std::vector<std::uint32_t> lost;
+    Result<MedialAxis> axis = attempt(problem, false, way, edges, lost);
+    if (axis) {
+      axis->edges = std::move(edges);
+      const bool is_certain = attempts == 1 || (!way.in_double && !has_arcs(problem.shape));
+      if (is_certain || problem.is_cancelled()) return axis;
     }
-    outcome->axis.edges = std::move(edges);
-    const bool is_doubtful =
-        outcome->in_centers || (error && (share || decides == Decides::in_double));
-    if (!is_doubtful || problem.is_cancelled()) return outcome;
-    if (outcome->in_centers && !share) continue;  // a finer one is due
-    auto refused = error_if_refused(problem, outcome->axis);
-    if (!refused) return outcome;
-    if (!error) error = std::move(refused);
+    auto refused = axis ? error_if_refused(problem, *axis) : std::move(axis).error();
+    if (!refused) return axis;
+    if (!error || axis) error = std::move(refused);
+    if (way.in_double) return std::move(*error);
+    way = next_way(problem, way, attempts - 1, lost);
   }
-  return std::move(*error);
 }
 
 template <class E>
 MedialAxis run_two_sided(const Problem& problem, std::vector<E>& edges) {
-  return std::move(attempt(problem, true, std::nullopt, Decides::in_double, edges)->axis);
+  std::vector<std::uint32_t> lost;
+  return *attempt(problem, true, Way{true, {}, {}}, edges, lost);
 }
 
 template MedialAxis run_two_sided(const Problem&, std::vector<Edge>&);

@@ -17,7 +17,7 @@ using Number = Bounded<Precise>;
 using Hit = Contacts::Hit;
 
 const exact::SiteLoops& ExactSites::outline() const {
-  std::call_once(once_, [&] { outline_ = exact::outline_of(problem_); });
+  std::call_once(once_, [&] { outline_ = exact::outline_of(problem_, numbers_); });
   return outline_;
 }
 
@@ -43,8 +43,10 @@ std::optional<ExactSites::Touch> ExactSites::first_touch(
 /// the two sites and a third one between them, in this order around it, and keeps clear of all.
 class ExactEvents::Search {
  public:
-  Search(const ExactEvents& events, const Span& span, const Disk& from)
-      : events_(events), outline_(events.sites_.outline()), span_(span), from_(from) {}
+  Search(const ExactEvents& events, const Span& span, const Disk& from, bool is_exact)
+      : events_(events), outline_(events.sites_.outline()), span_(span), from_(from) {
+    if (is_exact) node_ = disk_of_node();
+  }
 
   std::optional<Found> run(std::uint32_t hint, bool all_around) {
     std::vector<std::uint32_t> candidates{span_.right + 1, span_.left - 1, span_.right + 2,
@@ -57,6 +59,7 @@ class ExactEvents::Search {
         else
           consider(site);
       candidates = best_ ? intruders() : std::vector<std::uint32_t>{};
+      if (is_hopeless_) return std::nullopt;
       if (best_ && candidates.empty()) return Found{site_, rounded(), is_well_known()};
       std::erase_if(candidates, [&](std::uint32_t site) { return is_seen(site); });
       if (!candidates.empty()) continue;
@@ -72,6 +75,8 @@ class ExactEvents::Search {
   static constexpr double rounding = 0x1p-47;
   /// No two points of the local frame are further apart.
   static constexpr double furthest = 8;
+  /// In the centre of more arcs of one circle but for rounding, 256 bits take too long.
+  static constexpr std::size_t most_around = 1024;
 
   const exact::ExactSite& exact_site(std::uint32_t i) const { return outline_.sites[name(i)]; }
   std::uint32_t name(std::uint32_t i) const { return events_.boundary_.originals[i]; }
@@ -96,8 +101,18 @@ class ExactEvents::Search {
     return forward > 0;
   }
 
+  /// The node's disk as the sites have it, where all three that it touches are known.
+  std::optional<PreciseDisk> disk_of_node() const {
+    if (span_.third >= events_.boundary_.sites.size()) return std::nullopt;
+    const std::uint32_t right = name(span_.right), left = name(span_.left),
+                        third = name(span_.third);
+    if (third == right || third == left || right == left) return std::nullopt;
+    return exact::disk_bounds<Precise>(outline_, {right, left, third}, Disk{});
+  }
+
   /// Whether a disk lies behind that of the node, by more than that is off.
   bool is_behind(const PreciseDisk& disk) const {
+    if (node_) return comes_before(disk, *node_);
     constexpr double clear = 0x1p-8;  // of the radius: more than any node is off
     const double slack =
         std::min(span_.error, clear * from_.radius) +
@@ -165,8 +180,19 @@ class ExactEvents::Search {
     std::vector<std::uint32_t> near;
     events_.tree_.within(disk.center, disk.radius + rounding, span_.right + 1, span_.left - 1,
                          near);
-    for (const std::uint32_t site : near)
-      if (!is_bridge(site) && exact::clearance(exact_site(site), *best_) < 0) add(site);
+    is_hopeless_ = events_.boundary_.has_arcs && near.size() > most_around;
+    if (is_hopeless_) return found;
+    std::erase_if(near, [&](std::uint32_t site) {
+      return is_bridge(site) || exact::clearance(exact_site(site), *best_) >= 0;
+    });
+    // Of many that are new, a few take the place of most others.
+    std::vector<std::uint32_t> fresh = near;
+    std::erase_if(fresh, [&](std::uint32_t site) {
+      return is_seen(site) && is_seen(site - 1) && is_seen(site + 1);
+    });
+    const std::vector<std::uint32_t>& some = fresh.empty() ? near : fresh;
+    constexpr std::size_t few = 8;
+    for (std::size_t i = 0; i < some.size(); i += some.size() / few + 1) add(some[i]);
     return found;
   }
 
@@ -198,19 +224,21 @@ class ExactEvents::Search {
   const exact::SiteLoops& outline_;
   const Span span_;
   const Disk from_;
+  std::optional<PreciseDisk> node_;  ///< of the span, where it is asked for
   std::unordered_set<std::uint32_t> seen_;
+  bool is_hopeless_ = false;
   std::optional<PreciseDisk> best_;
   std::uint32_t site_ = 0;
 };
 
 std::optional<ExactEvents::Found> ExactEvents::next(const Span& span, const Disk& from,
-                                                    std::uint32_t hint) const {
-  return Search(*this, span, from).run(hint, false);
+                                                    std::uint32_t hint, bool is_exact) const {
+  return Search(*this, span, from, is_exact).run(hint, false);
 }
 
 std::optional<ExactEvents::Found> ExactEvents::start(const Span& whole, const Disk& about,
                                                      std::uint32_t hint) const {
-  return Search(*this, whole, about).run(hint, true);
+  return Search(*this, whole, about, false).run(hint, true);
 }
 
 }  // namespace medial::disks
@@ -224,7 +252,8 @@ std::optional<ExactSites::Touch> ExactSites::first_touch(Vec2, const Boundary&,
   return std::nullopt;
 }
 
-std::optional<ExactEvents::Found> ExactEvents::next(const Span&, const Disk&, std::uint32_t) const {
+std::optional<ExactEvents::Found> ExactEvents::next(const Span&, const Disk&, std::uint32_t,
+                                                    bool) const {
   return std::nullopt;
 }
 

@@ -32,13 +32,17 @@ class Walker {
   /// that touches the boundary where the two join smoothly.
   void walk_run(const Boundary::SiteRange& run) {
     chunk_.nodes.push_back({site(run.first).point, 0});  // stands for no parent
-    if (run.at_corner) {
+    if (run.at_corner && boundary_.joint(run.last) == site::Joint::blunt) {
+      starts_blunt_ = true;
+      stack_.push_back({run.first, run.last, 0});
+    } else if (run.at_corner) {
       const std::uint32_t corner = add_node({site(run.first).point, 0});
       stack_.push_back({run.first, run.last, corner});
     } else {
       start_at_smooth_place(run);
     }
     walk_stack();
+    if (starts_blunt_ && chunk_.nodes.size() == 1) add_node(disk_between(run));
   }
 
   /// Walks one span and all that branches off it.
@@ -95,7 +99,23 @@ class Walker {
     }
   }
 
-  bool is_exact() const { return context_.exact != nullptr && context_.exact->always; }
+  /// The disk between two arcs that are the whole boundary and join bluntly: the largest one.
+  Disk disk_between(const Boundary::SiteRange& run) const {
+    const auto middle_from = [&](std::uint32_t first) {
+      std::uint32_t last = first;
+      while (last < run.last && boundary_.originals[last + 1] == boundary_.originals[first]) ++last;
+      return last > first ? site(last).point : site(first).at(0.5 * site(first).length);
+    };
+    std::uint32_t second = run.first;
+    while (second < run.last && boundary_.originals[second] == boundary_.originals[run.first])
+      ++second;
+    const Vec2 a = middle_from(run.first), b = middle_from(second);
+    return {midpoint(a, b), 0.5 * distance(a, b)};
+  }
+
+  bool is_exact() const {
+    return context_.exact != nullptr && context_.exact->always(chunk_.component);
+  }
 
   /// Passes on to the last piece of an arc that the boundary has in several, which are one site of
   /// the shape. Whether there were any.
@@ -110,9 +130,25 @@ class Walker {
     return span.right != before.right || span.left != before.left;
   }
 
+  /// Notes that what led to a span was wrong.
+  void lose(const Span& span, std::uint32_t third) {
+    ++chunk_.statistics.exact_changes;
+    for (const std::uint32_t i : {span.right, span.left, span.third, third})
+      if (i < boundary_.sites.size() && element(i) != Element::bridge) chunk_.lost.push_back(i);
+  }
+
+  /// Of the sites of two spans that differ by pieces of one arc, those on which the foot lies.
+  void stay_on_pieces(const Span& last, Vec2 center, Span& span) const {
+    while (span.right < last.right &&
+           site::carrier_parameter(site(span.right), center) >= site(span.right).length)
+      ++span.right;
+    while (span.left > last.left && site::carrier_parameter(site(span.left), center) <= 0)
+      --span.left;
+  }
+
   /// What ends the edge of a span: decided in double where that is certain, otherwise in 256 bits.
   /// `error` gets how far the exact disk may be.
-  Event next_event(const Span& span, const Disk& from, double& error) {
+  Event next_event(Span& span, const Disk& from, double& error) {
     Event event;
     if (!is_exact()) {
       event = EventSearch(context_, contacts_, chunk_.statistics, span, from).next();
@@ -125,10 +161,12 @@ class Walker {
       }
     }
     ++chunk_.statistics.exact_precise;
-    const auto found = context_.exact->next(span, from, event.site);
+    Span asked = span;
+    joins_pieces(asked);
+    const auto found = context_.exact->next(asked, from, event.site, is_exact());
     if (!found) {
       // What led here was wrong.
-      ++chunk_.statistics.exact_changes;
+      lose(span, event.site);
       return {};
     }
     // Between sites that are all but parallel, double's disk is as good as any.
@@ -136,6 +174,7 @@ class Walker {
     error = Certainty::rounding;
     event.disk = found->disk;
     event.site = found->site;
+    stay_on_pieces(asked, event.disk.center, span);
     event.kind =
         found->site == span.right + 1 && boundary_.is_smooth(span.right)   ? Event::Kind::pass_right
         : found->site + 1 == span.left && boundary_.is_smooth(found->site) ? Event::Kind::pass_left
@@ -175,6 +214,10 @@ class Walker {
     }
     const std::uint32_t node = add_node(disk);
     if (touched != Hit::none) touched = contacts_.owner(touched, disk.center, whole);
+    if (context_.exact != nullptr && touched != Hit::none &&
+        !(Certainty::error_at_joint(boundary_, run.last, run.first, touched, disk) <=
+          context_.tolerance))
+      lose({run.first, run.last, 0}, touched);
     split({run.first, run.last, node}, disk, touched, true);
   }
 
@@ -183,7 +226,7 @@ class Walker {
     ++chunk_.statistics.exact_precise;
     const auto found = context_.exact->start(whole, about, hint);
     if (!found) {
-      ++chunk_.statistics.exact_changes;
+      lose(whole, hint);
       return;
     }
     const std::uint32_t node = add_node(found->disk);
@@ -195,6 +238,10 @@ class Walker {
   /// there.
   bool is_open(const Span& span) {
     const std::uint32_t between = span.left - span.right;
+    const bool ends = between == 1 || (between > 2 && contacts_.is_reflex_chain(span));
+    if (ends && boundary_.has_arcs && context_.exact != nullptr && !is_exact() &&
+        !Certainty::ends(boundary_, context_.tolerance, span, chunk_.nodes[span.node]))
+      lose(span, span.left);
     if (between == 1) {
       if (boundary_.is_corner(span.right)) {
         const std::uint32_t leaf = add_node({site(span.left).point, 0});
@@ -208,7 +255,7 @@ class Walker {
       finished(2);
       return false;
     }
-    return !contacts_.is_reflex_chain(span);
+    return !ends;
   }
 
   void end_at_bridge(const Span& span, std::uint32_t bridge) {
@@ -220,7 +267,8 @@ class Walker {
     const auto edge = static_cast<std::uint32_t>(chunk_.links.size());
     const std::uint32_t node = add_node(disk);
     add_edge(span, node);
-    chunk_.bridge_ends.push_back({bridge, node, edge});
+    const bool added = chunk_.links.size() > edge;
+    chunk_.bridge_ends.push_back({bridge, node, added ? edge : BridgeEnd::no_edge});
   }
 
   bool coincide(const Disk& a, const Disk& b) const {
@@ -237,6 +285,7 @@ class Walker {
   }
 
   void add_edge(const Span& span, std::uint32_t to) {
+    if (starts_blunt_ && span.node == 0) return;  // no edge leads to a blunt joint
     chunk_.links.push_back({{span.node, to}, {span.left, span.right}});
   }
 
@@ -306,6 +355,7 @@ class Walker {
   TaskGroup& tasks_;
   Chunk& chunk_;
   Contacts contacts_;
+  bool starts_blunt_ = false;  ///< the run begins at a blunt joint, node 0
   std::vector<Span> stack_;
   std::vector<Span> parts_;
   std::uint64_t finished_ = 0;

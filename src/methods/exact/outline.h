@@ -44,7 +44,18 @@ struct SiteLoops {
   }
 };
 
-SiteLoops outline_of(const Problem& problem);
+/// `numbers`: the problem's, or those of parted_numbers().
+SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers);
+
+/// Sites that are numbered by joints as they stand: what counts as smooth is blunt where the
+/// boundary turns to the left, and where it turns to the right the vertex is a site.
+struct PartedNumbers {
+  site::SiteNumbers numbers;
+  /// What the axis calls each site: a vertex that counts as smooth has the name of an edge there.
+  std::vector<std::uint32_t> names;
+};
+/// `points`: those whose joints are parted.
+PartedNumbers parted_numbers(const Problem& problem, const std::vector<bool>& points);
 
 /// Takes joints that count as smooth as they stand: as blunt where the boundary turns to the left;
 /// where it turns to the right their vertex becomes a site, added behind the others.
