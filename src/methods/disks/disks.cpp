@@ -183,45 +183,61 @@ void mark_components(const Problem& problem, const std::vector<std::uint32_t>& s
           way.in_precise[shape.component[loop]] = true;
 }
 
+/// What has been tried, and what to try next.
+struct Attempts {
+  int parted = 0;
+  bool in_precise = false, in_double = false;
+};
+
 /// What to try after an attempt that lost its way at these sites, or failed: joints of arcs as they
-/// stand around the sites, in ever more of them; 256 bits in their components; double only.
-Way next_way(const Problem& problem, const Way& before, int attempts,
-             const std::vector<std::uint32_t>& lost) {
+/// stand around the sites, in ever more of them; 256 bits in their components; double only, which
+/// comes before where so many arcs would take long. None where all has been tried.
+std::optional<Way> next_way(const Problem& problem, const std::vector<bool>& parted,
+                            const std::vector<std::uint32_t>& lost, Attempts& attempts) {
   constexpr int most_parted = 3;
-  constexpr std::size_t around = 4;
+  constexpr std::size_t around = 4, long_time = 1024;
   Way way;
-  way.in_double = !before.in_precise.empty();
-  if (way.in_double) return way;
-  if (has_arcs(problem.shape) && !lost.empty() && attempts < most_parted) {
-    way.parted = points_around(problem, lost, around << (2 * attempts));
-    for (std::size_t i = 0; i < before.parted.size(); ++i)
-      if (before.parted[i]) way.parted[i] = true;
+  const bool with_arcs = has_arcs(problem.shape);
+  const bool goes_on = !attempts.in_precise && !attempts.in_double;
+  if (goes_on && with_arcs && !lost.empty() && attempts.parted < most_parted) {
+    way.parted = points_around(problem, lost, around << (2 * attempts.parted++));
+    for (std::size_t i = 0; i < parted.size(); ++i)
+      if (parted[i]) way.parted[i] = true;
     return way;
   }
+  if (attempts.in_precise && attempts.in_double) return std::nullopt;
   mark_components(problem, lost, way);
-  return way;
+  const bool takes_long = with_arcs && std::count(way.parted.begin(), way.parted.end(), true) >
+                                           std::ptrdiff_t{long_time};
+  if (!attempts.in_precise && (attempts.in_double || !takes_long)) {
+    attempts.in_precise = true;
+    return way;
+  }
+  attempts.in_double = true;
+  return Way{true, {}, {}};
 }
 
 }  // namespace
 
 Result<MedialAxis> run(const Problem& problem) {
-  Way way;
+  Attempts attempts;
   std::optional<Error> error;
-  for (int attempts = 1;; ++attempts) {
+  for (std::optional<Way> way = Way{}; way;) {
+    const bool is_first = attempts.parted == 0 && !attempts.in_precise && !attempts.in_double;
     std::vector<Edge> edges;
     std::vector<std::uint32_t> lost;
-    Result<MedialAxis> axis = attempt(problem, false, way, edges, lost);
+    Result<MedialAxis> axis = attempt(problem, false, *way, edges, lost);
     if (axis) {
       axis->edges = std::move(edges);
-      const bool is_certain = attempts == 1 || (!way.in_double && !has_arcs(problem.shape));
+      const bool is_certain = is_first || (!way->in_double && !has_arcs(problem.shape));
       if (is_certain || problem.is_cancelled()) return axis;
     }
     auto refused = axis ? error_if_refused(problem, *axis) : std::move(axis).error();
     if (!refused) return axis;
     if (!error || axis) error = std::move(refused);
-    if (way.in_double) return std::move(*error);
-    way = next_way(problem, way, attempts - 1, lost);
+    way = next_way(problem, way->parted, lost, attempts);
   }
+  return std::move(*error);
 }
 
 template <class E>
