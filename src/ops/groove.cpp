@@ -76,12 +76,6 @@ Grooves grooves_of(const MedialAxis& axis, double least, double most, double cho
 
 namespace {
 
-double squared_distance(const Box& box, Vec2 p) {
-  const double dx = std::max({box.low.x - p.x, p.x - box.high.x, 0.0});
-  const double dy = std::max({box.low.y - p.y, p.y - box.high.y, 0.0});
-  return dx * dx + dy * dy;
-}
-
 /// The junctions that parts still end at, in a tree of boxes around those that are left; finds the
 /// nearest.
 class OpenEnds {
