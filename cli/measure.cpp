@@ -304,7 +304,7 @@ std::vector<Plot> profile_plots(const std::vector<Measured>& all, const std::str
 
 Document<io::Layer> layers_of(const Document<AxisItem>& file, const std::vector<Measured>& all,
                               const MeasureArguments& arguments) {
-  auto layers = empty_like<io::Layer>(file);
+  Document<io::Layer> layers{file, {}};
   io::Layer transects{"transects", io::LayerKind::lines, {"line", "along", "width", "span"}, {}, 2};
   io::Layer necks{"necks", io::LayerKind::lines, {"width", "opens_to", "around_hole"}, {}, 0};
   io::Layer disks{"disks", io::LayerKind::disks, {"r", "rank"}, {}, 0};

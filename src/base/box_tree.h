@@ -20,7 +20,7 @@ inline double squared_distance(const Box& box, Vec2 p) {
   return dx * dx + dy * dy;
 }
 
-/// Bounds of `fan_out` leaves each, then of so many of these, level by level until one is left.
+/// Bounds of `fan_out` leaves each, then of `fan_out` of these, level by level up to one.
 /// `bound_of` gives the bound of a leaf by its number; a bound can add() another one. O(n).
 template <class BoundOf>
 auto bound_levels(std::size_t count, std::size_t fan_out, const BoundOf& bound_of) {

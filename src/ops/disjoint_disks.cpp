@@ -19,7 +19,7 @@ namespace {
 
 constexpr double anywhere = 8;           // no two places of the local frame are further apart
 constexpr double finest = 0x1p-50;       // local: the rounding of a centre
-constexpr std::size_t few_carriers = 8;  // so many settle a square
+constexpr std::size_t few_carriers = 8;  // enough to settle a square
 constexpr double root_of_2 = 1.4142135623730951;
 
 struct Square {
@@ -86,7 +86,7 @@ class Region {
   }
 
  private:
-  struct Loop {
+  struct LoopRange {
     std::uint32_t first, last;  ///< edges
   };
 
@@ -138,8 +138,8 @@ class Region {
     return is_reflex(i) ? left_before || left_after : left_before && left_after;
   }
 
-  std::vector<Loop> loops(const Shape& shape, const LocalFrame& frame) const {
-    std::vector<Loop> loop_of(edges_.size());
+  std::vector<LoopRange> loops(const Shape& shape, const LocalFrame& frame) const {
+    std::vector<LoopRange> loop_of(edges_.size());
     std::uint32_t first = 0;
     for (std::size_t i = 0; i < shape.loop_count(); ++i) {
       const site::LoopEdges loop(shape, i, frame);
@@ -147,14 +147,14 @@ class Region {
       if (!shape.bulges.empty())
         for (std::uint32_t k = 0; k < loop.size(); ++k)
           count += static_cast<std::uint32_t>(loop.edge(k).count - 1);
-      std::fill_n(loop_of.begin() + first, count, Loop{first, first + count - 1});
+      std::fill_n(loop_of.begin() + first, count, LoopRange{first, first + count - 1});
       first += count;
     }
     return loop_of;
   }
 
   std::vector<site::Site> edges_;
-  std::vector<Loop> loop_of_;  ///< of each edge
+  std::vector<LoopRange> loop_of_;  ///< of each edge
   site::BoundaryTree tree_;
   std::vector<Disk> taken_;
   mutable std::vector<std::uint32_t> near_;

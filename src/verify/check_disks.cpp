@@ -22,7 +22,7 @@ void report_worst(const Worst& worst, const char* what, const char* which, const
                  worst.where.x, worst.where.y, limit.c_str()));
 }
 
-/// At most so many points inside an edge are checked.
+/// The most points inside an edge that are checked.
 constexpr int most_samples = 1 << 20;
 
 struct Findings {
