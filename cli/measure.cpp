@@ -360,6 +360,7 @@ Status write_measures(Document<AxisItem>& file, const std::vector<Measured>& all
 
 Result<std::vector<Measured>> measure_all(const Document<AxisItem>& file,
                                           const MeasureArguments& arguments) {
+  note_places_outside(file, arguments.path, arguments);
   auto paths = choose_paths(file, arguments.path, arguments.common.threads);
   if (!paths) return std::move(paths).error();
   return map_items<Measured>(

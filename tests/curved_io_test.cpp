@@ -233,7 +233,9 @@ TEST_F(CurvedDxf, OfTheDataFolder) {
         EXPECT_TRUE(drawing.ok()) << to_string(drawing.error());
       }
       // A net of hexagons, of which no line closes: Euler's formula counts its cells.
-      if (name == "librecad_honeycomb.dxf") EXPECT_EQ(drawing->items.size(), 143U);
+      if (name == "librecad_honeycomb.dxf") {
+        EXPECT_EQ(drawing->items.size(), 143U);
+      }
     }
   }
   EXPECT_GE(files, 13U);
