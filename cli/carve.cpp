@@ -181,9 +181,16 @@ Result<int> finish_carve(const Document<io::CarveItem>& file, const CarveArgumen
   const std::string& input = arguments.input.path;
   const std::string unit = name_of(file.unit);
   if (deepest * millimetres(file.unit) > unlikely_depth && !arguments.common.quiet)
-    say("medial: {}: note: the cut is {:.3g} {} deep; --units gives the unit of the input, --depth "
-        "limits the cut\n",
-        input, deepest, unit);
+    say("medial: {}: note: the cut is {:.3g} {} deep; {} the unit of the input, --depth limits the "
+        "cut\n",
+        input, deepest, unit,
+        arguments.input.font.empty() ? "--units gives"
+                                     : "--font-size is how large letters are, --units");
+  if (paths == 0 && !arguments.common.quiet)
+    say("medial: {}: note: nothing is cut: the tool fits nowhere into the shape; a smaller --tool, "
+        "or "
+        "another --units or --scale\n",
+        input);
   if (arguments.tabs.wanted() && tabs == 0 && !arguments.common.quiet)
     say("medial: {}: note: there are no tabs, as nothing comes loose: there are no holes{}\n",
         input, arguments.options.exterior ? "" : "; --exterior cuts around shapes");

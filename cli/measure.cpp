@@ -186,8 +186,9 @@ std::string place(Vec2 p) { return fmt::format("({:.10g}, {:.10g})", p.x, p.y); 
 std::string number(double value) { return fmt::format("{:.10g}", value); }
 
 /// One feature as lines of a name and a value.
-std::string summary_of(const Measured& measured, const MeasureArguments& arguments) {
+std::string summary_of(const Measured& measured, const MeasureArguments& arguments, Unit unit) {
   Rows rows(24);
+  if (unit != Unit::unknown) rows.add("unit", name_of(unit));
   const MeanWidth& mean = measured.mean;
   rows.add("area", number(mean.area));
   rows.add("length", number(mean.length) + (measured.lines.size() > 1
@@ -222,11 +223,19 @@ std::string summary_of(const Measured& measured, const MeasureArguments& argumen
   return rows.text();
 }
 
+/// What a feature is called: its number, or the value that it has in an image of labels.
+std::string name_of_feature(const Document<AxisItem>& file, std::size_t i) {
+  const Attributes& attributes = file.items[i].attributes;
+  const bool label = file.pixel > 0 && attributes.size() == 1 && attributes[0].first == "value";
+  return label ? attributes[0].second : fmt::format("{}", i);
+}
+
 /// Several features, one line each.
-std::string summary_of(const std::vector<Measured>& all) {
-  std::string text =
-      fmt::format("{:>7} {:>12} {:>12} {:>12} {:>12} {:>12} {:>12} {:>12}\n", "feature", "area",
-                  "length", "narrowest", "by length", "by area", "widest", "neck");
+std::string summary_of(const std::vector<Measured>& all, const Document<AxisItem>& file) {
+  const bool labels = file.pixel > 0 && !all.empty() && !file.items[0].attributes.empty();
+  std::string text = fmt::format("{:>7} {:>12} {:>12} {:>12} {:>12} {:>12} {:>12} {:>12}\n",
+                                 labels ? "value" : "feature", "area", "length", "narrowest",
+                                 "by length", "by area", "widest", "neck");
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Measured& one = all[i];
     const Neck* neck = narrowest_neck(one);
@@ -234,11 +243,13 @@ std::string summary_of(const std::vector<Measured>& all) {
       return known ? fmt::format("{:.6g}", value) : std::string("-");
     };
     const bool line = one.mean.length > 0;
-    text += fmt::format("{:>7} {:>12.6g} {:>12.6g} {:>12} {:>12} {:>12.6g} {:>12.6g} {:>12}\n", i,
-                        one.mean.area, one.mean.length, number(narrowest_of(one), line),
-                        number(one.mean.by_length, line), one.mean.by_area, 2 * one.widest.radius,
+    text += fmt::format("{:>7} {:>12.6g} {:>12.6g} {:>12} {:>12} {:>12.6g} {:>12.6g} {:>12}\n",
+                        name_of_feature(file, i), one.mean.area, one.mean.length,
+                        number(narrowest_of(one), line), number(one.mean.by_length, line),
+                        one.mean.by_area, 2 * one.widest.radius,
                         number(neck == nullptr ? 0 : neck->width.width(), neck != nullptr));
   }
+  if (file.unit != Unit::unknown) text += fmt::format("{:>7} {}\n", "unit", name_of(file.unit));
   return text;
 }
 
@@ -356,6 +367,7 @@ Status write_measures(Document<AxisItem>& file, const std::vector<Measured>& all
 
 Result<std::vector<Measured>> measure_all(const Document<AxisItem>& file,
                                           const MeasureArguments& arguments) {
+  note_places_outside(file, arguments.path, arguments);
   auto paths = choose_paths(file, arguments.path, arguments.common.threads);
   if (!paths) return std::move(paths).error();
   return map_items<Measured>(
@@ -366,7 +378,9 @@ Result<std::vector<Measured>> measure_all(const Document<AxisItem>& file,
 Result<int> finish_measure(const std::vector<Measured>& all, const LoadedAxes& axes,
                            const MeasureArguments& arguments) {
   const CommonOptions& common = arguments.common;
-  Json object = {{"input", arguments.input.path}, {"features", Json::array()}};
+  Json object = {{"input", arguments.input.path},
+                 {"unit", name_of(axes.file.unit)},
+                 {"features", Json::array()}};
   std::string text;
   if (common.json) {
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -375,7 +389,8 @@ Result<int> finish_measure(const std::vector<Measured>& all, const LoadedAxes& a
       object["features"].push_back(std::move(one));
     }
   } else if (!common.quiet && arguments.output != "-") {
-    text = all.size() == 1 ? summary_of(all[0], arguments) : summary_of(all);
+    text = all.size() == 1 ? summary_of(all[0], arguments, axes.file.unit)
+                           : summary_of(all, axes.file);
   }
   return finish(common, std::move(object), axes.phases, text);
 }

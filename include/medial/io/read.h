@@ -44,9 +44,9 @@ struct ReadOptions {
 };
 
 /// Reads polygons and curved shapes, gzipped or not (docs/inputs.md); images (see is_image()) as
-/// one feature, the outline of their foreground with y downwards, or placed where the file says.
-/// Recognises WKT, GeoJSON, SVG, DXF, `x y` text and medial's own on standard input by their first
-/// characters. Errors: also no_area, invalid_option.
+/// one feature, the outline of their foreground with y downwards, or placed where the file says; the
+/// free cells of a ROS map (.yaml). Recognises WKT, GeoJSON, SVG, DXF, `x y` text and medial's own on
+/// standard input by their first characters. Errors: also no_area, invalid_option.
 Result<Document<Feature>> read_document(const std::string& path, const ReadOptions& options = {});
 
 /// The same of a text in memory, as of standard input.
@@ -58,13 +58,15 @@ Result<Document<Feature>> read_document_text(std::string_view text,
 Result<std::vector<Contour>> read_path_data(std::string_view text, bool loose = false);
 
 /// The outlines of a UTF-8 text in one line, with the advances and kerning of a scalable font file
-/// (TrueType, OpenType, Type 1): a feature for each character with an outline, in font units, the
-/// baseline at y = 0. A character that the font lacks becomes its replacement, with a note.
-Result<Document<Feature>> read_text(const std::string& text, const std::string& font);
+/// (TrueType, OpenType, Type 1): a feature for each character with an outline, with an em of `size`
+/// (0: in font units) and the baseline at y = 0. What the font lacks is replaced, with a note.
+Result<Document<Feature>> read_text(const std::string& text, const std::string& font,
+                                    double size = 0);
 
 struct SourceOptions {
   ReadOptions read;  ///< its `repair` goes for features with curves as well
   std::string text;  ///< not empty: the outlines of this text in the font `path`, see read_text()
+  double font_size = 0;
   LoadOptions load;  ///< but for `repair` and `skip_invalid`
   UnitOptions units;
 };

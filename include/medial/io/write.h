@@ -83,10 +83,10 @@ struct StreamReport {
 };
 
 /// What load_shapes(), options.compute and write_axes() make of a file, with the same bytes, part
-/// by part; the file is read twice. Returns nothing where the input is no file of .wkt or GDAL's
-/// vector formats, the output no table, .wkt, .csv or .json, or an option needs all features
-/// (repair, project, units, contours). A .fgb has no spatial index. Errors: those of the three, of
-/// the first part with one.
+/// by part; the file is read twice. Without a target's name nothing is written. Returns nothing
+/// where the input is no file of .wkt or GDAL's vector formats, the output no table, .wkt, .csv or
+/// .json, or an option needs all features (repair, project, units, contours). A .fgb has no spatial
+/// index. Errors: those of the three, of the first part with one.
 Result<std::optional<StreamReport>> stream_axes(const std::string& path, const Destination& target,
                                                 const std::string& format,
                                                 const StreamOptions& options);
