@@ -110,7 +110,7 @@ bool is_sound(const MedialAxis& axis) {
 
 /// An axis from the arrays of a stored one.
 std::unique_ptr<AxisOf> restored(const ShapeOf& of, const std::string& method, double tolerance,
-                                 double resolution, double exterior,
+                                 double resolution, double exterior, bool part,
                                  const Values<std::uint8_t>& sites,
                                  const Values<std::uint8_t>& nodes,
                                  const Values<std::uint8_t>& edges) {
@@ -123,7 +123,7 @@ std::unique_ptr<AxisOf> restored(const ShapeOf& of, const std::string& method, d
                   records_from<Edge>(edges),
                   {}};
   if (!is_sound(axis)) refuse(ErrorCode::malformed, "the arrays of the axis do not fit together");
-  return share(of.shape, std::move(axis));
+  return share(of.shape, std::move(axis), part);
 }
 
 /// Polylines along all branches, within a chord or with steps: rows of x, y, radius; where each
@@ -298,6 +298,7 @@ void bind_axes(nb::module_& module) {
       .def("tolerance", [](const AxisOf& self) { return self.axis.tolerance; })
       .def("resolution", [](const AxisOf& self) { return self.axis.resolution; })
       .def("exterior", [](const AxisOf& self) { return self.axis.exterior; })
+      .def("part", [](const AxisOf& self) { return self.part; })
       .def("statistics", &statistics)
       .def("lines", &lines, nb::arg("chord"), nb::arg("step"))
       .def("nearest", &nearest)
