@@ -82,20 +82,33 @@ Status take_own(Named& named, Method& method) {
   return std::visit([&](auto& own) { return take_own(named, own); }, method);
 }
 
+/// Whether sample_by_chord() certainly returns nothing but the two nodes: half of what it allows.
+inline bool is_one_chord(const MedialAxis& axis, const Edge& edge, double chord) {
+  const Disk &a = axis.nodes[edge.node[0]].disk, &b = axis.nodes[edge.node[1]].disk;
+  const Vec2 bend = (a.center - edge.control.center) + (b.center - edge.control.center);
+  const double radius_bend = (a.radius - edge.control.radius) + (b.radius - edge.control.radius);
+  return edge.weight == 1 && std::max(norm(bend), std::abs(radius_bend)) <= 2 * chord;
+}
+
 /// Appends polylines along all branches, within a chord or, where it is above 0, with steps; and
 /// where each ends.
 template <class Count>
 void add_lines(const MedialAxis& axis, double chord, double step, std::vector<Disk>& disks,
                std::vector<Count>& begin) {
   for (const Branch& branch : branches(axis)) {
-    bool first = true;
+    const std::size_t start = disks.size();
     for (const Step& piece : branch.steps) {
       const Edge& edge = axis.edges[piece.edge];
+      const bool first = disks.size() == start;
+      if (step <= 0 && is_one_chord(axis, edge, chord)) {
+        if (first) disks.push_back(axis.nodes[edge.node[piece.forward ? 0 : 1]].disk);
+        disks.push_back(axis.nodes[edge.node[piece.forward ? 1 : 0]].disk);
+        continue;
+      }
       std::vector<Disk> samples =
           step > 0 ? sample_by_step(axis, edge, step) : sample_by_chord(axis, edge, chord);
       if (!piece.forward) std::reverse(samples.begin(), samples.end());
       disks.insert(disks.end(), samples.begin() + (first ? 0 : 1), samples.end());
-      first = false;
     }
     begin.push_back(static_cast<Count>(disks.size()));
   }

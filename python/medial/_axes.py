@@ -18,6 +18,9 @@ from ._records import EDGE, NODE, SITE, Floats, Indices, Records, records
 from ._shape import load
 
 
+_AT_A_TIME = 4096  # features whose coordinates stay in the cache until shapely has read them
+
+
 class Axes:
     """The axes of many features as one struct of arrays; made by `axes`.
 
@@ -104,16 +107,21 @@ class Axes:
         points, line_begin, feature_begin
             Rows of x, y and radius; where lines begin; where features begin among the lines.
         """
-        points, lines, features = self._core.lines(chord or options.chord, chord is None)
+        return self._lines(chord, 0, len(self), flat=False)
+
+    def _lines(self, chord: float | None, first: int, last: int, *, flat: bool) -> tuple[Floats, Indices, Indices]:
+        points, lines, features = self._core.lines(chord or options.chord, chord is None, first, last, flat)
         return points, lines, features
 
     def to_shapely(self, chord: float | None = None) -> npt.NDArray[Any]:
         """An array of MultiLineStrings, one for each feature."""
         shapely = need("shapely", "geo")
-        points, lines, features = self.lines(chord)
-        flat = np.ascontiguousarray(points[:, :2])
-        kind = shapely.GeometryType.MULTILINESTRING
-        result: npt.NDArray[Any] = shapely.from_ragged_array(kind, flat, (lines, features))
+        kind, size = shapely.GeometryType.MULTILINESTRING, len(self)
+        result: npt.NDArray[Any] = np.empty(size, object)
+        for first in range(0, size, _AT_A_TIME):
+            last = min(first + _AT_A_TIME, size)
+            points, lines, features = self._lines(chord, first, last, flat=True)
+            result[first:last] = shapely.from_ragged_array(kind, points, (lines, features))
         return result
 
     def to_geopandas(self, chord: float | None = None, index: Any = None, crs: Any = None) -> Any:
@@ -123,8 +131,8 @@ class Axes:
     def to_arrow(self, chord: float | None = None) -> Any:
         """A GeoArrow array of MultiLineStrings, without any Python object for a feature."""
         pyarrow = need("pyarrow", "all")
-        points, lines, features = self.lines(chord)
-        flat = pyarrow.array(np.ascontiguousarray(points[:, :2]).reshape(-1))
+        points, lines, features = self._lines(chord, 0, len(self), flat=True)
+        flat = pyarrow.array(points.reshape(-1))
         coordinates = pyarrow.FixedSizeListArray.from_arrays(flat, 2)
         for begin in (lines, features):
             offsets = pyarrow.array(begin.astype(np.int32))

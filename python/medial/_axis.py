@@ -194,7 +194,7 @@ class MedialAxis:
     def branches(self) -> Any:
         """A pandas table of the branches: ends, length, radii, width, area, significance."""
         pandas = need("pandas", "all")
-        table = pandas.DataFrame(_core.described(self._core)["branches"])
+        table = pandas.DataFrame(described(self._core)["branches"])
         table["closed"] = table["closed"].astype(bool)
         nodes = self.nodes
         ends = nodes[table["node_from"].to_numpy()], nodes[table["node_to"].to_numpy()]
@@ -216,7 +216,7 @@ class MedialAxis:
 
     def verify(self, **given: Any) -> Any:
         """The measured errors: see `medial.verify`."""
-        from ._operations import verify
+        from ._checks import verify
 
         return verify(self, **given)
 
@@ -255,7 +255,7 @@ class MedialAxis:
             for e, ((a, b), length, site) in enumerate(zip(ends, lengths, sites, strict=True)):
                 graph.add_edge(a, b, key=e, edge=e, length=length, weight=length, site=tuple(site))
             return graph
-        table = _core.described(self._core)["branches"]
+        table = described(self._core)["branches"]
         columns = [table[name].tolist() for name in ("branch", "node_from", "node_to", "length", "radius_min", "mean_width")]
         for branch, a, b, length, narrow, width in zip(*columns, strict=True):
             graph.add_edge(a, b, key=branch, branch=branch, length=length, weight=length,
@@ -300,14 +300,58 @@ class MedialAxis:
 
     # Files and copies.
 
-    def save(self, path: str | PathLike[str]) -> None:
-        """Writes the shape and its axis in the native format, without loss."""
-        from ._native import save
+    def to_text(self, format: str = "json", *, chord: float = 1e-3, simplify: float = 0) -> str:
+        """The text of a file: see `save`.
 
-        save(self, fspath(path))
+        Parameters
+        ----------
+        format : {"json", "geojson", "wkt", "csv", "graphml", "nodelink", "edgelist"}
+        chord, simplify : float
+            See `save`.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> a.to_text("edgelist").splitlines()[0]
+        '# from_node to_node length'
+        """
+        return _core.write_axis(self._core, None, format, chord, simplify) or ""
+
+    def save(self, path: str | PathLike[str], *, chord: float = 1e-3, simplify: float = 0) -> None:
+        """Writes the axis by the extension of the path; there is never a partial file.
+
+        Parameters
+        ----------
+        path : path
+            ``.json`` is the native format, with the shape and without loss, which `medial.load`
+            reads; ``.geojson``, ``.wkt`` and ``.csv`` hold lines; ``.graphml``, ``.nodelink`` and
+            ``.edgelist`` the graph of branches, as networkx reads it. With ``.gz`` compressed.
+        chord : float
+            How far chords may be from curves, as a share of the diagonal.
+        simplify : float
+            Lines have few points within this distance of the axis, in units of the input, instead.
+
+        Raises
+        ------
+        MedialError
+            With the code ``"unsupported"`` (another extension) or ``"unwritable"``.
+        """
+        name = fspath(path)
+        if name.endswith(".gz"):
+            from ._files import write_compressed
+
+            return write_compressed(name, self.to_text(name.split(".")[-2], chord=chord, simplify=simplify))
+        _core.write_axis(self._core, name, "", chord, simplify)
+        return None
+
+    @property
+    def part(self) -> bool:
+        """Whether it is a part of the axis of its shape: pruned, cut or smoothed."""
+        return self._core.part()
 
     def _state(self) -> tuple[Any, ...]:
-        numbers = self.method, self.tolerance, self.resolution, self.exterior
+        numbers = self.method, self.tolerance, self.resolution, self.exterior, self.part
         return (*numbers, packed(self.sites), packed(self.nodes), packed(self.edges))
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -347,16 +391,27 @@ class MedialAxis:
 
 
 def restored(
-    shape: Shape, method: str, tolerance: float, resolution: float, exterior: float,
+    shape: Shape, method: str, tolerance: float, resolution: float, exterior: float, part: bool,
     sites: npt.ArrayLike, nodes: npt.ArrayLike, edges: npt.ArrayLike,
 ) -> MedialAxis:  # fmt: skip
     """An axis from what pickling, or a file, took of it."""
     return MedialAxis._of(
         _core.restored_axis(
-            shape._core, method, tolerance, resolution, exterior,
+            shape._core, method, tolerance, resolution, exterior, part,
             unpacked(sites, SITE), unpacked(nodes, NODE), unpacked(edges, EDGE),
         )
     )  # fmt: skip
+
+
+# Thresholds of features() and their defaults.
+THRESHOLDS = {"parallel": 0.05, "even": 0.1, "bend": 0.1, "turn": 0.1, "spiral": 0.5, "shortest": 0.25}
+
+
+def described(core: _CoreAxis, **thresholds: float) -> dict[str, Any]:
+    """What an axis is made of; thresholds by the names of THRESHOLDS."""
+    if unknown := thresholds.keys() - THRESHOLDS:
+        raise TypeError(f"features() has no option {min(unknown)!r}")
+    return _core.described(core, list({**THRESHOLDS, **thresholds}.values()))
 
 
 @functools.lru_cache(maxsize=16)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from . import _core
-from ._svg_path import contours_of
 
 _ROLES = {"any": 0, "outer": 1, "hole": 2, "winding": 3}
 Point = tuple[float, float]
@@ -79,7 +78,7 @@ class Contour:
         [<medial.Contour: 3 pieces>]
         """
         contours = []
-        for core in contours_of(path):
+        for core in _core.contours_of_path(path):
             contour = Contour.__new__(Contour)
             contour._core = core
             contours.append(contour)

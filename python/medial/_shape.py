@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from os import PathLike, fspath
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from . import _core
 from ._errors import need
 from ._options import options
 from ._records import Floats, points_of
-from ._read import Rings, read
+from ._read import HOLE, OUTER, Rings, read
 
 _CoreShape = _core.Shape
 
@@ -135,6 +136,28 @@ class Shape:
         parts = [shapely.Polygon(rings[0], rings[1:]) for rings in self.polygons(chord)]
         return parts[0] if len(parts) == 1 else shapely.MultiPolygon(parts)
 
+    def to_text(self, format: str = "wkt", *, chord: float = 1e-3) -> str:
+        """The text of a file: see `save`.
+
+        Parameters
+        ----------
+        format : {"wkt", "geojson", "svg", "json"}
+        chord : float
+            Of formats without arcs: how far chords may be from them, as a share of the diagonal.
+
+        Examples
+        --------
+        >>> import medial
+        >>> medial.Shape([(0, 0), (4, 0), (0, 3)]).to_text().strip()
+        'POLYGON ((0 0, 4 0, 0 3, 0 0))'
+        """
+        text = _core.write_shape(self._core, None, format, chord)
+        return text or ""
+
+    def save(self, path: str | PathLike[str], *, chord: float = 1e-3) -> None:
+        """Writes the shape by the extension of the path: .wkt, .geojson, .svg or .json (native)."""
+        _core.write_shape(self._core, fspath(path), "", chord)
+
     def __repr__(self) -> str:
         holes, parts = self._core.hole_count(), self._core.component_count()
         return f"<medial.Shape: {len(self.points)} points, {parts} components, {holes} holes>"
@@ -142,6 +165,11 @@ class Shape:
     def _state(self) -> tuple[npt.NDArray[Any], ...]:
         sources = self._core.sources().view(np.uint32)
         return (self.points, self.bulges, sources, self.loop_begin, self.component, self._core.hole())
+
+    def _as_rings(self) -> Rings:
+        roles = np.where(self._core.hole() != 0, HOLE, OUTER).astype(np.uint8)
+        bulges = self.bulges if len(self.bulges) else None
+        return Rings(np.array(self.points), self.loop_begin.astype(np.int64), roles, bulges)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Shape):
@@ -176,7 +204,7 @@ def load(
     """The shape of a geometry, and its contours for methods that follow them."""
     if isinstance(x, Shape) and not (repair or fit or keep_contours):
         return x._core, []
-    rings = x if isinstance(x, Rings) else read(_as_rings(x) if isinstance(x, Shape) else x)
+    rings = x if isinstance(x, Rings) else read(x)
     own = rings.bulges if bulges is None else np.ascontiguousarray(bulges, np.float64)
     if not (rings.contours or repair or fit or keep_contours):
         if rings.coordinates is None:
@@ -191,8 +219,3 @@ def load(
 
         warnings.warn(note, stacklevel=3)
     return loaded.shape, loaded.contours
-
-
-def _as_rings(shape: Shape) -> list[Floats]:
-    begin = shape.loop_begin
-    return [shape.points[a:b] for a, b in zip(begin[:-1], begin[1:], strict=True)]

@@ -13,6 +13,7 @@ from ._errors import need
 from ._options import computing, options
 from ._read import chains_of
 from ._records import NODE, SITE, Floats, Indices, Records, points_of, records
+from ._shape import load
 
 
 class NearestSites(NamedTuple):
@@ -102,8 +103,10 @@ class Voronoi:
 def voronoi(
     x: Any,
     *,
-    frame: Sequence[float] | None = None,
+    method: str = "disks",
+    enclosure: Sequence[float] | None = None,
     margin: float = 0,
+    frame: Sequence[float] | None = None,
     node_crossings: bool = False,
     bulges: npt.ArrayLike | None = None,
     threads: int | None = None,
@@ -114,9 +117,12 @@ def voronoi(
     ----------
     x : geometry
         Rows of x and y are points; shapely geometries, GeoJSON or lists of lines are as they are.
-    frame : (low x, low y, high x, high y), optional
+    method : {"disks", "lee"}
+        Of everything together, within an enclosure; or inside of a polygon without holes.
+    enclosure : (low x, low y, high x, high y), optional
+        In units of the input; also as `frame`.
     margin : float
-        How far the frame is, without one; 0: half of the longer side.
+        How far the enclosure is, without one; 0: half of the longer side.
     node_crossings : bool
         Whether lines may cross.
     bulges : array, optional
@@ -128,6 +134,11 @@ def voronoi(
     >>> len(medial.voronoi([(0.0, 0.0), (4.0, 0.0), (2.0, 3.0)]).cells())
     3
     """
+    if method == "lee":
+        return Voronoi(_core.voronoi_inside(load(x)[0], computing("lee", threads=threads)))
+    if method != "disks":
+        raise ValueError("method is 'disks' or 'lee'")
+    frame = enclosure if frame is None else frame
     coordinates, begin, closed = chains_of(x)
     own = None if bulges is None else np.ascontiguousarray(bulges, np.float64)
     box = None if frame is None else (float(frame[0]), float(frame[1]), float(frame[2]), float(frame[3]))

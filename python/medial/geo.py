@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from . import _operations, arrays
+from . import arrays
 from ._axes import Axes, axes
 from ._errors import need
 
@@ -69,9 +69,11 @@ class MedialAccessor:
 
     def branches(self, chord: float | None = None) -> Any:
         """A GeoDataFrame with a row for each branch, with the index of its feature."""
-        tables = [axis.to_geopandas(chord) for axis in axes(self._metric())]
-        frame = pandas.concat(tables, keys=self._series.index, names=["feature"])
-        return frame.set_geometry(self._back(frame.geometry.to_numpy(), frame.index))
+        found = arrays.branches(self._metric(), chord=chord)
+        table = found.to_pandas()
+        features = self._series.index.take(table.index).rename("feature")
+        index = pandas.MultiIndex.from_arrays([features, table.pop("branch")], names=["feature", "branch"])
+        return self._frame(table.set_axis(index), found.lines(), index)
 
     def centerline(self, **given: Any) -> Any:
         """A GeoSeries of LineStrings; options as `medial.arrays.centerline`."""
@@ -85,12 +87,11 @@ class MedialAccessor:
         return found.to_pandas().set_axis(self._series.index)
 
     def transects(self, count: int = 10, **given: Any) -> Any:
-        """A GeoDataFrame of the lines from side to side, with their widths."""
-        found = [_operations.transects(axis, count, **given) for axis in axes(self._metric())]
-        index = self._series.index.repeat([len(widths.along) for widths in found])
-        lines = np.concatenate([widths.transects() for widths in found])
-        columns = {"along": np.concatenate([w.along for w in found]), "width": np.concatenate([w.width for w in found])}
-        return self._frame(columns, lines, index)
+        """A GeoDataFrame of lines across the course, from boundary to boundary, with widths."""
+        found = arrays.transects(self._metric(), count, **given)
+        table = found.to_pandas()
+        index = self._series.index.take(table.index)
+        return self._frame(table.set_axis(index), found.lines(), index)
 
     def inscribed_circles(self, k: int = 1, smallest: float = 0, **given: Any) -> Any:
         """A GeoDataFrame of the centres and radii of the `k` largest circles of each feature."""
@@ -109,7 +110,7 @@ class MedialAccessor:
         """A GeoSeries of the pruned axes; options as `medial.arrays.prune`."""
         return self._back(arrays.prune(self._metric(), measure, threshold, **given).to_shapely())
 
-    def _frame(self, columns: dict[str, Any], geometries: Any, index: Any) -> Any:
+    def _frame(self, columns: Any, geometries: Any, index: Any) -> Any:
         geometry = self._back(geometries, index).to_numpy()
         return geopandas.GeoDataFrame(columns, geometry=geometry, index=index, crs=self._crs)
 

@@ -7,7 +7,7 @@ The functions take what scikit-image's take and return the same types; results d
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Literal, overload
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -38,12 +38,16 @@ def _thinned(pixels: npt.NDArray[np.uint8], family: str) -> Mask:
     return _core.thinned(pixels, family).view(bool)
 
 
-@overload
-def medial_axis(image: npt.ArrayLike, mask: npt.ArrayLike | None = ..., *,
-                return_distance: Literal[False] = ..., rng: Any = ...) -> Mask: ...  # fmt: skip
-@overload
-def medial_axis(image: npt.ArrayLike, mask: npt.ArrayLike | None = ..., *,
-                return_distance: Literal[True], rng: Any = ...) -> tuple[Mask, Floats]: ...  # fmt: skip
+if TYPE_CHECKING:  # typing keeps overloads alive, and with them all of the package, until Python has ended
+
+    @overload
+    def medial_axis(image: npt.ArrayLike, mask: npt.ArrayLike | None = ..., *,
+                    return_distance: Literal[False] = ..., rng: Any = ...) -> Mask: ...  # fmt: skip
+    @overload
+    def medial_axis(image: npt.ArrayLike, mask: npt.ArrayLike | None = ..., *,
+                    return_distance: Literal[True], rng: Any = ...) -> tuple[Mask, Floats]: ...  # fmt: skip
+
+
 def medial_axis(image: npt.ArrayLike, mask: npt.ArrayLike | None = None, *,
                 return_distance: bool = False, rng: Any = None) -> Mask | tuple[Mask, Floats]:  # fmt: skip
     """The medial axis of the foreground, one pixel wide.
@@ -75,7 +79,7 @@ def medial_axis(image: npt.ArrayLike, mask: npt.ArrayLike | None = None, *,
         outside = ~np.asarray(mask, bool)
         result[outside] = np.asarray(image).astype(bool)[outside]
     if return_distance:
-        return result, _core.distances(pixels, False, False, options.threads)
+        return result, _core.distances(pixels, False, False, False, options.threads)
     return result
 
 
@@ -108,7 +112,7 @@ def thin(image: npt.ArrayLike, max_num_iter: int | None = None) -> Mask:
 
 
 def distance_transform(image: npt.ArrayLike, *, spacing: float = 1, to: str = "pixels",
-                       frame: bool = False) -> Floats:  # fmt: skip
+                       frame: bool = False, squared: bool = False) -> Floats:  # fmt: skip
     """The exact Euclidean distance of each foreground pixel.
 
     Parameters
@@ -119,6 +123,13 @@ def distance_transform(image: npt.ArrayLike, *, spacing: float = 1, to: str = "p
         To the centre of the nearest background pixel, or to the pixels' boundary.
     frame : bool
         Whether what lies outside of the image is background.
+    squared : bool
+        The squares of the distances instead, which are exact.
+
+    Returns
+    -------
+    array of float
+        In units of `spacing`, of the image's shape; infinite where there is no background.
 
     Examples
     --------
@@ -128,8 +139,8 @@ def distance_transform(image: npt.ArrayLike, *, spacing: float = 1, to: str = "p
     """
     if to not in ("pixels", "cracks"):
         raise ValueError("to is 'pixels' or 'cracks'")
-    result = _core.distances(_pixels(image), to == "cracks", frame, options.threads)
-    return result if spacing == 1 else result * spacing
+    result = _core.distances(_pixels(image), to == "cracks", frame, squared, options.threads)
+    return result if spacing == 1 else result * (spacing * spacing if squared else spacing)
 
 
 def topology(image: npt.ArrayLike) -> tuple[int, int]:
@@ -145,6 +156,35 @@ def outline(image: npt.ArrayLike, *, neck: float = 1 / 16) -> list[Floats]:
     """
     points, begin = _core.pixel_outline(_pixels(image), neck)
     return np.split(points, begin[1:-1]) if len(begin) > 1 else []
+
+
+def disks(x: MedialAxis, pixels: int = 512) -> tuple[Mask, float, tuple[float, float]]:
+    """The union of an axis's disks as an image, as `medial rebuild --pixels` draws it.
+
+    Parameters
+    ----------
+    x : MedialAxis
+    pixels : int
+        Along the longer side.
+
+    Returns
+    -------
+    image : array of bool
+        Rows go in the direction of y.
+    spacing : float
+        The side of a pixel, in units of the input.
+    origin : (x, y)
+        The low corner of the first pixel.
+
+    Examples
+    --------
+    >>> import medial.image
+    >>> image, spacing, _ = medial.image.disks(medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)]), 80)
+    >>> round(image.sum() * spacing**2)
+    8
+    """
+    image, spacing, origin = _core.disk_image(x._core, pixels, True)
+    return image.view(bool), spacing, origin
 
 
 def _boxes(labels: npt.NDArray[Any]) -> dict[int, tuple[slice, slice]]:

@@ -54,7 +54,7 @@ std::vector<T> records_from(const Values<std::uint8_t>& bytes) {
 
 /// An axis from the arrays of a stored one.
 std::unique_ptr<AxisOf> restored(const ShapeOf& of, const std::string& method, double tolerance,
-                                 double resolution, double exterior,
+                                 double resolution, double exterior, bool part,
                                  const Values<std::uint8_t>& sites,
                                  const Values<std::uint8_t>& nodes,
                                  const Values<std::uint8_t>& edges) {
@@ -66,7 +66,7 @@ std::unique_ptr<AxisOf> restored(const ShapeOf& of, const std::string& method, d
                   records_from<Node>(nodes),
                   records_from<Edge>(edges),
                   {}};
-  return share(of.shape, value_of(faces::sound(std::move(axis))));
+  return share(of.shape, value_of(faces::sound(std::move(axis))), part);
 }
 
 /// Polylines along all branches, within a chord or with steps: rows of x, y, radius; where each
@@ -217,6 +217,7 @@ void bind_axes(nb::module_& module) {
       .def("tolerance", [](const AxisOf& self) { return self.axis.tolerance; })
       .def("resolution", [](const AxisOf& self) { return self.axis.resolution; })
       .def("exterior", [](const AxisOf& self) { return self.axis.exterior; })
+      .def("part", [](const AxisOf& self) { return self.part; })
       .def("statistics", &statistics)
       .def("lines", &lines, nb::arg("chord"), nb::arg("step"))
       .def("nearest", &nearest)
