@@ -159,15 +159,16 @@ void expect_at_most(const Mended& mended, const Faults& faults) {
 
 class NastyShapes : public testing::TestWithParam<Mended> {
  protected:
-  static Faults faults(bool planar) {
+  static Faults faults(bool planar, const Method& method = method::Disks{}) {
     const auto classes = nasty_classes();
     const auto one = std::find_if(classes.begin(), classes.end(),
                                   [](const auto& each) { return each.name == GetParam().name; });
     Faults faults;
     for (std::uint64_t i = 0; i < count; ++i) {
       const bool small = i % 2 == 0;
-      faults.add(examine_nasty(*one, first_seed() + i, small,
-                               {.oracle = small && !one->has_arcs, .planar = planar}));
+      faults.add(
+          examine_nasty(*one, first_seed() + i, small,
+                        {.method = method, .oracle = small && !one->has_arcs, .planar = planar}));
     }
     return faults;
   }
@@ -191,6 +192,25 @@ constexpr std::array<Mended, 12> shapes{{{"strips"},
                                          {"tangents", 40}}};
 
 INSTANTIATE_TEST_SUITE_P(Classes, NastyShapes, testing::ValuesIn(shapes),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+class NastyShapesByLee : public NastyShapes {};
+
+TEST_P(NastyShapesByLee, HaveTheTrueGraphUnderAllSymmetries) {
+  expect_at_most(GetParam(), faults(false, method::Lee{}));
+}
+
+constexpr std::array<Mended, 9> shapes_by_lee{{{"strips"},
+                                               {"slits"},
+                                               {"stretched", 5},
+                                               {"needles"},
+                                               {"polygons"},
+                                               {"rings"},
+                                               {"grids"},
+                                               {"splinters"},
+                                               {"rounds", 30}}};
+
+INSTANTIATE_TEST_SUITE_P(Classes, NastyShapesByLee, testing::ValuesIn(shapes_by_lee),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
 class NastyPlanarGraphs : public NastyShapes {};

@@ -106,9 +106,10 @@ def test_verify_and_compare(plan):
     assert certificate and certificate.cycles == 1 and certificate.largest_residual < 1e-12
     wrong = medial.verify(a, [(0, 0), (10, 0), (10, 6), (0, 6)])
     assert not wrong and wrong.failures
-    rows = medial.compare(plan.copy(), ("disks", "lee", "ridge"))
+    rows = medial.compare(plan.copy(), ("disks", "lee", "ridge", "curve-axis"))
+    assert rows[0]["length"] == pytest.approx(rows[1]["length"], rel=1e-12)
     assert rows[0]["length"] == pytest.approx(rows[2]["length"], rel=0.02)
-    assert rows[1]["error"].code == "unsupported"
+    assert rows[3]["error"].code == "unsupported"
     assert (medial.legality(a) <= 1e-9).all()
 
 
