@@ -33,8 +33,10 @@ AttributeColumns attribute_columns(const Document<Item>& file, const std::vector
 /// "0 3 17": what lies in a buffer.
 std::string list_of(const std::vector<std::uint32_t>& numbers) {
   std::string text;
-  for (const std::uint32_t number : numbers)
-    text += (text.empty() ? "" : " ") + std::to_string(number);
+  for (const std::uint32_t number : numbers) {
+    if (!text.empty()) text += ' ';
+    text += std::to_string(number);
+  }
   return text;
 }
 
