@@ -73,7 +73,7 @@ class Line:
     def transects(self, count: int = 10, *, spacing: float | None = None) -> Widths:
         """Lines across the course, from boundary to boundary: see `medial.transects`."""
         if spacing is None:
-            places = (np.arange(count) + 0.5) * (self.length / count)
+            places = self.length * ((np.arange(count) + 0.5) / count)
             return self._widths(np.asarray(places, np.float64), across=True)
         if not spacing > 0:
             raise ValueError("spacing is positive")

@@ -136,6 +136,20 @@ class Shape:
         parts = [shapely.Polygon(rings[0], rings[1:]) for rings in self.polygons(chord)]
         return parts[0] if len(parts) == 1 else shapely.MultiPolygon(parts)
 
+    def scaled(self, factor: float, move: tuple[float, float] = (0, 0)) -> Shape:
+        """The shape with all coordinates times `factor` > 0, then moved.
+
+        Examples
+        --------
+        >>> import medial
+        >>> medial.Shape([(0, 0), (4, 0), (4, 3), (0, 3)]).scaled(0.5, move=(1, 0)).bounds
+        (1.0, 0.0, 3.0, 1.5)
+        """
+        if not factor > 0:
+            raise ValueError("factor is positive")
+        points, *others = self._state()
+        return restored(np.ascontiguousarray(points * factor + np.asarray(move, np.float64)), *others)
+
     def to_text(self, format: str = "wkt", *, chord: float = 1e-3) -> str:
         """The text of a file: see `save`.
 
