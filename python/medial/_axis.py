@@ -448,8 +448,9 @@ def axis(
         A name of `methods`; the default is ``medial.options.method``.
     bulges : array, optional
         Of each coordinate's edge: the tangent of a quarter of the angle it spans; 0 straight.
-    repair : {"make_valid", "even_odd", "non_zero"}, optional
-        What is inside where rings cross.
+    repair : str, optional
+        What is inside where rings cross: ``"make_valid"`` (as the input says), ``"even_odd"`` or
+        ``"non_zero"``; without it crossing rings are an error.
     arc_tolerance : float
         How far arcs may be from free-form curves, as a share of the diagonal.
     fit : float

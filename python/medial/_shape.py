@@ -28,8 +28,9 @@ class Shape:
         See `axis`.
     bulges : array, optional
         Of each edge, for one ring: the tangent of a quarter of the angle it spans.
-    repair : {"make_valid", "even_odd", "non_zero"}, optional
-        What is inside where rings cross; without it crossing rings are an error.
+    repair : str, optional
+        What is inside where rings cross: ``"make_valid"`` (as the input says), ``"even_odd"`` or
+        ``"non_zero"``; without it crossing rings are an error.
     arc_tolerance : float
         How far arcs may be from free-form curves, as a share of the diagonal.
     fit : float
