@@ -151,8 +151,7 @@ def text(text: str, font: str | PathLike[str], *, arc_tolerance: float = 1e-6) -
 
     Examples
     --------
-    >>> import medial, pathlib, pytest
-    >>> matplotlib = pytest.importorskip("matplotlib")
+    >>> import matplotlib, medial, pathlib
     >>> font = pathlib.Path(matplotlib.get_data_path(), "fonts/ttf/DejaVuSans.ttf")
     >>> [int(shape.hole.sum()) for shape in medial.text("Rg8", font)]
     [1, 1, 2]

@@ -108,13 +108,39 @@ class Shape:
         return float(np.hypot(x1 - x0, y1 - y0))
 
     def clearance(self, points: npt.ArrayLike) -> Floats:
-        """The distance of points to the boundary, negative outside."""
+        """The distance of points to the boundary, negative outside.
+
+        Parameters
+        ----------
+        points : array of shape (n, 2)
+            In units of the input.
+
+        Examples
+        --------
+        >>> import medial
+        >>> s = medial.Shape([(0, 0), (4, 0), (4, 3), (0, 3)])
+        >>> s.clearance([(1, 1)])
+        array([1.])
+        """
         return _core.clearances(self._core, points_of(points))
 
     def polygons(self, chord: float | None = None) -> list[list[Floats]]:
         """The components as lists of closed rings, the outer one first.
 
         Arcs become chords that are at most `chord` away.
+
+        Parameters
+        ----------
+        chord : float, optional
+            How far chords may be from curves, in units of the input; by default
+            ``medial.options.chord`` of the diagonal.
+
+        Examples
+        --------
+        >>> import medial
+        >>> s = medial.Shape([(0, 0), (4, 0), (4, 3), (0, 3)])
+        >>> s.polygons()[0][0].shape
+        (5, 2)
         """
         limit = chord if chord is not None else options.chord * (self.diagonal or 1)
         points, begin = self._core.outline(limit)
@@ -132,13 +158,34 @@ class Shape:
         return {"type": "MultiPolygon", "coordinates": polygons}
 
     def to_shapely(self, chord: float | None = None) -> Any:
-        """A shapely Polygon, or a MultiPolygon of several components."""
+        """A shapely Polygon, or a MultiPolygon of several components.
+
+        Parameters
+        ----------
+        chord : float, optional
+            How far chords may be from curves, in units of the input; by default
+            ``medial.options.chord`` of the diagonal.
+
+        Examples
+        --------
+        >>> import medial
+        >>> s = medial.Shape([(0, 0), (4, 0), (4, 3), (0, 3)])
+        >>> s.to_shapely().area
+        12.0
+        """
         shapely = need("shapely", "geo")
         parts = [shapely.Polygon(rings[0], rings[1:]) for rings in self.polygons(chord)]
         return parts[0] if len(parts) == 1 else shapely.MultiPolygon(parts)
 
     def scaled(self, factor: float, move: tuple[float, float] = (0, 0)) -> Shape:
         """The shape with all coordinates times `factor` > 0, then moved.
+
+        Parameters
+        ----------
+        factor : float
+            Positive.
+        move : (x, y)
+            In units of the result.
 
         Examples
         --------
@@ -170,7 +217,23 @@ class Shape:
         return text or ""
 
     def save(self, path: str | PathLike[str], *, chord: float = 1e-3) -> None:
-        """Writes the shape by the extension of the path: .wkt, .geojson, .svg or .json (native)."""
+        """Writes the shape by the extension of the path: .wkt, .geojson, .svg or .json (native).
+
+        Parameters
+        ----------
+        path : path
+        chord : float
+            See `to_text`.
+
+        Examples
+        --------
+        >>> import medial, pathlib, tempfile
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     path = pathlib.Path(folder, "a.wkt")
+        ...     medial.Shape([(0, 0), (4, 0), (0, 3)]).save(path)
+        ...     medial.read(path)[0].area
+        6.0
+        """
         _core.write_shape(self._core, fspath(path), "", chord)
 
     def __repr__(self) -> str:

@@ -67,23 +67,71 @@ class Voronoi:
         return options.chord * float(np.hypot(*np.ptp(box, axis=0)))
 
     def cells(self, chord: float | None = None) -> list[Floats]:
-        """The Voronoi cell of each site, as rows of x and y; empty where it is."""
+        """The Voronoi cell of each site, as rows of x and y; empty where it is.
+
+        Parameters
+        ----------
+        chord : float, optional
+            How far chords may be from curves, in units of the input; by default
+            ``medial.options.chord`` of the diagonal.
+
+        Examples
+        --------
+        >>> import medial
+        >>> v = medial.voronoi([(0.0, 0.0), (4.0, 0.0)])
+        >>> len(v.cells())
+        2
+        """
         points, begin = self._core.outlines(self._chord(chord))
         cells = np.split(points, begin[1:-1])
         return [_closed(cell, site) for cell, site in zip(cells, self.sites, strict=True)] if self._inside else cells
 
     def lines(self, chord: float | None = None) -> tuple[Floats, Indices]:
-        """The edges as rows of x, y and radius, and where each begins."""
+        """The edges as rows of x, y and radius, and where each begins.
+
+        Parameters
+        ----------
+        chord : float, optional
+            How far chords may be from curves, in units of the input; by default
+            ``medial.options.chord`` of the diagonal.
+
+        Examples
+        --------
+        >>> import medial
+        >>> v = medial.voronoi([(0.0, 0.0), (4.0, 0.0)])
+        >>> points, begin = v.lines()
+        >>> points.shape[1]
+        3
+        """
         points, begin = self._core.edge_lines(self._chord(chord))
         return points, begin
 
     def to_shapely(self, chord: float | None = None) -> Any:
-        """The cells as an array of shapely Polygons, empty ones included."""
+        """The cells as an array of shapely Polygons, empty ones included.
+
+        Parameters
+        ----------
+        chord : float, optional
+            How far chords may be from curves, in units of the input; by default
+            ``medial.options.chord`` of the diagonal.
+
+        Examples
+        --------
+        >>> import medial
+        >>> v = medial.voronoi([(0.0, 0.0), (4.0, 0.0)])
+        >>> [cell.geom_type for cell in v.to_shapely()]
+        ['Polygon', 'Polygon']
+        """
         shapely = need("shapely", "geo")
         return np.array([shapely.Polygon(cell) for cell in self.cells(chord)], dtype=object)
 
     def nearest(self, points: npt.ArrayLike) -> NearestSites:
         """The nearest site of each point.
+
+        Parameters
+        ----------
+        points : array of shape (n, 2)
+            In units of the input.
 
         Examples
         --------
@@ -97,7 +145,15 @@ class Voronoi:
         return NearestSites(*self._locator.nearest(points_of(points)))
 
     def verify(self) -> dict[str, Any]:
-        """The measured errors of the diagram."""
+        """The measured errors of the diagram.
+
+        Examples
+        --------
+        >>> import medial
+        >>> v = medial.voronoi([(0.0, 0.0), (4.0, 0.0)])
+        >>> v.verify()["passed"]
+        True
+        """
         return self._core.verify()
 
     def __repr__(self) -> str:

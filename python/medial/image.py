@@ -91,6 +91,14 @@ def skeletonize(image: npt.ArrayLike, *, method: str | None = None) -> npt.NDArr
     image : array
     method : {"zhang", "lee"}, optional
         Accepted as scikit-image's; both are thinned from four subfields in turn.
+
+    Examples
+    --------
+    >>> import numpy as np, medial.image
+    >>> square = np.zeros((7, 7), bool)
+    >>> square[1:6, 1:6] = True
+    >>> int(medial.image.skeletonize(square).sum())
+    1
     """
     if method not in (None, "zhang", "lee"):
         raise ValueError(f"method is 'zhang' or 'lee', not {method!r}")
@@ -105,6 +113,14 @@ def thin(image: npt.ArrayLike, max_num_iter: int | None = None) -> Mask:
     image : array
     max_num_iter : int, optional
         Not supported: the image is thinned until nothing changes.
+
+    Examples
+    --------
+    >>> import numpy as np, medial.image
+    >>> square = np.zeros((7, 7), bool)
+    >>> square[1:6, 1:6] = True
+    >>> int(medial.image.thin(square).sum())
+    1
     """
     if max_num_iter is not None:
         raise MedialError("thin() runs until nothing changes; max_num_iter is not known", "unsupported")
@@ -144,7 +160,21 @@ def distance_transform(image: npt.ArrayLike, *, spacing: float = 1, to: str = "p
 
 
 def topology(image: npt.ArrayLike) -> tuple[int, int]:
-    """The components of the foreground (by eight neighbours) and its holes."""
+    """The components of the foreground (by eight neighbours) and its holes.
+
+    Parameters
+    ----------
+    image : array of shape (rows, columns)
+        Foreground where it is not 0.
+
+    Examples
+    --------
+    >>> import numpy as np, medial.image
+    >>> square = np.zeros((7, 7), bool)
+    >>> square[1:6, 1:6] = True
+    >>> medial.image.topology(square)
+    (1, 0)
+    """
     components, holes = _core.topology(_pixels(image))
     return components, holes
 
@@ -153,6 +183,21 @@ def outline(image: npt.ArrayLike, *, neck: float = 1 / 16) -> list[Floats]:
     """The boundary of the foreground pixels, as rings with y downwards.
 
     Where pixels meet in a corner only, a `neck` so many pixels wide connects them; 0: none.
+
+    Parameters
+    ----------
+    image : array of shape (rows, columns)
+        Foreground where it is not 0.
+    neck : float
+        In pixels, below 1 / 2.
+
+    Examples
+    --------
+    >>> import numpy as np, medial.image
+    >>> square = np.zeros((7, 7), bool)
+    >>> square[1:6, 1:6] = True
+    >>> [len(ring) for ring in medial.image.outline(square)]
+    [4]
     """
     points, begin = _core.pixel_outline(_pixels(image), neck)
     return np.split(points, begin[1:-1]) if len(begin) > 1 else []
