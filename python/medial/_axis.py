@@ -137,6 +137,11 @@ class MedialAxis:
     def nearest(self, points: npt.ArrayLike) -> Records:
         """The place of the axis nearest to each point.
 
+        Parameters
+        ----------
+        points : array of shape (n, 2)
+            In units of the input.
+
         Returns
         -------
         structured array
@@ -152,15 +157,55 @@ class MedialAxis:
         return records(self._core.nearest(points_of(points)), NEAREST)
 
     def radius_at(self, points: npt.ArrayLike) -> Floats:
-        """The radius at the place of the axis nearest to each point."""
+        """The radius at the place of the axis nearest to each point.
+
+        Parameters
+        ----------
+        points : array of shape (n, 2)
+            In units of the input.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> a.radius_at([(2, 1.5)])
+        array([1.])
+        """
         return np.array(self.nearest(points)["radius"])
 
     def clearance(self, points: npt.ArrayLike) -> Floats:
-        """The distance of points to the boundary of the shape, negative outside."""
+        """The distance of points to the boundary of the shape, negative outside.
+
+        Parameters
+        ----------
+        points : array of shape (n, 2)
+            In units of the input.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> a.clearance([(2, 1), (2, 3)])
+        array([ 1., -1.])
+        """
         return self.shape.clearance(points)
 
     def disk_at(self, edge: int, t: float) -> tuple[float, float, float]:
-        """The disk (x, y, radius) at a parameter in [0, 1] of an edge."""
+        """The disk (x, y, radius) at a parameter in [0, 1] of an edge.
+
+        Parameters
+        ----------
+        edge : int
+        t : float
+            The parameter; 0 and 1 are the edge's nodes.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> a.disk_at(2, 0.5)[:2]
+        (2.0, 1.0)
+        """
         x, y, radius = self._core.disk_at(edge, t)
         return x, y, radius
 
@@ -174,7 +219,24 @@ class MedialAxis:
         return float(np.hypot(np.ptp(nodes["x"]), np.ptp(nodes["y"]))) if len(nodes) else 0.0
 
     def lines(self, chord: float | None = None, step: float | None = None) -> tuple[Floats, Indices]:
-        """All branches as polylines: rows of x, y, radius, and where each line begins."""
+        """All branches as polylines: rows of x, y, radius, and where each line begins.
+
+        Parameters
+        ----------
+        chord : float, optional
+            How far chords may be from curves, in units of the input; by default
+            ``medial.options.chord`` of the diagonal.
+        step : float, optional
+            The longest way from row to row, in units of the input, instead.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> points, begin = a.lines()
+        >>> points.shape, begin.tolist()
+        ((10, 3), [0, 2, 4, 6, 8, 10])
+        """
         return self._core.lines(self._chord(chord), step or 0.0)
 
     def sample(self, chord: float | None = None, step: float | None = None) -> list[Floats]:
@@ -186,6 +248,13 @@ class MedialAxis:
             How far chords may be from the curves, in units of the input.
         step : float, optional
             The longest way from row to row, instead.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> len(a.sample(step=0.5)[2])
+        5
         """
         points, begin = self.lines(chord, step)
         return np.split(points, begin[1:-1]) if len(begin) > 1 else []
@@ -206,16 +275,55 @@ class MedialAxis:
 
     def prune(self, measure: str = "prominence", threshold: float | None = None, *,
               keep: int | None = None, tips: bool = False) -> MedialAxis:  # fmt: skip
-        """The part that matters: see `medial.prune`."""
+        """The part that matters: see `medial.prune`.
+
+        Parameters
+        ----------
+        measure, threshold, keep, tips
+            See `medial.prune`.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> a.prune("erosion", 0.5).branch_count
+        1
+        """
         core, _ = _core.pruned(self._core, measure, threshold, keep, tips)
         return MedialAxis._of(core)
 
     def clearance_part(self, clearance: float) -> MedialAxis:
-        """The part where a disk of radius `clearance` has room, cut exactly."""
+        """The part where a disk of radius `clearance` has room, cut exactly.
+
+        Parameters
+        ----------
+        clearance : float
+            In units of the input.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> round(a.clearance_part(0.5).length, 9)
+        4.828427125
+        """
         return MedialAxis._of(_core.clearance_part(self._core, clearance))
 
     def verify(self, **given: Any) -> Any:
-        """The measured errors: see `medial.verify`."""
+        """The measured errors: see `medial.verify`.
+
+        Parameters
+        ----------
+        **given
+            Options of `medial.verify`.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> a.verify().passed
+        True
+        """
         from ._checks import verify
 
         return verify(self, **given)
@@ -223,14 +331,44 @@ class MedialAxis:
     # Other packages.
 
     def to_shapely(self, chord: float | None = None) -> Any:
-        """A shapely MultiLineString of all branches, with the radius as z."""
+        """A shapely MultiLineString of all branches, with the radius as z.
+
+        Parameters
+        ----------
+        chord : float, optional
+            How far chords may be from curves, in units of the input; by default
+            ``medial.options.chord`` of the diagonal.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> len(a.to_shapely().geoms)
+        5
+        """
         shapely = need("shapely", "geo")
         points, begin = self.lines(chord)
         kind = shapely.GeometryType.MULTILINESTRING
         return shapely.from_ragged_array(kind, points, (begin, np.array([0, len(begin) - 1])))[0]
 
     def to_geopandas(self, chord: float | None = None, crs: Any = None) -> Any:
-        """A GeoDataFrame with a row for each branch, as `branches` and its line."""
+        """A GeoDataFrame with a row for each branch, as `branches` and its line.
+
+        Parameters
+        ----------
+        chord : float, optional
+            How far chords may be from curves, in units of the input; by default
+            ``medial.options.chord`` of the diagonal.
+        crs : optional
+            The reference system of the coordinates, as GeoPandas takes it.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> len(a.to_geopandas(crs=2056))
+        5
+        """
         geopandas, shapely = need("geopandas", "geo"), need("shapely", "geo")
         table = self.branches
         points, begin = self.lines(chord)
@@ -243,6 +381,18 @@ class MedialAxis:
 
         Nodes have x, y, radius, pos and kind; edges length and edge (or branch), the smallest
         radius of their ends and the sites.
+
+        Parameters
+        ----------
+        branches : bool
+            A graph of ends and branches instead of nodes and edges.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> a.to_networkx(branches=True).number_of_edges()
+        5
         """
         networkx = need("networkx", "graph")
         graph = networkx.MultiGraph()
@@ -264,7 +414,15 @@ class MedialAxis:
         return graph
 
     def to_scipy(self) -> Any:
-        """The lengths of edges from node to node as a symmetric sparse matrix."""
+        """The lengths of edges from node to node as a symmetric sparse matrix.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> a.to_scipy().shape
+        (6, 6)
+        """
         sparse = need("scipy.sparse", "graph")
         ends, lengths = self.edges["node"].astype(np.int64), self.edge_lengths
         ends = np.sort(ends, axis=1)
@@ -276,7 +434,15 @@ class MedialAxis:
         return sparse.coo_array((np.r_[lengths, lengths], (np.r_[a, b], np.r_[b, a])), size).tocsr()
 
     def to_igraph(self) -> Any:
-        """An igraph Graph of nodes and edges with their numbers as attributes."""
+        """An igraph Graph of nodes and edges with their numbers as attributes.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> a.to_igraph().diameter()
+        3
+        """
         igraph = need("igraph", "graph")
         nodes = self.nodes
         graph = igraph.Graph(len(nodes), self.edges["node"].tolist())
@@ -288,7 +454,27 @@ class MedialAxis:
     # Pictures.
 
     def plot(self, ax: Any = None, *, shape: bool = True, disks: int = 0, **given: Any) -> Any:
-        """Draws the axis, coloured by radius, into a matplotlib axes, which is returned."""
+        """Draws the axis, coloured by radius, into a matplotlib axes, which is returned.
+
+        Parameters
+        ----------
+        ax : matplotlib Axes, optional
+        shape : bool
+            Draw the shape.
+        disks : int
+            Draw about so many maximal disks.
+        **given
+            Of matplotlib's LineCollection, such as `cmap` and `linewidth`.
+
+        Examples
+        --------
+        >>> import matplotlib
+        >>> matplotlib.use("agg")
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> a.plot(disks=3).get_aspect()
+        1.0
+        """
         from ._pictures import plot
 
         return plot(self, ax, shape=shape, disks=disks, **given)
@@ -336,6 +522,15 @@ class MedialAxis:
         ------
         MedialError
             With the code ``"unsupported"`` (another extension) or ``"unwritable"``.
+
+        Examples
+        --------
+        >>> import medial, pathlib, tempfile
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     a.save(pathlib.Path(folder, "a.csv"))
+        ...     pathlib.Path(folder, "a.csv").read_text()[:10]
+        'edge,x,y,r'
         """
         name = fspath(path)
         if name.endswith(".gz"):
@@ -448,8 +643,9 @@ def axis(
         A name of `methods`; the default is ``medial.options.method``.
     bulges : array, optional
         Of each coordinate's edge: the tangent of a quarter of the angle it spans; 0 straight.
-    repair : {"make_valid", "even_odd", "non_zero"}, optional
-        What is inside where rings cross.
+    repair : str, optional
+        What is inside where rings cross: ``"make_valid"`` (as the input says), ``"even_odd"`` or
+        ``"non_zero"``; without it crossing rings are an error.
     arc_tolerance : float
         How far arcs may be from free-form curves, as a share of the diagonal.
     fit : float

@@ -47,6 +47,11 @@ class Carving:
     def to_gcode(self, **machine: Any) -> str:
         """The program of the paths, as the command line writes it; options are those of `save`.
 
+        Parameters
+        ----------
+        **machine
+            Options of `save`.
+
         Examples
         --------
         >>> import medial
@@ -85,6 +90,15 @@ class Carving:
         MedialError
             With the code ``"unsupported"`` (another extension), ``"unwritable"`` or
             ``"invalid_option"`` (a template without its parts).
+
+        Examples
+        --------
+        >>> import medial, pathlib, tempfile
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     path = pathlib.Path(folder, "a.nc")
+        ...     medial.carve([(0, 0), (4, 0), (4, 2), (0, 2)]).save(path, spindle=12000)
+        ...     "M3 S12000" in path.read_text()
+        True
         """
         self._write(fspath(path), "", **machine)
 

@@ -91,8 +91,9 @@ def read(path: str | PathLike[str], *, repair: str | None = None, arc_tolerance:
     Parameters
     ----------
     path : path
-    repair : {"make_valid", "even_odd", "non_zero"}, optional
-        What is inside where rings cross; without it crossing rings are an error.
+    repair : str, optional
+        What is inside where rings cross: ``"make_valid"`` (as the input says), ``"even_odd"`` or
+        ``"non_zero"``; without it crossing rings are an error.
     arc_tolerance : float
         How far arcs may be from free-form curves, as a share of the diagonal.
     fit : float
@@ -150,8 +151,7 @@ def text(text: str, font: str | PathLike[str], *, arc_tolerance: float = 1e-6) -
 
     Examples
     --------
-    >>> import medial, pathlib, pytest
-    >>> matplotlib = pytest.importorskip("matplotlib")
+    >>> import matplotlib, medial, pathlib
     >>> font = pathlib.Path(matplotlib.get_data_path(), "fonts/ttf/DejaVuSans.ttf")
     >>> [int(shape.hole.sum()) for shape in medial.text("Rg8", font)]
     [1, 1, 2]

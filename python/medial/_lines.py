@@ -37,14 +37,44 @@ class Line:
     _of: MedialAxis = dataclass_field(repr=False)
 
     def coordinates(self, chord: float | None = None, step: float | None = None) -> Floats:
-        """Rows of x, y and radius along the line."""
+        """Rows of x, y and radius along the line.
+
+        Parameters
+        ----------
+        chord : float, optional
+            How far chords may be from curves, in units of the input; by default
+            ``medial.options.chord`` of the diagonal.
+        step : float, optional
+            The longest way from row to row, in units of the input, instead.
+
+        Examples
+        --------
+        >>> import medial
+        >>> line = medial.centerline([(0, 0), (10, 0), (10, 2), (0, 2)])
+        >>> line.coordinates(step=2).shape
+        (5, 3)
+        """
         parts = self.axis.sample(chord, step)
         if not parts:
             return np.empty((0, 3))
         return parts[0] if len(parts) == 1 else np.concatenate([parts[0], *(p[1:] for p in parts[1:])])
 
     def to_shapely(self, chord: float | None = None) -> Any:
-        """A shapely LineString."""
+        """A shapely LineString.
+
+        Parameters
+        ----------
+        chord : float, optional
+            How far chords may be from curves, in units of the input; by default
+            ``medial.options.chord`` of the diagonal.
+
+        Examples
+        --------
+        >>> import medial
+        >>> line = medial.centerline([(0, 0), (10, 0), (10, 2), (0, 2)])
+        >>> round(line.to_shapely().length, 9)
+        8.0
+        """
         return need("shapely", "geo").LineString(self.coordinates(chord)[:, :2])
 
     @property
@@ -63,6 +93,13 @@ class Line:
         ------
         MedialError
             With the code ``"invalid_option"``: lengths beyond the line, or not increasing.
+
+        Examples
+        --------
+        >>> import medial
+        >>> line = medial.centerline([(0, 0), (10, 0), (10, 2), (0, 2)])
+        >>> line.widths(3).width.round(9)
+        array([2., 2., 2.])
         """
         if isinstance(samples, (int, np.integer)):
             at = np.linspace(0, self.length, int(samples))
@@ -71,9 +108,22 @@ class Line:
         return self._widths(at, across=False)
 
     def transects(self, count: int = 10, *, spacing: float | None = None) -> Widths:
-        """Lines across the course, from boundary to boundary: see `medial.transects`."""
+        """Lines across the course, from boundary to boundary: see `medial.transects`.
+
+        Parameters
+        ----------
+        count, spacing
+            See `medial.transects`.
+
+        Examples
+        --------
+        >>> import medial
+        >>> line = medial.centerline([(0, 0), (10, 0), (10, 2), (0, 2)])
+        >>> len(line.transects(spacing=2).along)
+        5
+        """
         if spacing is None:
-            places = (np.arange(count) + 0.5) * (self.length / count)
+            places = self.length * ((np.arange(count) + 0.5) / count)
             return self._widths(np.asarray(places, np.float64), across=True)
         if not spacing > 0:
             raise ValueError("spacing is positive")
@@ -277,6 +327,14 @@ def widest_path(x: Any, start: Sequence[float] | str, end: Sequence[float] | str
 def width_profile(x: Any, samples: int | npt.ArrayLike = 100, **given: Any) -> Widths:
     """The width along the centre line; further options are those of `centerline`.
 
+    Parameters
+    ----------
+    x : Line, MedialAxis or geometry
+    samples : int or array
+        How many places, evenly; or increasing lengths along the line, in units of the input.
+    **given
+        Options of `centerline`.
+
     Examples
     --------
     >>> import medial
@@ -315,6 +373,12 @@ def transects(x: Any, count: int = 10, *, spacing: float | None = None, **given:
 
 def mean_width(x: Any, **given: Any) -> dict[str, float]:
     """Mean widths: by length, by area, and area by length; options are those of `centerline`.
+
+    Parameters
+    ----------
+    x : MedialAxis or geometry
+    **given
+        Options of `centerline`.
 
     Examples
     --------
@@ -385,6 +449,10 @@ def maximum_inscribed_circle(x: Any) -> Circle:
 
     Of an axis its deepest disk; of anything else found without an axis, which is much sooner for
     large shapes.
+
+    Parameters
+    ----------
+    x : MedialAxis or geometry
 
     Examples
     --------

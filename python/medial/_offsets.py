@@ -40,11 +40,39 @@ class Region:
     length: float
 
     def polygon(self, chord: float | None = None) -> list[Floats]:
-        """Closed rings in which arcs are chords at most `chord` away."""
+        """Closed rings in which arcs are chords at most `chord` away.
+
+        Parameters
+        ----------
+        chord : float, optional
+            How far chords may be from curves, in units of the input; by default
+            ``medial.options.chord`` of the diagonal.
+
+        Examples
+        --------
+        >>> import medial
+        >>> (region,) = medial.offset([(0, 0), (4, 0), (4, 4), (0, 4)], -1)
+        >>> len(region.polygon(0.1)[0]) < len(region.polygon(0.001)[0])
+        True
+        """
         return [_flattened(points, bulges, chord) for points, bulges in self.rings]
 
     def to_shapely(self, chord: float | None = None) -> Any:
-        """A shapely Polygon."""
+        """A shapely Polygon.
+
+        Parameters
+        ----------
+        chord : float, optional
+            How far chords may be from curves, in units of the input; by default
+            ``medial.options.chord`` of the diagonal.
+
+        Examples
+        --------
+        >>> import medial
+        >>> (region,) = medial.offset([(0, 0), (4, 0), (4, 4), (0, 4)], -1)
+        >>> 35 < region.to_shapely().area < region.area
+        True
+        """
         rings = self.polygon(chord)
         return need("shapely", "geo").Polygon(rings[0], rings[1:])
 

@@ -37,6 +37,12 @@ class Pack:
 def pack(x: Any, error: float) -> Pack:
     """Codes a shape so that it and the unpacked one lie within `error` of each other.
 
+    Parameters
+    ----------
+    x : MedialAxis or geometry
+    error : float
+        In units of the input, positive.
+
     Examples
     --------
     >>> import medial
@@ -49,6 +55,10 @@ def pack(x: Any, error: float) -> Pack:
 
 def unpack(code: Pack) -> MedialAxis:
     """The axis of a code, with the shape that its disks cover.
+
+    Parameters
+    ----------
+    code : Pack
 
     Examples
     --------
@@ -79,6 +89,12 @@ class Field:
 
 def field(x: Any, order: float = 2) -> Field:
     """The integral of 1 / r^order along the border of a shape.
+
+    Parameters
+    ----------
+    x : geometry
+    order : float
+        Of the potential 1 / r^order, at least 1.
 
     Examples
     --------

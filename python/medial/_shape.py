@@ -28,8 +28,9 @@ class Shape:
         See `axis`.
     bulges : array, optional
         Of each edge, for one ring: the tangent of a quarter of the angle it spans.
-    repair : {"make_valid", "even_odd", "non_zero"}, optional
-        What is inside where rings cross; without it crossing rings are an error.
+    repair : str, optional
+        What is inside where rings cross: ``"make_valid"`` (as the input says), ``"even_odd"`` or
+        ``"non_zero"``; without it crossing rings are an error.
     arc_tolerance : float
         How far arcs may be from free-form curves, as a share of the diagonal.
     fit : float
@@ -107,13 +108,39 @@ class Shape:
         return float(np.hypot(x1 - x0, y1 - y0))
 
     def clearance(self, points: npt.ArrayLike) -> Floats:
-        """The distance of points to the boundary, negative outside."""
+        """The distance of points to the boundary, negative outside.
+
+        Parameters
+        ----------
+        points : array of shape (n, 2)
+            In units of the input.
+
+        Examples
+        --------
+        >>> import medial
+        >>> s = medial.Shape([(0, 0), (4, 0), (4, 3), (0, 3)])
+        >>> s.clearance([(1, 1)])
+        array([1.])
+        """
         return _core.clearances(self._core, points_of(points))
 
     def polygons(self, chord: float | None = None) -> list[list[Floats]]:
         """The components as lists of closed rings, the outer one first.
 
         Arcs become chords that are at most `chord` away.
+
+        Parameters
+        ----------
+        chord : float, optional
+            How far chords may be from curves, in units of the input; by default
+            ``medial.options.chord`` of the diagonal.
+
+        Examples
+        --------
+        >>> import medial
+        >>> s = medial.Shape([(0, 0), (4, 0), (4, 3), (0, 3)])
+        >>> s.polygons()[0][0].shape
+        (5, 2)
         """
         limit = chord if chord is not None else options.chord * (self.diagonal or 1)
         points, begin = self._core.outline(limit)
@@ -131,10 +158,45 @@ class Shape:
         return {"type": "MultiPolygon", "coordinates": polygons}
 
     def to_shapely(self, chord: float | None = None) -> Any:
-        """A shapely Polygon, or a MultiPolygon of several components."""
+        """A shapely Polygon, or a MultiPolygon of several components.
+
+        Parameters
+        ----------
+        chord : float, optional
+            How far chords may be from curves, in units of the input; by default
+            ``medial.options.chord`` of the diagonal.
+
+        Examples
+        --------
+        >>> import medial
+        >>> s = medial.Shape([(0, 0), (4, 0), (4, 3), (0, 3)])
+        >>> s.to_shapely().area
+        12.0
+        """
         shapely = need("shapely", "geo")
         parts = [shapely.Polygon(rings[0], rings[1:]) for rings in self.polygons(chord)]
         return parts[0] if len(parts) == 1 else shapely.MultiPolygon(parts)
+
+    def scaled(self, factor: float, move: tuple[float, float] = (0, 0)) -> Shape:
+        """The shape with all coordinates times `factor` > 0, then moved.
+
+        Parameters
+        ----------
+        factor : float
+            Positive.
+        move : (x, y)
+            In units of the result.
+
+        Examples
+        --------
+        >>> import medial
+        >>> medial.Shape([(0, 0), (4, 0), (4, 3), (0, 3)]).scaled(0.5, move=(1, 0)).bounds
+        (1.0, 0.0, 3.0, 1.5)
+        """
+        if not factor > 0:
+            raise ValueError("factor is positive")
+        points, *others = self._state()
+        return restored(np.ascontiguousarray(points * factor + np.asarray(move, np.float64)), *others)
 
     def to_text(self, format: str = "wkt", *, chord: float = 1e-3) -> str:
         """The text of a file: see `save`.
@@ -155,7 +217,23 @@ class Shape:
         return text or ""
 
     def save(self, path: str | PathLike[str], *, chord: float = 1e-3) -> None:
-        """Writes the shape by the extension of the path: .wkt, .geojson, .svg or .json (native)."""
+        """Writes the shape by the extension of the path: .wkt, .geojson, .svg or .json (native).
+
+        Parameters
+        ----------
+        path : path
+        chord : float
+            See `to_text`.
+
+        Examples
+        --------
+        >>> import medial, pathlib, tempfile
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     path = pathlib.Path(folder, "a.wkt")
+        ...     medial.Shape([(0, 0), (4, 0), (0, 3)]).save(path)
+        ...     medial.read(path)[0].area
+        6.0
+        """
         _core.write_shape(self._core, fspath(path), "", chord)
 
     def __repr__(self) -> str:

@@ -195,7 +195,31 @@ def _each(
 
 def axis(x: Any, method: str | None = None, *, chord: float | None = None, on_error: str = "raise",
          threads: int | None = None, progress: Any = False) -> Geometries:  # fmt: skip
-    """The medial axes as lines: multi line strings. `medial.axes` returns them as graphs."""
+    """The medial axes as lines: multi line strings. `medial.axes` returns them as graphs.
+
+    Parameters
+    ----------
+    x : features
+        What `medial.axes` takes.
+    method : str, optional
+        See `medial.axis`.
+    chord : float, optional
+        How far chords may be from curves, in units of the input; by default
+        ``medial.options.chord`` of the diagonal.
+    on_error : {"raise", "ignore"}
+        Whether the first error is raised, or all are kept in `errors`.
+    threads : int, optional
+        The default is ``medial.options.threads``.
+    progress : bool or callable
+        A bar of tqdm, or a function that is called with the share of features done.
+
+    Examples
+    --------
+    >>> import medial.arrays
+    >>> two = [[(0, 0), (10, 0), (10, 2), (0, 2)], [(0, 0), (4, 0), (4, 1), (0, 1)]]
+    >>> medial.arrays.axis(two)
+    <medial.arrays.Geometries: 2 features, 20 rows>
+    """
     found = axes(x, method, on_error=on_error, threads=threads, progress=progress)
     points, lines, features = found.lines(chord)
     return Geometries(points, (lines, features), found.errors)
@@ -204,28 +228,126 @@ def axis(x: Any, method: str | None = None, *, chord: float | None = None, on_er
 def centerline(x: Any, method: str | None = None, *, trim: float = 1, route: str = "roomy", extend: bool = False,
                smooth: float = 0, chord: float | None = None, on_error: str = "raise",
                threads: int | None = None, progress: Any = False) -> Geometries:  # fmt: skip
-    """The centre lines, as `medial.centerline`: line strings."""
+    """The centre lines, as `medial.centerline`: line strings.
+
+    Parameters
+    ----------
+    x : features
+        What `medial.axes` takes.
+    method : str, optional
+        See `medial.axis`.
+    trim, route, extend, smooth
+        See `medial.centerlines`.
+    chord : float, optional
+        How far chords may be from curves, in units of the input; by default
+        ``medial.options.chord`` of the diagonal.
+    on_error : {"raise", "ignore"}
+        Whether the first error is raised, or all are kept in `errors`.
+    threads : int, optional
+        The default is ``medial.options.threads``.
+    progress : bool or callable
+        A bar of tqdm, or a function that is called with the share of features done.
+
+    Examples
+    --------
+    >>> import medial.arrays
+    >>> two = [[(0, 0), (10, 0), (10, 2), (0, 2)], [(0, 0), (4, 0), (4, 1), (0, 1)]]
+    >>> medial.arrays.centerline(two, extend=True).values[:, :2].tolist()[:1]
+    [[10.0, 1.0]]
+    """
     given = {"trim": trim, "route": route, "extend": extend, "smooth": smooth, "chord": chord, "share": options.chord}
     return Geometries(*_each(x, "centerline", given, method, on_error, threads, progress)[:3])
 
 
 def width(x: Any, samples: int = 100, method: str | None = None, *, trim: float = 1, route: str = "roomy",
           on_error: str = "raise", threads: int | None = None, progress: Any = False) -> Table:  # fmt: skip
-    """The mean, least and largest width along the centre lines, and their lengths."""
+    """The mean, least and largest width along the centre lines, and their lengths.
+
+    Parameters
+    ----------
+    x : features
+        What `medial.axes` takes.
+    samples : int
+        Places along each line.
+    method : str, optional
+        See `medial.axis`.
+    trim, route
+        See `medial.centerlines`.
+    on_error : {"raise", "ignore"}
+        Whether the first error is raised, or all are kept in `errors`.
+    threads : int, optional
+        The default is ``medial.options.threads``.
+    progress : bool or callable
+        A bar of tqdm, or a function that is called with the share of features done.
+
+    Examples
+    --------
+    >>> import medial.arrays
+    >>> two = [[(0, 0), (10, 0), (10, 2), (0, 2)], [(0, 0), (4, 0), (4, 1), (0, 1)]]
+    >>> medial.arrays.width(two)["min"]
+    array([2., 1.])
+    """
     given = {"samples": samples, "trim": trim, "route": route}
     return Table(*_each(x, "width", given, method, on_error, threads, progress)[:3], ("mean", "min", "max", "length"))
 
 
 def inscribed_circles(x: Any, count: int = 1, smallest: float = 0, *, on_error: str = "raise",
                       threads: int | None = None, progress: Any = False) -> Table:  # fmt: skip
-    """The largest circles without overlap, as `medial.inscribed_circles`."""
+    """The largest circles without overlap, as `medial.inscribed_circles`.
+
+    Parameters
+    ----------
+    x : features
+        What `medial.axes` takes.
+    count : int
+        At most, of each feature.
+    smallest : float
+        No radius is below this, in units of the input.
+    on_error : {"raise", "ignore"}
+        Whether the first error is raised, or all are kept in `errors`.
+    threads : int, optional
+        The default is ``medial.options.threads``.
+    progress : bool or callable
+        A bar of tqdm, or a function that is called with the share of features done.
+
+    Examples
+    --------
+    >>> import medial.arrays
+    >>> two = [[(0, 0), (10, 0), (10, 2), (0, 2)], [(0, 0), (4, 0), (4, 1), (0, 1)]]
+    >>> medial.arrays.inscribed_circles(two)["radius"]
+    array([1. , 0.5])
+    """
     given = {"count": count, "smallest": float(smallest)}
     return Table(*_each(x, "inscribed_circles", given, None, on_error, threads, progress)[:3], ("x", "y", "radius"))
 
 
 def offset(x: Any, distance: float, *, chord: float | None = None, on_error: str = "raise",
            threads: int | None = None, progress: Any = False) -> Geometries:  # fmt: skip
-    """What is farther than a distance from the boundary, outwards if negative: multi polygons."""
+    """What is farther than a distance from the boundary, outwards if negative: multi polygons.
+
+    Parameters
+    ----------
+    x : features
+        What `medial.axes` takes.
+    distance : float
+        In units of the input.
+    chord : float, optional
+        How far chords may be from curves, in units of the input; by default
+        ``medial.options.chord`` of the diagonal.
+    on_error : {"raise", "ignore"}
+        Whether the first error is raised, or all are kept in `errors`.
+    threads : int, optional
+        The default is ``medial.options.threads``.
+    progress : bool or callable
+        A bar of tqdm, or a function that is called with the share of features done.
+
+    Examples
+    --------
+    >>> import medial.arrays
+    >>> two = [[(0, 0), (10, 0), (10, 2), (0, 2)], [(0, 0), (4, 0), (4, 1), (0, 1)]]
+    >>> len(medial.arrays.offset(two, 0.25))
+    2
+    """
     given = {"distance": float(distance), "chord": chord, "share": options.chord}
     return Geometries(*_each(x, "offset", given, None, on_error, threads, progress)[:3])
 
@@ -233,7 +355,33 @@ def offset(x: Any, distance: float, *, chord: float | None = None, on_error: str
 def prune(x: Any, measure: str = "prominence", threshold: float | None = None, method: str | None = None, *,
           keep: int | None = None, tips: bool = False, chord: float | None = None, on_error: str = "raise",
           threads: int | None = None, progress: Any = False) -> Geometries:  # fmt: skip
-    """The pruned axes, as `medial.prune`: multi line strings."""
+    """The pruned axes, as `medial.prune`: multi line strings.
+
+    Parameters
+    ----------
+    x : features
+        What `medial.axes` takes.
+    measure, threshold, keep, tips
+        See `medial.prune`.
+    method : str, optional
+        See `medial.axis`.
+    chord : float, optional
+        How far chords may be from curves, in units of the input; by default
+        ``medial.options.chord`` of the diagonal.
+    on_error : {"raise", "ignore"}
+        Whether the first error is raised, or all are kept in `errors`.
+    threads : int, optional
+        The default is ``medial.options.threads``.
+    progress : bool or callable
+        A bar of tqdm, or a function that is called with the share of features done.
+
+    Examples
+    --------
+    >>> import medial.arrays
+    >>> two = [[(0, 0), (10, 0), (10, 2), (0, 2)], [(0, 0), (4, 0), (4, 1), (0, 1)]]
+    >>> medial.arrays.prune(two, "erosion", 0.5)
+    <medial.arrays.Geometries: 2 features, 4 rows>
+    """
     given = {"measure": measure, "threshold": threshold, "keep": keep, "tips": tips, "chord": chord,
              "share": options.chord}  # fmt: skip
     return Geometries(*_each(x, "prune", given, method, on_error, threads, progress)[:3])
@@ -250,6 +398,22 @@ _BRANCH = {  # in the order of the extension module
 def branches(x: Any, method: str | None = None, *, chord: float | None = None, on_error: str = "raise",
              threads: int | None = None, progress: Any = False) -> Lines:  # fmt: skip
     """The branches of all axes as lines, with the columns of `medial.MedialAxis.branches`.
+
+    Parameters
+    ----------
+    x : features
+        What `medial.axes` takes.
+    method : str, optional
+        See `medial.axis`.
+    chord : float, optional
+        How far chords may be from curves, in units of the input; by default
+        ``medial.options.chord`` of the diagonal.
+    on_error : {"raise", "ignore"}
+        Whether the first error is raised, or all are kept in `errors`.
+    threads : int, optional
+        The default is ``medial.options.threads``.
+    progress : bool or callable
+        A bar of tqdm, or a function that is called with the share of features done.
 
     Examples
     --------
@@ -269,6 +433,23 @@ def branches(x: Any, method: str | None = None, *, chord: float | None = None, o
 def transects(x: Any, count: int = 10, method: str | None = None, *, trim: float = 1, route: str = "roomy",
               on_error: str = "raise", threads: int | None = None, progress: Any = False) -> Lines:  # fmt: skip
     """Lines across the courses of shapes, as `medial.transects`, with along, width and span.
+
+    Parameters
+    ----------
+    x : features
+        What `medial.axes` takes.
+    count : int
+        In the middles of so many equal parts of each centre line.
+    method : str, optional
+        See `medial.axis`.
+    trim, route
+        See `medial.centerlines`.
+    on_error : {"raise", "ignore"}
+        Whether the first error is raised, or all are kept in `errors`.
+    threads : int, optional
+        The default is ``medial.options.threads``.
+    progress : bool or callable
+        A bar of tqdm, or a function that is called with the share of features done.
 
     Examples
     --------
