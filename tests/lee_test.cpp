@@ -445,6 +445,8 @@ TEST(LeeTies, OfANeedleAreBrokenIn256Bits) {
        {-130725073714.29567, 791613353392.68066}, {-148440590930.22855, 898890706939.05823},
        {-131784627319.15491, 798029541904.51965}}};
   EXPECT_EQ(check_axis_of(built({ring}), false), "");
+  EXPECT_GT(compute(built({ring}), by_lee())->statistics.exact_precise, 0U);
+  EXPECT_EQ(compute(built(l_shape(2)), by_lee())->statistics.exact_precise, 0U);
 }
 
 /// An ellipse with a dent, in which about a share of the vertices are reflex.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "axis/statistics.h"
 #include "base/stopwatch.h"
 #include "methods/lee/graph.h"
 #include "methods/lee/ties.h"
@@ -84,7 +85,10 @@ class Solution {
 #ifdef MEDIAL_HAS_EXACT
     const PreciseSites sites = precise_sites(problem_, elements_);
     DiagramIn<InPrecise> precise(elements_, sites.elements, sites.passages);
-    const auto last_edges = conquer(precise, context(InPrecise::tolerance), statistics);
+    Statistics own;
+    const auto last_edges = conquer(precise, context(InPrecise::tolerance), own);
+    statistics += own;
+    statistics.exact_precise += own.queries;
     diagram_.emplace(elements_, elements_.sites, elements_.disks_of_passages);
     diagram_->top = std::move(precise.top);
     diagram_->free = std::move(precise.free);
