@@ -13,20 +13,21 @@ namespace {
 
 /// By the parities of a cell's coordinates: the bits of the places that differ from it only along
 /// directions in which it extends, or only along the others.
-constexpr std::array<Neighbourhood, 8> make_masks(bool faces) {
-  std::array<Neighbourhood, 8> masks = {};
+constexpr std::array<Neighbourhood, 8> make_bits(bool faces) {
+  std::array<Neighbourhood, 8> bits_of_parity = {};
   for (unsigned parity = 0; parity < 8; ++parity) {
     for (int bit = 0; bit < 27; ++bit) {
       const unsigned moved =
           (bit % 3 != 1 ? 1U : 0U) | (bit / 3 % 3 != 1 ? 2U : 0U) | (bit / 9 != 1 ? 4U : 0U);
-      if (moved != 0 && (moved & (faces ? ~parity : parity)) == 0) masks[parity] |= 1U << bit;
+      if (moved != 0 && (moved & (faces ? ~parity : parity)) == 0)
+        bits_of_parity[parity] |= 1U << bit;
     }
   }
-  return masks;
+  return bits_of_parity;
 }
 
-constexpr std::array<Neighbourhood, 8> face_masks = make_masks(true);
-constexpr std::array<Neighbourhood, 8> coface_masks = make_masks(false);
+constexpr std::array<Neighbourhood, 8> face_masks = make_bits(true);
+constexpr std::array<Neighbourhood, 8> coface_masks = make_bits(false);
 
 unsigned parity(Cell cell) { return (cell.x & 1U) | (cell.y & 1U) << 1U | (cell.z & 1U) << 2U; }
 

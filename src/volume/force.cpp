@@ -51,16 +51,16 @@ Vec3 force_of(Vec3 p, const Triangle& triangle, int order, double scale, int dep
 
 // ---- Where lines start.
 
-struct Edge {
+struct ConvexEdge {
   std::array<std::uint32_t, 2> ends;
   std::array<Vec3, 2> normals;  ///< of its faces
 };
 
 /// The edges at which the surface turns outwards by the angle or more.
-std::vector<Edge> convex_edges(const Grid& grid, double angle) {
+std::vector<ConvexEdge> convex_edges(const Grid& grid, double angle) {
   const double cosine = std::cos(angle * std::numbers::pi / 180);
   std::map<std::array<std::uint32_t, 2>, std::uint32_t> first;  // of the two faces
-  std::vector<Edge> edges;
+  std::vector<ConvexEdge> edges;
   for (std::uint32_t f = 0; f < grid.faces.size(); ++f) {
     const Face& face = grid.faces[f];
     for (std::size_t i = 0; i < 3; ++i) {
@@ -72,7 +72,7 @@ std::vector<Edge> convex_edges(const Grid& grid, double angle) {
       const auto normal = [](const Triangle& t) {
         return unit(cross(t.corner[1] - t.corner[0], t.corner[2] - t.corner[0]));
       };
-      const Edge edge{ends, {normal(other), normal(here)}};
+      const ConvexEdge edge{ends, {normal(other), normal(here)}};
       const Vec3 beyond = grid.vertices[face[(i + 2) % 3]] - grid.vertices[ends[0]];
       if (dot(edge.normals[0], edge.normals[1]) <= cosine && dot(edge.normals[0], beyond) < 0)
         edges.push_back(edge);
@@ -84,7 +84,7 @@ std::vector<Edge> convex_edges(const Grid& grid, double angle) {
 /// Edges end to end between vertices at which not just two convex edges meet.
 using EdgeChain = std::vector<std::uint32_t>;
 
-std::vector<EdgeChain> chains_of(const std::vector<Edge>& edges,
+std::vector<EdgeChain> chains_of(const std::vector<ConvexEdge>& edges,
                                  const std::map<std::uint32_t, std::vector<std::uint32_t>>& at) {
   std::vector<bool> used(edges.size());
   std::vector<EdgeChain> chains;
@@ -120,11 +120,11 @@ Vec3 inwards(Vec3 p, const std::vector<Vec3>& normals) {
 }
 
 /// Starts of a sheet, in order along a chain of edges, about a voxel apart.
-std::vector<Vec3> starts_along(const EdgeChain& chain, const std::vector<Edge>& edges,
+std::vector<Vec3> starts_along(const EdgeChain& chain, const std::vector<ConvexEdge>& edges,
                                const Grid& grid) {
   std::vector<Vec3> starts;
   for (std::size_t i = 0; i < chain.size(); ++i) {
-    const Edge& edge = edges[chain[i]];
+    const ConvexEdge& edge = edges[chain[i]];
     auto [from, to] = edge.ends;
     // The end that the next edge, or not the one before, has.
     const auto has = [&](std::size_t k, std::uint32_t vertex) {
@@ -144,12 +144,12 @@ std::vector<Vec3> starts_along(const EdgeChain& chain, const std::vector<Edge>& 
 
 // ---- Lines.
 
-constexpr std::uint32_t none = Voxel::no_face;
+constexpr std::uint32_t not_added = Voxel::no_face;
 
 struct ForceLine {
   std::vector<Vec3> points;
   std::vector<double> radii;
-  std::vector<std::uint32_t> vertices;  ///< of the surface; none where not added yet
+  std::vector<std::uint32_t> vertices;  ///< of the surface, or not_added
 };
 
 class Follower {
@@ -194,7 +194,7 @@ class Follower {
   void add(ForceLine& line, Vec3 p) {
     line.points.push_back(p);
     line.radii.push_back(radius_);
-    line.vertices.push_back(none);
+    line.vertices.push_back(not_added);
   }
   /// Where the force has no part along the way from a to b.
   Vec3 floor_between(Vec3 a, Vec3 b, Vec3 along) {
@@ -252,7 +252,7 @@ class Weaver {
   /// the sheet of another chain was.
   void add_strip(ForceLine& a, ForceLine& b, std::size_t chain) {
     std::size_t i = 0, j = 0;
-    std::uint32_t at_a = none, at_b = none;
+    std::uint32_t at_a = not_added, at_b = not_added;
     while (i + 1 < a.points.size() || j + 1 < b.points.size()) {
       const bool on_a = j + 1 >= b.points.size() ||
                         (i + 1 < a.points.size() && distance(a.points[i + 1], b.points[j]) <=
@@ -260,8 +260,8 @@ class Weaver {
       const double gap = distance(a.points[i], b.points[j]);
       if (gap < merged && i + j > 0) return add_curve(a, i);
       if (gap > parted || !owns(a.points[i], chain) || !owns(b.points[j], chain)) return;
-      if (at_a == none) at_a = add(a, i);
-      if (at_b == none) at_b = add(b, j);
+      if (at_a == not_added) at_a = add(a, i);
+      if (at_b == not_added) at_b = add(b, j);
       const std::uint32_t next = on_a ? add(a, ++i) : add(b, ++j);
       surface_.triangles.push_back({at_a, at_b, next});
       (on_a ? at_a : at_b) = next;
@@ -281,7 +281,7 @@ class Weaver {
     return owners_.try_emplace(key_of(p), chain).first->second == chain;
   }
   std::uint32_t add(ForceLine& line, std::size_t i) {
-    if (line.vertices[i] != none) return line.vertices[i];
+    if (line.vertices[i] != not_added) return line.vertices[i];
     line.vertices[i] = static_cast<std::uint32_t>(surface_.vertices.size());
     surface_.vertices.push_back(line.points[i]);
     surface_.radii.push_back(line.radii[i]);
@@ -312,7 +312,7 @@ Vec3 ForceField::direction(Vec3 p, double radius) const {
 
 AxisSurface force_surface(const ForceField& field, const Grid& grid, const FeetFinder& finder,
                           double angle, Control& control) {
-  const std::vector<Edge> edges = convex_edges(grid, angle);
+  const std::vector<ConvexEdge> edges = convex_edges(grid, angle);
   std::map<std::uint32_t, std::vector<std::uint32_t>> at;  // the convex edges of each vertex
   for (std::uint32_t i = 0; i < edges.size(); ++i)
     for (const std::uint32_t vertex : edges[i].ends) at[vertex].push_back(i);

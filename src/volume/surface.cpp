@@ -14,8 +14,8 @@
 namespace medial::volume {
 namespace {
 
-constexpr std::size_t grain = 256;
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t voxels_at_once = 256;
+constexpr double far_off = std::numeric_limits<double>::infinity();
 
 /// The low corner of a voxel.
 Vec3 point_of(Cell cell) { return center_of(cell) - Vec3{0.5, 0.5, 0.5}; }
@@ -48,7 +48,7 @@ struct Input {
 template <class Work>
 void each_with_scratch(std::size_t count, const Work& work) {
   Pool<FeetFinder::Scratch> pool;
-  parallel_ranges(count, grain, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(count, voxels_at_once, [&](std::size_t begin, std::size_t end) {
     pool.with_one([&](FeetFinder::Scratch& scratch) {
       for (std::size_t i = begin; i < end; ++i) work(i, scratch);
     });
@@ -291,7 +291,7 @@ AxisSurface surface_of(const Grid& grid, const VoxelSet& interior, const VoxelSe
     double off = 0;
     each_corner(cell, [&](Cell corner) {
       const std::uint32_t i = all.index(corner);
-      off = std::max(off, centers[i] ? distance(*centers[i], point_of(all.corner(i))) : infinity);
+      off = std::max(off, centers[i] ? distance(*centers[i], point_of(all.corner(i))) : far_off);
     });
     return off;
   };
