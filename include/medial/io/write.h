@@ -229,8 +229,8 @@ Status write_field(const std::string& path, const std::string& format,
                    std::span<const Shape> shapes, std::span<const PotentialField> fields,
                    const FieldPictureOptions& options = {});
 
-/// An axis of voxels: .ply (binary) and .vtk (legacy, text) have points with radius and quality,
-/// and edges; .obj points and edges; .png three views of solid and axis, `width` pixels wide.
+/// An axis of voxels, or its surface where it has one: .ply (binary), .vtk (legacy, text) and .glb
+/// (single precision) with radii, .obj; .png three views of solid and axis, `width` pixels wide.
 Status write_voxels(const std::string& path, const std::string& format, const VoxelAxis& axis,
                     const Solid& solid, double width = 1536);
 
