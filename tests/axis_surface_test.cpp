@@ -185,8 +185,7 @@ TEST(AxisSurface, OfForceLinesNearsTheAxisOfABoxAsTheOrderGrows) {
     EXPECT_LE(worst, 1.5 * axis->resolution) << order;
     EXPECT_LT(mean, before) << order;
     before = mean;
-    // Sheets are triangles: those parts of the 12 sheets that lie deeper than the starts, two
-    // voxels inside.
+    // Sheets are triangles: the part of the 13 that is deeper than the starts, two voxels inside.
     const double h = 2 * axis->resolution, deep = 1 - h;
     const double all = 2 + std::numbers::sqrt2 * deep *
                                (2 * ((4 - 2 * h) + 2) + 2 * ((3 - 2 * h) + 1) + 2 * (2 - 2 * h));

@@ -101,7 +101,8 @@ struct VoxelAxis {
 
 /// The medial axis of a solid by ridge following (docs/voxels.md): interior voxels, which have the
 /// topology of all of them. Memory: O(voxels of surface and axis + volume / 512). Errors:
-/// invalid_option, cancelled, empty, too_large, malformed (not by build_solid()), out_of_memory.
+/// invalid_option, cancelled, empty, too_large, malformed (not by build_solid()), out_of_memory,
+/// unsupported (no convex edge).
 Result<VoxelAxis> compute_voxels(const Solid& solid, const VoxelOptions& options = {});
 
 }  // namespace medial
