@@ -100,7 +100,7 @@ void add_lines(const MedialAxis& axis, double chord, double step, std::vector<Di
     for (const Step& piece : branch.steps) {
       const Edge& edge = axis.edges[piece.edge];
       const bool first = disks.size() == start;
-      if (step <= 0 && is_one_chord(axis, edge, chord)) {
+      if (!(step > 0) && is_one_chord(axis, edge, chord)) {
         if (first) disks.push_back(axis.nodes[edge.node[piece.forward ? 0 : 1]].disk);
         disks.push_back(axis.nodes[edge.node[piece.forward ? 1 : 0]].disk);
         continue;
