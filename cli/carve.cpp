@@ -256,7 +256,7 @@ Result<int> run_carve(const CarveArguments& given) {
     return error_at(ErrorCode::empty, arguments.input.path, "there is no shape to cut");
   if (arguments.options.exterior && shapes->file.items.size() > 1)
     if (Status united = unite(shapes->file.items); !united) return std::move(united).error();
-  auto file = empty_like<io::CarveItem>(shapes->file);
+  Document<io::CarveItem> file{shapes->file, {}};
   file.indices.clear();
   file.crs_wkt.clear();  // a machine has no reference system
   const Vec2 zero = zero_of(shapes->file, arguments.origin);

@@ -236,7 +236,7 @@ Result<Collapse> collapse_all(const Document<AxisItem>& file,
       });
   if (!shapes) return std::move(shapes).error();
   out.shapes = std::move(shapes).value();
-  out.layers = empty_like<io::Layer>(file);
+  out.layers = Document<io::Layer>{file, {}};
   out.layers.items = {{"polygons", io::LayerKind::polygons, {}, {}},
                       {"lines", io::LayerKind::lines, {"length", "width_min"}, {}}};
   for (std::uint32_t i = 0; i < out.shapes.size(); ++i) {

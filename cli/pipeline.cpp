@@ -7,7 +7,6 @@
 
 #include "medial/document.h"
 #include "medial/features.h"
-#include "medial/io/stream.h"
 #include "medial/measure.h"
 #include "medial/query.h"
 #include "medial/threads.h"
@@ -283,7 +282,7 @@ Json to_json(const AxisSummary& summary) {
 
 Status write_panels(const FileArguments& arguments, const DocumentInfo& info, const Box& box,
                     std::vector<Panel> panels, double width) {
-  auto file = empty_like<AxisItem>(info);
+  Document<AxisItem> file{info, {}};
   const Vec2 size = box.high - box.low;
   const Vec2 pitch{1.1 * size.x, size.y + 0.1 * std::max(size.x, size.y)};
   constexpr std::size_t columns = 3;

@@ -18,7 +18,6 @@
 #include <string>
 #include <vector>
 
-#include "curve/least_squares.h"
 #include "medial/io/read.h"
 #include "medial/medial.h"
 #include "methods/curve_axis/curve_axis.h"
@@ -78,7 +77,7 @@ bool try_fit(std::uint64_t seed, const std::vector<Ring>& rings, double share) {
   if (rings.size() != 1) return true;
   const Shape outline = *build_shape(rings);
   const Box box = bounding_box(outline);
-  const auto curve = smoothed_contour(rings[0].points, share * distance(box.low, box.high));
+  const auto curve = fit_smooth_contour(rings[0].points, share * distance(box.low, box.high));
   if (!curve) return false;
   const auto arcs = approximate_by_arcs({&*curve, 1}, {.tolerance = 1e-6});
   const auto shape = arcs ? build_shape(*arcs) : Result<Shape>(arcs.error());

@@ -1,7 +1,6 @@
 #pragma once
 
-// Diagnostics: what computations counted and how long they took, in seconds. No result depends on
-// it.
+// Diagnostics: what computations counted, and how many seconds they took. No result depends on it.
 
 #include <cstdint>
 

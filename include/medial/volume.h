@@ -95,10 +95,9 @@ struct VoxelAxis {
   VoxelStatistics statistics;
 };
 
-/// The medial axis of a solid by ridge following (docs/voxels.md): interior voxels with the
-/// topology of all interior voxels, by construction. Memory: O(voxels of surface and axis + volume
-/// / 512). Errors: invalid_option, cancelled, empty (no solid), too_large, malformed (not by
-/// build_solid()), out_of_memory.
+/// The medial axis of a solid by ridge following (docs/voxels.md): interior voxels, which have the
+/// topology of all of them. Memory: O(voxels of surface and axis + volume / 512). Errors:
+/// invalid_option, cancelled, empty, too_large, malformed (not by build_solid()), out_of_memory.
 Result<VoxelAxis> compute_voxels(const Solid& solid, const VoxelOptions& options = {});
 
 }  // namespace medial

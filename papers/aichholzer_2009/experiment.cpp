@@ -325,7 +325,7 @@ std::string base_cases_table(const std::vector<Row>& rows) {
   return table.markdown();
 }
 
-/// The time of so many microseconds an arc, over the arcs of all rows.
+/// The time at this many microseconds per arc, over the arcs of all rows.
 Series reference_line(const std::vector<Row>& rows, double microseconds, const char* name) {
   const auto [least, most] = std::minmax_element(
       rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.edges < b.edges; });

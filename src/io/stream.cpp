@@ -1,5 +1,3 @@
-#include "medial/io/stream.h"
-
 #include <fmt/format.h>
 #include <sys/stat.h>
 
@@ -17,6 +15,7 @@
 #include "io/open.h"
 #include "io/tables.h"
 #include "io/write_target.h"
+#include "medial/io/write.h"
 #include "medial/threads.h"
 
 namespace medial::io {
@@ -170,7 +169,7 @@ class AxesStream {
   AxesStream(PartReader reader, const Survey& survey, const StreamOptions& options,
              PartWriter& writer)
       : reader_(std::move(reader)), survey_(survey), options_(options), writer_(writer) {
-    report.document = empty_like<AxisItem>(survey.common);
+    report.document = Document<AxisItem>{survey.common, {}};
     common_ = report.document;
     common_.notes.clear();
   }

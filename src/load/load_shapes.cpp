@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/counted.h"
-#include "curve/least_squares.h"
 #include "load/file_index.h"
 #include "load/progress.h"
 #include "medial/load.h"
@@ -96,7 +95,7 @@ void keep_sources(Shape& shape, const Feature& feature,
 /// The shape within smooth curves instead, which the contours become.
 Result<Shape> smooth_shape(std::vector<Contour>& contours, const LoadOptions& options) {
   for (Contour& contour : contours) {
-    auto curve = smoothed_contour(contour.points, options.fit);
+    auto curve = fit_smooth_contour(contour.points, options.fit);
     if (!curve) return std::move(curve).error();
     contour = std::move(curve).value();
   }
@@ -252,7 +251,7 @@ Result<Document<ShapeItem>> load_shapes(Document<Feature> features, const LoadOp
                                         LoadReport* report) {
   const std::size_t count = features.items.size();
   if (count == 0) return Error{ErrorCode::empty, "there is no polygon", {}};
-  Document<ShapeItem> shapes = empty_like<ShapeItem>(features);
+  Document<ShapeItem> shapes{features, {}};
   std::vector<LoadReport> reports(count);
   std::vector<double> weights;
   for (const Feature& feature : features.items) weights.push_back(weight_of(feature));
