@@ -79,17 +79,24 @@ std::vector<double> transect_lengths(double whole, const MeasureArguments& argum
   return at;
 }
 
+/// The length of an edge as far as t.
+double length_to(const MedialAxis& axis, const EdgePlace& place) {
+  MedialAxis alone;
+  Edge edge = axis.edges[place.edge];
+  alone.nodes = {axis.nodes[edge.node[0]], axis.nodes[edge.node[1]]};
+  edge.node = {0, 1};
+  alone.edges = {edge};
+  const std::vector<PathPiece> piece{{0, 0, place.t}};
+  return place.t > 0 ? total_length(part_of(alone, piece)) : 0.0;
+}
+
 /// The necks of a line seen by itself, with their lengths along it.
 std::vector<Neck> necks_of(const MedialAxis& axis, const AxisPath& path, double widening) {
   const MedialAxis line = part_of(axis, path.pieces);
   std::vector<Neck> found = necks(line, widening);
   std::vector<double> before{0};
   for (const Edge& edge : line.edges) before.push_back(before.back() + length(line, edge));
-  for (Neck& neck : found) {
-    const std::vector<PathPiece> up_to{{neck.place.edge, 0, neck.place.t}};
-    neck.width.along =
-        before[neck.place.edge] + (neck.place.t > 0 ? total_length(part_of(line, up_to)) : 0.0);
-  }
+  for (Neck& neck : found) neck.width.along = before[neck.place.edge] + length_to(line, neck.place);
   return found;
 }
 
