@@ -434,7 +434,7 @@ Command make_carve_command(CLI::App& program) {
       "  medial carve part.svg --angle 0 --tool 3 --depth 6 --exterior --margin 4 --tabs 4 \\\n"
       "    -o part.nc\n"
       "  medial carve spanner.svg --angle 60 --output-units in -o spanner.nc\n"
-      "  medial carve --text Axis --font serif.ttf --angle 60 -o - --format csv");
+      "  medial carve --text Axis --font serif.ttf --font-size 40 --angle 60 -o axis.nc");
   return command_of(command, arguments, run_carve);
 }
 

@@ -137,6 +137,12 @@ std::string note_of_crossings(std::size_t feature, const ShapeReport& report, st
          counted(report.input_rings, "ring") + " before, " + counted(loops, "loop") + " after";
 }
 
+/// Of drawings and letters, whose outlines may cross: one note for all of them.
+std::string note_of_outlines(std::size_t features, std::uint64_t places) {
+  return "the outlines of " + counted(features, "feature") + " cross or overlap, in " +
+         counted(places, "place") + ", where they are split";
+}
+
 /// A feature's shape, or why it has none; and what was left out of it.
 struct Attempt {
   ShapeItem item;
@@ -282,14 +288,20 @@ Result<Document<ShapeItem>> load_shapes(Document<Feature> features, const LoadOp
   auto items = map_items<Attempt>(weights, options.threads, load, options.cancel);
   if (!items) return in_file_of(features, std::move(items).error());
   LoadReport sum;
+  std::size_t outlines = 0, places = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const ShapeReport& one = reports[i].shapes;
-    if (const Attempt& attempt = (*items)[i]; one.crossings > 0 && !attempt.error)
-      shapes.notes.push_back(
-          note_of_crossings(features.index_of(i), one, attempt.item.shape.loop_count()));
+    if (const Attempt& attempt = (*items)[i]; one.crossings > 0 && !attempt.error) {
+      if (features.items[i].filled && options.repair == RepairRule::none)
+        ++outlines, places += one.crossings;
+      else
+        shapes.notes.push_back(
+            note_of_crossings(features.index_of(i), one, attempt.item.shape.loop_count()));
+    }
     sum.shapes += one;
     sum.arcs += reports[i].arcs;
   }
+  if (outlines > 0) shapes.notes.push_back(note_of_outlines(outlines, places));
   if (Status taken = take_valid(std::move(items).value(), features, options, shapes); !taken)
     return std::move(taken).error();
   sum.features = count;

@@ -121,7 +121,7 @@ Result<Document<Feature>> set_text(const std::vector<Character>& characters, FT_
   static const FT_Outline_Funcs functions{
       &GlyphPen::move_to, &GlyphPen::line_to, &GlyphPen::conic_to, &GlyphPen::cubic_to, 0, 0};
   Document<Feature> dataset;
-  dataset.corner_angle = drawn_corner_angle;
+  dataset.corner_angle = font_corner_angle;
   std::set<std::string> missing;
   double x = 0;
   FT_UInt before = 0;
