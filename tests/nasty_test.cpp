@@ -136,6 +136,31 @@ constexpr std::array<Certain, 8> certain_shapes{
 INSTANTIATE_TEST_SUITE_P(Cases, CertainShapes, testing::ValuesIn(certain_shapes),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
+/// Two sides lie on one line but for rounding, and a loop between them encloses nothing.
+TEST(ArcBesideASplinter, ThatReturnsOnASideIsVerified) {
+  Ring ring;
+  ring.points = {{49, 67}, {48.999999999999446, 66.999999999999403}, {0, 0}};
+  ring.bulges = {0, 0.92913385826771655, 0};
+  const auto shape = build_shape(Rings{ring});
+  ASSERT_TRUE(shape) << to_string(shape.error());
+  EXPECT_EQ(shape->loop_count(), 1);
+  const auto axis = compute(*shape, {.threads = 1});
+  ASSERT_TRUE(axis) << to_string(axis.error());
+  const Certificate certificate = verify(*shape, *axis, {.threads = 1});
+  EXPECT_TRUE(certificate.passed) << certificate.failures.front();
+}
+
+/// The arc at its end crosses a side by less than the tolerance, and the sweep takes its inside for
+/// its outside.
+TEST(ArcBesideASplinter, ThatCrossesHasItsInsideInside) {
+  Ring ring;
+  ring.points = {{-99, 118}, {-98.999999999975444, 117.99999999997226}, {0, 0}};
+  ring.bulges = {0.062992125984251968, 0, 0};
+  const auto shape = build_shape(Rings{ring});
+  ASSERT_TRUE(shape) << to_string(shape.error());
+  EXPECT_GT(area(*shape), 0);
+}
+
 // ---- Classes.
 
 /// How many of a thousand shapes of a class may fail: none where it is mended.

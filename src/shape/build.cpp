@@ -3,6 +3,7 @@
 #include "base/in_flight.h"
 #include "medial/shape.h"
 #include "shape/clean.h"
+#include "shape/errors.h"
 #include "shape/fill.h"
 #include "shape/nest.h"
 #include "shape/simple_polygon.h"
@@ -57,7 +58,10 @@ Result<Shape> build_once(std::span<const Ring> rings, const ShapeOptions& option
   if (!loops) return std::move(loops).error();
   if (auto error = nest(arrangement, *loops)) return std::move(*error);
   if (auto error = check_roles(rings, arrangement, *loops)) return std::move(*error);
-  return assemble(arrangement, *loops);
+  Shape shape = assemble(arrangement, *loops);
+  if (shape.points.empty())
+    return error_of_ring(ErrorCode::no_area, "the ring encloses no area", 0);
+  return shape;
 }
 
 /// Whether rings that are cut into a planar graph may still make a shape.

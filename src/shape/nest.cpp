@@ -1,11 +1,13 @@
 #include "shape/nest.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <tuple>
 #include <unordered_map>
 
+#include "base/arc.h"
 #include "base/box_tree.h"
 #include "base/predicates.h"
 #include "shape/errors.h"
@@ -186,6 +188,54 @@ std::optional<Error> nest(const Arrangement& arrangement, SplicedLoops& loops) {
   return std::nullopt;
 }
 
+namespace {
+
+/// Twice the area of the loop that a shape ends with, and what rounding may add to it.
+struct LoopArea {
+  double doubled = 0, rounding = 0;
+};
+LoopArea area_from(const Shape& shape, std::size_t first) {
+  LoopArea area;
+  const std::size_t end = shape.points.size();
+  for (std::size_t i = first; i < end; ++i) {
+    const Vec2 p = shape.points[i], q = shape.points[i + 1 < end ? i + 1 : first];
+    const Vec2 a = p - shape.points[first], b = q - shape.points[first];
+    area.doubled += cross(a, b) + 2 * area_beside_chord({p, q, shape.bulges[i]});
+    area.rounding += std::abs(a.x * b.y) + std::abs(a.y * b.x);
+  }
+  area.rounding *= static_cast<double>(end - first) * std::numeric_limits<double>::epsilon();
+  return area;
+}
+
+/// Where edges of one loop are within the tolerance, the sweep may take its inside for its outside.
+void turn_around(Shape& shape, std::size_t first) {
+  const auto from = [first](auto& list) {
+    return list.begin() + static_cast<std::ptrdiff_t>(first);
+  };
+  std::reverse(from(shape.points) + 1, shape.points.end());
+  std::reverse(from(shape.sources) + 1, shape.sources.end());
+  std::reverse(from(shape.bulges), shape.bulges.end());
+  std::for_each(from(shape.bulges), shape.bulges.end(), [](double& bulge) { bulge = 0 - bulge; });
+}
+
+/// Puts the last loop right where edges were taken for one within the tolerance. False where that
+/// leaves nothing of it.
+bool mend_last_loop(Shape& shape, bool hole) {
+  const std::size_t first = shape.loop_begin.back(), size = shape.points.size() - first;
+  if (size == 2 && shape.bulges[first] == -shape.bulges[first + 1]) {
+    shape.points.resize(first);
+    shape.sources.resize(first);
+    shape.bulges.resize(first);
+    shape.loop_begin.pop_back();
+    return false;
+  }
+  const LoopArea area = area_from(shape, first);
+  if ((hole ? area.doubled : -area.doubled) > area.rounding) turn_around(shape, first);
+  return true;
+}
+
+}  // namespace
+
 Shape assemble(const Arrangement& arrangement, const SplicedLoops& loops) {
   std::vector<std::uint32_t> order(loops.loops.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -202,11 +252,10 @@ Shape assemble(const Arrangement& arrangement, const SplicedLoops& loops) {
   shape.points.reserve(arrangement.points.size());
   shape.sources.reserve(arrangement.points.size());
   const bool with_arcs = !arrangement.bulges.empty();
+  std::uint32_t components = 0;
   for (const std::uint32_t i : order) {
     const SplicedLoop& loop = loops.loops[i];
     shape.loop_begin.push_back(static_cast<std::uint32_t>(shape.points.size()));
-    shape.component.push_back(loop.component);
-    shape.hole.push_back(loop.hole);
     std::uint32_t edge = loop.first_edge;
     do {
       const std::uint32_t vertex = tail(arrangement, edge);
@@ -221,6 +270,10 @@ Shape assemble(const Arrangement& arrangement, const SplicedLoops& loops) {
       }
       edge = loops.successor[edge];
     } while (edge != loop.first_edge);
+    if (with_arcs && !mend_last_loop(shape, loop.hole)) continue;
+    components += loop.hole ? 0 : 1;
+    shape.component.push_back(components - 1);
+    shape.hole.push_back(loop.hole);
   }
   shape.loop_begin.push_back(static_cast<std::uint32_t>(shape.points.size()));
   return shape;
