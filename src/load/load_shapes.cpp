@@ -139,8 +139,8 @@ std::string note_of_crossings(std::size_t feature, const ShapeReport& report, st
 
 /// Of drawings and letters, whose outlines may cross: one note for all of them.
 std::string note_of_outlines(std::size_t features, std::uint64_t places) {
-  return "the outlines of " + counted(features, "feature") + " cross or overlap, in " +
-         counted(places, "place") + ", where they are split";
+  return "the outlines of " + counted(features, "feature") + " cross or overlap in " +
+         counted(places, "place") + " and are split there";
 }
 
 /// A feature's shape, or why it has none; and what was left out of it.

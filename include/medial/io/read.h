@@ -44,9 +44,9 @@ struct ReadOptions {
 };
 
 /// Reads polygons and curved shapes, gzipped or not (docs/inputs.md); images (see is_image()) as
-/// one feature, the outline of their foreground with y downwards, or placed where the file says; the
-/// free cells of a ROS map (.yaml). Recognises WKT, GeoJSON, SVG, DXF, `x y` text and medial's own on
-/// standard input by their first characters. Errors: also no_area, invalid_option.
+/// one feature, the outline of their foreground with y downwards, or placed where the file says;
+/// the free cells of a ROS map (.yaml). Recognises WKT, GeoJSON, SVG, DXF, `x y` text and medial's
+/// own on standard input by their first characters. Errors: also no_area, invalid_option.
 Result<Document<Feature>> read_document(const std::string& path, const ReadOptions& options = {});
 
 /// The same of a text in memory, as of standard input.
