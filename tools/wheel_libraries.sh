@@ -33,7 +33,7 @@ set(CMAKE_CXX_FLAGS_INIT -DBOOST_NO_CXX98_FUNCTION_BASE)
 TOOLCHAIN
 
 # Headers alone: linked into a folder of their own, as those of the system's glibc would go before zig's.
-for headers in boost svgpp fast_float nlohmann; do ln -sfn "/usr/include/$headers" "$prefix/include/$headers"; done
+for headers in boost exboost svgpp fast_float nlohmann; do ln -sfn "/usr/include/$headers" "$prefix/include/$headers"; done
 mkdir -p "$prefix/lib/cmake/nlohmann_json"
 cat > "$prefix/lib/cmake/nlohmann_json/nlohmann_jsonConfig.cmake" <<CONFIG
 add_library(nlohmann_json::nlohmann_json INTERFACE IMPORTED)
@@ -77,6 +77,6 @@ for part in CATALOG DEBUG DOCB FTP HTML HTTP ICONV ICU LEGACY LZMA MODULES PATTE
   without+=" -DLIBXML2_WITH_$part=OFF"
 done
 library libxml2 $without
-library freetype -DFT_DISABLE_ZLIB=ON -DFT_DISABLE_BZIP2=ON -DFT_DISABLE_PNG=ON -DFT_DISABLE_HARFBUZZ=ON -DFT_DISABLE_BROTLI=ON
+library freetype -DFT_REQUIRE_ZLIB=ON -DFT_DISABLE_BZIP2=ON -DFT_DISABLE_PNG=ON -DFT_DISABLE_HARFBUZZ=ON -DFT_DISABLE_BROTLI=ON
 rm -f "$prefix"/lib/*.so*
 touch "$folder/done-$glibc"
