@@ -121,21 +121,20 @@ LineSums sums_of(const Paths& paths) {
 Status add_what_is_left_out(const Document<AxisItem>& file, const Paths& paths,
                             const CentrelineArguments& arguments, int threads, LineSums& sums) {
   if (arguments.common.quiet || arguments.path.between_places()) return success();
-  using LeftOut = LineSums;
-  auto each = map_items<LeftOut>(edge_weights_of(file), threads,
-                                 [&](std::size_t i, int) -> Result<LeftOut> {
-                                   const MedialAxis& axis = file.items[i].axis;
-                                   auto network = network_of(axis, arguments.path.path.trim);
-                                   if (!network) return std::move(network).error();
-                                   LeftOut out;
-                                   out.network = total_length(*network);
-                                   for (const AxisPath& path : paths[i])
-                                     for (const PathPiece& piece : side_channels(axis, path))
-                                       out.channels += length(axis, axis.edges[piece.edge]);
-                                   return out;
-                                 });
+  auto each = map_items<LineSums>(edge_weights_of(file), threads,
+                                  [&](std::size_t i, int) -> Result<LineSums> {
+                                    const MedialAxis& axis = file.items[i].axis;
+                                    auto network = network_of(axis, arguments.path.path.trim);
+                                    if (!network) return std::move(network).error();
+                                    LineSums out;
+                                    out.network = total_length(*network);
+                                    for (const AxisPath& path : paths[i])
+                                      for (const PathPiece& piece : side_channels(axis, path))
+                                        out.channels += length(axis, axis.edges[piece.edge]);
+                                    return out;
+                                  });
   if (!each) return std::move(each).error();
-  for (const LeftOut& one : *each) sums += one;
+  for (const LineSums& one : *each) sums += one;
   return success();
 }
 
