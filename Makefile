@@ -83,9 +83,10 @@ web: setup      ## build the package for JavaScript and the studio, and serve it
 docs: python    ## the documentation as a static site: out/docs
 	@tools/docs.sh site $(VENV)
 
-papers: build   ## the figures and tables of the papers, drawn and measured again: out/papers
+papers: build   ## the figures and tables of the papers, drawn and measured again: out/papers, tables also in papers/
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial_papers
 	@$(RELEASE)/papers/medial_papers --output out/papers
+	@cd out/papers && for page in */*.md; do cp $$page $(CURDIR)/papers/$$page; done
 
 bench: setup    ## compare with Boost.Polygon and CGAL
 	@tools/setup.sh bench
@@ -112,10 +113,10 @@ fuzz: setup     ## test random polygons and mutated files, new ones each time: m
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial_fuzz
 	@$(RELEASE)/tests/medial_fuzz --from $(FROM) --seconds $(SECONDS)
 
-silhouettes: setup  ## verify the sampled axes of new silhouettes and of images below DATA: make silhouettes COUNT=200 [FROM=seed]
+silhouettes: setup  ## verify the sampled axes of new silhouettes and of images below DATA: make silhouettes COUNT=200 [FROM=seed] [METHOD=curve-axis]
 	@cmake --preset release
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial_silhouettes
-	@$(RELEASE)/tests/medial_silhouettes --from $(FROM) --count $(COUNT) \
+	@$(RELEASE)/tests/medial_silhouettes --from $(FROM) --count $(COUNT) $(if $(METHOD),--method $(METHOD)) \
 	  $(wildcard $(DATA)/packaged/C_images/opencv_[01]*.png)
 
 fuzz-coverage: setup  ## test shapes and files guided by coverage (clang 14, libFuzzer): make fuzz-coverage SECONDS=60 (each of two)

@@ -86,7 +86,7 @@ Status prune_image(LoadedAxes& axes, const AxisArguments& arguments) {
   note_specks(axes.file, arguments.input, arguments.common);
   const auto report = prune_all(axes.file, *options, arguments.common.threads);
   if (!report) return report.error();
-  if (!arguments.common.quiet)
+  if (!arguments.common.quiet && report->branches < report->branches_before)
     say("medial: {}: note: {} of {} branches matter (`prune --prominence {:g}`) and are kept; "
         "--smooth-contour keeps all of the smooth outline's, --pixel-outline those of the "
         "pixels' stairs\n",

@@ -181,9 +181,16 @@ Result<int> finish_carve(const Document<io::CarveItem>& file, const CarveArgumen
   const std::string& input = arguments.input.path;
   const std::string unit = name_of(file.unit);
   if (deepest * millimetres(file.unit) > unlikely_depth && !arguments.common.quiet)
-    say("medial: {}: note: the cut is {:.3g} {} deep; --units gives the unit of the input, --depth "
-        "limits the cut\n",
-        input, deepest, unit);
+    say("medial: {}: note: the cut is {:.3g} {} deep; {} the unit of the input, --depth limits the "
+        "cut\n",
+        input, deepest, unit,
+        arguments.input.font.empty() ? "--units gives"
+                                     : "--font-size is how large letters are, --units");
+  if (paths == 0 && !arguments.common.quiet)
+    say("medial: {}: note: nothing is cut: the tool fits nowhere into the shape; a smaller --tool, "
+        "or "
+        "another --units or --scale\n",
+        input);
   if (arguments.tabs.wanted() && tabs == 0 && !arguments.common.quiet)
     say("medial: {}: note: there are no tabs, as nothing comes loose: there are no holes{}\n",
         input, arguments.options.exterior ? "" : "; --exterior cuts around shapes");
@@ -256,7 +263,7 @@ Result<int> run_carve(const CarveArguments& given) {
     return error_at(ErrorCode::empty, arguments.input.path, "there is no shape to cut");
   if (arguments.options.exterior && shapes->file.items.size() > 1)
     if (Status united = unite(shapes->file.items); !united) return std::move(united).error();
-  auto file = empty_like<io::CarveItem>(shapes->file);
+  Document<io::CarveItem> file{shapes->file, {}};
   file.indices.clear();
   file.crs_wkt.clear();  // a machine has no reference system
   const Vec2 zero = zero_of(shapes->file, arguments.origin);
@@ -427,7 +434,7 @@ Command make_carve_command(CLI::App& program) {
       "  medial carve part.svg --angle 0 --tool 3 --depth 6 --exterior --margin 4 --tabs 4 \\\n"
       "    -o part.nc\n"
       "  medial carve spanner.svg --angle 60 --output-units in -o spanner.nc\n"
-      "  medial carve --text Axis --font serif.ttf --angle 60 -o - --format csv");
+      "  medial carve --text Axis --font serif.ttf --font-size 40 --angle 60 -o axis.nc");
   return command_of(command, arguments, run_carve);
 }
 

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
+#include <mutex>
 
 #include "cli/commands.h"
 #include "cli/common.h"
@@ -50,7 +52,7 @@ void append(MedialAxis& all, const MedialAxis& one) {
 
 /// Replaces the axes of a file by lines along the paths.
 Status make_lines(Document<AxisItem>& file, const Paths& paths,
-                  const CentrelineArguments& arguments) {
+                  const CentrelineArguments& arguments, int threads) {
   const auto make = [&](std::size_t i, int) -> Status {
     AxisItem& item = file.items[i];
     MedialAxis all;
@@ -71,7 +73,7 @@ Status make_lines(Document<AxisItem>& file, const Paths& paths,
     item.part = true;
     return success();
   };
-  return for_each_item(std::vector<double>(file.items.size(), 1.0), arguments.common.threads, make);
+  return for_each_item(std::vector<double>(file.items.size(), 1.0), threads, make);
 }
 
 /// The axis without forks in corners: of a shape like a network all of its ways, with the cycles.
@@ -82,44 +84,63 @@ Result<MedialAxis> network_of(const MedialAxis& axis, double trim) {
   return prune(axis, options);
 }
 
-Status make_networks(Document<AxisItem>& file, const CentrelineArguments& arguments) {
-  return for_each_item(edge_weights_of(file), arguments.common.threads,
-                       [&](std::size_t i, int) -> Status {
-                         AxisItem& item = file.items[i];
-                         auto network = network_of(item.axis, arguments.path.path.trim);
-                         if (!network) return std::move(network).error();
-                         item.axis = std::move(network).value();
-                         item.part = true;
-                         return success();
-                       });
+Status make_networks(Document<AxisItem>& file, const CentrelineArguments& arguments, int threads) {
+  return for_each_item(edge_weights_of(file), threads, [&](std::size_t i, int) -> Status {
+    AxisItem& item = file.items[i];
+    auto network = network_of(item.axis, arguments.path.path.trim);
+    if (!network) return std::move(network).error();
+    item.axis = std::move(network).value();
+    item.part = true;
+    return success();
+  });
 }
 
-/// What main paths leave out of one axis, as lengths.
-struct LeftOut {
-  double network = 0;   ///< of the whole
-  double channels = 0;  ///< around holes
+/// The lines of some features, and what they leave out.
+struct LineSums {
+  std::uint64_t features = 0, lines = 0;
+  double length = 0, narrowest = std::numeric_limits<double>::infinity();
+  double network = 0;   ///< length of the whole networks
+  double channels = 0;  ///< of the ways around holes
+
+  LineSums& operator+=(const LineSums& more) {
+    features += more.features, lines += more.lines;
+    length += more.length, narrowest = std::min(narrowest, more.narrowest);
+    network += more.network, channels += more.channels;
+    return *this;
+  }
 };
 
-/// Says how much of the networks and of the ways around holes the main paths leave out.
-Status note_what_is_left_out(const Document<AxisItem>& file, const Paths& paths,
-                             const CentrelineArguments& arguments) {
-  if (arguments.common.quiet || arguments.path.between_places()) return success();
-  auto each = map_items<LeftOut>(edge_weights_of(file), arguments.common.threads,
-                                 [&](std::size_t i, int) -> Result<LeftOut> {
-                                   const MedialAxis& axis = file.items[i].axis;
-                                   auto network = network_of(axis, arguments.path.path.trim);
-                                   if (!network) return std::move(network).error();
-                                   LeftOut out{total_length(*network), 0};
-                                   for (const AxisPath& path : paths[i])
-                                     for (const PathPiece& piece : side_channels(axis, path))
-                                       out.channels += length(axis, axis.edges[piece.edge]);
-                                   return out;
-                                 });
-  if (!each) return std::move(each).error();
-  double whole = 0, channels = 0, chosen = 0;
-  for (const LeftOut& one : *each) whole += one.network, channels += one.channels;
+LineSums sums_of(const Paths& paths) {
+  LineSums sums{paths.size()};
   for (const auto& of_item : paths)
-    for (const AxisPath& path : of_item) chosen += path.length;
+    for (const AxisPath& path : of_item) sums += {0, 1, path.length, path.narrowest};
+  return sums;
+}
+
+/// Adds what main paths leave out, for a note.
+Status add_what_is_left_out(const Document<AxisItem>& file, const Paths& paths,
+                            const CentrelineArguments& arguments, int threads, LineSums& sums) {
+  if (arguments.common.quiet || arguments.path.between_places()) return success();
+  auto each = map_items<LineSums>(edge_weights_of(file), threads,
+                                  [&](std::size_t i, int) -> Result<LineSums> {
+                                    const MedialAxis& axis = file.items[i].axis;
+                                    auto network = network_of(axis, arguments.path.path.trim);
+                                    if (!network) return std::move(network).error();
+                                    LineSums out;
+                                    out.network = total_length(*network);
+                                    for (const AxisPath& path : paths[i])
+                                      for (const PathPiece& piece : side_channels(axis, path))
+                                        out.channels += length(axis, axis.edges[piece.edge]);
+                                    return out;
+                                  });
+  if (!each) return std::move(each).error();
+  for (const LineSums& one : *each) sums += one;
+  return success();
+}
+
+/// Says how much of the networks and of the ways around holes the main paths leave out.
+void note_what_is_left_out(const LineSums& sums, const CentrelineArguments& arguments) {
+  const double whole = sums.network, channels = sums.channels, chosen = sums.length;
   constexpr double worth_a_note = 0.01;
   const bool kept = arguments.keep_loops;
   if (channels > worth_a_note * chosen)
@@ -131,7 +152,15 @@ Status note_what_is_left_out(const Document<AxisItem>& file, const Paths& paths,
     say("medial: {}: note: the main paths are {:.6g} long, the whole network {:.6g}; --all keeps "
         "it\n",
         arguments.input.path, chosen, whole);
-  return success();
+}
+
+std::string describe(const LineSums& sums, const CentrelineArguments& arguments) {
+  if (arguments.common.quiet) return {};
+  std::string line =
+      fmt::format("{}: {}, {}, length {:.10g}", arguments.input.path,
+                  counted(sums.features, "feature"), counted(sums.lines, "line"), sums.length);
+  if (sums.lines > 0) line += fmt::format(", smallest radius {:.10g}", sums.narrowest);
+  return line;
 }
 
 Json json_of(const std::vector<AxisPath>& paths, const Attributes& attributes) {
@@ -145,26 +174,14 @@ Json json_of(const std::vector<AxisPath>& paths, const Attributes& attributes) {
   return {{"lines", std::move(list)}, {"attributes", to_json(attributes)}};
 }
 
-Result<int> finish_lines(const Paths& paths, const LoadedAxes& axes,
+Result<int> finish_lines(const Paths& paths, const LineSums& sums, const LoadedAxes& axes,
                          const CentrelineArguments& arguments) {
-  std::uint64_t count = 0;
-  double length = 0, narrowest = std::numeric_limits<double>::infinity();
   Json object = {{"input", arguments.input.path}};
   if (!arguments.output.empty()) object["output"] = arguments.output;
   object["features"] = Json::array();
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    for (const AxisPath& path : paths[i]) {
-      ++count;
-      length += path.length;
-      narrowest = std::min(narrowest, path.narrowest);
-    }
+  for (std::size_t i = 0; i < paths.size(); ++i)
     object["features"].push_back(json_of(paths[i], axes.file.items[i].attributes));
-  }
-  std::string line = fmt::format("{}: {}, {}, length {:.10g}", arguments.input.path,
-                                 counted(paths.size(), "feature"), counted(count, "line"), length);
-  if (count > 0) line += fmt::format(", smallest radius {:.10g}", narrowest);
-  return finish(arguments, std::move(object), axes.phases,
-                arguments.common.quiet ? std::string() : line);
+  return finish(arguments, std::move(object), axes.phases, describe(sums, arguments));
 }
 
 /// The polygons of a shape, one for each component, as rings of points: arcs within a chord.
@@ -236,7 +253,7 @@ Result<Collapse> collapse_all(const Document<AxisItem>& file,
       });
   if (!shapes) return std::move(shapes).error();
   out.shapes = std::move(shapes).value();
-  out.layers = empty_like<io::Layer>(file);
+  out.layers = Document<io::Layer>{file, {}};
   out.layers.items = {{"polygons", io::LayerKind::polygons, {}, {}},
                       {"lines", io::LayerKind::lines, {"length", "width_min"}, {}}};
   for (std::uint32_t i = 0; i < out.shapes.size(); ++i) {
@@ -288,42 +305,85 @@ Result<int> run_collapse(LoadedAxes axes, const CentrelineArguments& arguments) 
                 axes.phases, arguments.common.quiet ? std::string() : line);
 }
 
+void keep_clearance(Document<AxisItem>& file, double clearance) {
+  for (AxisItem& item : file.items) {
+    item.axis = clearance_part(item.axis, clearance);
+    item.part = true;
+  }
+}
+
+/// The same for a file of many features, part by part; nothing where that cannot be.
+Result<std::optional<int>> stream_centreline(const CentrelineArguments& arguments) {
+  if (arguments.collapse > 0 || arguments.path.between_places() || arguments.common.json)
+    return std::optional<int>();
+  std::mutex adding;
+  std::map<std::uint64_t, LineSums> parts;  // by their first features, so that sums are the same
+  const auto sum = [&parts] {
+    LineSums sums;
+    for (const auto& [first, part] : parts) sums += part;
+    return sums;
+  };
+  const auto line = [&] { return describe(sum(), arguments); };
+  const bool lines = !arguments.all && arguments.clearance == 0;
+  const auto change = [&](Document<AxisItem>& part) -> Status {
+    if (arguments.clearance > 0) keep_clearance(part, arguments.clearance);
+    if (arguments.all) return make_networks(part, arguments, 1);
+    if (!lines) return success();
+    const auto paths = choose_paths(part, arguments.path, 1);
+    if (!paths) return paths.error();
+    LineSums sums = sums_of(*paths);
+    if (Status added = add_what_is_left_out(part, *paths, arguments, 1, sums); !added) return added;
+    {
+      const std::lock_guard<std::mutex> alone(adding);
+      parts[part.index_of(0)] = sums;
+    }
+    return make_lines(part, *paths, arguments, 1);
+  };
+  auto done = stream_axes(arguments, arguments.input, arguments.options, change,
+                          lines ? line : std::function<std::string()>());
+  if (lines && done && *done) note_what_is_left_out(sum(), arguments);
+  return done;
+}
+
 Result<int> run_centreline(const CentrelineArguments& arguments) {
   const auto& [input, common] = std::tie(arguments.input, arguments.common);
   Status writable =
       check_output(arguments, arguments.collapse > 0 ? collapse_formats
                                                      : io::formats_of(io::DocumentKind::axes));
   if (!writable) return std::move(writable).error();
+  const auto streamed = stream_centreline(arguments);
+  if (!streamed) return streamed.error();
+  if (*streamed) return **streamed;
   auto shapes = load_shapes(input, common);
   if (!shapes) return std::move(shapes).error();
   auto axes = compute_axes(std::move(shapes).value(), input, common, arguments.options);
   if (!axes) return std::move(axes).error();
   if (arguments.collapse > 0) return run_collapse(std::move(axes).value(), arguments);
   if (arguments.clearance > 0) {
-    for (AxisItem& item : axes->file.items) {
-      item.axis = clearance_part(item.axis, arguments.clearance);
-      item.part = true;
-    }
+    keep_clearance(axes->file, arguments.clearance);
     return finish_axes(*axes, arguments);
   }
   if (arguments.all) {
-    Status networks = make_networks(axes->file, arguments);
+    Status networks = make_networks(axes->file, arguments, common.threads);
     if (!networks) return std::move(networks).error();
     axes->phases.end("lines");
     return finish_axes(*axes, arguments);
   }
+  note_places_outside(axes->file, arguments.path, arguments);
   auto paths = choose_paths(axes->file, arguments.path, common.threads);
   if (!paths) return std::move(paths).error();
-  Status noted = note_what_is_left_out(axes->file, *paths, arguments);
-  if (!noted) return std::move(noted).error();
-  Status made = make_lines(axes->file, *paths, arguments);
+  LineSums sums = sums_of(*paths);
+  Status added = add_what_is_left_out(axes->file, *paths, arguments, common.threads, sums);
+  if (!added) return std::move(added).error();
+  note_what_is_left_out(sums, arguments);
+  Status made = make_lines(axes->file, *paths, arguments, common.threads);
   if (!made) return std::move(made).error();
   axes->phases.end("lines");
   Status written = write_output(arguments, axes->phases, [&](const auto& path, const auto& format) {
     return io::write_axes(path, format, axes->file, write_options(arguments));
   });
   if (!written) return std::move(written).error();
-  return finish_lines(*paths, *axes, arguments);
+  return finish_lines(*paths, sums, *axes, arguments);
 }
 
 /// Options of lines; returns --all.

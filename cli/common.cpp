@@ -82,10 +82,12 @@ void add_curve_options(CLI::App& command, InputOptions& input) {
   const OptionGroup group(command, curve_group);
   command
       .add_option("--text", input.source.text,
-                  "Instead of INPUT: the outlines of this text, in font units; each\n"
-                  "character is a feature.")
+                  "Instead of INPUT: the outlines of this text; each character is a feature.")
       ->option_text("TEXT");
   command.add_option("--font", input.font, "The font file of --text.")->option_text("FILE");
+  add_value(command, "--font-size", input.source.font_size, "S", a_positive_number(),
+            "How large the letters are: the em, in --units (default: in font units).")
+      ->needs("--font");
   ArcOptions& arcs = input.source.load.arcs;
   add_value(command, "--arc-tolerance", arcs.tolerance, "T",
             in_range(smallest_arc_tolerance, largest_arc_tolerance),

@@ -168,7 +168,7 @@ Status write_curvatures(const Document<AxisItem>& file, const LegalArguments& ar
   }
   if (arguments.curvature.ends_with(".csv"))
     return io::write_text(arguments.curvature, curvature_csv(all));
-  auto layers = empty_like<io::Layer>(file);
+  Document<io::Layer> layers{file, {}};
   layers.items.push_back(curvature_comb(all));
   return io::write_layers(arguments.curvature, {}, layers, file, arguments.write);
 }

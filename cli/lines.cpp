@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -99,6 +100,25 @@ std::size_t feature_of(const Document<AxisItem>& file, const NamedPlace& place) 
 }
 
 }  // namespace
+
+void note_places_outside(const Document<AxisItem>& file, const PathOptions& arguments,
+                         const FileArguments& files) {
+  if (files.common.quiet) return;
+  std::vector<std::string> texts = arguments.widest;
+  for (const std::string& text : {arguments.from, arguments.to})
+    if (!text.empty()) texts.push_back(text);
+  for (const std::string& text : texts) {
+    const NamedPlace place = *named(text);
+    if (!place.point || std::ranges::any_of(file.items, [&](const AxisItem& item) {
+          return item.axis.exterior > 0 || clearance(item.shape, *place.point) >= 0;
+        }))
+      continue;
+    say("medial: {}: note: the place {} lies in no shape: the line ends at the nearest place of "
+        "the "
+        "axis\n",
+        files.input.path, text);
+  }
+}
 
 void add_path_options(CLI::App& command, PathOptions& arguments) {
   CLI::Option* from = command.add_option(

@@ -26,4 +26,8 @@ void add_path_options(CLI::App& command, PathOptions& arguments);
 Result<std::vector<std::vector<AxisPath>>> choose_paths(const Document<AxisItem>& file,
                                                         const PathOptions& arguments, int threads);
 
+/// A note on each named place that lies in no shape.
+void note_places_outside(const Document<AxisItem>& file, const PathOptions& arguments,
+                         const FileArguments& files);
+
 }  // namespace medial::cli

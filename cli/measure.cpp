@@ -79,17 +79,24 @@ std::vector<double> transect_lengths(double whole, const MeasureArguments& argum
   return at;
 }
 
+/// The length of an edge as far as t.
+double length_to(const MedialAxis& axis, const EdgePlace& place) {
+  MedialAxis alone;
+  Edge edge = axis.edges[place.edge];
+  alone.nodes = {axis.nodes[edge.node[0]], axis.nodes[edge.node[1]]};
+  edge.node = {0, 1};
+  alone.edges = {edge};
+  const std::vector<PathPiece> piece{{0, 0, place.t}};
+  return place.t > 0 ? total_length(part_of(alone, piece)) : 0.0;
+}
+
 /// The necks of a line seen by itself, with their lengths along it.
 std::vector<Neck> necks_of(const MedialAxis& axis, const AxisPath& path, double widening) {
   const MedialAxis line = part_of(axis, path.pieces);
   std::vector<Neck> found = necks(line, widening);
   std::vector<double> before{0};
   for (const Edge& edge : line.edges) before.push_back(before.back() + length(line, edge));
-  for (Neck& neck : found) {
-    const std::vector<PathPiece> up_to{{neck.place.edge, 0, neck.place.t}};
-    neck.width.along =
-        before[neck.place.edge] + (neck.place.t > 0 ? total_length(part_of(line, up_to)) : 0.0);
-  }
+  for (Neck& neck : found) neck.width.along = before[neck.place.edge] + length_to(line, neck.place);
   return found;
 }
 
@@ -179,8 +186,9 @@ std::string place(Vec2 p) { return fmt::format("({:.10g}, {:.10g})", p.x, p.y); 
 std::string number(double value) { return fmt::format("{:.10g}", value); }
 
 /// One feature as lines of a name and a value.
-std::string summary_of(const Measured& measured, const MeasureArguments& arguments) {
+std::string summary_of(const Measured& measured, const MeasureArguments& arguments, Unit unit) {
   Rows rows(24);
+  if (unit != Unit::unknown) rows.add("unit", name_of(unit));
   const MeanWidth& mean = measured.mean;
   rows.add("area", number(mean.area));
   rows.add("length", number(mean.length) + (measured.lines.size() > 1
@@ -215,11 +223,19 @@ std::string summary_of(const Measured& measured, const MeasureArguments& argumen
   return rows.text();
 }
 
+/// What a feature is called: its number, or the value that it has in an image of labels.
+std::string name_of_feature(const Document<AxisItem>& file, std::size_t i) {
+  const Attributes& attributes = file.items[i].attributes;
+  const bool label = file.pixel > 0 && attributes.size() == 1 && attributes[0].first == "value";
+  return label ? attributes[0].second : fmt::format("{}", i);
+}
+
 /// Several features, one line each.
-std::string summary_of(const std::vector<Measured>& all) {
-  std::string text =
-      fmt::format("{:>7} {:>12} {:>12} {:>12} {:>12} {:>12} {:>12} {:>12}\n", "feature", "area",
-                  "length", "narrowest", "by length", "by area", "widest", "neck");
+std::string summary_of(const std::vector<Measured>& all, const Document<AxisItem>& file) {
+  const bool labels = file.pixel > 0 && !all.empty() && !file.items[0].attributes.empty();
+  std::string text = fmt::format("{:>7} {:>12} {:>12} {:>12} {:>12} {:>12} {:>12} {:>12}\n",
+                                 labels ? "value" : "feature", "area", "length", "narrowest",
+                                 "by length", "by area", "widest", "neck");
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Measured& one = all[i];
     const Neck* neck = narrowest_neck(one);
@@ -227,11 +243,13 @@ std::string summary_of(const std::vector<Measured>& all) {
       return known ? fmt::format("{:.6g}", value) : std::string("-");
     };
     const bool line = one.mean.length > 0;
-    text += fmt::format("{:>7} {:>12.6g} {:>12.6g} {:>12} {:>12} {:>12.6g} {:>12.6g} {:>12}\n", i,
-                        one.mean.area, one.mean.length, number(narrowest_of(one), line),
-                        number(one.mean.by_length, line), one.mean.by_area, 2 * one.widest.radius,
+    text += fmt::format("{:>7} {:>12.6g} {:>12.6g} {:>12} {:>12} {:>12.6g} {:>12.6g} {:>12}\n",
+                        name_of_feature(file, i), one.mean.area, one.mean.length,
+                        number(narrowest_of(one), line), number(one.mean.by_length, line),
+                        one.mean.by_area, 2 * one.widest.radius,
                         number(neck == nullptr ? 0 : neck->width.width(), neck != nullptr));
   }
+  if (file.unit != Unit::unknown) text += fmt::format("{:>7} {}\n", "unit", name_of(file.unit));
   return text;
 }
 
@@ -297,7 +315,7 @@ std::vector<Plot> profile_plots(const std::vector<Measured>& all, const std::str
 
 Document<io::Layer> layers_of(const Document<AxisItem>& file, const std::vector<Measured>& all,
                               const MeasureArguments& arguments) {
-  auto layers = empty_like<io::Layer>(file);
+  Document<io::Layer> layers{file, {}};
   io::Layer transects{"transects", io::LayerKind::lines, {"line", "along", "width", "span"}, {}, 2};
   io::Layer necks{"necks", io::LayerKind::lines, {"width", "opens_to", "around_hole"}, {}, 0};
   io::Layer disks{"disks", io::LayerKind::disks, {"r", "rank"}, {}, 0};
@@ -349,6 +367,7 @@ Status write_measures(Document<AxisItem>& file, const std::vector<Measured>& all
 
 Result<std::vector<Measured>> measure_all(const Document<AxisItem>& file,
                                           const MeasureArguments& arguments) {
+  note_places_outside(file, arguments.path, arguments);
   auto paths = choose_paths(file, arguments.path, arguments.common.threads);
   if (!paths) return std::move(paths).error();
   return map_items<Measured>(
@@ -359,7 +378,9 @@ Result<std::vector<Measured>> measure_all(const Document<AxisItem>& file,
 Result<int> finish_measure(const std::vector<Measured>& all, const LoadedAxes& axes,
                            const MeasureArguments& arguments) {
   const CommonOptions& common = arguments.common;
-  Json object = {{"input", arguments.input.path}, {"features", Json::array()}};
+  Json object = {{"input", arguments.input.path},
+                 {"unit", name_of(axes.file.unit)},
+                 {"features", Json::array()}};
   std::string text;
   if (common.json) {
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -368,7 +389,8 @@ Result<int> finish_measure(const std::vector<Measured>& all, const LoadedAxes& a
       object["features"].push_back(std::move(one));
     }
   } else if (!common.quiet && arguments.output != "-") {
-    text = all.size() == 1 ? summary_of(all[0], arguments) : summary_of(all);
+    text = all.size() == 1 ? summary_of(all[0], arguments, axes.file.unit)
+                           : summary_of(all, axes.file);
   }
   return finish(common, std::move(object), axes.phases, text);
 }

@@ -137,7 +137,7 @@ Result<Document<io::OffsetItem>> buffer_all(const OffsetArguments& arguments) {
   });
   if (!computed) return std::move(computed).error();
   item.sources = sources_of(*pieces, item.planar_graph, item.offsets);
-  Document<io::OffsetItem> file = empty_like<io::OffsetItem>(pieces->features);
+  Document<io::OffsetItem> file{pieces->features, {}};
   file.items.push_back(std::move(item));
   return file;
 }
@@ -148,7 +148,7 @@ Result<Document<io::OffsetItem>> offset_each(const OffsetArguments& arguments) {
   auto shapes = load_shapes(arguments.input, common);
   if (!shapes) return std::move(shapes).error();
   std::vector<ShapeItem>& items = shapes->file.items;
-  Document<io::OffsetItem> file = empty_like<io::OffsetItem>(shapes->file);
+  Document<io::OffsetItem> file{shapes->file, {}};
   const auto offset_item = [&](std::size_t i, int threads) -> Result<io::OffsetItem> {
     auto offsets =
         offset_one(items[i].shape, arguments, engine_options(common, threads, file.corner_angle));

@@ -7,7 +7,6 @@
 
 #include "medial/document.h"
 #include "medial/features.h"
-#include "medial/io/stream.h"
 #include "medial/measure.h"
 #include "medial/query.h"
 #include "medial/threads.h"
@@ -283,7 +282,7 @@ Json to_json(const AxisSummary& summary) {
 
 Status write_panels(const FileArguments& arguments, const DocumentInfo& info, const Box& box,
                     std::vector<Panel> panels, double width) {
-  auto file = empty_like<AxisItem>(info);
+  Document<AxisItem> file{info, {}};
   const Vec2 size = box.high - box.low;
   const Vec2 pitch{1.1 * size.x, size.y + 0.1 * std::max(size.x, size.y)};
   constexpr std::size_t columns = 3;
@@ -332,9 +331,9 @@ Result<int> print_summary(LoadedAxes& axes, const AxisSummary& summary,
 
 Result<std::optional<int>> stream_axes(
     const FileArguments& arguments, const InputOptions& input, Options options,
-    const std::function<Status(Document<AxisItem>& part)>& change) {
+    const std::function<Status(Document<AxisItem>& part)>& change,
+    const std::function<std::string()>& line) {
   const CommonOptions& common = arguments.common;
-  if (arguments.output.empty()) return std::optional<int>();
   const bool talkative = is_talkative(arguments);
   AxisSummary summary;
   Progress progress("medial axis", error_is_terminal() && !common.quiet);
@@ -370,7 +369,8 @@ Result<std::optional<int>> stream_axes(
   print_notes(axes.file, input, common);
   note_unresolved(axes.axes, input, common);
   if (!talkative) return std::optional<int>(exit_success);
-  auto printed = print_summary(axes, summary, arguments);
+  auto printed =
+      line ? finish(arguments, {}, axes.phases, line()) : print_summary(axes, summary, arguments);
   if (!printed) return std::move(printed).error();
   return std::optional<int>(*printed);
 }

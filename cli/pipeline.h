@@ -104,11 +104,13 @@ Status write_panels(const FileArguments& arguments, const DocumentInfo& info, co
                     std::vector<Panel> panels, double width);
 
 /// What load_shapes(), compute_axes(), `change` and finish_axes() do together, in constant memory,
-/// where the file is large and the formats allow it; otherwise nothing. Of `options`, this sets
-/// what the common options hold. Errors: theirs.
+/// where the file is large and the formats allow it; otherwise nothing. `change` is called for
+/// several parts at once; `line` replaces the summary that is printed. Of `options`, this sets what
+/// the common options hold. Errors: theirs.
 Result<std::optional<int>> stream_axes(
     const FileArguments& arguments, const InputOptions& input, Options options = {},
-    const std::function<Status(Document<AxisItem>& part)>& change = nullptr);
+    const std::function<Status(Document<AxisItem>& part)>& change = nullptr,
+    const std::function<std::string()>& line = nullptr);
 
 /// The end of a command that made axes: writes them, and prints a summary, statistics or both.
 /// Returns the exit status.

@@ -116,9 +116,11 @@ void note_specks(const Document<AxisItem>& file, const InputOptions& input,
   for (const AxisItem& item : file.items)
     specks += item.shape.loop_count() - without_specks(item.shape, speck_share).loop_count();
   if (specks > 0)
-    say("medial: {}: note: {} of the image are specks, each with an axis or a cycle of its own; "
-        "`medial prune --specks` leaves them out\n",
-        input.path, counted(specks, "part or hole", "parts and holes"));
+    say("medial: {}: note: {}, with an axis or a cycle of its own; `medial prune --specks` leaves "
+        "out specks\n",
+        input.path,
+        specks == 1 ? "1 part or hole of the image is a speck"
+                    : fmt::format("{} parts and holes of the image are specks, each", specks));
 }
 
 Result<PruneReport> prune_all(Document<AxisItem>& file, const PruneOptions& options, int threads) {

@@ -181,7 +181,7 @@ void add_measures(const Rebuilt& rebuilt, Json& object) {
 
 Status write_rebuilt(Rebuilt& rebuilt, Document<AxisItem>& axes,
                      const RebuildArguments& arguments) {
-  auto file = empty_like<ShapeItem>(axes);
+  Document<ShapeItem> file{axes, {}};
   io::WriteOptions write = arguments.write;
   write.chord = arguments.common.chord;
   for (std::size_t i = 0; i < rebuilt.shapes.size(); ++i)

@@ -51,7 +51,7 @@ Result<Diagrams> compute_together(const VoronoiArguments& arguments) {
   });
   if (!computed) return std::move(computed).error();
   out.phases.end("voronoi");
-  out.file = empty_like<io::VoronoiItem>(pieces->features);
+  out.file = Document<io::VoronoiItem>{pieces->features, {}};
   out.file.items.push_back(std::move(item));
   return out;
 }
@@ -62,7 +62,7 @@ Result<Diagrams> compute_by_lee(const VoronoiArguments& arguments) {
   auto shapes = load_shapes(arguments.input, common);
   if (!shapes) return std::move(shapes).error();
   std::vector<ShapeItem>& items = shapes->file.items;
-  Diagrams out{empty_like<io::VoronoiItem>(shapes->file), std::move(shapes->phases)};
+  Diagrams out{{shapes->file, {}}, std::move(shapes->phases)};
   const auto compute_one = [&](std::size_t i, int threads) -> Result<io::VoronoiItem> {
     auto diagram =
         voronoi_diagram(items[i].shape, {.tolerance = common.tolerance, .threads = threads});
@@ -163,8 +163,8 @@ Command make_voronoi_command(CLI::App& program) {
       "enclosure. Edges may meet in ends; where they cross, --repair splits them. In plain\n"
       "text, blocks between blank lines are chains, and a single block a list of points.\n"
       "\n"
-      "With --method lee, polygons without holes and without arcs: every segment and every\n"
-      "reflex vertex has a face inside.\n"
+      "With --method lee, polygons without arcs: every segment and every reflex vertex has a\n"
+      "face inside.\n"
       "\n"
       ".json holds the graph without loss, .geojson the faces as polygons and the edges\n"
       "as lines, .wkt the faces, .csv the edges; pictures show the faces in colours.\n"

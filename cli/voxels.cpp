@@ -17,6 +17,8 @@ namespace {
 struct VoxelArguments : FileArguments {
   double memory = 4;  ///< in GiB
   double width = 1536;
+  bool potential = false;
+  int order = 8;  ///< of the potential
   VoxelOptions options;
 };
 
@@ -48,6 +50,10 @@ Json summary(const Outcome& outcome) {
                  {"cells", {axis.cells[0], axis.cells[1], axis.cells[2]}},
                  {"voxels", axis.voxels.size()},
                  {"links", axis.links.size()}};
+  if (!axis.surface.vertices.empty())
+    object["surface"] = {{"vertices", axis.surface.vertices.size()},
+                         {"triangles", axis.surface.triangles.size()},
+                         {"lines", axis.surface.lines.size()}};
   object["topology"] = {{"solid", json_of(solid.topology)},
                         {"interior_voxels", json_of(axis.interior)},
                         {"axis", json_of(axis.topology)}};
@@ -127,6 +133,7 @@ Result<Outcome> compute_outcome(const VoxelArguments& arguments) {
   VoxelOptions options = arguments.options;
   options.threads = common.threads;
   options.memory = static_cast<std::uint64_t>(arguments.memory * 0x1p30);
+  if (arguments.potential) options.order = arguments.order;
   Progress progress("voxels", error_is_terminal() && !common.quiet);
   options.progress = progress.callback();
   auto axis = compute_voxels(out.solid, options);
@@ -173,12 +180,23 @@ void add_own_options(CLI::App& command, VoxelArguments& arguments) {
             "In degrees: two feet of a voxel count as two if they are this far apart as\n"
             "seen from it, 1 to 120 (default: 30). Smaller angles give the axis of\n"
             "the faces as they are; meshes of curved surfaces need larger ones.");
-  add_choice<Thinning>(
-      command, "--thin", options.thinning,
-      {{"sheets", Thinning::sheets}, {"curves", Thinning::curves}, {"none", Thinning::none}},
-      "What the axis is thinned to: sheets, one voxel thick (default);\n"
-      "curves; or none.")
-      ->option_text("KIND");
+  CLI::Option* thin =
+      add_choice<Thinning>(
+          command, "--thin", options.thinning,
+          {{"sheets", Thinning::sheets}, {"curves", Thinning::curves}, {"none", Thinning::none}},
+          "What the axis is thinned to: sheets, one voxel thick (default);\n"
+          "curves; or none.")
+          ->option_text("KIND");
+  command.add_flag("--surface", options.surface,
+                   "Write sheets as triangles and curves as lines, with a radius at each\n"
+                   "vertex, instead of voxels.");
+  add_choice<bool>(command, "--method", arguments.potential,
+                   {{"ridge", false}, {"potential", true}},
+                   "ridge (default), or potential: sheets and curves along the force lines\n"
+                   "from convex edges and vertices, if the surface is charged.")
+      ->excludes(thin);
+  add_value(command, "--order", arguments.order, "N", in_range(2, 64, true),
+            "The potential is the integral of 1 / distance^N (default: 8).");
   add_choice<bool>(command, "--search", options.sorted_list,
                    {{"tree", false}, {"sorted-list", true}},
                    "How the nearest faces are found: tree (default), or sorted-list, as\n"
@@ -211,12 +229,14 @@ Command make_voxels_command(CLI::App& program) {
       "of the mesh. Open meshes, edges of more than two faces and faces that cross or\n"
       "touch are refused, with the place.\n"
       "\n"
-      ".ply and .vtk hold radius and quality, .obj the links between voxels, .png the\n"
-      "axis from three sides, coloured by radius.\n"
+      ".ply and .vtk hold radius and quality, .glb the radius, .obj the links between\n"
+      "voxels, .png the axis from three sides, coloured by radius.\n"
       "\n"
       "Examples:\n"
       "  medial voxels part.stl -o axis.ply --voxels 256\n"
       "  medial voxels part.stl -o part.png --resolution 0.5 --angle 10\n"
+      "  medial voxels part.stl -o sheets.glb --surface\n"
+      "  medial voxels part.stl -o force.ply --method potential\n"
       "  medial voxels tree.obj -o skeleton.obj --thin curves --stats");
   return command_of(command, arguments, run_voxels);
 }

@@ -51,13 +51,16 @@ export interface AxisOptions extends ShapeOptions {
   resolution?: number;
   pixels?: number;
   collinear?: number;
-  search?: "tree" | "list";
+  search?: "tree" | "sorted-list";
   rule?: "crossing" | "difference";
   family?: "sequential" | "sides" | "marking" | "simultaneous";
   /** Of `biarc-dc`. */
   seed?: number;
   /** Of `potential`. */
   order?: number;
+  /** Only the branch to which the force leads from this place; only what lies in this box. */
+  start?: [number, number];
+  within?: [number, number, number, number];
   baseOrder?: number;
   coarse?: number;
   angle?: number;

@@ -17,7 +17,7 @@ namespace medial::papers {
 struct Request {
   std::filesystem::path to;        ///< an existing directory for tables and figures
   bool quick = false;              ///< few small shapes: does it run at all?
-  int rounds = 3;                  ///< the least time of so many counts
+  int rounds = 3;                  ///< how often to time; the least time counts
   std::vector<std::string> files;  ///< further shapes (volkmann: images)
 };
 

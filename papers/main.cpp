@@ -55,7 +55,9 @@ int run(int argc, char** argv) {
   program.add_option("--files", request.files,
                      "Further shapes for ahuja_chuang_1997 (of each file the largest), further\n"
                      "images for volkmann_stclair_1987.");
-  program.add_option("--rounds", request.rounds, "The least time of so many counts (default: 3).")
+  program
+      .add_option("--rounds", request.rounds,
+                  "How often to time; the least time counts (default: 3).")
       ->check(CLI::Range(1, 1000));
   program.add_flag("--quick", request.quick, "One round of few small shapes.");
   program.footer("Exit status: 0 done; 1 an axis failed a check; 2 an error.");

@@ -117,7 +117,7 @@ double gouge_of(const Shape& shape, const Carving& carving, double chord) {
     paths.push_back(without_arcs(path, chord));
     moves += paths.back().size();
   }
-  constexpr std::size_t most = 400;  // moves looked at, or one in so many
+  constexpr std::size_t most = 400;  // moves that are checked, evenly spread
   const std::size_t stride = 1 + moves / most;
   double worst = 0;
   std::size_t count = 0;

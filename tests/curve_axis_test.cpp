@@ -8,7 +8,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "curve/least_squares.h"
 #include "medial/compute.h"
 #include "medial/methods.h"
 #include "medial/query.h"
@@ -16,6 +15,7 @@
 #include "medial/sides.h"
 #include "medial/verify.h"
 #include "methods/curve_axis/smooth_boundary.h"
+#include "papers/shaked_bruckstein_1996/spline.h"
 #include "support/contours.h"
 #include "support/generate.h"
 #include "support/random_shapes.h"
@@ -36,9 +36,7 @@ Contour smooth_star(std::uint64_t seed) {
     const double radius = random.between(0.45, 1);
     corners.push_back({radius * std::cos(angle), radius * std::sin(angle)});
   }
-  auto contour = fit_smooth_contour(corners, 10);
-  EXPECT_TRUE(contour.ok());
-  return *contour;
+  return papers::spline_through(corners, 10);
 }
 
 std::size_t leaves(const MedialAxis& axis) {
@@ -85,9 +83,7 @@ Contour island() {
       {27.86106576, 0},           {53.62550096, 1.02048389},  {81.42719311, 8.26777497},
       {100, 20.61377468},         {90.71174113, 38.11043491}, {76.27282173, 52.54935431},
       {53.62550096, 63.93053288}};
-  auto contour = fit_smooth_contour(corners, 1);
-  EXPECT_TRUE(contour.ok());
-  return *contour;
+  return papers::spline_through(corners, 1);
 }
 
 /// Forty smooth shapes, two that end with two maxima within a step of each other, and an island:
@@ -314,9 +310,7 @@ TEST(CurveAxis, RefusesWhatItCannotFollow) {
   EXPECT_EQ(code({ellipse(2, 1)}, {.step = 0}), ErrorCode::invalid_option);
   EXPECT_EQ(code({ellipse(2, NAN)}), ErrorCode::not_finite);
   const std::vector<Vec2> loop{{0, 0}, {3, 0}, {3, 3}, {1, -1}, {0, 3}};
-  const auto crossing = fit_smooth_contour(loop, 10);
-  ASSERT_TRUE(crossing.ok());
-  EXPECT_EQ(code({*crossing}), ErrorCode::crossing);
+  EXPECT_EQ(code({papers::spline_through(loop, 10)}), ErrorCode::crossing);
   const std::atomic<bool> stop = true;
   EXPECT_EQ(code({ellipse(2, 1)}, {}, &stop), ErrorCode::cancelled);
 }
@@ -331,7 +325,7 @@ Contour shaky_star() {
     const double radius = 1 + 0.4 * std::sin(3 * angle) + random.between(-0.03, 0.03);
     corners.push_back({radius * std::cos(angle), radius * std::sin(angle)});
   }
-  return *fit_smooth_contour(corners, 10);
+  return papers::spline_through(corners, 10);
 }
 
 TEST(CurveAxis, OneThatGoesAstrayIsBegunAnew) {
@@ -367,7 +361,7 @@ TEST(CurveAxis, EndsInATipThatIsAllButACorner) {
     const double radius = 0.5 + (i % 2 == 0 ? 0 : wave);
     corners.push_back({3 * radius * std::cos(angle), radius * std::sin(angle)});
   }
-  const Contour contour = *fit_smooth_contour(corners, 10);
+  const Contour contour = papers::spline_through(corners, 10);
   const auto rings = approximate_by_arcs({&contour, 1}, {.tolerance = 1e-8});
   const auto shape = build_shape(*rings);
   ASSERT_TRUE(shape.ok());
@@ -390,23 +384,17 @@ TEST(CurveAxis, EndsInATipThatIsAllButACorner) {
 TEST(CurveAxis, SmoothFitsStayWithinTheirTolerance) {
   const Ring polygon = test::comb(5)[0];
   for (const double tolerance : {1.0, 0.1, 0.01}) {
-    const auto contour = fit_smooth_contour(polygon.points, tolerance);
-    ASSERT_TRUE(contour.ok());
+    const Contour contour = papers::spline_through(polygon.points, tolerance);
     const auto shape = build_shape({&polygon, 1});
     double worst = 0;
-    for (const CurvePiece& piece : contour->pieces) {
-      const Vec2* p = contour->points.data() + piece.first;
+    for (const CurvePiece& piece : contour.pieces) {
+      const Vec2* p = contour.points.data() + piece.first;
       const Vec2 middle = 0.125 * (p[0] + 3 * (p[1] + p[2]) + p[3]);
       worst = std::max(worst, std::abs(clearance(*shape, middle)));
     }
     EXPECT_LE(worst, tolerance);
     EXPECT_GT(worst, 0);
   }
-  EXPECT_EQ(fit_smooth_contour(polygon.points, 0).error().code, ErrorCode::invalid_option);
-  EXPECT_EQ(fit_smooth_contour(std::vector<Vec2>{{0, 0}, {1, 1}}, 1).error().code,
-            ErrorCode::too_few_points);
-  EXPECT_EQ(fit_smooth_contour(std::vector<Vec2>{{0, 0}, {1, 1}, {0, INFINITY}}, 1).error().code,
-            ErrorCode::not_finite);
 }
 
 TEST(CurveAxis, LeastSquaresSplinesRoundWhatIsSmallWithFewKnots) {
@@ -414,7 +402,7 @@ TEST(CurveAxis, LeastSquaresSplinesRoundWhatIsSmallWithFewKnots) {
   const auto shape = build_shape({&polygon, 1});
   std::size_t before = 0;
   for (const double tolerance : {1.0, 0.1, 0.01}) {
-    const auto contour = smoothed_contour(polygon.points, tolerance);
+    const auto contour = fit_smooth_contour(polygon.points, tolerance);
     ASSERT_TRUE(contour.ok());
     EXPECT_TRUE(curve_axis::find_roughness(*contour).ok());
     EXPECT_GT(contour->pieces.size(), before);
@@ -426,11 +414,11 @@ TEST(CurveAxis, LeastSquaresSplinesRoundWhatIsSmallWithFewKnots) {
   }
   EXPECT_LT(before, 1500U);
   // A circle of 400 corners takes no more knots than the fewest.
-  EXPECT_EQ(smoothed_contour(test::regular_polygon(400)[0].points, 0.02)->pieces.size(), 8U);
-  EXPECT_EQ(smoothed_contour(polygon.points, 0).error().code, ErrorCode::invalid_option);
-  EXPECT_EQ(smoothed_contour(std::vector<Vec2>{{0, 0}, {1, 1}}, 1).error().code,
+  EXPECT_EQ(fit_smooth_contour(test::regular_polygon(400)[0].points, 0.02)->pieces.size(), 8U);
+  EXPECT_EQ(fit_smooth_contour(polygon.points, 0).error().code, ErrorCode::invalid_option);
+  EXPECT_EQ(fit_smooth_contour(std::vector<Vec2>{{0, 0}, {1, 1}}, 1).error().code,
             ErrorCode::too_few_points);
-  EXPECT_EQ(smoothed_contour(std::vector<Vec2>{{0, 0}, {1, 1}, {0, INFINITY}}, 1).error().code,
+  EXPECT_EQ(fit_smooth_contour(std::vector<Vec2>{{0, 0}, {1, 1}, {0, INFINITY}}, 1).error().code,
             ErrorCode::not_finite);
 }
 
@@ -443,7 +431,7 @@ TEST(CurveAxis, RefusalsNameAFitThatWouldDo) {
     const std::string& text = refused.error().text;
     const auto at = text.find("--fit ");
     ASSERT_NE(at, std::string::npos) << text;
-    const auto fit = smoothed_contour(polygon.points, std::stod(text.substr(at + 6)));
+    const auto fit = fit_smooth_contour(polygon.points, std::stod(text.substr(at + 6)));
     ASSERT_TRUE(fit.ok());
     const auto followed = compute_curve_axis({&*fit, 1});
     EXPECT_TRUE(followed.ok()) << followed.error().text;
@@ -456,7 +444,7 @@ TEST(CurveAxis, FitsOfSilhouettesAreVerifiedOrRefused) {
     SCOPED_TRACE(seed);
     const auto rings = pixel_outline(test::silhouette(seed, 90).image);
     if (rings->size() != 1) continue;
-    const auto curve = smoothed_contour(rings->front().points, 2);
+    const auto curve = fit_smooth_contour(rings->front().points, 2);
     ASSERT_TRUE(curve.ok());
     ++fits;
     const auto axis = compute_curve_axis({&*curve, 1});

@@ -60,7 +60,7 @@ struct Ends {
 struct Row {
   std::size_t cases = 0, verified = 0, refused = 0, failed = 0;
   std::map<std::string, std::size_t> codes;  ///< of the refused
-  std::array<Ends, 2> ends{Ends{1}, Ends{0.01}};
+  std::array<Ends, 5> ends{Ends{0.01}, Ends{1}, Ends{2}, Ends{4}, Ends{10}};
 };
 
 bool has_extension(const fs::path& path, std::initializer_list<const char*> extensions) {

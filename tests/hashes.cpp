@@ -15,6 +15,7 @@
 #include "medial/shape.h"
 #include "medial/verify.h"
 #include "medial/voronoi.h"
+#include "papers/shaked_bruckstein_1996/spline.h"
 #include "support/generate.h"
 
 namespace medial::test {
@@ -102,7 +103,7 @@ std::uint64_t hash_of_distances(int threads) {
 
 /// A smooth curve through the points of a blob, as arcs.
 Rings arcs(int threads) {
-  const Contour contour = fit_smooth_contour(blob(3000).front().points, 0.01).value();
+  const Contour contour = papers::spline_through(blob(3000).front().points, 0.01);
   ArcOptions options;
   options.tolerance = 1e-5;
   options.threads = threads;

@@ -304,6 +304,46 @@ TEST_F(MeshFiles, HoldTheAxis) {
             ErrorCode::unwritable);
 }
 
+TEST_F(MeshFiles, HoldTheSurface) {
+  const auto solid = build_solid(test::box_mesh({0, 0, 0}, {4, 3, 2}));
+  ASSERT_TRUE(solid.ok());
+  VoxelOptions options;
+  options.voxels = 20;
+  options.surface = true;
+  const auto axis = compute_voxels(*solid, options);
+  ASSERT_TRUE(axis.ok());
+  const AxisSurface& surface = axis->surface;
+  const std::size_t points = surface.vertices.size(), triangles = surface.triangles.size(),
+                    lines = surface.lines.size();
+  ASSERT_GT(triangles, 50U);
+  for (const std::string format : {"ply", "vtk", "obj", "glb", "png"}) {
+    const Status written = io::write_voxels(path("axis." + format), "", *axis, *solid, 300);
+    ASSERT_TRUE(written.ok()) << to_string(written.error());
+  }
+  // What is written as triangles is read as such.
+  const auto read = io::read_mesh(path("axis.ply"));
+  ASSERT_TRUE(read.ok()) << to_string(read.error());
+  EXPECT_EQ(read->vertices, surface.vertices);
+  EXPECT_EQ(read->faces, surface.triangles);
+
+  const std::string obj = content("axis.obj"), vtk = content("axis.vtk"), glb = content("axis.glb");
+  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(obj, '/')), 3 * triangles);
+  EXPECT_NE(vtk.find("POLYGONS " + std::to_string(triangles)), std::string::npos);
+  // Binary glTF: a header of 12 bytes, then chunks, each with its size and kind before it.
+  std::uint32_t words[5];
+  ASSERT_GT(glb.size(), sizeof words);
+  std::memcpy(words, glb.data(), sizeof words);
+  EXPECT_EQ(glb.substr(0, 4), "glTF");
+  EXPECT_EQ(words[1], 2U);
+  EXPECT_EQ(words[2], glb.size());
+  EXPECT_EQ(words[3] % 4, 0U);
+  EXPECT_EQ(glb.size(), 28 + words[3] + 16 * points + 12 * triangles + 8 * lines);
+  float first[3];
+  std::memcpy(first, glb.data() + 28 + words[3], sizeof first);
+  EXPECT_EQ(first[0], static_cast<float>(surface.vertices[0].x));
+  EXPECT_EQ(content("axis.png").substr(1, 3), "PNG");
+}
+
 TEST_F(MeshFiles, OfTheDataFolderHaveTheirTopology) {
   const fs::path spot = test::data_folder() / "in_place/D_3d/spot.obj";
   if (!fs::exists(spot)) GTEST_SKIP() << "no such data here";

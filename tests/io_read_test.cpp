@@ -22,7 +22,9 @@
 #include "io/gis/back_to_geographic.h"
 #include "medial/io/read.h"
 #include "medial/io/write.h"
+#include "medial/methods.h"
 #include "medial/query.h"
+#include "medial/verify.h"
 #include "support/environment.h"
 #include "support/native_items.h"
 
@@ -503,6 +505,24 @@ TEST_F(Io, CompressedTextIsReadAndItsTruncationNoticed) {
   std::string damaged = bytes;
   damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] ^ 0x55);
   EXPECT_EQ(code_of(read_document(write("b.wkt.gz", damaged))), ErrorCode::malformed);
+}
+
+/// Lakes, islands, and clearances around the pads of boards.
+TEST_F(Io, LeeAgreesWithDisksOnRealHoles) {
+  const fs::path folder = test::data_folder() / "packaged";
+  if (!fs::exists(folder)) GTEST_SKIP() << "no data folder: set MEDIAL_DATA";
+  for (const char* name :
+       {"A_gis/gshhg/amazon_islands.wkt.gz", "A_gis/repos/cgal_bee.wkt",
+        "B_pcb/StickHub_B.Cu_unfractured.wkt.gz", "B_pcb/ecc83-pp_v2_B.Cu_unfractured.wkt.gz"}) {
+    const auto shapes = load_shapes((folder / name).string());
+    ASSERT_TRUE(shapes.ok()) << name;
+    for (const auto& item : shapes->items) {
+      const auto lee = compute(item.shape, {.method = method::Lee{}}), disks = compute(item.shape);
+      ASSERT_TRUE(lee.ok() && disks.ok()) << name;
+      EXPECT_TRUE(verify(item.shape, *lee).passed) << name;
+      EXPECT_NEAR(total_length(*lee) / total_length(*disks), 1, 1e-9) << name;
+    }
+  }
 }
 
 TEST_F(Io, EveryFileOfTheDataFolderIsReadOrRefused) {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <random>
 
-#include "medial/io/stream.h"
+#include "medial/io/write.h"
 #include "support/scratch_folder.h"
 
 namespace medial::io {

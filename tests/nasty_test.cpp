@@ -152,6 +152,7 @@ TEST_P(ArcsBesideSplinters, AreVerified) {
   ring.bulges.assign(GetParam().bulges.begin(), GetParam().bulges.end());
   const auto shape = build_shape(Rings{ring});
   ASSERT_TRUE(shape) << to_string(shape.error());
+  EXPECT_EQ(shape->loop_count(), 1);
   const auto axis = compute(*shape, {.threads = 1});
   ASSERT_TRUE(axis) << to_string(axis.error());
   const Certificate certificate = verify(*shape, *axis, {.threads = 1});
@@ -180,6 +181,7 @@ TEST(ArcBesideASplinter, ThatCrossesIsAnErrorWithItsPlace) {
   ring.bulges = {0.062992125984251968, 0, 0};
   const auto shape = build_shape(Rings{ring});
   ASSERT_TRUE(shape) << to_string(shape.error());
+  EXPECT_GT(area(*shape), 0);
   const auto axis = compute(*shape, {.threads = 1});
   ASSERT_FALSE(axis);
   EXPECT_EQ(axis.error().code, ErrorCode::unsupported);
@@ -209,15 +211,16 @@ void expect_at_most(const Mended& mended, const Faults& faults) {
 
 class NastyShapes : public testing::TestWithParam<Mended> {
  protected:
-  static Faults faults(bool planar) {
+  static Faults faults(bool planar, const Method& method = method::Disks{}) {
     const auto classes = nasty_classes();
     const auto one = std::find_if(classes.begin(), classes.end(),
                                   [](const auto& each) { return each.name == GetParam().name; });
     Faults faults;
     for (std::uint64_t i = 0; i < count; ++i) {
       const bool small = i % 2 == 0;
-      faults.add(examine_nasty(*one, first_seed() + i, small,
-                               {.oracle = small && !one->has_arcs, .planar = planar}));
+      faults.add(
+          examine_nasty(*one, first_seed() + i, small,
+                        {.method = method, .oracle = small && !one->has_arcs, .planar = planar}));
     }
     return faults;
   }
@@ -241,6 +244,25 @@ constexpr std::array<Mended, 12> shapes{{{"strips"},
                                          {"tangents"}}};
 
 INSTANTIATE_TEST_SUITE_P(Classes, NastyShapes, testing::ValuesIn(shapes),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+class NastyShapesByLee : public NastyShapes {};
+
+TEST_P(NastyShapesByLee, HaveTheTrueGraphUnderAllSymmetries) {
+  expect_at_most(GetParam(), faults(false, method::Lee{}));
+}
+
+constexpr std::array<Mended, 9> shapes_by_lee{{{"strips"},
+                                               {"slits"},
+                                               {"stretched", 5},
+                                               {"needles"},
+                                               {"polygons"},
+                                               {"rings"},
+                                               {"grids"},
+                                               {"splinters"},
+                                               {"rounds", 30}}};
+
+INSTANTIATE_TEST_SUITE_P(Classes, NastyShapesByLee, testing::ValuesIn(shapes_by_lee),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
 class NastyPlanarGraphs : public NastyShapes {};

@@ -106,8 +106,8 @@ TEST(Potential, IsConnectedWithOneCycleForEachHole) {
   }
 }
 
-/// Noise of so many pixels a side: most corridors are one pixel wide, most necks are gaps between
-/// pixels that touch in a corner.
+/// Noise of `side` times `side` pixels: most corridors are one pixel wide, most necks are gaps
+/// between pixels that touch in a corner.
 Shape pixel_noise(std::uint32_t side, double share) {
   Random random(17);
   Image image(side, side);

@@ -1,12 +1,13 @@
 // Silhouettes through the sampled methods and verify, as long as one likes.
 //
-//   medial_silhouettes [--from SEED] [--count N] [--pixels MOST] [IMAGE ...]
+//   medial_silhouettes [--from SEED] [--count N] [--pixels MOST] [--method NAME] [IMAGE ...]
 //
 // Each seed is one silhouette(), or one of the images redrawn(), as the pixels' outline and as a
 // smooth one. By `potential` at three orders each must be verified. By `curve-axis`, the fit of its
 // outline must be verified, or refused as unsupported or too large. One line for each failure, then
-// the share of axes for each method and the slowest one. Exit status: 0; 1 where something failed;
-// 2 for a wrong call.
+// the share of axes for each method, the slowest one, and how often each reason was given for a
+// refusal. --method: potential or curve-axis alone. Exit status: 0; 1 where something failed; 2 for
+// a wrong call.
 
 #include "support/silhouettes.h"
 
@@ -17,7 +18,6 @@
 #include <string>
 #include <vector>
 
-#include "curve/least_squares.h"
 #include "medial/io/read.h"
 #include "medial/medial.h"
 #include "methods/curve_axis/curve_axis.h"
@@ -28,6 +28,14 @@ namespace {
 struct Tally {
   int axes = 0, refused = 0, failed = 0;
   double slowest = 0;
+  std::map<std::string, int> reasons;  ///< of refusals
+
+  /// Whether this is how a method may refuse a shape that it does not take.
+  bool refuse(const Error& error) {
+    ++refused;
+    ++reasons[error.text.substr(0, error.text.find(';'))];  // before the fit that would do
+    return error.code == ErrorCode::unsupported || error.code == ErrorCode::too_large;
+  }
 };
 std::map<std::string, Tally> tallies;
 
@@ -41,10 +49,7 @@ bool judge(const std::string& name, std::uint64_t seed, const Shape& shape, cons
   tally.slowest = std::max(tally.slowest, took.count());
   std::string reason;
   if (!axis) {
-    const bool typed =
-        axis.error().code == ErrorCode::unsupported || axis.error().code == ErrorCode::too_large;
-    ++tally.refused;
-    if (may_refuse && typed) return true;
+    if (tally.refuse(axis.error()) && may_refuse) return true;
     reason = axis.error().text;
   } else {
     const Certificate certificate = verify(shape, *axis);
@@ -72,7 +77,7 @@ bool try_fit(std::uint64_t seed, const std::vector<Ring>& rings, double share) {
   if (rings.size() != 1) return true;
   const Shape outline = *build_shape(rings);
   const Box box = bounding_box(outline);
-  const auto curve = smoothed_contour(rings[0].points, share * distance(box.low, box.high));
+  const auto curve = fit_smooth_contour(rings[0].points, share * distance(box.low, box.high));
   if (!curve) return false;
   const auto arcs = approximate_by_arcs({&*curve, 1}, {.tolerance = 1e-6});
   const auto shape = arcs ? build_shape(*arcs) : Result<Shape>(arcs.error());
@@ -84,34 +89,45 @@ bool try_fit(std::uint64_t seed, const std::vector<Ring>& rings, double share) {
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
   Tally& tally = tallies[name];
   tally.slowest = std::max(tally.slowest, took.count());
+  std::string reason;
   if (!found) {
-    ++tally.refused;
-    return true;
+    if (tally.refuse(found.error())) return true;
+    reason = found.error().text;
+  } else {
+    const Certificate certificate = verify(*shape, found->axis);
+    if (certificate.passed) {
+      ++tally.axes;
+      return true;
+    }
+    reason = certificate.failures.front();
   }
-  const Certificate certificate = verify(*shape, found->axis);
-  ++(certificate.passed ? tally.axes : tally.failed);
-  if (!certificate.passed)
-    std::printf("silhouette %llu %s: %s\n", static_cast<unsigned long long>(seed), name,
-                certificate.failures.front().c_str());
-  return certificate.passed;
+  ++tally.failed;
+  std::printf("silhouette %llu %s: %s\n", static_cast<unsigned long long>(seed), name,
+              reason.c_str());
+  return false;
 }
 
-bool try_image(std::uint64_t seed, const Image& image) {
+/// By all methods, or by the one of this name.
+bool try_image(std::uint64_t seed, const Image& image, const std::string& method) {
   bool good = true;
   if (image.count() == 0) return true;
+  const bool by_potential = method != "curve-axis", by_curve_axis = method != "potential";
   const auto rings = pixel_outline(image);
   const auto contours = smooth_outline(image);
   if (!rings || !contours) return false;
-  if (const auto shape = build_shape(*rings)) good = try_shape("pixels", seed, *shape);
-  for (const double share : {0.003, 0.006, 0.012, 0.025})
-    good = try_fit(seed, *rings, share) && good;
+  const auto shape_of_pixels = build_shape(*rings);
+  if (shape_of_pixels && by_potential) good = try_shape("pixels", seed, *shape_of_pixels);
+  if (by_curve_axis)
+    for (const double share : {0.003, 0.006, 0.012, 0.025})
+      good = try_fit(seed, *rings, share) && good;
+  if (!by_potential) return good;
   const auto arcs = approximate_by_arcs(*contours, {.tolerance = 1e-4});
   if (!arcs) return false;
   if (const auto shape = build_shape(*arcs)) good = try_shape("smooth", seed, *shape) && good;
   return good;
 }
 
-int run(std::uint64_t from, std::uint64_t count, std::uint32_t most,
+int run(std::uint64_t from, std::uint64_t count, std::uint32_t most, const std::string& method,
         const std::vector<std::string>& files) {
   std::vector<Image> images;
   for (const std::string& file : files) {
@@ -126,13 +142,16 @@ int run(std::uint64_t from, std::uint64_t count, std::uint32_t most,
   for (std::uint64_t seed = from; seed < from + count; ++seed) {
     const std::uint32_t pixels = silhouette_size(seed, most);
     const bool own = images.empty() || seed % 2 == 0;
-    good = try_image(seed, own ? silhouette(seed, pixels).image
-                               : redrawn(images[seed / 2 % images.size()], seed, pixels)) &&
-           good;
+    const Image image = own ? silhouette(seed, pixels).image
+                            : redrawn(images[seed / 2 % images.size()], seed, pixels);
+    good = try_image(seed, image, method) && good;
   }
-  for (const auto& [name, tally] : tallies)
+  for (const auto& [name, tally] : tallies) {
     std::printf("%-32s %5d axes %5d refused %5d failed, the slowest took %.2f s\n", name.c_str(),
                 tally.axes, tally.refused, tally.failed, tally.slowest);
+    for (const auto& [reason, times] : tally.reasons)
+      std::printf("  %5d: %s\n", times, reason.c_str());
+  }
   return good ? 0 : 1;
 }
 
@@ -141,6 +160,7 @@ int run(std::uint64_t from, std::uint64_t count, std::uint32_t most,
 
 int main(int argc, char** argv) {
   std::uint64_t from = 0, count = 200, most = 2000;
+  std::string method;
   std::vector<std::string> files;
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
@@ -148,6 +168,10 @@ int main(int argc, char** argv) {
                             : argument == "--count"  ? &count
                             : argument == "--pixels" ? &most
                                                      : nullptr;
+    if (argument == "--method" && i + 1 < argc) {
+      method = argv[++i];
+      continue;
+    }
     if (number == nullptr && argument.starts_with("--")) return 2;
     if (number == nullptr) {
       files.push_back(argument);
@@ -155,5 +179,5 @@ int main(int argc, char** argv) {
       *number = std::strtoull(argv[i], nullptr, 10);
     }
   }
-  return medial::test::run(from, count, static_cast<std::uint32_t>(most), files);
+  return medial::test::run(from, count, static_cast<std::uint32_t>(most), method, files);
 }

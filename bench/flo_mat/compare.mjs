@@ -78,7 +78,7 @@ function* inputs() {
   }
 }
 
-/** Writes an SVG with each path so many times, each time a feature of its own. */
+/** Writes an SVG with each path `copies` times, each time a feature of its own. */
 function writeSvg(name, paths, copies) {
   const element = d => `<path d="${d}"/>\n`;
   const file = join(folder, name);

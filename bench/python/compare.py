@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Measures the Python package beside its peers, on one thread, by processor time.
 
-    compare.py [COUNT [POLYGON.wkt]]
+    compare.py [COUNT [POLYGON.wkt [PROGRAM]]]
 
+PROGRAM is medial_python_steps (steps.cpp), which does the same in C++; without it those are left out.
 Peers that are not installed are left out: pip install pygeoops centerline scikit-image.
 """
 
@@ -10,6 +11,7 @@ import multiprocessing
 import pathlib
 import subprocess
 import sys
+import tempfile
 import time
 
 import numpy as np
@@ -83,8 +85,34 @@ def large(path):
     line("the shape of coordinates", lambda: medial.Shape(points))
     line("the axis of coordinates", lambda: medial.axis(points, threads=1))
     line("its nodes and edges as arrays", lambda: (inside.nodes["x"].sum(), inside.edges["weight"].sum()))
+    if len(sys.argv) > 3:
+        beside_cpp(points, shape)
     line("the largest circle, of coordinates", lambda: medial.maximum_inscribed_circle(points))
     line("shapely.maximum_inscribed_circle", lambda: shapely.maximum_inscribed_circle(shapely.Polygon(points)))
+
+
+def beside_cpp(points, shape, times=9):
+    """The same steps in C++, in turn with Python: medians of processor time, and their quotients."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder, "points")
+        points.tofile(file)
+        program = subprocess.Popen([sys.argv[3], file], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        cpp, python = [], []
+        for _ in range(times):
+            print(file=program.stdin, flush=True)
+            *took, length = map(float, program.stdout.readline().split())
+            cpp.append((*took, sum(took)))
+            began = time.process_time()
+            own = medial.Shape(points)
+            built = time.process_time()
+            axis = medial.axis(own, threads=1)
+            end = time.process_time()
+            assert axis.length == length
+            python.append((built - began, end - built, seconds(lambda: medial.axis(points, threads=1), 1)))
+        program.communicate()
+    names = "the shape", "its axis", "both, as one call"
+    for name, a, b in zip(names, np.median(cpp, axis=0), np.median(python, axis=0), strict=True):
+        print(f"| {name}: C++ {a:.4g}, Python {b:.4g} | {b / a:.3f} times |", flush=True)
 
 
 def imports():

@@ -29,8 +29,7 @@ struct Site {
 };
 
 enum class NodeKind : std::uint8_t {
-  leaf,         ///< one edge: a convex corner (radius 0) or the centre of an arc of locally largest
-                ///< curvature
+  leaf,         ///< one edge: a corner (radius 0) or centre of an arc of locally largest curvature
   site_change,  ///< two edges: the axis passes to another site
   branching,    ///< three edges or more
 };
@@ -88,13 +87,11 @@ struct VoronoiEdge : Edge {
 
 /// A Voronoi diagram, of a polygon inside of it, or of a planar graph within an enclosure.
 ///
-/// Of a polygon: a face for each of n segments and m reflex vertices (Lee, Definition 6). Edges of
-/// length 0 between cocircular elements make 2 (n + m) - 3 edges in all (Lemma 3). Nodes are the
-/// n + m - 2 Voronoi points, the corners and the reflex vertices, where two spokes begin.
+/// Of a polygon: a face for each of n segments and m reflex vertices; 2 (n + m) - 3 edges with
+/// those of length 0, between cocircular elements (Lee, Lemma 3).
 ///
 /// Of a planar graph: sites are its points, in their order, then its edges without their ends. A
-/// point's face is empty where the edges around it leave no place nearest to it. Nodes of radius 0
-/// are points at which edges begin. Edges from one corner of the enclosure to another lie on it.
+/// point's face is empty where the edges around it leave no place nearest to it.
 struct VoronoiDiagram {
   std::string method;
   double tolerance = 0;

@@ -3,12 +3,7 @@
 // Carving with a V-shaped tool. Its tip follows the axis where the cone is as wide as the disk, so
 // inner corners come out sharp. Wider parts get a flat bottom, cleared along offsets.
 
-#include <array>
-#include <cstdint>
-#include <vector>
-
 #include "medial/axis.h"
-#include "medial/error.h"
 #include "medial/shape.h"
 
 namespace medial {
@@ -83,16 +78,13 @@ struct Carving {
   Tabs tabs;                    ///< as in the options
 };
 
-/// Plans the paths of one tool in one shape. With c(p) the clearance of a point, t the radius of
-/// the tip and m = tan(angle / 2), the tool may be at p where c(p) >= t, at most at the depth
-/// min((c(p) - t) / m, depth). No path goes deeper, but for rounding (a few 1e-15 of the size).
-/// Together they cut all that the tool can reach, except for 3 chords / m along curved edges of the
-/// axis, and for ridges of step / m on flat bottoms where the tip is a point or `step` exceeds its
-/// radius. Every pass takes off at most `pass_depth`: it follows the paths of the last one, as deep
-/// as it may, where the pass before left something; so all passes are at most as long as one times
-/// their number. O(n log n + size of the result). Errors:
-/// invalid_option, unsupported (an axis that is sampled or of the exterior), too_large (more than
-/// 1e6 clearing passes, or 1e4 in depth).
+/// Plans the paths of one tool in one shape (docs/carve.md). With c(p) the clearance of a point, t
+/// the radius of the tip and m = tan(angle / 2), no path goes deeper than min((c(p) - t) / m,
+/// depth), but for rounding (a few 1e-15 of the size). Together they cut all that the tool can
+/// reach, except for 3 chords / m along curved edges of the axis, and for ridges of step / m on
+/// flat bottoms where the tip is a point or `step` exceeds its radius. O(n log n + size of the
+/// result). Errors: invalid_option, unsupported (an axis that is sampled or of the exterior),
+/// too_large (more than 1e6 clearing passes, or 1e4 in depth).
 Result<Carving> carve(const MedialAxis& axis, const CarveOptions& options);
 
 /// Tabs for the parts that come loose when a shape is cut through: its holes. A tab stands where a

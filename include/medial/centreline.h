@@ -61,9 +61,8 @@ struct MainPathOptions {
 
 /// The main path of each connected part with an edge, by increasing lowest node. It joins the two
 /// ends of the axis whose shortest way has the largest reach, along `route`, and is trimmed unless
-/// nothing would remain. A part that is a cycle only is its own main path. O(n). With holes a
-/// search of O(n log n) for each end that may be one of the two, at most 100; AxisPath::gap bounds
-/// what better ends could add.
+/// nothing would remain. A part that is a cycle only is its own main path. O(n); with holes a
+/// search of O(n log n) for each of at most 100 ends: see AxisPath::gap.
 std::vector<AxisPath> main_paths(const MedialAxis& axis, const MainPathOptions& options = {});
 
 /// What a path leaves out of the ways around holes that leave it and come back, as whole edges: the
@@ -77,9 +76,8 @@ struct CentreLineOptions {
   double smooth = 0;
 };
 
-/// A path as an axis of one chain of exact edges. Extensions are straight, with the site where they
-/// end on both sides. A smoothed line is sampled: straight edges without sites. O(path + sites),
-/// smoothed O(samples log n).
+/// A path as an axis of one chain of exact edges, with straight extensions. A smoothed line is
+/// sampled: straight edges without sites. O(path + sites), smoothed O(samples log n).
 MedialAxis centre_line(const Shape& shape, const MedialAxis& axis, const AxisPath& path,
                        const CentreLineOptions& options = {});
 

@@ -6,16 +6,14 @@ namespace medial {
 
 struct Options {
   Method method = method::Disks{};
-  /// Disks whose residuals stay below this count as touching. Relative to the diagonal of the
-  /// bounding box, in (0, 1e-3]; 0: 4e-15, or what the coordinates' spacing allows far from the
-  /// origin.
+  /// Disks whose residuals stay below this count as touching. Relative to the bounding box's
+  /// diagonal, in (0, 1e-3]; 0: 4e-15, or what the coordinates allow far from the origin.
   double tolerance = 0;
   /// A convex joint with an arc is no corner if it turns by less than this; in degrees, in [0, 10].
   double corner_angle = 0.01;
-  /// Makes every decision of the combinatorics exact: which sites a disk touches and in which
-  /// order, and which nodes an edge joins. Sites that touch one disk within the tolerance, but not
-  /// exactly, have nodes of their own, joined by edges shorter than the tolerance. docs/exact.md
-  /// says what the exact shape is. Slower. Not for sampled methods.
+  /// Makes every decision of the combinatorics exact (docs/exact.md). Sites that touch one disk
+  /// within the tolerance, but not exactly, have nodes of their own, joined by edges shorter than
+  /// the tolerance. Slower. Not for sampled methods.
   bool exact = false;
   /// Threads to use, at most 1024; 0: all of the machine. The result is the same, byte for byte.
   int threads = 0;
@@ -43,10 +41,9 @@ struct Options {
 /// Errors: invalid_option; cancelled; empty; too_large (2^29 vertices; ridge: 2^31 pixels;
 /// brushfire: a diagonal of 2^16 pixels); unsupported (a coordinate above 1e100, or not 0 but below
 /// 1e-100 in size or as a share of the largest; what the method does not take, see MethodInfo;
-/// pixels as fine as the coordinates, for ridge and brushfire; no pixel's centre inside, for
-/// brushfire; Options::exact, where the build lacks it or arcs are of one circle but for rounding;
-/// a place too narrow to separate its sides from rounding); malformed (not by build_shape(), as far
-/// as arrays show, without a check for crossings); out_of_memory; internal.
+/// pixels as fine as the coordinates; Options::exact, where the build lacks it or arcs are of one
+/// circle but for rounding; a place too narrow to separate its sides from rounding); malformed (not
+/// by build_shape(), as far as arrays show); out_of_memory; internal.
 Result<MedialAxis> compute(const Shape& shape, const Options& options = {},
                            std::span<const Contour> contours = {});
 

@@ -65,9 +65,9 @@ Result<std::vector<Ring>> approximate_by_arcs(std::span<const Contour> contours,
                                               const ArcOptions& options = {},
                                               ArcReport* report = nullptr);
 
-/// The periodic cubic spline (of continuous curvature) over chords through the points of a polygon
-/// and more on its edges, until curve and polygon are within `tolerance` (units of the input).
-/// Errors: not_finite, too_few_points, invalid_option, unsupported (2^20 points).
+/// The periodic cubic spline (of continuous curvature) that least squares fit to a polygon, with
+/// knots added until both are within `tolerance` (units of the input). It passes through no vertex
+/// and rounds what is smaller. Errors: not_finite, too_few_points, invalid_option, unsupported.
 Result<Contour> fit_smooth_contour(std::span<const Vec2> polygon, double tolerance);
 
 }  // namespace medial

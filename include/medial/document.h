@@ -1,9 +1,6 @@
 #pragma once
 
-#include <optional>
-#include <string>
 #include <string_view>
-#include <utility>
 
 #include "medial/axis.h"
 #include "medial/contour.h"
@@ -34,7 +31,6 @@ std::optional<Unit> unit_of(std::string_view name);
 std::string unit_names();
 /// Of one unit; of pixels of drawings 25.4 / 96; 0: it has no length.
 double millimetres(Unit unit);
-
 /// The unit of this length in millimetres; unknown if there is none.
 Unit unit_of_length(double millimetres);
 
@@ -59,17 +55,10 @@ struct Document : DocumentInfo {
   std::vector<T> items;
 };
 
-/// A document without items that has all else of another.
-template <class T>
-Document<T> empty_like(const DocumentInfo& from) {
-  return {from, {}};
-}
-
 /// What a file says of a feature besides its geometry: names and values as text, in their order.
 using Attributes = std::vector<std::pair<std::string, std::string>>;
 
-/// One polygon or multipolygon of an input file, one painted path, one glyph. Free-form curves are
-/// contours.
+/// One polygon or multipolygon of a file, one painted path, one glyph. Contours hold its curves.
 struct Feature {
   std::vector<Ring> rings;
   std::vector<Contour> contours;
@@ -88,10 +77,9 @@ struct UnitOptions {
   Unit wanted = Unit::unknown;   ///< of the result; unknown: as the input
 };
 
-/// Converts all lengths of features; bulges and weights stay. A conversion that rests on 96 pixels
-/// or on an image's dots per inch leaves a note, and a reference system in other units is dropped
-/// with one. Errors: invalid_option (degrees, an input without a unit where one is wanted, a pixel
-/// size of what is no image).
+/// Converts all lengths of features. One that rests on 96 pixels or on an image's dots per inch
+/// leaves a note, and a reference system in other units is dropped with one. Errors: invalid_option
+/// (degrees, an input without a unit where one is wanted, a pixel size of what is no image).
 Status convert_units(Document<Feature>& features, const UnitOptions& options);
 
 struct ShapeItem {
@@ -105,9 +93,7 @@ struct AxisItem {
   MedialAxis axis;
   Attributes attributes;
   std::vector<Contour> contours = {};  ///< in place of a shape that is not built yet
-  /// A part of the shape's axis, pruned, cut or smoothed: ends need not be corners, nor disks
-  /// cover.
-  bool part = false;
+  bool part = false;  ///< of the shape's axis, pruned, cut or smoothed: see VerifyOptions::part
 };
 
 }  // namespace medial

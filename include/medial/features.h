@@ -79,8 +79,7 @@ struct BoundarySection {
   double length = 0;
 };
 
-/// One branch from its deeper end, of equally deep ones from a branching point; a closed one from
-/// where its longest run starts.
+/// A branch from its deeper end, of equals a branching point; a closed one from its longest run.
 struct BranchFeatures {
   std::uint32_t branch = 0;        ///< index in branches(axis)
   bool reversed = false;           ///< whether it runs against branches(axis)
@@ -117,21 +116,13 @@ struct AxisFeatures {
 
 /// Describes an axis: cuts exact branches where the signs of dR/ds, its derivative, the curvature
 /// and its derivative change, sampled ones at every node; then merges runs by FeatureOptions.
-/// Depends on shape alone, but for rounding; reflection swaps left and right. O(n log n).
+/// Reflection swaps left and right. O(n log n).
 AxisFeatures describe(const MedialAxis& axis, const FeatureOptions& options = {});
 
-/// A shape in a few numbers without units, the same for rotated, scaled and mirrored images:
-/// distributions over the axis by their quantiles. Pieces count by their lengths, less near the
-/// noise of the boundary. Lengths are over the root mean square distance from the axis's centre.
+/// A shape in a few numbers without units, the same for rotated, scaled and mirrored images. Pieces
+/// of the axis count by their lengths, less near the noise of the boundary.
 struct ShapeSignature {
-  static constexpr std::size_t quantiles = 24;
-  using Quantiles = std::array<double, quantiles>;
-  Quantiles center{}, pairs{};       ///< distances from the centre; between two places of the axis
-  Quantiles depth{}, radius{};       ///< ways from the axis's middle; radii, over their mean
-  double thickness = 0, length = 0;  ///< logarithms of the mean radius and of the axis's length
-  double ends = 0;                   ///< log(1 + ends), each counted as its branch is
-  double cycles = 0;                 ///< log(1 + holes)
-  double elongation = 0;             ///< logarithm of the quotient of the axes of inertia
+  std::array<double, 101> values{};
 };
 
 constexpr double speck_share = 0.1;  ///< of without_specks()

@@ -23,13 +23,11 @@ Result<std::vector<T>> map_items(std::span<const double> weights, int threads,
   std::vector<T> results(weights.size());
   const auto keep = [&](std::size_t i, int own_threads) -> Status {
     Result<T> result = work(i, own_threads);
-    if (!result) return std::move(result).error();
-    results[i] = std::move(result).value();
-    return success();
+    if (result) results[i] = std::move(result).value();
+    return result ? success() : Status(std::move(result).error());
   };
   Status done = for_each_item(weights, threads, keep, cancel);
-  if (!done) return std::move(done).error();
-  return results;
+  return done ? Result<std::vector<T>>(std::move(results)) : std::move(done).error();
 }
 
 /// What is inside where rings cross or overlap.
@@ -46,9 +44,8 @@ struct LoadOptions {
   RepairRule repair = RepairRule::none;
   ArcOptions arcs;            ///< how free-form curves become arcs
   bool skip_invalid = false;  ///< leaves features out that make no shape, with a note each
-  bool part =
-      false;       ///< of a larger document: no note on how many are left out; all of them may be
-  double fit = 0;  ///< boundaries become smooth within this (fit_smooth_contour()); 0: no
+  bool part = false;  ///< of a larger document: no note on how many are left out, perhaps all
+  double fit = 0;     ///< boundaries become smooth within this (fit_smooth_contour()); 0: no
   bool keep_contours = false;  ///< fills ShapeItem::contours, from rings as well
   int threads = 0;             ///< see Options, as the next two
   std::function<void(double)> progress = {};
@@ -86,9 +83,8 @@ Result<PlanarGraph> planar_graph_of(const LoosePieces& pieces,
                                     const PlanarGraphOptions& options = {});
 
 /// Calls use(graph) with planar_graph_of(pieces). After an error `unsupported` with ring and point,
-/// for things that rounding cannot separate, again with graphs in which they touch (by increasing
-/// PlanarGraphOptions::reach). Returns that reach, or 0. Errors: those of planar_graph_of(), and
-/// the last one of `use`.
+/// for things that rounding cannot separate, again with graphs in which they touch. Returns their
+/// PlanarGraphOptions::reach, or 0. Errors: those of planar_graph_of(), and the last one of `use`.
 Result<double> with_planar_graph(const LoosePieces& pieces, bool node_crossings,
                                  const std::function<Status(PlanarGraph& graph)>& use);
 

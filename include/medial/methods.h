@@ -13,9 +13,7 @@ enum class RidgeRule : std::uint8_t {
   /// The axis passes between the pixel and one of its four neighbours, and the pixel is the nearer
   /// to equidistance, within one pixel of the axis. Beside the boundary, as `difference`.
   crossing,
-  /// The report's: the distances to the two nearest edges that do not meet at a concave vertex
-  /// differ by less than one pixel. Takes whole regions at fine details and at small angles.
-  difference,
+  difference,  ///< the distances to the two nearest edges differ by less than one pixel
 };
 
 /// The size of square pixels, at most 2^31 of them; both 0: 1024 along the longer side.
@@ -67,13 +65,12 @@ struct Potential {
   /// n of the force that finds the points, in [1, 4096], any real number; 0: chosen for each point
   /// (the algorithm MAT-Generalized-Polygonal).
   double order = 0;
-  /// The order of the first force lines, in [1, 4096]. Above 24 points of the exact axis take their
-  /// place. 0: that of `order`, 24 at most; for higher orders on the exact axis above 2,000 edges.
+  /// Of the first force lines, in [1, 4096]; above 24 points of the exact axis take their place. 0:
+  /// that of `order`, 24 at most; for higher orders on the exact axis above 2,000 edges.
   double base_order = 0;
   double step = 0.01;  ///< the longest step, as a share of the size, in [1e-4, 0.1]
   /// Above 0, from coarse to fine: the skeleton of a polygon that is this close to the border (a
-  /// share of the size, at most 0.2), refined on polygons ever closer to it. Details that the first
-  /// polygon leaves out get no branch. Of whole axes only.
+  /// share of the size, at most 0.2), refined on polygons ever closer to it. Of whole axes only.
   double coarse = 0;
   /// theta_min in degrees: how much the force may still turn with the order. In (0, 90].
   double angle = 2.56;
@@ -86,9 +83,8 @@ struct Potential {
 
 /// Follows the axis of one smooth curve from its maxima of curvature: see compute_curve_axis().
 struct CurveAxis {
-  /// The way along the axis from point to point, relative to the diagonal of the bounding box, in
-  /// [1e-6, 0.1]; shorter where the boundary turns fast. A control process that goes astray
-  /// restarts with half of it, up to five times: MedialAxis::resolution is the last one's.
+  /// From point to point along the axis, relative to the bounding box's diagonal, in [1e-6, 0.1];
+  /// shorter where the boundary turns fast. Halved up to five times where the process goes astray.
   double step = 1e-3;
   /// The maximum of curvature, counted from the boundary's start, at which the first generation
   /// begins. The axis is the same for each, to the steps.
@@ -109,8 +105,7 @@ enum class Sampling : std::uint8_t {
 
 /// What a method is and what it takes. compute() refuses the rest.
 struct MethodInfo {
-  const char* name;     ///< on the command line and in MedialAxis::method
-  const char* summary;  ///< a few words
+  const char *name, *summary;  ///< on the command line and in MedialAxis::method; a few words
   Sampling sampling = Sampling::curves;
   bool holes = false;     ///< shapes with holes
   bool arcs = false;      ///< boundaries with arcs

@@ -34,9 +34,8 @@ struct Offsets {
 /// is sampled or of the exterior).
 Result<Offsets> inward_offsets(const MedialAxis& axis, std::span<const double> clearances);
 
-/// The same of a shape; a negative clearance c gives the shape grown by -c. Ignores `exterior` and
-/// `margin` of `options`. Errors: those of compute(); invalid_option (a clearance that is 0, not
-/// finite, or below -1e5 of the shape's diagonal).
+/// The same of a shape; a negative clearance c gives the shape grown by -c. Errors: those of
+/// compute(); invalid_option (a clearance that is 0, not finite, or below -1e5 of the diagonal).
 Result<Offsets> offset_curves(const Shape& shape, std::span<const double> clearances,
                               const Options& options = {});
 

@@ -35,8 +35,7 @@ Result<ShapeCode> encode_axes(std::span<const MedialAxis> axes, const PackOption
                               PackReport* report = nullptr);
 
 /// The axes of a code: nodes and straight edges without sites, `resolution` their error. The shape
-/// is the union of the convex hulls of each edge's two disks. Memory O(code). Errors: malformed,
-/// unsupported.
+/// is the union of the hulls of each edge's two disks. O(code). Errors: malformed, unsupported.
 Result<std::vector<MedialAxis>> decode_axes(const ShapeCode& code);
 
 /// The boundary simplified within `error` (Douglas, Peucker), to compare sizes; without a decoder.

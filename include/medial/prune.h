@@ -52,10 +52,9 @@ struct PruneReport {
   std::uint64_t cuts = 0;  ///< edges cut in their inside
 };
 
-/// How much every point of an axis matters by one measure: never less than anything beyond it. So
-/// any threshold keeps connected parts and cycles, of a tree at least its deepest disk (the lowest
-/// index among equals, or its whole edge), and a larger one keeps a subset. The axis must live
-/// longer. O(n), for `scale` O(n log n) expected.
+/// How much every point of an axis, which must live longer, matters by one measure: never less than
+/// anything beyond it. So any threshold keeps connected parts and cycles, of a tree at least its
+/// deepest disk, and a larger one keeps a subset. O(n), for `scale` O(n log n) expected.
 class PruneOrder {
  public:
   PruneOrder(const MedialAxis& axis, PruneMeasure measure, bool tips = false);
@@ -67,7 +66,7 @@ class PruneOrder {
   MedialAxis at(double threshold) const;
   std::uint64_t branches_at(double threshold) const;
   std::uint64_t cuts_at(double threshold) const;
-  /// The lowest threshold that keeps at most so many branches, or else the fewest. O(n log n).
+  /// The lowest threshold that keeps at most that many branches, or else the fewest. O(n log n).
   double threshold_of(std::uint64_t branches) const;
 
  private:

@@ -17,9 +17,8 @@ Vec2 foot(const Site& site, Vec2 p);
 double length(const MedialAxis& axis, const Edge& edge);
 double total_length(const MedialAxis& axis);
 
-/// Samples an edge in at most 100,000 pieces, both nodes included: with chords that stay within
-/// `chord` of the curve in (x, y) and in r, or with steps of at most `step` along the curve (units
-/// of the input).
+/// Samples an edge in at most 100,000 pieces, both nodes included: by chords within `chord` of the
+/// curve in (x, y) and in r, or by steps of at most `step` along the curve (units of the input).
 std::vector<Disk> sample_by_chord(const MedialAxis& axis, const Edge& edge, double chord);
 std::vector<Disk> sample_by_step(const MedialAxis& axis, const Edge& edge, double step);
 

@@ -39,8 +39,7 @@ class Image {
     word = value ? word | bit : word & ~bit;
   }
 
-  /// A row, or all rows, as words: pixel x is bit x % 64 of word x / 64. Bits beyond the width must
-  /// stay 0.
+  /// A row, or all rows, as words: pixel x is bit x % 64 of word x / 64. Bits beyond the width: 0.
   std::span<std::uint64_t> row(std::uint32_t y) {
     return std::span(words_).subspan(y * stride_, stride_);
   }
@@ -138,11 +137,10 @@ struct DistanceMap {
 Result<DistanceMap> distance_transform(const Image& image, const DistanceOptions& options = {});
 
 /// The exact boundary of the foreground pixels' squares, with y downwards: one ring around each
-/// component and each hole, as topology() counts them, in the order of their topmost, then leftmost
-/// pixels. Where foreground pixels meet in a corner only, the two background corners are cut off by
-/// `neck`, in [0, 1/2) pixels: this connects the interior, and build_shape() finds the image's
-/// components and holes. With 0 rings touch there instead. O(pixels / 64 + cracks). Errors:
-/// invalid_option, too_large, out_of_memory.
+/// component and each hole of topology(), by their topmost, then leftmost pixels. Where foreground
+/// pixels meet in a corner only, the two background corners are cut off by `neck`, in [0, 1/2)
+/// pixels: this connects the interior, as topology() counts it. With 0 rings touch there instead.
+/// O(pixels / 64 + cracks). Errors: invalid_option, too_large, out_of_memory.
 Result<std::vector<Ring>> pixel_outline(const Image& image, double neck = 1.0 / 16);
 
 /// The same boundary as smooth curves: per ring a quadratic B-spline, one parabola per crack, that

@@ -34,17 +34,16 @@ struct VertexSource {
 /// What building a shape, or a planar graph of chains, counted.
 struct ShapeReport {
   std::uint64_t input_rings = 0, input_points = 0;
-  std::uint64_t closing_points = 0;    ///< last points equal to the first, dropped
-  std::uint64_t unclosed_rings = 0;    ///< rings without a closing point
-  std::uint64_t repeated_points = 0;   ///< zero-length edges, dropped; points on other pieces
-  std::uint64_t repeated_edges = 0;    ///< of a planar graph: edges that repeat another, dropped
-  std::uint64_t collinear_points = 0;  ///< vertices inside a straight run or arc, dropped
-  std::uint64_t reversed_rings = 0;    ///< rings that had the interior on the right
-  std::uint64_t dropped_rings = 0;     ///< rings inside of others by the non-zero rule
-  std::uint64_t touching_vertices =
-      0;                          ///< places where rings or chains touch, in vertices or edges
-  std::uint64_t split_edges = 0;  ///< edges split where a vertex touches their inside
-  std::uint64_t crossings = 0;    ///< places where edges crossed (ShapeOptions)
+  std::uint64_t closing_points = 0;     ///< last points equal to the first, dropped
+  std::uint64_t unclosed_rings = 0;     ///< rings without a closing point
+  std::uint64_t repeated_points = 0;    ///< zero-length edges, dropped; points on other pieces
+  std::uint64_t repeated_edges = 0;     ///< of a planar graph: edges that repeat another, dropped
+  std::uint64_t collinear_points = 0;   ///< vertices inside a straight run or arc, dropped
+  std::uint64_t reversed_rings = 0;     ///< rings that had the interior on the right
+  std::uint64_t dropped_rings = 0;      ///< rings inside of others by the non-zero rule
+  std::uint64_t touching_vertices = 0;  ///< where rings or chains touch, in vertices or edges
+  std::uint64_t split_edges = 0;        ///< edges split where a vertex touches their inside
+  std::uint64_t crossings = 0;          ///< places where edges crossed (ShapeOptions)
 };
 
 struct ShapeOptions {
@@ -60,9 +59,8 @@ struct ShapeOptions {
 /// build_shape() guarantees: all coordinates are finite; a loop has at least three vertices, with
 /// arcs at least two; no bulge exceeds 1; neighbouring vertices differ and no three in a row are
 /// collinear, except where loops touch; edges meet in vertices only. Each component is one outer
-/// loop and its holes, with a connected interior; its loops have no point in common (one loop
-/// passes through a vertex where loops touched once per wedge of interior there). Two components
-/// can have vertices in common.
+/// loop and its holes, with a connected interior; its loops have no point in common, but one passes
+/// through a vertex once per wedge of interior. Two components can have vertices in common.
 struct Shape {
   std::vector<Vec2> points;               ///< the vertices of all loops, loop after loop
   std::vector<double> bulges;             ///< of the edge after each point; empty: all straight
@@ -90,9 +88,8 @@ double area(const Shape& shape);
 /// Cleans, checks, orients and nests rings into a Shape. O(n log n).
 ///
 /// Closes rings, drops repeated points and vertices inside straight runs or runs of arcs on one
-/// circle, and counts that in `report`. Rings may touch in vertices, or with a vertex inside an
-/// edge, and come in any order. Missing bulges are 0; an arc of more than a half circle is split;
-/// one with a sagitta below half a spacing of the coordinates is straight.
+/// circle. Rings may touch in vertices, or with a vertex inside an edge, and come in any order. An
+/// arc of more than a half circle is split; one with a sagitta below rounding is straight.
 ///
 /// Without arcs, every decision is exact for the given coordinates. With arcs, edges and vertices
 /// within the tolerance (4e-15 of the diagonal, or two spacings of the largest coordinate) touch:

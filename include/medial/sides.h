@@ -39,8 +39,7 @@ enum class Side : std::uint8_t { left, right };
 BoundaryJet boundary_at(const AxisJet& jet, Side side);
 
 /// The curvature of the boundary on one side at t in (0, 1) of an edge, and its first `order`
-/// derivatives by the boundary's own length; by power series, so exact but for rounding. Not finite
-/// at a reflex vertex. O(order^2).
+/// derivatives by the boundary's length, by power series; not finite at a reflex vertex. O(order^2)
 std::vector<double> boundary_curvatures(const MedialAxis& axis, const Edge& edge, double t,
                                         Side side, int order);
 
@@ -54,9 +53,8 @@ struct FootCurvature {
 /// by polynomials through five feet of a side, the left one first.
 std::vector<FootCurvature> curvatures_along(const MedialAxis& axis, const Branch& branch);
 
-/// The jets along a branch in its direction, but on edges of length 0: of an exact axis
-/// `samples_per_edge` inside of every edge, of a sampled one at every inner node from its
-/// neighbours, seven nodes of a curve axis and three of others.
+/// The jets along a branch in its direction: of an exact axis `samples_per_edge` inside of every
+/// edge with a length, of a sampled one at every inner node from its neighbours.
 std::vector<AxisJet> jets_along(const MedialAxis& axis, const Branch& branch,
                                 int samples_per_edge = 8);
 
@@ -87,8 +85,7 @@ enum class RebuildBy : std::uint8_t {
 
 struct RebuildOptions {
   RebuildBy by = RebuildBy::outline;
-  /// Of tangents: about how many points on the axis, evenly by its length, besides ends and
-  /// branching points. 0: the nodes of samples, 1000 of an exact axis.
+  /// Of tangents: about how many points on the axis, by its length. 0: samples' nodes, or 1000.
   std::uint64_t points = 0;
   /// Arcs become chords within this distance, in units of the input; 0: they stay arcs. Hulls
   /// always have chords: within a sixteenth of the axis's resolution, or 1e-6 of its extent.

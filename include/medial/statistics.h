@@ -1,7 +1,6 @@
 #pragma once
 
-// Diagnostics: what computations counted and how long they took, in seconds. No result depends on
-// it.
+// Diagnostics: what computations counted, and how many seconds they took. No result depends on it.
 
 #include <cstdint>
 
@@ -29,13 +28,11 @@ struct Statistics {
 /// Of compute_voxels().
 struct VoxelStatistics {
   std::uint64_t surface_voxels = 0, interior_voxels = 0;
-  std::uint64_t bounded_sets = 0;    ///< of interior voxels
-  std::uint64_t tested_voxels = 0;   ///< whose two nearest feet were computed
-  std::uint64_t medial_voxels = 0;   ///< below the tolerance, before thinning
-  std::uint64_t bridge_voxels = 0;   ///< added to keep the topology
-  std::uint64_t face_distances = 0;  ///< computed
-  double seconds_tree = 0, seconds_digitize = 0;
-  double seconds_first = 0;  ///< first medial voxel of each bounded set
+  std::uint64_t bounded_sets = 0;  ///< of interior voxels
+  std::uint64_t tested_voxels = 0, face_distances = 0;
+  std::uint64_t medial_voxels = 0;  ///< below the tolerance, before thinning
+  std::uint64_t bridge_voxels = 0;  ///< added to keep the topology
+  double seconds_tree = 0, seconds_digitize = 0, seconds_first = 0;
   double seconds_follow = 0, seconds_bridge = 0, seconds_thin = 0;
   double seconds = 0;  ///< all of compute_voxels()
   int threads = 1;

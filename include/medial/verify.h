@@ -31,9 +31,7 @@ struct Certificate : DiskCertificate {
   std::uint64_t curvature_leaves = 0;  ///< at the centre of an arc of locally largest curvature
   std::uint64_t blunt_joints = 0;      ///< convex, with an arc, below the corner angle: no leaf
   double largest_blunt_angle = 0;      ///< among them, in degrees
-  /// How many of the failures say only that the graph of a sampled axis has other parts or cycles
-  /// than the shape, which happens where the shape is narrower than a pixel.
-  std::uint64_t unresolved = 0;
+  std::uint64_t unresolved = 0;  ///< failures of sampled axes, as if the shape's graph were another
 };
 
 struct VerifyOptions {
@@ -54,9 +52,8 @@ struct VerifyOptions {
 /// the joint's angle.
 ///
 /// Of a sampled axis it checks indices, kinds, connected parts and cycles, and each radius within
-/// half a pixel's diagonal of the distance to the boundary; it leaves contacts, corners, coverage
-/// and area at 0. Of an axis of the exterior it checks disks, contacts and sides only, as the edges
-/// at the enclosure are missing.
+/// half a pixel's diagonal; contacts, corners, coverage and area stay 0. Of an axis of the exterior
+/// it checks disks, contacts and sides only, as the edges at the enclosure are missing.
 Certificate verify(const Shape& shape, const MedialAxis& axis, const VerifyOptions& options = {});
 
 struct VoronoiCertificate : DiskCertificate {
@@ -67,12 +64,11 @@ struct VoronoiCertificate : DiskCertificate {
   double faces_area = 0;  ///< the sum of all
 };
 
-/// Checks the diagram of a planar graph: its sites are the graph's; every sample of an edge is at
-/// its radius from the edge's sites and no nearer to any other; edges of the enclosure lie on it;
-/// each face is one closed counter-clockwise walk along edges of its site; every edge is in the
-/// faces of both of its sites; the diagram is connected; the faces' areas add up to the
-/// enclosure's. So the faces fill it without overlap, and each holds what is nearest to its site.
-/// Without an enclosure (of a polygon) none passes. O(n log n) expected. Ignores the corner angle.
+/// Checks the diagram of a planar graph: every sample of an edge is at its radius from the edge's
+/// sites and no nearer to any other; each face is one closed counter-clockwise walk along edges of
+/// its site; every edge is in the faces of both of its sites; the diagram is connected; the faces'
+/// areas add up to the enclosure's. So the faces fill it without overlap, and each holds what is
+/// nearest to its site. Without an enclosure (of a polygon) none passes. O(n log n) expected.
 VoronoiCertificate verify(const PlanarGraph& planar_graph, const VoronoiDiagram& diagram,
                           const VerifyOptions& options = {});
 

@@ -17,8 +17,7 @@ struct TriangleMesh {
   std::vector<std::array<std::uint32_t, 3>> faces;  ///< indices into vertices
 };
 
-/// Betti numbers.
-struct VoxelTopology {
+struct VoxelTopology {  // Betti numbers
   std::uint64_t components = 0;
   std::int64_t tunnels = 0;
   std::uint64_t cavities = 0;
@@ -26,16 +25,13 @@ struct VoxelTopology {
 };
 
 struct MeshReport {
-  std::uint64_t input_vertices = 0, input_faces = 0;
-  std::uint64_t joined_vertices = 0;  ///< that had the coordinates of an earlier one
-  std::uint64_t unused_vertices = 0;
+  std::uint64_t input_vertices = 0, input_faces = 0, joined_vertices = 0, unused_vertices = 0;
   std::uint64_t dropped_faces = 0;    ///< with two corners in one place
   std::uint64_t reversed_faces = 0;   ///< whose normal pointed into the solid
   std::uint64_t parted_vertices = 0;  ///< added where surfaces touched in a vertex only
 };
 
-/// A bounded part of space with a closed surface: every edge has two faces, every vertex one fan of
-/// faces, faces share corners and edges only, and their normals point out of the solid.
+/// A bounded part of space with a closed surface: every edge has two faces, every vertex one fan.
 struct Solid {
   TriangleMesh surface;
   std::vector<std::uint32_t> source;  ///< for each face, its index in the input
@@ -46,8 +42,8 @@ struct Solid {
 /// Makes a solid of a mesh and repairs what MeshReport counts, by exact decisions. Inside is what
 /// lies in an odd number of closed surfaces. O(n log n) unless most faces are near each other.
 /// Errors, with the place: empty, not_finite, too_large (2^31 vertices or faces), unsupported
-/// (coordinates above 1e100 in size), malformed (an index out of range), open_surface,
-/// non_manifold, crossing, overlap (of faces beyond corners and edges), no_area, out_of_memory.
+/// (coordinates above 1e100), malformed (an index out of range), open_surface, non_manifold,
+/// crossing, overlap (of faces beyond corners and edges), no_area, out_of_memory.
 Result<Solid> build_solid(TriangleMesh mesh);
 
 enum class Thinning : std::uint8_t {
@@ -57,15 +53,13 @@ enum class Thinning : std::uint8_t {
 };
 
 struct VoxelOptions {
-  double resolution = 0;  ///< edge of a voxel in units of the input; 0: by `voxels`
-  int voxels = 128;       ///< along the longest side of the bounding box, in [4, 4096]
-  /// Between the two feet of a voxel at least, seen from its centre, in degrees, in [1, 120]; for
-  /// fine meshes of curved surfaces, larger than the angles between their faces.
-  double angle = 30;
-  /// Finds the nearest faces by the report's nearly sorted list of all, in place of a tree: the
-  /// same answers, bit for bit, in O(faces) for each voxel.
-  bool sorted_list = false;
+  double resolution = 0;     ///< edge of a voxel in units of the input; 0: by `voxels`
+  int voxels = 128;          ///< along the longest side of the bounding box, in [4, 4096]
+  double angle = 30;         ///< between the two feet of a voxel at least, in degrees, in [1, 120]
+  bool sorted_list = false;  ///< the report's search: the same answers in O(faces) for each voxel
   Thinning thinning = Thinning::sheets;
+  bool surface = false;  ///< whether to make VoxelAxis::surface; it is never thinned
+  int order = 0;         ///< not 0: make only a surface, of the force lines of a potential
   std::uint64_t memory = std::uint64_t{4} << 30U;  ///< of the computation, in bytes, about
   int threads = 0;                                 ///< see Options, as the next two
   std::function<void(double)> progress = {};       ///< by one thread at a time
@@ -77,9 +71,18 @@ struct Voxel {
   static constexpr std::uint32_t no_face = std::numeric_limits<std::uint32_t>::max();
   std::array<std::uint32_t, 3> cell = {};  ///< column, row, layer: x, y, z
   Vec3 center;
-  double radius = 0;   ///< distance from the centre to the surface
+  double radius = 0;
   double quality = 0;  ///< by how much the second foot is farther; infinite: only for the topology
   std::array<std::uint32_t, 2> face = {no_face, no_face};  ///< of the input, of the two feet
+};
+
+/// Sheets as triangles, curves as lines (edges of no triangle), of the interior's homotopy type.
+/// Bridges apart, vertices lie within half a voxel of the exact axis.
+struct AxisSurface {
+  std::vector<Vec3> vertices;
+  std::vector<double> radii;  ///< of the vertices
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::array<std::uint32_t, 2>> lines;
 };
 
 struct VoxelAxis {
@@ -90,15 +93,16 @@ struct VoxelAxis {
   /// Pairs of voxels that share a face, an edge or a corner, lower index first, increasing; without
   /// pairs that a third voxel between the two connects.
   std::vector<std::array<std::uint32_t, 2>> links;
+  AxisSurface surface;
   VoxelTopology topology;  ///< of the voxels as cubes that share faces, edges and corners
   VoxelTopology interior;  ///< of all interior voxels; the solid's where the grid is fine enough
   VoxelStatistics statistics;
 };
 
-/// The medial axis of a solid by ridge following (docs/voxels.md): interior voxels with the
-/// topology of all interior voxels, by construction. Memory: O(voxels of surface and axis + volume
-/// / 512). Errors: invalid_option, cancelled, empty (no solid), too_large, malformed (not by
-/// build_solid()), out_of_memory.
+/// The medial axis of a solid by ridge following (docs/voxels.md): interior voxels, which have the
+/// topology of all of them. Memory: O(voxels of surface and axis + volume / 512). Errors:
+/// invalid_option, cancelled, empty, too_large, malformed (not by build_solid()), out_of_memory,
+/// unsupported (no convex edge).
 Result<VoxelAxis> compute_voxels(const Solid& solid, const VoxelOptions& options = {});
 
 }  // namespace medial

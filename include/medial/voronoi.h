@@ -5,16 +5,15 @@
 
 namespace medial {
 
-/// The Voronoi diagram of a shape of straight edges without holes, by Lee's divide and conquer. O(n
-/// log n). Errors: as compute() with method::Lee.
+/// The Voronoi diagram of a shape of straight edges, by Lee's divide and conquer. O(n log n).
+/// Errors: as compute() with method::Lee.
 Result<VoronoiDiagram> voronoi_diagram(const Shape& shape, const Options& options = {});
 
 /// The Voronoi diagram of a planar graph's points, segments and arcs, by the engine `disks`
 /// (docs/voronoi.md): that of the whole plane, cut off at `enclosure`, or without one at
 /// Options::margin from the bounding box. Also uses tolerance, threads, progress and cancel. O(n
-/// log n) expected. Errors: those of compute(); invalid_option (an enclosure that the planar graph
-/// touches or leaves), unsupported (a point nearer to another one or to an edge than rounding can
-/// separate, 64 tolerances, with its place: see PlanarGraphOptions::reach).
+/// log n) expected. Errors: those of compute(); invalid_option (an enclosure that the graph touches
+/// or leaves), unsupported (points or edges within 64 tolerances: see PlanarGraphOptions::reach).
 Result<VoronoiDiagram> voronoi_diagram(const PlanarGraph& planar_graph, const Options& options = {},
                                        const std::optional<Box>& enclosure = {});
 

@@ -1,5 +1,7 @@
 // The axis of one shape: computing it, its arrays, questions to it.
 
+#include "faces/axes.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,36 +9,6 @@
 
 namespace medial::js {
 namespace {
-
-Named& take_grid(Named& named, PixelGrid& grid) {
-  return named.take("resolution", grid.resolution).take_whole("pixels", grid.pixels);
-}
-
-void take_own(Named&, method::Disks&) {}
-void take_own(Named&, method::Lee&) {}
-void take_own(Named&, method::Auto&) {}
-void take_own(Named& named, method::BiarcDc& own) { named.take_whole("seed", own.seed); }
-void take_own(Named& named, method::Ridge& own) {
-  std::string search = "tree", rule = "crossing";
-  take_grid(named, own.grid).take("collinear", own.collinear);
-  named.take("search", search).take("rule", rule);
-  own.sorted_list = search != "tree";
-  own.rule = rule == "crossing" ? RidgeRule::crossing : RidgeRule::difference;
-}
-void take_own(Named& named, method::Brushfire& own) {
-  std::string family = name_of(own.family);
-  take_grid(named, own.grid).take("family", family);
-  const auto found = brushfire_from(family);
-  if (!found) refuse(ErrorCode::invalid_option, "there is no such family of brushfires");
-  own.family = *found;
-}
-void take_own(Named& named, method::Potential& own) {
-  named.take("order", own.order).take("base_order", own.base_order).take("step", own.step);
-  named.take("coarse", own.coarse).take("angle", own.angle).take("movement", own.movement);
-}
-void take_own(Named& named, method::CurveAxis& own) {
-  named.take("step", own.step).take_whole("first_maximum", own.first_maximum);
-}
 
 Options options_from(const char* given) {
   Named named(given);
@@ -49,7 +21,7 @@ Options options_from(const char* given) {
   named.take("tolerance", options.tolerance).take("corner_angle", options.corner_angle);
   named.take("exact", options.exact).take("exterior", options.exterior);
   named.take("margin", options.margin);
-  std::visit([&](auto& own) { take_own(named, own); }, options.method);
+  value_of(faces::take_own(named, options.method));
   named.finish();
   return options;
 }
@@ -59,20 +31,9 @@ void answer_lines(const MedialAxis& axis, double chord, double step) {
   std::vector<Disk> disks;
   std::vector<double> begin{0};
   std::vector<double> ends;
-  for (const Branch& branch : branches(axis)) {
-    bool first = true;
-    for (const Step& piece : branch.steps) {
-      const Edge& edge = axis.edges[piece.edge];
-      std::vector<Disk> samples =
-          step > 0 ? sample_by_step(axis, edge, step) : sample_by_chord(axis, edge, chord);
-      if (!piece.forward) std::reverse(samples.begin(), samples.end());
-      disks.insert(disks.end(), samples.begin() + (first ? 0 : 1), samples.end());
-      first = false;
-    }
-    begin.push_back(number(disks.size()));
-    ends.push_back(branch.from);
-    ends.push_back(branch.to);
-  }
+  faces::add_lines(axis, chord, step, disks, begin);
+  for (const Branch& branch : branches(axis))
+    ends.insert(ends.end(), {number(branch.from), number(branch.to)});
   answer().tables = {table_of(disks), std::move(begin), std::move(ends)};
 }
 
@@ -197,20 +158,15 @@ MEDIAL_JS AxisOf* medial_restored_axis(const ShapeOf* of, const char* method, do
                                        std::size_t node_count, const Edge* edges,
                                        std::size_t edge_count) {
   return answered([&] {
-    const auto known = [&](std::uint32_t site) { return site < site_count || site == no_site; };
-    const bool fits = std::all_of(edges, edges + edge_count, [&](const Edge& edge) {
-      return edge.node[0] < node_count && edge.node[1] < node_count && known(edge.site[0]) &&
-             known(edge.site[1]) && edge.weight > 0;
-    });
-    if (!fits) refuse(ErrorCode::malformed, "the arrays of the axis do not fit together");
-    return new_axis(of->shape, {method,
-                                tolerance,
-                                resolution,
-                                exterior,
-                                {sites, sites + site_count},
-                                {nodes, nodes + node_count},
-                                {edges, edges + edge_count},
-                                {}});
+    MedialAxis axis{method,
+                    tolerance,
+                    resolution,
+                    exterior,
+                    {sites, sites + site_count},
+                    {nodes, nodes + node_count},
+                    {edges, edges + edge_count},
+                    {}};
+    return new_axis(of->shape, value_of(faces::sound(std::move(axis))));
   });
 }
 

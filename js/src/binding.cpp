@@ -2,7 +2,8 @@
 
 #include "binding.h"
 
-#include <charconv>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -109,6 +110,23 @@ bool Named::take_number(std::string_view name, double& to) {
   to = std::strtod(text.c_str(), &end);
   if (*end != '\0') refuse(ErrorCode::invalid_option, std::string(name) + " is a number");
   return true;
+}
+void Named::take_numbers(std::string_view name, std::span<double> to) {
+  std::string text;
+  take(name, text);
+  const char* at = text.c_str();
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    char* end = nullptr;
+    to[i] = std::strtod(at, &end);
+    if (end == at || *end != (i + 1 < to.size() ? ',' : '\0'))
+      refuse(ErrorCode::invalid_option,
+             std::string(name) + " is an array of " + std::to_string(to.size()) + " numbers");
+    at = end + 1;
+  }
+}
+bool Named::has(std::string_view name) const {
+  return std::any_of(left_.begin(), left_.end(),
+                     [&](const auto& one) { return one.first == name; });
 }
 Named& Named::take(std::string_view name, double& to) {
   take_number(name, to);

@@ -4,9 +4,12 @@
 // text such as "order=2;exact=1", and an answer waits in tables of numbers and in a text of JSON
 // until the next call. A function that returns 0 has failed: the text is then the error.
 
+#include <concepts>
 #include <cstdint>
 #include <exception>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -78,16 +81,29 @@ class Named {
   Named& take(std::string_view name, double& to);
   Named& take(std::string_view name, bool& to);
   Named& take(std::string_view name, std::string& to);
-  template <class Whole>
-  Named& take_whole(std::string_view name, Whole& to) {
+  template <std::integral Whole>
+  Named& take(std::string_view name, Whole& to) {
     double value = -1;
     if (take_number(name, value)) to = whole<Whole>(name, value);
     return *this;
   }
-  bool take_number(std::string_view name, double& to);
+  /// As JavaScript writes an array: with commas in between.
+  template <std::size_t count>
+  Named& take(std::string_view name, std::array<double, count>& to) {
+    take_numbers(name, to);
+    return *this;
+  }
+  template <class T>
+  Named& take(std::string_view name, std::optional<T>& to) {
+    if (has(name)) take(name, to.emplace());
+    return *this;
+  }
   void finish() const;
 
  private:
+  bool take_number(std::string_view name, double& to);
+  void take_numbers(std::string_view name, std::span<double> to);
+  bool has(std::string_view name) const;
   template <class Whole>
   static Whole whole(std::string_view name, double value) {
     if (!(value >= 0 && value <= 4294967295.0) || value != static_cast<double>(Whole(value)))

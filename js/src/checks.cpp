@@ -76,7 +76,7 @@ MEDIAL_JS int medial_verify(const AxisOf* of, const ShapeOf* shape, const char* 
     VerifyOptions options;
     Named(given)
         .take("tolerance", options.tolerance)
-        .take_whole("samples", options.samples_per_edge)
+        .take("samples", options.samples_per_edge)
         .take("corner_angle", options.corner_angle)
         .take("part", options.part)
         .finish();

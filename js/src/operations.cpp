@@ -77,10 +77,8 @@ MEDIAL_JS AxisOf* medial_prune(const AxisOf* of, const char* given) {
     PruneReport report;
     Named named(given);
     std::string measure = name_of(options.measure);
-    double threshold = 0, keep = 0;
     named.take("measure", measure).take("tips", options.tips);
-    if (named.take_number("threshold", threshold)) options.threshold = threshold;
-    if (named.take_number("keep", keep)) options.keep = static_cast<std::uint64_t>(keep);
+    named.take("threshold", options.threshold).take("keep", options.keep);
     named.finish();
     options.measure = measure_from(measure);
     AxisOf* const pruned = new_axis(of->shape, value_of(prune(of->axis, options, &report)));
@@ -110,7 +108,7 @@ MEDIAL_JS ShapeOf* medial_rebuild(const AxisOf* of, const char* given) {
     std::string by = "outline";
     Named(given)
         .take("by", by)
-        .take_whole("points", options.points)
+        .take("points", options.points)
         .take("chord", options.chord)
         .finish();
     if (by == "tangents")

@@ -56,7 +56,13 @@ test("every exact method gives the same graph", () => {
   const rows = medial.compare(shape, ["disks", "lee", "biarc-dc", "auto"]);
   for (const row of rows) close(row.length, rows[0].length, 1e-9);
   assert.ok(medial.methods().length >= 8);
-  assert.equal(medial.compare([box(4, 4), [[1, 1], [2, 1], [2, 2]]], ["lee"])[0].error.code, "unsupported");
+  assert.equal(medial.compare([box(4, 4), [[1, 1], [2, 1], [2, 2]]], ["curve-axis"])[0].error.code, "unsupported");
+});
+
+test("a part of an axis by a potential", () => {
+  const part = medial.axis(box(8, 2), { method: "potential", within: [2, 0, 6, 2] });
+  assert.ok(part.length > 2 && part.length < 5, `${part.length}`);
+  assert.throws(() => medial.axis(box(8, 2), { method: "potential", start: [1] }), /2 numbers/);
 });
 
 test("operations", () => {
@@ -127,6 +133,10 @@ test("errors have a code and a place", () => {
   assert.equal(code(() => medial.axis(box(1, 1), { method: "none" })), "invalid_option");
   assert.equal(code(() => medial.axis(box(1, 1), { seed: 3 })), "invalid_option");
   assert.equal(code(() => medial.prune(box(1, 1), "none")), "invalid_option");
+  const ridge = (given) => () => medial.axis(box(2, 1), { method: "ridge", pixels: 32, ...given });
+  assert.equal(code(ridge({ search: "list" })), "invalid_option");
+  assert.equal(code(ridge({ rule: "differences" })), "invalid_option");
+  assert.equal(ridge({ search: "sorted-list" })().length, ridge()().length);
   assert.equal(code(() => medial.axis([])), "unsupported");
   assert.equal(medial.axis([[0, 0], [2, 2], [2, 0], [0, 2]], { repair: "even_odd" }).shape.componentCount, 2);
 });

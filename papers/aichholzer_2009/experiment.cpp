@@ -41,7 +41,8 @@ struct Row {
   std::vector<std::uint64_t> base_cases;  ///< of biarc-dc: how many of (a), ..., (m), Figs. 5 and 6
   std::uint64_t leaves = 0;
   std::uint64_t branchings = 0;
-  std::string failure;  ///< an error, or what verify() refused; empty: verified
+  std::string failure;   ///< an error, or what verify() refused; empty: verified
+  bool refused = false;  ///< by biarc-dc, as a shape that it does not take
 };
 
 std::uint64_t count(const MedialAxis& axis, NodeKind kind) {
@@ -56,8 +57,9 @@ std::string failure_of(const Shape& shape, const MedialAxis& axis) {
   return certificate.failures.empty() ? "not verified" : certificate.failures.front();
 }
 
-std::string verdict(const std::string& failure) {
-  return failure.empty() ? "yes" : "NO: " + failure;
+std::string verdict(const std::string& failure, bool refused = false) {
+  if (!failure.empty()) return "NO: " + failure;
+  return refused ? "yes; biarc-dc refuses" : "yes";
 }
 
 /// What is wrong with the axis of biarc-dc beside that of `disks`.
@@ -83,7 +85,9 @@ void measure_published(const Shape& shape, const MedialAxis& axis, int rounds, R
     row.base_cases.assign(division.base_cases.begin(), division.base_cases.end());
     failure = difference(shape, *published, axis);
   } else {
-    failure = to_string(published.error());
+    row.published = unmeasured;
+    row.refused = published.error().code == ErrorCode::unsupported;
+    if (!row.refused) failure = to_string(published.error());
   }
   if (row.failure.empty() && !failure.empty()) row.failure = "biarc-dc: " + failure;
 }
@@ -254,7 +258,7 @@ Table rows_table(const std::vector<Row>& rows) {
     table.add({row.shape, row.tolerance, row.edges, row.error, row.conversion, row.building,
                row.axis, per_edge(row.conversion, row), per_edge(row.building, row),
                per_edge(row.axis, row), row.published, row.published / row.axis, row.conquer,
-               row.exact, row.leaves, row.branchings, verdict(row.failure)});
+               row.exact, row.leaves, row.branchings, verdict(row.failure, row.refused)});
   return table;
 }
 
@@ -321,7 +325,7 @@ std::string base_cases_table(const std::vector<Row>& rows) {
   return table.markdown();
 }
 
-/// The time of so many microseconds an arc, over the arcs of all rows.
+/// The time at this many microseconds per arc, over the arcs of all rows.
 Series reference_line(const std::vector<Row>& rows, double microseconds, const char* name) {
   const auto [least, most] = std::minmax_element(
       rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.edges < b.edges; });

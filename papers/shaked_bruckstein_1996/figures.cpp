@@ -11,6 +11,7 @@
 #include "methods/curve_axis/control.h"
 #include "papers/experiment.h"
 #include "papers/figure.h"
+#include "papers/shaked_bruckstein_1996/spline.h"
 
 namespace medial::papers {
 
@@ -25,7 +26,9 @@ using curve_axis::Segment;
 using curve_axis::SmoothBoundary;
 using Rule = Decision::Rule;
 
-Contour spline_through(std::vector<Vec2> corners) { return *fit_smooth_contour(corners, 1e3); }
+Contour spline_through(std::vector<Vec2> corners) {
+  return papers::spline_through(std::move(corners), 1e3);
+}
 
 /// A body with a head, four legs and a tail.
 Contour animal() {

@@ -44,7 +44,8 @@ def written(output, name, folder, count):
     if "image/svg+xml" in data:
         return data["image/svg+xml"] + "\n"
     if "text/html" in data:
-        return re.sub(r"<style.*?</style>", "", data["text/html"], flags=re.DOTALL).strip() + "\n"
+        html = re.sub(r"<style.*?</style>", "", data["text/html"], flags=re.DOTALL)
+        return html.replace('<table border="1" class="dataframe">', "<table>").strip() + "\n"  # as the site's own
     return f"```text\n{data.get('text/plain', '').rstrip()}\n```\n"
 
 

@@ -102,7 +102,8 @@ plugins:
       handlers:
         python:
           options: {{ docstring_style: numpy, show_root_heading: true, heading_level: 3, show_source: false,
-                     members_order: source, show_signature_annotations: false, separate_signature: true }}
+                     members_order: source, show_signature_annotations: false, separate_signature: true,
+                     line_length: 88, docstring_section_style: list }}
 validation: {{ links: {{ not_found: warn, anchors: warn, unrecognized_links: info }}, nav: {{ omitted_files: info }} }}
 nav:
   - Home: index.md
@@ -110,6 +111,7 @@ nav:
       - Tutorial: python/tutorial.md
       - In five lines: python/five_lines.md
       - Images: python/images.md
+      - Installing: python/install.md
       - Reference: python/reference.md
   - How to:
 {listed("python/how_to/*.md")}  - Gallery:

@@ -21,70 +21,72 @@ from ._shape import Shape
 
 if TYPE_CHECKING:
     from . import arrays, image
-    from ._native import load, loads
-    from ._operations import (
-        Carving,
+    from ._carving import Carving, carve
+    from ._checks import (
         Certificate,
+        Curvatures,
+        boundary_curvature,
+        compare,
+        distance,
+        legality,
+        verify,
+    )
+    from ._features import Match, Placement, features, match, nest
+    from ._files import load, loads, read, text
+    from ._lines import (
         Circle,
-        Field,
         Line,
-        Match,
         Neck,
-        Pack,
-        Region,
         Widths,
-        buffer,
-        carve,
         centerline,
         centerlines,
-        centreline,
-        centrelines,
-        collapse,
-        compare,
-        curve_axis,
-        distance,
-        features,
-        field,
         inscribed_circles,
-        legality,
-        match,
         maximum_inscribed_circle,
         mean_width,
         necks,
-        offset,
-        pack,
-        prune,
-        prune_measures,
-        rebuild,
-        smooth,
+        network,
         transects,
-        unpack,
-        verify,
         widest_path,
         width_profile,
     )
+    from ._offsets import Region, buffer, offset, offset_passes
+    from ._others import Field, Pack, curve_axis, field, pack, unpack
+    from ._parts import collapse, prune, prune_measures, rebuild, smooth
     from ._voronoi import Voronoi, voronoi
     from ._voxels import VoxelAxis, voxels
+
+    centreline, centrelines = centerline, centerlines
 
 __version__ = "0.1.0"
 
 __all__ = [
-    "NODE_KINDS", "NO_SITE", "SITE_KINDS", "Axes", "Carving", "Certificate", "Circle", "Contour",
-    "Field", "Line", "Match", "MedialAxis", "MedialError", "MissingPackage", "Neck", "Pack",
-    "Region", "Shape", "Voronoi", "VoxelAxis", "Widths", "arrays", "axes", "axis", "buffer", "carve",
-    "centerline", "centerlines", "centreline", "centrelines", "collapse", "compare", "curve_axis",
-    "distance", "features", "field", "image", "inscribed_circles", "legality", "load", "loads",
-    "match", "maximum_inscribed_circle", "mean_width", "methods", "necks", "offset", "options",
-    "pack", "prune", "prune_measures", "rebuild", "smooth", "transects", "unpack", "verify",
-    "voronoi", "voxels", "widest_path", "width_profile",
+    "Axes", "Carving", "Certificate", "Circle", "Contour", "Curvatures", "Field", "Line",
+    "Match", "MedialAxis", "MedialError", "MissingPackage", "NODE_KINDS", "NO_SITE", "Neck",
+    "Pack", "Placement", "Region", "SITE_KINDS", "Shape", "Voronoi", "VoxelAxis", "Widths",
+    "arrays", "axes", "axis", "boundary_curvature", "buffer", "carve", "centerline",
+    "centerlines", "centreline", "centrelines", "collapse", "compare", "curve_axis", "distance",
+    "features", "field", "image", "inscribed_circles", "legality", "load", "loads", "match",
+    "maximum_inscribed_circle", "mean_width", "methods", "necks", "nest", "network", "offset",
+    "offset_passes", "options", "pack", "prune", "prune_measures", "read", "rebuild", "smooth",
+    "text", "transects", "unpack", "verify", "voronoi", "voxels", "widest_path",
+    "width_profile",
 ]  # fmt: skip
 
 
 # Imported when they are asked for, which halves the time of `import medial`.
-_ELSEWHERE = {
-    "Voronoi": "_voronoi", "VoxelAxis": "_voxels", "load": "_native", "loads": "_native",
-    "voronoi": "_voronoi", "voxels": "_voxels",
-}  # fmt: skip
+_WHERE = {
+    "_carving": "Carving carve",
+    "_checks": "Certificate Curvatures boundary_curvature compare distance legality verify",
+    "_features": "Match Placement features match nest",
+    "_files": "load loads read text",
+    "_lines": "Circle Line Neck Widths centerline centerlines inscribed_circles maximum_inscribed_circle mean_width necks network transects widest_path width_profile",
+    "_offsets": "Region buffer offset offset_passes",
+    "_others": "Field Pack curve_axis field pack unpack",
+    "_parts": "collapse prune prune_measures rebuild smooth",
+    "_voronoi": "Voronoi voronoi",
+    "_voxels": "VoxelAxis voxels",
+}
+_ALIASES = {"centreline": "centerline", "centrelines": "centerlines"}
 
 
 def __getattr__(name: str) -> Any:
@@ -92,11 +94,13 @@ def __getattr__(name: str) -> Any:
 
     if name in ("arrays", "image", "geo", "spark"):
         return importlib.import_module(f"medial.{name}")
-    if name not in __all__:
-        raise AttributeError(f"module 'medial' has no attribute {name!r}")
-    value = getattr(importlib.import_module(f"medial.{_ELSEWHERE.get(name, '_operations')}"), name)
-    globals()[name] = value
-    return value
+    wanted = _ALIASES.get(name, name)
+    for module, names in _WHERE.items():
+        if wanted in names.split():
+            value = getattr(importlib.import_module(f"medial.{module}"), wanted)
+            globals()[name] = value
+            return value
+    raise AttributeError(f"module 'medial' has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:

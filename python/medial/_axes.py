@@ -18,6 +18,9 @@ from ._records import EDGE, NODE, SITE, Floats, Indices, Records, records
 from ._shape import load
 
 
+_AT_A_TIME = 4096  # features whose coordinates stay in the cache until shapely has read them
+
+
 class Axes:
     """The axes of many features as one struct of arrays; made by `axes`.
 
@@ -86,7 +89,15 @@ class Axes:
         return np.diff(self.node_begin) > 0
 
     def summary(self) -> dict[str, Floats]:
-        """Of each feature the length of its axis, and its maximum inscribed circle."""
+        """Of each feature the length of its axis, and its maximum inscribed circle.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axes([[(0, 0), (4, 0), (4, 2), (0, 2)], [(0, 0), (3, 0), (0, 3)]])
+        >>> a.summary()["radius"].round(3)
+        array([1.   , 0.879])
+        """
         rows = self._core.summary()
         return dict(zip(("length", "radius", "x", "y"), rows.T, strict=True))
 
@@ -103,28 +114,87 @@ class Axes:
         -------
         points, line_begin, feature_begin
             Rows of x, y and radius; where lines begin; where features begin among the lines.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axes([[(0, 0), (4, 0), (4, 2), (0, 2)], [(0, 0), (3, 0), (0, 3)]])
+        >>> points, line_begin, feature_begin = a.lines()
+        >>> feature_begin.tolist()
+        [0, 5, 8]
         """
-        points, lines, features = self._core.lines(chord or options.chord, chord is None)
+        return self._lines(chord, 0, len(self), flat=False)
+
+    def _lines(self, chord: float | None, first: int, last: int, *, flat: bool) -> tuple[Floats, Indices, Indices]:
+        points, lines, features = self._core.lines(chord or options.chord, chord is None, first, last, flat)
         return points, lines, features
 
     def to_shapely(self, chord: float | None = None) -> npt.NDArray[Any]:
-        """An array of MultiLineStrings, one for each feature."""
+        """An array of MultiLineStrings, one for each feature.
+
+        Parameters
+        ----------
+        chord : float, optional
+            How far chords may be from curves, in units of the input; by default
+            ``medial.options.chord`` of the diagonal.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axes([[(0, 0), (4, 0), (4, 2), (0, 2)], [(0, 0), (3, 0), (0, 3)]])
+        >>> a.to_shapely()[1].geom_type
+        'MultiLineString'
+        """
         shapely = need("shapely", "geo")
-        points, lines, features = self.lines(chord)
-        flat = np.ascontiguousarray(points[:, :2])
-        kind = shapely.GeometryType.MULTILINESTRING
-        result: npt.NDArray[Any] = shapely.from_ragged_array(kind, flat, (lines, features))
+        kind, size = shapely.GeometryType.MULTILINESTRING, len(self)
+        result: npt.NDArray[Any] = np.empty(size, object)
+        for first in range(0, size, _AT_A_TIME):
+            last = min(first + _AT_A_TIME, size)
+            points, lines, features = self._lines(chord, first, last, flat=True)
+            result[first:last] = shapely.from_ragged_array(kind, points, (lines, features))
         return result
 
     def to_geopandas(self, chord: float | None = None, index: Any = None, crs: Any = None) -> Any:
-        """A GeoSeries of MultiLineStrings."""
+        """A GeoSeries of MultiLineStrings.
+
+        Parameters
+        ----------
+        chord : float, optional
+            How far chords may be from curves, in units of the input; by default
+            ``medial.options.chord`` of the diagonal.
+        index : optional
+            The index of the series.
+        crs : optional
+            The reference system.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axes([[(0, 0), (4, 0), (4, 2), (0, 2)], [(0, 0), (3, 0), (0, 3)]])
+        >>> a.to_geopandas(index=["a", "b"]).index.tolist()
+        ['a', 'b']
+        """
         return need("geopandas", "geo").GeoSeries(self.to_shapely(chord), index=index, crs=crs)
 
     def to_arrow(self, chord: float | None = None) -> Any:
-        """A GeoArrow array of MultiLineStrings, without any Python object for a feature."""
+        """A GeoArrow array of MultiLineStrings, without any Python object for a feature.
+
+        Parameters
+        ----------
+        chord : float, optional
+            How far chords may be from curves, in units of the input; by default
+            ``medial.options.chord`` of the diagonal.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axes([[(0, 0), (4, 0), (4, 2), (0, 2)], [(0, 0), (3, 0), (0, 3)]])
+        >>> len(a.to_arrow())
+        2
+        """
         pyarrow = need("pyarrow", "all")
-        points, lines, features = self.lines(chord)
-        flat = pyarrow.array(np.ascontiguousarray(points[:, :2]).reshape(-1))
+        points, lines, features = self._lines(chord, 0, len(self), flat=True)
+        flat = pyarrow.array(points.reshape(-1))
         coordinates = pyarrow.FixedSizeListArray.from_arrays(flat, 2)
         for begin in (lines, features):
             offsets = pyarrow.array(begin.astype(np.int32))

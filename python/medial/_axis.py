@@ -137,6 +137,11 @@ class MedialAxis:
     def nearest(self, points: npt.ArrayLike) -> Records:
         """The place of the axis nearest to each point.
 
+        Parameters
+        ----------
+        points : array of shape (n, 2)
+            In units of the input.
+
         Returns
         -------
         structured array
@@ -152,15 +157,55 @@ class MedialAxis:
         return records(self._core.nearest(points_of(points)), NEAREST)
 
     def radius_at(self, points: npt.ArrayLike) -> Floats:
-        """The radius at the place of the axis nearest to each point."""
+        """The radius at the place of the axis nearest to each point.
+
+        Parameters
+        ----------
+        points : array of shape (n, 2)
+            In units of the input.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> a.radius_at([(2, 1.5)])
+        array([1.])
+        """
         return np.array(self.nearest(points)["radius"])
 
     def clearance(self, points: npt.ArrayLike) -> Floats:
-        """The distance of points to the boundary of the shape, negative outside."""
+        """The distance of points to the boundary of the shape, negative outside.
+
+        Parameters
+        ----------
+        points : array of shape (n, 2)
+            In units of the input.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> a.clearance([(2, 1), (2, 3)])
+        array([ 1., -1.])
+        """
         return self.shape.clearance(points)
 
     def disk_at(self, edge: int, t: float) -> tuple[float, float, float]:
-        """The disk (x, y, radius) at a parameter in [0, 1] of an edge."""
+        """The disk (x, y, radius) at a parameter in [0, 1] of an edge.
+
+        Parameters
+        ----------
+        edge : int
+        t : float
+            The parameter; 0 and 1 are the edge's nodes.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> a.disk_at(2, 0.5)[:2]
+        (2.0, 1.0)
+        """
         x, y, radius = self._core.disk_at(edge, t)
         return x, y, radius
 
@@ -174,7 +219,24 @@ class MedialAxis:
         return float(np.hypot(np.ptp(nodes["x"]), np.ptp(nodes["y"]))) if len(nodes) else 0.0
 
     def lines(self, chord: float | None = None, step: float | None = None) -> tuple[Floats, Indices]:
-        """All branches as polylines: rows of x, y, radius, and where each line begins."""
+        """All branches as polylines: rows of x, y, radius, and where each line begins.
+
+        Parameters
+        ----------
+        chord : float, optional
+            How far chords may be from curves, in units of the input; by default
+            ``medial.options.chord`` of the diagonal.
+        step : float, optional
+            The longest way from row to row, in units of the input, instead.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> points, begin = a.lines()
+        >>> points.shape, begin.tolist()
+        ((10, 3), [0, 2, 4, 6, 8, 10])
+        """
         return self._core.lines(self._chord(chord), step or 0.0)
 
     def sample(self, chord: float | None = None, step: float | None = None) -> list[Floats]:
@@ -186,6 +248,13 @@ class MedialAxis:
             How far chords may be from the curves, in units of the input.
         step : float, optional
             The longest way from row to row, instead.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> len(a.sample(step=0.5)[2])
+        5
         """
         points, begin = self.lines(chord, step)
         return np.split(points, begin[1:-1]) if len(begin) > 1 else []
@@ -194,7 +263,7 @@ class MedialAxis:
     def branches(self) -> Any:
         """A pandas table of the branches: ends, length, radii, width, area, significance."""
         pandas = need("pandas", "all")
-        table = pandas.DataFrame(_core.described(self._core)["branches"])
+        table = pandas.DataFrame(described(self._core)["branches"])
         table["closed"] = table["closed"].astype(bool)
         nodes = self.nodes
         ends = nodes[table["node_from"].to_numpy()], nodes[table["node_to"].to_numpy()]
@@ -206,31 +275,100 @@ class MedialAxis:
 
     def prune(self, measure: str = "prominence", threshold: float | None = None, *,
               keep: int | None = None, tips: bool = False) -> MedialAxis:  # fmt: skip
-        """The part that matters: see `medial.prune`."""
+        """The part that matters: see `medial.prune`.
+
+        Parameters
+        ----------
+        measure, threshold, keep, tips
+            See `medial.prune`.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> a.prune("erosion", 0.5).branch_count
+        1
+        """
         core, _ = _core.pruned(self._core, measure, threshold, keep, tips)
         return MedialAxis._of(core)
 
     def clearance_part(self, clearance: float) -> MedialAxis:
-        """The part where a disk of radius `clearance` has room, cut exactly."""
+        """The part where a disk of radius `clearance` has room, cut exactly.
+
+        Parameters
+        ----------
+        clearance : float
+            In units of the input.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> round(a.clearance_part(0.5).length, 9)
+        4.828427125
+        """
         return MedialAxis._of(_core.clearance_part(self._core, clearance))
 
     def verify(self, **given: Any) -> Any:
-        """The measured errors: see `medial.verify`."""
-        from ._operations import verify
+        """The measured errors: see `medial.verify`.
+
+        Parameters
+        ----------
+        **given
+            Options of `medial.verify`.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> a.verify().passed
+        True
+        """
+        from ._checks import verify
 
         return verify(self, **given)
 
     # Other packages.
 
     def to_shapely(self, chord: float | None = None) -> Any:
-        """A shapely MultiLineString of all branches, with the radius as z."""
+        """A shapely MultiLineString of all branches, with the radius as z.
+
+        Parameters
+        ----------
+        chord : float, optional
+            How far chords may be from curves, in units of the input; by default
+            ``medial.options.chord`` of the diagonal.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> len(a.to_shapely().geoms)
+        5
+        """
         shapely = need("shapely", "geo")
         points, begin = self.lines(chord)
         kind = shapely.GeometryType.MULTILINESTRING
         return shapely.from_ragged_array(kind, points, (begin, np.array([0, len(begin) - 1])))[0]
 
     def to_geopandas(self, chord: float | None = None, crs: Any = None) -> Any:
-        """A GeoDataFrame with a row for each branch, as `branches` and its line."""
+        """A GeoDataFrame with a row for each branch, as `branches` and its line.
+
+        Parameters
+        ----------
+        chord : float, optional
+            How far chords may be from curves, in units of the input; by default
+            ``medial.options.chord`` of the diagonal.
+        crs : optional
+            The reference system of the coordinates, as GeoPandas takes it.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> len(a.to_geopandas(crs=2056))
+        5
+        """
         geopandas, shapely = need("geopandas", "geo"), need("shapely", "geo")
         table = self.branches
         points, begin = self.lines(chord)
@@ -243,6 +381,18 @@ class MedialAxis:
 
         Nodes have x, y, radius, pos and kind; edges length and edge (or branch), the smallest
         radius of their ends and the sites.
+
+        Parameters
+        ----------
+        branches : bool
+            A graph of ends and branches instead of nodes and edges.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> a.to_networkx(branches=True).number_of_edges()
+        5
         """
         networkx = need("networkx", "graph")
         graph = networkx.MultiGraph()
@@ -255,7 +405,7 @@ class MedialAxis:
             for e, ((a, b), length, site) in enumerate(zip(ends, lengths, sites, strict=True)):
                 graph.add_edge(a, b, key=e, edge=e, length=length, weight=length, site=tuple(site))
             return graph
-        table = _core.described(self._core)["branches"]
+        table = described(self._core)["branches"]
         columns = [table[name].tolist() for name in ("branch", "node_from", "node_to", "length", "radius_min", "mean_width")]
         for branch, a, b, length, narrow, width in zip(*columns, strict=True):
             graph.add_edge(a, b, key=branch, branch=branch, length=length, weight=length,
@@ -264,7 +414,15 @@ class MedialAxis:
         return graph
 
     def to_scipy(self) -> Any:
-        """The lengths of edges from node to node as a symmetric sparse matrix."""
+        """The lengths of edges from node to node as a symmetric sparse matrix.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> a.to_scipy().shape
+        (6, 6)
+        """
         sparse = need("scipy.sparse", "graph")
         ends, lengths = self.edges["node"].astype(np.int64), self.edge_lengths
         ends = np.sort(ends, axis=1)
@@ -276,7 +434,15 @@ class MedialAxis:
         return sparse.coo_array((np.r_[lengths, lengths], (np.r_[a, b], np.r_[b, a])), size).tocsr()
 
     def to_igraph(self) -> Any:
-        """An igraph Graph of nodes and edges with their numbers as attributes."""
+        """An igraph Graph of nodes and edges with their numbers as attributes.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> a.to_igraph().diameter()
+        3
+        """
         igraph = need("igraph", "graph")
         nodes = self.nodes
         graph = igraph.Graph(len(nodes), self.edges["node"].tolist())
@@ -288,7 +454,27 @@ class MedialAxis:
     # Pictures.
 
     def plot(self, ax: Any = None, *, shape: bool = True, disks: int = 0, **given: Any) -> Any:
-        """Draws the axis, coloured by radius, into a matplotlib axes, which is returned."""
+        """Draws the axis, coloured by radius, into a matplotlib axes, which is returned.
+
+        Parameters
+        ----------
+        ax : matplotlib Axes, optional
+        shape : bool
+            Draw the shape.
+        disks : int
+            Draw about so many maximal disks.
+        **given
+            Of matplotlib's LineCollection, such as `cmap` and `linewidth`.
+
+        Examples
+        --------
+        >>> import matplotlib
+        >>> matplotlib.use("agg")
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> a.plot(disks=3).get_aspect()
+        1.0
+        """
         from ._pictures import plot
 
         return plot(self, ax, shape=shape, disks=disks, **given)
@@ -300,14 +486,67 @@ class MedialAxis:
 
     # Files and copies.
 
-    def save(self, path: str | PathLike[str]) -> None:
-        """Writes the shape and its axis in the native format, without loss."""
-        from ._native import save
+    def to_text(self, format: str = "json", *, chord: float = 1e-3, simplify: float = 0) -> str:
+        """The text of a file: see `save`.
 
-        save(self, fspath(path))
+        Parameters
+        ----------
+        format : {"json", "geojson", "wkt", "csv", "graphml", "nodelink", "edgelist"}
+        chord, simplify : float
+            See `save`.
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> a.to_text("edgelist").splitlines()[0]
+        '# from_node to_node length'
+        """
+        return _core.write_axis(self._core, None, format, chord, simplify) or ""
+
+    def save(self, path: str | PathLike[str], *, chord: float = 1e-3, simplify: float = 0) -> None:
+        """Writes the axis by the extension of the path; there is never a partial file.
+
+        Parameters
+        ----------
+        path : path
+            ``.json`` is the native format, with the shape and without loss, which `medial.load`
+            reads; ``.geojson``, ``.wkt`` and ``.csv`` hold lines; ``.graphml``, ``.nodelink`` and
+            ``.edgelist`` the graph of branches, as networkx reads it. With ``.gz`` compressed.
+        chord : float
+            How far chords may be from curves, as a share of the diagonal.
+        simplify : float
+            Lines have few points within this distance of the axis, in units of the input, instead.
+
+        Raises
+        ------
+        MedialError
+            With the code ``"unsupported"`` (another extension) or ``"unwritable"``.
+
+        Examples
+        --------
+        >>> import medial, pathlib, tempfile
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     a.save(pathlib.Path(folder, "a.csv"))
+        ...     pathlib.Path(folder, "a.csv").read_text()[:10]
+        'edge,x,y,r'
+        """
+        name = fspath(path)
+        if name.endswith(".gz"):
+            from ._files import write_compressed
+
+            return write_compressed(name, self.to_text(name.split(".")[-2], chord=chord, simplify=simplify))
+        _core.write_axis(self._core, name, "", chord, simplify)
+        return None
+
+    @property
+    def part(self) -> bool:
+        """Whether it is a part of the axis of its shape: pruned, cut or smoothed."""
+        return self._core.part()
 
     def _state(self) -> tuple[Any, ...]:
-        numbers = self.method, self.tolerance, self.resolution, self.exterior
+        numbers = self.method, self.tolerance, self.resolution, self.exterior, self.part
         return (*numbers, packed(self.sites), packed(self.nodes), packed(self.edges))
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -347,16 +586,27 @@ class MedialAxis:
 
 
 def restored(
-    shape: Shape, method: str, tolerance: float, resolution: float, exterior: float,
+    shape: Shape, method: str, tolerance: float, resolution: float, exterior: float, part: bool,
     sites: npt.ArrayLike, nodes: npt.ArrayLike, edges: npt.ArrayLike,
 ) -> MedialAxis:  # fmt: skip
     """An axis from what pickling, or a file, took of it."""
     return MedialAxis._of(
         _core.restored_axis(
-            shape._core, method, tolerance, resolution, exterior,
+            shape._core, method, tolerance, resolution, exterior, part,
             unpacked(sites, SITE), unpacked(nodes, NODE), unpacked(edges, EDGE),
         )
     )  # fmt: skip
+
+
+# Thresholds of features() and their defaults.
+THRESHOLDS = {"parallel": 0.05, "even": 0.1, "bend": 0.1, "turn": 0.1, "spiral": 0.5, "shortest": 0.25}
+
+
+def described(core: _CoreAxis, **thresholds: float) -> dict[str, Any]:
+    """What an axis is made of; thresholds by the names of THRESHOLDS."""
+    if unknown := thresholds.keys() - THRESHOLDS:
+        raise TypeError(f"features() has no option {min(unknown)!r}")
+    return _core.described(core, list({**THRESHOLDS, **thresholds}.values()))
 
 
 @functools.lru_cache(maxsize=16)
@@ -393,8 +643,9 @@ def axis(
         A name of `methods`; the default is ``medial.options.method``.
     bulges : array, optional
         Of each coordinate's edge: the tangent of a quarter of the angle it spans; 0 straight.
-    repair : {"make_valid", "even_odd", "non_zero"}, optional
-        What is inside where rings cross.
+    repair : str, optional
+        What is inside where rings cross: ``"make_valid"`` (as the input says), ``"even_odd"`` or
+        ``"non_zero"``; without it crossing rings are an error.
     arc_tolerance : float
         How far arcs may be from free-form curves, as a share of the diagonal.
     fit : float

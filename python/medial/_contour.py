@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from . import _core
-from ._svg_path import contours_of
 
 _ROLES = {"any": 0, "outer": 1, "hole": 2, "winding": 3}
 Point = tuple[float, float]
@@ -40,28 +39,97 @@ class Contour:
         self._core.set_role(_ROLES[role])
 
     def line_to(self, end: Point) -> Contour:
-        """Adds a straight piece."""
+        """Adds a straight piece.
+
+        Parameters
+        ----------
+        end : (x, y)
+
+        Examples
+        --------
+        >>> import medial
+        >>> medial.Contour((0, 0)).line_to((4, 0))
+        <medial.Contour: 1 pieces>
+        """
         self._core.line_to(end)
         return self
 
     def arc_to(self, end: Point, bulge: float) -> Contour:
-        """Adds a circular arc; `bulge` is the tangent of a quarter of its angle, positive left."""
+        """Adds a circular arc; `bulge` is the tangent of a quarter of its angle, positive left.
+
+        Parameters
+        ----------
+        end : (x, y)
+        bulge : float
+            1 is half a circle.
+
+        Examples
+        --------
+        >>> import medial
+        >>> medial.Contour((0, 0)).arc_to((4, 0), 1)
+        <medial.Contour: 1 pieces>
+        """
         self._core.arc_to(end, bulge)
         return self
 
     def bezier_to(self, control: Sequence[Point], weights: Sequence[float] | None = None) -> Contour:
-        """Adds a Bézier curve, rational with `weights`, by its control points but the first."""
+        """Adds a Bézier curve, rational with `weights`, by its control points but the first.
+
+        Parameters
+        ----------
+        control : sequence of (x, y)
+            The last one is the end.
+        weights : sequence of float, optional
+            One for each, positive.
+
+        Examples
+        --------
+        >>> import medial
+        >>> medial.Contour((0, 0)).bezier_to([(1, 2), (3, 2), (4, 0)])
+        <medial.Contour: 1 pieces>
+        """
         self._core.bezier_to(list(control), None if weights is None else list(weights))
         return self
 
     def ellipse_to(self, center: Point, u: Point, v: Point, begin: float, end: float) -> Contour:
-        """Adds an elliptical arc with conjugate half axes, from angle to angle in radians."""
+        """Adds an elliptical arc with conjugate half axes, from angle to angle in radians.
+
+        Parameters
+        ----------
+        center, u, v : (x, y)
+            The centre and the half axes; for a circle at right angles and of equal length.
+        begin, end : float
+            In radians.
+
+        Examples
+        --------
+        >>> import math, medial
+        >>> medial.Contour((4, 0)).ellipse_to((0, 0), (4, 0), (0, 2), 0, math.pi)
+        <medial.Contour: 2 pieces>
+        """
         self._core.ellipse_to(center, u, v, begin, end)
         return self
 
     def spline_to(self, degree: int, knots: Sequence[float], control: Sequence[Point],
                   weights: Sequence[float] | None = None) -> Contour:  # fmt: skip
-        """Adds a B-spline, or a NURBS with `weights`."""
+        """Adds a B-spline, or a NURBS with `weights`.
+
+        Parameters
+        ----------
+        degree : int
+        knots : sequence of float
+            As many as control points, and the degree and one more.
+        control : sequence of (x, y)
+            The first is where the contour is.
+        weights : sequence of float, optional
+            One for each, positive.
+
+        Examples
+        --------
+        >>> import medial
+        >>> medial.Contour((0, 0)).spline_to(2, [0, 0, 0, 1, 1, 1], [(0, 0), (2, 3), (4, 0)])
+        <medial.Contour: 1 pieces>
+        """
         self._core.spline_to(degree, list(knots), list(control), None if weights is None else list(weights))
         return self
 
@@ -79,7 +147,7 @@ class Contour:
         [<medial.Contour: 3 pieces>]
         """
         contours = []
-        for core in contours_of(path):
+        for core in _core.contours_of_path(path):
             contour = Contour.__new__(Contour)
             contour._core = core
             contours.append(contour)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -122,104 +121,44 @@ def from_wkb_buffer(data: npt.NDArray[np.uint8], offsets: Indices, missing: Iter
     return features
 
 
-_WORD = re.compile(r"\s*(?:([A-Za-z]+)|([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)|([(),;=]))")
+def parsed(text: str | bytes) -> Any:
+    """JSON, which is GeoJSON."""
+    import json
 
-
-@cache
-def _rings() -> list[tuple[re.Pattern[str], int]]:
-    """Rings whose points have two or all three numbers, and how many."""
-    number = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
-    points = [(r"\s+".join([number] * columns), columns) for columns in (2, 3)]
-    return [(re.compile(rf"\s*\(\s*({p}(?:\s*,\s*{p})*+)\s*\)"), columns) for p, columns in points]
-
-
-class _WellKnownText:
-    """A reader of POLYGON, MULTIPOLYGON and collections of them."""
-
-    def __init__(self, text: str) -> None:
-        self._text = re.sub(r"^\s*SRID=\d+;", "", text)
-        self._at = 0
-
-    def _fail(self) -> MedialError:
-        return MedialError(f"this is not well-known text at place {self._at}", "malformed")
-
-    def _next(self) -> str:
-        found = _WORD.match(self._text, self._at)
-        if found is None:
-            raise self._fail()
-        self._at = found.end()
-        return found.group(found.lastindex or 0)
-
-    def _list(self, item: Any) -> list[Any]:
-        """A list in brackets; EMPTY is one without items."""
-        word = self._next()
-        if word.upper() in ("Z", "M", "ZM"):
-            word = self._next()
-        if word.upper() == "EMPTY":
-            return []
-        if word != "(":
-            raise self._fail()
-        items = []
-        while True:
-            items.append(item())
-            word = self._next()
-            if word == ")":
-                return items
-            if word != ",":
-                raise self._fail()
-
-    def _point(self) -> list[float]:
-        numbers = []
-        while True:
-            at = self._at
-            word = self._next()
-            if word in "(),;=" or word[0].isalpha():
-                self._at = at
-                break
-            numbers.append(float(word))
-        if len(numbers) < 2:
-            raise self._fail()
-        return numbers[:2]
-
-    def _ring(self) -> Any:
-        """A ring: at once, where all its points are alike, else number by number."""
-        for pattern, columns in _rings():
-            found = pattern.match(self._text, self._at)
-            if found is not None:
-                self._at = found.end()
-                return np.array(found[1].replace(",", " ").split(), np.float64).reshape(-1, columns)[:, :2]
-        return self._list(self._point)
-
-    def _polygon(self) -> list[Any]:
-        return self._list(self._ring)
-
-    def _geometry(self) -> list[Any]:
-        name = self._next().upper()
-        if name == "POLYGON":
-            return [self._polygon()]
-        if name == "MULTIPOLYGON":
-            return self._list(self._polygon)
-        if name == "GEOMETRYCOLLECTION":
-            return [polygon for part in self._list(self._geometry) for polygon in part]
-        raise MedialError(f"the geometry is a {name}, not a polygon", "unsupported")
-
-    def polygons(self) -> list[Any]:
-        polygons = self._geometry()
-        if self._text[self._at :].strip():
-            raise self._fail()
-        return [polygon for polygon in polygons if polygon]
+    try:
+        return json.loads(text)
+    except ValueError as error:
+        raise MedialError(f"this is no JSON: {error}", "malformed") from error
 
 
 def _from_text(text: str) -> Rings:
+    """SVG path data, GeoJSON, or a text that medial::text recognises: WKT, SVG, `x y` rows."""
     if re.match(r"\s*[Mm][\s\d.+-]", text):
-        from ._svg_path import contours_of
-
-        return Rings(contours=contours_of(text))
-    return _from_polygons(_WellKnownText(text).polygons())
+        return Rings(contours=_core.contours_of_path(text))
+    if text.lstrip().startswith("{") and not text.lstrip("{ \t\r\n").startswith('"medial"'):
+        return _from_polygons(list(_polygons_of(parsed(text))))
+    try:
+        return Rings(*_core.rings_of_text(re.sub(r"^\s*SRID=\d+;", "", text)))
+    except MedialError as error:
+        if "GDAL" not in error.text:
+            raise
+        kinds = "neither well-known text, GeoJSON, SVG, path data nor rows of x and y"
+        raise MedialError(f"this text is {kinds}", "malformed") from None
 
 
 def _is_point(value: Any) -> bool:
     return len(value) >= 2 and all(np.isscalar(number) for number in value)
+
+
+def _joined(shapes: Sequence[Any]) -> Rings:
+    """The rings of shapes that do not overlap, as one feature."""
+    parts = [shape._as_rings() for shape in shapes]
+    starts = np.cumsum([0, *(len(part.coordinates) for part in parts)])
+    begin = [part.begin[:-1] + start for part, start in zip(parts, starts[:-1], strict=True)]
+    bulges = [np.zeros(len(part.coordinates)) if part.bulges is None else part.bulges for part in parts]
+    return Rings(np.concatenate([part.coordinates for part in parts]), np.concatenate([*begin, starts[-1:]]),
+                 np.concatenate([part.roles for part in parts]),
+                 np.concatenate(bulges) if any(part.bulges is not None for part in parts) else None)  # fmt: skip
 
 
 def read(x: Any) -> Rings:
@@ -232,6 +171,8 @@ def read(x: Any) -> Rings:
         return from_wkb([bytes(x)]).one(0)
     if isinstance(x, Contour):
         return Rings(contours=[x._core])
+    if hasattr(x, "_as_rings"):
+        return _joined([x])
     wkb = getattr(type(x), "__module__", "").startswith("shapely.") and getattr(x, "wkb", None)
     if wkb:
         return from_wkb([wkb]).one(0)
@@ -242,6 +183,8 @@ def read(x: Any) -> Rings:
     if isinstance(x, (Sequence, np.ndarray)) and len(x):
         if all(isinstance(part, Contour) for part in x):
             return Rings(contours=[part._core for part in x])
+        if all(hasattr(part, "_as_rings") for part in x):
+            return _joined(list(x))
         if hasattr(x[0], "__len__") and len(x[0]) and _is_point(x[0]):
             return Rings(rows(x))
         return _from_lists(list(x), None)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from os import PathLike, fspath
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from . import _core
 from ._errors import need
 from ._options import options
 from ._records import Floats, points_of
-from ._read import Rings, read
+from ._read import HOLE, OUTER, Rings, read
 
 _CoreShape = _core.Shape
 
@@ -27,8 +28,9 @@ class Shape:
         See `axis`.
     bulges : array, optional
         Of each edge, for one ring: the tangent of a quarter of the angle it spans.
-    repair : {"make_valid", "even_odd", "non_zero"}, optional
-        What is inside where rings cross; without it crossing rings are an error.
+    repair : str, optional
+        What is inside where rings cross: ``"make_valid"`` (as the input says), ``"even_odd"`` or
+        ``"non_zero"``; without it crossing rings are an error.
     arc_tolerance : float
         How far arcs may be from free-form curves, as a share of the diagonal.
     fit : float
@@ -106,13 +108,39 @@ class Shape:
         return float(np.hypot(x1 - x0, y1 - y0))
 
     def clearance(self, points: npt.ArrayLike) -> Floats:
-        """The distance of points to the boundary, negative outside."""
+        """The distance of points to the boundary, negative outside.
+
+        Parameters
+        ----------
+        points : array of shape (n, 2)
+            In units of the input.
+
+        Examples
+        --------
+        >>> import medial
+        >>> s = medial.Shape([(0, 0), (4, 0), (4, 3), (0, 3)])
+        >>> s.clearance([(1, 1)])
+        array([1.])
+        """
         return _core.clearances(self._core, points_of(points))
 
     def polygons(self, chord: float | None = None) -> list[list[Floats]]:
         """The components as lists of closed rings, the outer one first.
 
         Arcs become chords that are at most `chord` away.
+
+        Parameters
+        ----------
+        chord : float, optional
+            How far chords may be from curves, in units of the input; by default
+            ``medial.options.chord`` of the diagonal.
+
+        Examples
+        --------
+        >>> import medial
+        >>> s = medial.Shape([(0, 0), (4, 0), (4, 3), (0, 3)])
+        >>> s.polygons()[0][0].shape
+        (5, 2)
         """
         limit = chord if chord is not None else options.chord * (self.diagonal or 1)
         points, begin = self._core.outline(limit)
@@ -130,10 +158,83 @@ class Shape:
         return {"type": "MultiPolygon", "coordinates": polygons}
 
     def to_shapely(self, chord: float | None = None) -> Any:
-        """A shapely Polygon, or a MultiPolygon of several components."""
+        """A shapely Polygon, or a MultiPolygon of several components.
+
+        Parameters
+        ----------
+        chord : float, optional
+            How far chords may be from curves, in units of the input; by default
+            ``medial.options.chord`` of the diagonal.
+
+        Examples
+        --------
+        >>> import medial
+        >>> s = medial.Shape([(0, 0), (4, 0), (4, 3), (0, 3)])
+        >>> s.to_shapely().area
+        12.0
+        """
         shapely = need("shapely", "geo")
         parts = [shapely.Polygon(rings[0], rings[1:]) for rings in self.polygons(chord)]
         return parts[0] if len(parts) == 1 else shapely.MultiPolygon(parts)
+
+    def scaled(self, factor: float, move: tuple[float, float] = (0, 0)) -> Shape:
+        """The shape with all coordinates times `factor` > 0, then moved.
+
+        Parameters
+        ----------
+        factor : float
+            Positive.
+        move : (x, y)
+            In units of the result.
+
+        Examples
+        --------
+        >>> import medial
+        >>> medial.Shape([(0, 0), (4, 0), (4, 3), (0, 3)]).scaled(0.5, move=(1, 0)).bounds
+        (1.0, 0.0, 3.0, 1.5)
+        """
+        if not factor > 0:
+            raise ValueError("factor is positive")
+        points, *others = self._state()
+        return restored(np.ascontiguousarray(points * factor + np.asarray(move, np.float64)), *others)
+
+    def to_text(self, format: str = "wkt", *, chord: float = 1e-3) -> str:
+        """The text of a file: see `save`.
+
+        Parameters
+        ----------
+        format : {"wkt", "geojson", "svg", "json"}
+        chord : float
+            Of formats without arcs: how far chords may be from them, as a share of the diagonal.
+
+        Examples
+        --------
+        >>> import medial
+        >>> medial.Shape([(0, 0), (4, 0), (0, 3)]).to_text().strip()
+        'POLYGON ((0 0, 4 0, 0 3, 0 0))'
+        """
+        text = _core.write_shape(self._core, None, format, chord)
+        return text or ""
+
+    def save(self, path: str | PathLike[str], *, chord: float = 1e-3) -> None:
+        """Writes the shape by the extension of the path: .wkt, .geojson, .svg or .json (native).
+
+        Parameters
+        ----------
+        path : path
+        chord : float
+            See `to_text`.
+
+        Examples
+        --------
+        >>> import medial, pathlib, tempfile
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     path = pathlib.Path(folder, "a.wkt")
+        ...     medial.Shape([(0, 0), (4, 0), (0, 3)]).save(path)
+        ...     medial.read(path)[0].area
+        6.0
+        """
+        _core.write_shape(self._core, fspath(path), "", chord)
 
     def __repr__(self) -> str:
         holes, parts = self._core.hole_count(), self._core.component_count()
@@ -142,6 +243,11 @@ class Shape:
     def _state(self) -> tuple[npt.NDArray[Any], ...]:
         sources = self._core.sources().view(np.uint32)
         return (self.points, self.bulges, sources, self.loop_begin, self.component, self._core.hole())
+
+    def _as_rings(self) -> Rings:
+        roles = np.where(self._core.hole() != 0, HOLE, OUTER).astype(np.uint8)
+        bulges = self.bulges if len(self.bulges) else None
+        return Rings(np.array(self.points), self.loop_begin.astype(np.int64), roles, bulges)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Shape):
@@ -176,7 +282,7 @@ def load(
     """The shape of a geometry, and its contours for methods that follow them."""
     if isinstance(x, Shape) and not (repair or fit or keep_contours):
         return x._core, []
-    rings = x if isinstance(x, Rings) else read(_as_rings(x) if isinstance(x, Shape) else x)
+    rings = x if isinstance(x, Rings) else read(x)
     own = rings.bulges if bulges is None else np.ascontiguousarray(bulges, np.float64)
     if not (rings.contours or repair or fit or keep_contours):
         if rings.coordinates is None:
@@ -191,8 +297,3 @@ def load(
 
         warnings.warn(note, stacklevel=3)
     return loaded.shape, loaded.contours
-
-
-def _as_rings(shape: Shape) -> list[Floats]:
-    begin = shape.loop_begin
-    return [shape.points[a:b] for a, b in zip(begin[:-1], begin[1:], strict=True)]

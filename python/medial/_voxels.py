@@ -85,6 +85,7 @@ def voxels(
     angle: float = 30,
     thinning: str = "sheets",
     spacing: tuple[float, float, float] = (1, 1, 1),
+    memory: float = 4,
     threads: int | None = None,
 ) -> VoxelAxis:
     """The medial axis of a solid.
@@ -103,6 +104,14 @@ def voxels(
     thinning : {"none", "sheets", "curves"}
     spacing : three floats
         The edges of a volume's voxels.
+    memory : float
+        Give up before more than about so many gibibytes are used.
+
+    Raises
+    ------
+    MedialError
+        With the code ``"open_surface"``, ``"non_manifold"``, ``"crossing"`` or ``"overlap"`` and
+        the place, ``"too_large"``, or ``"empty"``.
 
     Examples
     --------
@@ -123,4 +132,4 @@ def voxels(
     points = np.ascontiguousarray(vertices, np.float64)
     corners = np.ascontiguousarray(triangles, np.uint32)
     some = options.threads if threads is None else threads
-    return VoxelAxis(**_core.voxels_of(points, corners, resolution, count, angle, thinning, some))
+    return VoxelAxis(**_core.voxels_of(points, corners, resolution, count, angle, thinning, memory, some))

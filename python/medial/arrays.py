@@ -25,7 +25,10 @@ from ._errors import MedialError, need
 from ._options import computing, options
 from ._records import Floats, Indices
 
-__all__ = ["Geometries", "Table", "axis", "centerline", "inscribed_circles", "offset", "prune", "width"]
+__all__ = [
+    "Geometries", "Lines", "Table", "axis", "branches", "centerline", "inscribed_circles", "offset", "prune",
+    "transects", "width",
+]  # fmt: skip
 
 
 class _Result:
@@ -93,6 +96,40 @@ class Geometries(_Result):
         return pyarrow.Array.from_buffers(kind, len(self), [valid, begin, pyarrow.py_buffer(data)])
 
 
+class Lines(Geometries):
+    """Several lines of each feature, with numbers of each line.
+
+    Attributes
+    ----------
+    attributes : dict of arrays
+        A value for each line.
+    """
+
+    __slots__ = ("attributes",)
+
+    def __init__(self, values: Floats, begin: tuple[Indices, ...], errors: dict[int, MedialError],
+                 attributes: dict[str, Any]) -> None:  # fmt: skip
+        super().__init__(values, begin, errors)
+        self.attributes = attributes
+
+    @property
+    def feature(self) -> Indices:
+        """The feature of each line."""
+        return np.repeat(np.arange(len(self)), np.diff(self.begin[1]))
+
+    def lines(self) -> npt.NDArray[Any]:
+        """A shapely LineString for each line."""
+        shapely = need("shapely", "geo")
+        flat = np.ascontiguousarray(self.values[:, :2])
+        made: npt.NDArray[Any] = shapely.from_ragged_array(shapely.GeometryType.LINESTRING, flat, (self.begin[0],))
+        return made
+
+    def to_pandas(self) -> Any:
+        """A DataFrame with a row for each line, indexed by feature."""
+        table = need("pandas", "all").DataFrame(self.attributes, index=self.feature)
+        return table.rename_axis("feature")
+
+
 class Table(_Result):
     """Numbers of each feature: one row (of NaN where there is an error), or several.
 
@@ -140,25 +177,49 @@ class Table(_Result):
 def _each(
     x: Any, operation: str, given: dict[str, Any], method: str | None, on_error: str,
     threads: int | None, progress: Any,
-) -> tuple[Floats, tuple[Indices, ...], dict[int, MedialError]]:  # fmt: skip
-    """What an operation makes of features."""
+) -> tuple[Floats, tuple[Indices, ...], dict[int, MedialError], Floats]:  # fmt: skip
+    """What an operation makes of features: rows, offsets, errors, attributes of parts."""
     if on_error not in ("raise", "ignore"):
         raise ValueError("on_error is 'raise' or 'ignore'")
     features = ragged(x)
     computed = computing(method, threads=threads)
     with progress_of(progress, len(features)) as shown:
-        flat, columns, begin, failed = _core.each_of(
+        flat, columns, begin, failed, attributes = _core.each_of(
             features.coordinates, features.ring, features.polygon, features.feature, computed, operation, given, shown
         )
     errors = features.errors(failed)
     if errors and on_error == "raise":
         raise errors[min(errors)]
-    return flat.reshape(-1, columns), tuple(begin), errors
+    return flat.reshape(-1, columns), tuple(begin), errors, attributes
 
 
 def axis(x: Any, method: str | None = None, *, chord: float | None = None, on_error: str = "raise",
          threads: int | None = None, progress: Any = False) -> Geometries:  # fmt: skip
-    """The medial axes as lines: multi line strings. `medial.axes` returns them as graphs."""
+    """The medial axes as lines: multi line strings. `medial.axes` returns them as graphs.
+
+    Parameters
+    ----------
+    x : features
+        What `medial.axes` takes.
+    method : str, optional
+        See `medial.axis`.
+    chord : float, optional
+        How far chords may be from curves, in units of the input; by default
+        ``medial.options.chord`` of the diagonal.
+    on_error : {"raise", "ignore"}
+        Whether the first error is raised, or all are kept in `errors`.
+    threads : int, optional
+        The default is ``medial.options.threads``.
+    progress : bool or callable
+        A bar of tqdm, or a function that is called with the share of features done.
+
+    Examples
+    --------
+    >>> import medial.arrays
+    >>> two = [[(0, 0), (10, 0), (10, 2), (0, 2)], [(0, 0), (4, 0), (4, 1), (0, 1)]]
+    >>> medial.arrays.axis(two)
+    <medial.arrays.Geometries: 2 features, 20 rows>
+    """
     found = axes(x, method, on_error=on_error, threads=threads, progress=progress)
     points, lines, features = found.lines(chord)
     return Geometries(points, (lines, features), found.errors)
@@ -167,36 +228,236 @@ def axis(x: Any, method: str | None = None, *, chord: float | None = None, on_er
 def centerline(x: Any, method: str | None = None, *, trim: float = 1, route: str = "roomy", extend: bool = False,
                smooth: float = 0, chord: float | None = None, on_error: str = "raise",
                threads: int | None = None, progress: Any = False) -> Geometries:  # fmt: skip
-    """The centre lines, as `medial.centerline`: line strings."""
+    """The centre lines, as `medial.centerline`: line strings.
+
+    Parameters
+    ----------
+    x : features
+        What `medial.axes` takes.
+    method : str, optional
+        See `medial.axis`.
+    trim, route, extend, smooth
+        See `medial.centerlines`.
+    chord : float, optional
+        How far chords may be from curves, in units of the input; by default
+        ``medial.options.chord`` of the diagonal.
+    on_error : {"raise", "ignore"}
+        Whether the first error is raised, or all are kept in `errors`.
+    threads : int, optional
+        The default is ``medial.options.threads``.
+    progress : bool or callable
+        A bar of tqdm, or a function that is called with the share of features done.
+
+    Examples
+    --------
+    >>> import medial.arrays
+    >>> two = [[(0, 0), (10, 0), (10, 2), (0, 2)], [(0, 0), (4, 0), (4, 1), (0, 1)]]
+    >>> medial.arrays.centerline(two, extend=True).values[:, :2].tolist()[:1]
+    [[10.0, 1.0]]
+    """
     given = {"trim": trim, "route": route, "extend": extend, "smooth": smooth, "chord": chord, "share": options.chord}
-    return Geometries(*_each(x, "centerline", given, method, on_error, threads, progress))
+    return Geometries(*_each(x, "centerline", given, method, on_error, threads, progress)[:3])
 
 
 def width(x: Any, samples: int = 100, method: str | None = None, *, trim: float = 1, route: str = "roomy",
           on_error: str = "raise", threads: int | None = None, progress: Any = False) -> Table:  # fmt: skip
-    """The mean, least and largest width along the centre lines, and their lengths."""
+    """The mean, least and largest width along the centre lines, and their lengths.
+
+    Parameters
+    ----------
+    x : features
+        What `medial.axes` takes.
+    samples : int
+        Places along each line.
+    method : str, optional
+        See `medial.axis`.
+    trim, route
+        See `medial.centerlines`.
+    on_error : {"raise", "ignore"}
+        Whether the first error is raised, or all are kept in `errors`.
+    threads : int, optional
+        The default is ``medial.options.threads``.
+    progress : bool or callable
+        A bar of tqdm, or a function that is called with the share of features done.
+
+    Examples
+    --------
+    >>> import medial.arrays
+    >>> two = [[(0, 0), (10, 0), (10, 2), (0, 2)], [(0, 0), (4, 0), (4, 1), (0, 1)]]
+    >>> medial.arrays.width(two)["min"]
+    array([2., 1.])
+    """
     given = {"samples": samples, "trim": trim, "route": route}
-    return Table(*_each(x, "width", given, method, on_error, threads, progress), ("mean", "min", "max", "length"))
+    return Table(*_each(x, "width", given, method, on_error, threads, progress)[:3], ("mean", "min", "max", "length"))
 
 
 def inscribed_circles(x: Any, count: int = 1, smallest: float = 0, *, on_error: str = "raise",
                       threads: int | None = None, progress: Any = False) -> Table:  # fmt: skip
-    """The largest circles without overlap, as `medial.inscribed_circles`."""
+    """The largest circles without overlap, as `medial.inscribed_circles`.
+
+    Parameters
+    ----------
+    x : features
+        What `medial.axes` takes.
+    count : int
+        At most, of each feature.
+    smallest : float
+        No radius is below this, in units of the input.
+    on_error : {"raise", "ignore"}
+        Whether the first error is raised, or all are kept in `errors`.
+    threads : int, optional
+        The default is ``medial.options.threads``.
+    progress : bool or callable
+        A bar of tqdm, or a function that is called with the share of features done.
+
+    Examples
+    --------
+    >>> import medial.arrays
+    >>> two = [[(0, 0), (10, 0), (10, 2), (0, 2)], [(0, 0), (4, 0), (4, 1), (0, 1)]]
+    >>> medial.arrays.inscribed_circles(two)["radius"]
+    array([1. , 0.5])
+    """
     given = {"count": count, "smallest": float(smallest)}
-    return Table(*_each(x, "inscribed_circles", given, None, on_error, threads, progress), ("x", "y", "radius"))
+    return Table(*_each(x, "inscribed_circles", given, None, on_error, threads, progress)[:3], ("x", "y", "radius"))
 
 
 def offset(x: Any, distance: float, *, chord: float | None = None, on_error: str = "raise",
            threads: int | None = None, progress: Any = False) -> Geometries:  # fmt: skip
-    """What is farther than a distance from the boundary, outwards if negative: multi polygons."""
+    """What is farther than a distance from the boundary, outwards if negative: multi polygons.
+
+    Parameters
+    ----------
+    x : features
+        What `medial.axes` takes.
+    distance : float
+        In units of the input.
+    chord : float, optional
+        How far chords may be from curves, in units of the input; by default
+        ``medial.options.chord`` of the diagonal.
+    on_error : {"raise", "ignore"}
+        Whether the first error is raised, or all are kept in `errors`.
+    threads : int, optional
+        The default is ``medial.options.threads``.
+    progress : bool or callable
+        A bar of tqdm, or a function that is called with the share of features done.
+
+    Examples
+    --------
+    >>> import medial.arrays
+    >>> two = [[(0, 0), (10, 0), (10, 2), (0, 2)], [(0, 0), (4, 0), (4, 1), (0, 1)]]
+    >>> len(medial.arrays.offset(two, 0.25))
+    2
+    """
     given = {"distance": float(distance), "chord": chord, "share": options.chord}
-    return Geometries(*_each(x, "offset", given, None, on_error, threads, progress))
+    return Geometries(*_each(x, "offset", given, None, on_error, threads, progress)[:3])
 
 
 def prune(x: Any, measure: str = "prominence", threshold: float | None = None, method: str | None = None, *,
           keep: int | None = None, tips: bool = False, chord: float | None = None, on_error: str = "raise",
           threads: int | None = None, progress: Any = False) -> Geometries:  # fmt: skip
-    """The pruned axes, as `medial.prune`: multi line strings."""
+    """The pruned axes, as `medial.prune`: multi line strings.
+
+    Parameters
+    ----------
+    x : features
+        What `medial.axes` takes.
+    measure, threshold, keep, tips
+        See `medial.prune`.
+    method : str, optional
+        See `medial.axis`.
+    chord : float, optional
+        How far chords may be from curves, in units of the input; by default
+        ``medial.options.chord`` of the diagonal.
+    on_error : {"raise", "ignore"}
+        Whether the first error is raised, or all are kept in `errors`.
+    threads : int, optional
+        The default is ``medial.options.threads``.
+    progress : bool or callable
+        A bar of tqdm, or a function that is called with the share of features done.
+
+    Examples
+    --------
+    >>> import medial.arrays
+    >>> two = [[(0, 0), (10, 0), (10, 2), (0, 2)], [(0, 0), (4, 0), (4, 1), (0, 1)]]
+    >>> medial.arrays.prune(two, "erosion", 0.5)
+    <medial.arrays.Geometries: 2 features, 4 rows>
+    """
     given = {"measure": measure, "threshold": threshold, "keep": keep, "tips": tips, "chord": chord,
              "share": options.chord}  # fmt: skip
-    return Geometries(*_each(x, "prune", given, method, on_error, threads, progress))
+    return Geometries(*_each(x, "prune", given, method, on_error, threads, progress)[:3])
+
+
+_POINTS = np.array(["end", "normal", "branching"], object)
+_BRANCH = {  # in the order of the extension module
+    "branch": int, "node_from": int, "node_to": int, "from_kind": None, "to_kind": None, "closed": bool,
+    "length": float, "radius_min": float, "radius_max": float, "mean_width": float, "turning": float,
+    "absolute_turning": float, "area": float, "significance": float, "euclidean": float, "component": int,
+}  # fmt: skip
+
+
+def branches(x: Any, method: str | None = None, *, chord: float | None = None, on_error: str = "raise",
+             threads: int | None = None, progress: Any = False) -> Lines:  # fmt: skip
+    """The branches of all axes as lines, with the columns of `medial.MedialAxis.branches`.
+
+    Parameters
+    ----------
+    x : features
+        What `medial.axes` takes.
+    method : str, optional
+        See `medial.axis`.
+    chord : float, optional
+        How far chords may be from curves, in units of the input; by default
+        ``medial.options.chord`` of the diagonal.
+    on_error : {"raise", "ignore"}
+        Whether the first error is raised, or all are kept in `errors`.
+    threads : int, optional
+        The default is ``medial.options.threads``.
+    progress : bool or callable
+        A bar of tqdm, or a function that is called with the share of features done.
+
+    Examples
+    --------
+    >>> import medial.arrays
+    >>> found = medial.arrays.branches([[(0, 0), (4, 0), (4, 2), (0, 2)], [(0, 0), (3, 0), (0, 3)]])
+    >>> found.feature.tolist(), float(found.attributes["length"].max())
+    ([0, 0, 0, 0, 0, 1, 1, 1], 2.2961...)
+    """
+    given = {"chord": chord, "share": options.chord}
+    values, begin, errors, flat = _each(x, "branches", given, method, on_error, threads, progress)
+    columns = flat.reshape(-1, len(_BRANCH)).T
+    attributes = {name: _POINTS[column.astype(int)] if kind is None else column.astype(kind)
+                  for (name, kind), column in zip(_BRANCH.items(), columns, strict=True)}  # fmt: skip
+    return Lines(values, begin, errors, attributes)
+
+
+def transects(x: Any, count: int = 10, method: str | None = None, *, trim: float = 1, route: str = "roomy",
+              on_error: str = "raise", threads: int | None = None, progress: Any = False) -> Lines:  # fmt: skip
+    """Lines across the courses of shapes, as `medial.transects`, with along, width and span.
+
+    Parameters
+    ----------
+    x : features
+        What `medial.axes` takes.
+    count : int
+        In the middles of so many equal parts of each centre line.
+    method : str, optional
+        See `medial.axis`.
+    trim, route
+        See `medial.centerlines`.
+    on_error : {"raise", "ignore"}
+        Whether the first error is raised, or all are kept in `errors`.
+    threads : int, optional
+        The default is ``medial.options.threads``.
+    progress : bool or callable
+        A bar of tqdm, or a function that is called with the share of features done.
+
+    Examples
+    --------
+    >>> import medial.arrays
+    >>> medial.arrays.transects([[(0, 0), (10, 0), (10, 2), (0, 2)]], 4).attributes["along"]
+    array([1., 3., 5., 7.])
+    """
+    given = {"count": count, "trim": trim, "route": route}
+    values, begin, errors, flat = _each(x, "transects", given, method, on_error, threads, progress)
+    attributes: dict[str, Any] = dict(zip(("along", "width", "span"), flat.reshape(-1, 3).T, strict=True))
+    return Lines(values, begin, errors, attributes)

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from . import _operations, arrays
+from . import arrays
 from ._axes import Axes, axes
 from ._errors import need
 
@@ -60,56 +60,197 @@ class MedialAccessor:
         return series.to_crs(self._crs) if self._local else series
 
     def axes(self, method: str | None = None, **given: Any) -> Axes:
-        """The axes as arrays, in metres where the reference system is geographic."""
+        """The axes as arrays, in metres where the reference system is geographic.
+
+        Parameters
+        ----------
+        method : str, optional
+            See `medial.axis`.
+        **given
+            Options of `medial.axes`.
+
+        Examples
+        --------
+        >>> import geopandas, shapely, medial.geo
+        >>> s = geopandas.GeoSeries([shapely.box(0, 0, 10, 2)], index=["a"], crs=2056)
+        >>> s.medial.axes()
+        <medial.Axes: 1 features, 6 nodes, 5 edges>
+        """
         return axes(self._metric(), method, **given)
 
     def axis(self, method: str | None = None, *, chord: float | None = None, **given: Any) -> Any:
-        """A GeoSeries of MultiLineStrings: the axes."""
+        """A GeoSeries of MultiLineStrings: the axes.
+
+        Parameters
+        ----------
+        method : str, optional
+            See `medial.axis`.
+        chord : float, optional
+            How far chords may be from curves, in units of the input; by default
+            ``medial.options.chord`` of the diagonal.
+        **given
+            Options of `medial.axes`.
+
+        Examples
+        --------
+        >>> import geopandas, shapely, medial.geo
+        >>> s = geopandas.GeoSeries([shapely.box(0, 0, 10, 2)], index=["a"], crs=2056)
+        >>> len(s.medial.axis()["a"].geoms)
+        5
+        """
         return self._back(axes(self._metric(), method, **given).to_shapely(chord))
 
     def branches(self, chord: float | None = None) -> Any:
-        """A GeoDataFrame with a row for each branch, with the index of its feature."""
-        tables = [axis.to_geopandas(chord) for axis in axes(self._metric())]
-        frame = pandas.concat(tables, keys=self._series.index, names=["feature"])
-        return frame.set_geometry(self._back(frame.geometry.to_numpy(), frame.index))
+        """A GeoDataFrame with a row for each branch, with the index of its feature.
+
+        Parameters
+        ----------
+        chord : float, optional
+            How far chords may be from curves, in units of the input; by default
+            ``medial.options.chord`` of the diagonal.
+
+        Examples
+        --------
+        >>> import geopandas, shapely, medial.geo
+        >>> s = geopandas.GeoSeries([shapely.box(0, 0, 10, 2)], index=["a"], crs=2056)
+        >>> s.medial.branches().index.names
+        FrozenList(['feature', 'branch'])
+        """
+        found = arrays.branches(self._metric(), chord=chord)
+        table = found.to_pandas()
+        features = self._series.index.take(table.index).rename("feature")
+        index = pandas.MultiIndex.from_arrays([features, table.pop("branch")], names=["feature", "branch"])
+        return self._frame(table.set_axis(index), found.lines(), index)
 
     def centerline(self, **given: Any) -> Any:
-        """A GeoSeries of LineStrings; options as `medial.arrays.centerline`."""
+        """A GeoSeries of LineStrings; options as `medial.arrays.centerline`.
+
+        Parameters
+        ----------
+        **given
+            Options of `medial.arrays.centerline`.
+
+        Examples
+        --------
+        >>> import geopandas, shapely, medial.geo
+        >>> s = geopandas.GeoSeries([shapely.box(0, 0, 10, 2)], index=["a"], crs=2056)
+        >>> s.medial.centerline(extend=True)["a"].length
+        10.0
+        """
         return self._back(arrays.centerline(self._metric(), **given).to_shapely())
 
     centreline = centerline
 
     def width(self, samples: int = 100, **given: Any) -> Any:
-        """A table of the widths along the centre lines: mean, min, max, length."""
+        """A table of the widths along the centre lines: mean, min, max, length.
+
+        Parameters
+        ----------
+        samples : int
+            Places along each line.
+        **given
+            Options of `medial.arrays.width`.
+
+        Examples
+        --------
+        >>> import geopandas, shapely, medial.geo
+        >>> s = geopandas.GeoSeries([shapely.box(0, 0, 10, 2)], index=["a"], crs=2056)
+        >>> s.medial.width().columns.tolist()
+        ['mean', 'min', 'max', 'length']
+        """
         found = arrays.width(self._metric(), samples, **given)
         return found.to_pandas().set_axis(self._series.index)
 
     def transects(self, count: int = 10, **given: Any) -> Any:
-        """A GeoDataFrame of the lines from side to side, with their widths."""
-        found = [_operations.transects(axis, count, **given) for axis in axes(self._metric())]
-        index = self._series.index.repeat([len(widths.along) for widths in found])
-        lines = np.concatenate([widths.transects() for widths in found])
-        columns = {"along": np.concatenate([w.along for w in found]), "width": np.concatenate([w.width for w in found])}
-        return self._frame(columns, lines, index)
+        """A GeoDataFrame of lines across the course, from boundary to boundary, with widths.
+
+        Parameters
+        ----------
+        count : int
+            In the middles of so many equal parts of each line.
+        **given
+            Options of `medial.arrays.transects`.
+
+        Examples
+        --------
+        >>> import geopandas, shapely, medial.geo
+        >>> s = geopandas.GeoSeries([shapely.box(0, 0, 10, 2)], index=["a"], crs=2056)
+        >>> s.medial.transects(4).span.tolist()
+        [2.0, 2.0, 2.0, 2.0]
+        """
+        found = arrays.transects(self._metric(), count, **given)
+        table = found.to_pandas()
+        index = self._series.index.take(table.index)
+        return self._frame(table.set_axis(index), found.lines(), index)
 
     def inscribed_circles(self, k: int = 1, smallest: float = 0, **given: Any) -> Any:
-        """A GeoDataFrame of the centres and radii of the `k` largest circles of each feature."""
+        """A GeoDataFrame of the centres and radii of the `k` largest circles of each feature.
+
+        Parameters
+        ----------
+        k : int
+            At most, of each feature.
+        smallest : float
+            No radius is below this, in units of the reference system, or metres.
+        **given
+            Options of `medial.arrays.inscribed_circles`.
+
+        Examples
+        --------
+        >>> import geopandas, shapely, medial.geo
+        >>> s = geopandas.GeoSeries([shapely.box(0, 0, 10, 2)], index=["a"], crs=2056)
+        >>> s.medial.inscribed_circles(2).radius.tolist()
+        [1.0, 1.0]
+        """
         found = arrays.inscribed_circles(self._metric(), k, smallest, **given)
         index = self._series.index.take(found.feature)
         return self._frame({"radius": found["radius"]}, shapely.points(found.values[:, :2]), index)
 
     def offset(self, distance: float, chord: float | None = None, **given: Any) -> Any:
-        """A GeoSeries of what is farther than a distance from the boundary; outwards if negative."""
+        """A GeoSeries of what is farther than a distance from the boundary; outwards if negative.
+
+        Parameters
+        ----------
+        distance : float
+            In units of the reference system; metres where it is geographic.
+        chord : float, optional
+            How far chords may be from curves, in units of the input; by default
+            ``medial.options.chord`` of the diagonal.
+        **given
+            Options of `medial.arrays.offset`.
+
+        Examples
+        --------
+        >>> import geopandas, shapely, medial.geo
+        >>> s = geopandas.GeoSeries([shapely.box(0, 0, 10, 2)], index=["a"], crs=2056)
+        >>> s.medial.offset(0.5)["a"].area
+        9.0
+        """
         parts = arrays.offset(self._metric(), distance, chord=chord, **given).to_shapely()
         alone = shapely.get_num_geometries(parts) == 1
         parts[alone] = shapely.get_geometry(parts[alone], 0)
         return self._back(parts)
 
     def prune(self, measure: str = "prominence", threshold: float | None = None, **given: Any) -> Any:
-        """A GeoSeries of the pruned axes; options as `medial.arrays.prune`."""
+        """A GeoSeries of the pruned axes; options as `medial.arrays.prune`.
+
+        Parameters
+        ----------
+        measure, threshold
+            See `medial.prune`.
+        **given
+            Options of `medial.arrays.prune`.
+
+        Examples
+        --------
+        >>> import geopandas, shapely, medial.geo
+        >>> s = geopandas.GeoSeries([shapely.box(0, 0, 10, 2)], index=["a"], crs=2056)
+        >>> s.medial.prune("erosion", 0.5)["a"].length < 8
+        True
+        """
         return self._back(arrays.prune(self._metric(), measure, threshold, **given).to_shapely())
 
-    def _frame(self, columns: dict[str, Any], geometries: Any, index: Any) -> Any:
+    def _frame(self, columns: Any, geometries: Any, index: Any) -> Any:
         geometry = self._back(geometries, index).to_numpy()
         return geopandas.GeoDataFrame(columns, geometry=geometry, index=index, crs=self._crs)
 

@@ -7,7 +7,7 @@ The functions take what scikit-image's take and return the same types; results d
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Literal, overload
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -15,7 +15,6 @@ import numpy.typing as npt
 from . import _core
 from ._axis import MedialAxis
 from ._axis import axis as _axis
-from ._errors import MedialError
 from ._options import options
 from ._read import Rings
 from ._records import Floats
@@ -38,14 +37,18 @@ def _thinned(pixels: npt.NDArray[np.uint8], family: str) -> Mask:
     return _core.thinned(pixels, family).view(bool)
 
 
-@overload
-def medial_axis(image: npt.ArrayLike, mask: npt.ArrayLike | None = ..., *,
-                return_distance: Literal[False] = ..., rng: Any = ...) -> Mask: ...  # fmt: skip
-@overload
-def medial_axis(image: npt.ArrayLike, mask: npt.ArrayLike | None = ..., *,
-                return_distance: Literal[True], rng: Any = ...) -> tuple[Mask, Floats]: ...  # fmt: skip
-def medial_axis(image: npt.ArrayLike, mask: npt.ArrayLike | None = None, *,
-                return_distance: bool = False, rng: Any = None) -> Mask | tuple[Mask, Floats]:  # fmt: skip
+if TYPE_CHECKING:  # typing keeps overloads alive, and with them all of the package, until Python has ended
+
+    @overload
+    def medial_axis(image: npt.ArrayLike, mask: npt.ArrayLike | None = ...,
+                    return_distance: Literal[False] = ..., *, rng: Any = ...) -> Mask: ...  # fmt: skip
+    @overload
+    def medial_axis(image: npt.ArrayLike, mask: npt.ArrayLike | None = ..., *,
+                    return_distance: Literal[True], rng: Any = ...) -> tuple[Mask, Floats]: ...  # fmt: skip
+
+
+def medial_axis(image: npt.ArrayLike, mask: npt.ArrayLike | None = None,
+                return_distance: bool = False, *, rng: Any = None) -> Mask | tuple[Mask, Floats]:  # fmt: skip
     """The medial axis of the foreground, one pixel wide.
 
     Parameters
@@ -75,7 +78,7 @@ def medial_axis(image: npt.ArrayLike, mask: npt.ArrayLike | None = None, *,
         outside = ~np.asarray(mask, bool)
         result[outside] = np.asarray(image).astype(bool)[outside]
     if return_distance:
-        return result, _core.distances(pixels, False, False, options.threads)
+        return result, _core.distances(pixels, False, False, False, options.threads)
     return result
 
 
@@ -87,6 +90,14 @@ def skeletonize(image: npt.ArrayLike, *, method: str | None = None) -> npt.NDArr
     image : array
     method : {"zhang", "lee"}, optional
         Accepted as scikit-image's; both are thinned from four subfields in turn.
+
+    Examples
+    --------
+    >>> import numpy as np, medial.image
+    >>> square = np.zeros((7, 7), bool)
+    >>> square[1:6, 1:6] = True
+    >>> int(medial.image.skeletonize(square).sum())
+    1
     """
     if method not in (None, "zhang", "lee"):
         raise ValueError(f"method is 'zhang' or 'lee', not {method!r}")
@@ -100,15 +111,46 @@ def thin(image: npt.ArrayLike, max_num_iter: int | None = None) -> Mask:
     ----------
     image : array
     max_num_iter : int, optional
-        Not supported: the image is thinned until nothing changes.
+        So many rounds at most, each pixel by pixel as scikit-image's; by default until nothing
+        changes, which is quicker.
+
+    Examples
+    --------
+    >>> import numpy as np, medial.image
+    >>> square = np.zeros((7, 7), bool)
+    >>> square[1:6, 1:6] = True
+    >>> int(medial.image.thin(square).sum())
+    1
     """
-    if max_num_iter is not None:
-        raise MedialError("thin() runs until nothing changes; max_num_iter is not known", "unsupported")
-    return _thinned(_pixels(image), "marking")
+    if max_num_iter is None:
+        return _thinned(_pixels(image), "marking")
+    pixels = _pixels(image).view(bool)
+    for _ in range(max_num_iter):
+        before = pixels
+        for half in (0, 4):
+            pixels = pixels & ~_removable(pixels, half)
+        if np.array_equal(pixels, before):
+            break
+    return pixels
+
+
+def _removable(pixels: Mask, half: int) -> Mask:
+    """What a half round of Guo and Hall (1989) removes; half 0 or 4 turns it by half a turn."""
+    padded = np.pad(pixels, 1)
+    rows, columns = pixels.shape
+    around = [(0, 1), (0, 2), (1, 2), (2, 2), (2, 1), (2, 0), (1, 0), (0, 0)]  # from above, clockwise
+    p = [padded[y : y + rows, x : x + columns] for y, x in around]
+    crossings = np.sum([~p[i] & (p[i + 1] | p[(i + 2) % 8]) for i in (0, 2, 4, 6)], axis=0)
+    first = np.sum([p[i] | p[i + 1] for i in (0, 2, 4, 6)], axis=0)
+    second = np.sum([p[i + 1] | p[(i + 2) % 8] for i in (0, 2, 4, 6)], axis=0)
+    least = np.minimum(first, second)
+    a, b, c, d = (p[(i + half) % 8] for i in (0, 1, 3, 2))
+    removable: Mask = pixels & (crossings == 1) & (least >= 2) & (least <= 3) & ~((a | b | ~c) & d)
+    return removable
 
 
 def distance_transform(image: npt.ArrayLike, *, spacing: float = 1, to: str = "pixels",
-                       frame: bool = False) -> Floats:  # fmt: skip
+                       frame: bool = False, squared: bool = False) -> Floats:  # fmt: skip
     """The exact Euclidean distance of each foreground pixel.
 
     Parameters
@@ -119,6 +161,13 @@ def distance_transform(image: npt.ArrayLike, *, spacing: float = 1, to: str = "p
         To the centre of the nearest background pixel, or to the pixels' boundary.
     frame : bool
         Whether what lies outside of the image is background.
+    squared : bool
+        The squares of the distances instead, which are exact.
+
+    Returns
+    -------
+    array of float
+        In units of `spacing`, of the image's shape; infinite where there is no background.
 
     Examples
     --------
@@ -128,12 +177,26 @@ def distance_transform(image: npt.ArrayLike, *, spacing: float = 1, to: str = "p
     """
     if to not in ("pixels", "cracks"):
         raise ValueError("to is 'pixels' or 'cracks'")
-    result = _core.distances(_pixels(image), to == "cracks", frame, options.threads)
-    return result if spacing == 1 else result * spacing
+    result = _core.distances(_pixels(image), to == "cracks", frame, squared, options.threads)
+    return result if spacing == 1 else result * (spacing * spacing if squared else spacing)
 
 
 def topology(image: npt.ArrayLike) -> tuple[int, int]:
-    """The components of the foreground (by eight neighbours) and its holes."""
+    """The components of the foreground (by eight neighbours) and its holes.
+
+    Parameters
+    ----------
+    image : array of shape (rows, columns)
+        Foreground where it is not 0.
+
+    Examples
+    --------
+    >>> import numpy as np, medial.image
+    >>> square = np.zeros((7, 7), bool)
+    >>> square[1:6, 1:6] = True
+    >>> medial.image.topology(square)
+    (1, 0)
+    """
     components, holes = _core.topology(_pixels(image))
     return components, holes
 
@@ -142,9 +205,53 @@ def outline(image: npt.ArrayLike, *, neck: float = 1 / 16) -> list[Floats]:
     """The boundary of the foreground pixels, as rings with y downwards.
 
     Where pixels meet in a corner only, a `neck` so many pixels wide connects them; 0: none.
+
+    Parameters
+    ----------
+    image : array of shape (rows, columns)
+        Foreground where it is not 0.
+    neck : float
+        In pixels, below 1 / 2.
+
+    Examples
+    --------
+    >>> import numpy as np, medial.image
+    >>> square = np.zeros((7, 7), bool)
+    >>> square[1:6, 1:6] = True
+    >>> [len(ring) for ring in medial.image.outline(square)]
+    [4]
     """
     points, begin = _core.pixel_outline(_pixels(image), neck)
     return np.split(points, begin[1:-1]) if len(begin) > 1 else []
+
+
+def disks(x: MedialAxis, pixels: int = 512) -> tuple[Mask, float, tuple[float, float]]:
+    """The union of an axis's disks as an image, as `medial rebuild --pixels` draws it.
+
+    Parameters
+    ----------
+    x : MedialAxis
+    pixels : int
+        Along the longer side.
+
+    Returns
+    -------
+    image : array of bool
+        Rows go in the direction of y.
+    spacing : float
+        The side of a pixel, in units of the input.
+    origin : (x, y)
+        The low corner of the first pixel.
+
+    Examples
+    --------
+    >>> import medial.image
+    >>> image, spacing, _ = medial.image.disks(medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)]), 80)
+    >>> round(image.sum() * spacing**2)
+    8
+    """
+    image, spacing, origin = _core.disk_image(x._core, pixels, True)
+    return image.view(bool), spacing, origin
 
 
 def _boxes(labels: npt.NDArray[Any]) -> dict[int, tuple[slice, slice]]:

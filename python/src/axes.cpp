@@ -1,5 +1,7 @@
 // The axis of one shape: computing it, its arrays, questions to it.
 
+#include "faces/axes.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -31,41 +33,6 @@ class Named {
   nb::dict left_;
 };
 
-Named& take_grid(Named& named, PixelGrid& grid) {
-  return named.take("resolution", grid.resolution).take("pixels", grid.pixels);
-}
-
-void take_own(Named&, method::Disks&) {}
-void take_own(Named&, method::Lee&) {}
-void take_own(Named&, method::Auto&) {}
-void take_own(Named& named, method::BiarcDc& own) { named.take("seed", own.seed); }
-void take_own(Named& named, method::Ridge& own) {
-  std::string search = "tree", rule = "crossing";
-  take_grid(named, own.grid).take("collinear", own.collinear);
-  named.take("search", search).take("rule", rule);
-  own.sorted_list = search != "tree";
-  own.rule = rule == "crossing" ? RidgeRule::crossing : RidgeRule::difference;
-}
-void take_own(Named& named, method::Brushfire& own) {
-  std::string family = name_of(own.family);
-  take_grid(named, own.grid).take("family", family);
-  const auto found = brushfire_from(family);
-  if (!found) refuse(ErrorCode::invalid_option, "there is no such family of brushfires");
-  own.family = *found;
-}
-void take_own(Named& named, method::Potential& own) {
-  std::optional<std::array<double, 2>> start;
-  std::optional<std::array<double, 4>> within;
-  named.take("order", own.order).take("base_order", own.base_order).take("step", own.step);
-  named.take("coarse", own.coarse).take("angle", own.angle).take("movement", own.movement);
-  named.take("start", start).take("within", within);
-  if (start) own.from = Vec2{(*start)[0], (*start)[1]};
-  if (within) own.within = Box{{(*within)[0], (*within)[1]}, {(*within)[2], (*within)[3]}};
-}
-void take_own(Named& named, method::CurveAxis& own) {
-  named.take("step", own.step).take("first_maximum", own.first_maximum);
-}
-
 std::unique_ptr<AxisOf> compute_axis(const ShapeOf& of, const Options& given,
                                      std::span<const Contour> contours) {
   Options options = given;
@@ -85,32 +52,9 @@ std::vector<T> records_from(const Values<std::uint8_t>& bytes) {
   return records;
 }
 
-bool is_sound(const MedialAxis& axis) {
-  const auto finite = [](const Disk& disk) {
-    return std::isfinite(disk.center.x) && std::isfinite(disk.center.y) &&
-           std::isfinite(disk.radius);
-  };
-  const auto good_site = [&](std::uint32_t site) {
-    return site < axis.sites.size() || site == no_site;
-  };
-  return std::ranges::all_of(axis.nodes,
-                             [&](const Node& node) {
-                               return finite(node.disk) && node.disk.radius >= 0 &&
-                                      node.kind <= NodeKind::branching;
-                             }) &&
-         std::ranges::all_of(axis.sites,
-                             [](const Site& site) { return site.kind <= SiteKind::arc; }) &&
-         std::ranges::all_of(axis.edges, [&](const Edge& edge) {
-           return std::ranges::all_of(
-                      edge.node, [&](std::uint32_t node) { return node < axis.nodes.size(); }) &&
-                  std::ranges::all_of(edge.site, good_site) && finite(edge.control) &&
-                  edge.weight > 0 && std::isfinite(edge.weight);
-         });
-}
-
 /// An axis from the arrays of a stored one.
 std::unique_ptr<AxisOf> restored(const ShapeOf& of, const std::string& method, double tolerance,
-                                 double resolution, double exterior,
+                                 double resolution, double exterior, bool part,
                                  const Values<std::uint8_t>& sites,
                                  const Values<std::uint8_t>& nodes,
                                  const Values<std::uint8_t>& edges) {
@@ -122,8 +66,7 @@ std::unique_ptr<AxisOf> restored(const ShapeOf& of, const std::string& method, d
                   records_from<Node>(nodes),
                   records_from<Edge>(edges),
                   {}};
-  if (!is_sound(axis)) refuse(ErrorCode::malformed, "the arrays of the axis do not fit together");
-  return share(of.shape, std::move(axis));
+  return share(of.shape, value_of(faces::sound(std::move(axis))), part);
 }
 
 /// Polylines along all branches, within a chord or with steps: rows of x, y, radius; where each
@@ -250,7 +193,7 @@ Options options_of(const std::string& method, double tolerance, double corner_an
   options.margin = margin;
   if (own.size() > 0) {
     Named named(own);
-    std::visit([&](auto& of_method) { take_own(named, of_method); }, options.method);
+    value_of(faces::take_own(named, options.method));
     named.finish(method);
   }
   return options;
@@ -258,18 +201,7 @@ Options options_of(const std::string& method, double tolerance, double corner_an
 
 void add_lines(const MedialAxis& axis, double chord, double step, std::vector<Disk>& disks,
                std::vector<std::int64_t>& begin) {
-  for (const Branch& branch : branches(axis)) {
-    bool first = true;
-    for (const Step& piece : branch.steps) {
-      const Edge& edge = axis.edges[piece.edge];
-      std::vector<Disk> samples =
-          step > 0 ? sample_by_step(axis, edge, step) : sample_by_chord(axis, edge, chord);
-      if (!piece.forward) std::ranges::reverse(samples);
-      disks.insert(disks.end(), samples.begin() + (first ? 0 : 1), samples.end());
-      first = false;
-    }
-    begin.push_back(static_cast<std::int64_t>(disks.size()));
-  }
+  faces::add_lines(axis, chord, step, disks, begin);
 }
 
 void bind_axes(nb::module_& module) {
@@ -285,6 +217,7 @@ void bind_axes(nb::module_& module) {
       .def("tolerance", [](const AxisOf& self) { return self.axis.tolerance; })
       .def("resolution", [](const AxisOf& self) { return self.axis.resolution; })
       .def("exterior", [](const AxisOf& self) { return self.axis.exterior; })
+      .def("part", [](const AxisOf& self) { return self.part; })
       .def("statistics", &statistics)
       .def("lines", &lines, nb::arg("chord"), nb::arg("step"))
       .def("nearest", &nearest)

@@ -10,10 +10,11 @@ namespace medial::python {
 namespace {
 
 /// What an operation makes of features: rows of numbers, and offsets that divide them: the rows,
-/// what these offsets make of them, and so on up to the features.
+/// what these offsets make of them, and so on up to the features. Attributes belong to the parts
+/// that the first offsets make.
 struct Table {
   std::size_t columns = 0;
-  std::vector<double> values;
+  std::vector<double> values, attributes;
   std::vector<std::vector<std::int64_t>> begin;
   FeatureErrors errors;
 
@@ -29,6 +30,7 @@ struct Table {
   }
   void append_all(Table& part) {
     append(values, part.values);
+    append(attributes, part.attributes);
     for (std::size_t level = 0; level < begin.size(); ++level)
       append_offsets(begin[level], part.begin[level]);
     append(errors, part.errors);
@@ -180,12 +182,74 @@ Operation pruned(const Given& given) {
   return {Table(3, 2), work};
 }
 
+/// Lines, a branch each, of rows of x, y, radius; with what features() says of a branch in numbers.
+Operation branch_tables(const Given& given) {
+  const auto work = [chord = Chord(given)](const Shape& shape, const Options& options,
+                                           Table& table) -> Status {
+    const auto axis = compute(shape, options);
+    if (!axis) return axis.error();
+    std::vector<Disk> disks;
+    std::vector<std::int64_t> begin{0};
+    add_lines(*axis, chord.of(shape), 0, disks, begin);
+    for (const BranchFeatures& one : describe(*axis).branches) {
+      const Node &from = axis->nodes[one.from], &to = axis->nodes[one.to];
+      for (auto i = begin[one.branch]; i < begin[one.branch + 1]; ++i)
+        table.add(disks[static_cast<std::size_t>(i)]);
+      table.end(0);
+      const double row[] = {double(one.branch),
+                            double(one.from),
+                            double(one.to),
+                            double(one.from_kind),
+                            double(one.to_kind),
+                            double(one.closed),
+                            one.length,
+                            one.smallest_radius,
+                            one.largest_radius,
+                            one.mean_width,
+                            one.turning,
+                            one.absolute_turning,
+                            one.area,
+                            one.significance,
+                            distance(from.disk.center, to.disk.center),
+                            double(from.component)};
+      table.attributes.insert(table.attributes.end(), std::begin(row), std::end(row));
+    }
+    return success();
+  };
+  return {Table(3, 2), work};
+}
+
+/// Lines of two rows of x, y, across the centre line; with their place along it, width, length.
+Operation transects(const Given& given) {
+  const auto count = given.get<std::size_t>("count");
+  const auto work = [count, path_options = main_path_options(given)](
+                        const Shape& shape, const Options& options, Table& table) -> Status {
+    const auto axis = compute(shape, options);
+    if (!axis) return axis.error();
+    const auto path = longest_path(*axis, path_options);
+    if (!path) return path.error();
+    std::vector<double> places(count);
+    for (std::size_t i = 0; i < count; ++i)
+      places[i] = path->length * ((static_cast<double>(i) + 0.5) / static_cast<double>(count));
+    for (const LocalWidth& at : transects_along(shape, *axis, *path, places)) {
+      for (const Vec2 end : at.feet) table.add({end.x, end.y});
+      table.end(0);
+      const double row[] = {at.along, at.width(), at.span()};
+      table.attributes.insert(table.attributes.end(), std::begin(row), std::end(row));
+    }
+    return success();
+  };
+  return {Table(2, 2), work};
+}
+
 Operation operation_from(const std::string& name, const Given& given) {
   if (name == "centerline") return centerlines(given);
   if (name == "width") return widths(given);
   if (name == "inscribed_circles") return circles(given);
   if (name == "offset") return offsets(given);
   if (name == "prune") return pruned(given);
+  if (name == "branches") return branch_tables(given);
+  if (name == "transects") return transects(given);
   refuse(ErrorCode::invalid_option, "there is no such operation");
 }
 
@@ -227,7 +291,8 @@ nb::tuple each_of(const Coordinates& coordinates, const Values<std::int64_t>& ri
   });
   nb::list levels;
   for (auto& level : all.begin) levels.append(array_of(std::move(level)));
-  return nb::make_tuple(array_of(std::move(all.values)), all.columns, levels, list_of(all.errors));
+  return nb::make_tuple(array_of(std::move(all.values)), all.columns, levels, list_of(all.errors),
+                        array_of(std::move(all.attributes)));
 }
 
 }  // namespace

@@ -144,10 +144,11 @@ auto run(std::size_t size, const Work& work) {
 /// A shape that axes of it share.
 using SharedShape = std::shared_ptr<const Shape>;
 
-/// A shape and its axis.
+/// A shape and its axis, or a part of it: pruned, cut or smoothed.
 struct AxisOf {
   SharedShape shape;
   MedialAxis axis;
+  bool part = false;
 
   /// Built at the first question; several threads may ask.
   const AxisLocator& locator() const {
@@ -155,8 +156,8 @@ struct AxisOf {
     return *locator_;
   }
 
-  AxisOf(SharedShape own_shape, MedialAxis own_axis)
-      : shape(std::move(own_shape)), axis(std::move(own_axis)) {}
+  AxisOf(SharedShape own_shape, MedialAxis own_axis, bool is_part)
+      : shape(std::move(own_shape)), axis(std::move(own_axis)), part(is_part) {}
   AxisOf(const AxisOf&) = delete;
   AxisOf& operator=(const AxisOf&) = delete;
 
@@ -172,8 +173,14 @@ struct PathOf {
   AxisPath path;
 };
 
-inline std::unique_ptr<AxisOf> share(SharedShape shape, MedialAxis axis) {
-  return std::make_unique<AxisOf>(std::move(shape), std::move(axis));
+/// The tool paths of a shape, and those of an end mill before a V.
+struct CarvingOf {
+  SharedShape shape;
+  Carving carving, clearing;
+};
+
+inline std::unique_ptr<AxisOf> share(SharedShape shape, MedialAxis axis, bool part = false) {
+  return std::make_unique<AxisOf>(std::move(shape), std::move(axis), part);
 }
 
 /// Options of compute() by their names in Python; those of the method in `own`.
@@ -185,6 +192,7 @@ std::vector<Ring> rings_of(const Coordinates& coordinates,
                            const std::optional<Values<std::uint8_t>>& roles,
                            const std::optional<Values<double>>& bulges);
 
+RepairRule repair_from(const std::optional<std::string>& name);
 Route route_from(const std::string& name);
 PruneMeasure measure_from(const std::string& name);
 /// Appends a ring's points, closed, with arcs as chords.
@@ -201,6 +209,8 @@ void bind_well_known_binary(nb::module_& module);
 void bind_batches(nb::module_& module);
 void bind_paths(nb::module_& module);
 void bind_derived(nb::module_& module);
+void bind_carving(nb::module_& module);
+void bind_text(nb::module_& module);
 void bind_features(nb::module_& module);
 void bind_voronoi(nb::module_& module);
 void bind_images(nb::module_& module);

@@ -133,15 +133,18 @@ MedialAxis axis_of(const AxesOf& all, std::size_t i) {
           {}};
 }
 
-/// Polylines along the branches of all features: rows of x, y, radius; where lines begin; where
-/// features begin among the lines.
-nb::tuple lines_of(const AxesOf& all, double chord, bool relative) {
+/// Polylines along the branches of features [first, last): rows of x, y, radius, or `flat` of x, y;
+/// where lines begin; where features begin among the lines.
+nb::tuple lines_of(const AxesOf& all, double chord, bool relative, std::size_t first,
+                   std::size_t last, bool flat) {
+  if (first > last || last > all.size()) throw nb::index_error("there are no such features");
   std::vector<Disk> disks;
+  std::vector<Vec2> centers;
   std::vector<std::int64_t> line_begin{0}, feature_begin{0};
   without_lock([&] {
-    disks.reserve(all.edges.size() * 2);
+    disks.reserve(2 * static_cast<std::size_t>(all.edge_begin[last] - all.edge_begin[first]));
     MedialAxis axis;
-    for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t i = first; i < last; ++i) {
       take_graph(all, i, axis);
       Box box = Box::nothing();
       for (const Node& node : axis.nodes) box.add(node.disk.center);
@@ -149,9 +152,13 @@ nb::tuple lines_of(const AxesOf& all, double chord, bool relative) {
       add_lines(axis, own > 0 ? own : 1, 0, disks, line_begin);
       feature_begin.push_back(static_cast<std::int64_t>(line_begin.size()) - 1);
     }
+    if (!flat) return 0;
+    centers.reserve(disks.size());
+    for (const Disk& disk : disks) centers.push_back(disk.center);
     return 0;
   });
-  return nb::make_tuple(rows_of<double>(std::move(disks)), array_of(std::move(line_begin)),
+  auto rows = flat ? rows_of<double>(std::move(centers)) : rows_of<double>(std::move(disks));
+  return nb::make_tuple(std::move(rows), array_of(std::move(line_begin)),
                         array_of(std::move(feature_begin)));
 }
 
@@ -191,7 +198,8 @@ void bind_collections(nb::module_& module) {
            [of](nb::handle_t<AxesOf> self) { return bytes_of(of(self).site_begin, self); })
       .def("errors", [](const AxesOf& self) { return list_of(self.errors); })
       .def("method", [](const AxesOf& self) { return self.method; })
-      .def("lines", &lines_of, nb::arg("chord"), nb::arg("relative"))
+      .def("lines", &lines_of, nb::arg("chord"), nb::arg("relative"), nb::arg("first"),
+           nb::arg("last"), nb::arg("flat"))
       .def("summary", &summary)
       .def("axis", [](const AxesOf& self, std::size_t i, const ShapeOf& shape) {
         if (i >= self.size()) throw nb::index_error("there is no such feature");

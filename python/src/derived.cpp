@@ -60,49 +60,9 @@ nb::list offsets_of(const ShapeOf& of, const Values<double>& clearances, int thr
   })));
 }
 
-CarveOptions carve_options(const nb::dict& given) {
-  CarveOptions options;
-  for (const auto& [key, value] : given) {
-    const std::string name = nb::cast<std::string>(key);
-    double* const to = name == "angle"        ? &options.angle
-                       : name == "depth"      ? &options.depth
-                       : name == "tool"       ? &options.tool
-                       : name == "tip"        ? &options.tip
-                       : name == "pass_depth" ? &options.pass_depth
-                       : name == "step"       ? &options.step
-                       : name == "chord"      ? &options.chord
-                       : name == "ramp"       ? &options.ramp
-                                              : nullptr;
-    if (to == nullptr) throw nb::type_error(("carve() has no option '" + name + "'").c_str());
-    *to = nb::cast<double>(value);
-  }
-  return options;
-}
-
-/// Numbers of the whole, and for each path its kind, its pass, and rows of x, y, z, bulge.
-nb::tuple carved(const AxisOf& self, const nb::dict& given) {
-  const CarveOptions options = carve_options(given);
-  Carving carving = value_of(run(
-      self.axis.edges.size(), [&](const std::atomic<bool>*) { return carve(self.axis, options); }));
-  nb::list paths;
-  constexpr std::array<const char*, 4> kinds{"clearing", "wall", "groove", "ramp"};
-  for (ToolPath& path : carving.paths)
-    paths.append(nb::make_tuple(kinds[static_cast<std::size_t>(path.kind)], path.pass,
-                                rows_of<double>(std::move(path.points))));
-  nb::dict numbers;
-  numbers["deepest"] = carving.deepest;
-  numbers["flat_from"] = carving.flat_from;
-  numbers["tip_radius"] = carving.tip_radius;
-  numbers["slope"] = carving.slope;
-  numbers["step"] = carving.step;
-  numbers["cut_length"] = carving.cut_length;
-  numbers["travel_length"] = carving.travel_length;
-  return nb::make_tuple(numbers, paths);
-}
-
 nb::dict certificate(const AxisOf& self, double tolerance, int samples, double corner_angle,
                      int threads) {
-  const VerifyOptions options{tolerance, samples, corner_angle, threads};
+  const VerifyOptions options{tolerance, samples, corner_angle, threads, self.part};
   const Certificate from = run(self.shape->points.size(), [&](const std::atomic<bool>*) {
     return verify(*self.shape, self.axis, options);
   });
@@ -179,6 +139,36 @@ Array<double, 2> legal(const AxisOf& self, int samples) {
   return rows_of<double>(std::move(rows));
 }
 
+/// The boundary's curvature at feet: where branches begin among the rows of side (0 left, 1 right),
+/// disk, foot, curvature and its derivative along the boundary.
+nb::tuple curvatures(const AxisOf& self) {
+  std::vector<std::array<double, 8>> rows;
+  std::vector<std::int64_t> begin{0};
+  without_lock([&] {
+    for (const Branch& branch : branches(self.axis)) {
+      for (const FootCurvature& at : curvatures_along(self.axis, branch))
+        rows.push_back({at.side == Side::left ? 0.0 : 1.0, at.disk.center.x, at.disk.center.y,
+                        at.disk.radius, at.foot.x, at.foot.y, at.curvature, at.slope});
+      begin.push_back(static_cast<std::int64_t>(rows.size()));
+    }
+    return 0;
+  });
+  return nb::make_tuple(rows_of<double>(std::move(rows)), array_of(std::move(begin)));
+}
+
+/// Placements of a shape beside another one: angle, mirrored, move, bay, saved, gap.
+nb::list nested(const ShapeOf& fixed, const ShapeOf& moving, double gap, bool mirror,
+                std::size_t best) {
+  nb::list list;
+  const auto found = value_of(run(long_work, [&](const std::atomic<bool>*) {
+    return nest(*fixed.shape, *moving.shape, gap, mirror, best);
+  }));
+  for (const Placement& at : found)
+    list.append(nb::make_tuple(at.angle, at.mirrored, std::array{at.move.x, at.move.y},
+                               std::array{at.bay.x, at.bay.y}, at.saved, at.gap));
+  return list;
+}
+
 }  // namespace
 
 void bind_derived(nb::module_& module) {
@@ -188,12 +178,27 @@ void bind_derived(nb::module_& module) {
   module.def("offset_passes", [](const AxisOf& self, double first, double step) {
     return array_of(value_of(offset_passes(self.axis, first, step)));
   });
-  module.def("carved", &carved);
   module.def("certificate", &certificate);
   module.def("shape_distance", &distance_of);
   module.def("packed", &packed);
   module.def("unpacked", &unpacked);
   module.def("legality", &legal);
+  module.def("curvatures", &curvatures);
+  module.def("nested", &nested);
+  module.def("placed", [](const ShapeOf& self, double angle, bool mirrored,
+                          const std::array<double, 2>& move) {
+    Placement at;
+    at.angle = angle;
+    at.mirrored = mirrored;
+    at.move = {move[0], move[1]};
+    return shared(placed(*self.shape, at));
+  });
+  module.def("without_specks", [](const ShapeOf& self, double share) {
+    return shared(without_specks(*self.shape, share));
+  });
+  module.def("surroundings", [](const ShapeOf& self, double margin) {
+    return shared(value_of(surroundings(*self.shape, margin)));
+  });
 }
 
 }  // namespace medial::python

@@ -67,8 +67,10 @@ nb::dict run_table(const std::vector<PrimitiveRun>& rows) {
       .table();
 }
 
-nb::dict described(const AxisOf& self) {
-  const AxisFeatures from = without_lock([&] { return describe(self.axis); });
+nb::dict described(const AxisOf& self, const std::array<double, 6>& thresholds) {
+  const auto [parallel, even, bend, turn, spiral, shortest] = thresholds;
+  const FeatureOptions options{parallel, even, bend, turn, spiral, shortest};
+  const AxisFeatures from = without_lock([&] { return describe(self.axis, options); });
   nb::dict result;
   result["ends"] = from.ends;
   result["branchings"] = from.branchings;

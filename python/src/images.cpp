@@ -55,8 +55,9 @@ Array<std::uint8_t, 2> thinned(const Pixels& pixels, const std::string& family) 
   return array_of_image(value_of(std::move(result)));
 }
 
-/// Squared distances as 32-bit integers, or distances as doubles.
-Array<double, 2> distances(const Pixels& pixels, bool cracks, bool frame, int threads) {
+/// Distances in pixels, or their squares.
+Array<double, 2> distances(const Pixels& pixels, bool cracks, bool frame, bool squared,
+                           int threads) {
   const DistanceOptions options{cracks ? DistanceTo::cracks : DistanceTo::pixels, frame, threads};
   auto values = std::make_unique<std::vector<double>>();
   const Status done = run(pixels.size(), [&](const std::atomic<bool>*) -> Status {
@@ -64,10 +65,12 @@ Array<double, 2> distances(const Pixels& pixels, bool cracks, bool frame, int th
     if (!map) return std::move(map).error();
     values->resize(map->squared.size());
     const double scale = cracks ? 0.5 : 1;
-    for (std::size_t i = 0; i < values->size(); ++i)
+    for (std::size_t i = 0; i < values->size(); ++i) {
+      const double square = scale * scale * static_cast<double>(map->squared[i]);
       (*values)[i] = map->squared[i] == DistanceMap::unbounded
                          ? std::numeric_limits<double>::infinity()
-                         : scale * std::sqrt(static_cast<double>(map->squared[i]));
+                         : (squared ? square : std::sqrt(square));
+    }
     return success();
   });
   value_of(Status(done));

@@ -1,5 +1,7 @@
 // The extension module: errors, threads, and all topics.
 
+#include <cstdlib>
+
 #include "binding.h"
 
 namespace medial::python {
@@ -28,6 +30,8 @@ void raise(const Error& error) {
 }  // namespace
 
 NB_MODULE(_core, module) {
+  // Whoever holds an object or a function when the interpreter ends would make it print a list.
+  nb::set_leak_warnings(std::getenv("MEDIAL_LEAK_WARNINGS") != nullptr);
   nb::register_exception_translator([](const std::exception_ptr& thrown, void*) {
     try {
       std::rethrow_exception(thrown);
@@ -58,6 +62,8 @@ NB_MODULE(_core, module) {
   bind_batches(module);
   bind_paths(module);
   bind_derived(module);
+  bind_carving(module);
+  bind_text(module);
   bind_features(module);
   bind_voronoi(module);
   bind_images(module);

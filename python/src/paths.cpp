@@ -27,7 +27,7 @@ nb::tuple pruned(const AxisOf& self, const std::string& measure, std::optional<d
   const PruneOptions options{measure_from(measure), threshold, keep, tips};
   auto axis = run(self.axis.edges.size(),
                   [&](const std::atomic<bool>*) { return prune(self.axis, options, &report); });
-  return nb::make_tuple(share(self.shape, value_of(std::move(axis))), report.threshold);
+  return nb::make_tuple(share(self.shape, value_of(std::move(axis)), true), report.threshold);
 }
 
 Array<double> significance(const AxisOf& self, const std::string& measure) {
@@ -60,9 +60,16 @@ PathOf path(const AxisOf& self, const Place& from, const Place& to, const std::s
 
 std::unique_ptr<AxisOf> line_of(const AxisOf& self, const PathOf& path, bool extend,
                                 double smooth) {
-  return share(self.shape, without_lock([&] {
-                 return centre_line(*self.shape, self.axis, path.path, {extend, smooth});
-               }));
+  auto line = without_lock([&] {
+    return centre_line(*self.shape, self.axis, path.path, {extend, smooth});
+  });
+  return share(self.shape, std::move(line), true);
+}
+
+/// What a path leaves out of the ways around holes that leave it and come back.
+std::unique_ptr<AxisOf> channels_of(const AxisOf& self, const PathOf& path) {
+  auto part = without_lock([&] { return part_of(self.axis, side_channels(self.axis, path.path)); });
+  return share(self.shape, std::move(part), true);
 }
 
 /// Rows of along, x, y, radius, left foot, right foot.
@@ -73,7 +80,9 @@ WidthRow row_of(const LocalWidth& width) {
           feet[0].x, feet[0].y,     feet[1].x,     feet[1].y};
 }
 
-Array<double, 2> widths(const AxisOf& self, const PathOf& path, const Values<double>& lengths) {
+/// Rows at lengths along a path: feet of disks, or the ends of transects across the course.
+Array<double, 2> widths(const AxisOf& self, const PathOf& path, const Values<double>& lengths,
+                        bool across) {
   const auto at = span_of(lengths);
   double before = 0;
   for (const double length : at) {
@@ -82,8 +91,11 @@ Array<double, 2> widths(const AxisOf& self, const PathOf& path, const Values<dou
     before = length;
   }
   std::vector<WidthRow> rows;
-  for (const LocalWidth& width : widths_along(self.axis, path.path, at))
-    rows.push_back(row_of(width));
+  const auto found = without_lock([&] {
+    return across ? transects_along(*self.shape, self.axis, path.path, at)
+                  : widths_along(self.axis, path.path, at);
+  });
+  for (const LocalWidth& width : found) rows.push_back(row_of(width));
   return rows_of<double>(std::move(rows));
 }
 
@@ -120,13 +132,28 @@ nb::tuple collapsed(const AxisOf& self, double width, double trim) {
   CollapsedShape result =
       value_of(without_lock([&] { return collapse_narrow(self.axis, width, trim); }));
   auto shape = std::make_shared<const Shape>(std::move(result.polygons));
-  return nb::make_tuple(ShapeOf{shape}, share(shape, std::move(result.lines)));
+  return nb::make_tuple(ShapeOf{shape}, share(shape, std::move(result.lines), true));
 }
 
 std::optional<Place> place_at(const AxisOf& self, const Point& p) {
   const auto place = without_lock([&] { return place_on_axis(self.axis, vector_of(p)); });
   if (!place) return std::nullopt;
   return Place{place->edge, place->t};
+}
+
+/// The middle of the side that begins at a vertex of a ring of the input, if the shape has it.
+std::optional<Point> middle_of_side(const ShapeOf& of, std::uint32_t ring, std::uint32_t vertex) {
+  const Shape& shape = *of.shape;
+  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+    for (std::uint32_t k = shape.loop_begin[i]; k < shape.loop_begin[i + 1]; ++k) {
+      if (shape.sources[k].ring != ring || shape.sources[k].vertex != vertex) continue;
+      const Vec2 start = shape.points[k];
+      const Vec2 end = shape.points[k + 1 < shape.loop_begin[i + 1] ? k + 1 : shape.loop_begin[i]];
+      const Vec2 p = midpoint(start, end) - (shape.bulge(k) / 2) * left_of(end - start);
+      return Point{p.x, p.y};
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -167,6 +194,8 @@ void bind_paths(nb::module_& module) {
   module.def("main_paths", &paths_of);
   module.def("path_between", &path);
   module.def("centre_line", &line_of);
+  module.def("side_channels", &channels_of);
+  module.def("middle_of_side", &middle_of_side);
   module.def("widths", &widths);
   module.def("necks", &neck_rows);
   module.def("mean_widths", &mean_widths);
@@ -178,7 +207,8 @@ void bind_paths(nb::module_& module) {
     return triple_of(deepest_disk(self.axis));
   });
   module.def("clearance_part", [](const AxisOf& self, double clearance) {
-    return share(self.shape, without_lock([&] { return clearance_part(self.axis, clearance); }));
+    auto part = without_lock([&] { return clearance_part(self.axis, clearance); });
+    return share(self.shape, std::move(part), true);
   });
 }
 

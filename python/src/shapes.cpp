@@ -13,14 +13,6 @@ RingRole role_from(std::uint8_t role) {
   return static_cast<RingRole>(role);
 }
 
-RepairRule repair_from(const std::optional<std::string>& name) {
-  if (!name) return RepairRule::none;
-  if (*name == "make_valid") return RepairRule::make_valid;
-  if (*name == "even_odd") return RepairRule::even_odd;
-  if (*name == "non_zero") return RepairRule::non_zero;
-  refuse(ErrorCode::invalid_option, "repair is 'make_valid', 'even_odd' or 'non_zero'");
-}
-
 /// A shape and, for methods that follow them, its contours.
 struct Loaded {
   ShapeOf shape;
@@ -139,6 +131,14 @@ void bind_contour(nb::module_& module) {
 }
 
 }  // namespace
+
+RepairRule repair_from(const std::optional<std::string>& name) {
+  if (!name) return RepairRule::none;
+  if (*name == "make_valid") return RepairRule::make_valid;
+  if (*name == "even_odd") return RepairRule::even_odd;
+  if (*name == "non_zero") return RepairRule::non_zero;
+  refuse(ErrorCode::invalid_option, "repair is 'make_valid', 'even_odd' or 'non_zero'");
+}
 
 std::vector<Ring> rings_of(const Coordinates& coordinates,
                            const std::optional<Values<std::int64_t>>& begin,

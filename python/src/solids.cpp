@@ -1,5 +1,7 @@
 // The axis of closed meshes, on voxels.
 
+#include <algorithm>
+
 #include "binding.h"
 
 namespace medial::python {
@@ -20,12 +22,13 @@ nb::tuple tuple_of(const VoxelTopology& topology) {
 }
 
 nb::dict voxels_of(const Vertices& vertices, const Faces& faces, double resolution, int voxels,
-                   double angle, const std::string& thinning, int threads) {
+                   double angle, const std::string& thinning, double gibibytes, int threads) {
   VoxelOptions options;
   options.resolution = resolution;
   options.voxels = voxels;
   options.angle = angle;
   options.thinning = thinning_from(thinning);
+  options.memory = static_cast<std::uint64_t>(std::clamp(gibibytes, 0.0, 1e6) * 0x1p30);
   options.threads = threads;
   TriangleMesh mesh;
   for (std::size_t i = 0; i < vertices.shape(0); ++i)

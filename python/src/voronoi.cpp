@@ -53,6 +53,16 @@ std::unique_ptr<VoronoiOf> diagram_of(
   return result;
 }
 
+/// The diagram inside of a polygon without holes, by the method `lee`.
+std::unique_ptr<VoronoiOf> diagram_inside(const ShapeOf& of, const Options& given) {
+  auto diagram = run(of.shape->points.size(), [&](const std::atomic<bool>* cancel) {
+    Options options = given;
+    options.cancel = cancel;
+    return voronoi_diagram(*of.shape, options);
+  });
+  return std::make_unique<VoronoiOf>(VoronoiOf{{}, value_of(std::move(diagram))});
+}
+
 /// The faces as rings: points, where each face begins (an empty face has none).
 nb::tuple outlines(const VoronoiOf& self, double chord) {
   std::vector<Vec2> points;
@@ -198,6 +208,7 @@ void bind_voronoi(nb::module_& module) {
   module.def("voronoi_of", &diagram_of, nb::arg("coordinates"), nb::arg("begin"), nb::arg("closed"),
              nb::arg("bulges").none(), nb::arg("node_crossings"), nb::arg("frame").none(),
              nb::arg("options"));
+  module.def("voronoi_inside", &diagram_inside);
   module.def("buffers", &buffers, nb::arg("coordinates"), nb::arg("begin"), nb::arg("closed"),
              nb::arg("bulges").none(), nb::arg("node_crossings"), nb::arg("distances"),
              nb::arg("threads"));

@@ -124,3 +124,25 @@ def test_wrong_offsets_write_nothing():
     for levels in ([np.array([0, 9])], [np.array([1, 0])], [], [np.array([0, 2])] * 4):
         with pytest.raises(medial.MedialError):
             _core.write_wkb(np.zeros(4), 2, levels)
+
+
+def test_branches_and_transects_as_alone():
+    pytest.importorskip("pandas")
+    found = medial.arrays.branches(FEATURES[:40], threads=2)
+    table = found.to_pandas()
+    for i in (0, 13, 39):
+        alone = medial.axis(FEATURES[i]).branches
+        part_of = table.loc[i].set_index("branch")
+        for name in alone.columns:
+            if name == "euclidean":
+                assert part_of[name].tolist() == pytest.approx(alone[name].tolist(), rel=1e-15)
+            else:
+                assert part_of[name].tolist() == alone[name].tolist(), name
+    cuts = medial.arrays.transects(FEATURES[:40], 5)
+    for i in (0, 13, 39):
+        alone = medial.transects(FEATURES[i], 5)
+        ends = cuts.values.reshape(-1, 2, 2)[5 * i : 5 * i + 5]
+        assert np.array_equal(ends[:, 0], alone.left) and np.array_equal(ends[:, 1], alone.right)
+        assert np.array_equal(cuts.attributes["width"][5 * i : 5 * i + 5], alone.width)
+    failed = medial.arrays.branches([BAD, FEATURES[0]], on_error="ignore")
+    assert failed.errors[0].code == "crossing" and set(failed.feature) == {1}

@@ -134,7 +134,7 @@ def test_stored_axes_are_checked(rectangle, tmp_path):
     a.save(path)
     assert medial.load(path) == [a]
     text = __import__("gzip").decompress(path.read_bytes()).decode()
-    for old, new in (('"edges":[[', '"edges":[[99,'), ('"nodes":[[', '"nodes":[[0,'), ('"medial":1', '"medial":3')):
+    for old, new in (('"edges":[\n[', '"edges":[[99,'), ('"nodes":[\n[', '"nodes":[[0,'), ('"medial":1', '"medial":3')):
         with pytest.raises(medial.MedialError):
             medial.loads(text.replace(old, new, 1))
     with pytest.raises(medial.MedialError):

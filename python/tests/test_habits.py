@@ -162,3 +162,22 @@ def test_options_and_missing_packages(monkeypatch):
     monkeypatch.setitem(sys.modules, "shapely", None)
     with pytest.raises(medial.MissingPackage, match=r"pip install medial-axis\[geo\]"):
         axis.to_shapely()
+
+
+def test_nothing_is_left_when_python_ends():
+    code = (
+        "import numpy as np, medial, medial.image, medial.arrays;"
+        "kept = [medial.axis(np.array([(0, 0), (4, 0), (4, 2), (0, 2)], float)), medial.axis];"
+        "medial.image.medial_axis(np.eye(8)); medial.arrays.width([[(0, 0), (4, 0), (4, 2)]])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True,
+                          env={**os.environ, "MEDIAL_LEAK_WARNINGS": "1"})
+    assert "leaked" not in done.stderr
+
+
+def test_forks_after_many_threads_do_not_wait():
+    for _ in range(3):
+        medial.axes([np.array([(0, 0), (4, 0), (4, k), (0, 2)], float) for k in range(1, 600)], threads=3)
+        here = area_of(3000)
+        with multiprocessing.get_context("fork").Pool(2) as pool:
+            assert pool.map_async(area_of, [3000, 3000]).get(timeout=60) == [here, here]

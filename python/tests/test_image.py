@@ -1,5 +1,7 @@
 """Images beside scikit-image."""
 
+import inspect
+
 import numpy as np
 import pytest
 
@@ -64,3 +66,30 @@ def test_outline():
     square[1:3, 1:3] = True
     (ring,) = image.outline(square)
     assert medial.Shape(ring).area == 4
+
+
+@pytest.mark.parametrize("name", ["horse", "coins", "page", "text", "camera", "cell", "clock"])
+def test_sample_images_of_scikit_image(name):
+    data = pytest.importorskip("skimage.data")
+    morphology = pytest.importorskip("skimage.morphology")
+    try:
+        picture = getattr(data, name)()
+    except Exception as error:
+        pytest.skip(f"the image is not there: {error}")
+    shape = ~picture if picture.dtype == bool else picture > picture.mean()
+    theirs, distance = morphology.medial_axis(shape, return_distance=True)
+    ours, own_distance = image.medial_axis(shape, None, True)
+    assert np.array_equal(distance, own_distance) and theirs.dtype == ours.dtype
+    for make, other in ((image.medial_axis, theirs), (image.skeletonize, morphology.skeletonize(shape))):
+        made = make(shape)
+        assert image.topology(made) == image.topology(shape) and made.dtype == other.dtype
+        assert 0.4 < made.sum() / other.sum() < 1.6
+    assert np.array_equal(image.thin(shape, 2), morphology.thin(shape, 2))
+
+
+def test_signatures_are_those_of_scikit_image():
+    morphology = pytest.importorskip("skimage.morphology")
+    for name in ("medial_axis", "skeletonize", "thin"):
+        theirs = inspect.signature(getattr(morphology, name)).parameters.values()
+        ours = inspect.signature(getattr(image, name)).parameters.values()
+        assert [(p.name, p.kind, p.default) for p in theirs] == [(p.name, p.kind, p.default) for p in ours]

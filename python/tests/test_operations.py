@@ -106,9 +106,10 @@ def test_verify_and_compare(plan):
     assert certificate and certificate.cycles == 1 and certificate.largest_residual < 1e-12
     wrong = medial.verify(a, [(0, 0), (10, 0), (10, 6), (0, 6)])
     assert not wrong and wrong.failures
-    rows = medial.compare(plan.copy(), ("disks", "lee", "ridge"))
+    rows = medial.compare(plan.copy(), ("disks", "lee", "ridge", "curve-axis"))
+    assert rows[0]["length"] == pytest.approx(rows[1]["length"], rel=1e-12)
     assert rows[0]["length"] == pytest.approx(rows[2]["length"], rel=0.02)
-    assert rows[1]["error"].code == "unsupported"
+    assert rows[3]["error"].code == "unsupported"
     assert (medial.legality(a) <= 1e-9).all()
 
 
@@ -186,3 +187,85 @@ def test_tables_and_pictures(plan):
     matplotlib = pytest.importorskip("matplotlib")
     matplotlib.use("agg")
     assert a.plot(disks=5).get_aspect() in ("equal", 1.0)
+
+
+def test_networks_and_side_channels():
+    island = [[(0, 0), (30, 0), (30, 6), (0, 6)], [(9, 2), (21, 2), (21, 3), (9, 3)]]
+    line = medial.centerline(island)
+    channels = line.side_channels()
+    whole = medial.network(island)
+    assert channels.branch_count == 1 and channels.part
+    assert whole.length >= line.length + channels.length - 1e-9
+    assert medial.verify(whole)  # as a part
+    assert medial.centerline(island, "0/3", "0/1").length == pytest.approx(medial.centerline(island, (0, 3), (30, 3)).length)
+    for name in ("0/9", "x", "1"):
+        with pytest.raises(medial.MedialError, match="side"):
+            medial.centerline(island, name, "0/1")
+
+
+def test_transects_lie_across_the_course():
+    notched = [(0, 0), (10, 0), (10, 2), (5.1, 2), (5, 1.9), (4.9, 2), (0, 2)]
+    cuts = medial.transects(notched, 9)
+    directions = cuts.left - cuts.right
+    assert np.abs(directions[:, 0]).max() < 0.2 and cuts.span.max() < 2.05
+    spaced = medial.transects([(0, 0), (10, 0), (10, 2), (0, 2)], spacing=3)
+    assert np.diff(spaced.along) == pytest.approx(np.full(len(spaced.along) - 1, 3.0))
+    with pytest.raises(ValueError):
+        medial.transects(notched, spacing=0)
+
+
+def test_smoothing_outside_and_specks():
+    notched = [(0, 0), (9, 0), (9, 4), (5, 4), (4.5, 3.5), (4, 4), (0, 4)]
+    filled = medial.smooth(notched, "significance", 9, exterior=True)
+    assert medial.Shape(notched).area < filled.area <= 36 + 1e-9
+    speck = [[(0, 0), (9, 0), (9, 4), (0, 4)], [(3, 1), (3.01, 1), (3.01, 1.01), (3, 1.01)]]
+    with_speck, without = (medial.prune(speck, "erosion", 0.9, **kept) for kept in ({}, {"specks": 0.1}))
+    assert len(with_speck.nodes) != len(without.nodes)
+    assert medial.prune(speck, specks=0.1).shape.hole.sum() == 0
+
+
+def test_nesting():
+    ell = [(0, 0), (6, 0), (6, 2), (2, 2), (2, 6), (0, 6)]
+    places = medial.nest(ell, ell, gap=0.1, best=3)
+    assert 1 <= len(places) <= 3 and places[0].saved > 5 and places[0].gap >= 0.1 - 1e-9
+    moved = places[0].placed(ell)
+    assert moved.area == pytest.approx(20)
+    shapely = pytest.importorskip("shapely")
+    a, b = shapely.Polygon(ell), moved.to_shapely()
+    assert a.intersection(b).area < 1e-9 and a.distance(b) == pytest.approx(places[0].gap, abs=1e-9)
+    both = shapely.union(a, b).convex_hull.area
+    assert a.convex_hull.area + b.convex_hull.area - both == pytest.approx(places[0].saved, rel=1e-9)
+
+
+def test_curvature_of_the_boundary():
+    loaf = medial.axis([(0, 0), (10, 0), (10, 4), (0, 4)], bulges=[0, 0, 0.2, 0])
+    at = medial.boundary_curvature(loaf)
+    top = at.foot[:, 1] > 4 + 1e-9
+    angle = 4 * math.atan(0.2)
+    assert top.any() and at.curvature[top] == pytest.approx(2 * math.sin(angle / 2) / 10, abs=1e-9)
+    assert at.curvature[~top] == pytest.approx(0, abs=1e-9) and at.slope == pytest.approx(0, abs=1e-6)
+    assert at.branch.max() < loaf.branch_count and len(at.left) == len(at.disk)
+
+
+def test_thresholds_and_distances_of_methods():
+    bent = [(0, 0), (10, 0), (10, 2), (5, 2.3), (0, 2)]
+    with pytest.raises(TypeError, match="no option 'paralel'"):
+        medial.features(bent, paralel=1)
+    assert len(medial.features(bent, parallel=9, even=9)["runs"]) <= len(medial.features(bent)["runs"])
+    first, second = medial.compare(bent, ("disks", "ridge"))
+    assert first["hausdorff"] < 1e-12 and 0 < second["mean_distance"] <= second["hausdorff"] < 0.2
+
+
+def areas(cells):
+    for cell in cells:
+        (x, y), (u, v) = cell.T, np.roll(cell, -1, axis=0).T
+        yield abs(float((x * v - y * u).sum())) / 2
+
+
+def test_offset_passes_and_a_diagram_inside():
+    passes = medial.offset_passes([(0, 0), (9, 0), (9, 4), (0, 4)], 0.75, first=0.5)
+    assert [region.distance for region in passes] == [0.5, 1.25]
+    inside = medial.voronoi([(0, 0), (9, 0), (9, 4), (0, 4)], method="lee")
+    assert sum(areas(inside.cells())) == pytest.approx(36)
+    with pytest.raises(ValueError):
+        medial.voronoi([(0.0, 0.0), (1.0, 0.0)], method="ridge")

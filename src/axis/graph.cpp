@@ -22,12 +22,12 @@ void set_node_kinds(MedialAxis& axis) {
 Incidence::Incidence(const MedialAxis& axis)
     : begin_(axis.nodes.size() + 1, 0), edges_(2 * axis.edges.size()) {
   for (const Edge& edge : axis.edges)
-    for (const std::uint32_t node : edge.node) ++begin_[node + 1];
+    for (const std::uint32_t node : edge.node) ++begin_[node];
   for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
-  std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-  for (std::size_t i = 0; i < axis.edges.size(); ++i)
+  // From the last edge to the first, so that a node's part is filled from its end to its begin.
+  for (std::size_t i = axis.edges.size(); i-- > 0;)
     for (const std::uint32_t node : axis.edges[i].node)
-      edges_[next[node]++] = static_cast<std::uint32_t>(i);
+      edges_[--begin_[node]] = static_cast<std::uint32_t>(i);
 }
 
 namespace {

@@ -15,12 +15,6 @@ namespace {
 
 constexpr std::size_t fan_out = 8;
 
-double squared_distance(const Box& box, Vec2 p) {
-  const double dx = std::max({box.low.x - p.x, 0.0, p.x - box.high.x});
-  const double dy = std::max({box.low.y - p.y, 0.0, p.y - box.high.y});
-  return dx * dx + dy * dy;
-}
-
 /// A box that holds the edge: by its weights, a curve stays in the hull of its control points.
 Box box_of(const MedialAxis& axis, const Edge& edge) {
   const Vec2 a = axis.nodes[edge.node[0]].disk.center;

@@ -9,7 +9,7 @@
 
 namespace medial {
 
-/// The kind of a node with so many edges; the only point of an axis, which has none, is a leaf.
+/// The kind of a node by its number of edges; the only point of an axis, which has none, is a leaf.
 constexpr NodeKind kind_of_degree(std::size_t degree) {
   return degree <= 1 ? NodeKind::leaf : degree == 2 ? NodeKind::site_change : NodeKind::branching;
 }

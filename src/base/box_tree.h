@@ -13,7 +13,14 @@
 
 namespace medial {
 
-/// Bounds of `fan_out` leaves each, then of so many of these, level by level until one is left.
+/// From a point to the nearest place of a box; infinite if it is nothing.
+inline double squared_distance(const Box& box, Vec2 p) {
+  const double dx = std::max({box.low.x - p.x, p.x - box.high.x, 0.0});
+  const double dy = std::max({box.low.y - p.y, p.y - box.high.y, 0.0});
+  return dx * dx + dy * dy;
+}
+
+/// Bounds of `fan_out` leaves each, then of `fan_out` of these, level by level up to one.
 /// `bound_of` gives the bound of a leaf by its number; a bound can add() another one. O(n).
 template <class BoundOf>
 auto bound_levels(std::size_t count, std::size_t fan_out, const BoundOf& bound_of) {

@@ -21,7 +21,7 @@ void reserve_large(std::vector<T>& elements, std::size_t count) {
   prefer_large_pages(elements.data(), count * sizeof(T));
 }
 
-/// A vector of so many equal elements, with large pages.
+/// A vector of `count` equal elements, with large pages.
 template <class T>
 std::vector<T> large_vector(std::size_t count, const T& value = {}) {
   std::vector<T> elements;

@@ -26,7 +26,7 @@ struct Cell {
   }
 };
 
-/// Distributes by the highest bits of the keys, so many that points spread evenly are alone there,
+/// Distributes by the highest bits of the keys, enough that points spread evenly are alone there,
 /// and compares what has them in common.
 void sort(std::vector<Cell>& cells) {
   constexpr unsigned digit = 11, key_bits = 64;

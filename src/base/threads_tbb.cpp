@@ -5,7 +5,9 @@
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
+#include <pthread.h>
 
+#include <atomic>
 #include <thread>
 #include <utility>
 
@@ -20,6 +22,18 @@ using Allowed = tbb::global_control;
 /// Whether this thread works for run_on(1): then oneTBB, whose arenas and tasks take longer than
 /// the axis of a rectangle, is left out.
 thread_local bool alone = false;
+
+/// Set in a process that is forked from one that has used oneTBB: its threads are not there, and
+/// oneTBB waits for them for ever.
+std::atomic<bool> forked{false};
+
+/// Whether work is to be shared with other threads.
+bool shared() {
+  if (alone || forked) return false;
+  [[maybe_unused]] static const int registered =
+      pthread_atfork(nullptr, nullptr, [] { forked = true; });
+  return true;
+}
 
 /// Sets `alone` as long as it lives.
 class Alone {
@@ -53,6 +67,7 @@ std::size_t startable_threads(std::size_t wanted) {
 }  // namespace
 
 int effective_threads(int requested) {
+  if (forked) return 1;
   if (requested > 0) return std::min(requested, most_threads);
   return alone ? 1 : tbb::this_task_arena::max_concurrency();
 }
@@ -70,7 +85,7 @@ void allow_startable_threads(int requested) {
 namespace threads {
 
 void run_ranges(std::size_t count, std::size_t grain, FunctionRef<std::size_t, std::size_t> work) {
-  if (alone || count <= grain) {
+  if (count <= grain || !shared()) {
     if (count > 0) work(0, count);
     return;
   }
@@ -79,7 +94,7 @@ void run_ranges(std::size_t count, std::size_t grain, FunctionRef<std::size_t, s
 }
 
 void run_both(FunctionRef<> first, FunctionRef<> second) {
-  if (!alone) return tbb::parallel_invoke(first, second);
+  if (shared()) return tbb::parallel_invoke(first, second);
   first();
   second();
 }
@@ -87,7 +102,7 @@ void run_both(FunctionRef<> first, FunctionRef<> second) {
 void run_on(int requested, FunctionRef<> work) {
   const int threads = effective_threads(requested);
   const Alone scope(threads == 1);
-  if (alone) return work();
+  if (!shared()) return work();
   // Without leave oneTBB gives no more threads than the machine has, and prints a warning.
   std::optional<Allowed> leave;
   if (threads > tbb::this_task_arena::max_concurrency())
@@ -103,7 +118,7 @@ struct TaskGroup::Tasks {
 };
 
 TaskGroup::TaskGroup() : tasks_(std::make_unique<Tasks>()) {
-  if (!alone) tasks_->group.emplace();
+  if (shared()) tasks_->group.emplace();
 }
 TaskGroup::~TaskGroup() = default;
 
@@ -139,7 +154,7 @@ void run_pipeline(int requested, std::size_t window,
                                             });
   const tbb::filter<Task, void> end(tbb::filter_mode::parallel, [](const Task&) {});
   on_threads(requested, [&] {
-    if (!alone) return tbb::parallel_pipeline(window, chain & end);
+    if (shared()) return tbb::parallel_pipeline(window, chain & end);
     while (const Task task = next())
       for (const PipelineStage& stage : stages) stage.run(task.get());
   });

@@ -1,9 +1,9 @@
-#include "curve/least_squares.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
+
+#include "medial/contour.h"
 
 namespace medial {
 namespace {
@@ -208,8 +208,7 @@ std::vector<double> refined(const Polygon& polygon, const Spline& spline, double
   return knots;
 }
 
-}  // namespace
-
+/// The distinct vertices of a polygon that a smooth curve is to follow within `tolerance`.
 Result<std::vector<Vec2>> points_to_fit(std::span<const Vec2> polygon, double tolerance) {
   if (!(tolerance > 0) || !std::isfinite(tolerance))
     return Error{ErrorCode::invalid_option, "the tolerance of the fit must be positive", {}};
@@ -225,7 +224,10 @@ Result<std::vector<Vec2>> points_to_fit(std::span<const Vec2> polygon, double to
   return points;
 }
 
-Result<Contour> smoothed_contour(std::span<const Vec2> polygon, double tolerance) {
+}  // namespace
+
+// Curve and polygon are compared at eight places between knots and two between vertices.
+Result<Contour> fit_smooth_contour(std::span<const Vec2> polygon, double tolerance) {
   auto points = points_to_fit(polygon, tolerance);
   if (!points) return std::move(points).error();
   const Polygon closed(std::move(points).value());

@@ -217,7 +217,7 @@ void Converter::convert_between(const Bezier& part, Knots& knots, int first, int
                   {{infinity, demands.limits.end}, demands.apex && !forward}, depth);
 }
 
-/// Where to divide a part, with its ends, into two parts or more: so many that all have about the
+/// Where to divide a part, with its ends, into two parts or more, enough that all have about the
 /// tolerance as their error. Gives their number.
 int Converter::knots_of(const Bezier& part, const Station& a, const Station& b, Demands demands,
                         Knots& knots) const {

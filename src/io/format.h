@@ -203,6 +203,7 @@ Format png_format();
 Format ply_format();
 Format vtk_format();
 Format obj_format();
+Format glb_format();
 Format off_format();
 Format tif_format();
 Format pgm_format();

@@ -42,6 +42,7 @@ const std::vector<Format>& formats() {
       ply_format(),
       vtk_format(),
       with_meshes(obj_format()),
+      glb_format(),
 #ifdef MEDIAL_MESH
       with_meshes(Format{".stl"}),
 #endif

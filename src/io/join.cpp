@@ -113,14 +113,16 @@ std::vector<bool> in_loops(const std::vector<End>& place) {
   return kept;
 }
 
-/// The end that each end goes on at; no_index where a curve goes nowhere.
-std::vector<End> partners(const std::vector<Contour>& curves, const std::vector<End>& place,
-                          const std::vector<bool>& kept) {
-  struct Leaving {
-    End place;
-    double direction;
-    End end;
-  };
+struct Leaving {
+  End place;
+  double direction;
+  End end;
+};
+
+/// The ends of the curves that are kept, by place, and counterclockwise around each.
+std::vector<Leaving> ends_around_places(const std::vector<Contour>& curves,
+                                        const std::vector<End>& place,
+                                        const std::vector<bool>& kept) {
   std::vector<Leaving> leaving;
   for (End end = 0; end < place.size(); ++end) {
     if (!kept[end / 2]) continue;
@@ -129,7 +131,12 @@ std::vector<End> partners(const std::vector<Contour>& curves, const std::vector<
   std::ranges::sort(leaving, {}, [](const Leaving& one) {
     return std::tuple(one.place, one.direction, one.end);
   });
-  std::vector<End> partner(place.size(), no_index);
+  return leaving;
+}
+
+/// The end that each end goes on at; no_index where a curve goes nowhere.
+std::vector<End> partners(const std::vector<Leaving>& leaving, std::size_t ends) {
+  std::vector<End> partner(ends, no_index);
   for (std::size_t i = 0; i + 1 < leaving.size(); ++i) {
     if (leaving[i].place != leaving[i + 1].place) continue;
     partner[leaving[i].end] = leaving[i + 1].end;
@@ -153,6 +160,54 @@ void append(Contour& contour, const Contour& curve, bool backward) {
   }
 }
 
+/// Twice the area on the left of a closed contour, with the area between arcs and chords.
+double doubled_area(const Contour& contour) {
+  double sum = 0;
+  for (const CurvePiece& piece : contour.pieces) {
+    const Vec2 origin = contour.points.front();
+    for (std::uint32_t i = piece.first; i < piece.first + piece.degree; ++i)
+      sum += cross(contour.points[i] - origin, contour.points[i + 1] - origin);
+    if (piece.bulge == 0) continue;
+    // Of a segment of angle a and radius r: r^2 (a - sin a).
+    const double angle = 4 * std::atan(piece.bulge);
+    const double chord = distance(contour.points[piece.first], contour.points[piece.first + 1]);
+    const double radius = chord / (2 * std::sin(angle / 2));
+    sum += radius * radius * (angle - std::sin(angle));
+  }
+  return sum;
+}
+
+/// The bounded faces of the curves that are kept, as a plane graph: walks that turn right as far as
+/// possible at each place, with the face on their left.
+void add_cells(const std::vector<Contour>& curves, const std::vector<Leaving>& leaving,
+               std::size_t ends, JoinedCurves& result) {
+  std::vector<End> next(ends, no_index);  // after arriving at an end
+  for (std::size_t first = 0, i = 0; i < leaving.size(); ++i) {
+    if (leaving[i].place != leaving[first].place) first = i;
+    std::size_t last = i;
+    if (i == first)
+      while (last + 1 < leaving.size() && leaving[last + 1].place == leaving[i].place) ++last;
+    next[leaving[i].end] = leaving[i == first ? last : i - 1].end;
+  }
+  std::vector<bool> done(ends, false), in_cell(curves.size(), false);
+  for (const Leaving& begin : leaving) {
+    if (done[begin.end]) continue;
+    Contour cell;
+    cell.start_at(place_of(curves, begin.end));
+    std::vector<End> around;
+    for (End at = begin.end; !done[at]; at = next[at ^ 1U]) {
+      done[at] = true;
+      around.push_back(at / 2);
+      append(cell, curves[at / 2], at % 2 == 1);
+    }
+    cell.points.back() = cell.points.front();
+    if (is_degenerate(cell) || !(doubled_area(cell) > 0)) continue;
+    for (const std::uint32_t curve : around) in_cell[curve] = true;
+    result.cells.push_back(std::move(cell));
+  }
+  result.in_cells = static_cast<std::uint64_t>(std::ranges::count(in_cell, true));
+}
+
 double diagonal_of(const std::vector<Contour>& curves) {
   Box box = Box::nothing();
   for (const Contour& curve : curves)
@@ -171,7 +226,8 @@ JoinedCurves join_curves(std::vector<Contour> curves, std::optional<double> gap)
   // A curve that a tolerance swallows whole would close on itself and take the place of another.
   const std::vector<bool> kept =
       close_all ? std::vector<bool>(curves.size(), true) : in_loops(place);
-  const std::vector<End> partner = partners(curves, place, kept);
+  const std::vector<Leaving> leaving = ends_around_places(curves, place, kept);
+  const std::vector<End> partner = partners(leaving, place.size());
 
   std::vector<bool> used(curves.size(), false);
   // Goes from curve to curve, entering `begin` first; true if the way comes back.
@@ -212,6 +268,7 @@ JoinedCurves join_curves(std::vector<Contour> curves, std::optional<double> gap)
   for (std::size_t i = 0; i < curves.size(); ++i) {
     if (!kept[i]) ++result.open;
   }
+  if (result.loops.empty()) add_cells(curves, leaving, place.size(), result);
   return result;
 }
 

@@ -16,7 +16,7 @@ Result<Document<Feature>> read_source(const std::string& path, const SourceOptio
   const bool chooses = !read.layer.empty() || !read.where.empty() || read.project || read.close;
   if (!options.text.empty())
     return chooses ? refused("layer, where, project and close are not for a text")
-                   : read_text(options.text, path);
+                   : read_text(options.text, path, options.font_size);
   if (read.loose || !is_native(path)) return read_document(path, read);
   if (chooses || read.repair != RepairRule::none)
     return refused("layer, where, repair, project and close are not for medial's own format");

@@ -8,8 +8,8 @@
 namespace medial::io {
 
 /// Document::corner_angle of outlines that people draw with curves: joints that they take for
-/// smooth miss it by less, through coordinates rounded to a font's units or to a few decimals.
-constexpr double drawn_corner_angle = 1;
+/// smooth miss it by less, through coordinates rounded to a few decimals, or to a font's units.
+constexpr double drawn_corner_angle = 1, font_corner_angle = 4;
 
 /// An affine map: p becomes x * p.x + y * p.y + origin.
 struct Affine {

@@ -197,7 +197,8 @@ Result<Document<T>> read_json(const std::string& path,
   });
 }
 
-constexpr const char* no_native = "this is not one of medial's own JSON files";
+constexpr const char* no_native =
+    "this is not one of medial's own JSON files, which -o NAME.json writes";
 
 bool begins(const std::string& path, Sniff sniff) {
   const Result<std::shared_ptr<TextSource>> source = TextSource::open(path);

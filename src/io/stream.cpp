@@ -1,5 +1,3 @@
-#include "medial/io/stream.h"
-
 #include <fmt/format.h>
 #include <sys/stat.h>
 
@@ -17,6 +15,7 @@
 #include "io/open.h"
 #include "io/tables.h"
 #include "io/write_target.h"
+#include "medial/io/write.h"
 #include "medial/threads.h"
 
 namespace medial::io {
@@ -151,6 +150,21 @@ class TextParts final : public PartWriter {
   bool begun_ = false, any_ = false;
 };
 
+/// Where nobody wants the axes themselves.
+class NoParts final : public PartWriter {
+ public:
+  Result<std::shared_ptr<void>> prepare(const AxesOutput&, const Part&) override {
+    return std::shared_ptr<void>();
+  }
+  Status add(void*) override { return success(); }
+  Status finish() override { return success(); }
+};
+
+Result<std::unique_ptr<PartWriter>> writer_of_parts(Target& target, const Format& format) {
+  if (format.write_parts != nullptr) return format.write_parts(target);
+  return std::unique_ptr<PartWriter>(std::make_unique<TextParts>(target, format));
+}
+
 /// A part of the file on its way.
 struct PartTask {
   Document<Feature> features;
@@ -170,7 +184,7 @@ class AxesStream {
   AxesStream(PartReader reader, const Survey& survey, const StreamOptions& options,
              PartWriter& writer)
       : reader_(std::move(reader)), survey_(survey), options_(options), writer_(writer) {
-    report.document = empty_like<AxisItem>(survey.common);
+    report.document = Document<AxisItem>{survey.common, {}};
     common_ = report.document;
     common_.notes.clear();
   }
@@ -315,8 +329,11 @@ class AxesStream {
 Result<std::optional<StreamReport>> stream_axes(const std::string& path, const Destination& target,
                                                 const std::string& format,
                                                 const StreamOptions& options) {
-  const Format* row = find_format(format_name(target.path, format), DocumentKind::axes);
-  const bool in_parts = row != nullptr && (row->in_parts || row->write_parts != nullptr);
+  const bool silent = target.path.empty();
+  const Format* row =
+      silent ? nullptr : find_format(format_name(target.path, format), DocumentKind::axes);
+  const bool in_parts =
+      silent || (row != nullptr && (row->in_parts || row->write_parts != nullptr));
   // What has gone to a pipe cannot be taken back after an error.
   if (!in_parts || (is_stream(target.path) && target.text == nullptr) ||
       !is_large_file(path, options.least_bytes) || needs_all_features(options.source))
@@ -329,30 +346,28 @@ Result<std::optional<StreamReport>> stream_axes(const std::string& path, const D
   if (!survey) return std::move(survey).error();
   std::optional<StreamReport> report;
   std::optional<Error> input_error;
-  const auto write = [&](Target& to, const Format& chosen) -> Status {
+  const auto write_by = [&](PartWriter& writer) -> Status {
     auto again = open_features(path, read);
     if (!again) return std::move(again).error();
-    to.columns = std::make_shared<const AttributeColumns>(std::move(survey->columns));
-    to.arcs = survey->arcs;
-    std::unique_ptr<PartWriter> writer;
-    if (chosen.write_parts != nullptr) {
-      auto made = chosen.write_parts(to);
-      if (!made) return std::move(made).error();
-      writer = std::move(*made);
-    } else {
-      writer = std::make_unique<TextParts>(to, chosen);
-    }
-    AxesStream stream(PartReader(std::move(*again), read), *survey, options, *writer);
+    AxesStream stream(PartReader(std::move(*again), read), *survey, options, writer);
     Status done = stream.run();
     report = std::move(stream.report);
     input_error = std::move(stream.input_error);
     return done;
   };
+  const auto write = [&](Target& to, const Format& chosen) -> Status {
+    to.columns = std::make_shared<const AttributeColumns>(std::move(survey->columns));
+    to.arcs = survey->arcs;
+    auto writer = writer_of_parts(to, chosen);
+    return writer ? write_by(**writer) : Status(std::move(writer).error());
+  };
   const Document<Feature>& common = survey->common;
-  Status done = write_target(
-      target, format,
-      {DocumentKind::axes, "json", "medial", common.crs_wkt, common.unit, options.write.overwrite},
-      write);
+  NoParts nowhere;
+  Status done = silent ? write_by(nowhere)
+                       : write_target(target, format,
+                                      {DocumentKind::axes, "json", "medial", common.crs_wkt,
+                                       common.unit, options.write.overwrite},
+                                      write);
   if (input_error) return *input_error;
   if (!done) return std::move(done).error();
   return report;

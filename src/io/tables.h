@@ -75,6 +75,11 @@ std::vector<Column> own_axis_columns();
 TableSource tables_of(const AxesOutput& output, const Target& target);
 TableSource tables_of(const FeaturesOutput& output, const Target& target);
 TableSource tables_of(const LayersOutput& output, const Target& target);
+/// Polygons of chords: one for each region of offset curves, and for each component of a shape. Of
+/// Voronoi diagrams the faces, and the edges as a second table.
+TableSource tables_of(const OffsetsOutput& output, const Target& target);
+TableSource tables_of(const ShapesOutput& output, const Target& target);
+TableSource tables_of(const VoronoiOutput& output, const Target& target);
 
 using PutTables = Status (*)(Target& target, const TableSource& source);
 
@@ -83,13 +88,13 @@ Status write_tables(Target& target, const Output& output) {
   return put(target, tables_of(output, target));
 }
 
-/// A format that holds tables, written by `put`.
-template <PutTables put>
+/// A format that holds tables of some kinds of documents, written by `put`.
+template <PutTables put, class... Outputs>
 Format with_tables(Format format) {
   format.geographic = true;
-  return format.writes<AxesOutput, FeaturesOutput, LayersOutput>(write_tables<put, AxesOutput>,
-                                                                 write_tables<put, FeaturesOutput>,
-                                                                 write_tables<put, LayersOutput>);
+  return format.writes<AxesOutput, FeaturesOutput, LayersOutput, Outputs...>(
+      write_tables<put, AxesOutput>, write_tables<put, FeaturesOutput>,
+      write_tables<put, LayersOutput>, write_tables<put, Outputs>...);
 }
 
 }  // namespace medial::io

@@ -36,8 +36,10 @@ Status back_to_geographic(const std::string&, std::vector<Vec2>&) { return succe
 /// load_shapes() mends these by noding.
 Status make_valid(Feature&, std::size_t, std::vector<std::string>&) { return success(); }
 
-Result<Document<Feature>> read_text(const std::string&, const std::string&) {
+#ifndef MEDIAL_FONTS
+Result<Document<Feature>> read_text(const std::string&, const std::string&, double) {
   return missing("FreeType", "draw a text");
 }
+#endif
 
 }  // namespace medial::io

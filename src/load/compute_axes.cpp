@@ -43,7 +43,7 @@ Result<Document<AxisItem>> compute_axes(Document<ShapeItem> shapes, Options opti
           if (own.grid.resolution == 0 && own.grid.pixels == 0) own.grid.resolution = shapes.pixel;
       },
       options.method);
-  Document<AxisItem> axes = empty_like<AxisItem>(shapes);
+  Document<AxisItem> axes{shapes, {}};
   std::vector<double> weights;
   for (const ShapeItem& item : shapes.items)
     weights.push_back(static_cast<double>(item.shape.points.size()));

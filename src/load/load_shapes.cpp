@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/counted.h"
-#include "curve/least_squares.h"
 #include "load/file_index.h"
 #include "load/progress.h"
 #include "medial/load.h"
@@ -96,7 +95,7 @@ void keep_sources(Shape& shape, const Feature& feature,
 /// The shape within smooth curves instead, which the contours become.
 Result<Shape> smooth_shape(std::vector<Contour>& contours, const LoadOptions& options) {
   for (Contour& contour : contours) {
-    auto curve = smoothed_contour(contour.points, options.fit);
+    auto curve = fit_smooth_contour(contour.points, options.fit);
     if (!curve) return std::move(curve).error();
     contour = std::move(curve).value();
   }
@@ -136,6 +135,12 @@ std::string note_of_crossings(std::size_t feature, const ShapeReport& report, st
   return "feature " + std::to_string(feature) + " was repaired: its edges cross or overlap in " +
          counted(report.crossings, "place") + " and are split there; " +
          counted(report.input_rings, "ring") + " before, " + counted(loops, "loop") + " after";
+}
+
+/// Of drawings and letters, whose outlines may cross: one note for all of them.
+std::string note_of_outlines(std::size_t features, std::uint64_t places) {
+  return "the outlines of " + counted(features, "feature") + " cross or overlap in " +
+         counted(places, "place") + " and are split there";
 }
 
 /// A feature's shape, or why it has none; and what was left out of it.
@@ -252,7 +257,7 @@ Result<Document<ShapeItem>> load_shapes(Document<Feature> features, const LoadOp
                                         LoadReport* report) {
   const std::size_t count = features.items.size();
   if (count == 0) return Error{ErrorCode::empty, "there is no polygon", {}};
-  Document<ShapeItem> shapes = empty_like<ShapeItem>(features);
+  Document<ShapeItem> shapes{features, {}};
   std::vector<LoadReport> reports(count);
   std::vector<double> weights;
   for (const Feature& feature : features.items) weights.push_back(weight_of(feature));
@@ -283,14 +288,20 @@ Result<Document<ShapeItem>> load_shapes(Document<Feature> features, const LoadOp
   auto items = map_items<Attempt>(weights, options.threads, load, options.cancel);
   if (!items) return in_file_of(features, std::move(items).error());
   LoadReport sum;
+  std::size_t outlines = 0, places = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const ShapeReport& one = reports[i].shapes;
-    if (const Attempt& attempt = (*items)[i]; one.crossings > 0 && !attempt.error)
-      shapes.notes.push_back(
-          note_of_crossings(features.index_of(i), one, attempt.item.shape.loop_count()));
+    if (const Attempt& attempt = (*items)[i]; one.crossings > 0 && !attempt.error) {
+      if (features.items[i].filled && options.repair == RepairRule::none)
+        ++outlines, places += one.crossings;
+      else
+        shapes.notes.push_back(
+            note_of_crossings(features.index_of(i), one, attempt.item.shape.loop_count()));
+    }
     sum.shapes += one;
     sum.arcs += reports[i].arcs;
   }
+  if (outlines > 0) shapes.notes.push_back(note_of_outlines(outlines, places));
   if (Status taken = take_valid(std::move(items).value(), features, options, shapes); !taken)
     return std::move(taken).error();
   sum.features = count;

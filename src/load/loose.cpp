@@ -62,7 +62,7 @@ Result<std::vector<Chain>> chains_of(const Feature& feature, const ArcOptions& o
 
 Result<LoosePieces> load_loose(Document<Feature> features, const ArcOptions& options) {
   LoosePieces pieces;
-  pieces.features = empty_like<Attributes>(features);
+  pieces.features = Document<Attributes>{features, {}};
   for (std::uint32_t i = 0; i < features.items.size(); ++i) {
     auto chains = chains_of(features.items[i], options);
     if (!chains) {

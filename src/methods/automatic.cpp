@@ -10,7 +10,7 @@ namespace medial {
 namespace {
 
 /// As measured (docs/lee.md). Of the vertices of coasts and mazes about half are reflex, of smooth
-/// shapes less than a third; large ones gain only where nearly all is convex. O(n).
+/// shapes less than a third; all of the large ones gain only where few are. O(n).
 bool is_lee_faster(const Problem& problem) {
   constexpr std::size_t large = 20000;
   const Shape& shape = problem.shape;
@@ -24,7 +24,7 @@ bool is_lee_faster(const Problem& problem) {
       reflex += cross(at - before, after - at) <= 0 ? 1 : 0;  // rounding does not matter
     }
   }
-  const double most_reflex = shape.points.size() <= large ? 0.4 : 0.01;
+  const double most_reflex = shape.points.size() <= large ? 0.4 : 0.05;
   return static_cast<double>(reflex) <= most_reflex * static_cast<double>(shape.points.size());
 }
 

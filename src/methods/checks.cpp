@@ -129,7 +129,7 @@ bool has_right_topology(const Shape& shape, std::span<const Node> nodes, std::sp
     ++counts[nodes[from].component].edges;
     parts.join(from, to);
   }
-  // As no edge leaves its component and each component has a node, so many parts are one for each;
+  // As no edge leaves its component and each component has a node, each is one part then;
   // a connected graph has edges - nodes + 1 independent cycles.
   return parts.count() == counts.size() &&
          std::all_of(counts.begin(), counts.end(), [](const Count& count) {

@@ -39,6 +39,7 @@ const std::array<MethodRow, std::variant_size_v<Method>> rows = {{
      [](const Problem& problem) { return outcome_of(biarc_dc::run(problem)); }},
     {{.name = "lee",
       .summary = "merges Voronoi diagrams of chains",
+      .holes = true,
       .exterior = true,
       .threads = true},
      method::Lee{},

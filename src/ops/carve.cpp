@@ -48,6 +48,25 @@ struct RingPlace {
   double share = 0;  ///< of the way along the edge
   double squared_distance = infinity;
 };
+/// A box around an edge: no point of at most half a circle is farther from the chord than its
+/// height, none of a circle farther than its diameter.
+Box box_around(const BulgeArc& edge) {
+  Box box{edge.start, edge.start};
+  box.add(edge.end);
+  const double chord = norm(edge.chord()), bulge = std::abs(edge.bulge);
+  const double reach = 0.5 * chord * (bulge <= 1 ? bulge : (1 + bulge * bulge) / bulge);
+  return {box.low - reach * Vec2{1, 1}, box.high + reach * Vec2{1, 1}};
+}
+
+/// A ring that is not cut yet.
+struct RingLeft {
+  explicit RingLeft(const Ring& all) : ring(&all) {
+    for (std::size_t i = 0; i < all.points.size(); ++i) box.add(box_around(edge_of(all, i)));
+  }
+  const Ring* ring;
+  Box box = Box::nothing();
+};
+
 RingPlace nearest_place(const Ring& ring, Vec2 p) {
   RingPlace best;
   for (std::size_t i = 0; i < ring.points.size(); ++i) {
@@ -91,11 +110,7 @@ class ClearedBefore {
       for (const Ring& ring : region.rings)
         for (std::size_t i = 0; i < ring.points.size(); ++i) {
           edges_.push_back(edge_of(ring, i));
-          Box box{edges_.back().start, edges_.back().start};
-          const double length = arc_length(norm(edges_.back().chord()), edges_.back().bulge);
-          box.low = box.low - length * Vec2{1, 1};
-          box.high = box.high + length * Vec2{1, 1};
-          boxes.push_back(box);
+          boxes.push_back(box_around(edges_.back()));
         }
     if (!boxes.empty()) tree_.emplace(boxes);
   }
@@ -142,14 +157,16 @@ std::vector<std::vector<ToolPoint>> parts_left(std::vector<ToolPoint> path, doub
       return k < pieces ? point_at_share(edge, k / pieces) : edge.end;
     };
     double begun = 0;
+    bool at_start = cleared.contains(at(0), clearance);
     const auto add = [&](double end) {
       if (!open || !(end > begun)) return;
       parts.back().back().bulge = std::tan(std::atan(edge.bulge) * (end - begun) / pieces);
       parts.back().push_back({at(end), path[i].z, 0});
     };
     for (double k = 0; k < pieces; k += 1) {
-      const bool needed =
-          !cleared.contains(at(k), clearance) || !cleared.contains(at(k + 1), clearance);
+      const bool at_end = cleared.contains(at(k + 1), clearance);
+      const bool needed = !at_start || !at_end;
+      at_start = at_end;
       if (needed && !open) {
         parts.push_back({{at(k), path[i].z, 0}});
         begun = k;
@@ -220,24 +237,25 @@ class Floors {
   /// Regions in each other, inner ones first, that have as many rings: all that follow each other
   /// from one boundary to its wall, then those towards another one.
   void cut_rings(std::span<const std::uint32_t> regions) {
-    std::vector<std::vector<const Ring*>> left;
+    std::vector<std::vector<RingLeft>> left;
     for (const std::uint32_t i : regions) {
       auto& rings = left.emplace_back();
-      for (const Ring& ring : offsets_.regions[i].rings) rings.push_back(&ring);
+      for (const Ring& ring : offsets_.regions[i].rings) rings.emplace_back(ring);
     }
     while (!left[0].empty())
       for (std::size_t i = 0; i < regions.size(); ++i)
         cut_nearest_ring(offsets_.regions[regions[i]], left[i]);
   }
-  void cut_nearest_ring(const OffsetRegion& region, std::vector<const Ring*>& left) {
-    const Vec2 from = planner_.started() ? planner_.at() : left[0]->points[0];
+  void cut_nearest_ring(const OffsetRegion& region, std::vector<RingLeft>& left) {
+    const Vec2 from = planner_.started() ? planner_.at() : left[0].ring->points[0];
     std::size_t next = 0;
     RingPlace nearest;
     for (std::size_t k = 0; k < left.size(); ++k) {
-      const RingPlace place = nearest_place(*left[k], from);
+      if (!(squared_distance(left[k].box, from) < nearest.squared_distance)) continue;
+      const RingPlace place = nearest_place(*left[k].ring, from);
       if (place.squared_distance < nearest.squared_distance) nearest = place, next = k;
     }
-    const Ring& ring = *left[next];
+    const Ring& ring = *left[next].ring;
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(next));
     const bool wall = region.parent == no_region;
     if (!wall && cleared_.contains_ring(region.clearance)) return;

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double anywhere = 8;           // no two places of the local frame are further apart
 constexpr double finest = 0x1p-50;       // local: the rounding of a centre
-constexpr std::size_t few_carriers = 8;  // so many settle a square
+constexpr std::size_t few_carriers = 8;  // enough to settle a square
 constexpr double root_of_2 = 1.4142135623730951;
 
 struct Square {
@@ -86,7 +86,7 @@ class Region {
   }
 
  private:
-  struct Loop {
+  struct LoopRange {
     std::uint32_t first, last;  ///< edges
   };
 
@@ -138,8 +138,8 @@ class Region {
     return is_reflex(i) ? left_before || left_after : left_before && left_after;
   }
 
-  std::vector<Loop> loops(const Shape& shape, const LocalFrame& frame) const {
-    std::vector<Loop> loop_of(edges_.size());
+  std::vector<LoopRange> loops(const Shape& shape, const LocalFrame& frame) const {
+    std::vector<LoopRange> loop_of(edges_.size());
     std::uint32_t first = 0;
     for (std::size_t i = 0; i < shape.loop_count(); ++i) {
       const site::LoopEdges loop(shape, i, frame);
@@ -147,14 +147,14 @@ class Region {
       if (!shape.bulges.empty())
         for (std::uint32_t k = 0; k < loop.size(); ++k)
           count += static_cast<std::uint32_t>(loop.edge(k).count - 1);
-      std::fill_n(loop_of.begin() + first, count, Loop{first, first + count - 1});
+      std::fill_n(loop_of.begin() + first, count, LoopRange{first, first + count - 1});
       first += count;
     }
     return loop_of;
   }
 
   std::vector<site::Site> edges_;
-  std::vector<Loop> loop_of_;  ///< of each edge
+  std::vector<LoopRange> loop_of_;  ///< of each edge
   site::BoundaryTree tree_;
   std::vector<Disk> taken_;
   mutable std::vector<std::uint32_t> near_;
@@ -224,12 +224,10 @@ struct Candidate {
   Square square;
   double bound = 0;                            ///< of the clearance in it
   std::optional<Disk> deepest = std::nullopt;  ///< of the local maxima in it, once settled
-  std::uint64_t number = 0;                    ///< of equal ones the first goes first
+  std::uint32_t quarters = 0;                  ///< the first of its four, once divided
+  std::uint32_t version = 0;                   ///< of what is known
 
   double priority() const { return deepest ? deepest->radius : bound; }
-  bool operator<(const Candidate& other) const {
-    return priority() != other.priority() ? priority() < other.priority() : number > other.number;
-  }
 };
 
 class Search {
@@ -237,57 +235,86 @@ class Search {
   Search(Region& region, const Box& box, double smallest)
       : region_(region), smallest_(std::max(smallest, finest)) {
     const Vec2 size = box.high - box.low;
-    push({{0.5 * (box.low + box.high), 0.5 * std::max(size.x, size.y)}, anywhere});
+    add({0.5 * (box.low + box.high), 0.5 * std::max(size.x, size.y)}, anywhere);
   }
 
-  /// The deepest disk of what is left, which is then taken.
+  /// The deepest disk of what is left, which is then taken. O(log n) expected for each square that
+  /// this looks at; only those near disks that were taken are looked at again.
   std::optional<Disk> next() {
-    while (!heap_.empty() && heap_.front().priority() >= smallest_) {
-      if (heap_.front().deepest) {
-        const Disk disk = *heap_.front().deepest;
-        take(disk);
+    while (!heap_.empty() && heap_.front().priority >= smallest_) {
+      std::pop_heap(heap_.begin(), heap_.end());
+      const Entry top = heap_.back();
+      heap_.pop_back();
+      const Candidate& candidate = candidates_[top.candidate];
+      if (candidate.version != top.version) continue;
+      if (candidate.deepest) {
+        const Disk disk = *candidate.deepest;
+        region_.take(disk);
+        unsettle(0, disk);
         return disk;
       }
-      std::pop_heap(heap_.begin(), heap_.end());
-      const Candidate top = heap_.back();
-      heap_.pop_back();
-      settle_or_divide(top);
+      settle_or_divide(top.candidate);
     }
     return std::nullopt;
   }
 
  private:
-  /// Squares that a disk comes near have other local maxima once it is taken.
-  void take(const Disk& disk) {
-    region_.take(disk);
-    for (Candidate& candidate : heap_) {
-      const double apart = distance(disk.center, candidate.square.center) - disk.radius;
-      if (apart <= candidate.bound + candidate.square.reach()) candidate.deepest.reset();
-    }
-    std::make_heap(heap_.begin(), heap_.end());
-  }
+  struct Entry {
+    double priority;
+    std::uint32_t candidate;  ///< of equal ones the first goes first
+    std::uint32_t version;
 
-  void push(Candidate candidate) {
+    bool operator<(const Entry& other) const {
+      return priority != other.priority ? priority < other.priority : candidate > other.candidate;
+    }
+  };
+
+  void push(std::uint32_t i) {
+    const Candidate& candidate = candidates_[i];
     if (!(candidate.bound >= smallest_)) return;
-    candidate.number = ++pushed_;
-    heap_.push_back(candidate);
+    heap_.push_back({candidate.priority(), i, candidate.version});
     std::push_heap(heap_.begin(), heap_.end());
   }
+  void add(const Square& square, double bound) {
+    candidates_.push_back({square, bound});
+    push(static_cast<std::uint32_t>(candidates_.size() - 1));
+  }
+  void settle(std::uint32_t i, double bound, const Disk& deepest) {
+    candidates_[i].bound = bound;
+    candidates_[i].deepest = deepest;
+    push(i);
+  }
 
-  void settle_or_divide(const Candidate& candidate) {
-    const Square& square = candidate.square;
+  /// Squares that a disk comes near have other local maxima once it is taken.
+  void unsettle(std::uint32_t i, const Disk& disk) {
+    Candidate& candidate = candidates_[i];
+    const double apart = distance(disk.center, candidate.square.center) - disk.radius;
+    if (apart > candidate.bound + candidate.square.reach()) return;
+    if (candidate.quarters > 0) {
+      for (std::uint32_t k = 0; k < 4; ++k) unsettle(candidate.quarters + k, disk);
+    } else if (candidate.deepest) {
+      candidate.deepest.reset();
+      ++candidate.version;
+      push(i);
+    }
+  }
+
+  void settle_or_divide(std::uint32_t i) {
+    const Square square = candidates_[i].square;
     const double clearance = region_.clearance(square.center);
-    double bound = std::min(candidate.bound, clearance + square.reach());
-    if (square.half <= finest) return push({square, bound, Disk{square.center, clearance}});
+    double bound = std::min(candidates_[i].bound, clearance + square.reach());
+    if (square.half <= finest) return settle(i, bound, {square.center, clearance});
     const bool is_small = clearance > square.reach();
     if (is_small) bound = std::min(bound, bound_by_feet(square));
     // Around larger squares lie too many sites to count, but for shapes of few edges.
     if ((is_small || region_.is_simple()) &&
         region_.carriers(square, clearance + 2 * square.reach(), carriers_))
-      return push({square, bound, LocalMaxima(region_, square, carriers_).deepest()});
+      return settle(i, bound, LocalMaxima(region_, square, carriers_).deepest());
+    candidates_[i].bound = bound;
+    candidates_[i].quarters = static_cast<std::uint32_t>(candidates_.size());
     const double half = 0.5 * square.half;
     for (const double x : {-half, half})
-      for (const double y : {-half, half}) push({{square.center + Vec2{x, y}, half}, bound});
+      for (const double y : {-half, half}) add({square.center + Vec2{x, y}, half}, bound);
   }
 
   /// No disk centred in the square reaches beyond two points of the boundary p and q, so its radius
@@ -305,8 +332,8 @@ class Search {
 
   Region& region_;
   double smallest_;
-  std::vector<Candidate> heap_;
-  std::uint64_t pushed_ = 0;
+  std::vector<Candidate> candidates_;  ///< a quadtree
+  std::vector<Entry> heap_;
   std::vector<site::Site> carriers_;
 };
 

@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
+#include <utility>
 
 #include "axis/curve.h"
+#include "base/box_tree.h"
 #include "base/numbers.h"
+#include "base/spatial_order.h"
 #include "medial/geometry.h"
 
 namespace medial::ops {
@@ -74,75 +76,76 @@ Grooves grooves_of(const MedialAxis& axis, double least, double most, double cho
 
 namespace {
 
-/// The junctions that parts still end at, in a grid of squares; finds the nearest.
+/// The junctions that parts still end at, in a tree of boxes around those that are left; finds the
+/// nearest.
 class OpenEnds {
  public:
-  /// `all`: what may ever be put in.
+  /// `all`: what may ever be put in. O(n log n).
   OpenEnds(const std::vector<Vec2>& places, const std::vector<std::uint32_t>& all)
-      : places_(places) {
-    Box box = Box::nothing();
-    for (const std::uint32_t m : all) box.add(places[m]);
-    low_ = box.low;
-    const Vec2 size = box.high - box.low;
-    const double count = std::max<double>(1, static_cast<double>(all.size()));
-    const double extent = std::max(size.x, size.y);
-    side_ = extent > 0 ? extent / std::ceil(std::sqrt(count)) : 1;
-    last_ = {column(size.x), column(size.y)};
-  }
-  bool empty() const { return count_ == 0; }
-  void insert(std::uint32_t m) {
-    cells_[key(m)].push_back(m);
-    ++count_;
-  }
-  void erase(std::uint32_t m) {
-    auto& cell = cells_[key(m)];
-    const auto found = std::find(cell.begin(), cell.end(), m);
-    if (found == cell.end()) return;
-    *found = cell.back();
-    cell.pop_back();
-    --count_;
-  }
-  /// Requires one. Squares around p, ring after ring, until no nearer one can follow.
-  std::uint32_t nearest(Vec2 p) const {
-    const std::int64_t x = std::clamp<std::int64_t>(column(p.x - low_.x), 0, last_[0]);
-    const std::int64_t y = std::clamp<std::int64_t>(column(p.y - low_.y), 0, last_[1]);
-    double best = infinity;
-    std::uint32_t found = 0;
-    const std::int64_t reach = std::max(last_[0], last_[1]) + 1;
-    for (std::int64_t ring = 0; ring <= reach; ++ring) {
-      if (best <= std::pow(static_cast<double>(ring - 1) * side_, 2) && ring > 0) break;
-      for (std::int64_t j = y - ring; j <= y + ring; ++j) {
-        const bool edge = j == y - ring || j == y + ring;
-        for (std::int64_t i = x - ring; i <= x + ring; i += edge || ring == 0 ? 1 : 2 * ring) {
-          const auto cell = cells_.find(pack(i, j));
-          if (cell == cells_.end()) continue;
-          for (const std::uint32_t m : cell->second) {
-            const double d = squared_norm(places_[m] - p);
-            if (d < best || (d == best && m < found)) best = d, found = m;
-          }
-        }
-      }
+      : places_(places), order_(all), leaf_of_(places.size()), inside_(all.size(), false) {
+    std::vector<Vec2> own;
+    own.reserve(all.size());
+    for (const std::uint32_t m : all) own.push_back(places[m]);
+    const std::vector<std::uint32_t> along = spatial_order(own, fan_out);
+    for (std::uint32_t k = 0; k < along.size(); ++k) {
+      order_[k] = all[along[k]];
+      leaf_of_[order_[k]] = k;
     }
-    return found;
+    levels_ = bound_levels(order_.size(), fan_out, [](std::size_t) { return Box::nothing(); });
+  }
+  bool empty() const { return order_.empty() || levels_.back().front().is_nothing(); }
+  /// O(log n).
+  void insert(std::uint32_t m) { put(m, true); }
+  void erase(std::uint32_t m) { put(m, false); }
+  /// The one of the least number where several are as near. Requires one. O(log n) where the
+  /// others are farther.
+  std::uint32_t nearest(Vec2 p) const {
+    Nearest best{infinity, 0};
+    search(levels_.size(), 0, p, best);
+    return best.second;
   }
 
  private:
-  std::int64_t column(double offset) const {
-    return static_cast<std::int64_t>(std::floor(offset / side_));
+  using Nearest = std::pair<double, std::uint32_t>;  ///< a squared distance, and where
+  static constexpr std::size_t fan_out = 8;
+
+  void put(std::uint32_t m, bool inside) {
+    std::size_t i = leaf_of_[m];
+    inside_[i] = inside;
+    for (std::size_t level = 0; level < levels_.size(); ++level) {
+      i /= fan_out;
+      Box& box = levels_[level][i];
+      box = Box::nothing();
+      for (std::size_t k = i * fan_out; k < end_of(level, i); ++k) box.add(box_of(level, k));
+    }
   }
-  static std::uint64_t pack(std::int64_t i, std::int64_t j) {
-    return static_cast<std::uint64_t>(i) << 32U ^ (static_cast<std::uint64_t>(j) & 0xFFFFFFFFU);
+  /// Of the parts of box i of a level: places below the first one.
+  std::size_t end_of(std::size_t level, std::size_t i) const {
+    return std::min((i + 1) * fan_out, level == 0 ? order_.size() : levels_[level - 1].size());
   }
-  std::uint64_t key(std::uint32_t m) const {
-    return pack(column(places_[m].x - low_.x), column(places_[m].y - low_.y));
+  Box box_of(std::size_t level, std::size_t k) const {
+    if (level > 0) return levels_[level - 1][k];
+    return inside_[k] ? Box{places_[order_[k]], places_[order_[k]]} : Box::nothing();
+  }
+  /// The nearest first; of what is put in below part i of a level.
+  void search(std::size_t level, std::size_t i, Vec2 p, Nearest& best) const {
+    if (level == 0) {
+      best = std::min(best, {squared_norm(places_[order_[i]] - p), order_[i]});
+      return;
+    }
+    std::array<std::pair<double, std::size_t>, fan_out> parts;
+    std::size_t count = 0;
+    for (std::size_t k = i * fan_out; k < end_of(level - 1, i); ++k)
+      parts[count++] = {squared_distance(box_of(level - 1, k), p), k};
+    std::sort(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(count));
+    for (std::size_t k = 0; k < count && parts[k].first <= best.first; ++k)
+      if (parts[k].first < infinity) search(level - 1, parts[k].second, p, best);
   }
 
   const std::vector<Vec2>& places_;
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
-  Vec2 low_;
-  double side_ = 1;
-  std::array<std::int64_t, 2> last_{};
-  std::size_t count_ = 0;
+  std::vector<std::uint32_t> order_, leaf_of_;
+  std::vector<bool> inside_;
+  std::vector<std::vector<Box>> levels_;  ///< the last one has one box
 };
 
 using Trail = std::vector<GrooveStep>;

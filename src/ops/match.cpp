@@ -5,6 +5,7 @@
 #include "axis/curve.h"
 #include "axis/node_kinds.h"
 #include "axis/steps.h"
+#include "base/compat.h"
 #include "medial/features.h"
 #include "medial/geometry.h"
 #include "medial/query.h"
@@ -12,6 +13,18 @@
 
 namespace medial {
 namespace {
+
+/// What a signature holds. Lengths are over the root mean square distance from the axis's centre.
+struct Measures {
+  using Quantiles = std::array<double, 24>;
+  Quantiles center{}, pairs{};       ///< distances from the centre; between two places of the axis
+  Quantiles depth{}, radius{};       ///< ways from the axis's middle; radii, over their mean
+  double thickness = 0, length = 0;  ///< logarithms of the mean radius and of the axis's length
+  double ends = 0;                   ///< log(1 + ends), each counted as its branch is
+  double cycles = 0;                 ///< log(1 + holes)
+  double elongation = 0;             ///< logarithm of the quotient of the axes of inertia
+};
+using Values = decltype(ShapeSignature::values);
 
 /// A piece of the axis.
 struct WeightedPiece {
@@ -38,8 +51,8 @@ double significance(double erosion) {
 
 /// The mean of the values between k / n and (k + 1) / n of the weight, for each k: unlike single
 /// values it does not jump.
-ShapeSignature::Quantiles quantiles(std::vector<Weighted> values) {
-  ShapeSignature::Quantiles out{};
+Measures::Quantiles quantiles(std::vector<Weighted> values) {
+  Measures::Quantiles out{};
   double total = 0;
   for (const Weighted& v : values) total += v.weight;
   if (!(total > 0)) return out;
@@ -66,8 +79,8 @@ class Signer {
   Signer(const MedialAxis& axis, const AxisFeatures& features)
       : axis_(axis), features_(features), unit_(std::sqrt(std::max(features.area, 0.0))) {}
 
-  ShapeSignature run() {
-    ShapeSignature out;
+  Measures run() {
+    Measures out;
     if (!(unit_ > 0)) return out;
     const std::vector<Branch> all = branches(axis_);
     double latest = 0;
@@ -191,7 +204,7 @@ class Signer {
   double ends_ = 0;
 };
 
-double mean_difference(const ShapeSignature::Quantiles& a, const ShapeSignature::Quantiles& b) {
+double mean_difference(const Measures::Quantiles& a, const Measures::Quantiles& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(a[i] - b[i]);
   return sum / static_cast<double>(a.size());
@@ -233,10 +246,12 @@ Shape without_specks(const Shape& shape, double share) {
 }
 
 ShapeSignature signature_of(const MedialAxis& axis, const AxisFeatures& features) {
-  return Signer(axis, features).run();
+  return {bit_cast<Values>(Signer(axis, features).run())};
 }
 
-double dissimilarity(const ShapeSignature& a, const ShapeSignature& b) {
+double dissimilarity(const ShapeSignature& first, const ShapeSignature& second) {
+  const auto a = medial::bit_cast<Measures>(first.values);
+  const auto b = medial::bit_cast<Measures>(second.values);
   // Each number over what it differs by between different silhouettes, about.
   double sum = mean_difference(a.center, b.center) / 0.15;
   sum += mean_difference(a.pairs, b.pairs) / 0.1;

@@ -15,7 +15,7 @@ namespace medial {
 namespace {
 
 /// The tip of a peninsula or the bottom of a bay. Two that fit look in opposite directions.
-struct Frame {
+struct BranchTip {
   Vec2 place;
   Vec2 way;          ///< out of the bay; towards the peninsula's tip
   double score = 0;  ///< how far the branch and all beyond it reach
@@ -27,10 +27,10 @@ struct Part {
   double size = 0;
   std::vector<Disk> disks;  ///< that cover it but for dents below a thousandth, large ones first
   std::vector<Vec2> hull;
-  std::vector<Frame> bays, peninsulas;
+  std::vector<BranchTip> bays, peninsulas;
 };
 
-constexpr std::size_t most_frames = 10;
+constexpr std::size_t most_tips = 10;
 
 /// The convex hull, counter-clockwise (Andrew's monotone chain).
 std::vector<Vec2> hull_of(std::vector<Vec2> points) {
@@ -58,10 +58,10 @@ double area_of(const std::vector<Vec2>& polygon) {
   return twice / 2;
 }
 
-/// The frames of the branches that reach furthest, at their shallower ends. Bays look to where a
+/// The tips of the branches that reach furthest, at their shallower ends. Bays look to where a
 /// branch is deep, peninsulas away from it.
-std::vector<Frame> frames_of(const MedialAxis& axis, double size, bool bays) {
-  std::vector<Frame> frames;
+std::vector<BranchTip> tips_of(const MedialAxis& axis, double size, bool bays) {
+  std::vector<BranchTip> tips;
   const std::vector<Branch> all = branches(axis);
   for (const BranchFeatures& one : describe(axis).branches) {
     if (one.closed || one.from == one.to) continue;
@@ -77,12 +77,12 @@ std::vector<Frame> frames_of(const MedialAxis& axis, double size, bool bays) {
     const Vec2 way = towards - tip.center;
     const double length = norm(way), reach = std::min(one.significance * base.radius, size);
     if (!(length > 0 && reach > 0.01 * size)) continue;
-    frames.push_back({tip.center, ((bays ? 1 : -1) / length) * way, reach});
+    tips.push_back({tip.center, ((bays ? 1 : -1) / length) * way, reach});
   }
-  std::stable_sort(frames.begin(), frames.end(),
-                   [](const Frame& a, const Frame& b) { return a.score > b.score; });
-  frames.resize(std::min(frames.size(), most_frames));
-  return frames;
+  std::stable_sort(tips.begin(), tips.end(),
+                   [](const BranchTip& a, const BranchTip& b) { return a.score > b.score; });
+  tips.resize(std::min(tips.size(), most_tips));
+  return tips;
 }
 
 Result<Part> part_of(const Shape& shape) {
@@ -110,8 +110,8 @@ Result<Part> part_of(const Shape& shape) {
   std::stable_sort(part.disks.begin(), part.disks.end(),
                    [](const Disk& a, const Disk& b) { return a.radius > b.radius; });
   part.hull = hull_of(std::move(points));
-  part.bays = frames_of(*outer, part.size, true);
-  part.peninsulas = frames_of(*inner, part.size, false);
+  part.bays = tips_of(*outer, part.size, true);
+  part.peninsulas = tips_of(*inner, part.size, false);
   return part;
 }
 
@@ -169,7 +169,8 @@ class Nesting {
   }
 
   /// The peninsula laid into the bay, and drawn out until the shapes do not overlap.
-  std::optional<Placement> start(const Frame& own, const Frame& other, bool mirrored) const {
+  std::optional<Placement> start(const BranchTip& own, const BranchTip& other,
+                                 bool mirrored) const {
     Placement at;
     at.mirrored = mirrored;
     const Vec2 way = Motion(at).turned(other.way);
@@ -250,9 +251,9 @@ Result<std::vector<Placement>> nest(const Shape& fixed, const Shape& moving, dou
   // Disks that are sampled leave dents.
   const Nesting nesting(*one, *two, gap + 1e-4 * std::min(one->size, two->size));
   std::vector<Placement> found;
-  const auto pair = [&](const std::vector<Frame>& own, const std::vector<Frame>& other) {
-    for (const Frame& a : own)
-      for (const Frame& b : other)
+  const auto pair = [&](const std::vector<BranchTip>& own, const std::vector<BranchTip>& other) {
+    for (const BranchTip& a : own)
+      for (const BranchTip& b : other)
         for (const bool mirrored : {false, true}) {
           if (mirrored && !mirror) continue;
           auto at = nesting.start(a, b, mirrored);

@@ -17,7 +17,7 @@ constexpr std::array<double, 4> abscissa{0.06943184420297371, 0.3300094782075719
 constexpr std::array<double, 4> factor{0.1739274225687269, 0.3260725774312731, 0.3260725774312731,
                                        0.1739274225687269};
 
-/// Looks for signs of derivatives inside an edge of arcs at so many places.
+/// At how many places inside an edge of arcs the signs of derivatives are sampled.
 constexpr int probes = 16;
 /// A derivative below this times its own scale is zero: rounding of control points far below it.
 constexpr double zero_share = 1e-7;

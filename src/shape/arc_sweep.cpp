@@ -436,7 +436,7 @@ class ArcSweeper {
       const bool together = std::abs(at_begin) <= tolerance_ && std::abs(at_end) <= tolerance_;
       if (together && distance(stops[0].point, last) > 4 * tolerance_) {
         if (cleaned_.open && note_overlap(lower, upper)) return std::nullopt;
-        return pending_or(error_of_pieces(ErrorCode::overlap, "overlaps", lower, upper, begin));
+        return pending_or(error_of_pieces(ErrorCode::overlap, lower, upper, begin));
       }
       return std::nullopt;
     }
@@ -526,22 +526,18 @@ class ArcSweeper {
   std::optional<Error> pending() const { return error_without_place(ErrorCode::internal, ""); }
 
   Error crossing(const ActivePiece& a, const ActivePiece& b, Vec2 point) const {
-    return error_of_pieces(ErrorCode::crossing, "crosses", a, b, point);
+    return error_of_pieces(ErrorCode::crossing, a, b, point);
   }
 
   /// Names the edge that comes first in the input in the place, the other in the text.
-  Error error_of_pieces(ErrorCode code, const char* verb, const ActivePiece& a,
-                        const ActivePiece& b, Vec2 point) const {
+  Error error_of_pieces(ErrorCode code, const ActivePiece& a, const ActivePiece& b,
+                        Vec2 point) const {
     VertexSource first = noding_.edge_source(noded_.edges[a.piece]);
     VertexSource second = noding_.edge_source(noded_.edges[b.piece]);
     if (std::pair(second.ring, second.vertex) < std::pair(first.ring, first.vertex)) {
       std::swap(first, second);
     }
-    return error_at(code,
-                    std::string("the edge from this vertex on ") + verb + " the edge from vertex " +
-                        std::to_string(second.vertex) + " of ring " + std::to_string(second.ring) +
-                        " on",
-                    first, noding_.to_input(point));
+    return error_at(code, text_of_edges(code, second), first, noding_.to_input(point));
   }
 
   const Noding& noding_;

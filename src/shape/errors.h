@@ -16,6 +16,13 @@ inline Error error_without_place(ErrorCode code, std::string text) {
   return error;
 }
 
+/// Of an edge that crosses, or overlaps, the edge from a vertex of another ring or chain on.
+inline std::string text_of_edges(ErrorCode code, VertexSource other, const char* line = "ring") {
+  return std::string("the edge from this vertex on ") +
+         (code == ErrorCode::overlap ? "overlaps" : "crosses") + " the edge from vertex " +
+         std::to_string(other.vertex) + " of " + line + " " + std::to_string(other.ring) + " on";
+}
+
 inline Error error_of_ring(ErrorCode code, std::string text, std::uint64_t ring) {
   Error error = error_without_place(code, std::move(text));
   error.place.ring = ring;

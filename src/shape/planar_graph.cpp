@@ -406,13 +406,8 @@ Error in_terms_of_input(Error error, const Input& input) {
   const std::size_t at = error.text.rfind(marker);
   if (at != std::string::npos) {
     const std::uint64_t other = std::strtoull(error.text.c_str() + at + marker.size(), nullptr, 10);
-    const char* verb = error.code == ErrorCode::overlap ? "overlaps" : "crosses";
-    if (other < input.edges.size()) {
-      const VertexSource second = input.edges[other].source;
-      error.text = std::string("the edge from this vertex on ") + verb + " the edge from vertex " +
-                   std::to_string(second.vertex) + " of chain " + std::to_string(second.ring) +
-                   " on";
-    }
+    if (other < input.edges.size())
+      error.text = text_of_edges(error.code, input.edges[other].source, "chain");
   }
   error.place.ring = source.ring;
   error.place.vertex = source.vertex;

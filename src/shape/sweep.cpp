@@ -223,8 +223,7 @@ class Sweeper {
     });
     for (std::size_t i = 1; i < starts_.size(); ++i) {
       if (orientation(point, starts_[i - 1].right, starts_[i].right) == 0) {
-        return error_of_edges(ErrorCode::overlap, "overlaps", starts_[i - 1].edge, starts_[i].edge,
-                              point);
+        return error_of_edges(ErrorCode::overlap, starts_[i - 1].edge, starts_[i].edge, point);
       }
     }
     for (std::size_t i = 0; i < starts_.size(); ++i) {
@@ -272,17 +271,12 @@ class Sweeper {
   }
 
   Error crossing(const ActiveEdge& a, const ActiveEdge& b, Vec2 point) const {
-    return error_of_edges(ErrorCode::crossing, "crosses", a.edge, b.edge, point);
+    return error_of_edges(ErrorCode::crossing, a.edge, b.edge, point);
   }
 
   /// Names the edge that comes first in the input in the place, the other in the text.
-  Error error_of_edges(ErrorCode code, const char* verb, std::uint32_t a, std::uint32_t b,
-                       Vec2 point) const {
-    const VertexSource other = cleaned_.sources[std::max(a, b)];
-    return error_at(code,
-                    std::string("the edge from this vertex on ") + verb + " the edge from vertex " +
-                        std::to_string(other.vertex) + " of ring " + std::to_string(other.ring) +
-                        " on",
+  Error error_of_edges(ErrorCode code, std::uint32_t a, std::uint32_t b, Vec2 point) const {
+    return error_at(code, text_of_edges(code, cleaned_.sources[std::max(a, b)]),
                     cleaned_.sources[std::min(a, b)], point);
   }
 

@@ -33,7 +33,7 @@ constexpr double chord_rounding = 0x1p-48;
 constexpr double flat_enough = 1.0 / 16;
 /// and on the levels of nodes of 8 to 512 sites: larger ones are few.
 constexpr std::size_t chord_levels = 4;
-/// where at least one node in so many has one.
+/// where at least one node in `rare` has one.
 constexpr std::size_t rare = 16;
 
 struct Waiting {

@@ -1,5 +1,8 @@
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "axis/curve.h"
 #include "medial/query.h"
@@ -19,12 +22,15 @@ void report_worst(const Worst& worst, const char* what, const char* which, const
                  worst.where.x, worst.where.y, limit.c_str()));
 }
 
-/// At most so many points inside an edge are checked.
+/// The most points inside an edge that are checked.
 constexpr int most_samples = 1 << 20;
 
 struct Findings {
   Worst residual, intrusion, contact, legality, turned, negative;
   std::uint64_t disks = 0;
+  // Scratch of one edge: its sampled disks, and the boundary near them.
+  std::vector<Disk> samples;
+  std::vector<std::uint32_t> near;
 
   void add(const Findings& other) {
     residual.add(other.residual);
@@ -45,15 +51,32 @@ double signed_distance(const Site& site, Vec2 p) {
   return distance_to_carrier(p, edge) < 0 ? -d : d;
 }
 
-/// Measures one disk against the whole boundary.
+/// As far as the boundary is expected from the centre of a disk.
+double expected_distance(const Problem& problem, const Disk& disk) {
+  return std::max(0.0, disk.radius) + problem.tolerance;
+}
+
+/// Measures one disk against the whole boundary. `near`: as DistanceTree::distance() takes it.
 void measure(const Problem& problem, const DistanceTree& boundary, const Disk& disk,
-             std::size_t index, Findings& findings) {
-  const double distance =
-      boundary.distance(disk.center, std::max(0.0, disk.radius) + problem.tolerance);
+             std::size_t index, Findings& findings, std::span<const std::uint32_t> near = {}) {
+  const double distance = boundary.distance(disk.center, expected_distance(problem, disk), near);
   ++findings.disks;
   findings.residual.add(std::abs(distance - disk.radius), problem.tolerance, disk.center, index);
   findings.intrusion.add(disk.radius - distance, problem.tolerance, disk.center, index);
   findings.negative.add(-disk.radius, problem.tolerance, disk.center, index);
+}
+
+/// The edges of the boundary that disks of one edge may touch; none if they are many.
+void find_near(const Problem& problem, const DistanceTree& boundary, std::span<const Disk> disks,
+               std::vector<std::uint32_t>& near) {
+  constexpr std::size_t many = 16;
+  near.clear();
+  if (disks.empty()) return;
+  const Vec2 middle = disks[disks.size() / 2].center;
+  double reach = 0;
+  for (const Disk& disk : disks)
+    reach = std::max(reach, expected_distance(problem, disk) + distance(middle, disk.center));
+  boundary.near(middle, reach, many, near);
 }
 
 void measure_contact(const Problem& problem, const Edge& edge, const Disk& disk, std::size_t index,
@@ -151,10 +174,15 @@ void check_disks(const Problem& problem, int samples_per_edge, Certificate& cert
          const Curve curve = curve_of(axis, edge);
          for (const std::uint32_t node : edge.node)
            measure_contact(problem, edge, problem.disk(node), i, findings);
+         std::vector<Disk>& disks = findings.samples;
+         disks.clear();
+         for (int k = 1; k <= samples; ++k)
+           disks.push_back(curve.at(static_cast<double>(k) / (samples + 1)));
+         find_near(problem, boundary, disks, findings.near);
          for (int k = 1; k <= samples; ++k) {
            const double t = static_cast<double>(k) / (samples + 1);
-           const Disk disk = curve.at(t);
-           measure(problem, boundary, disk, i, findings);
+           const Disk& disk = disks[static_cast<std::size_t>(k - 1)];
+           measure(problem, boundary, disk, i, findings, findings.near);
            measure_contact(problem, edge, disk, i, findings);
            findings.legality.add(illegality(curve, t, disk.radius, tolerance), 0, disk.center, i);
          }

@@ -81,7 +81,7 @@ std::string sentence(const char* format, ...) __attribute__((format(printf, 1, 2
 /// How many places a check works on before it hands its findings back.
 constexpr std::size_t block_size = 1024;
 
-/// Runs a check on so many threads; what it throws is a failure, and none at all a pass.
+/// Runs a check on `threads` threads; what it throws is a failure, and none at all a pass.
 template <class Check>
 void certify(int threads, DiskCertificate& certificate, const Check& check) {
   try {

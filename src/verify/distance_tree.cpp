@@ -159,38 +159,40 @@ void DistanceTree::bound(std::span<const BoundaryEdge> edges, Bounds& bounds,
   bounds.slab_high[place] = high;
 }
 
+/// Lower bounds of the squared distances from p to the four sets of edges.
+void DistanceTree::squared_bounds(const Visit& visit, Vec2 p, double (&squared)[fan_out]) const {
+  const Bounds& bounds = levels_[visit.level][visit.index];
+  const Vec2 q = p - origin_;
+  for (std::size_t j = 0; j < fan_out; ++j) {
+    const auto larger = [](double a, double b) { return a > b ? a : b; };
+    const double x = larger(larger(bounds.low_x[j] - p.x, p.x - bounds.high_x[j]), 0);
+    const double y = larger(larger(bounds.low_y[j] - p.y, p.y - bounds.high_y[j]), 0);
+    const double along = bounds.normal_x[j] * q.x + bounds.normal_y[j] * q.y;
+    const double beside = larger(bounds.slab_low[j] - along, along - bounds.slab_high[j]);
+    const double across = larger(beside, 0);
+    squared[j] = larger(x * x + y * y, across * across);
+  }
+}
+
+/// Bounds round as well: a square this much larger loses no edge.
+double DistanceTree::limit_for(double distance) const {
+  const double limit = (1 + 8 * machine_epsilon) * (distance + slack_);
+  // Nothing reaches the infinite bounds of empty sets.
+  return std::min(limit * limit, std::numeric_limits<double>::max());
+}
+
 bool DistanceTree::search(Vec2 p, double& best) const {
-  // Bounds round as well: a limit this much larger loses no edge.
-  const auto limit_for = [this](double distance) {
-    const double limit = (1 + 8 * machine_epsilon) * (distance + slack_);
-    // Nothing reaches the infinite bounds of empty sets.
-    return std::min(limit * limit, std::numeric_limits<double>::max());
-  };
   double limit = limit_for(best);
   bool found = false;
-  struct Visit {
-    std::uint32_t level, index;
-    double squared;
-  };
   // Three brothers wait on each of at most 16 levels.
   std::array<Visit, 64> stack;
   std::size_t size = 0;
   stack[size++] = {static_cast<std::uint32_t>(levels_.size() - 1), 0, 0};
-  const Vec2 q = p - origin_;
   while (size > 0) {
     const Visit visit = stack[--size];
     if (visit.squared > limit) continue;
-    const Bounds& bounds = levels_[visit.level][visit.index];
     double squared[fan_out];
-    for (std::size_t j = 0; j < fan_out; ++j) {
-      const auto larger = [](double a, double b) { return a > b ? a : b; };
-      const double x = larger(larger(bounds.low_x[j] - p.x, p.x - bounds.high_x[j]), 0);
-      const double y = larger(larger(bounds.low_y[j] - p.y, p.y - bounds.high_y[j]), 0);
-      const double along = bounds.normal_x[j] * q.x + bounds.normal_y[j] * q.y;
-      const double beside = larger(bounds.slab_low[j] - along, along - bounds.slab_high[j]);
-      const double across = larger(beside, 0);
-      squared[j] = larger(x * x + y * y, across * across);
-    }
+    squared_bounds(visit, p, squared);
     // The nearest child goes on top.
     const auto child = static_cast<std::uint32_t>(visit.index * fan_out);
     const std::size_t base = size;
@@ -216,6 +218,34 @@ bool DistanceTree::search(Vec2 p, double& best) const {
     }
   }
   return found;
+}
+
+void DistanceTree::near(Vec2 p, double reach, std::size_t most,
+                        std::vector<std::uint32_t>& found) const {
+  found.clear();
+  if (levels_.empty()) return;
+  const double limit = limit_for(reach);
+  std::array<Visit, 64> stack;
+  std::size_t size = 0;
+  stack[size++] = {static_cast<std::uint32_t>(levels_.size() - 1), 0, 0};
+  while (size > 0) {
+    const Visit visit = stack[--size];
+    double squared[fan_out];
+    squared_bounds(visit, p, squared);
+    for (std::uint32_t j = 0; j < fan_out; ++j) {
+      if (!(squared[j] <= limit)) continue;
+      const auto child = static_cast<std::uint32_t>(visit.index * fan_out) + j;
+      if (visit.level > 0) {
+        stack[size++] = {visit.level - 1, child, squared[j]};
+        continue;
+      }
+      const std::size_t begin = std::size_t{child} * fan_out;
+      for (std::size_t i = begin; i < std::min(begin + fan_out, edges_.size()); ++i)
+        if (distance_to_edge(p, edges_[i]) <= reach + slack_)
+          found.push_back(static_cast<std::uint32_t>(i));
+      if (found.size() > most) return found.clear();
+    }
+  }
 }
 
 double DistanceTree::some_distance(Vec2 p) const {
@@ -249,6 +279,12 @@ double DistanceTree::distance(Vec2 p, double expected) const {
   best = endless;
   for (const BoundaryEdge& edge : edges_) best = std::min(best, distance_to_edge(p, edge));
   return best;
+}
+
+double DistanceTree::distance(Vec2 p, double expected, std::span<const std::uint32_t> near) const {
+  double best = endless;
+  for (const std::uint32_t i : near) best = std::min(best, distance_to_edge(p, edges_[i]));
+  return best <= expected ? best : distance(p, expected);
 }
 
 }  // namespace medial::verify_detail

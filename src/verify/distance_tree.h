@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,11 @@ class DistanceTree {
   /// Distance from p to the nearest edge. `expected` is a guess at it: a query is fast where the
   /// guess is not much too large and not too small. O(log n) expected then.
   double distance(Vec2 p, double expected) const;
+  /// The same where `near` holds all edges within `expected` of p, as near() finds them: sooner for
+  /// places beside each other.
+  double distance(Vec2 p, double expected, std::span<const std::uint32_t> near) const;
+  /// All edges within `reach` of p and maybe some more; none if they are more than `most`.
+  void near(Vec2 p, double reach, std::size_t most, std::vector<std::uint32_t>& found) const;
 
  private:
   /// Bounds of four sets of edges side by side, so that a compiler can compare them at once. Each
@@ -29,6 +35,13 @@ class DistanceTree {
     double normal_x[4], normal_y[4], slab_low[4], slab_high[4];
   };
 
+  struct Visit {
+    std::uint32_t level, index;
+    double squared;
+  };
+
+  void squared_bounds(const Visit& visit, Vec2 p, double (&squared)[4]) const;
+  double limit_for(double distance) const;
   void bound(std::span<const BoundaryEdge> edges, Bounds& bounds, std::size_t place) const;
   bool search(Vec2 p, double& best) const;
   double some_distance(Vec2 p) const;

@@ -76,7 +76,7 @@ class FaceTree {
   /// it returns false. Returns whether it never did.
   template <class Enter, class Take>
   bool visit(const Enter& enter, const Take& take) const {
-    // Halved at the median, 2^31 faces have less than so many levels.
+    // Halved at the median, 2^31 faces have fewer levels.
     std::array<std::uint32_t, 64> stack{0};
     for (std::size_t size = 1; size > 0;) {
       const std::uint32_t at = stack[--size];

@@ -83,6 +83,12 @@ class FeetFinder {
   };
   /// Requires p as feet() does; by the tree, whatever the search.
   Ray ray(Vec3 p, std::uint32_t hint, Scratch& scratch) const;
+  /// Whether two points are seen from p at the angle apart, or more.
+  bool seen_apart(Vec3 p, Vec3 a, Vec3 b) const {
+    return dot(a - p, b - p) <= cosine_ * norm(a - p) * norm(b - p);
+  }
+  /// How far from the exact axis medial voxels lie at most.
+  double reach() const { return reach_; }
   /// The point of the exact axis on a ray: the centre of the largest ball inside that touches the
   /// surface in its foot. Nothing if that is larger than `largest`, or if the two feet of the ball
   /// lie less than the angle and a half apart, as seen from it. By a ball that shrinks until it is

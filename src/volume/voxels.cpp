@@ -15,7 +15,9 @@
 #include "volume/digitize.h"
 #include "volume/feet.h"
 #include "volume/follow.h"
+#include "volume/force.h"
 #include "volume/grid.h"
+#include "volume/surface.h"
 #include "volume/thin.h"
 #include "volume/topology.h"
 
@@ -39,6 +41,8 @@ std::optional<Error> refuse(const Solid& solid, const VoxelOptions& options) {
     return invalid("the number of voxels must be in [4, 4096]");
   if (!(options.angle >= 1 && options.angle <= 120))
     return invalid("the angle must be in [1, 120] degrees");
+  if (options.order != 0 && (options.order < 2 || options.order > 64))
+    return invalid("the order of the potential must be in [2, 64]");
   if (options.threads < 0 || options.threads > most_threads)
     return invalid("the number of threads must be in [0, 1024]");
   const TriangleMesh& mesh = solid.surface;
@@ -144,6 +148,32 @@ Voxel voxel_of(const MedialVoxel& voxel, const Grid& grid, const Solid& solid) {
   return out;
 }
 
+/// Fills the axis with what is left of it, in the units of the input.
+void collect(const VoxelSet& kept, std::vector<MedialVoxel> voxels, const Grid& grid,
+             const Solid& solid, VoxelAxis& axis) {
+  std::sort(voxels.begin(), voxels.end(),
+            [](const MedialVoxel& a, const MedialVoxel& b) { return a.rank < b.rank; });
+  axis.topology = topology_of(kept);
+  link_voxels(kept, voxels, axis);
+  axis.resolution = grid.step;
+  axis.origin = grid.origin;
+  axis.cells = grid.size;
+  axis.voxels.reserve(voxels.size());
+  for (const MedialVoxel& voxel : voxels) axis.voxels.push_back(voxel_of(voxel, grid, solid));
+  for (Vec3& p : axis.surface.vertices) p = grid.origin + grid.step * p;
+  for (double& radius : axis.surface.radii) radius *= grid.step;
+}
+
+/// Nothing but the surface along force lines.
+Result<VoxelAxis> with_forces(VoxelAxis axis, const Grid& grid, const Solid& solid) {
+  if (axis.surface.vertices.empty())
+    return Error{ErrorCode::unsupported,
+                 "no force line starts: at no edge the surface turns outwards by the angle",
+                 {}};
+  collect(VoxelSet(grid.size), {}, grid, solid, axis);
+  return axis;
+}
+
 Result<VoxelAxis> run(const Solid& solid, const VoxelOptions& options) {
   Stopwatch total, lap;
   Control control(options);
@@ -167,6 +197,11 @@ Result<VoxelAxis> run(const Solid& solid, const VoxelOptions& options) {
   control.report(0.1);
   statistics.seconds_digitize = lap.lap();
 
+  if (options.order > 0) {
+    const ForceField field(grid, tree, options.order);
+    axis.surface = force_surface(field, grid, finder, options.angle, control);
+    return with_forces(std::move(axis), grid, solid);
+  }
   RidgeFollower follower(grid, interior, finder, control);
   for (const BoundedSet& set : bounded_sets(interior)) {
     ++statistics.bounded_sets;
@@ -187,16 +222,9 @@ Result<VoxelAxis> run(const Solid& solid, const VoxelOptions& options) {
   statistics.seconds_bridge = lap.lap();
   control.report(0.9);
 
+  if (options.surface) axis.surface = surface_of(grid, interior, kept, voxels, finder, control);
   thin(kept, voxels, options.thinning, grid.size, control);
-  std::sort(voxels.begin(), voxels.end(),
-            [](const MedialVoxel& a, const MedialVoxel& b) { return a.rank < b.rank; });
-  axis.topology = topology_of(kept);
-  link_voxels(kept, voxels, axis);
-  axis.resolution = grid.step;
-  axis.origin = grid.origin;
-  axis.cells = grid.size;
-  axis.voxels.reserve(voxels.size());
-  for (const MedialVoxel& voxel : voxels) axis.voxels.push_back(voxel_of(voxel, grid, solid));
+  collect(kept, std::move(voxels), grid, solid, axis);
   statistics.seconds_thin = lap.lap();
   statistics.seconds = total.lap();
   statistics.threads = effective_threads(options.threads);

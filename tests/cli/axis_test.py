@@ -127,6 +127,7 @@ class Axis(CommandLine):
         self.assertEqual(json.loads(line)["features"], 1)
         self.refuse("[a-z_]+", "axis", "places.geojson", "--layer", "nowhere")
         self.refuse("[a-z_]+", "axis", "places.geojson", "--where", "rank >")
+        self.assertIn("the fields are name rank", self.refuse("invalid_option", "axis", "places.geojson", "--where", "rnk > 1"))
 
     def test_without_output_a_summary_is_printed(self):
         self.write("rectangle.wkt", RECTANGLE)

@@ -176,6 +176,17 @@ class Carve(CommandLine):
         self.refuse("invalid_option", "carve", "s.wkt", "--units", "mm", "--angle", "60", "--clear-tool", "6")
         self.refuse("invalid_option", *common, "--clear-feed", "100")
 
+    def test_a_tool_that_fits_nowhere(self):
+        """The program is valid and cuts nothing; a note says what to do."""
+        self.write("slot.wkt", "POLYGON ((0 0, 10 0, 10 1, 0 1, 0 0))")
+        note = self.succeed("carve", "slot.wkt", "--units", "mm", "--angle", "0", "--tool", "5", "--depth", "1",
+                            "-o", "s.nc").stderr
+        self.assertIn(b"the tool fits nowhere into the shape", note)
+        program = self.read("s.nc").decode()
+        self.assertNotIn("{", program)
+        self.assertTrue(program.rstrip().endswith("M2"), program)
+        self.assertEqual(self.moves("s.nc"), [])
+
     def test_templates_and_preview(self):
         self.write("s.wkt", self.SQUARE)
         common = ["carve", "s.wkt", "--units", "mm", "--angle", "60"]

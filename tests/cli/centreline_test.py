@@ -29,6 +29,8 @@ class Centreline(CommandLine):
         self.assertGreater(path["features"][0]["lines"][0]["length"], 0.5)
         wide = self.succeed("centreline", "frame.wkt", "--widest", "1,3", "8,3", "--json")
         self.assertAlmostEqual(json.loads(wide.stdout)["features"][0]["lines"][0]["narrowest_radius"], 1)
+        outside = self.succeed("centreline", "frame.wkt", "--from", "1,1", "--to", "20,3").stderr
+        self.assertIn(b"20,3 lies in no shape", outside)
         self.refuse("invalid_option", "centreline", "frame.wkt", "--from", "1,1")
         self.refuse("invalid_option", "centreline", "frame.wkt", "--from", "1", "--to", "2,2")
         self.refuse("invalid_option", "centreline", "frame.wkt", "--from", "9/9", "--to", "2,2")

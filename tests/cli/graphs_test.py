@@ -56,6 +56,10 @@ class Graphs(CommandLine):
     def test_networkx_reads_graphs(self):
         for extension in ("graphml", "nodelink", "edgelist"):
             self.succeed("axis", "shapes.wkt", "-o", "graph." + extension)
+        self.succeed("axis", "shapes.wkt", "--units", "mm", "-o", "mm.graphml")
+        self.assertEqual(networkx.read_graphml(self.path("mm.graphml"), force_multigraph=True).graph["unit"], "mm")
+        self.succeed("axis", "shapes.wkt", "--units", "mm", "-o", "mm.nodelink")
+        self.assertEqual(json.loads(self.read("mm.nodelink"))["graph"], {"unit": "mm"})
         xml = networkx.read_graphml(self.path("graph.graphml"), node_type=int, force_multigraph=True)
         link = networkx.node_link_graph(json.loads(self.read("graph.nodelink")))
         plain = networkx.read_weighted_edgelist(self.path("graph.edgelist"), nodetype=int,

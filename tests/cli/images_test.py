@@ -73,6 +73,9 @@ class Images(CommandLine):
         self.succeed("axis", "labels.pgm", "--labels", "-o", "a.json")
         self.assertEqual([item["attributes"] for item in json.loads(self.read("a.json"))["items"]],
                          [[["value", "1"]], [["value", "3"]], [["value", "7"]]])
+        table = self.succeed("measure", "labels.pgm", "--labels").stdout.decode().splitlines()
+        self.assertEqual([line.split()[0] for line in table], ["value", "1", "3", "7", "unit"])
+        self.assertEqual(table[-1].split(), ["unit", "pixel"])
         info = json.loads(self.succeed("info", "labels.pgm", "--labels", "--json").stdout)
         self.assertEqual((info["features"], info["area"]), (3, 11))
         self.write("grey.pgm", "P2\n3 1\n255\n0 100 200\n")
@@ -137,6 +140,8 @@ class Images(CommandLine):
         self.assertEqual((info["area"], info["extent"]), (1, [-9.5, 20.5, -8.5, 21.5]))
         self.assertIn(b"unknown cells", done.stderr)
         self.refuse("malformed", "axis", self.write("b.yaml", "image: map.pgm\n"))
+        self.write("c.yaml", self.read("map.yaml").decode().replace("map.pgm", "gone.pgm"))
+        self.assertIn("gone.pgm", self.refuse("unreadable", "axis", "c.yaml"))
         self.refuse("invalid_option", "axis", "map.yaml", "--threshold", "3")
 
     def test_families(self):

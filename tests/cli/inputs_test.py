@@ -215,7 +215,13 @@ class Inputs(CommandLine):
         self.refuse("invalid_option", "axis", "--font", font)
         self.refuse("invalid_option", "axis")
         self.refuse("invalid_option", "axis", "a.wkt", "--text", "i", "--font", font)
-        self.refuse("unreadable", "axis", "--text", "i", "--font", "missing.ttf")
+        self.assertIn("no such font", self.refuse("unreadable", "axis", "--text", "i", "--font", "DejaVu Snas"))
+        # A letter H of an em of 10 mm; as high as its font says, 1493 of 2048.
+        self.succeed("axis", "--text", "H", "--font", font, "--font-size", "10", "--units", "mm", "-o", "h.csv")
+        heights = [float(row["y"]) for row in self.rows(self.read("h.csv"))]
+        self.assertAlmostEqual(max(heights) - min(heights), 10 * 1493 / 2048)
+        self.assertEqual(self.rows(self.read("h.csv"))[0]["unit"], "mm")
+        self.refuse("invalid_option", "axis", "a.wkt", "--font-size", "10")
 
     def test_tables(self):
         """Two columns are vertices, with names above them or without; other columns are GDAL's."""

@@ -2,6 +2,7 @@
 
 import json
 import math
+import sqlite3
 
 from support import CommandLine
 
@@ -23,6 +24,29 @@ class Offset(CommandLine):
         self.assertAlmostEqual(features[0]["properties"]["area"], 80 + 36 + math.pi)
         self.assertIn(b"CIRCULARSTRING", self.read("o.wkt"))
         self.assertEqual(self.read("o.wkt").count(b"\n"), 2)
+
+    def test_tables(self):
+        """Regions are polygons with the attributes of their features; diagrams and shapes go the same way."""
+        self.write("s.geojson", json.dumps({"type": "FeatureCollection", "features": [
+            {"type": "Feature", "properties": {"name": "yard", "floors": 3}, "geometry": {
+                "type": "Polygon", "coordinates": [[[x, 0], [x + 1000, 0], [x + 1000, 800], [x, 800], [x, 0]]]}}
+            for x in (0, 2000)]}))
+        for name in self.supported("o.gpkg", "o.shp", "o.fgb"):
+            self.succeed("offset", "s.geojson", "--distance=100,-10", "-o", name)
+            self.assertEqual(json.loads(self.succeed("info", name, "--json").stdout)["features"], 4)
+        with sqlite3.connect(self.path("o.gpkg")) as database:
+            rows = database.execute("select feature, region, clearance, parent, area, name, floors from offsets").fetchall()
+        self.assertEqual([row[:4] for row in rows], [(0, 0, -10, None), (0, 1, 100, 0), (1, 0, -10, None), (1, 1, 100, 0)])
+        self.assertEqual({row[5:] for row in rows}, {("yard", 3)})
+        self.assertAlmostEqual(rows[1][4], 800 * 600)
+        self.refuse("unwritable", "offset", "s.geojson", "--distance", "1", "-o", "o.gpkg", "--quiet")
+        self.succeed("voronoi", "s.geojson", "-o", "o.gpkg")
+        self.succeed("smooth", "s.geojson", "-o", "o.gpkg")
+        with sqlite3.connect(self.path("o.gpkg")) as database:
+            counts = [database.execute(f"select count(*) from {table}").fetchone()[0]
+                      for table in ("offsets", "faces", "shapes")]
+        self.assertEqual(counts, [4, 16, 2])
+        self.refuse("unsupported", "voronoi", "s.geojson", "-o", "v.shp", "--quiet")  # two tables
 
     def test_passes(self):
         self.write("s.wkt", self.SQUARE)
@@ -68,5 +92,5 @@ class Offset(CommandLine):
         self.refuse("invalid_option", "offset", "s.wkt", "--distance", "0")
         self.refuse("invalid_option", "offset", "s.wkt", "--distance", "1", "--step", "1")
         self.refuse("invalid_option", "offset", "s.wkt", "--step", "1", "--until", "never")
-        self.refuse("unsupported", "offset", "s.wkt", "--distance", "1", "-o", "o.shp")
+        self.refuse("unsupported", "offset", "s.wkt", "--distance", "1", "-o", "o.csv")
         self.assertNotEqual(self.run_medial("offset", "l.wkt", "--distance", "1").returncode, 0)

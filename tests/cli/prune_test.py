@@ -37,7 +37,7 @@ class Prune(CommandLine):
         self.succeed("rebuild", "frame.wkt", "--pixels", "100", "-o", "disks.png")
         self.assertEqual(self.read("disks.png")[1:4], b"PNG")
         self.refuse("invalid_option", "rebuild", "frame.wkt", "--pixels", "100")
-        self.refuse("unsupported", "rebuild", "frame.wkt", "-o", "x.shp")
+        self.refuse("unsupported", "rebuild", "frame.wkt", "-o", "x.csv")
 
     def test_prune_and_smooth_by_what_matters(self):
         """Measures, numbers of branches, tips, previews; two bumps of one size are distinguished."""

@@ -37,7 +37,7 @@ def geojson(rings):
 class Stream(CommandLine):
     """A file above 1 MiB goes part by part; compressed below that, it is read as a whole."""
 
-    def both_ways(self, name, text, output, *more):
+    def both_ways(self, name, text, output, *more, command="axis"):
         """The names of the outputs, and what standard error says, of the file in parts and whole."""
         self.write(name, text)
         self.write(name + ".gz", gzip.compress(text.encode()))
@@ -46,8 +46,10 @@ class Stream(CommandLine):
         said = {}
         for folder, source in (("whole_", name + ".gz"), ("parts_", name), ("one_", name)):
             threads = "1" if folder == "one_" else "2"
-            done = self.run_medial("axis", source, "-o", folder + "a." + output, "--threads", threads, *more)
-            said[folder] = done.returncode, done.stderr.decode().replace(source, "FILE")
+            target = ["-o", folder + "a." + output] if output else []
+            done = self.run_medial(command, source, *target, "--threads", threads, *more)
+            printed = done.stdout.decode().rpartition(";")[0]  # without the seconds
+            said[folder] = done.returncode, (printed + done.stderr.decode()).replace(source, "FILE")
         self.assertEqual(said["whole_"], said["parts_"])
         self.assertEqual(said["whole_"], said["one_"])
         return said["whole_"]
@@ -63,6 +65,19 @@ class Stream(CommandLine):
         for output in ("csv", "wkt", "json", "geojson"):
             self.assertEqual(self.both_ways("f.wkt", text, output)[0], 0)
             self.assert_same(output)
+
+    def test_centre_lines_are_those_of_the_whole(self):
+        text = wkt(footprints(9000))
+        for options in ([], ["--all"], ["--clearance", "1.5"], ["--smooth", "1"]):
+            self.assertEqual(self.both_ways("f.wkt", text, "csv", *options, command="centreline")[0], 0)
+            self.assert_same("csv")
+        self.assertIn("main paths", self.both_ways("f.wkt", text, "csv", "--trim", "0", command="centreline")[1])
+
+    def test_summaries_are_those_of_the_whole(self):
+        """Without an output nothing is held either."""
+        text = wkt(footprints(9000))
+        for command, what in (("axis", "9000 features"), ("prune", "branches"), ("centreline", "9000 lines")):
+            self.assertIn(what, self.both_ways("f.wkt", text, "", command=command)[1])
 
     def test_attributes_and_reference_systems_are_those_of_the_whole(self):
         text = geojson(footprints(5000))

@@ -7,7 +7,7 @@ from support import FRAME, CommandLine, comb
 
 class Voronoi(CommandLine):
     def test_voronoi(self):
-        """Lemma 3: 2 N - 3 edges and N - 2 points; every format; holes are refused."""
+        """Lemma 3: 2 N - 3 edges and N - 2 points; every format; with holes; arcs are refused."""
         self.write("teeth.wkt", comb(20))
         self.write("ring.wkt", FRAME)
         report = json.loads(self.succeed("voronoi", "teeth.wkt", "--method", "lee", "--json").stdout)
@@ -24,7 +24,10 @@ class Voronoi(CommandLine):
         piped = self.succeed("voronoi", "-", "--method", "lee", "-o", "-", "--format", "geojson", given=comb(20).encode()).stdout
         kinds = {f["geometry"]["type"] for f in json.loads(piped)["features"]}
         self.assertIn("Polygon", kinds)
-        self.refuse("unsupported", "voronoi", "ring.wkt", "--method", "lee", "-o", "x.json")
+        report = json.loads(self.succeed("voronoi", "ring.wkt", "--method", "lee", "--json").stdout)
+        self.assertEqual(report["edges"], 2 * (report["segments"] + report["reflex_vertices"]))
+        self.write("half.svg", '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0H20A10 10 0 0 1 0 0Z"/></svg>')
+        self.refuse("unsupported", "voronoi", "half.svg", "--method", "lee", "-o", "x.json")
         self.refuse("[a-z_]+", "voronoi", "teeth.wkt", "--method", "magic")
 
     def test_voronoi_of_loose_pieces(self):

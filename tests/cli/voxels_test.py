@@ -28,6 +28,28 @@ class Voxels(CommandLine):
             pipe = self.succeed("voxels", "box.obj", "-o", "-", "--format", name[2:], "--voxels", 24)
             self.assertEqual(pipe.stdout, first)
 
+    def test_surface(self):
+        for name in ("a.ply", "a.vtk", "a.obj", "a.glb", "a.png"):
+            report = json.loads(self.succeed("voxels", "box.obj", "-o", name, "--voxels", 24, "--surface",
+                                             "--json").stdout)
+        self.assertGreater(report["surface"]["triangles"], 500)
+        self.assertEqual(report["surface"]["lines"], 0)
+        lines = self.read("a.obj").decode().splitlines()
+        self.assertEqual(sum(line.startswith("f ") for line in lines), report["surface"]["triangles"])
+        glb = self.read("a.glb")
+        size = int.from_bytes(glb[12:16], "little")
+        document = json.loads(glb[20:20 + size])
+        self.assertEqual(document["accessors"][0]["count"], report["surface"]["vertices"])
+        self.assertEqual(document["meshes"][0]["primitives"][0]["mode"], 4)
+        self.assertEqual(document["buffers"][0]["byteLength"], len(glb) - 28 - size)
+
+    def test_force_lines(self):
+        report = json.loads(self.succeed("voxels", "box.obj", "-o", "force.obj", "--voxels", 16, "--method",
+                                         "potential", "--order", 4, "--json").stdout)
+        self.assertGreater(report["surface"]["triangles"], 500)
+        self.assertGreater(report["surface"]["lines"], 20)
+        self.refuse("invalid_option", "voxels", "box.obj", "--method", "potential", "--order", 1)
+
     def test_summary(self):
         report = json.loads(self.succeed("voxels", "box.obj", "--resolution", 0.125, "--json",
                                          "--stats").stdout)

@@ -15,10 +15,10 @@ struct Silhouette {
 };
 
 /// A blob, hand, tool, letter, leaf or branching twig, turned at random, some with frayed borders;
-/// about so many pixels along the longer side. One seed, one image, for ever.
+/// about `pixels` along the longer side. One seed, one image, for ever.
 Silhouette silhouette(std::uint64_t seed, std::uint32_t pixels);
 
-/// An image turned, scaled to about so many pixels along the longer side, and some of it frayed.
+/// An image turned, scaled to about `pixels` along the longer side, and some of it frayed.
 Image redrawn(const Image& image, std::uint64_t seed, std::uint32_t pixels);
 
 /// A size from a seed: 50 to `most` pixels, small ones more often.

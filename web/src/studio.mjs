@@ -6,7 +6,7 @@ import { draw, nice_step, read_theme, ring_from } from "./draw.mjs";
 import { History, bounds_of, count_of, input_of, outline } from "./model.mjs";
 import { Pieces } from "./pieces.mjs";
 
-/** Above so many vertices the axis waits until the pointer rests. */
+/** Above this many vertices the axis waits until the pointer rests. */
 const LIVE = 30_000;
 const REST = 160; // milliseconds
 

@@ -43,12 +43,10 @@ struct ReadOptions {
   bool smooth_contour = false;  ///< of images: smooth_outline() instead of pixel_outline()
 };
 
-/// Reads polygons and curved shapes, gzipped or not: .svg and .dxf as docs/inputs.md says; .wkt,
-/// .txt, .xy and medial's own .json by fast readers; images (see is_image()) as one feature, the
-/// outline of their foreground with y downwards, or placed where the file says; the free cells of a
-/// ROS map (.yaml); all else by GDAL.
-/// Recognises WKT, GeoJSON, SVG, DXF, `x y` text and medial's own on standard input by their first
-/// characters. Errors: also no_area, invalid_option.
+/// Reads polygons and curved shapes, gzipped or not (docs/inputs.md); images (see is_image()) as
+/// one feature, the outline of their foreground with y downwards, or placed where the file says;
+/// the free cells of a ROS map (.yaml). Recognises WKT, GeoJSON, SVG, DXF, `x y` text and medial's
+/// own on standard input by their first characters. Errors: also no_area, invalid_option.
 Result<Document<Feature>> read_document(const std::string& path, const ReadOptions& options = {});
 
 /// The same of a text in memory, as of standard input.
@@ -60,13 +58,15 @@ Result<Document<Feature>> read_document_text(std::string_view text,
 Result<std::vector<Contour>> read_path_data(std::string_view text, bool loose = false);
 
 /// The outlines of a UTF-8 text in one line, with the advances and kerning of a scalable font file
-/// (TrueType, OpenType, Type 1): a feature for each character with an outline, in font units, the
-/// baseline at y = 0. A character that the font lacks becomes its replacement, with a note.
-Result<Document<Feature>> read_text(const std::string& text, const std::string& font);
+/// (TrueType, OpenType, Type 1): a feature for each character with an outline, with an em of `size`
+/// (0: in font units) and the baseline at y = 0. What the font lacks is replaced, with a note.
+Result<Document<Feature>> read_text(const std::string& text, const std::string& font,
+                                    double size = 0);
 
 struct SourceOptions {
   ReadOptions read;  ///< its `repair` goes for features with curves as well
   std::string text;  ///< not empty: the outlines of this text in the font `path`, see read_text()
+  double font_size = 0;
   LoadOptions load;  ///< but for `repair` and `skip_invalid`
   UnitOptions units;
 };
@@ -97,25 +97,18 @@ struct VoronoiItem {
 bool is_voronoi(const std::string& path);
 Result<Document<VoronoiItem>> read_voronoi(const std::string& path);
 
-/// Takes points of a reference system that ReadOptions::project made back to longitude and
-/// latitude, within 2 mm; those of any other stay. Errors: unsupported (a point that has no
-/// counterpart).
+/// Takes points of a reference system that ReadOptions::project made back to degrees, within 2 mm;
+/// those of any other stay. Errors: unsupported (a point without counterpart).
 Status back_to_geographic(const std::string& crs_wkt, std::vector<Vec2>& points);
 
-struct ImageFile : PlacedImage {
-  std::string crs_wkt;  ///< coordinate reference system as WKT, empty if none
-  bool geographic = false;
-  double dots_per_inch = 0;  ///< 0: the file does not say
-  std::vector<std::string> notes;
-};
+struct ImageFile : PlacedImage, DocumentInfo {};
 
 /// Whether a file begins like an image of read_image(); false if it cannot be opened.
 bool is_image(const std::string& path);
 
-/// Reads a binary image: PBM (set bits, black, are the foreground) and PGM (P1, P2, P4, P5),
-/// gzipped or not, or PNG, JPEG, BMP, WebP, GIF, TIFF and GeoTIFF through GDAL. Of colours the
-/// luminance counts (ITU-R BT.601); what is transparent or without data is background, inverted or
-/// not. Errors: also empty (no foreground).
+/// Reads a binary image: PBM (set bits, black, are the foreground) and PGM, gzipped or not, or PNG,
+/// JPEG, BMP, WebP, GIF, TIFF and GeoTIFF through GDAL. Of colours the luminance counts (BT.601);
+/// what is transparent or without data is background. Errors: also empty (no foreground).
 Result<ImageFile> read_image(const std::string& path, const ImageOptions& options = {});
 
 /// Reads a mesh by its extension and cuts polygons into triangles: .obj and .stl through Assimp, in
@@ -126,16 +119,13 @@ Result<TriangleMesh> read_mesh(const std::string& path);
 enum class PackKind : std::uint8_t { axes, squares };
 
 /// A pack: a code, and what its picture needs. docs/pack.md describes the bytes.
-struct PackFile {
+struct PackFile : DocumentInfo {
   PackKind kind = PackKind::axes;
   ShapeCode code;
-  std::string crs_wkt;
-  bool y_down = false;
 };
 
-/// From a file or from bytes. Takes at most 256 times the memory of the bytes, and 64 KiB. Of the
-/// errors, malformed stands for any damage, a wrong checksum included, and unsupported for a
-/// version that this library does not know; of bytes they have no file.
+/// From a file or from bytes. Takes at most 256 times the memory of the bytes, and 64 KiB. Errors:
+/// malformed (any damage, a wrong checksum included), unsupported (a newer version).
 Result<PackFile> read_pack(const std::string& path);
 Result<PackFile> unpack_bytes(std::span<const std::uint8_t> bytes);
 
@@ -144,13 +134,10 @@ Result<PackFile> unpack_bytes(std::span<const std::uint8_t> bytes);
 Result<Document<AxisItem>> native_of(const PackFile& file,
                                      std::vector<std::string>* notes = nullptr);
 
-struct Library {
-  std::string name, version;
-};
 /// What medial::io is made of, for reports of problems.
 struct BuildInfo {
-  std::vector<Library> libraries;  ///< as they are loaded, which may be newer than those built with
-  std::string extensions;          ///< read without GDAL, as ".json .svg"
+  Attributes libraries;    ///< names and versions as loaded, which may be newer than when built
+  std::string extensions;  ///< read without GDAL, as ".json .svg"
   /// GDAL's names of the formats that it reads as features and as images.
   std::vector<std::string> vectors, rasters;
   bool projections = false;  ///< whether PROJ finds its database, which --project needs

@@ -4,8 +4,7 @@
 // extension without its dot) in its place; `-` is standard output, but of images and distances.
 // There is never a partial file: it is written beside its target, then renamed. Formats of GIS,
 // .wkt and .csv get longitudes and latitudes again after ReadOptions::project; radii and lengths
-// stay in metres. Errors of all: unsupported, unwritable, invalid_option (chord, width),
-// out_of_memory.
+// stay in metres. Errors of all: unsupported, unwritable, invalid_option, out_of_memory.
 
 #include "medial/carve.h"
 #include "medial/features.h"
@@ -58,10 +57,39 @@ struct WriteOptions {
 };
 
 /// Axes: exact in .json (native, docs/format.md) and .dxf, else chords; .gpkg also has the nodes;
-/// .graphml, .nodelink (JSON, as networkx reads it) and .edgelist hold nodes and branches as a
-/// graph.
+/// .graphml, .nodelink (JSON, as networkx reads it) and .edgelist hold the graph of branches.
 Status write_axes(const Destination& target, const std::string& format,
                   const Document<AxisItem>& file, const WriteOptions& options = {});
+
+struct StreamOptions {
+  SourceOptions source;
+  WriteOptions write;
+  int threads = 0;  ///< see Options
+  /// The axes of some shapes of the file; called for several parts of it at once.
+  std::function<Result<Document<AxisItem>>(Document<ShapeItem> shapes, int threads,
+                                           AxesReport& report)>
+      compute;
+  /// Sees the parts in order, before they are written; may be empty.
+  std::function<void(const Document<AxisItem>& part)> visit;
+  /// Gets the share that is done, in [0, 1], and the number of features; may be empty.
+  std::function<void(double share, std::uint64_t features)> progress;
+  std::uint64_t least_bytes = std::uint64_t{1} << 20;  ///< of a file; smaller ones are read whole
+};
+
+struct StreamReport {
+  LoadReport load;
+  AxesReport axes;
+  Document<AxisItem> document;  ///< without items: what held for all, and the notes
+};
+
+/// What load_shapes(), options.compute and write_axes() make of a file, with the same bytes, part
+/// by part; the file is read twice. Without a target's name nothing is written. Returns nothing
+/// where the input is no file of .wkt or GDAL's vector formats, the output no table, .wkt, .csv or
+/// .json, or an option needs all features (repair, project, units, contours). A .fgb has no spatial
+/// index. Errors: those of the three, of the first part with one.
+Result<std::optional<StreamReport>> stream_axes(const std::string& path, const Destination& target,
+                                                const std::string& format,
+                                                const StreamOptions& options);
 
 /// Shapes. .json (native), .svg (but for the shift of its viewport), .dxf (polylines with bulges)
 /// and .wkt (a geometry per line; with arcs a MULTISURFACE) are lossless, .geojson has chords.
@@ -190,7 +218,7 @@ Status write_layers(const Destination& target, const std::string& format,
 
 struct FieldPictureOptions {
   double width = 800;      ///< of the picture, in pixels or points, in [16, 8000]
-  int lines = 40;          ///< force lines start on a grid, so many along the longer side; 0: none
+  int lines = 40;          ///< along the longer side of the grid where force lines start; 0: none
   bool brightness = true;  ///< the lower the potential, by its logarithm, the brighter a point
   bool y_down = false;     ///< the y axis points down
   Unit unit = Unit::unknown;
@@ -201,8 +229,8 @@ Status write_field(const std::string& path, const std::string& format,
                    std::span<const Shape> shapes, std::span<const PotentialField> fields,
                    const FieldPictureOptions& options = {});
 
-/// An axis of voxels: .ply (binary) and .vtk (legacy, text) have points with radius and quality,
-/// and edges; .obj points and edges; .png three views of solid and axis, `width` pixels wide.
+/// An axis of voxels, or its surface where it has one: .ply (binary), .vtk (legacy, text) and .glb
+/// (single precision) with radii, .obj; .png three views of solid and axis, `width` pixels wide.
 Status write_voxels(const std::string& path, const std::string& format, const VoxelAxis& axis,
                     const Solid& solid, double width = 1536);
 

@@ -5,13 +5,11 @@
 
 # %%
 import medial
-from matplotlib.font_manager import FontProperties
-from matplotlib.textpath import TextPath
+from matplotlib.font_manager import findfont
 
-text = TextPath((0, 0), "Axis", size=40, prop=FontProperties(family="DejaVu Serif"))
-rings = [ring[:-1] for ring in text.to_polygons(closed_only=True)]
-carving = medial.carve(medial.axis(rings), angle=60, depth=4)
-print(carving.to_gcode()[:180])
+text = medial.Shape(medial.text("Axis", findfont("DejaVu Serif")))
+carving = medial.carve(text, angle=60, depth=200)  # in units of the font
+print(carving.to_gcode(post="grbl")[:330])
 
 # %%
 import matplotlib.pyplot as plt
@@ -19,11 +17,12 @@ import numpy as np
 from matplotlib.collections import LineCollection
 
 figure, ax = plt.subplots(figsize=(9, 4))
-for ring in rings:
-    ax.fill(*ring.T, facecolor="none", edgecolor="0.3")
+for polygon in text.polygons():
+    for ring in polygon:
+        ax.fill(*ring.T, facecolor="none", edgecolor="0.3")
 for kind, rows in carving:
     pieces = np.stack([rows[:-1, :2], rows[1:, :2]], axis=1)
     depth = (rows[:-1, 2] + rows[1:, 2]) / 2
-    ax.add_collection(LineCollection(pieces, array=depth, cmap="viridis_r", clim=(-carving.deepest, 0), linewidths=1 - 1.2 * depth))
+    ax.add_collection(LineCollection(pieces, array=depth, cmap="viridis_r", clim=(-carving.deepest, 0), linewidths=1 - 0.024 * depth))
 ax.set_aspect("equal")
 ax.set_axis_off()

@@ -5,13 +5,11 @@
 
 # %%
 import medial
-from matplotlib.font_manager import FontProperties
-from matplotlib.textpath import TextPath
+from matplotlib.font_manager import findfont
 
 
 def letter(character, family="DejaVu Sans"):
-    path = TextPath((0, 0), character, size=100, prop=FontProperties(family=family))
-    return [ring[:-1] for ring in path.to_polygons(closed_only=True)]
+    return medial.Shape(medial.text(character, findfont(family)))
 
 
 medial.axis(letter("R")).prune()

@@ -376,6 +376,7 @@ class Features {
                    {}};
     }
     for (const auto& [name, count] : found_.left_out) others.try_emplace(name, count);
+    if (dataset_.items.empty()) take_cells();
     add_notes(others);
     if (dataset_.items.empty()) {
       std::string text = "there is no closed curve";
@@ -401,11 +402,29 @@ class Features {
     } else {
       join(layer, feature);
     }
-    if (feature.contours.empty()) return;
+    if (!feature.contours.empty()) add(std::move(feature), layer.name);
+  }
+
+  void add(Feature feature, const std::string& layer) {
     feature.filled = true;
     feature.id = static_cast<std::int64_t>(dataset_.items.size());
-    feature.attributes.emplace_back("layer", layer.name);
+    feature.attributes.emplace_back("layer", layer);
     dataset_.items.push_back(std::move(feature));
+  }
+
+  /// What the curves of a net enclose, where no curve is closed.
+  void take_cells() {
+    if (cells_.empty()) return;
+    dataset_.notes.push_back(
+        fmt::format("no curve is closed: {} curves enclose {}, a feature each", in_cells_,
+                    cells_.size() == 1 ? "one cell" : fmt::format("{} cells", cells_.size())));
+    for (auto& [layer, cell] : cells_) {
+      Feature feature;
+      feature.contours.push_back(std::move(cell));
+      add(std::move(feature), layer);
+    }
+    open_ -= in_cells_;
+    smallest_gap_ = std::numeric_limits<double>::infinity();
   }
 
   void join(Unfolded::Layer& layer, Feature& feature) {
@@ -414,6 +433,8 @@ class Features {
     open_ += joined.open;
     if (joined.open > 0) smallest_gap_ = std::min(smallest_gap_, joined.smallest_gap);
     tolerance_ = std::max(tolerance_, joined.tolerance);
+    in_cells_ += joined.in_cells;
+    for (Contour& cell : joined.cells) cells_.emplace_back(layer.name, std::move(cell));
     std::ranges::move(joined.loops, std::back_inserter(feature.contours));
     std::erase_if(feature.contours, is_degenerate);
   }
@@ -441,6 +462,8 @@ class Features {
   const Collector& found_;
   const ReadOptions& options_;
   Document<Feature> dataset_;
+  std::vector<std::pair<std::string, Contour>> cells_;  ///< with their layers
+  std::uint64_t in_cells_ = 0;                          ///< curves around them
   std::uint64_t open_ = 0;
   std::uint64_t hidden_ = 0;
   double smallest_gap_ = std::numeric_limits<double>::infinity();

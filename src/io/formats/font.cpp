@@ -57,9 +57,10 @@ struct GlyphPen {
   std::vector<Contour> contours;
   RingRole role = RingRole::winding;
   Vec2 origin;
+  double unit = 1;  ///< of the font
 
   Vec2 at(const FT_Vector* point) const {
-    return origin + Vec2{static_cast<double>(point->x), static_cast<double>(point->y)};
+    return unit * (origin + Vec2{static_cast<double>(point->x), static_cast<double>(point->y)});
   }
   static GlyphPen& of(void* user) { return *static_cast<GlyphPen*>(user); }
 
@@ -93,7 +94,11 @@ Result<Face> open_face(FT_Library library, const std::string& path) {
   if (std::FILE* file = std::fopen(path.c_str(), "rb"); file != nullptr) {
     std::fclose(file);
   } else {
-    return Error{ErrorCode::unreadable, fmt::format("cannot open: {}", std::strerror(errno)), {}};
+    return Error{ErrorCode::unreadable,
+                 fmt::format("there is no such font ({}): --font takes the file of a font, such as "
+                             "`fc-match -f %{{file}} NAME` prints",
+                             std::strerror(errno)),
+                 {}};
   }
   FT_Face face = nullptr;
   const FT_Error problem = FT_New_Face(library, path.c_str(), 0, &face);
@@ -111,11 +116,12 @@ Result<Face> open_face(FT_Library library, const std::string& path) {
   return result;
 }
 
-Result<Document<Feature>> set_text(const std::vector<Character>& characters, FT_Face face) {
+Result<Document<Feature>> set_text(const std::vector<Character>& characters, FT_Face face,
+                                   double size) {
   static const FT_Outline_Funcs functions{
       &GlyphPen::move_to, &GlyphPen::line_to, &GlyphPen::conic_to, &GlyphPen::cubic_to, 0, 0};
   Document<Feature> dataset;
-  dataset.corner_angle = drawn_corner_angle;
+  dataset.corner_angle = font_corner_angle;
   std::set<std::string> missing;
   double x = 0;
   FT_UInt before = 0;
@@ -136,6 +142,7 @@ Result<Document<Feature>> set_text(const std::vector<Character>& characters, FT_
     if (slot->format == FT_GLYPH_FORMAT_OUTLINE && slot->outline.n_contours > 0) {
       GlyphPen pen;
       pen.origin = {x, 0};
+      if (size > 0) pen.unit = size / face->units_per_EM;
       if ((slot->outline.flags & FT_OUTLINE_EVEN_ODD_FILL) != 0) pen.role = RingRole::any;
       if (FT_Outline_Decompose(&slot->outline, &functions, &pen) != 0) {
         return Error{ErrorCode::malformed,
@@ -166,7 +173,7 @@ Result<Document<Feature>> set_text(const std::vector<Character>& characters, FT_
 
 }  // namespace
 
-Result<Document<Feature>> read_text(const std::string& text, const std::string& font) {
+Result<Document<Feature>> read_text(const std::string& text, const std::string& font, double size) {
   return guarded(font, [&]() -> Result<Document<Feature>> {
     Result<std::vector<Character>> characters = characters_of(text);
     if (!characters) return characters.error();
@@ -177,7 +184,7 @@ Result<Document<Feature>> read_text(const std::string& text, const std::string& 
     const FreeType library(raw, &FT_Done_FreeType);
     Result<Face> face = open_face(raw, font);
     if (!face) return face.error();
-    return set_text(*characters, face->get());
+    return set_text(*characters, face->get(), size);
   });
 }
 

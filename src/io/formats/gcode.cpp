@@ -198,7 +198,8 @@ Status write_gcode(Target& target, const CarvingOutput& output) {
   PostValues values{{"header", header_of(program, target.name, file.unit, machine.safe)},
                     {"units", inches ? "G20" : "G21"},
                     {"tolerance", inches ? "0.0004" : "0.01"},
-                    {"safe", decimal(machine.safe)}};
+                    {"safe", decimal(machine.safe)},
+                    {"stop", ""}};
   const auto put = [&](PostPart part) {
     target.out->put(std::string_view(post->fill(part, values)));
   };

@@ -83,7 +83,9 @@ class GraphmlTables final : public GraphTables {
       for (std::size_t i = 0; i < tables_[table].columns.size(); ++i)
         put_key(table, i, tables_[table].columns[i]);
     for (const char* place : {"x", "y"}) put_key_of(place, "node", place, "double");
+    if (!target.unit.empty()) put_key_of("unit", "graph", "unit", "string");
     out_.put("<graph edgedefault=\"undirected\">\n");
+    if (!target.unit.empty()) out_.put("<data key=\"unit\">" + xml_of(target.unit) + "</data>\n");
   }
   Status finish() {
     out_.put("</graph>\n</graphml>\n");
@@ -136,7 +138,10 @@ class GraphmlTables final : public GraphTables {
 class NodelinkTables final : public GraphTables {
  public:
   NodelinkTables(Target& target, const TableSource& source) : GraphTables(target, source) {
-    out_.put("{\"directed\":false,\"multigraph\":true,\"graph\":{},\n\"nodes\":[");
+    const std::string unit =
+        target.unit.empty() ? "" : fmt::format("\"unit\":{}", json_quoted(target.unit));
+    out_.put(fmt::format("{{\"directed\":false,\"multigraph\":true,\"graph\":{{{}}},\n\"nodes\":[",
+                         unit));
   }
   Status finish() {
     out_.put("],\n\"edges\":[");
@@ -180,7 +185,8 @@ class NodelinkTables final : public GraphTables {
 class EdgelistTables final : public GraphTables {
  public:
   EdgelistTables(Target& target, const TableSource& source) : GraphTables(target, source) {
-    out_.put("# from_node to_node length\n");
+    out_.put(fmt::format("# from_node to_node length{}\n",
+                         target.unit.empty() ? "" : " [" + target.unit + "]"));
   }
   Status finish() { return success(); }
 

@@ -283,7 +283,7 @@ Result<Document<AxisItem>> read_native(TextSource& source) {
 }
 
 Document<Feature> dataset_of(Document<AxisItem> file) {
-  auto dataset = empty_like<Feature>(file);
+  Document<Feature> dataset{file, {}};
   std::int64_t id = 0;
   for (AxisItem& item : file.items) {
     Feature& feature = dataset.items.emplace_back();

@@ -208,9 +208,7 @@ Result<PackFile> read_pack(const std::string& path) {
 Result<Document<AxisItem>> native_of(const PackFile& file, std::vector<std::string>* notes) {
   auto axes = decode_axes(file.code);
   if (!axes) return std::move(axes).error();
-  Document<AxisItem> native;
-  native.crs_wkt = file.crs_wkt;
-  native.y_down = file.y_down;
+  Document<AxisItem> native{file, {}};
   for (MedialAxis& axis : *axes) {
     AxisItem& item = native.items.emplace_back();
     auto shape = rebuild(axis);

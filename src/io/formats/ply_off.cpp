@@ -20,7 +20,7 @@
 namespace medial::io {
 namespace {
 
-/// No table is allotted for more than so many items before they are read.
+/// No table is allotted for more items than this before they are read.
 constexpr std::uint64_t most_reserved = std::uint64_t{1} << 16U;
 constexpr std::uint64_t most_items = std::uint64_t{1} << 31U;
 /// Cutting a polygon takes time in the square of its corners.
@@ -172,7 +172,7 @@ Result<std::uint32_t> read_whole(TextSource& source, const char* what) {
   return whole(*value, source, what);
 }
 
-/// The rest of a line, without its end, at most so many characters of it.
+/// The rest of a line, without its end, at most `most` characters of it.
 std::string rest_of_line(TextSource& source) {
   constexpr std::size_t most = 4096;
   std::string line;

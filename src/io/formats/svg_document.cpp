@@ -155,7 +155,8 @@ Result<SvgDocument> SvgDocument::read(TextSource& source) {
   }
   result.prepare();
   if (!result.apply_styles()) {
-    return error(ErrorCode::too_large, "there are too many rules of style for so many elements", 0);
+    return error(ErrorCode::too_large, "there are too many style rules for the number of elements",
+                 0);
   }
   return result;
 }

@@ -38,7 +38,7 @@ std::string proj_version() {
   return fmt::format("{}.{}.{}", major, minor, patch);
 }
 
-std::vector<Library> loaded_libraries() {
+Attributes loaded_libraries() {
   return {
       {"GDAL", GDALVersionInfo("RELEASE_NAME")},
       {"PROJ", proj_version()},

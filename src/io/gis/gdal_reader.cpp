@@ -56,6 +56,15 @@ std::string field_text(const OGRFeature& feature, int field) {
   return {text.data(), end.ptr};
 }
 
+/// " name rank": what filters can ask for.
+std::string fields_of(OGRLayer& layer) {
+  std::string names;
+  const OGRFeatureDefn& definition = *layer.GetLayerDefn();
+  for (int i = 0; i < definition.GetFieldCount(); ++i)
+    names += " " + utf8(definition.GetFieldDefn(i)->GetNameRef());
+  return names.empty() ? " none" : names;
+}
+
 std::string layer_names(GDALDataset& source) {
   std::vector<std::string> names;
   for (const OGRLayer* layer : source.GetLayers()) {
@@ -97,8 +106,9 @@ class GdalReader final : public FeatureReader {
     layer_ = *layer;
     if (!options_.where.empty() &&
         layer_->SetAttributeFilter(options_.where.c_str()) != OGRERR_NONE) {
-      return error(ErrorCode::invalid_option, fmt::format("the filter '{}' does not work: {}",
-                                                          options_.where, messages.failure()));
+      return error(ErrorCode::invalid_option,
+                   fmt::format("the filter '{}' does not work: {}; the fields are{}",
+                               options_.where, messages.failure(), fields_of(*layer_)));
     }
     read_crs();
     layer_->ResetReading();
@@ -215,7 +225,9 @@ class GdalReader final : public FeatureReader {
       if (counts_.others > 0) {
         return error(
             ErrorCode::unsupported,
-            fmt::format("no polygons, only other geometries ({} of them)", counts_.others));
+            fmt::format("no polygons, only other geometries ({} of them); points and lines are for "
+                        "`medial voronoi` and `medial offset --loose`",
+                        counts_.others));
       }
       return error(ErrorCode::empty, options_.where.empty() ? "no feature with a geometry"
                                                             : "no feature passes the filter");

@@ -535,13 +535,9 @@ Result<Document<Feature>> read_outline(const Input& input, const ReadOptions& op
 Result<Document<Feature>> outline_document(ImageFile file, std::span<const std::uint32_t> labels,
                                            const ReadOptions& options) {
   const PixelPlacement& t = file.placement;
-  Document<Feature> dataset;
-  dataset.crs_wkt = std::move(file.crs_wkt);
-  dataset.geographic = file.geographic;
+  Document<Feature> dataset{static_cast<DocumentInfo&&>(file), {}};
   dataset.y_down = !file.placed();
   if (!file.placed()) dataset.unit = Unit::pixel;
-  dataset.dots_per_inch = file.dots_per_inch;
-  dataset.notes = std::move(file.notes);
   if (!labels.empty()) {
     Status added = add_labelled(labels, file.image.width(), options, dataset.items);
     if (!added) return std::move(added).error();

@@ -103,7 +103,11 @@ Result<Document<Feature>> read_ros_map(const Input& input, const ReadOptions& op
                  in_file(input.path)};
   const auto beside = std::filesystem::path(input.path).replace_filename(map->image);
   auto file = read_image(beside.string(), free_cells(*map));
-  if (!file) return std::move(file).error();
+  if (!file) {
+    file.error().text =
+        fmt::format("its image {}: {}", beside.filename().string(), file.error().text);
+    return std::move(file).error();
+  }
   file->placement = placement_of(*map, file->image.height());
   file->notes.push_back("the shape is what is free; occupied and unknown cells lie outside");
   auto dataset = outline_document(std::move(*file), {}, options);

@@ -340,20 +340,20 @@ Format gpkg_format() {
   Format format{".gpkg"};
   format.own_files = format.adds_layers = true;
   format.write_parts = GdalParts::make;
-  return with_tables<put_gdal_tables>(format);
+  return with_tables<put_gdal_tables, OffsetsOutput, ShapesOutput, VoronoiOutput>(format);
 }
 
 Format shp_format() {
   Format format{".shp"};
   format.own_files = true;
   format.write_parts = GdalParts::make;
-  return with_tables<put_gdal_tables>(format);
+  return with_tables<put_gdal_tables, OffsetsOutput, ShapesOutput, VoronoiOutput>(format);
 }
 
 Format fgb_format() {
   Format format{".fgb"};
   format.write_parts = GdalParts::make;
-  return with_tables<put_gdal_tables>(format);
+  return with_tables<put_gdal_tables, OffsetsOutput, ShapesOutput, VoronoiOutput>(format);
 }
 
 }  // namespace medial::io

@@ -101,7 +101,7 @@ class Canvas {
   /// Fills all that any part of the path goes around, or what is inside by the even-odd rule.
   void fill() { cairo_fill(context_); }
   void fill_even_odd(bool keep_path = false);
-  /// Strokes or fills once so many pieces have come that the path gets slow; whether it did.
+  /// Strokes or fills once the path has become long, and thus slow; whether it did.
   bool count_piece(bool filled) {
     if (++batch_ % pieces_per_stroke != 0) return false;
     filled ? fill() : stroke();
@@ -113,7 +113,7 @@ class Canvas {
 
   /// Covers all of the picture with pixels 0xRRGGBB, as many in a row as it is wide.
   void image(std::vector<std::uint32_t> pixels);
-  /// Words from a point of the plane on, so many thousandths of the longer side high.
+  /// Words from a point of the plane on; their height in thousandths of the longer side.
   void text(Vec2 at, double thousandths, const std::string& words);
   /// Words whose base line has its middle at a place of the picture.
   void centred_text(Vec2 middle, double thousandths, const std::string& words);

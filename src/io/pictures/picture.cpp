@@ -54,7 +54,7 @@ Status write_picture(Target& target, const AxesOutput& output) {
 }
 
 Status write_picture(Target& target, const ShapesOutput& output) {
-  auto axes = empty_like<AxisItem>(output.document);
+  Document<AxisItem> axes{output.document, {}};
   for (const ShapeItem& item : output.document.items) axes.items.push_back({item.shape, {}, {}});
   return draw_picture(target, axes, output.options, nullptr, nullptr);
 }
@@ -65,7 +65,7 @@ Status write_picture(Target& target, const LayersOutput& output) {
 
 Status write_picture(Target& target, const VoronoiOutput& output) {
   // Less its spokes, the diagram is the axis.
-  auto axes = empty_like<AxisItem>(output.document);
+  Document<AxisItem> axes{output.document, {}};
   for (const VoronoiItem& item : output.document.items) {
     AxisItem& own = axes.items.emplace_back();
     own.shape = item.shape;

@@ -120,6 +120,7 @@ class Scene {
  public:
   Scene(const VoxelAxis& axis, const Solid& solid) : axis_(axis), solid_(solid) {
     for (const Voxel& voxel : axis.voxels) largest_ = std::max(largest_, voxel.radius);
+    for (const double radius : axis.surface.radii) largest_ = std::max(largest_, radius);
   }
 
   /// The corners of the smallest rectangle around the solid, in units of the input.
@@ -140,7 +141,11 @@ class Scene {
     canvas.clear_depth();
     paint_solid(canvas, view, place);
     canvas.clear_depth();
-    paint_voxels(canvas, view, place);
+    if (axis_.surface.vertices.empty()) {
+      paint_voxels(canvas, view, place);
+    } else {
+      paint_surface(canvas, view, place);
+    }
   }
 
  private:
@@ -161,13 +166,42 @@ class Scene {
     }
   }
 
+  Color color_of(double radius, double light) const {
+    const double at = largest_ > 0 ? radius / largest_ : 0;
+    const Color base = shade(static_cast<int>(std::lround(at * (shade_count - 1))));
+    return {base.red * light, base.green * light, base.blue * light};
+  }
+
+  /// Triangles, lit from the eye, and lines a little in front of them, as long triangles.
+  template <class Place>
+  void paint_surface(DepthCanvas& canvas, const View& view, Place place) const {
+    const auto& [vertices, radii, triangles, lines] = axis_.surface;
+    for (const auto& [i, j, k] : triangles) {
+      const Vec3 a = vertices[i], b = vertices[j], c = vertices[k];
+      const Vec3 normal = cross(b - a, c - a);
+      const double length = norm(normal);
+      if (!(length > 0)) continue;
+      const double light = 0.5 + 0.5 * std::fabs(dot(normal, view.towards)) / length;
+      paint_triangle(canvas, {place(a), place(b), place(c)},
+                     color_of((radii[i] + radii[j] + radii[k]) / 3, light));
+    }
+    for (const auto& [i, j] : lines) {
+      const Vec3 a = vertices[i] + axis_.resolution * view.towards,
+                 b = vertices[j] + axis_.resolution * view.towards;
+      const Vec3 across = cross(b - a, view.towards);
+      const double length = norm(across);
+      const Vec3 side = length > 0 ? 0.35 * axis_.resolution / length * across : Vec3{};
+      const Color color = color_of(0.5 * (radii[i] + radii[j]), 0.75);
+      paint_triangle(canvas, {place(a - side), place(a + side), place(b + side)}, color);
+      paint_triangle(canvas, {place(a - side), place(b + side), place(b - side)}, color);
+    }
+  }
+
   /// Each voxel as the three faces of its cube that can be seen.
   template <class Place>
   void paint_voxels(DepthCanvas& canvas, const View& view, Place place) const {
     const double half = 0.5 * axis_.resolution;
     for (const Voxel& voxel : axis_.voxels) {
-      const double at = largest_ > 0 ? voxel.radius / largest_ : 0;
-      const Color base = shade(static_cast<int>(std::lround(at * (shade_count - 1))));
       for (int k = 0; k < 3; ++k) {
         const double facing = view.towards[k];
         if (facing == 0) continue;
@@ -179,7 +213,7 @@ class Scene {
         const Point a = place(middle - u - v), b = place(middle + u - v), c = place(middle + u + v),
                     d = place(middle - u + v);
         const double light = 0.62 + 0.38 * std::fabs(facing);
-        const Color color{base.red * light, base.green * light, base.blue * light};
+        const Color color = color_of(voxel.radius, light);
         paint_triangle(canvas, {a, b, c}, color);
         paint_triangle(canvas, {a, c, d}, color);
       }
@@ -198,7 +232,7 @@ std::uint32_t packed(const Color& color) {
   return byte(color.red) << 16U | byte(color.green) << 8U | byte(color.blue);
 }
 
-/// A solid, faintly, and the voxels of its axis, coloured by radius, from three sides.
+/// A solid, faintly, and its axis, coloured by radius, from three sides.
 Status write_voxel_picture(Target& target, const VoxelsOutput& output) {
   OutputStream& out = *target.out;
   const double width = output.width;

@@ -166,7 +166,7 @@ void contract(const Context& context, const Division& division, Skeleton& skelet
     if (nodes.find(i) != i) skeleton.component[i] = none;
 }
 
-/// Nodes no further apart than so many tolerances may be one that many sites touch.
+/// Nodes no further apart than this many tolerances may be one that many sites touch.
 constexpr double tie_reach = 64;
 /// A disk as large as an arc's own circle, but for this, has its foot on the arc anywhere.
 constexpr double same_circle = 1e-7;

@@ -82,7 +82,7 @@ inline bool is_far(const site::Site& site, Vec2 c, double reach) {
   return squared_norm(c - site.point) > most * most;
 }
 
-/// Sub-shapes of at most so many elements are scanned from end to end; in larger ones, disks are
+/// Sub-shapes of at most this many elements are scanned from end to end; in larger ones, disks are
 /// tested by the tree over the whole boundary.
 constexpr std::size_t most_scanned = 64;
 

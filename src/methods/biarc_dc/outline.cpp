@@ -1,27 +1,14 @@
 #include "methods/biarc_dc/outline.h"
 
-#include "methods/disks/boundary.h"
 #include "methods/disks/connect.h"
 
 namespace medial::biarc_dc {
-namespace {
-
-/// The boundary that the method disks walks along, with its disks between loops.
-disks::Boundary boundary_of(const Problem& problem, std::vector<disks::Bridge>& bridges,
-                            Statistics& statistics) {
-  disks::Boundary loops = disks::loops_boundary(problem, problem.numbers(), false);
-  if (problem.shape.hole_count() == 0) return loops;
-  bridges = disks::connecting_disks(problem.shape, loops, problem.fine_tolerance, nullptr, {},
-                                    statistics.queries);
-  statistics.bridges = bridges.size();
-  return disks::connect(problem.shape, loops, bridges);
-}
-
-}  // namespace
 
 SiteOutline outline_of(const Problem& problem, Statistics& statistics) {
   std::vector<disks::Bridge> bridges;
-  const disks::Boundary boundary = boundary_of(problem, bridges, statistics);
+  const disks::Boundary boundary = disks::connected_boundary(problem, bridges);
+  statistics.bridges = bridges.size();
+  statistics.queries += bridges.size();
   SiteOutline outline;
   outline.sites.reserve(boundary.sites.size());
   outline.joints.reserve(boundary.sites.size());

@@ -11,7 +11,6 @@
 #include "axis/node_kinds.h"
 #include "base/box_tree.h"
 #include "base/in_flight.h"
-#include "curve/least_squares.h"
 #include "medial/shape.h"
 #include "methods/curve_axis/control.h"
 
@@ -35,7 +34,7 @@ Disk control_between(const AxisPoint& a, const AxisPoint& b) {
 
 /// Between two points the graph's quadratic is off by less than this share of the size.
 constexpr double between_points = 1e-8;
-/// Points farther apart than so many steps get others in between.
+/// Points farther apart than this many steps get others in between.
 constexpr double longest_step = 1.5;
 /// So do points between which the boundary turns by more, in radians: next to tips the axis's own
 /// scale is the way to the tip.
@@ -250,7 +249,7 @@ class Assembly {
   }
 
   /// Appends points between a and b until the quadratics are within the tolerance of the axis,
-  /// after so many halvings at least. Where no point is found the way stays as it is.
+  /// after `wanted` halvings at least. Where no point is found the way stays as it is.
   void halve(const AxisPoint& a, const AxisPoint& b, int done, int wanted,
              std::vector<AxisPoint>& out) const {
     if (done == most_halvings) return;
@@ -442,7 +441,7 @@ Error with_fit(Error error, const Contour& contour, const method::CurveAxis& opt
   for (const double share : shares) {
     std::array<char, 16> text{};
     std::snprintf(text.data(), text.size(), "%.2g", share * distance(box.low, box.high));
-    const auto curve = smoothed_contour(polygon, std::strtod(text.data(), nullptr));
+    const auto curve = fit_smooth_contour(polygon, std::strtod(text.data(), nullptr));
     if (!curve || refuse({&*curve, 1}, options) || !follow(*curve, options, cancel).ok()) {
       if (!found.empty()) break;
       continue;

@@ -398,4 +398,17 @@ Boundary connect(const Shape& shape, const Boundary& loops, const std::vector<Br
   return Splicer(shape, loops, bridges).splice();
 }
 
+Boundary connected_boundary(const Problem& problem, std::vector<Bridge>& bridges) {
+  const Boundary loops = loops_boundary(problem, problem.numbers(), false);
+#ifdef MEDIAL_HAS_EXACT
+  const ExactSites sites(problem, problem.numbers());
+  const ExactSites* exact = &sites;
+#else
+  const ExactSites* exact = nullptr;
+#endif
+  std::uint64_t queries = 0;
+  bridges = connecting_disks(problem.shape, loops, problem.fine_tolerance, exact, {}, queries);
+  return connect(problem.shape, loops, bridges);
+}
+
 }  // namespace medial::disks

@@ -32,4 +32,8 @@ std::vector<Bridge> connecting_disks(const Shape& shape, const Boundary& loops, 
 /// The boundary with all holes spliced in: one run for each component.
 Boundary connect(const Shape& shape, const Boundary& loops, const std::vector<Bridge>& bridges);
 
+/// The boundary of a problem with all holes spliced in; of straight edges, small bridges are
+/// decided in 256 bits where the build has them.
+Boundary connected_boundary(const Problem& problem, std::vector<Bridge>& bridges);
+
 }  // namespace medial::disks

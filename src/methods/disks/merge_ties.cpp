@@ -163,7 +163,7 @@ class Merger {
     const std::uint32_t before = other_contact(edge, edge.node[0]);
     if (before == none) return false;
     const Disk middle{midpoint(from.center, to.center), 0.5 * (from.radius + to.radius)};
-    std::array<Contact, 4> contacts;
+    std::array<ContactEquation, 4> contacts;
     bool curved = false;
     for (std::size_t i = 0; const std::uint32_t k : {edge.site[0], edge.site[1], before, after}) {
       contacts[i++] = near_contact(k, middle);
@@ -226,7 +226,7 @@ class Merger {
   }
 
   /// contact_of() where the residual is small against the radius, without roots.
-  Contact near_contact(std::uint32_t i, const Disk& disk) const {
+  ContactEquation near_contact(std::uint32_t i, const Disk& disk) const {
     const Site& site = boundary_.sites[i];
     if (!site.is_vertex()) return contact_of(site, disk);
     const Vec2 to = (1 / disk.radius) * (disk.center - site.point);

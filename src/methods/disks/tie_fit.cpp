@@ -45,14 +45,14 @@ bool Fit::improve() {
   if (std::find(reference_.begin(), end, furthest_) == end) exchange();
   if (count_ < 4)
     return move({contact(reference_[0]), contact(reference_[1]), contact(reference_[2])}, {});
-  const std::array<Contact, 4> contact = contacts(reference_);
+  const std::array<ContactEquation, 4> contact = contacts(reference_);
   const Dependency dependency(contact);
   if (!(std::abs(dependency.level) <= bound_)) return false;
   // The contact with the largest factor follows from the others, which are far from singular.
   std::size_t last = 0;
   for (std::size_t i = 1; i < 4; ++i)
     if (std::abs(dependency.factor[i]) > std::abs(dependency.factor[last])) last = i;
-  std::array<Contact, 3> others;
+  std::array<ContactEquation, 3> others;
   std::array<double, 3> goal{};
   for (std::size_t i = 0, k = 0; i < 4; ++i) {
     if (i == last) continue;
@@ -68,8 +68,8 @@ double Fit::distance_to(const Touch& i) const {
   return distance(i.seen_from(sites_, disk.center).point, disk.center);
 }
 
-std::array<Contact, 4> Fit::contacts(const std::array<Touch, 4>& reference) const {
-  std::array<Contact, 4> result;
+std::array<ContactEquation, 4> Fit::contacts(const std::array<Touch, 4>& reference) const {
+  std::array<ContactEquation, 4> result;
   for (std::size_t i = 0; i < 4; ++i) result[i] = contact(reference[i]);
   return result;
 }
@@ -92,7 +92,7 @@ void Fit::exchange() {
   reference_ = best;
 }
 
-bool Fit::move(const std::array<Contact, 3>& contact, const std::array<double, 3>& goal) {
+bool Fit::move(const std::array<ContactEquation, 3>& contact, const std::array<double, 3>& goal) {
   const Vec2 b = contact[1].outward - contact[0].outward;
   const Vec2 c = contact[2].outward - contact[0].outward;
   const double a_change = goal[0] - contact[0].residual;

@@ -13,11 +13,11 @@ namespace medial::disks {
 
 /// A contact's equation at a disk: moving the centre by d and the radius by e changes
 /// distance - radius from `residual` to residual + outward.d - e, exactly for a segment.
-struct Contact {
+struct ContactEquation {
   Vec2 outward;
   double residual = 0;
 };
-inline Contact contact_of(const site::Site& site, const Disk& disk) {
+inline ContactEquation contact_of(const site::Site& site, const Disk& disk) {
   if (site.is_vertex()) {
     const Vec2 to = disk.center - site.point;
     const double distance = norm(to);
@@ -55,7 +55,7 @@ struct Dependency {
   std::array<double, 4> factor{};
   double level = 0;
 
-  explicit Dependency(const std::array<Contact, 4>& contact) {
+  explicit Dependency(const std::array<ContactEquation, 4>& contact) {
     std::array<Vec2, 4> to;
     for (std::size_t i = 0; i < 4; ++i) to[i] = contact[i].outward - contact[0].outward;
     factor[1] = cross(to[2], to[3]);
@@ -96,17 +96,17 @@ class Fit {
   Vec2 normal(const Touch& i) const {
     return site::outward(i.seen_from(sites_, disk.center), disk.center);
   }
-  Contact contact(const Touch& i) const {
+  ContactEquation contact(const Touch& i) const {
     return contact_of(i.seen_from(sites_, disk.center), disk);
   }
-  std::array<Contact, 4> contacts(const std::array<Touch, 4>& reference) const;
+  std::array<ContactEquation, 4> contacts(const std::array<Touch, 4>& reference) const;
 
   /// The best disk for five contacts is the one for those four of them that ask for the largest
   /// residual.
   void exchange();
 
   /// Moves to where three residuals have the given values.
-  bool move(const std::array<Contact, 3>& contact, const std::array<double, 3>& goal);
+  bool move(const std::array<ContactEquation, 3>& contact, const std::array<double, 3>& goal);
 
   std::span<const site::Site> sites_;
   double bound_;

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <bit>
 #include <mutex>
+#include <type_traits>
 
 #include "axis/statistics.h"
 #include "base/stopwatch.h"
@@ -48,9 +49,20 @@ struct Lists {
   std::vector<RoundDisks> of_blocks;  ///< of the lists of the last level
 };
 
+/// fan_of() in double; in other numbers ties need no help.
+template <class Kernel>
+std::uint32_t fan_in(DiagramIn<Kernel>& diagram, std::uint32_t first, std::uint32_t end,
+                     double radius_limit, double slack, std::optional<Disk>& known) {
+  if constexpr (std::is_same_v<Kernel, InDouble>)
+    return fan_of(diagram, first, end, radius_limit, slack, known);
+  else
+    return none;
+}
+
+template <class Kernel>
 class Conquest {
  public:
-  Conquest(Diagram& diagram, const ConquerContext& context, Statistics& statistics)
+  Conquest(DiagramIn<Kernel>& diagram, const ConquerContext& context, Statistics& statistics)
       : diagram_(diagram), context_(context), statistics_(statistics) {
     for (const Elements::ChainLoop& loop : diagram.elements.loops) {
       const Halving halving{loop.first_chain, loop.end_chain - loop.first_chain};
@@ -190,7 +202,7 @@ class Conquest {
     constexpr double slack = 0.0625;  // see merge.cpp
     if (halving.boundary(level, i + 1) - halving.boundary(level, i) < 2) return false;
     const auto is_fan_around = [&](std::optional<Disk>& disk) {
-      return fan_of(diagram_, halving.boundary(level, i), halving.boundary(level, i + 1),
+      return fan_in(diagram_, halving.boundary(level, i), halving.boundary(level, i + 1),
                     context_.limits.radius_limit, slack * context_.limits.tolerance, disk) != none;
     };
     if (is_fan_around(known.last)) return true;
@@ -212,7 +224,7 @@ class Conquest {
     const std::scoped_lock lock(mutex_);
     statistics_ += own;
   }
-  Diagram& diagram_;
+  DiagramIn<Kernel>& diagram_;
   const ConquerContext& context_;
   Statistics& statistics_;
   std::mutex mutex_;
@@ -224,16 +236,18 @@ class Conquest {
 
 }  // namespace
 
-std::optional<std::vector<std::uint32_t>> conquer(Diagram& diagram, const ConquerContext& context,
+template <class Kernel>
+std::optional<std::vector<std::uint32_t>> conquer(DiagramIn<Kernel>& diagram,
+                                                  const ConquerContext& context,
                                                   Statistics& statistics,
                                                   std::vector<Level>* levels) {
   std::vector<std::uint32_t> last_edges;
-  Conquest conquest(diagram, context, statistics);
+  Conquest<Kernel> conquest(diagram, context, statistics);
   for (const Elements::ChainLoop& loop : diagram.elements.loops) {
     const Halving halving{loop.first_chain, loop.end_chain - loop.first_chain};
     std::optional<Disk> known;
     const std::uint32_t edge =
-        fan_of(diagram, loop.first_chain, loop.end_chain, context.limits.radius_limit,
+        fan_in(diagram, loop.first_chain, loop.end_chain, context.limits.radius_limit,
                0.5 * context.tie_tolerance, known);
     if (edge != none)
       last_edges.push_back(edge);
@@ -244,5 +258,13 @@ std::optional<std::vector<std::uint32_t>> conquer(Diagram& diagram, const Conque
   }
   return last_edges;
 }
+
+template std::optional<std::vector<std::uint32_t>> conquer(Diagram&, const ConquerContext&,
+                                                           Statistics&, std::vector<Level>*);
+#ifdef MEDIAL_HAS_EXACT
+template std::optional<std::vector<std::uint32_t>> conquer(DiagramIn<InPrecise>&,
+                                                           const ConquerContext&, Statistics&,
+                                                           std::vector<Level>*);
+#endif
 
 }  // namespace medial::lee

@@ -30,7 +30,9 @@ struct ConquerContext {
 /// loop's last merge curve: the terminating bisector's. A loop whose segments all touch one disk
 /// needs no merge. `levels`, if it is given, is filled from the last merge down, which then runs on
 /// one thread. Nothing where a merge finds a diagram broken.
-std::optional<std::vector<std::uint32_t>> conquer(Diagram& diagram, const ConquerContext& context,
+template <class Kernel>
+std::optional<std::vector<std::uint32_t>> conquer(DiagramIn<Kernel>& diagram,
+                                                  const ConquerContext& context,
                                                   Statistics& statistics,
                                                   std::vector<Level>* levels = nullptr);
 

@@ -1,34 +1,102 @@
 #include "methods/lee/elements.h"
 
+#include "methods/disks/connect.h"
+
 namespace medial::lee {
+namespace {
+
+void begin_chain(Elements& elements) { elements.chains.push_back(elements.size()); }
+
+void add(Elements& elements, const site::Site& site, std::uint32_t original) {
+  elements.sites.push_back(site);
+  elements.originals.push_back(original);
+}
+
+/// Ends a list that began with a chain and an element.
+void end_loop(Elements& elements, std::uint32_t first_chain, std::uint32_t first,
+              std::uint32_t component) {
+  std::uint32_t size = elements.size() - first;
+  for (auto p = elements.passages.rbegin(); p != elements.passages.rend() && p->begin > first; ++p)
+    size -= 2;
+  elements.loops.push_back(
+      {first_chain, static_cast<std::uint32_t>(elements.chains.size()), component, size});
+}
+
+/// False where the loop has no convex vertex.
+bool add_loop(const Problem& problem, std::size_t l, Elements& elements) {
+  const site::SiteNumbers& numbers = problem.numbers();
+  const site::LoopEdges loop(problem.shape, l, problem.frame);
+  const auto is_reflex = [&](std::uint32_t i) { return numbers.is_site(loop.begin() + i); };
+  std::uint32_t start = 0;
+  while (start < loop.size() && is_reflex(start)) ++start;
+  if (start == loop.size()) return false;
+  const auto first_chain = static_cast<std::uint32_t>(elements.chains.size());
+  const std::uint32_t first = elements.size();
+  for (std::uint32_t step = 0, i = start; step < loop.size(); ++step, i = loop.next(i)) {
+    const std::uint32_t number = numbers.edge[loop.begin() + i];
+    if (is_reflex(i))
+      add(elements, site::make_vertex(loop.local(i)), number - 1);
+    else
+      begin_chain(elements);
+    add(elements, site::make_segment(loop.local(i), loop.local(loop.next(i))), number);
+  }
+  end_loop(elements, first_chain, first, problem.shape.component[l]);
+  return true;
+}
+
+/// Half of the tangent of a disk at its foot on a site, as long as the disk's radius: before the
+/// foot, or from it on.
+site::Site half_tangent(const Disk& disk, const site::Site& touched, bool is_before) {
+  const Vec2 foot = site::foot(touched, disk.center);
+  const Vec2 normal = (1 / distance(disk.center, foot)) * (disk.center - foot);
+  const Vec2 direction = -left_of(normal);
+  return {is_before ? foot - disk.radius * direction : foot, direction, disk.radius};
+}
+
+void add_passage(const disks::Boundary& boundary, std::uint32_t i,
+                 const std::vector<disks::Bridge>& bridges, Elements& elements) {
+  const std::uint32_t bridge = boundary.originals[i];
+  const Disk& disk = bridges[bridge].disk;
+  add(elements, half_tangent(disk, boundary.sites[i - 1], false), none);
+  elements.passages.push_back({elements.size(), bridge});
+  elements.disks_of_passages.push_back(disk);
+  begin_chain(elements);
+  add(elements, half_tangent(disk, boundary.sites[i + 1], true), none);
+}
+
+/// All components, with their holes.
+void add_connected(const Problem& problem, Elements& elements) {
+  std::vector<disks::Bridge> bridges;
+  const disks::Boundary boundary = disks::connected_boundary(problem, bridges);
+  std::uint32_t component = 0;
+  for (const disks::Boundary::SiteRange& run : boundary.runs) {
+    const auto first_chain = static_cast<std::uint32_t>(elements.chains.size());
+    const std::uint32_t first = elements.size();
+    for (std::uint32_t i = run.first; i <= run.last; ++i) {
+      if (boundary.elements[i] == disks::Element::bridge) {
+        add_passage(boundary, i, bridges, elements);
+        continue;
+      }
+      if (i == run.first || boundary.is_corner(i - 1)) begin_chain(elements);
+      add(elements, boundary.sites[i], boundary.originals[i]);
+    }
+    end_loop(elements, first_chain, first, component++);
+  }
+}
+
+}  // namespace
 
 std::optional<Elements> elements_of(const Problem& problem) {
-  const site::SiteNumbers& numbers = problem.numbers();
+  const Shape& shape = problem.shape;
   Elements elements;
-  elements.sites.reserve(numbers.count);
-  elements.originals.reserve(numbers.count);
-  for (std::size_t l = 0; l < problem.shape.loop_count(); ++l) {
-    const site::LoopEdges loop(problem.shape, l, problem.frame);
-    const auto is_reflex = [&](std::uint32_t i) { return numbers.is_site(loop.begin() + i); };
-    std::uint32_t start = 0;
-    while (start < loop.size() && is_reflex(start)) ++start;
-    if (start == loop.size()) return std::nullopt;
-    const auto first_chain = static_cast<std::uint32_t>(elements.chains.size());
-    for (std::uint32_t step = 0, i = start; step < loop.size(); ++step, i = loop.next(i)) {
-      const std::uint32_t number = numbers.edge[loop.begin() + i];
-      if (is_reflex(i)) {
-        elements.sites.push_back(site::make_vertex(loop.local(i)));
-        elements.originals.push_back(number - 1);
-      } else {
-        elements.chains.push_back(elements.size());
-      }
-      elements.sites.push_back(site::make_segment(loop.local(i), loop.local(loop.next(i))));
-      elements.originals.push_back(number);
-    }
-    elements.loops.push_back({first_chain, static_cast<std::uint32_t>(elements.chains.size()),
-                              problem.shape.component[l]});
-  }
-  elements.chains.push_back(elements.size());
+  elements.sites.reserve(problem.numbers().count);
+  elements.originals.reserve(problem.numbers().count);
+  if (shape.hole_count() > 0)
+    add_connected(problem, elements);
+  else
+    for (std::size_t l = 0; l < shape.loop_count(); ++l)
+      if (!add_loop(problem, l, elements)) return std::nullopt;
+  begin_chain(elements);
   return elements;
 }
 

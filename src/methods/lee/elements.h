@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -9,28 +10,50 @@
 
 namespace medial::lee {
 
-/// The elements of a shape without holes, in the local frame: Section II's list e_1, ..., e_N of
-/// every loop, segments and reflex vertices in boundary order, from one convex vertex on.
+constexpr std::uint32_t none = ~std::uint32_t{0};
+
+/// The elements of a shape, in the local frame: Section II's list e_1, ..., e_N of every component,
+/// segments and reflex vertices in boundary order, from one convex vertex on. Holes are spliced in
+/// where bridges touch (methods/disks/connect.h), so that a list is the boundary of a simply
+/// connected shape; what a bridge touches stands there in pieces.
 struct Elements {
-  /// The chains of one loop (Definition 9).
+  /// The chains of one component (Definition 9); a bridge, too, ends one and begins another.
   struct ChainLoop {
     std::uint32_t first_chain = 0;
     std::uint32_t end_chain = 0;
     std::uint32_t component = 0;
+    std::uint32_t size = 0;  ///< elements, less those that stand for bridges
+  };
+  /// Where a list passes from one loop to another, along a bridge. Two more elements stand there
+  /// for the bridge's disk: halves of its tangents at both feet, so that a vertex that it touches
+  /// has neighbours like any other.
+  struct Passage {
+    std::uint32_t begin = 0;  ///< the second of these, which begins a chain
+    std::uint32_t bridge = 0;
   };
   std::vector<site::Site> sites;
-  std::vector<std::uint32_t> originals;  ///< index among the result's sites
-  /// The first element of every chain: a segment that begins at a convex vertex. One more at the
-  /// end, the number of elements.
+  std::vector<std::uint32_t> originals;  ///< index among the result's sites; none: of a bridge
+  /// The first element of every chain: a segment that begins at a convex vertex, or the second one
+  /// of a passage. One more at the end, the number of elements.
   std::vector<std::uint32_t> chains;
   std::vector<ChainLoop> loops;
+  std::vector<Passage> passages;  ///< in the order of the lists, two of each bridge
+  std::vector<Disk> disks_of_passages;
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(sites.size()); }
   bool is_vertex(std::uint32_t i) const { return sites[i].is_vertex(); }
+  bool is_of_bridge(std::uint32_t i) const { return originals[i] == none; }
+
+  /// The first passage that begins at an element or later.
+  const Passage& passage_from(std::uint32_t element) const {
+    return *std::lower_bound(
+        passages.begin(), passages.end(), element,
+        [](const Passage& passage, std::uint32_t e) { return passage.begin < e; });
+  }
 };
 
-/// Requires straight edges. Nothing where a loop has no convex vertex, as every simple polygon has.
-/// O(n).
+/// Requires straight edges. Nothing where an outer loop has no convex vertex, as every simple
+/// polygon has. O(n), and O(h log n) expected with h holes.
 std::optional<Elements> elements_of(const Problem& problem);
 
 }  // namespace medial::lee

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "axis/node_kinds.h"
 #include "base/memory.h"
 #include "site/bisector.h"
 
@@ -53,6 +54,15 @@ class Numbers {
     return number;
   }
 
+  /// Makes two ends one node; false where both are nodes already.
+  bool unite(std::uint32_t a, std::uint32_t b, std::uint32_t component) {
+    if (number_[a] == none) std::swap(a, b);
+    if (number_[b] != none) return false;
+    if (number_[a] == none) of_end(a, component);
+    number_[b] = number_[a];
+    return true;
+  }
+
   /// Makes the inner end of an edge its outer end.
   void join(std::uint32_t edge) { number_[edge] = joined; }
   bool is_joined(std::uint32_t edge) const { return number_[edge] == joined; }
@@ -63,6 +73,112 @@ class Numbers {
   const LocalFrame& frame_;
   std::vector<Node>& nodes_;
   std::vector<std::uint32_t> number_;
+};
+
+/// The two edges that begin at the disk of a bridge, which are one: outward along the first, from
+/// where the second one ends.
+struct Bridged {
+  std::uint32_t edge = none, other = none;
+  std::uint32_t component = 0;
+};
+
+std::vector<Bridged> bridged_edges(const Graph& graph) {
+  const Elements& elements = graph.elements();
+  std::vector<Bridged> all(elements.passages.size() / 2);
+  if (all.empty()) return all;
+  for (const Elements::ChainLoop& loop : elements.loops)
+    graph.for_edges(loop, [&](std::uint32_t edge) {
+      if (!graph.begins_at_bridge(edge)) return;
+      Bridged& one = all[elements.passage_from(graph[edge].element[0]).bridge];
+      (one.edge == none ? one.edge : one.other) = edge;
+      one.component = loop.component;
+    });
+  return all;
+}
+
+/// The edges around every site: around each element those with earlier elements, inner ones first,
+/// then those with later ones, outer ones first; a site's elements, if bridges touch it, one after
+/// another.
+class Faces {
+ public:
+  Faces(const Graph& graph, VoronoiDiagram& diagram)
+      : graph_(graph), elements_(graph.elements()), diagram_(diagram) {
+    order_elements();
+    next_.resize(elements_.size(), {0, 0});
+    for (const Elements::ChainLoop& loop : elements_.loops)
+      graph.for_edges(loop, [&](std::uint32_t edge) {
+        const auto& [first, second] = graph[edge].element;
+        ++next_[first][1];
+        ++next_[second][0];
+      });
+    std::uint32_t at = 0;
+    diagram.face_begin.assign(1, 0);
+    for (std::size_t site = 0; site < diagram.sites.size(); ++site) {
+      for (std::uint32_t i = first_[site]; i < first_[site + 1]; ++i) {
+        const auto [earlier, later] = next_[order_[i]];
+        next_[order_[i]] = {at + earlier, at + earlier};
+        at += earlier + later;
+      }
+      diagram.face_begin.push_back(at);
+    }
+    diagram.face_edges.resize(at);
+  }
+
+  /// The node where an edge begins: both spokes of a vertex at the same one.
+  std::uint32_t from(std::uint32_t edge) const {
+    const std::uint32_t first = graph_[edge].element[0];
+    if (!graph_.is_spoke(edge) || !elements_.is_vertex(first)) return edge;
+    return 2 * (order_[first_[elements_.originals[first]]] - 1);
+  }
+
+  /// Edges are added in the order of Graph::for_edges().
+  void add(const std::array<std::uint32_t, 2>& element, std::uint32_t number) {
+    diagram_.face_edges[--next_[element[1]][0]] = number;
+    diagram_.face_edges[next_[element[0]][1]++] = number;
+  }
+
+  /// An edge along which a bridge lies is there twice, once in each of two pieces.
+  void join_pieces() {
+    std::vector<std::uint32_t>& edges = diagram_.face_edges;
+    std::uint32_t kept = 0, begin = 0;
+    for (std::size_t site = 0; site < diagram_.sites.size(); ++site) {
+      const std::uint32_t end = diagram_.face_begin[site + 1], first = kept;
+      for (std::uint32_t i = begin; i < end; ++i)
+        if (kept == first || edges[i] != edges[kept - 1]) edges[kept++] = edges[i];
+      diagram_.face_begin[site + 1] = kept;
+      begin = end;
+    }
+    edges.resize(kept);
+  }
+
+ private:
+  /// Sorts the elements by their sites. A hole's list begins and ends within a vertex: its last
+  /// pieces are the first ones of the site.
+  void order_elements() {
+    first_.assign(diagram_.sites.size() + 2, 0);
+    for (const std::uint32_t site : elements_.originals)
+      if (site != none) ++first_[site + 2];
+    for (std::size_t i = 2; i < first_.size(); ++i) first_[i] += first_[i - 1];
+    order_.resize(first_.back());
+    for (std::uint32_t i = 0; i < elements_.size(); ++i)
+      if (!elements_.is_of_bridge(i)) order_[first_[elements_.originals[i] + 1]++] = i;
+    for (std::size_t site = 0; site < diagram_.sites.size(); ++site) {
+      const auto begin = order_.begin() + first_[site], end = order_.begin() + first_[site + 1];
+      if (end - begin < 2) continue;
+      std::rotate(
+          begin,
+          std::find_if(begin, end,
+                       [&](std::uint32_t i) { return i == 0 || !elements_.is_of_bridge(i - 1); }),
+          end);
+    }
+  }
+
+  const Graph& graph_;
+  const Elements& elements_;
+  VoronoiDiagram& diagram_;
+  std::vector<std::uint32_t> first_, order_;  ///< the elements of each site
+  /// Where each element's next edge goes: with an earlier element, and with a later one.
+  std::vector<std::array<std::uint32_t, 2>> next_;
 };
 
 }  // namespace
@@ -107,12 +223,12 @@ bool Graph::close(const Elements::ChainLoop& loop, std::uint32_t last_edge) {
       edge = next;
     }
   }
-  return count == 2 * std::size_t{end - begin} - 3;
+  return count == 2 * std::size_t{loop.size} - 3;
 }
 
 void Graph::find_doubtful_edge(std::uint32_t edge) {
   const Disk &inner = disk(edge), &outer = disk(to(edge));
-  if (!(inner.radius > 0 && outer.radius > 0)) return;
+  if (!(inner.radius > 0 && outer.radius > 0) || begins_at_bridge(edge)) return;
   const double limit = std::max(furthest * inner.radius, tolerance_);
   if (squared_norm(inner.center - outer.center) <= limit * limit || runs_backward(edge, tolerance_))
     doubtful_edges_.push_back(edge);
@@ -135,30 +251,30 @@ std::array<std::uint32_t, 2> Graph::loop_around(std::uint32_t element) const {
 
 void complete(const Graph& graph, const LocalFrame& frame, VoronoiDiagram& diagram) {
   const Elements& elements = graph.elements();
-  const std::size_t count = elements.size();
-  diagram.edges.reserve(2 * count);
-  diagram.nodes.reserve(2 * count);
-  std::vector<std::uint32_t>& begin = diagram.face_begin;
-  begin.assign(count + 1, 0);
+  diagram.edges.reserve(2 * std::size_t{elements.size()});
+  diagram.nodes.reserve(2 * std::size_t{elements.size()});
+  Faces faces(graph, diagram);
   Numbers numbers(graph, frame, diagram.nodes);
+  const std::vector<Bridged> bridged = bridged_edges(graph);
+  std::vector<std::uint32_t> number_of(bridged.size(), none);
   for (const Elements::ChainLoop& loop : elements.loops)
     graph.for_edges(loop, [&](std::uint32_t edge) {
-      const std::uint32_t from = graph.from(edge), to = graph.to(edge);
+      auto number = static_cast<std::uint32_t>(diagram.edges.size());
+      std::uint32_t from = faces.from(edge);
+      if (graph.begins_at_bridge(edge)) {
+        const std::uint32_t bridge = elements.passage_from(graph[edge].element[0]).bridge;
+        from = graph.to(bridged[bridge].other);
+        if (edge == bridged[bridge].other) number = number_of[bridge];
+        number_of[bridge] = number;
+      }
+      faces.add(graph[edge].element, number);
+      if (number < diagram.edges.size()) return;
+      const std::uint32_t to = graph.to(edge);
       Edge made = result_edge(graph, frame, edge, graph.disk(from), graph.disk(to));
       made.node = {numbers.of_end(from, loop.component), numbers.of_end(to, loop.component)};
-      for (const std::uint32_t site : made.site) ++begin[site + 1];
       diagram.edges.push_back({made, graph.is_spoke(edge)});
     });
-  // Of an element's edges with earlier ones, the inner come first; with later ones, the outer.
-  for (std::size_t i = 0; i < count; ++i) begin[i + 1] += begin[i];
-  diagram.face_edges.resize(2 * diagram.edges.size());
-  std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-  // Edges with a later first element come from further inward: the earlier partners by descending
-  // index, then the later ones as they stand.
-  for (std::size_t e = diagram.edges.size(); e-- > 0;)
-    diagram.face_edges[next[diagram.edges[e].site[1]]++] = static_cast<std::uint32_t>(e);
-  for (std::size_t e = 0; e < diagram.edges.size(); ++e)
-    diagram.face_edges[next[diagram.edges[e].site[0]]++] = static_cast<std::uint32_t>(e);
+  if (!bridged.empty()) faces.join_pieces();
 }
 
 void complete(Graph& graph, const LocalFrame& frame, double tolerance, MedialAxis& axis) {
@@ -176,35 +292,47 @@ void complete(Graph& graph, const LocalFrame& frame, double tolerance, MedialAxi
     return end;
   };
   std::size_t kept = 0;
-  for (const Elements::ChainLoop& loop : elements.loops)
-    kept +=
-        2 * std::size_t{elements.chains[loop.end_chain] - elements.chains[loop.first_chain]} - 3;
+  for (const Elements::ChainLoop& loop : elements.loops) kept += 2 * std::size_t{loop.size} - 3;
   for (const site::Site& site : elements.sites) kept -= site.is_vertex() ? 2 : 0;
+  kept += elements.passages.size();  // at each, a vertex has one spoke
+  const auto is_one = [&](const Disk& a, const Disk& b) {
+    return squared_norm(a.center - b.center) <= tolerance * tolerance &&
+           std::abs(a.radius - b.radius) <= tolerance;
+  };
   for (const std::uint32_t edge : graph.doubtful_edges()) {
-    const Disk &from = graph.disk(edge), &to = graph.disk(end_of(edge));
-    if (squared_norm(from.center - to.center) > tolerance * tolerance ||
-        std::abs(from.radius - to.radius) > tolerance)
-      continue;
+    if (!is_one(graph.disk(edge), graph.disk(end_of(edge)))) continue;
     numbers.join(edge);
     --kept;
   }
+  std::vector<Bridged> bridged = bridged_edges(graph);
+  const auto has_no_length = [&](const Bridged& one) {
+    const std::uint32_t from = end_of(one.other), to = end_of(one.edge);
+    return from != to && is_one(graph.disk(from), graph.disk(to)) &&
+           numbers.unite(from, to, one.component);
+  };
+  bridged.erase(std::remove_if(bridged.begin(), bridged.end(), has_no_length), bridged.end());
   double largest_residual = 0;
   reserve_large(axis.edges, kept);
   reserve_large(axis.nodes, kept + elements.loops.size());  // one tree a loop
+  const auto add = [&](std::uint32_t edge, std::uint32_t from, std::uint32_t component) {
+    const std::uint32_t end = end_of(edge);
+    const Disk& to = graph.disk(end);
+    Edge made = result_edge(graph, frame, edge, graph.disk(from), to);
+    made.node = {numbers.of_end(from, component), numbers.of_end(end, component)};
+    axis.edges.push_back(made);
+    // Of the three elements of a Voronoi point, all are of edges that end there.
+    for (const std::uint32_t element : graph[edge].element)
+      largest_residual = std::max(
+          largest_residual,
+          std::abs(site::carrier_distance(elements.sites[element], to.center) - to.radius));
+  };
   for (const Elements::ChainLoop& loop : elements.loops)
     graph.for_edges(loop, [&](std::uint32_t edge) {
-      if (graph.is_spoke(edge) || numbers.is_joined(edge)) return;
-      const std::uint32_t end = end_of(edge);
-      const Disk& to = graph.disk(end);
-      Edge made = result_edge(graph, frame, edge, graph.disk(edge), to);
-      made.node = {numbers.of_end(edge, loop.component), numbers.of_end(end, loop.component)};
-      axis.edges.push_back(made);
-      // Of the three elements of a Voronoi point, all are of edges that end there.
-      for (const std::uint32_t element : graph[edge].element)
-        largest_residual = std::max(
-            largest_residual,
-            std::abs(site::carrier_distance(elements.sites[element], to.center) - to.radius));
+      if (graph.is_spoke(edge) || numbers.is_joined(edge) || graph.begins_at_bridge(edge)) return;
+      add(edge, edge, loop.component);
     });
+  for (const Bridged& one : bridged) add(one.edge, end_of(one.other), one.component);
+  if (!elements.passages.empty()) set_node_kinds(axis);
   axis.statistics.largest_residual = frame.inverse * largest_residual;
 }
 

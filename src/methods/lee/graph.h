@@ -11,15 +11,15 @@
 namespace medial::lee {
 
 /// The diagram of whole polygons as a graph, in place and in the local frame: a tree for every
-/// loop, in which every edge knows the one that begins at its outer end. So a node is named by the
-/// place of the edge that begins there; both spokes of a reflex vertex begin at the first one's,
-/// and a loop's last corner, where no edge begins, takes a free place.
+/// component, in which every edge knows the one that begins at its outer end. So a node is named by
+/// the place of the edge that begins there; a component's last corner, where no edge begins, takes
+/// a free place. An edge along which a bridge lies is two here, which begin at the bridge's disk.
 class Graph {
  public:
   /// `last_edges`: what conquer() returned. The stacks of earlier elements are gone afterwards.
   /// O(N).
   Graph(Diagram& diagram, const std::vector<std::uint32_t>& last_edges, double tolerance);
-  /// Whether the diagram is one of whole polygons: every loop of N elements has 2 N - 3 edges
+  /// Whether the diagram is one of whole polygons: every list of N elements has 2 N - 3 edges
   /// (Lemma 3), of which only the terminating bisector ends in a corner. Nothing else may be asked
   /// of a graph that is not.
   bool is_whole() const { return is_whole_; }
@@ -30,14 +30,14 @@ class Graph {
   std::size_t places() const { return diagram_.edges.size(); }
   bool is_spoke(std::uint32_t edge) const { return diagram_.is_spoke(diagram_.edges[edge]); }
 
-  std::uint32_t from(std::uint32_t edge) const {
-    const std::uint32_t first = diagram_.edges[edge].element[0];
-    return is_spoke(edge) && elements().is_vertex(first) ? 2 * (first - 1) : edge;
-  }
   std::uint32_t to(std::uint32_t edge) const { return diagram_.edges[edge].inward[1]; }
   void set_to(std::uint32_t edge, std::uint32_t node) { diagram_.edges[edge].inward[1] = node; }
   const Disk& disk(std::uint32_t node) const { return diagram_.edges[node].inner; }
   void set_disk(std::uint32_t node, const Disk& disk) { diagram_.edges[node].inner = disk; }
+  bool begins_at_bridge(std::uint32_t edge) const {
+    const ListEdge& e = diagram_.edges[edge];
+    return e.inward[0] == none && e.inner.radius > 0;
+  }
   /// The elements whose polygons meet in a Voronoi point: of the edge that begins there, and of
   /// those that end there.
   std::array<std::uint32_t, 3> touched(std::uint32_t node) const {
@@ -83,7 +83,7 @@ class Graph {
   std::vector<std::uint32_t> doubtful_edges_;
 };
 
-/// The result in units of the input: all of the graph, with faces.
+/// The result in units of the input: all of the graph, with the faces of the diagram's sites.
 void complete(const Graph& graph, const LocalFrame& frame, VoronoiDiagram& diagram);
 
 /// The medial axis: the graph less its spokes (Corollary 3). Edges without length, of cocircular

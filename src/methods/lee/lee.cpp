@@ -1,8 +1,10 @@
 #include "methods/lee/lee.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "axis/statistics.h"
 #include "base/stopwatch.h"
 #include "methods/lee/graph.h"
 #include "methods/lee/ties.h"
@@ -43,14 +45,13 @@ class Solution {
     if (!elements) return broken();
     elements_ = std::move(*elements);
     statistics.seconds_sites = watch.lap();
-    // To a multiple of the tolerance, what misled a merge is a tie; what that may make of the disks
-    // is checked to the tolerance itself, below.
-    for (const double multiple : {1.0, 8.0, 64.0}) {
-      if (merge_all(multiple, levels)) break;
-      if (problem_.is_cancelled()) return success();
+    statistics.bridges = elements_.passages.size() / 2;
+    if (!merge_all(levels) && !problem_.is_cancelled()) {
       // Of such a boundary, rounding may break the structure, too.
       if (const auto place = find_smooth_run(elements_)) return too_nearly_round(*place);
+      merge_in_precise();
     }
+    if (problem_.is_cancelled()) return success();
     if (!graph) return broken();
     statistics.seconds_walk = watch.lap();
     join_ties(*graph, problem_.local_tolerance());
@@ -72,19 +73,43 @@ class Solution {
   Statistics statistics;
 
  private:
-  /// Merges the chains and closes the graph, to a multiple of the tolerance; false where rounding
-  /// breaks a diagram, or where the caller cancels.
-  bool merge_all(double multiple, std::vector<Level>* levels) {
-    const double tie_tolerance = multiple * problem_.local_tolerance();
-    const ConquerContext context{{multiple * problem_.fine_tolerance, problem_.radius_limit},
-                                 tie_tolerance,
-                                 problem_.options.cancel,
-                                 problem_.options.progress};
-    if (levels != nullptr) levels->clear();
-    diagram_.emplace(elements_);
-    const auto last_edges = conquer(*diagram_, context, statistics, levels);
+  /// Merges the chains and closes the graph; false where rounding breaks a diagram, or where the
+  /// caller cancels.
+  bool merge_all(std::vector<Level>* levels) {
+    diagram_.emplace(elements_, elements_.sites, elements_.disks_of_passages);
+    return close(conquer(*diagram_, context(problem_.fine_tolerance), statistics, levels));
+  }
+
+  /// The same in 256 bits, from what the shape has: rounded to double at the end.
+  void merge_in_precise() {
+#ifdef MEDIAL_HAS_EXACT
+    const PreciseSites sites = precise_sites(problem_, elements_);
+    DiagramIn<InPrecise> precise(elements_, sites.elements, sites.passages);
+    Statistics own;
+    const auto last_edges = conquer(precise, context(InPrecise::tolerance), own);
+    statistics += own;
+    statistics.exact_precise += own.queries;
+    diagram_.emplace(elements_, elements_.sites, elements_.disks_of_passages);
+    diagram_->top = std::move(precise.top);
+    diagram_->free = std::move(precise.free);
+    std::transform(precise.edges.begin(), precise.edges.end(), diagram_->edges.begin(),
+                   [](const auto& edge) {
+                     return ListEdge{edge.element, edge.inward, rounded(edge.inner)};
+                   });
+    close(last_edges);
+#endif
+  }
+
+  ConquerContext context(double tolerance) const {
+    return {{tolerance, problem_.radius_limit},
+            problem_.local_tolerance(),
+            problem_.options.cancel,
+            problem_.options.progress};
+  }
+
+  bool close(const std::optional<std::vector<std::uint32_t>>& last_edges) {
     if (!last_edges || problem_.is_cancelled()) return false;
-    graph.emplace(*diagram_, *last_edges, tie_tolerance);
+    graph.emplace(*diagram_, *last_edges, problem_.local_tolerance());
     if (graph->is_whole()) return true;
     graph.reset();
     return false;
@@ -140,8 +165,8 @@ Result<VoronoiDiagram> voronoi_diagram(const Problem& problem) {
   diagram.tolerance = problem.tolerance;
   if (!solution.graph) return diagram;
   diagram.statistics = solution.statistics;
-  complete(*solution.graph, problem.frame, diagram);
   diagram.sites = problem.result_sites();
+  complete(*solution.graph, problem.frame, diagram);
   diagram.statistics.seconds = all.lap();
   return diagram;
 }

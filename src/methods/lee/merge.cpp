@@ -10,40 +10,34 @@
 namespace medial::lee {
 namespace {
 
-using site::Site;
-
-/// The order of disks on a bisector.
-struct Along {
-  Vec2 direction;
-  Along(const Site& right, const Site& left) : direction(site::direction_along(right, left)) {}
-  double position(Vec2 center) const { return dot(direction, center); }
-};
-
-/// Where the merge curve leaves a Voronoi polygon.
-struct Crossing {
-  Disk disk;
-  double position = 0;   ///< on the current bisector
-  std::size_t side = 0;  ///< of the edge that it crosses
-};
+using std::abs, std::sqrt;
 
 /// The merge curve's way through two diagrams (Section II): the current bisector B(e_a, e_b), with
 /// a on side 0, the earlier list, and b on side 1. On side s, the edges still to be crossed are in
 /// the stack of the current element in which it is element[1 - s].
+template <class Kernel>
 class MergeCurve {
+  using Real = typename Kernel::Real;
+  using Disk = typename Kernel::Disk;
+  using Site = typename Kernel::Site;
+  using Vector = decltype(Disk::center);
+  using ListEdge = ListEdgeIn<Kernel>;
+
  public:
-  MergeCurve(Diagram& diagram, Diagram::FreePlaces& free, const MergeLimits& limits,
+  MergeCurve(DiagramIn<Kernel>& diagram, FreePlaces& free, const MergeLimits& limits,
              Statistics& statistics)
       : diagram_(diagram), free_(free), limits_(limits), statistics_(statistics) {}
 
   std::uint32_t follow(std::uint32_t first, std::uint32_t middle, std::uint32_t end) {
-    current_ = {middle - 1, middle};
+    const auto gate = diagram_.gate(middle);
+    current_ = gate.element;
     middle_ = middle;
     may_undo_ = end - first;
-    disk_ = {site(middle).point, 0};
+    disk_ = gate.disk;
     std::uint32_t edge = add_edge();
     while (edge != none) {
       const Along bisector(site(current_[1]), site(current_[0]));
-      const double reached = bisector.position(disk_.center);
+      const Real reached = bisector.position(disk_.center);
       State state = drop_covered(0);
       if (state == State::inside) state = drop_covered(1);
       if (state == State::outside) return edge;
@@ -70,6 +64,20 @@ class MergeCurve {
   }
 
  private:
+  /// The order of disks on a bisector.
+  struct Along {
+    Vector direction;
+    Along(const Site& right, const Site& left) : direction(direction_along(right, left)) {}
+    Real position(const Vector& center) const { return dot(direction, center); }
+  };
+
+  /// Where the merge curve leaves a Voronoi polygon.
+  struct Crossing {
+    Disk disk;
+    Real position{0};      ///< on the current bisector
+    std::size_t side = 0;  ///< of the edge that it crosses
+  };
+
   /// What the other edges tell of the current disk.
   enum class State {
     inside,
@@ -78,7 +86,7 @@ class MergeCurve {
     broken         ///< two Voronoi edges cross
   };
 
-  const Site& site(std::uint32_t i) const { return diagram_.elements.sites[i]; }
+  const Site& site(std::uint32_t i) const { return diagram_.sites[i]; }
   std::uint32_t& top(std::size_t side) { return diagram_.top[current_[side]][1 - side]; }
   /// Begins the edge between the current elements; `none` where there is no place for it.
   std::uint32_t add_edge() {
@@ -103,7 +111,7 @@ class MergeCurve {
     std::uint32_t kept = top(side);
     for (; kept != none; kept = diagram_.edges[kept].inward[1 - side]) {
       const ListEdge& edge = diagram_.edges[kept];
-      const double distance_to_third = gap(edge.element[side], disk_);
+      const Real distance_to_third = gap(edge.element[side], disk_);
       if (is_stored_ && may_undo_ > 0 && distance_to_third < -tie() &&
           distance_to_third >= -vagueness())
         return State::tied_wrongly;
@@ -159,19 +167,19 @@ class MergeCurve {
     return true;
   }
 
-  /// How far Voronoi points of three elements that hardly determine one may be off: a rounding
-  /// divided by the square of the angle between their feet, for up to 1e6 of them around a disk.
-  double vagueness() const { return limits_.tolerance + 1e-5 * disk_.radius; }
+  /// How far Voronoi points of three elements that hardly determine one may be off.
+  Real vagueness() const { return limits_.tolerance + Kernel::vagueness * disk_.radius; }
 
   /// By how far a disk's foot on its element of one side has passed an edge's inner end, and so all
   /// of the edge; negative where it has not. No edge passes the ends of its elements.
-  double passed(std::size_t side, const Disk& disk, const ListEdge& edge) const {
-    if (edge.inner.radius == 0) return -disk.radius;
+  Real passed(std::size_t side, const Disk& disk, const ListEdge& edge) const {
+    if (edge.inner.radius == 0) return Real(-disk.radius);
     const Site& own = site(current_[side]);
-    const Vec2 way = edge.inner.center - disk.center;
-    const double ahead = own.is_vertex() ? cross(way, disk.center - own.point) / edge.inner.radius
-                                         : dot(own.direction, way);
-    return side == 0 ? ahead : -ahead;
+    const Vector way = edge.inner.center - disk.center;
+    const Real ahead = own.is_vertex()
+                           ? Real(cross(way, disk.center - own.point) / edge.inner.radius)
+                           : dot(own.direction, way);
+    return side == 0 ? ahead : Real(-ahead);
   }
   bool is_behind(std::size_t side, const ListEdge& edge) const {
     return passed(side, disk_, edge) > vagueness();
@@ -182,21 +190,21 @@ class MergeCurve {
   /// Whether a stored disk touches an element, and not only the end of a segment, maybe from
   /// behind.
   bool is_tied(std::uint32_t i, const Disk& disk) const {
-    return std::abs(gap(i, disk)) <= tie() &&
-           std::abs(site::carrier_distance(site(i), disk.center) - disk.radius) <=
-               limits_.tolerance;
+    return abs(gap(i, disk)) <= tie() &&
+           abs(carrier_distance(site(i), disk.center) - disk.radius) <= limits_.tolerance;
   }
-  double gap(std::uint32_t i, const Disk& disk) const {
-    return std::sqrt(site::squared_distance(site(i), disk.center)) - disk.radius;
+  Real gap(std::uint32_t i, const Disk& disk) const {
+    return sqrt(squared_distance(site(i), disk.center)) - disk.radius;
   }
 
   /// Where the current bisector crosses the outermost edge on one side, if it does.
-  std::optional<Crossing> crossing_with(std::size_t side, const Along& bisector, double reached) {
+  std::optional<Crossing> crossing_with(std::size_t side, const Along& bisector,
+                                        const Real& reached) {
     const ListEdge& edge = diagram_.edges[top(side)];
     const std::uint32_t third = edge.element[side], other = current_[1 - side];
     // A disk that is behind by rounding only is not: ties.h looks after it.
     const auto not_behind = [&](const Disk& disk) -> std::optional<Crossing> {
-      const double position = bisector.position(disk.center);
+      const Real position = bisector.position(disk.center);
       if (position > reached) return Crossing{disk, position, side};
       if (disk_.radius > 0 && distance(disk.center, disk_.center) <= vagueness())
         return Crossing{is_tied(third, disk_) ? disk_ : disk, reached, side};
@@ -206,8 +214,8 @@ class MergeCurve {
       const bool own_vertex = site(current_[side]).is_vertex();
       const Site& vertex = site(own_vertex ? current_[side] : third);
       const Site& segment = site(own_vertex ? third : current_[side]);
-      const Vec2 normal = segment.normal();
-      const double radius = site::tangent_radius(vertex.point, normal, site(other));
+      const Vector normal = segment.normal();
+      const Real radius = tangent_radius(vertex.point, normal, site(other));
       if (!(radius <= limits_.radius_limit)) return std::nullopt;
       const Disk disk{vertex.point + radius * normal, radius};
       if (!touches(other, disk)) return std::nullopt;
@@ -218,13 +226,12 @@ class MergeCurve {
 
     ++statistics_.apollonius;
     const std::uint32_t own = current_[side];
-    const site::TangentDisks disks =
-        site::tangent_disks(site(current_[1]), site(current_[0]), site(third));
+    const auto disks = tangent_disks(site(current_[1]), site(current_[0]), site(third));
     std::optional<Crossing> best;
     for (std::size_t i = 0; i < disks.count; ++i) {
       Disk disk = disks.disk[i];
       if (!(disk.radius <= limits_.radius_limit)) continue;
-      polish(disk, own, other, third);
+      refine(disk, own, other, third);
       const auto crossing = not_behind(disk);
       if (!crossing || (best && best->position <= crossing->position)) continue;
       if (!touches(third, disk) || !touches(own, disk) || !touches(other, disk)) continue;
@@ -236,11 +243,11 @@ class MergeCurve {
 
   /// Where the curve leaves a polygon first. Where the positions are not known well, the other
   /// side's element decides: it must not reach into the disk.
-  std::optional<Crossing> first_crossing(const Along& bisector, double reached) {
+  std::optional<Crossing> first_crossing(const Along& bisector, const Real& reached) {
     std::array<std::optional<Crossing>, 2> crossing;
     const auto reach_over = [&](std::size_t side) {
       const std::uint32_t third = diagram_.edges[top(1 - side)].element[1 - side];
-      return -gap(third, crossing[side]->disk);
+      return Real(-gap(third, crossing[side]->disk));
     };
     for (const std::size_t side : {0u, 1u}) {
       if (top(side) == none) continue;
@@ -271,22 +278,22 @@ class MergeCurve {
   bool touches(std::uint32_t i, const Disk& disk) const {
     const Site& s = site(i);
     if (!s.is_vertex()) {
-      const double foot = dot(s.direction, disk.center - s.point);
+      const Real foot = dot(s.direction, disk.center - s.point);
       if (foot >= 0 && foot <= s.length) return true;
-      return std::abs(gap(i, disk)) <= limits_.tolerance;
+      return abs(gap(i, disk)) <= limits_.tolerance;
     }
-    const Vec2 d = disk.center - s.point;
+    const Vector d = disk.center - s.point;
     if (dot(site(i - 1).direction, d) >= 0 && dot(site(i + 1).direction, d) <= 0) return true;
     return gap(i - 1, disk) >= -limits_.tolerance && gap(i + 1, disk) >= -limits_.tolerance;
   }
 
-  void polish(Disk& disk, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    site::polish(disk, site(a), site(b), site(c), tie(), limits_.tolerance,
-                 statistics_.precision_retries);
+  void refine(Disk& disk, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    polish(disk, site(a), site(b), site(c), tie(), limits_.tolerance,
+           statistics_.precision_retries);
   }
 
-  Diagram& diagram_;
-  Diagram::FreePlaces& free_;
+  DiagramIn<Kernel>& diagram_;
+  FreePlaces& free_;
   const MergeLimits& limits_;
   Statistics& statistics_;
   std::array<std::uint32_t, 2> current_{};
@@ -298,16 +305,24 @@ class MergeCurve {
 
 }  // namespace
 
-std::uint32_t merge(Diagram& diagram, std::uint32_t first, std::uint32_t middle, std::uint32_t end,
-                    const MergeLimits& limits, Statistics& statistics) {
-  Diagram::FreePlaces& free = diagram.free[first];
-  const Diagram::FreePlaces& more = diagram.free[middle];
+template <class Kernel>
+std::uint32_t merge(DiagramIn<Kernel>& diagram, std::uint32_t first, std::uint32_t middle,
+                    std::uint32_t end, const MergeLimits& limits, Statistics& statistics) {
+  auto& free = diagram.free[first];
+  const auto& more = diagram.free[middle];
   // A chain of k elements has k - 1 edges and k + 1 free places: there are always some.
   diagram.edges[free.last].inward[0] = more.first;
   free.last = more.last;
   const auto& chains = diagram.elements.chains;
-  return MergeCurve(diagram, free, limits, statistics)
+  return MergeCurve<Kernel>(diagram, free, limits, statistics)
       .follow(chains[first], chains[middle], chains[end]);
 }
+
+template std::uint32_t merge(Diagram&, std::uint32_t, std::uint32_t, std::uint32_t,
+                             const MergeLimits&, Statistics&);
+#ifdef MEDIAL_HAS_EXACT
+template std::uint32_t merge(DiagramIn<InPrecise>&, std::uint32_t, std::uint32_t, std::uint32_t,
+                             const MergeLimits&, Statistics&);
+#endif
 
 }  // namespace medial::lee

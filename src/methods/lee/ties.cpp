@@ -192,10 +192,12 @@ std::optional<Disk> find_overreach(const Graph& graph, double slack) {
     const std::uint32_t size = end - begin;
     const double inner = std::max(0.0, disk.radius - slack);
     for (std::uint32_t step = first_step; step < size; step *= 2)
-      for (const std::uint32_t far : {step, size - step})
-        if (site::squared_distance(elements.sites[begin + (touched[0] - begin + far) % size],
-                                   disk.center) < inner * inner)
+      for (const std::uint32_t far : {step, size - step}) {
+        const std::uint32_t other = begin + (touched[0] - begin + far) % size;
+        if (!elements.is_of_bridge(other) &&
+            site::squared_distance(elements.sites[other], disk.center) < inner * inner)
           return disk;
+      }
   }
   return std::nullopt;
 }

@@ -5,17 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "base/box_tree.h"
+
 namespace medial::potential {
-namespace {
-
-double squared_distance(const Box& box, Vec2 p) {
-  const double x = std::max({box.low.x - p.x, 0.0, p.x - box.high.x});
-  const double y = std::max({box.low.y - p.y, 0.0, p.y - box.high.y});
-  return x * x + y * y;
-}
-
-}  // namespace
-
 Charges::Charges(const std::vector<Charge>& pieces) {
   for (auto* array : {&start_x, &start_y, &tangent_x, &tangent_y, &lengths})
     array->reserve(pieces.size());

@@ -225,8 +225,8 @@ std::array<std::uint32_t, 2> sites_beside(const Successor& inner, Vec2 along, co
   return is_left ? std::array{touched[0], across} : std::array{across, touched[0]};
 }
 
-/// Where an axis near the medial axis is asked for, lines make those of so many edges at most: more
-/// lines cost seconds, as each of their forces is a sum over more edges.
+/// Where an axis near the medial axis is asked for, lines make those of this many edges at most:
+/// more lines cost seconds, as each of their forces is a sum over more edges.
 constexpr std::size_t most_lined = 2000;
 
 /// How the points of an axis are found; what verify() refuses is found in the next way.

@@ -214,7 +214,7 @@ void SaddleSearch::connect(const std::vector<Label>& corner_labels) {
   }
 }
 
-/// The convex corners of a loop, and so many places between them as the round asks for.
+/// The convex corners of a loop, and as many places between them as the round asks for.
 std::vector<SaddleSearch::Sample> SaddleSearch::samples_of(
     std::size_t l, int round, const std::vector<Label>& corner_labels) {
   const Region::PieceLoop& loop = region_.loops[l];

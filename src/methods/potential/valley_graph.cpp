@@ -52,9 +52,7 @@ std::uint32_t ValleyGraph::add_point(const ValleyPoint& point, Label label) {
   skeleton.points.push_back(point);
   labels.push_back(label);
   first_.push_back(no_point);
-  parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
-  ++parts_;
-  return static_cast<std::uint32_t>(skeleton.points.size() - 1);
+  return parts_.add();
 }
 
 void ValleyGraph::add_link(std::uint32_t from, std::uint32_t to) {
@@ -67,15 +65,7 @@ void ValleyGraph::add_link(std::uint32_t from, std::uint32_t to) {
     first_[end] = static_cast<std::uint32_t>(next_.size() - 1);
   }
   skeleton.links.push_back({from, to});
-  const std::uint32_t a_part = find(from), b_part = find(to);
-  if (a_part == b_part) return;
-  parent_[a_part] = b_part;
-  --parts_;
-}
-
-std::uint32_t ValleyGraph::find(std::uint32_t i) {
-  while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-  return i;
+  parts_.join(from, to);
 }
 
 std::vector<Vec2> ValleyGraph::way(std::uint32_t from, std::uint32_t to) const {

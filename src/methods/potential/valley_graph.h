@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "base/disjoint_sets.h"
 #include "methods/potential/skeleton.h"
 
 namespace medial::potential {
@@ -57,22 +58,19 @@ class ValleyGraph {
 
   /// The places along a way between two connected points, both ends included. O(points).
   std::vector<Vec2> way(std::uint32_t from, std::uint32_t to) const;
-  bool connected(std::uint32_t a, std::uint32_t b) { return find(a) == find(b); }
-  std::size_t parts() const { return parts_; }
-  std::size_t cycles() const { return skeleton.links.size() + parts_ - skeleton.points.size(); }
+  bool connected(std::uint32_t a, std::uint32_t b) { return parts_.find(a) == parts_.find(b); }
+  std::size_t parts() const { return parts_.count(); }
+  std::size_t cycles() const { return skeleton.links.size() + parts() - skeleton.points.size(); }
 
   Skeleton skeleton;
   std::vector<Label> labels;  ///< of each point
 
  private:
-  std::uint32_t find(std::uint32_t i);
-
   double limit_;
   LinkIndex links_;
-  std::vector<std::uint32_t> first_;   ///< of each point, an end of a link: 2 link + side
-  std::vector<std::uint32_t> next_;    ///< of each end of a link, the next one at its point
-  std::vector<std::uint32_t> parent_;  ///< of each point, in the forest of connected parts
-  std::size_t parts_ = 0;
+  std::vector<std::uint32_t> first_;  ///< of each point, an end of a link: 2 link + side
+  std::vector<std::uint32_t> next_;   ///< of each end of a link, the next one at its point
+  DisjointSets parts_;                ///< connected points
   std::vector<std::uint32_t> minima_;
 };
 

@@ -1,15 +1,10 @@
+#include "papers/shaked_bruckstein_1996/spline.h"
+
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <vector>
 
-#include "curve/least_squares.h"
-#include "medial/contour.h"
-
-namespace medial {
+namespace medial::papers {
 namespace {
-
-constexpr std::size_t most_points = std::size_t{1} << 20;
 
 /// Solves lower[i] x[i-1] + diagonal[i] x[i] + upper[i] x[i+1] = right[i] around a cycle:
 /// elimination for the matrix without its two corners, which are a matrix of rank one (Sherman and
@@ -46,7 +41,7 @@ std::vector<Vec2> solve_cyclic(const std::vector<double>& lower, std::vector<dou
 
 /// The periodic cubic spline through the points, its parameter the length of the chords: a cubic
 /// for each edge.
-Contour spline_through(const std::vector<Vec2>& p) {
+Contour interpolated(const std::vector<Vec2>& p) {
   const std::size_t n = p.size();
   std::vector<double> h(n), lower(n), diagonal(n), upper(n);
   std::vector<Vec2> right(n);
@@ -83,12 +78,9 @@ double deviation(const Contour& contour, std::size_t i) {
 
 }  // namespace
 
-Result<Contour> fit_smooth_contour(std::span<const Vec2> polygon, double tolerance) {
-  auto checked = points_to_fit(polygon, tolerance);
-  if (!checked) return std::move(checked).error();
-  std::vector<Vec2> points = std::move(checked).value();
+Contour spline_through(std::vector<Vec2> points, double tolerance) {
   while (true) {
-    Contour contour = spline_through(points);
+    Contour contour = interpolated(points);
     std::vector<Vec2> finer;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Vec2 next = points[(i + 1) % points.size()];
@@ -100,10 +92,8 @@ Result<Contour> fit_smooth_contour(std::span<const Vec2> polygon, double toleran
       }
     }
     if (finer.size() == points.size()) return contour;
-    if (finer.size() > most_points)
-      return Error{ErrorCode::unsupported, "no smooth curve of 2^20 points is that near", {}};
     points = std::move(finer);
   }
 }
 
-}  // namespace medial
+}  // namespace medial::papers

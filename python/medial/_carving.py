@@ -1,0 +1,187 @@
+"""Tool paths: V-carving along the axis, pockets along offsets."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from os import PathLike, fspath
+from typing import Any
+
+from . import _core
+from ._axis import MedialAxis, axis, axis_of
+from ._records import Floats
+from ._shape import Shape, load
+
+
+@dataclass(frozen=True, eq=False)
+class Carving:
+    """The paths of a tool, in the order of cutting.
+
+    Attributes
+    ----------
+    paths : list of (kind, rows)
+        Kinds are clearing, wall, groove and ramp; rows x, y, z and the bulge of the move after
+        them, in units of the input; z is 0 on the surface.
+    passes : list of int
+        The pass of each path, from the surface down.
+    clearing : list of (kind, rows)
+        Of an end mill that goes before (`clear_tool`).
+    tabs : array of shape (n, 6)
+        The middles of tabs: from one side, over the middle, to the other, as x, y each.
+    numbers : dict
+        deepest, flat_from, cut_length, travel_length and others.
+    """
+
+    paths: list[tuple[str, Floats]]
+    passes: list[int]
+    numbers: dict[str, float]
+    clearing: list[tuple[str, Floats]]
+    tabs: Floats
+    _core: _core.Carving = field(repr=False)
+
+    @property
+    def deepest(self) -> float:
+        """The largest depth, in units of the input."""
+        return self.numbers["deepest"]
+
+    def to_gcode(self, **machine: Any) -> str:
+        """The program of the paths, as the command line writes it; options are those of `save`.
+
+        Parameters
+        ----------
+        **machine
+            Options of `save`.
+
+        Examples
+        --------
+        >>> import medial
+        >>> code = medial.carve([(0, 0), (4, 0), (4, 2), (0, 2)]).to_gcode(feed=800, post="grbl")
+        >>> "F800" in code, code.rstrip().splitlines()[-1]
+        (True, 'M30')
+        """
+        return self._write(None, "nc", **machine) or ""
+
+    def save(self, path: str | PathLike[str], **machine: Any) -> None:
+        """Writes the paths: G-code as ``.nc``, ``.gcode`` or ``.ngc``, points as ``.csv``.
+
+        Parameters
+        ----------
+        path : path
+        safe : float
+            The height of moves between paths (5).
+        feed, plunge, rapid : float
+            Of cutting moves, straight downwards, and of other moves, in units a minute (1000, 300,
+            3000).
+        spindle : float
+            Turns a minute; 0: the program does not start it.
+        clear_feed, clear_plunge, clear_spindle : float
+            The same of the end mill that goes before; by default those of the V.
+        unit : {"mm", "in"}
+        origin : (x, y)
+            The point of the drawing that becomes 0, 0.
+        y_down : bool
+            The y axis of the drawing points down, as in SVG and images: it is turned round.
+        post : str
+            What stands around the moves: ``"linuxcnc"``, ``"grbl"``, ``"mach3"``, or the text of a
+            template; by default plain G-code.
+
+        Raises
+        ------
+        MedialError
+            With the code ``"unsupported"`` (another extension), ``"unwritable"`` or
+            ``"invalid_option"`` (a template without its parts).
+
+        Examples
+        --------
+        >>> import medial, pathlib, tempfile
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     path = pathlib.Path(folder, "a.nc")
+        ...     medial.carve([(0, 0), (4, 0), (4, 2), (0, 2)]).save(path, spindle=12000)
+        ...     "M3 S12000" in path.read_text()
+        True
+        """
+        self._write(fspath(path), "", **machine)
+
+    def _write(self, path: str | None, format: str, *, safe: float = 5, feed: float = 1000,
+               plunge: float = 300, rapid: float = 3000, spindle: float = 0,
+               clear_feed: float | None = None, clear_plunge: float | None = None,
+               clear_spindle: float = 0, unit: str = "mm", origin: Sequence[float] = (0, 0),
+               y_down: bool = False, post: str = "") -> str | None:  # fmt: skip
+        if unit not in ("mm", "in"):
+            raise ValueError("unit is 'mm' or 'in'")
+        clearing = (feed if clear_feed is None else clear_feed,
+                    plunge if clear_plunge is None else clear_plunge, clear_spindle)  # fmt: skip
+        machine = _core.Machine(safe, rapid, (feed, plunge, spindle), clearing, post)
+        x, y = origin
+        return _core.write_carving(self._core, path, format, (x, y), y_down, unit == "in", machine)
+
+    def __iter__(self) -> Iterator[tuple[str, Floats]]:
+        return iter(self.paths)
+
+    def __repr__(self) -> str:
+        return f"<medial.Carving: {len(self.paths)} paths, {self.deepest:.6g} deep>"
+
+
+def carve(x: Any, *, angle: float = 90, depth: float = 0, tool: float = 0, tip: float = 0,
+          pass_depth: float = 0, ramp: float = 90, step: float = 0, chord: float = 0,
+          exterior: bool = False, margin: float = 0, clear_tool: float = 0,
+          clear_pass_depth: float | None = None, tabs: int = 0, tab_spacing: float = 0,
+          tab_width: float = 6, tab_height: float = 0) -> Carving:  # fmt: skip
+    """Tool paths that carve a shape with a cone, or clear it with an end mill.
+
+    All lengths are in units of the input: of G-code millimetres or inches.
+
+    Parameters
+    ----------
+    x : MedialAxis or geometry
+    angle : float
+        Between the sides of the cone, in degrees; 0: an end mill.
+    depth : float
+        At most; 0: as deep as the tool reaches.
+    tool, tip : float
+        The largest diameter, and that of a flat tip.
+    pass_depth : float
+        The depth of one pass; 0: all in one.
+    ramp : float
+        The steepest way into the material, in degrees; 90: straight down.
+    step, chord : float
+        The width between clearing passes, and the largest error of straight moves; 0: by the tool.
+    exterior : bool
+        Cut what lies around the shape and in its holes, up to a rectangle.
+    margin : float
+        How far that rectangle is from the shape; 0: half of its longer side.
+    clear_tool, clear_pass_depth : float
+        The diameter of an end mill that clears flat bottoms first, and the depth of its passes
+        (half of the diameter).
+    tabs : int
+        Leave this many bars at each part that would come loose; needs a depth.
+    tab_spacing : float
+        The same, one for each so long part of the boundary.
+    tab_width, tab_height : float
+        How wide they are, and how high above the bottom (0: 2, at most half of the depth).
+
+    Raises
+    ------
+    MedialError
+        With the code ``"invalid_option"``, ``"unsupported"`` (an axis that is sampled) or
+        ``"too_large"`` (more than a million passes).
+
+    Examples
+    --------
+    >>> import medial
+    >>> medial.carve([(0, 0), (4, 0), (4, 2), (0, 2)]).deepest
+    1.0...
+    >>> plate = [(0, 0), (60, 0), (60, 40), (0, 40)]
+    >>> medial.carve(plate, angle=0, tool=3, depth=6, exterior=True, margin=9, tabs=4).tabs.shape
+    (4, 6)
+    """
+    if exterior:
+        shape = x.shape._core if isinstance(x, MedialAxis) else load(x)[0]
+        x = axis(Shape._of(_core.surroundings(shape, margin)))
+    given = {"angle": angle, "depth": depth, "tool": tool, "tip": tip, "pass_depth": pass_depth,
+             "ramp": ramp, "step": step, "chord": chord, "cleared": clear_tool}  # fmt: skip
+    own = clear_tool / 2 if clear_pass_depth is None else clear_pass_depth
+    core = _core.carved(axis_of(x)._core, given, own, tabs, tab_spacing, tab_width, tab_height)
+    paths = core.paths()
+    return Carving([(kind, rows) for kind, _, rows in paths], [p for _, p, _ in paths], core.numbers(),
+                   [(kind, rows) for kind, _, rows in core.clearing()], core.tabs(), core)  # fmt: skip

@@ -1,0 +1,212 @@
+"""Checks of an axis, and comparisons."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._axis import MedialAxis, axis
+from ._errors import MedialError, need
+from ._options import options
+from ._records import Floats, points_of
+from ._shape import Shape, load
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """The measured errors of an axis against its shape."""
+
+    passed: bool
+    failures: list[str]
+    numbers: dict[str, Any]
+
+    def __bool__(self) -> bool:
+        return self.passed
+
+    def __getattr__(self, name: str) -> Any:
+        try:
+            return self.__dict__["numbers"][name]
+        except KeyError:
+            raise AttributeError(name) from None
+
+
+def verify(x: MedialAxis, shape: Any = None, *, tolerance: float = 0, samples: int = 8,
+           corner_angle: float = 0.01, threads: int | None = None) -> Certificate:  # fmt: skip
+    """Checks an axis against its shape, or another one, by code that shares nothing with methods.
+
+    Parameters
+    ----------
+    x : MedialAxis
+        Of one that was pruned, cut or smoothed (`part`) what holds of every part is checked.
+    shape : geometry, optional
+        Instead of its own.
+    tolerance : float
+        As a share of the diagonal; 0: 1e-14, or that of the axis.
+    samples : int
+        Points inside every edge.
+    corner_angle : float
+        That of the computation, in degrees.
+    threads : int, optional
+
+    Returns
+    -------
+    Certificate
+        True if it passed; with `failures` and all measured numbers.
+
+    Examples
+    --------
+    >>> import medial
+    >>> medial.verify(medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])).passed
+    True
+    """
+    of = x
+    if shape is not None:
+        of = MedialAxis._of(_rebound(x, Shape._of(load(shape)[0])))
+    numbers = _core.certificate(of._core, tolerance, samples, corner_angle,
+                                options.threads if threads is None else threads)  # fmt: skip
+    return Certificate(numbers.pop("passed"), numbers.pop("failures"), numbers)
+
+
+def _rebound(x: MedialAxis, shape: Shape) -> _core.Axis:
+    from ._axis import restored
+
+    return restored(shape, *x._state())._core
+
+
+def compare(x: Any, methods: Sequence[str] = ("disks", "lee", "biarc-dc"), **given: Any) -> list[dict[str, Any]]:
+    """The axes of one shape by several methods: counts, lengths, seconds, and what went wrong.
+
+    Parameters
+    ----------
+    x : geometry
+    methods : sequence of str
+        Names of `medial.methods`; distances are to the axis of the first.
+    **given
+        Options of `axis`.
+
+    Returns
+    -------
+    list of dict
+        With `method`, and either `error` or `axis`, `nodes`, `edges`, `length`, `seconds`, and the
+        mean and the Hausdorff distance to the first axis, by samples, in units of the input.
+
+    Examples
+    --------
+    >>> import medial
+    >>> first, second = medial.compare([(0, 0), (9, 0), (9, 4), (0, 4)], ("disks", "lee"))
+    >>> second["length"] == first["length"], second["hausdorff"] < 1e-12
+    (True, True)
+    """
+    shape, rows = Shape(x), []
+    first: MedialAxis | None = None
+    for name in methods:
+        row: dict[str, Any] = {"method": name}
+        try:
+            own = axis(shape, name, **given)
+        except MedialError as error:
+            row["error"] = error
+        else:
+            first = first or own
+            there, back = _distances(own, first), _distances(first, own)
+            row.update(axis=own, nodes=len(own.nodes), edges=len(own.edges), length=own.length,
+                       seconds=own.statistics["seconds"], mean_distance=float(there.mean()),
+                       hausdorff=float(max(there.max(), back.max())))  # fmt: skip
+        rows.append(row)
+    return rows
+
+
+def _distances(a: MedialAxis, b: MedialAxis) -> Floats:
+    """The distances of even samples of an axis to another one."""
+    points, _ = a.lines(step=max(a.length / 1000, 1e-300))
+    return np.asarray(b.nearest(points[:, :2] if len(points) else points_of(a.nodes[["x", "y"]].tolist()))["distance"])
+
+
+def distance(a: Any, b: Any, samples: int = 7) -> dict[str, Any]:
+    """The areas of two shapes and the Hausdorff distance of their boundaries, measured.
+
+    Parameters
+    ----------
+    a, b : geometry
+    samples : int
+        Points inside each edge; the distance is a lower bound, by less than that of two samples.
+
+    Examples
+    --------
+    >>> import medial
+    >>> medial.distance([(0, 0), (4, 0), (4, 2), (0, 2)], [(0, 0), (4, 0), (4, 3), (0, 3)])["hausdorff"]
+    1.0
+    """
+    return _core.shape_distance(load(a)[0], load(b)[0], samples)
+
+
+def legality(x: MedialAxis, samples: int = 8) -> Floats:
+    """Of each branch by how much it misses two conditions that every axis meets; 0 or less: not.
+
+    Parameters
+    ----------
+    x : MedialAxis
+    samples : int
+        Inside every edge.
+
+    Returns
+    -------
+    array of shape (branches, 2)
+        The largest abs(dr/ds) - 1 and the largest excess of the curvature, without a unit.
+
+    Examples
+    --------
+    >>> import medial
+    >>> bool((medial.legality(medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])) <= 1e-9).all())
+    True
+    """
+    return _core.legality(x._core, samples)
+
+
+class Curvatures(NamedTuple):
+    """The curvature of the boundary at feet of disks; see `boundary_curvature`."""
+
+    branch: npt.NDArray[np.int64]
+    left: npt.NDArray[np.bool_]
+    disk: Floats
+    foot: Floats
+    curvature: Floats
+    slope: Floats
+
+    def to_pandas(self) -> Any:
+        """A table of the same."""
+        columns = {"branch": self.branch, "side": np.where(self.left, "left", "right"),
+                   "axis_x": self.disk[:, 0], "axis_y": self.disk[:, 1], "r": self.disk[:, 2],
+                   "x": self.foot[:, 0], "y": self.foot[:, 1], "curvature": self.curvature,
+                   "slope": self.slope}  # fmt: skip
+        return need("pandas", "all").DataFrame(columns)
+
+
+def boundary_curvature(x: MedialAxis) -> Curvatures:
+    """The curvature of the boundary by the axis alone, at the feet of its disks.
+
+    Parameters
+    ----------
+    x : MedialAxis
+
+    Returns
+    -------
+    Curvatures
+        Arrays of the same length: the branch, whether the foot is on its left, the disk (x, y,
+        radius), the foot (x, y), the curvature (1 / length, positive where the shape is convex) and
+        its derivative along the boundary.
+
+    Examples
+    --------
+    >>> import medial
+    >>> stadium = medial.Shape([(0, 0), (4, 0), (4, 2), (0, 2)])
+    >>> abs(medial.boundary_curvature(medial.axis(stadium)).curvature).max() < 1e-9
+    np.True_
+    """
+    rows, begin = _core.curvatures(x._core)
+    branch = np.repeat(np.arange(len(begin) - 1), np.diff(begin))
+    return Curvatures(branch, rows[:, 0] == 0, rows[:, 1:4], rows[:, 4:6], rows[:, 6], rows[:, 7])

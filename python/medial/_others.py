@@ -1,0 +1,132 @@
+"""Codes of shapes, potential fields, axes of curves."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy.typing as npt
+
+from . import _core
+from ._axis import MedialAxis, axis, axis_of
+from ._records import Floats, points_of
+from ._shape import load
+
+
+@dataclass(frozen=True)
+class Pack:
+    """A compact code of a shape within an error."""
+
+    streams: tuple[bytes, ...]
+    disks: int
+    quantum: float
+
+    @property
+    def nbytes(self) -> int:
+        """The number of bytes, compressed by zlib."""
+        import zlib
+
+        return sum(len(zlib.compress(stream, 9)) for stream in self.streams)
+
+    def unpack(self) -> MedialAxis:
+        """The axis of disks, with the shape that they cover."""
+        return MedialAxis._of(_core.unpacked(list(self.streams)))
+
+
+def pack(x: Any, error: float) -> Pack:
+    """Codes a shape so that it and the unpacked one lie within `error` of each other.
+
+    Parameters
+    ----------
+    x : MedialAxis or geometry
+    error : float
+        In units of the input, positive.
+
+    Examples
+    --------
+    >>> import medial
+    >>> round(medial.pack([(0, 0), (4, 0), (4, 2), (0, 2)], 0.01).unpack().shape.area)
+    8
+    """
+    streams, disks, _, quantum = _core.packed(axis_of(x)._core, error)
+    return Pack(tuple(streams), disks, quantum)
+
+
+def unpack(code: Pack) -> MedialAxis:
+    """The axis of a code, with the shape that its disks cover.
+
+    Parameters
+    ----------
+    code : Pack
+
+    Examples
+    --------
+    >>> import medial
+    >>> code = medial.pack([(0, 0), (4, 0), (4, 2), (0, 2)], 0.01)
+    >>> medial.unpack(code).method
+    'pack'
+    """
+    return code.unpack()
+
+
+class Field:
+    """The generalised potential of a charged border; made by `field`."""
+
+    def __init__(self, core: _core.Field) -> None:
+        self._core = core
+
+    def sample(self, points: npt.ArrayLike) -> dict[str, Floats]:
+        """The logarithm of the potential, the direction of the force, the clearance; NaN outside."""
+        rows = self._core.sample(points_of(points))
+        return {"log_potential": rows[:, 0], "direction": rows[:, 1:3], "clearance": rows[:, 3]}
+
+    def streamline(self, point: Sequence[float], step: float, most: int = 1000) -> Floats:
+        """The force line from a point: rows of x and y."""
+        x, y = point
+        return self._core.streamline((x, y), step, most)
+
+
+def field(x: Any, order: float = 2) -> Field:
+    """The integral of 1 / r^order along the border of a shape.
+
+    Parameters
+    ----------
+    x : geometry
+    order : float
+        Of the potential 1 / r^order, at least 1.
+
+    Examples
+    --------
+    >>> import medial
+    >>> f = medial.field([(0, 0), (4, 0), (4, 2), (0, 2)])
+    >>> f.sample([(2, 0.25)])["clearance"]
+    array([0.25])
+    """
+    return Field(_core.field_of(load(x)[0], order))
+
+
+def curve_axis(x: Any, *, fit: float = 0, **own: Any) -> MedialAxis:
+    """The axis of one smooth closed curve, followed from its maxima of curvature.
+
+    Parameters
+    ----------
+    x : Contour or geometry
+    fit : float
+        Polygons become smooth curves within this distance first.
+    **own
+        `step` and `first_maximum`.
+
+    Raises
+    ------
+    MedialError
+        With the code ``"unsupported"``: holes, corners, or several curves.
+
+    Examples
+    --------
+    >>> import math, medial
+    >>> ellipse = medial.Contour((4, 0)).ellipse_to((0, 0), (4, 0), (0, 2), 0, 2 * math.pi)
+    >>> round(medial.curve_axis(ellipse).length, 2)
+    6.0
+    """
+    return axis(x, "curve-axis", fit=fit, **own)

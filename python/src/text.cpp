@@ -1,0 +1,166 @@
+// Files and texts that medial::text reads and writes.
+
+#include "binding.h"
+#include "medial/io/write.h"
+
+namespace medial::python {
+namespace {
+
+/// All rings of some features: points, where rings begin, roles, bulges (none: straight), contours.
+nb::tuple tuple_of(std::vector<Feature> features) {
+  std::vector<Vec2> points;
+  std::vector<double> bulges;
+  std::vector<std::int64_t> begin{0};
+  std::vector<std::uint8_t> roles;
+  std::vector<Contour> contours;
+  bool arcs = false;
+  for (Feature& feature : features) {
+    for (const Ring& ring : feature.rings) {
+      points.insert(points.end(), ring.points.begin(), ring.points.end());
+      arcs = arcs || !ring.bulges.empty();
+      bulges.insert(bulges.end(), ring.bulges.begin(), ring.bulges.end());
+      bulges.resize(points.size());
+      roles.push_back(static_cast<std::uint8_t>(ring.role));
+      begin.push_back(static_cast<std::int64_t>(points.size()));
+    }
+    std::ranges::move(feature.contours, std::back_inserter(contours));
+  }
+  nb::object curved = nb::none();
+  if (arcs) curved = nb::cast(array_of(std::move(bulges)));
+  return nb::make_tuple(rows_of<double>(std::move(points)), array_of(std::move(begin)),
+                        array_of(std::move(roles)), curved, contours);
+}
+
+nb::tuple rings_of_text(const std::string& text) {
+  Document<Feature> read =
+      value_of(without_lock([&] { return io::read_document_text(text, io::ReadOptions{}); }));
+  return tuple_of(std::move(read.items));
+}
+
+/// The shapes of a file, or of a text in the font `path`; the attributes of each; notes.
+nb::tuple shapes_of_file(const std::string& path, const std::string& text,
+                         const std::optional<std::string>& repair, double arc_tolerance, double fit,
+                         int threads) {
+  io::SourceOptions options;
+  options.read.repair = repair_from(repair);
+  options.text = text;
+  options.load.arcs.tolerance = arc_tolerance;
+  options.load.fit = fit;
+  options.load.threads = threads;
+  Document<ShapeItem> loaded = value_of(
+      run(long_work, [&](const std::atomic<bool>*) { return io::load_shapes(path, options); }));
+  nb::list shapes;
+  for (ShapeItem& item : loaded.items)
+    shapes.append(nb::make_tuple(ShapeOf{std::make_shared<const Shape>(std::move(item.shape))},
+                                 item.attributes));
+  return nb::make_tuple(shapes, loaded.notes);
+}
+
+/// The shape and the axis of each item of a native file.
+nb::list native(Result<Document<AxisItem>> file) {
+  nb::list list;
+  for (AxisItem& item : value_of(std::move(file)).items) {
+    if (item.shape.points.empty() && !item.contours.empty())
+      refuse(ErrorCode::unsupported, "the file has curves without an axis: medial.read() takes it");
+    auto shape = std::make_shared<const Shape>(std::move(item.shape));
+    list.append(share(std::move(shape), std::move(item.axis), item.part));
+  }
+  return list;
+}
+
+/// Where a document goes: a file, or without a path a text.
+class Output {
+ public:
+  explicit Output(const std::optional<std::string>& path) : path_(path) {}
+  io::Destination destination() {
+    return path_ ? io::Destination(*path_) : io::Destination(&text_);
+  }
+  /// The text, or None.
+  nb::object result(Status written) {
+    value_of(std::move(written));
+    return path_ ? nb::none() : nb::object(nb::str(text_.data(), text_.size()));
+  }
+
+ private:
+  const std::optional<std::string>& path_;
+  std::string text_;
+};
+
+nb::object write_axis(const AxisOf& self, const std::optional<std::string>& path,
+                      const std::string& format, double chord, double simplify) {
+  Output output(path);
+  io::WriteOptions options;
+  options.chord = chord;
+  options.simplify = simplify;
+  return output.result(without_lock([&] {
+    Document<AxisItem> file;
+    file.items.push_back({*self.shape, self.axis, {}, {}, self.part});
+    file.items.front().axis.statistics = {};  // the same axis makes the same file
+    return io::write_axes(output.destination(), format, file, options);
+  }));
+}
+
+nb::object write_shape(const ShapeOf& self, const std::optional<std::string>& path,
+                       const std::string& format, double chord) {
+  Output output(path);
+  io::WriteOptions options;
+  options.chord = chord;
+  return output.result(without_lock([&] {
+    Document<ShapeItem> file;
+    file.items.push_back({*self.shape, {}, {}});
+    return io::write_shapes(output.destination(), format, file, options);
+  }));
+}
+
+/// The program of one tool, or of a mill and a V, in millimetres or inches.
+nb::object write_carving(const CarvingOf& self, const std::optional<std::string>& path,
+                         const std::string& format, const std::array<double, 2>& zero, bool y_down,
+                         bool inches, const io::MachineOptions& machine) {
+  Output output(path);
+  return output.result(without_lock([&] {
+    Document<io::CarveItem> file;
+    file.unit = inches ? Unit::inch : Unit::millimetre;
+    file.y_down = y_down;
+    file.items.push_back({*self.shape, self.carving, self.clearing});
+    io::place(file, {zero[0], zero[1]});
+    return io::write_carving(output.destination(), format, file, machine);
+  }));
+}
+
+}  // namespace
+
+void bind_text(nb::module_& module) {
+  module.def("rings_of_text", &rings_of_text);
+  module.def("contours_of_path",
+             [](const std::string& text) { return value_of(io::read_path_data(text)); });
+  module.def("shapes_of_file", &shapes_of_file, nb::arg("path"), nb::arg("text"),
+             nb::arg("repair").none(), nb::arg("arc_tolerance"), nb::arg("fit"),
+             nb::arg("threads"));
+  module.def("native_of_file", [](const std::string& path) {
+    return native(without_lock([&] { return io::read_native(path); }));
+  });
+  module.def("native_of_text", [](const nb::bytes& text) {
+    const std::string_view all(text.c_str(), text.size());
+    return native(without_lock([&] { return io::read_native_text(all); }));
+  });
+  module.def("write_axis", &write_axis, nb::arg("axis"), nb::arg("path").none(), nb::arg("format"),
+             nb::arg("chord"), nb::arg("simplify"));
+  module.def("write_shape", &write_shape, nb::arg("shape"), nb::arg("path").none(),
+             nb::arg("format"), nb::arg("chord"));
+  nb::class_<io::MachineOptions>(module, "Machine")
+      .def("__init__",
+           [](io::MachineOptions* self, double safe, double rapid, std::array<double, 3> carving,
+              std::array<double, 3> clearing, const std::string& post) {
+             new (self) io::MachineOptions;
+             self->safe = safe;
+             self->rapid = rapid;
+             self->carving = {carving[0], carving[1], carving[2]};
+             self->clearing = {clearing[0], clearing[1], clearing[2]};
+             self->post = post;
+           });
+  module.def("write_carving", &write_carving, nb::arg("carving"), nb::arg("path").none(),
+             nb::arg("format"), nb::arg("zero"), nb::arg("y_down"), nb::arg("inches"),
+             nb::arg("machine"));
+}
+
+}  // namespace medial::python

@@ -1,0 +1,109 @@
+"""Files and texts: the native format, SVG, WKT, GeoJSON, fonts, graphs; beside shapely and the C++ results."""
+
+import gzip
+import json
+import pathlib
+
+import numpy as np
+import pytest
+
+import medial
+
+RING = [(0.0, 0.0), (10.0, 0.0), (10.0, 6.0), (0.0, 6.0)]
+
+
+def test_each_text_holds_the_axis(plan):
+    a = medial.axis(plan)
+    assert medial.loads(a.to_text())[0] == a and medial.loads(a.to_text().encode())[0] == a
+    lines = json.loads(a.to_text("geojson"))["features"]
+    assert len(lines) == a.branch_count
+    assert a.to_text("wkt").count("(") == a.branch_count + 1
+    assert len(a.to_text("edgelist").splitlines()) == a.branch_count + 1
+    rows = a.to_text("csv").splitlines()
+    assert rows[0] == "edge,x,y,r" and len({row.split(",")[0] for row in rows[1:]}) == len(a)
+    assert len(a.to_text("csv", simplify=0.5)) <= len(a.to_text("csv"))
+    with pytest.raises(medial.MedialError) as caught:
+        a.to_text("shp")
+    assert caught.value.code == "unsupported"
+
+
+def test_files_are_written_whole_or_not_at_all(tmp_path, plan):
+    a = medial.axis(plan).prune()
+    for name in ("a.json", "a.json.gz", "a.csv", "a.csv.gz"):
+        a.save(tmp_path / name)
+    assert medial.load(tmp_path / "a.json")[0] == medial.load(tmp_path / "a.json.gz")[0] == a
+    assert medial.load(tmp_path / "a.json")[0].part
+    assert gzip.decompress((tmp_path / "a.csv.gz").read_bytes()) == (tmp_path / "a.csv").read_bytes()
+    with pytest.raises(medial.MedialError) as caught:
+        a.save(tmp_path / "missing" / "a.json")
+    assert caught.value.code == "unwritable"
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.csv", "a.csv.gz", "a.json", "a.json.gz"]
+
+
+def test_shapes_of_files(tmp_path, plan):
+    shape = medial.Shape(plan)
+    for name in ("s.wkt", "s.geojson", "s.svg", "s.json"):
+        shape.save(tmp_path / name)
+        (again,) = medial.read(tmp_path / name)
+        assert again.area == pytest.approx(shape.area, rel=1e-6) and again.hole.sum() == 1, name
+    (tmp_path / "two.wkt").write_text("POLYGON ((0 0, 4 0, 0 3, 0 0))\nPOLYGON ((9 0, 11 0, 11 2, 9 2, 9 0))\n")
+    assert [part.area for part in medial.read(tmp_path / "two.wkt")] == [6, 4]
+    (tmp_path / "bow.wkt").write_text("POLYGON ((0 0, 2 2, 2 0, 0 2, 0 0))\n")
+    with pytest.raises(medial.MedialError) as caught:
+        medial.read(tmp_path / "bow.wkt")
+    assert (caught.value.code, caught.value.feature, caught.value.point) == ("crossing", 0, (1.0, 1.0))
+    with pytest.warns(UserWarning):
+        assert medial.read(tmp_path / "bow.wkt", repair="even_odd")[0].area == pytest.approx(2)
+    (tmp_path / "x.dxf").write_text("0\nEOF\n")
+    with pytest.raises(medial.MedialError, match="ezdxf"):
+        medial.read(tmp_path / "x.dxf")
+    with pytest.raises(medial.MedialError) as caught:
+        medial.read(tmp_path / "none.svg")
+    assert caught.value.code == "unreadable"
+
+
+def test_arcs_survive_repair_and_joining():
+    stadium = medial.Shape([(0, 0), (4, 0), (4, 2), (0, 2)], bulges=[0, 1, 0, 1])
+    again = medial.Shape(stadium, repair="make_valid")
+    assert again.area == pytest.approx(8 + np.pi) and len(again.bulges)
+    square = medial.Shape([(20, 0), (22, 0), (22, 2), (20, 2)])
+    both = medial.Shape([stadium, square])
+    assert both.area == pytest.approx(12 + np.pi) and both.component.max() == 1
+
+
+def test_letters():
+    matplotlib = pytest.importorskip("matplotlib")
+    font = pathlib.Path(matplotlib.get_data_path(), "fonts", "ttf", "DejaVuSans.ttf")
+    shapes = medial.text("Rg8", font)
+    assert [int(shape.hole.sum()) for shape in shapes] == [1, 1, 2]
+    assert medial.verify(medial.axis(medial.Shape(shapes)))
+    with pytest.raises(medial.MedialError):
+        medial.text("R", __file__)
+
+
+def test_texts_that_are_no_geometry():
+    for bad in ("", "hello", "LINESTRING (0 0, 1 1)", "POLYGON EMPTY", "{}", '{"a', "POLYGON ((0 0, 1"):
+        with pytest.raises(medial.MedialError) as caught:
+            medial.axis(bad)
+        assert "GDAL" not in str(caught.value)
+    geojson = json.dumps({"type": "Polygon", "coordinates": [[*RING, RING[0]]]})
+    expected = medial.axis(RING)
+    for text in (geojson, "SRID=2056;POLYGON Z ((0 0 1, 10 0 1, 10 6 1, 0 6 1, 0 0 1))", "0 0\n10 0\n10 6\n0 6\n"):
+        assert medial.axis(text).length == expected.length
+
+
+def test_programs_of_tools():
+    plate = [(0, 0), (60, 0), (60, 40), (0, 40)]
+    carving = medial.carve(plate, angle=0, tool=3, depth=6, pass_depth=2, ramp=20, exterior=True, margin=9, tabs=4)
+    assert carving.tabs.shape == (4, 6) and max(carving.passes) == 2 and "ramp" in dict(carving)
+    assert medial.carve(plate, angle=0, tool=3, depth=6, exterior=True, margin=9, tab_spacing=30).tabs.shape[0] >= 6
+    with pytest.raises(medial.MedialError, match="depth"):
+        medial.carve(plate, angle=60, tabs=3)
+    code = carving.to_gcode(post="linuxcnc", unit="in", feed=40, origin=(60, 0), spindle=9000)
+    assert "G20" in code and "M3 S9000" in code and "F40" in code
+    xs = [float(word[1:]) for line in code.splitlines() if line.startswith("G") for word in line.split() if word[0] == "X"]
+    assert max(xs) < 15 and min(xs) < -60
+    cleared = medial.carve(plate, angle=60, depth=4, clear_tool=6)
+    assert cleared.clearing and "(tool 2:" in cleared.to_gcode(clear_feed=500)
+    with pytest.raises(ValueError):
+        cleared.to_gcode(unit="m")
