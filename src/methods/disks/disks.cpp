@@ -51,7 +51,7 @@ void find_lost(const Chunk& chunk, std::vector<std::uint32_t>& lost) {
 }
 
 /// Connects the holes of the boundary, walks it, and joins what the walk finds. Nothing where the
-/// caller cancels, and where sites are lost.
+/// caller cancels, and where sites of a polygon are lost.
 std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers,
                               double walk_tolerance, const Way& way, Boundary& boundary,
                               Statistics& statistics, std::vector<std::uint32_t>& lost) {
@@ -81,7 +81,7 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   statistics.seconds_walk = watch.lap();
   if (problem.is_cancelled()) return std::nullopt;
   for (const auto& chunk : chunks) find_lost(*chunk, lost);
-  if (!lost.empty()) return std::nullopt;
+  if (!lost.empty() && !boundary.has_arcs) return std::nullopt;
 
   // A diagram has nodes for a planar graph's points, and edges that lead there, as well.
   const std::size_t spare_nodes = boundary.two_sided ? problem.shape.points.size() : 0;
@@ -125,9 +125,9 @@ Result<MedialAxis> attempt(const Problem& problem, bool two_sided, const Way& wa
 #ifdef MEDIAL_HAS_EXACT
   if (parted) rename(parted->names, boundary);
 #endif
+  for (std::uint32_t& site : lost) site = boundary.originals[site];
   if (!graph) {
     if (problem.is_cancelled()) return axis;
-    for (std::uint32_t& site : lost) site = boundary.originals[site];
     return Error{ErrorCode::internal, "the walk lost its way: please report this shape", {}};
   }
   watch.lap();
@@ -229,7 +229,8 @@ Result<MedialAxis> run(const Problem& problem) {
     Result<MedialAxis> axis = attempt(problem, false, *way, edges, lost);
     if (axis) {
       axis->edges = std::move(edges);
-      const bool is_certain = is_first || (!way->in_double && !has_arcs(problem.shape));
+      const bool is_certain =
+          lost.empty() && (is_first || (!way->in_double && !has_arcs(problem.shape)));
       if (is_certain || problem.is_cancelled()) return axis;
     }
     auto refused = axis ? error_if_refused(problem, *axis) : std::move(axis).error();

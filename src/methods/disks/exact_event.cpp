@@ -17,8 +17,17 @@ using Number = Bounded<Precise>;
 using Hit = Contacts::Hit;
 
 const exact::SiteLoops& ExactSites::outline() const {
-  std::call_once(once_, [&] { outline_ = exact::outline_of(problem_, numbers_); });
+  std::call_once(once_, [&] {
+    outline_ = exact::outline_of(problem_, numbers_);
+    before_.resize(outline_.sites.size());
+    for (std::uint32_t i = 0; i < before_.size(); ++i) before_[outline_.next[i]] = i;
+  });
   return outline_;
+}
+
+std::optional<std::uint32_t> ExactSites::joined_before(std::uint32_t site) const {
+  if (!outline().joined(before_[site], site)) return std::nullopt;
+  return before_[site];
 }
 
 std::optional<ExactSites::Touch> ExactSites::first_touch(
@@ -132,8 +141,11 @@ class ExactEvents::Search {
     if (!disk) return;
     if ((Number(events_.sites_.problem_.radius_limit) - disk->radius).sign() == -1) return;
     if (is_behind(*disk) || (best_ && !comes_before(*disk, *best_))) return;
-    for (const std::uint32_t i : {span_.right, site, span_.left})
-      if (!is_touched(i, *disk)) return;
+    // At a joint of two of them the disk touches both, whichever normal it is on.
+    const bool joins_right = outline_.joined(right, third), joins_left = outline_.joined(third, left);
+    if (!is_touched(span_.right, *disk, joins_right)) return;
+    if (!is_touched(site, *disk, joins_right || joins_left)) return;
+    if (!is_touched(span_.left, *disk, joins_left)) return;
     best_ = disk;
     site_ = site;
   }
@@ -152,7 +164,7 @@ class ExactEvents::Search {
     const std::uint32_t before = name(span_.left), after = name(span_.right), third = name(site);
     const auto disk = exact::disk_bounds<Precise>(outline_, {before, after, third}, Disk{});
     if (!disk || (best_ && !(best_->radius - disk->radius).positive())) return;
-    if (!is_touched(site, *disk)) return;
+    if (!is_touched(site, *disk, false)) return;
     best_ = disk;
     site_ = site;
   }
@@ -196,14 +208,27 @@ class ExactEvents::Search {
     return found;
   }
 
-  /// Whether a disk that touches a site's carrier touches the site, in the part of it that bridges
-  /// leave between them.
-  bool is_touched(std::uint32_t site, const PreciseDisk& disk) const {
-    if (!exact::may_have_foot(exact_site(site), disk)) return false;
+  /// Whether a disk that touches a site's carrier, or its joint, touches the site, in the part of
+  /// it that bridges leave between them.
+  bool is_touched(std::uint32_t site, const PreciseDisk& disk, bool at_joint) const {
+    if (!at_joint && !has_foot(site, disk)) return false;
     const bool too_early = site > 0 && is_bridge(site - 1) && beyond(site - 1, site, disk) == -1;
     const bool too_late = site + 1 < events_.boundary_.sites.size() && is_bridge(site + 1) &&
                           beyond(site + 1, site, disk) == 1;
     return !too_early && !too_late;
+  }
+
+  /// Whether the foot of a disk's centre on the carrier of a site may lie on the site. Where two
+  /// edges join smoothly but for rounding, one normal ends the first one and begins the second.
+  bool has_foot(std::uint32_t site, const PreciseDisk& disk) const {
+    const auto before = events_.sites_.joined_before(name(site));
+    if (!before || exact_site(site).is_vertex())
+      return exact::may_have_foot(exact_site(site), disk);
+    exact::ApproximateRoots<Precise> roots;
+    const auto begin = outline_.spoke_after<Number>(*before, roots);
+    const auto end = exact::spoke_of<Number>(exact_site(site), true, roots);
+    return cross(disk.center - begin.foot, begin.normal).sign() != -1 &&
+           cross(disk.center - end.foot, end.normal).sign() != 1;
   }
 
   /// Whether a disk's foot on a site lies further along than that of the bridge beside it.

@@ -35,8 +35,11 @@ class ExactSites {
   const SiteNumbers& numbers_;
 #ifdef MEDIAL_HAS_EXACT
   const exact::SiteLoops& outline() const;
+  /// The site from which a foot passes on to a site at its start; none where it does not.
+  std::optional<std::uint32_t> joined_before(std::uint32_t site) const;
   mutable std::once_flag once_;
   mutable exact::SiteLoops outline_;
+  mutable std::vector<std::uint32_t> before_;  ///< of each site, that before it on the loop
 #endif
 };
 

@@ -130,7 +130,8 @@ class Walker {
     return span.right != before.right || span.left != before.left;
   }
 
-  /// Notes that what led to a span was wrong.
+  /// Notes that the shape as its doubles say does not continue here: what led to a span was wrong,
+  /// or arcs join so that rounding alone decides.
   void lose(const Span& span, std::uint32_t third) {
     ++chunk_.statistics.exact_changes;
     for (const std::uint32_t i : {span.right, span.left, span.third, third})
@@ -147,7 +148,8 @@ class Walker {
   }
 
   /// What ends the edge of a span: decided in double where that is certain, otherwise in 256 bits.
-  /// `error` gets how far the exact disk may be.
+  /// Where these find nothing, double's event stays and is noted. `error` gets how far the exact
+  /// disk may be.
   Event next_event(Span& span, const Disk& from, double& error) {
     Event event;
     if (!is_exact()) {
@@ -165,9 +167,8 @@ class Walker {
     joins_pieces(asked);
     const auto found = context_.exact->next(asked, from, event.site, is_exact());
     if (!found) {
-      // What led here was wrong.
       lose(span, event.site);
-      return {};
+      return event;
     }
     // Between sites that are all but parallel, double's disk is as good as any.
     if (!found->well_known && event.site == found->site) return event;
@@ -208,30 +209,33 @@ class Walker {
       radius = smaller;
     }
     const Disk disk = disk_of(radius);
-    if (is_exact()) {
-      start_exactly(whole, disk, touched);
-      return;
-    }
+    if (is_uncertain(run, touched, disk) && start_exactly(whole, disk, touched)) return;
     const std::uint32_t node = add_node(disk);
     if (touched != Hit::none) touched = contacts_.owner(touched, disk.center, whole);
-    if (context_.exact != nullptr && touched != Hit::none &&
-        !(Certainty::error_at_joint(boundary_, run.last, run.first, touched, disk) <=
-          context_.tolerance))
-      lose({run.first, run.last, 0}, touched);
     split({run.first, run.last, node}, disk, touched, true);
   }
 
-  /// start_at_smooth_place() in 256 bits; `about` and `hint` are what double takes for it.
-  void start_exactly(const Span& whole, const Disk& about, std::uint32_t hint) {
+  /// Whether double leaves open what the disk touches that grows where a run begins.
+  bool is_uncertain(const Boundary::SiteRange& run, std::uint32_t touched, const Disk& disk) const {
+    if (is_exact()) return true;
+    return context_.exact != nullptr && touched != Hit::none &&
+           !(Certainty::error_at_joint(boundary_, run.last, run.first, touched, disk) <=
+             context_.tolerance);
+  }
+
+  /// start_at_smooth_place() in 256 bits; `about` and `hint` are what double takes for it. Whether
+  /// there is such a disk.
+  bool start_exactly(const Span& whole, const Disk& about, std::uint32_t hint) {
     ++chunk_.statistics.exact_precise;
     const auto found = context_.exact->start(whole, about, hint);
     if (!found) {
       lose(whole, hint);
-      return;
+      return is_exact();
     }
     const std::uint32_t node = add_node(found->disk);
     push({whole.right, found->site, node, whole.left, Certainty::rounding},
          {found->site, whole.left, node, whole.right, Certainty::rounding});
+    return true;
   }
 
   /// Whether a walk is needed between the two sites; where they are neighbours, ends the axis
