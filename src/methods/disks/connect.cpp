@@ -401,7 +401,7 @@ Boundary connect(const Shape& shape, const Boundary& loops, const std::vector<Br
 Boundary connected_boundary(const Problem& problem, std::vector<Bridge>& bridges) {
   const Boundary loops = loops_boundary(problem, problem.numbers(), false);
 #ifdef MEDIAL_HAS_EXACT
-  const ExactSites sites(problem, problem.numbers());
+  const ExactSites sites(problem, problem.numbers(), loops);
   const ExactSites* exact = &sites;
 #else
   const ExactSites* exact = nullptr;

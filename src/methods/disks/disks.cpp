@@ -14,6 +14,7 @@
 #include "methods/disks/connect.h"
 #include "methods/disks/exact_event.h"
 #include "methods/disks/merge_ties.h"
+#include "methods/disks/near_circle.h"
 #include "methods/disks/walk.h"
 #include "methods/refusal.h"
 #include "site/boundary_tree.h"
@@ -23,9 +24,10 @@ namespace medial::disks {
 namespace {
 
 /// The walk separates contacts to a share of the tolerance, which is still some roundings: narrow
-/// gaps may leave only some tolerances between two contacts. What remains of a tie is merged at the
-/// end. Among arcs ties are known to the tolerance only, since their bulges round, too.
-constexpr double fine_share = 0.25;
+/// gaps may leave only some tolerances between two contacts, and so does the whole axis where arcs
+/// are within so many tolerances of one circle. What remains of a tie is merged at the end. Among
+/// other arcs ties are known to the tolerance only, since their bulges round, too.
+constexpr double fine_share = 0.25, in_centers_share = 0.125, near_circle = 1 << 12;
 
 /// Reports the share of the walk that is done, if the caller wants it.
 std::function<void(std::uint64_t)> reporter(const Options& options, const Boundary& boundary,
@@ -40,8 +42,15 @@ std::function<void(std::uint64_t)> reporter(const Options& options, const Bounda
 /// or in double only.
 struct Way {
   bool in_double = false;
+  bool in_centers = false;       ///< contacts are separated as the centres of several arcs ask for
   std::vector<bool> parted;      ///< points whose joints are taken as they stand; empty: none
   std::vector<bool> in_precise;  ///< components in which double is never asked; empty: none
+};
+
+/// What an attempt has found out beside the axis.
+struct Findings {
+  std::vector<std::uint32_t> lost;  ///< sites where the walk found that a step before was wrong
+  bool in_centers = false;          ///< a way of that name is due
 };
 
 /// Adds the sites, as the boundary has them, where the walk found that a step before was wrong.
@@ -61,7 +70,7 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
 #else
   constexpr bool takes_exact = false;
 #endif
-  const ExactSites sites(problem, numbers);
+  const ExactSites sites(problem, numbers, boundary);
   const std::vector<Bridge> bridges =
       connecting_disks(problem.shape, boundary, walk_tolerance, takes_exact ? &sites : nullptr,
                        way.in_precise, statistics.queries);
@@ -99,10 +108,10 @@ void rename(const std::vector<std::uint32_t>& names, Boundary& boundary) {
 }
 
 /// The engine: sites, holes connected, tree, walk, graph. The edges are returned apart from the
-/// axis. `lost` gets the sites, as the axis names them, where a step was wrong.
+/// axis.
 template <class E>
 Result<MedialAxis> attempt(const Problem& problem, bool two_sided, const Way& way,
-                           std::vector<E>& edges, std::vector<std::uint32_t>& lost) {
+                           std::vector<E>& edges, Findings& findings) {
   MedialAxis axis;
   axis.method = "disks";
   axis.tolerance = problem.tolerance;
@@ -117,19 +126,23 @@ Result<MedialAxis> attempt(const Problem& problem, bool two_sided, const Way& wa
   }
 #endif
   Boundary boundary = loops_boundary(problem, *numbers, two_sided);
+  const double near = near_circle * problem.fine_tolerance;
+  const bool in_centers =
+      way.in_centers || (!two_sided && is_near_circle(boundary, problem.local_box(), near));
   axis.statistics.seconds_sites = watch.lap();
 
-  const double share = boundary.has_arcs ? 1 : fine_share;
+  const double share = in_centers ? in_centers_share : boundary.has_arcs ? 1 : fine_share;
   auto graph = graph_of(problem, *numbers, share * problem.fine_tolerance, way, boundary,
-                        axis.statistics, lost);
+                        axis.statistics, findings.lost);
 #ifdef MEDIAL_HAS_EXACT
   if (parted) rename(parted->names, boundary);
 #endif
-  for (std::uint32_t& site : lost) site = boundary.originals[site];
+  for (std::uint32_t& site : findings.lost) site = boundary.originals[site];
   if (!graph) {
     if (problem.is_cancelled()) return axis;
     return Error{ErrorCode::internal, "the walk lost its way: please report this shape", {}};
   }
+  findings.in_centers = !two_sided && !in_centers && is_in_centers(boundary, *graph, near);
   watch.lap();
   constexpr double loose = 0x1p-20;  // of the size: no near tie is that far off
   const double slack = std::max(loose * diagonal(problem.box), 4 * axis.tolerance);
@@ -192,17 +205,18 @@ struct Attempts {
 /// What to try after an attempt that lost its way at these sites, or failed: joints of arcs as they
 /// stand around the sites, in ever more of them; 256 bits in their components; double only, which
 /// comes before where so many arcs would take long. None where all has been tried.
-std::optional<Way> next_way(const Problem& problem, const std::vector<bool>& parted,
+std::optional<Way> next_way(const Problem& problem, const Way& last,
                             const std::vector<std::uint32_t>& lost, Attempts& attempts) {
   constexpr int most_parted = 3;
   constexpr std::size_t around = 4, long_time = 1024;
   Way way;
+  way.in_centers = last.in_centers;
   const bool with_arcs = has_arcs(problem.shape);
   const bool goes_on = !attempts.in_precise && !attempts.in_double;
   if (goes_on && with_arcs && !lost.empty() && attempts.parted < most_parted) {
     way.parted = points_around(problem, lost, around << (2 * attempts.parted++));
-    for (std::size_t i = 0; i < parted.size(); ++i)
-      if (parted[i]) way.parted[i] = true;
+    for (std::size_t i = 0; i < last.parted.size(); ++i)
+      if (last.parted[i]) way.parted[i] = true;
     return way;
   }
   if (attempts.in_precise && attempts.in_double) return std::nullopt;
@@ -213,8 +227,10 @@ std::optional<Way> next_way(const Problem& problem, const std::vector<bool>& par
     attempts.in_precise = true;
     return way;
   }
-  attempts.in_double = true;
-  return Way{true, {}, {}};
+  attempts.in_double = way.in_double = true;
+  way.parted.clear();
+  way.in_precise.clear();
+  return way;
 }
 
 }  // namespace
@@ -225,26 +241,32 @@ Result<MedialAxis> run(const Problem& problem) {
   for (std::optional<Way> way = Way{}; way;) {
     const bool is_first = attempts.parted == 0 && !attempts.in_precise && !attempts.in_double;
     std::vector<Edge> edges;
-    std::vector<std::uint32_t> lost;
-    Result<MedialAxis> axis = attempt(problem, false, *way, edges, lost);
+    Findings findings;
+    Result<MedialAxis> axis = attempt(problem, false, *way, edges, findings);
+    if (findings.in_centers) {
+      way->in_centers = true;
+      continue;
+    }
     if (axis) {
       axis->edges = std::move(edges);
       const bool is_certain =
-          lost.empty() && (is_first || (!way->in_double && !has_arcs(problem.shape)));
+          findings.lost.empty() && (is_first || (!way->in_double && !has_arcs(problem.shape)));
       if (is_certain || problem.is_cancelled()) return axis;
     }
     auto refused = axis ? error_if_refused(problem, *axis) : std::move(axis).error();
     if (!refused) return axis;
     if (!error || axis) error = std::move(refused);
-    way = next_way(problem, way->parted, lost, attempts);
+    way = next_way(problem, *way, findings.lost, attempts);
   }
   return std::move(*error);
 }
 
 template <class E>
 MedialAxis run_two_sided(const Problem& problem, std::vector<E>& edges) {
-  std::vector<std::uint32_t> lost;
-  return *attempt(problem, true, Way{true, {}, {}}, edges, lost);
+  Findings findings;
+  Way in_double;
+  in_double.in_double = true;
+  return *attempt(problem, true, in_double, edges, findings);
 }
 
 template MedialAxis run_two_sided(const Problem&, std::vector<Edge>&);

@@ -21,8 +21,22 @@ const exact::SiteLoops& ExactSites::outline() const {
     outline_ = exact::outline_of(problem_, numbers_);
     before_.resize(outline_.sites.size());
     for (std::uint32_t i = 0; i < before_.size(); ++i) before_[outline_.next[i]] = i;
+    if (boundary_.has_arcs) choose_normals();
   });
   return outline_;
+}
+
+void ExactSites::choose_normals() const {
+  outline_.by_next.resize(outline_.sites.size());
+  for (const Boundary::SiteRange& run : boundary_.runs)
+    for (std::uint32_t i = run.first; i <= run.last; ++i) {
+      const std::uint32_t after = i == run.last ? run.first : i + 1;
+      if (boundary_.elements[i] != Element::edge || boundary_.elements[after] != Element::edge)
+        continue;
+      const std::uint32_t site = boundary_.originals[i];
+      if (outline_.joined(site, boundary_.originals[after]))
+        outline_.by_next[site] = boundary_.by_second(i, after);
+    }
 }
 
 std::optional<std::uint32_t> ExactSites::joined_before(std::uint32_t site) const {
@@ -142,7 +156,8 @@ class ExactEvents::Search {
     if ((Number(events_.sites_.problem_.radius_limit) - disk->radius).sign() == -1) return;
     if (is_behind(*disk) || (best_ && !comes_before(*disk, *best_))) return;
     // At a joint of two of them the disk touches both, whichever normal it is on.
-    const bool joins_right = outline_.joined(right, third), joins_left = outline_.joined(third, left);
+    const bool joins_right = outline_.joined(right, third),
+               joins_left = outline_.joined(third, left);
     if (!is_touched(span_.right, *disk, joins_right)) return;
     if (!is_touched(site, *disk, joins_right || joins_left)) return;
     if (!is_touched(span_.left, *disk, joins_left)) return;
@@ -221,12 +236,17 @@ class ExactEvents::Search {
   /// Whether the foot of a disk's centre on the carrier of a site may lie on the site. Where two
   /// edges join smoothly but for rounding, one normal ends the first one and begins the second.
   bool has_foot(std::uint32_t site, const PreciseDisk& disk) const {
-    const auto before = events_.sites_.joined_before(name(site));
-    if (!before || exact_site(site).is_vertex())
+    const std::uint32_t own = name(site);
+    const auto before = events_.sites_.joined_before(own);
+    const bool is_joined = before || outline_.joined(own, outline_.next[own]);
+    if (!is_joined || exact_site(site).is_vertex())
       return exact::may_have_foot(exact_site(site), disk);
     exact::ApproximateRoots<Precise> roots;
-    const auto begin = outline_.spoke_after<Number>(*before, roots);
-    const auto end = exact::spoke_of<Number>(exact_site(site), true, roots);
+    const auto begin = before ? outline_.spoke_after<Number>(*before, roots)
+                              : exact::spoke_of<Number>(exact_site(site), false, roots);
+    const auto end = outline_.joined(own, outline_.next[own])
+                         ? outline_.spoke_after<Number>(own, roots)
+                         : exact::spoke_of<Number>(exact_site(site), true, roots);
     return cross(disk.center - begin.foot, begin.normal).sign() != -1 &&
            cross(disk.center - end.foot, end.normal).sign() != 1;
   }

@@ -17,8 +17,9 @@ namespace medial::disks {
 /// Thread-safe.
 class ExactSites {
  public:
-  ExactSites(const Problem& problem, const SiteNumbers& numbers)
-      : problem_(problem), numbers_(numbers) {}
+  /// `boundary`: with holes connected or not, by whose normals joints are decided.
+  ExactSites(const Problem& problem, const SiteNumbers& numbers, const Boundary& boundary)
+      : problem_(problem), numbers_(numbers), boundary_(boundary) {}
 
   /// Of the sites of a boundary, the one that a disk touches first that grows at a point in the
   /// direction `outreach`, and the disk. None where it touches none.
@@ -33,10 +34,12 @@ class ExactSites {
   friend class ExactEvents;
   const Problem& problem_;
   const SiteNumbers& numbers_;
+  const Boundary& boundary_;
 #ifdef MEDIAL_HAS_EXACT
   const exact::SiteLoops& outline() const;
   /// The site from which a foot passes on to a site at its start; none where it does not.
   std::optional<std::uint32_t> joined_before(std::uint32_t site) const;
+  void choose_normals() const;
   mutable std::once_flag once_;
   mutable exact::SiteLoops outline_;
   mutable std::vector<std::uint32_t> before_;  ///< of each site, that before it on the loop

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "methods/disks/boundary.h"
+#include "methods/disks/collect.h"
+
+namespace medial::disks {
+
+/// Whether all of the boundary is one loop of arcs that lie within `slack` of one circle. `box` is
+/// the boundary's. O(n), and mostly O(1) where it is not so.
+bool is_near_circle(const Boundary& boundary, const Box& box, double slack);
+
+/// Whether disks of the axis are, within `slack`, the own circles of several arcs at once: an edge
+/// that lies in the centre of an arc, or ends there with other arcs inside. Rounding may then
+/// decide what the axis is. O(edges).
+bool is_in_centers(const Boundary& boundary, const Graph& graph, double slack);
+
+}  // namespace medial::disks
