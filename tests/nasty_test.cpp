@@ -13,6 +13,7 @@
 
 #include "medial/medial.h"
 #include "support/environment.h"
+#include "support/generate_arcs.h"
 #include "support/nasty_check.h"
 #include "support/true_graph.h"
 #include "support/wkt.h"
@@ -186,6 +187,19 @@ TEST(ArcBesideASplinter, ThatCrossesIsAnErrorWithItsPlace) {
   ASSERT_FALSE(axis);
   EXPECT_EQ(axis.error().code, ErrorCode::unsupported);
   EXPECT_TRUE(axis.error().place.point);
+}
+
+/// Their arcs are tangent to rounding only, and at apexes, in the centres of arcs.
+TEST(SmoothBiarcs, AreDecidedInDouble) {
+  for (const std::uint64_t seed : {11U, 22U, 26U, 31U}) {
+    const auto shape = build_shape(random_arc_shape(seed).rings);
+    ASSERT_TRUE(shape) << to_string(shape.error());
+    const auto axis = compute(*shape, {.threads = 1});
+    ASSERT_TRUE(axis) << to_string(axis.error());
+    EXPECT_EQ(axis->statistics.exact_changes, 0) << seed;
+    EXPECT_LE(axis->statistics.exact_precise, 1) << seed;
+    EXPECT_TRUE(verify(*shape, *axis, {.threads = 1}).passed) << seed;
+  }
 }
 
 // ---- Classes.

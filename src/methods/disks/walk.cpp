@@ -147,6 +147,14 @@ class Walker {
       --span.left;
   }
 
+  /// Whether the event is that a foot passes on to the next piece of the same arc.
+  bool stays_on_arc(const Span& span, const Event& event) const {
+    using Kind = Event::Kind;
+    if (event.kind != Kind::pass_right && event.kind != Kind::pass_left) return false;
+    const std::uint32_t i = event.kind == Kind::pass_right ? span.right : span.left - 1;
+    return element(i) == element(i + 1) && boundary_.originals[i] == boundary_.originals[i + 1];
+  }
+
   /// What ends the edge of a span: decided in double where that is certain, otherwise in 256 bits.
   /// Where these find nothing, double's event stays and is noted. `error` gets how far the exact
   /// disk may be.
@@ -172,10 +180,14 @@ class Walker {
     }
     // Between sites that are all but parallel, double's disk is as good as any.
     if (!found->well_known && event.site == found->site) return event;
+    Span ahead = span;
+    stay_on_pieces(asked, found->disk.center, ahead);
+    const bool passes = ahead.right != span.right || ahead.left != span.left;
+    if (passes && !is_exact() && stays_on_arc(span, event)) return event;
+    span = ahead;
     error = Certainty::rounding;
     event.disk = found->disk;
     event.site = found->site;
-    stay_on_pieces(asked, event.disk.center, span);
     event.kind =
         found->site == span.right + 1 && boundary_.is_smooth(span.right)   ? Event::Kind::pass_right
         : found->site + 1 == span.left && boundary_.is_smooth(found->site) ? Event::Kind::pass_left
