@@ -50,7 +50,8 @@ struct Way {
 /// What an attempt has found out beside the axis.
 struct Findings {
   std::vector<std::uint32_t> lost;  ///< sites where the walk found that a step before was wrong
-  bool in_centers = false;          ///< a way of that name is due
+  bool in_centers = false;          ///< disks are the own circles of several arcs
+  bool too_coarse = false;          ///< and contacts have not been separated so
 };
 
 /// Adds the sites, as the boundary has them, where the walk found that a step before was wrong.
@@ -127,11 +128,11 @@ Result<MedialAxis> attempt(const Problem& problem, bool two_sided, const Way& wa
 #endif
   Boundary boundary = loops_boundary(problem, *numbers, two_sided);
   const double near = near_circle * problem.fine_tolerance;
-  const bool in_centers =
+  findings.in_centers =
       way.in_centers || (!two_sided && is_near_circle(boundary, problem.local_box(), near));
   axis.statistics.seconds_sites = watch.lap();
 
-  const double share = in_centers ? in_centers_share : boundary.has_arcs ? 1 : fine_share;
+  const double share = findings.in_centers ? in_centers_share : boundary.has_arcs ? 1 : fine_share;
   auto graph = graph_of(problem, *numbers, share * problem.fine_tolerance, way, boundary,
                         axis.statistics, findings.lost);
 #ifdef MEDIAL_HAS_EXACT
@@ -142,7 +143,7 @@ Result<MedialAxis> attempt(const Problem& problem, bool two_sided, const Way& wa
     if (problem.is_cancelled()) return axis;
     return Error{ErrorCode::internal, "the walk lost its way: please report this shape", {}};
   }
-  findings.in_centers = !two_sided && !in_centers && is_in_centers(boundary, *graph, near);
+  findings.too_coarse = !two_sided && !findings.in_centers && is_in_centers(boundary, *graph, near);
   watch.lap();
   constexpr double loose = 0x1p-20;  // of the size: no near tie is that far off
   const double slack = std::max(loose * diagonal(problem.box), 4 * axis.tolerance);
@@ -163,6 +164,13 @@ Result<MedialAxis> attempt(const Problem& problem, bool two_sided, const Way& wa
       return error_of_wrong_axis(
           axis, "a disk of the axis misses a site that it should touch: please report this shape");
   return axis;
+}
+
+/// Whether the disks of all edges touch their sites to the tolerance: where all of an axis is some
+/// tolerances long, contracting ties may move them further.
+bool touches_all_sites(const MedialAxis& axis) {
+  return ranges::all_of(
+      axis.edges, [&](const Edge& edge) { return touches_its_sites(axis, edge, axis.tolerance); });
 }
 
 /// Marks points along the boundary, so many on both sides of each of these sites.
@@ -243,14 +251,15 @@ Result<MedialAxis> run(const Problem& problem) {
     std::vector<Edge> edges;
     Findings findings;
     Result<MedialAxis> axis = attempt(problem, false, *way, edges, findings);
-    if (findings.in_centers) {
+    if (findings.too_coarse) {
       way->in_centers = true;
       continue;
     }
     if (axis) {
       axis->edges = std::move(edges);
-      const bool is_certain =
-          findings.lost.empty() && (is_first || (!way->in_double && !has_arcs(problem.shape)));
+      const bool is_certain = findings.lost.empty() &&
+                              (!findings.in_centers || touches_all_sites(*axis)) &&
+                              (is_first || (!way->in_double && !has_arcs(problem.shape)));
       if (is_certain || problem.is_cancelled()) return axis;
     }
     auto refused = axis ? error_if_refused(problem, *axis) : std::move(axis).error();
