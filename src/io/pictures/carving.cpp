@@ -127,6 +127,12 @@ Status write_picture(Target& target, const CarvingOutput& output) {
     };
     const int levels = target.format == "png" ? 32 : 12;
     for (const CarveItem& item : items) {
+      // A part whose wall is all tabs has none at their level.
+      cairo_save(canvas.context());
+      canvas.trace(item.shape);
+      cairo_set_fill_rule(canvas.context(), CAIRO_FILL_RULE_EVEN_ODD);
+      cairo_clip(canvas.context());
+      cairo_set_fill_rule(canvas.context(), CAIRO_FILL_RULE_WINDING);
       const Walls walls = walls_of(item.carving);
       for (int level = 0; level < levels; ++level) {
         const double t = (level + 0.5) / levels;
@@ -135,6 +141,7 @@ Status write_picture(Target& target, const CarvingOutput& output) {
         fill_level(canvas, item.carving, walls, deepest * level / levels);
       }
       if (deepest > 0) draw_tabs(canvas, item.carving.tabs, shade(item.carving.tabs.top / deepest));
+      cairo_restore(canvas.context());
       draw_paths(canvas, item.clearing.paths);
       draw_paths(canvas, item.carving.paths);
       canvas.color(outline);
