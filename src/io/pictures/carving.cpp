@@ -58,8 +58,10 @@ void fill_cleared(Canvas& canvas, const Carving& clearing, double depth) {
 /// the cone is wide there.
 void fill_level(Canvas& canvas, const Carving& carving, const Walls& walls, double depth) {
   for (const auto& of_pass : walls) {
-    for (const ToolPath* wall : of_pass)
-      if (lowest_of(*wall) < -depth) canvas.trace(line_of(wall->points));
+    // A wall may be all tabs, and stands around a part nevertheless.
+    const auto is_deeper = [&](const ToolPath* wall) { return lowest_of(*wall) < -depth; };
+    if (std::ranges::none_of(of_pass, is_deeper)) continue;
+    for (const ToolPath* wall : of_pass) canvas.trace(line_of(wall->points));
     canvas.fill_even_odd();
   }
   for (const ToolPath& path : carving.paths) {
@@ -127,12 +129,6 @@ Status write_picture(Target& target, const CarvingOutput& output) {
     };
     const int levels = target.format == "png" ? 32 : 12;
     for (const CarveItem& item : items) {
-      // A part whose wall is all tabs has none at their level.
-      cairo_save(canvas.context());
-      canvas.trace(item.shape);
-      cairo_set_fill_rule(canvas.context(), CAIRO_FILL_RULE_EVEN_ODD);
-      cairo_clip(canvas.context());
-      cairo_set_fill_rule(canvas.context(), CAIRO_FILL_RULE_WINDING);
       const Walls walls = walls_of(item.carving);
       for (int level = 0; level < levels; ++level) {
         const double t = (level + 0.5) / levels;
@@ -141,7 +137,6 @@ Status write_picture(Target& target, const CarvingOutput& output) {
         fill_level(canvas, item.carving, walls, deepest * level / levels);
       }
       if (deepest > 0) draw_tabs(canvas, item.carving.tabs, shade(item.carving.tabs.top / deepest));
-      cairo_restore(canvas.context());
       draw_paths(canvas, item.clearing.paths);
       draw_paths(canvas, item.carving.paths);
       canvas.color(outline);
