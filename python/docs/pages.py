@@ -18,6 +18,7 @@ import show_pictures
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^)\s]+)\)")
+REFERENCE = "axes arrays parts lines offsets features voronoi images files geopandas spark errors".split()
 MADE = {"medial.1": "manual.md", "../include/medial/": "headers.md"}  # by write_reference()
 PROJECT = ["docs/*.md", "bench/RESULTS.md", "CHANGELOG.md", "KNOWN_ISSUES.md", "ARCHITECTURE.md"]
 
@@ -48,7 +49,7 @@ def write_reference(folder):
         parts.append(f"## {header.relative_to(headers.parent)}\n\n```cpp\n{header.read_text()}```\n")
     (folder / "headers.md").write_text("\n".join(parts))
     source = ROOT / "docs" / "medial.1"
-    manual = subprocess.run(["man", "-l", source], env={**os.environ, "MANWIDTH": "100"}, text=True,
+    manual = subprocess.run(["man", "--nj", "--nh", "-l", source], env={**os.environ, "MANWIDTH": "80"}, text=True,
                             check=False, capture_output=True)  # fmt: skip
     text = re.sub(".\b", "", manual.stdout) or source.read_text()  # bold letters are struck twice
     (folder / "manual.md").write_text(f"# Manual of the command line\n\n```text\n{text}```\n")
@@ -104,8 +105,9 @@ nav:
       - In five lines: python/five_lines.md
       - Images: python/images.md
       - Installing: python/install.md
-      - Reference: python/reference.md
-  - How to:
+  - Reference:
+      - Contents: python/reference.md
+{listed(*(f"python/reference/{name}.md" for name in REFERENCE))}  - How to:
 {listed("python/how_to/*.md")}  - Gallery:
 {listed("python/gallery/*.md")}  - Command line and C++:
 {listed("docs/README.md", "docs/[!R]*.md")}  - Project:
