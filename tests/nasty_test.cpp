@@ -253,7 +253,7 @@ constexpr std::array<Mended, 12> shapes{{{"strips"},
                                          {"grids"},
                                          {"splinters"},
                                          {"rounds", 5},
-                                         {"circles"},
+                                         {"circles", 5},
                                          {"bars"},
                                          {"tangents"}}};
 
