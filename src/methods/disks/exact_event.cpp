@@ -74,7 +74,7 @@ class ExactEvents::Search {
   std::optional<Found> run(std::uint32_t hint, bool all_around) {
     std::vector<std::uint32_t> candidates{span_.right + 1, span_.left - 1, span_.right + 2,
                                           span_.left - 2, hint};
-    double reach = from_.radius + rounding;
+    double reach = std::max(from_.radius, 0.0) + rounding;
     for (;;) {
       for (const std::uint32_t site : candidates)
         if (all_around)
