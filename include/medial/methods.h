@@ -82,7 +82,7 @@ struct Potential {
 
 /// Follows the axis of one smooth curve from its maxima of curvature: see compute_curve_axis().
 struct CurveAxis {
-  /// From point to point, relative to the diagonal, in [1e-6, 0.1]; halved where the process strays.
+  /// From point to point, relative to the diagonal, in [1e-6, 0.1]; halved where it strays.
   double step = 1e-3;
   /// Which maximum of curvature is followed first; the axis is the same for each, to the steps.
   std::size_t first_maximum = 0;

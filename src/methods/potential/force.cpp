@@ -117,11 +117,12 @@ struct Block {
       double sum = arctangent.back();
       for (std::size_t i = arctangent.size() - 1; i-- > 0;) sum = sum * z + arctangent[i];
       const double angle = 4 * v * sum, other = std::numbers::pi - angle;
-      j[k] = (scalar >= 0 ? angle : other) / size;
+      const double inverse = 1 / std::max(size, 1e-150), both = 1 / (square1 * square2);
+      j[k] = (scalar >= 0 ? angle : other) * inverse;
       p1[k] = p2[k] = 1;
-      q1[k] = 1 / square1;
-      q2[k] = 1 / square2;
-      inverse_square[k] = 1 / std::max(square, 1e-300);
+      q1[k] = both * square2;
+      q2[k] = both * square1;
+      inverse_square[k] = inverse * inverse;
     }
   }
 
