@@ -34,7 +34,7 @@ check() {
   [ "$size" -le "$most" ] || { echo "$wheel: $size bytes, more than $most"; exit 1; }
   rm -rf "$bare" "$work/tests"
   "$python" -m venv "$bare"
-  "$bare/bin/pip" install --quiet --disable-pip-version-check "$wheel"
+  "$bare/bin/pip" install --quiet --prefer-binary --disable-pip-version-check "$wheel"
   cp -r python/tests "$work/tests"
   (cd "$work/tests" && "$bare/bin/python" - <<'TEST'
 import sys, medial
@@ -70,7 +70,7 @@ for python in $found; do
   PATH="$tools/bin:$PATH" "$tools/bin/auditwheel" repair --wheel-dir "$out" "$work"/raw/*.whl
 done
 for wheel in "$out"/*.whl; do
-  "$tools/bin/auditwheel" show "$wheel" | grep -m1 "manylinux" || true
+  "$tools/bin/auditwheel" show "$wheel" | sed -n 's/^"\(manylinux.*\)"\.$/auditwheel: \1/p'
   case $wheel in
     *-abi3-*) versions="3.12 3.13 3.14" ;;
     *-cp313t-*) versions=3.13t ;;
