@@ -15,13 +15,13 @@ libraries=$work/libraries
 prefix=$libraries/prefix
 mkdir -p "$out" "$work"
 
-# The interpreters that are here, of these versions.
+# The interpreters that are here, of these versions; a free-threaded one ends in t.
 interpreters() {
   local version path
+  local own="import sys, sysconfig as c; print('%d.%d' % sys.version_info[:2] + 't' * (c.get_config_var('Py_GIL_DISABLED') or 0))"
   for version in "$@"; do
     for path in "$(command -v "python$version" || true)" "$HOME/.pyenv/versions/$version".*/bin/python; do
-      [ -x "$path" ] && "$path" -c "import sys; sys.exit('%d.%d' % sys.version_info[:2] != '${version%t}')" \
-        2> /dev/null && echo "$path" && break
+      [ -x "$path" ] && [ "$("$path" -c "$own" 2> /dev/null)" = "$version" ] && echo "$path" && break
     done
   done
   true  # the last version need not be here
