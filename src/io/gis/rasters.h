@@ -13,4 +13,9 @@ Status write_raster(Target& target, const ImageOutput& output);
 Result<Document<Feature>> outline_document(ImageFile file, std::span<const std::uint32_t> labels,
                                            const ReadOptions& options);
 
+/// Whether a file is called like a map of ROS; and its free cells.
+bool is_ros_map(const std::string& path);
+Result<ImageFile> read_ros_image(const std::string& path, TextSource& source,
+                                 const ImageOptions& options);
+
 }  // namespace medial::io
