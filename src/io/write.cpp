@@ -36,6 +36,7 @@ Status write_checked(const Destination& target, const std::string& asked, Writte
   written.crs_wkt = output.document.crs_wkt;
   written.unit = output.document.unit;
   written.overwrite = output.options.overwrite;
+  written.layer = output.options.layer;
   return write_document(target, asked, written, output);
 }
 
@@ -76,6 +77,7 @@ Status write_target(const Destination& destination, const std::string& asked,
     target.path = pending->path();
     target.adds_to_file = format->adds_layers;
     target.overwrite = written.overwrite;
+    target.layer = written.layer;
     // A library adds to a copy: what is there stays whole whatever happens.
     std::error_code failed;
     if (format->adds_layers && std::filesystem::exists(path, failed))
@@ -103,8 +105,8 @@ Status write_voronoi(const Destination& target, const std::string& format,
 }
 
 Status write_offsets(const Destination& target, const std::string& format,
-                     const Document<OffsetItem>& file, const WriteOptions& options, bool chords) {
-  return write_checked(target, format, {{}, "json"}, OffsetsOutput{{file, options}, chords});
+                     const Document<OffsetItem>& file, const WriteOptions& options) {
+  return write_checked(target, format, {{}, "json"}, OffsetsOutput{file, options});
 }
 
 Status write_carving(const Destination& target, const std::string& format,
@@ -151,8 +153,9 @@ Status write_distances(const std::string& path, const DistanceMap& distances,
                         DistancesOutput{distances, source, format});
 }
 
-Status write_image(const std::string& path, const Image& image, const ImageFile& source) {
-  return write_document(path, {}, {ImageOutput::kind, "pbm"}, ImageOutput{image, source});
+Status write_image(const std::string& path, const std::string& format, const Image& image,
+                   const ImageFile& source) {
+  return write_document(path, format, {ImageOutput::kind, "pbm"}, ImageOutput{image, source});
 }
 
 }  // namespace medial::io

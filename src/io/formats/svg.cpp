@@ -345,10 +345,12 @@ Result<Document<Feature>> read_svg(const Input& input, const ReadOptions& option
   dataset.y_down = true;
   dataset.unit = document->unit();
   if (dataset.items.empty()) {
-    return error({ErrorCode::empty,
-                  drawing.unfilled > 0 ? "no shape is filled, and a stroke alone has no inside"
-                                       : "there is no filled shape",
-                  {}});
+    return error(
+        {ErrorCode::empty,
+         drawing.unfilled > 0
+             ? "no shape is filled, and a stroke alone has no inside: give closed paths a fill"
+             : "there is no filled shape",
+         {}});
   }
   if (drawing.unfilled > 0) {
     dataset.notes.push_back(
