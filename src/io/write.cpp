@@ -40,6 +40,22 @@ Status write_checked(const Destination& target, const std::string& asked, Writte
   return write_document(target, asked, written, output);
 }
 
+/// Puts a file in its place. Of a shapefile that was there nothing stays: not its indices, nor a
+/// reference system that the new one does not have.
+Status commit_whole(PendingFile& pending, const std::string& path) {
+  namespace fs = std::filesystem;
+  std::vector<fs::path> stale;
+  std::error_code ignored;
+  if (fs::path(path).extension() == ".shp")
+    for (const char* part : {".prj", ".cpg", ".qix", ".sbn", ".sbx", ".qpj"})
+      if (!fs::exists(fs::path(pending.path()).replace_extension(part), ignored))
+        stale.push_back(fs::path(path).replace_extension(part));
+  Status done = pending.commit();
+  if (done)
+    for (const fs::path& part : stale) fs::remove(part, ignored);
+  return done;
+}
+
 }  // namespace
 
 Status write_target(const Destination& destination, const std::string& asked,
@@ -85,7 +101,7 @@ Status write_target(const Destination& destination, const std::string& asked,
     if (failed)
       return Error{ErrorCode::unwritable, "cannot copy what is there: " + failed.message(), {}};
     Status done = fill();
-    return done ? pending->commit() : done;
+    return done ? commit_whole(*pending, path) : done;
   });
 }
 

@@ -76,6 +76,13 @@ class Files(CommandLine):
         self.assertEqual(self.read("a.cpg").strip(), b"UTF-8")
         for name in names:
             self.assertIn(name.encode(), self.read("a.dbf"))
+        # Of a shapefile that is replaced nothing stays.
+        for part in ("qix", "sbn", "prj"):
+            self.write("a." + part, "old")
+        self.write("b.wkt", RECTANGLE)
+        self.succeed("axis", "b.wkt", "-o", "a.shp")
+        self.assertEqual([name for name in self.files() if name.startswith("a.")],
+                         ["a.cpg", "a.dbf", "a.geojson", "a.shp", "a.shx"])
 
     def test_features_keep_their_numbers(self):
         """Tables name a feature as notes do, also behind one that is left out."""

@@ -3,7 +3,7 @@
 import json
 import os
 
-from support import FRAME, CommandLine
+from support import DATA, FRAME, CommandLine
 
 
 class Pack(CommandLine):
