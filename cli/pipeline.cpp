@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <utility>
 
@@ -408,32 +407,27 @@ Result<std::optional<int>> stream_axes(
 
 namespace {
 
-/// Lines cannot show an axis that is one point, such as a circle's.
+/// Of a disk the axis is one point, which lines do not show.
 void note_points(const Document<AxisItem>& file, const FileArguments& arguments) {
   const auto points = std::ranges::count_if(file.items, [](const AxisItem& item) {
     return item.axis.edges.empty() && !item.axis.nodes.empty();
   });
-  const std::string name =
-      "." + (arguments.output == "-" ? arguments.format : arguments.output) + " ";
-  const bool of_lines =
-      std::ranges::any_of(std::array{".geojson ", ".shp ", ".fgb ", ".wkt ", ".csv ", ".dxf "},
-                          [&](const char* format) { return name.ends_with(format); });
-  if (points == 0 || !of_lines || arguments.common.quiet) return;
-  say("medial: {}: note: the axis of {} is one point, which a file of lines leaves out; .json, "
-      ".gpkg "
-      "and .graphml have it\n",
+  if (points == 0 || arguments.common.quiet || arguments.output.empty()) return;
+  say("medial: {}: note: the axis of {} is a single point, the centre of a disk, and no line; "
+      ".json, "
+      ".graphml and .nodelink have it as a node\n",
       arguments.input.path, counted(static_cast<std::uint64_t>(points), "feature"));
 }
 
 }  // namespace
 
 Result<int> finish_axes(LoadedAxes& axes, const FileArguments& arguments) {
-  note_points(axes.file, arguments);
   Status written =
       write_output(arguments, axes.phases, [&](const std::string& path, const std::string& format) {
         return io::write_axes(path, format, axes.file, write_options(arguments));
       });
   if (!written) return std::move(written).error();
+  note_points(axes.file, arguments);
   if (!is_talkative(arguments)) return exit_success;
   return print_summary(axes, summarize(axes.file), arguments);
 }

@@ -22,7 +22,7 @@ export type Method =
   | "disks" | "biarc-dc" | "lee" | "auto" | "ridge" | "brushfire" | "potential" | "curve-axis";
 export type PruneMeasure =
   | "prominence" | "significance" | "length" | "ratio" | "radius" | "angle" | "erosion" | "potential"
-  | "residual" | "area" | "lambda" | "scale";
+  | "residual" | "area" | "lambda" | "scale-axis";
 export type Repair = "make_valid" | "even_odd" | "non_zero";
 
 export interface ShapeOptions {

@@ -612,6 +612,56 @@ TEST(ArcOverlaps, RandomBlocksOnAGridHaveTheAreaOfTheirCells) {
   }
 }
 
+// Bars as letters are built of: parts of their edges lie on each other, other bars end inside.
+// Where an edge goes on straight there is no corner, though rounding moves the points that split
+// it.
+TEST(ArcOverlaps, UnionsOfBarsHaveTheCornersOfTheirCells) {
+  constexpr int size = 40;
+  test::Random random(12);
+  int corners_in_all = 0;
+  for (int round = 0; round < 200; ++round) {
+    Rings rings;
+    std::array<std::array<bool, size + 2>, size + 2> cells{};  // with an empty frame
+    const auto add = [&](int x, int y, int right, int top) {
+      const auto at = [](int a, int b) { return Vec2{10.0 * a, 10.0 * b}; };
+      rings.push_back({{at(x, y), at(right, y), at(right, top), at(x, top)}});
+      for (int i = x; i < right; ++i)
+        for (int j = y; j < top; ++j)
+          cells[static_cast<std::size_t>(i + 1)][static_cast<std::size_t>(j + 1)] = true;
+    };
+    const auto pick = [&](int low, int high) {
+      return static_cast<int>(random.integer(low, high));
+    };
+    for (const int x : {pick(0, 8), pick(20, 32)}) add(x, 0, x + pick(5, 8), size);
+    for (int k = pick(1, 3); k > 0; --k) {
+      const int y = pick(0, 1) == 0 ? size - 6 : pick(0, size - 6);
+      add(pick(0, 15), y, pick(20, size), y + 6);
+    }
+    int expected = 0;
+    for (std::size_t i = 0; i <= size; ++i)
+      for (std::size_t j = 0; j <= size; ++j) {
+        const bool a = cells[i][j], b = cells[i + 1][j], c = cells[i][j + 1],
+                   d = cells[i + 1][j + 1];
+        const int count = a + b + c + d;
+        expected += count == 2 && a == d ? 2 : count % 2;
+      }
+    const auto shape = noded(rings, RingRole::winding);
+    ASSERT_TRUE(shape) << round << ": " << to_string(shape.error());
+    int corners = 0;
+    for (std::size_t loop = 0; loop < shape->loop_count(); ++loop) {
+      const auto points = shape->loop(loop);
+      for (std::size_t v = 0; v < points.size(); ++v) {
+        const Vec2 from = points[v], at = points[(v + 1) % points.size()],
+                   to = points[(v + 2) % points.size()];
+        corners += cross(at - from, to - at) != 0;
+      }
+    }
+    EXPECT_EQ(corners, expected) << round;
+    corners_in_all += corners;
+  }
+  EXPECT_GT(corners_in_all, 2000);
+}
+
 // Shapes of few spacings of their coordinates.
 
 TEST(ArcShape, SoSmallFarAwayIsAShapeOrATypedError) {

@@ -184,6 +184,26 @@ TEST_F(CurvedIo, SvgFillRulesAndWhatIsPainted) {
   EXPECT_NE(data.notes[0].find("2 shapes are not filled"), std::string::npos);
 }
 
+TEST_F(CurvedIo, SvgOfStrokesAloneIsWhatTheyEnclose) {
+  // As CAD writes a plate with a hole; a line stays open, a ring closes by its ends.
+  const std::string plate =
+      "<g fill='none' stroke='black'><rect width='10' height='6'/><circle cx='3' cy='3' r='1'/>"
+      "<path d='M6 2L8 2L8 4L6 4L6 2'/><path d='M0 0L10 6'/></g>";
+  const Document<Feature> data = svg(plate);
+  ASSERT_EQ(data.items.size(), 1U);
+  EXPECT_EQ(data.items[0].contours.size(), 3U);
+  ASSERT_EQ(data.notes.size(), 1U);
+  EXPECT_NE(data.notes[0].find("closed strokes are taken for outlines"), std::string::npos);
+  const auto rings = approximate_by_arcs(data.items[0].contours);
+  ASSERT_TRUE(rings);
+  const auto shape = build_shape(*rings);
+  ASSERT_TRUE(shape);
+  EXPECT_NEAR(area(*shape), 60 - std::numbers::pi - 4, 1e-12);
+  EXPECT_EQ(shape->hole_count(), 2U);
+  // Where anything is filled, strokes are left out.
+  EXPECT_EQ(svg(plate + "<rect width='1' height='1'/>").items[0].contours.size(), 1U);
+}
+
 TEST_F(CurvedIo, SvgWithoutNamespaceAndCompressedNames) {
   EXPECT_EQ(read("a.svg", "<svg><rect width='1' height='1'/></svg>").items.size(), 1U);
   EXPECT_EQ(read("a.svgz", "<svg><rect width='1' height='1'/></svg>").items.size(), 1U);
@@ -195,7 +215,7 @@ TEST_F(CurvedIo, SvgRefusesWhatIsBroken) {
   EXPECT_EQ(code("<svg><rect width='1'"), ErrorCode::malformed);
   EXPECT_EQ(code("<html/>"), ErrorCode::malformed);
   EXPECT_EQ(code("<svg/>"), ErrorCode::empty);
-  EXPECT_EQ(code("<svg><rect width='1' height='1' fill='none'/></svg>"), ErrorCode::empty);
+  EXPECT_EQ(code("<svg><path d='M0 0H1V1' fill='none'/></svg>"), ErrorCode::empty);
   EXPECT_EQ(code("<svg><path d='M0 0 X 1 2'/></svg>"), ErrorCode::malformed);
   EXPECT_EQ(code("<svg><path d='M nan 0 L1 1 L0 1'/></svg>"), ErrorCode::malformed);
   EXPECT_EQ(code("<svg><path d='M1e999 0L1 1L0 1Z'/></svg>"), ErrorCode::malformed);

@@ -365,6 +365,32 @@ TEST(SmoothOutline, MakesStairsStraight) {
   EXPECT_LT(largest, 0.05);  // radians
 }
 
+TEST(SmoothOutline, EnclosesTheAreaOfThePixels) {
+  const auto expect_area = [](const Image& image, double share) {
+    const auto contours = smooth_outline(image);
+    ASSERT_TRUE(contours.ok());
+    const auto shape = build_shape(*approximate_by_arcs(*contours));
+    ASSERT_TRUE(shape.ok());
+    const auto pixels = static_cast<double>(image.count());
+    EXPECT_NEAR(area(*shape), pixels, share * pixels) << text(image);
+  };
+  for (const std::uint32_t side : {4U, 5U, 7U, 9U, 12U, 17U, 30U, 61U}) {
+    Image square(side + 6, side + 4), frame(2 * side, 2 * side), disk(side + 1, side + 1);
+    for (std::uint32_t y = 0; y < 2 * side; ++y)
+      for (std::uint32_t x = 0; x < 2 * side; ++x) {
+        if (x < side && y < side) square.set(x + 3, y + 2);
+        const bool inner = x >= side / 2 && x < 3 * side / 2 && y >= side / 2 && y < 3 * side / 2;
+        if (side > 7 && !inner) frame.set(x, y);
+        if (x <= side && y <= side && std::hypot(2.0 * x - side, 2.0 * y - side) < side)
+          disk.set(x, y);
+      }
+    const double share = side < 12 ? 0.04 : 0.02;
+    expect_area(square, share);
+    if (side > 4) expect_area(disk, share);  // three pixels across otherwise
+    if (side > 7) expect_area(frame, share);
+  }
+}
+
 constexpr std::array families = {Brushfire::sequential, Brushfire::sides, Brushfire::marking,
                                  Brushfire::simultaneous};
 

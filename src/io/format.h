@@ -3,6 +3,8 @@
 // The table of formats: what each of them reads and writes. A new format is a file in formats/ and
 // a line in formats.cpp.
 
+#include <functional>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <string>
@@ -150,7 +152,7 @@ struct Format {
   bool has_layers = false;
   bool has_filters = false;
   bool has_loose_curves = false;
-  bool by_content = false;    ///< `sniff` decides, whatever the file's name
+  bool reads_images = false;  ///< see begins_like_image()
   bool reads_others = false;  ///< what no other row reads
   bool gdal_chooses = false;  ///< GDAL reads it instead where layers or attributes choose
 
@@ -168,7 +170,8 @@ struct Format {
   Result<std::unique_ptr<PartWriter>> (*write_parts)(Target& target,
                                                      const PartOutput& none) = nullptr;
   bool in_parts = false;
-  unsigned kinds = 0;  ///< of documents that are written, a bit each
+  unsigned kinds = 0;      ///< of documents that are written, a bit each
+  unsigned announced = 0;  ///< those that the row of this name in formats() writes as well
 
   /// Adds writers: functions of (Target&, const SomeOutput&).
   template <class... Outputs>
@@ -178,13 +181,34 @@ struct Format {
     ((result.kinds |= 1U << static_cast<unsigned>(Outputs::kind)), ...);
     return result;
   }
+  /// Announces kinds of documents.
+  Format announces(std::initializer_list<DocumentKind> each) const {
+    Format result = *this;
+    for (const DocumentKind kind : each) result.announced |= 1U << static_cast<unsigned>(kind);
+    return result;
+  }
   bool holds(DocumentKind kind) const {
     return kind == DocumentKind::mesh ? read_mesh != nullptr
                                       : (kinds >> static_cast<unsigned>(kind) & 1U) != 0;
   }
+  bool is_known_to_hold(DocumentKind kind) const {
+    return holds(kind) || (announced >> static_cast<unsigned>(kind) & 1U) != 0;
+  }
 };
 
+/// All rows; and the same as far as their libraries are loaded with the program: what others do is
+/// announced.
 const std::vector<Format>& formats();
+const std::vector<Format>& formats_at_hand();
+
+/// The first row that is wanted, one at hand if there is one; null: none.
+template <class Wanted>
+const Format* first_format(const Wanted& wanted) {
+  for (const auto rows : {formats_at_hand, formats})
+    for (const Format& format : rows())
+      if (std::invoke(wanted, format)) return &format;
+  return nullptr;
+}
 
 /// Whether a list of extensions has one (without its dot).
 bool lists_extension(std::string_view extensions, std::string_view extension);
@@ -221,6 +245,8 @@ Format image_format();  ///< images, by their first bytes
 Format ros_map_format();
 /// The row, with pictures by Cairo of every kind of document that it does not write and but voxels.
 Format with_pictures(Format format);
+/// The row, with distances and images that GDAL writes.
+Format with_rasters(Format format);
 /// The row, with meshes that Assimp reads.
 Format with_meshes(Format format);
 

@@ -6,16 +6,19 @@
 namespace medial::io {
 
 // Without a library its part of a row is missing.
-#ifndef MEDIAL_GIS
+#ifndef MEDIAL_PICTURES
 Format with_pictures(Format format) { return format; }
+#endif
+#ifndef MEDIAL_GIS
+Format with_rasters(Format format) { return format; }
 #endif
 #ifndef MEDIAL_MESH
 Format with_meshes(Format format) { return format; }
 #endif
 
 /// In the order in which texts are recognised, and lists of formats printed.
-const std::vector<Format>& formats() {
-  static const std::vector<Format> all{
+const std::vector<Format>& formats_at_hand() {
+  static const std::vector<Format> rows{
       json_format(),
       geojson_format(),
 #ifdef MEDIAL_GIS
@@ -34,9 +37,9 @@ const std::vector<Format>& formats() {
       dxf_format(),
 #endif
       with_pictures(svg_format()),
-#ifdef MEDIAL_GIS
+#ifdef MEDIAL_PICTURES
       with_pictures(Format{".pdf"}),
-      png_format(),
+      with_rasters(png_format()),
       with_pictures(Format{".ps"}),
 #endif
       ply_format(),
@@ -56,8 +59,12 @@ const std::vector<Format>& formats() {
       gdal_format(),
 #endif
   };
-  return all;
+  return rows;
 }
+
+#ifndef MEDIAL_LATE_GIS
+const std::vector<Format>& formats() { return formats_at_hand(); }
+#endif
 
 bool lists_extension(std::string_view extensions, std::string_view extension) {
   while (!extensions.empty()) {
@@ -69,15 +76,15 @@ bool lists_extension(std::string_view extensions, std::string_view extension) {
 }
 
 const Format* find_format(std::string_view extension, DocumentKind kind) {
-  for (const Format& format : formats())
-    if (format.holds(kind) && lists_extension(format.extensions, extension)) return &format;
-  return nullptr;
+  return first_format([&](const Format& format) {
+    return format.holds(kind) && lists_extension(format.extensions, extension);
+  });
 }
 
 std::string formats_of(DocumentKind kind) {
   std::string list;
-  for (const Format& format : formats())
-    if (format.holds(kind)) (list += list.empty() ? "" : " ") += format.extensions;
+  for (const Format& format : formats_at_hand())
+    if (format.is_known_to_hold(kind)) (list += list.empty() ? "" : " ") += format.extensions;
   return list;
 }
 

@@ -12,6 +12,7 @@
 #include "io/format_name.h"
 #include "io/formats/json.h"
 #include "io/guarded.h"
+#include "io/image_kind.h"
 #include "io/open.h"
 #include "io/place.h"
 #include "io/reference_system.h"
@@ -29,33 +30,26 @@ const Format* format_of_name(std::string name) {
   name = lower_case(std::move(name));
   if (name.ends_with(".gz")) name.resize(name.size() - 3);
   const std::string extension = format_name(name);
-  const auto row = std::ranges::find_if(formats(), [&](const Format& format) {
+  return first_format([&](const Format& format) {
     return format.read != nullptr && (lists_extension(format.extensions, extension) ||
                                       lists_extension(format.also_read, extension));
   });
-  return row == formats().end() ? nullptr : &*row;
 }
 
 /// The row that reads a text by its first characters; null: GDAL may know better.
 const Format* format_of_text(std::string_view text) {
-  const auto row = std::ranges::find_if(
-      formats(), [&](const Format& format) { return format.sniff && format.sniff(text); });
-  return row == formats().end() ? nullptr : &*row;
+  for (const Format& format : formats_at_hand())
+    if (format.sniff != nullptr && format.sniff(text)) return &format;
+  return nullptr;
 }
 
-/// The row that reads files that begin like this, whatever their name; null: none.
-const Format* format_by_content(std::string_view beginning) {
-  const auto row = std::ranges::find_if(formats(), [&](const Format& format) {
-    return format.by_content && format.sniff(beginning);
-  });
-  return row == formats().end() ? nullptr : &*row;
+/// The row that reads images, whatever their name, if the file begins like one; null otherwise.
+const Format* format_of_image(std::string_view beginning) {
+  return begins_like_image(beginning) ? first_format(&Format::reads_images) : nullptr;
 }
 
 /// The row that reads what no other does.
-const Format* format_of_others() {
-  const auto row = std::ranges::find_if(formats(), &Format::reads_others);
-  return row == formats().end() ? nullptr : &*row;
-}
+const Format* format_of_others() { return first_format(&Format::reads_others); }
 
 bool is_font(std::string_view beginning) {
   using namespace std::string_view_literals;
@@ -91,7 +85,7 @@ Result<const Format*> format_of(const std::string& path,
   // Plain text may hold what another format begins like.
   if (format != nullptr && lists_extension(format->extensions, "txt"))
     if (const Format* other = format_of_text(beginning)) format = other;
-  if (const Format* image = format_by_content(beginning)) {
+  if (const Format* image = format_of_image(beginning)) {
     format = image;
   } else if (format != nullptr && !source) {
     return source.error();
@@ -104,8 +98,10 @@ Result<const Format*> format_of(const std::string& path,
   if (format == nullptr || (format->gdal_chooses && refused(*format, options, path)))
     if (const Format* others = format_of_others()) format = others;
   if (format == nullptr)
-    return Error{ErrorCode::unsupported, "this build has no GDAL and reads other formats only",
-                 in_file(path)};
+    return Error{
+        ErrorCode::unsupported,
+        "GDAL, which may read this, is not in this build or cannot be loaded: see `medial doctor`",
+        in_file(path)};
   if (const auto error = refused(*format, options, path)) return *error;
   return format;
 }

@@ -26,6 +26,7 @@ namespace {
 constexpr double most_free = 0.45;  // how far a point moves; below 1/2, where it would meet a pixel
 constexpr double most_tight = 0.2;  // beside a corner with two strands
 constexpr double most_distance = 0.5;  // of the curve from the cracks
+constexpr double most_share = 0.01;    // of the pixels' area that the curve may enclose besides it
 constexpr int sweeps = 60;
 
 /// A crack of a ring, from corner to corner of a pixel.
@@ -63,20 +64,49 @@ std::vector<Crack> cracks_of(const Image& image, const Ring& ring) {
   return cracks;
 }
 
+/// Twice the signed area within the curve: the sum over its parabolas, from a to c with the control
+/// point b, of (2 a x b + a x c + 2 b x c) / 3.
+double twice_area(const std::vector<Vec2>& points) {
+  const std::size_t n = points.size();
+  double sum = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 b = points[i] - points[0];
+    const Vec2 a = midpoint(points[i == 0 ? n - 1 : i - 1] - points[0], b);
+    const Vec2 c = midpoint(b, points[i + 1 == n ? 0 : i + 1] - points[0]);
+    sum += 2 * cross(a, b) + cross(a, c) + 2 * cross(b, c);
+  }
+  return sum / 3;
+}
+
 /// Moves the points so that the polygon bends least: the sum of the squared differences between the
 /// directions of successive sides, each side divided by its length, falls step by step (Gauss and
 /// Seidel's method; lengths are those of the moment, but not below a quarter of a pixel). After k
-/// sweeps waves of about k^(1/4) 2 pi pixels are gone; stairs are shorter.
+/// sweeps waves of about k^(1/4) 2 pi pixels are gone; stairs are shorter. Before each sweep all
+/// move alike where the curve encloses another area than the pixels: small shapes would swell or
+/// shrink.
 void relax(std::vector<Crack>& cracks) {
   constexpr double shortest = 0.25;
   const std::size_t n = cracks.size();
   std::vector<Vec2> points(n);
-  for (std::size_t i = 0; i < n; ++i) points[i] = cracks[i].point();
+  const auto move = [&](std::size_t i, double by) {
+    cracks[i].offset = std::clamp(cracks[i].offset + by, -cracks[i].most, cracks[i].most);
+    points[i] = cracks[i].point();
+  };
+  double twice_pixels = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    move(i, 0);
+    twice_pixels += cross(cracks[i].middle - cracks[0].middle, cracks[i].along);
+  }
+  const double most_error = most_share * std::abs(twice_pixels);
   const auto at = [n](std::size_t i) { return i < n ? i : i - n; };
   const auto inverse_length = [&](std::size_t i) {
     return 1 / std::max(shortest, norm(points[at(i + 1)] - points[i]));
   };
   for (int sweep = 0; sweep < sweeps; ++sweep) {
+    const double error = twice_area(points) - twice_pixels;
+    const double beyond = error - std::clamp(error, -most_error, most_error);
+    const double outwards = 0.5 * beyond / static_cast<double>(n);
+    for (std::size_t i = 0; i < n; ++i) move(i, outwards);
     for (std::size_t i = 0; i < n; ++i) {
       const std::array around = {at(i + n - 2), at(i + n - 1), i, at(i + 1), at(i + 2)};
       std::array<double, 4> inverse;
@@ -92,9 +122,7 @@ void relax(std::vector<Crack>& cracks) {
         slope += change[k] * dot(side[k + 1] - side[k], cracks[i].across);
         squares += change[k] * change[k];
       }
-      Crack& crack = cracks[i];
-      crack.offset = std::clamp(crack.offset - slope / squares, -crack.most, crack.most);
-      points[i] = crack.point();
+      move(i, -slope / squares);
     }
   }
 }

@@ -1,6 +1,10 @@
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/in_flight.h"
+#include "base/predicates.h"
+#include "base/tolerance.h"
 #include "medial/shape.h"
 #include "shape/clean.h"
 #include "shape/errors.h"
@@ -70,8 +74,88 @@ bool may_be_filled(const Error& error) {
          error.code != ErrorCode::empty && error.code != ErrorCode::out_of_memory;
 }
 
+/// Finds the vertices on straight lines that are corners only because noding rounded them, or the
+/// point before or after: where edges were split that go on straight, as what met them lies inside.
+/// Each would have a branch of the axis.
+class FlatVertices {
+ public:
+  FlatVertices(std::span<const Ring> rings, const Shape& shape)
+      : rings_(rings), shape_(shape), points_(shape.points), flat_(shape.points.size()) {
+    Box box = Box::nothing();
+    for (const Vec2 p : points_) box.add(p);
+    tolerance_ = tolerance_for(box, 0);
+    std::sort(points_.begin(), points_.end(), lexicographic_less);
+    for (std::size_t i = 0; i < shape.loop_count(); ++i) find_in_loop(i);
+  }
+  bool operator[](std::size_t vertex) const { return flat_[vertex]; }
+
+ private:
+  void find_in_loop(std::size_t loop) {
+    const std::size_t first = shape_.loop_begin[loop], size = shape_.loop(loop).size();
+    const auto at = [&](std::size_t k) { return first + k % size; };
+    std::size_t start = 0;
+    while (start < size && is_flat(at(start + size - 1), at(start), at(start + 1))) ++start;
+    std::size_t before = at(start), left = size;
+    for (std::size_t k = start + 1; k < start + size; ++k) {
+      constexpr std::size_t fewest = 3;
+      flat_[at(k)] = left > fewest && is_flat(before, at(k), at(k + 1));
+      if (flat_[at(k)])
+        --left;
+      else
+        before = at(k);
+    }
+  }
+  bool is_flat(std::size_t before, std::size_t vertex, std::size_t after) const {
+    if (shape_.bulge(before) != 0 || shape_.bulge(vertex) != 0 || is_shared(vertex)) return false;
+    if (!is_new(before) && !is_new(vertex) && !is_new(after)) return false;
+    const Vec2 from = shape_.points[before], chord = shape_.points[after] - from,
+               way = shape_.points[vertex] - from;
+    return std::abs(cross(chord, way)) <= tolerance_ * norm(chord) && dot(chord, way) > 0 &&
+           dot(chord, chord - way) > 0;
+  }
+  /// Whether noding made the vertex, or moved it.
+  bool is_new(std::size_t vertex) const {
+    const VertexSource source = shape_.sources[vertex];
+    return rings_[source.ring].points[source.vertex] != shape_.points[vertex];
+  }
+  /// Whether loops touch there.
+  bool is_shared(std::size_t vertex) const {
+    const auto [low, high] =
+        std::equal_range(points_.begin(), points_.end(), shape_.points[vertex], lexicographic_less);
+    return high - low > 1;
+  }
+
+  std::span<const Ring> rings_;
+  const Shape& shape_;
+  std::vector<Vec2> points_;  ///< sorted
+  std::vector<bool> flat_;
+  double tolerance_ = 0;
+};
+
+Shape without_flat_vertices(std::span<const Ring> rings, Shape shape) {
+  const FlatVertices flat(rings, shape);
+  std::vector<std::uint32_t> begin{0};
+  std::uint32_t kept = 0;
+  for (std::size_t loop = 0; loop < shape.loop_count(); ++loop) {
+    for (std::size_t v = shape.loop_begin[loop]; v < shape.loop_begin[loop + 1]; ++v) {
+      if (flat[v]) continue;
+      shape.points[kept] = shape.points[v];
+      shape.sources[kept] = shape.sources[v];
+      if (!shape.bulges.empty()) shape.bulges[kept] = shape.bulges[v];
+      ++kept;
+    }
+    begin.push_back(kept);
+  }
+  shape.loop_begin = std::move(begin);
+  shape.points.resize(kept);
+  shape.sources.resize(kept);
+  if (!shape.bulges.empty()) shape.bulges.resize(kept);
+  return shape;
+}
+
 Result<Shape> build(std::span<const Ring> rings, const ShapeOptions& options, ShapeReport& report) {
   Result<Shape> shape = build_once(rings, options, report);
+  if (shape && report.crossings > 0) return without_flat_vertices(rings, std::move(shape).value());
   if (shape || !options.node_crossings || !may_be_filled(shape.error())) return shape;
   report = {};
   const Result<FilledRings> filled = fill(rings, report);
@@ -80,7 +164,7 @@ Result<Shape> build(std::span<const Ring> rings, const ShapeOptions& options, Sh
   shape = build_once(filled->rings, options, of_filled);
   if (!shape) return shape;
   for (VertexSource& source : shape->sources) source = filled->sources[source.ring][source.vertex];
-  return shape;
+  return without_flat_vertices(rings, std::move(shape).value());
 }
 
 }  // namespace

@@ -1,9 +1,7 @@
 #include "shape/fill.h"
 
-#include <cmath>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "shape/around.h"
 #include "shape/errors.h"
@@ -73,55 +71,21 @@ class Filling {
   std::vector<std::optional<EdgeWeight>> counts_;
 };
 
-/// Where edges overlapped, rounding leaves vertices beside a straight line: corners of 1e-13
-/// degrees, which would have branches. Where one boundary alone passes, they go.
-class FlatVertices {
- public:
-  FlatVertices(const PlanarGraph& graph, const Filling& filling)
-      : graph_(graph), passing_(graph.points.size(), 0) {
-    Box box = Box::nothing();
-    for (const Vec2 p : graph.points) box.add(p);
-    constexpr double rounding = 0x1p-46;  // some tolerances
-    least_ = rounding * diagonal(box);
-    for (std::uint32_t h = 0; h < 2 * graph.edges.size(); ++h)
-      if (filling.bounds(h)) ++passing_[start_of(graph, h)];
-  }
-  /// Whether the start of `h` may go, between the point before it and the half-edge's end.
-  bool contains(Vec2 before, std::uint32_t last, std::uint32_t h) const {
-    const std::uint32_t at = start_of(graph_, h);
-    if (passing_[at] != 1 || bulge_of(graph_, last) != 0 || bulge_of(graph_, h) != 0) return false;
-    const Vec2 p = graph_.points[at], way = graph_.points[start_of(graph_, h ^ 1U)] - before;
-    return std::abs(cross(way, p - before)) <= least_ * norm(way) && dot(way, p - before) > 0 &&
-           squared_norm(p - before) < squared_norm(way);
-  }
-
- private:
-  const PlanarGraph& graph_;
-  std::vector<std::uint32_t> passing_;  ///< boundaries through each point
-  double least_ = 0;
-};
-
 FilledRings rings_of(const WeightedGraph& weighted) {
   const PlanarGraph& graph = weighted.graph;
   const Filling filling(weighted);
-  const FlatVertices flat(graph, filling);
   FilledRings result;
   std::vector<bool> done(2 * graph.edges.size());
   for (std::uint32_t first = 0; first < done.size(); ++first) {
     if (done[first] || !filling.bounds(first)) continue;
     Ring& ring = result.rings.emplace_back();
     std::vector<VertexSource>& sources = result.sources.emplace_back();
-    std::uint32_t last = first;
-    for (std::uint32_t h = first; !done[h]; last = std::exchange(h, filling.after(h))) {
+    for (std::uint32_t h = first; !done[h]; h = filling.after(h)) {
       done[h] = true;
-      if (h != first && flat.contains(ring.points.back(), last, h)) continue;
       ring.points.push_back(graph.points[start_of(graph, h)]);
       ring.bulges.push_back(bulge_of(graph, h));
       sources.push_back(graph.point_sources[start_of(graph, h)]);
     }
-    const auto close = [&](auto& list) { list.erase(list.begin()); };
-    if (ring.points.size() > 3 && flat.contains(ring.points.back(), last, first))
-      close(ring.points), close(ring.bulges), close(sources);
   }
   return result;
 }

@@ -230,15 +230,29 @@ class Carve(CommandLine):
         for post, end in (("plain", "M2"), ("linuxcnc", "M2"), ("grbl", "M30"), ("mach3", "M30")):
             self.succeed(*common, "--post", post, "-o", "s.nc")
             self.assertEqual(self.lines("s.nc")[-1], end)
-        self.write("own.post", "[start]\n%\n{header}\n{units}\n[tool]\n[cut]\nG0 Z{safe}\n[end]\nM5 {unknown}\n%\n")
+        self.write("own.post", "[start]\n%\n{header}\n{units}\n[tool]\n[cut]\nG0 Z{safe}\n[end]\nM5\n%\n")
         self.succeed(*common, "--post", self.path("own.post"), "-o", "s.nc")
         self.assertEqual(self.lines("s.nc")[0], "%")
-        self.assertEqual(self.lines("s.nc")[-2:], ["M5 {unknown}", "%"])
+        self.assertEqual(self.lines("s.nc")[-2:], ["M5", "%"])
+        self.write("odd.post", "[start]\n{header}\n[tool]\n[cut]\n[end]\nM5 {unknown}\n")
+        self.assertIn("{spindle}", self.refuse("invalid_option", *common, "--post", self.path("odd.post"), "-o", "t.nc"))
         self.write("bad.post", "[start]\n")
         self.refuse("invalid_option", *common, "--post", self.path("bad.post"), "-o", "t.nc")
         self.refuse("invalid_option", *common, "--post", "nowhere", "-o", "t.nc")
         self.succeed(*common, "--preview", "p.png", "--width", "200", "-o", "s.nc")
         self.assertTrue(self.read("p.png").startswith(b"\x89PNG"))
+
+    def test_pictures_leave_what_stands(self):
+        """A disc in the hole of a frame, its wall all tabs: in the picture it is not cut."""
+        self.write("a.svg", '<svg width="100mm" height="60mm" viewBox="0 0 100 60"><circle cx="50" cy="30" r="4"/>'
+                   '<path fill-rule="evenodd" d="M5 5H95V55H5Z M20 20H80V40H20Z"/></svg>')
+        standing = []
+        for tabs in ([], ["--tabs", "4"]):
+            self.succeed("carve", "a.svg", "--angle", "0", "--tool", "3", "--depth", "6", "--exterior", "--margin", "4",
+                         *tabs, "--width", "400", "-o", "p.png")
+            white = json.loads(self.succeed("distance", "p.png", "--threshold", "250", "--json").stdout)
+            standing.append(white["components"])
+        self.assertEqual(*standing)
 
     def test_several_shapes_stand_out_together(self):
         """What lies around one is not cut through its neighbour."""

@@ -1,9 +1,12 @@
 """What the command line says about itself: help pages, suggestions, completion, `doctor`."""
 
 import json
+import os
+import shutil
 import subprocess
 
-from support import CommandLine, FRAME
+import support
+from support import CommandLine, FRAME, GEOGRAPHIC, RECTANGLE
 
 
 class Help(CommandLine):
@@ -106,3 +109,55 @@ class Doctor(CommandLine):
         self.assertRegex(found["libraries"]["GDAL"], r"^\d+\.\d+")
         version = self.succeed("--version").stdout.decode().split()[1]
         self.assertIn(version, self.succeed("doctor").stdout.decode().splitlines()[0])
+
+
+class LateLibraries(CommandLine):
+    """GDAL is in a module beside the program, loaded when it is needed."""
+
+    MODULE = os.path.join(os.path.dirname(support.PROGRAM), "medial_gis.so")
+
+    def setUp(self):
+        super().setUp()
+        if not os.path.exists(self.MODULE):
+            self.skipTest("this build links its libraries")
+
+    def loads(self, *arguments):
+        done = subprocess.run([support.PROGRAM, *arguments], capture_output=True, check=True,
+                              cwd=self.folder.name, env={**os.environ, "LD_DEBUG": "files"})
+        return b"libgdal" in done.stderr
+
+    def test_loaded_for_what_needs_them(self):
+        self.write("a.wkt", RECTANGLE)
+        self.write("a.geojson", GEOGRAPHIC)
+        for output in ("a.json", "a.csv", "b.wkt", "a.graphml", "a.svg", "a.png", "a.pdf"):
+            self.assertFalse(self.loads("axis", "a.wkt", "-o", output), output)
+        self.assertFalse(self.loads("offset", "a.wkt", "--distance", "0.1", "-o", "a.json"))
+        for output in ("a.shp", "a.gpkg"):
+            self.assertTrue(self.loads("axis", "a.wkt", "-o", output), output)
+        self.assertTrue(self.loads("axis", "a.geojson", "--project", "-o", "g.json"))
+
+    def test_without_the_module(self):
+        alone = self.path("alone")
+        os.mkdir(alone)
+        shutil.copy(support.PROGRAM, alone)
+        program = os.path.join(alone, os.path.basename(support.PROGRAM))
+        self.write("a.wkt", RECTANGLE)
+        self.succeed("axis", "a.wkt", "-o", "a.gpkg")
+        self.succeed("axis", "a.wkt", "-o", "whole.json")
+
+        def run(*arguments):
+            return subprocess.run([program, *arguments], capture_output=True, cwd=self.folder.name)
+
+        self.assertEqual(run("axis", "a.wkt", "-o", "a.json").returncode, 0)
+        self.assertEqual(self.read("a.json"), self.read("whole.json"))
+        before = self.files()
+        for arguments in (["axis", "a.gpkg", "-o", "b.json"], ["axis", "a.wkt", "-o", "b.fgb"],
+                          ["axis", "a.wkt", "--project", "-o", "b.json"]):
+            done = run(*arguments)
+            self.assertEqual(done.returncode, 2, arguments)
+            self.assertIn(b"[unsupported]", done.stderr)
+            self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertEqual(self.files(), before)
+        doctor = run("doctor")
+        self.assertEqual(doctor.returncode, 1)
+        self.assertIn(b"install medial again", doctor.stdout)

@@ -264,3 +264,16 @@ class Images(CommandLine):
             info = json.loads(self.succeed("info", "axis.json", "--json").stdout)
             self.assertEqual((info["method"], info["resolution"]), ("brushfire", 1))
         self.refuse("invalid_option", "axis", "l.pbm", "--brushfire", "forest")
+
+    def test_round_parts_have_one_point(self):
+        """What a table of lines leaves out is noted; the graph has the point."""
+        inside = lambda x, y: (x - 14) ** 2 + (y - 14) ** 2 < 150 or 40 <= x < 90 and 10 <= y < 18
+        self.write("two.pgm", "P2\n100 30\n255\n" + "\n".join(
+            " ".join(str((1 + (x > 35)) * inside(x, y)) for x in range(100)) for y in range(30)))
+        done = self.succeed("axis", "two.pgm", "--labels", "-o", "a.geojson")
+        self.assertIn(b"the axis of 1 feature is a single point", done.stderr)
+        self.assertEqual({line["properties"]["value"] for line in json.loads(self.read("a.geojson"))["features"]}, {2})
+        self.succeed("axis", "two.pgm", "--labels", "-o", "a.nodelink")
+        nodes = json.loads(self.read("a.nodelink"))["nodes"]
+        self.assertTrue(any(math.hypot(node["x"] - 14.5, node["y"] - 14.5) < 0.5 for node in nodes))
+        self.assertNotIn(b"single point", self.succeed("axis", "two.pgm", "--labels", "--quiet", "-o", "a.csv").stderr)

@@ -9,12 +9,12 @@ const short = (x) => String(+x.toPrecision(4));
 // Sliders run from 0 to 1,000; thresholds of most measures from 0 up to these.
 const RANGES = {
   prominence: 1.5, significance: 2, length: 20, ratio: 6, radius: 1, angle: 180, erosion: 1, potential: 1,
-  residual: 1, area: 0.5, lambda: 1, scale: 4,
+  residual: 1, area: 0.5, lambda: 1, "scale-axis": 4,
 };
 const threshold_of = (measure, slider) => {
   if (slider === 0) return 0;
   const share = (slider / 1000) ** 2 * RANGES[measure];
-  return measure === "scale" || measure === "ratio" ? 1 + share : share;
+  return measure === "scale-axis" || measure === "ratio" ? 1 + share : share;
 };
 
 function options(select, names) {
@@ -90,7 +90,7 @@ function read(studio, note) {
   for (const name of ["exact", "exterior"]) $(name).checked = settings[name];
   for (const name of ["center", "cells", "field", "disks", "disk"]) $(`show-${name}`).checked = settings[name];
   const range = RANGES[settings.measure];
-  const base = ["scale", "ratio"].includes(settings.measure) ? 1 : 0;
+  const base = ["scale-axis", "ratio"].includes(settings.measure) ? 1 : 0;
   $("threshold").value = settings.threshold ? 1000 * Math.sqrt(Math.max(0, settings.threshold - base) / range) : 0;
   $("threshold-out").textContent = settings.threshold ? short(settings.threshold) : "all";
   $("offset").value = 1000 * settings.offset;

@@ -196,6 +196,23 @@ test("settings: pruning, offsets, cells, field, centre line, disks, carving, cer
   await page.locator("#offset").fill("0");
 });
 
+test("every measure of pruning has a slider", async () => {
+  await paste("POLYGON ((0 0, 40 0, 40 20, 22 20, 20 21, 18 20, 0 20, 0 0))");
+  const all = await page.evaluate(() => studio.branches);
+  const measures = await page.evaluate(() => Object.keys(studio.medial.pruneMeasures()));
+  assert.equal(measures.length, 12);
+  for (const measure of measures) {
+    await page.selectOption("#measure", measure);
+    await page.locator("#threshold").fill("1000");
+    await settled();
+    const [threshold, left] = await page.evaluate(() => [studio.settings.threshold, studio.branches]);
+    assert.ok(threshold > 0, `${measure}: ${threshold}`);
+    assert.ok(left < all, `${measure}: ${left} of ${all} branches`);
+  }
+  await page.locator("#threshold").fill("0");
+  await page.selectOption("#measure", measures[0]);
+});
+
 test("methods", async () => {
   await paste("POLYGON ((0 0, 40 0, 40 20, 22 20, 20 12, 18 20, 0 20, 0 0))");
   for (const method of ["lee", "biarc-dc", "ridge", "brushfire", "potential", "disks"]) {

@@ -1,7 +1,9 @@
 #include "io/formats/gcode_posts.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 
@@ -38,8 +40,22 @@ constexpr std::array<KnownPost, 4> known{
       "[cut]\n{spindle}\nG0 Z{safe}\n"
       "[end]\n{stop}\nM30\n"}}};
 constexpr std::array<std::string_view, 4> part_names{"[start]", "[tool]", "[cut]", "[end]"};
+constexpr std::array<std::string_view, 8> value_names{"header",      "units", "tolerance", "safe",
+                                                      "description", "tool",  "spindle",   "stop"};
 
-/// A line with {name} replaced; an unknown name stays as it is.
+/// A name in braces that is none of the values; empty: there is none.
+std::string_view unknown_name(std::string_view text) {
+  for (std::size_t open = text.find('{'); open != std::string_view::npos;
+       open = text.find('{', open + 1)) {
+    const std::size_t close = text.find('}', open);
+    if (close == std::string_view::npos) break;
+    const std::string_view name = text.substr(open + 1, close - open - 1);
+    if (std::ranges::find(value_names, name) == value_names.end()) return name;
+  }
+  return {};
+}
+
+/// A line with {name} replaced.
 std::string filled(std::string_view line, const PostValues& values) {
   std::string out;
   while (!line.empty()) {
@@ -73,6 +89,11 @@ Result<PostTemplate> PostTemplate::make(const std::string& name_or_text) {
   std::string text = name_or_text.empty() ? "plain" : name_or_text;
   for (const KnownPost& post : known)
     if (text == post.name) text = post.text;
+  if (const std::string_view unknown = unknown_name(text); !unknown.empty())
+    return Error{ErrorCode::invalid_option,
+                 fmt::format("a template of G-code has no value {{{}}}; there are {{{}}}", unknown,
+                             fmt::join(value_names, "}, {")),
+                 {}};
   PostTemplate result;
   std::string* part = nullptr;
   for_each_line(text, [&](std::string_view line) {

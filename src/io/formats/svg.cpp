@@ -55,6 +55,7 @@ struct Drawing {
   std::uint64_t copies = 0;
   std::uint64_t copied_points = 0;
   std::uint64_t unfilled = 0;
+  std::vector<Contour> strokes = {};  ///< the closed ones of shapes that are not filled
 };
 
 /// The context that svgpp fills for every element; what is inherited is copied from the parent.
@@ -191,6 +192,11 @@ void Element::add_feature() {
   if (!displayed_ || !visible_) return;
   if (!filled_ && !drawing_.loose) {
     ++drawing_.unfilled;
+    for (Contour& contour : contours(transform_, RingRole::any, false, true)) {
+      if (contour.open && contour.points.front() != contour.points.back()) continue;
+      contour.open = false;
+      drawing_.strokes.push_back(std::move(contour));
+    }
     return;
   }
   Feature feature;
@@ -344,6 +350,15 @@ Result<Document<Feature>> read_svg(const Input& input, const ReadOptions& option
   dataset.corner_angle = drawn_corner_angle;
   dataset.y_down = true;
   dataset.unit = document->unit();
+  if (dataset.items.empty() && !drawing.strokes.empty()) {
+    dataset.notes.push_back(
+        "no shape is filled: closed strokes are taken for outlines, by the even-odd rule");
+    drawing.unfilled = 0;
+    Feature outlines;
+    outlines.contours = std::move(drawing.strokes);
+    outlines.filled = true;
+    dataset.items.push_back(std::move(outlines));
+  }
   if (dataset.items.empty()) {
     return error(
         {ErrorCode::empty,

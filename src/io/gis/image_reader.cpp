@@ -13,6 +13,7 @@
 #include "io/gis/gdal_support.h"
 #include "io/gis/rasters.h"
 #include "io/guarded.h"
+#include "io/image_kind.h"
 #include "io/place.h"
 #include "io/text_source.h"
 #include "medial/io/read.h"
@@ -21,25 +22,8 @@ namespace medial::io {
 
 namespace {
 
-constexpr std::size_t image_sniffed = 12;
 constexpr std::size_t png_header = 4096;  // what a PNG says of itself stands before
 constexpr std::size_t longest_image = std::size_t{1} << 32U;
-
-bool begins_like_pnm(std::string_view text) {
-  return text.size() > 2 && text[0] == 'P' &&
-         (text[1] == '1' || text[1] == '2' || text[1] == '4' || text[1] == '5') &&
-         (text[2] == '#' || std::isspace(static_cast<unsigned char>(text[2])));
-}
-
-bool begins_like_raster(std::string_view text) {
-  using namespace std::string_view_literals;
-  return text.starts_with("\x89PNG\r\n\x1a\n"sv) || text.starts_with("II*\0"sv) ||
-         text.starts_with("MM\0*"sv) || text.starts_with("II+\0"sv) ||
-         text.starts_with("MM\0+"sv) || text.starts_with("\xff\xd8\xff"sv) ||
-         text.starts_with("GIF8"sv) ||
-         (text.starts_with("BM"sv) && text.size() > 9 && text.substr(6, 4) == "\0\0\0\0"sv) ||
-         (text.starts_with("RIFF"sv) && text.size() > 11 && text.substr(8, 4) == "WEBP"sv);
-}
 
 /// What the pixels of an image hold, as far as the choice of a threshold needs it.
 class Values {
@@ -455,10 +439,6 @@ Result<ImageFile> read_raster(const std::string& name, const ImageOptions& optio
   return file;
 }
 
-bool begins_like_image(std::string_view text) {
-  return begins_like_pnm(text) || begins_like_raster(text);
-}
-
 Result<ImageFile> read_pixels(const Input& input, const ImageOptions& options, Labels& labels) {
   TextSource& source = *input.source;
   const std::string_view beginning = source.lookahead(image_sniffed);
@@ -598,8 +578,7 @@ Result<Document<Feature>> outline_document(ImageFile file, std::span<const std::
 Format image_format() {
   Format format;
   format.read = read_outline;
-  format.sniff = begins_like_image;
-  format.by_content = true;
+  format.reads_images = true;
   return format;
 }
 
@@ -611,11 +590,6 @@ Result<ImageFile> read_image(const std::string& path, const ImageOptions& option
   if (is_ros_map(path)) return read_ros_image(path, **source, options);
   Labels none;
   return read_foreground({path, *source}, options, none);
-}
-
-bool is_image(const std::string& path) {
-  const Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
-  return source && (is_ros_map(path) || begins_like_image((*source)->lookahead(image_sniffed)));
 }
 
 }  // namespace medial::io

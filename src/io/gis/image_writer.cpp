@@ -93,8 +93,6 @@ Status write_pbm(Target& target, const ImageOutput& output) {
   return success();
 }
 
-}  // namespace
-
 Status write_raster(Target& target, const DistancesOutput& output) {
   const DistanceMap& distances = output.distances;
   const ImageFile& source = output.source;
@@ -147,10 +145,16 @@ Status write_raster(Target& target, const ImageOutput& output) {
                       target.format.starts_with("tif") ? &output.source : nullptr);
 }
 
+}  // namespace
+
+Format with_rasters(Format format) {
+  return format.writes<DistancesOutput, ImageOutput>(write_raster, write_raster);
+}
+
 Format tif_format() {
   Format format{".tif .tiff"};
   format.own_files = true;
-  return format.writes<DistancesOutput, ImageOutput>(write_raster, write_raster);
+  return with_rasters(format);
 }
 
 Format pgm_format() { return Format{".pgm"}.writes<DistancesOutput>(write_raster); }

@@ -9,6 +9,7 @@
 
 #include "io/format.h"
 #include "io/gis/rasters.h"
+#include "io/image_kind.h"
 #include "io/place.h"
 
 namespace medial::io {
@@ -116,10 +117,6 @@ Result<Document<Feature>> read_ros_map(const Input& input, const ReadOptions& op
 }
 
 }  // namespace
-
-bool is_ros_map(const std::string& path) {
-  return path.ends_with(".yaml") || path.ends_with(".yml");
-}
 
 Result<ImageFile> read_ros_image(const std::string& path, TextSource& source,
                                  const ImageOptions& given) {

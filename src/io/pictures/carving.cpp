@@ -58,8 +58,10 @@ void fill_cleared(Canvas& canvas, const Carving& clearing, double depth) {
 /// the cone is wide there.
 void fill_level(Canvas& canvas, const Carving& carving, const Walls& walls, double depth) {
   for (const auto& of_pass : walls) {
-    for (const ToolPath* wall : of_pass)
-      if (lowest_of(*wall) < -depth) canvas.trace(line_of(wall->points));
+    // A wall may be all tabs, and stands around a part nevertheless.
+    const auto is_deeper = [&](const ToolPath* wall) { return lowest_of(*wall) < -depth; };
+    if (std::ranges::none_of(of_pass, is_deeper)) continue;
+    for (const ToolPath* wall : of_pass) canvas.trace(line_of(wall->points));
     canvas.fill_even_odd();
   }
   for (const ToolPath& path : carving.paths) {

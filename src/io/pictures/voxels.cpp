@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "base/vec3.h"
-#include "io/gis/rasters.h"
 #include "io/pictures/pictures.h"
 #include "medial/geometry.h"
 
@@ -282,9 +281,7 @@ Status write_voxel_picture(Target& target, const VoxelsOutput& output) {
 }  // namespace
 
 Format png_format() {
-  return with_pictures(Format{".png"})
-      .writes<VoxelsOutput, DistancesOutput, ImageOutput>(write_voxel_picture, write_raster,
-                                                          write_raster);
+  return with_pictures(Format{".png"}).writes<VoxelsOutput>(write_voxel_picture);
 }
 
 }  // namespace medial::io

@@ -33,7 +33,7 @@ Factors sum(View a, View b, bool subtract) {
   return result;
 }
 
-/// The index of the last root of a number with so many factors, which is not rational.
+/// The index of the last root of a number with this many factors, which is not rational.
 std::size_t last_root(std::size_t factors) {
   std::size_t root = 0;
   while ((std::size_t{2} << root) < factors) ++root;

@@ -300,7 +300,7 @@ class MergeCurve {
   std::uint32_t middle_ = 0;  ///< the first element of the later list
   Disk disk_;
   bool is_stored_ = false;      ///< whether the current disk is one of an edge that was crossed
-  std::uint32_t may_undo_ = 0;  ///< so many edges yet
+  std::uint32_t may_undo_ = 0;  ///< edges that may still be taken back
 };
 
 }  // namespace

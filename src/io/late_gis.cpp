@@ -1,0 +1,118 @@
+// Stands in for gis/ in the command line: loads it from a shared module when something first needs
+// it.
+
+#include <dlfcn.h>
+
+#include "io/gis_module.h"
+#include "io/place.h"
+
+namespace medial::io {
+
+namespace {
+
+struct Loaded {
+  const GisModule* module = nullptr;
+  std::string failure;
+};
+
+/// Loaded once, by the first thread that asks, and never unloaded: GDAL keeps threads and handlers.
+const Loaded& loaded() {
+  static const Loaded once = [] {
+    Loaded result;
+    void* const library = dlopen(MEDIAL_GIS_MODULE, RTLD_LAZY | RTLD_LOCAL);
+    if (library != nullptr)
+      result.module = static_cast<const GisModule*>(dlsym(library, gis_module_name));
+    if (result.module == nullptr) {
+      const char* const reason = dlerror();
+      result.failure = reason != nullptr ? reason : MEDIAL_GIS_MODULE;
+    }
+    return result;
+  }();
+  return once;
+}
+
+Error missing() {
+  return {ErrorCode::unsupported,
+          "the part of medial for GIS formats and images cannot be loaded; install medial again (" +
+              loaded().failure + ")",
+          {}};
+}
+
+/// What a function of the module returns; an error where there is no module.
+template <class Function, class... Arguments>
+auto in_module(Function GisModule::*function, Arguments&&... arguments)
+    -> decltype((loaded().module->*function)(arguments...)) {
+  const GisModule* const module = loaded().module;
+  if (module == nullptr) return missing();
+  return (module->*function)(std::forward<Arguments>(arguments)...);
+}
+
+Format table_format(std::string_view extension) {
+  using enum DocumentKind;
+  return Format{extension}.announces({axes, shapes, voronoi, offsets, features, layers});
+}
+
+}  // namespace
+
+const std::vector<Format>& formats() {
+  const GisModule* const module = loaded().module;
+  return module != nullptr ? module->formats() : formats_at_hand();
+}
+
+// What formats_of() lists; the rows of the module do it.
+
+Format gpkg_format() { return table_format(".gpkg"); }
+Format shp_format() { return table_format(".shp"); }
+Format fgb_format() { return table_format(".fgb"); }
+Format with_rasters(Format format) {
+  return format.announces({DocumentKind::distances, DocumentKind::image});
+}
+Format tif_format() { return with_rasters(Format{".tif .tiff"}); }
+Format pgm_format() { return Format{".pgm"}.announces({DocumentKind::distances}); }
+Format pbm_format() { return Format{".pbm"}.announces({DocumentKind::image}); }
+Format ros_map_format() { return {}; }
+Format image_format() { return {}; }
+Format gdal_format() { return {}; }
+
+void describe_crs(Document<Feature>& document) {
+  if (document.crs_wkt.empty()) return;
+  if (const GisModule* const module = loaded().module)
+    module->describe(document);
+  else
+    document.notes.push_back(missing().text);
+}
+
+Status describe_crs(const std::string& name, Document<Feature>& document) {
+  return in_module(&GisModule::describe_by_name, name, document);
+}
+
+Result<OutputCrs> output_crs_of(const std::string& crs_wkt, Unit unit) {
+  if (crs_wkt.empty()) return OutputCrs{crs_wkt, unit, nullptr};
+  return in_module(&GisModule::output_crs_of, crs_wkt, unit);
+}
+
+std::string urn_of_crs(const std::string& crs_wkt) {
+  if (crs_wkt.empty() || loaded().module == nullptr) return {};
+  return loaded().module->urn_of_crs(crs_wkt);
+}
+
+Status project_to_local(Document<Feature>& document) {
+  return in_module(&GisModule::project_to_local, document);
+}
+
+Status make_valid(Feature& feature, std::size_t index, std::vector<std::string>& notes) {
+  return in_module(&GisModule::make_valid, feature, index, notes);
+}
+
+Result<ImageFile> read_image(const std::string& path, const ImageOptions& options) {
+  return in_module(&GisModule::read_image, path, options);
+}
+
+BuildInfo build_info() {
+  if (loaded().module != nullptr) return loaded().module->build_info();
+  BuildInfo info;
+  info.libraries = {{"GDAL", "FAILS: " + missing().text}};
+  return info;
+}
+
+}  // namespace medial::io
