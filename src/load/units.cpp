@@ -69,6 +69,10 @@ Status take_units(Document<Feature>& features, const UnitOptions& options) {
   const bool says_nothing =
       features.unit == Unit::unknown || (unplaced && !(features.dots_per_inch > 0));
   if (options.given != Unit::unknown || options.pixel_size > 0) {
+    if (unplaced && options.pixel_size == 0 && features.dots_per_inch > 0)
+      features.notes.push_back(std::string("each pixel is taken for 1 ") + name_of(options.given) +
+                               ", though the image says how large it is; --output-units " +
+                               name_of(options.given) + " goes by that");
     features.unit = options.given;
   } else if (says_nothing && options.assumed != Unit::unknown) {
     features.unit = options.assumed;
@@ -120,6 +124,11 @@ Status convert_units(Document<Feature>& features, const UnitOptions& options) {
     const double from = length_of_unit(features);
     if (!(from > 0)) return refused("the input has no unit to convert; --units gives it one");
     factor *= from / millimetres(options.wanted);
+    if (options.assumed != Unit::unknown && options.given == Unit::unknown &&
+        features.unit != Unit::css_pixel && features.unit != Unit::pixel)
+      features.notes.push_back(std::string("the drawing is in ") + name_of(features.unit) +
+                               ", the result and lengths of options in " + name_of(options.wanted) +
+                               "; --output-units chooses");
     features.unit = options.wanted;
   }
   scale(features, factor);
