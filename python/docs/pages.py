@@ -6,14 +6,20 @@
 Pages keep their places relative to each other. A link to a file that is no page becomes plain text.
 """
 
+import os
 import pathlib
 import re
 import shutil
+import subprocess
 import sys
+
+import show_pictures
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^)\s]+)\)")
+REFERENCE = "axes arrays parts lines offsets features voronoi images files geopandas spark errors".split()
+MADE = {"medial.1": "manual.md", "../include/medial/": "headers.md"}  # by write_reference()
 PROJECT = ["docs/*.md", "bench/RESULTS.md", "CHANGELOG.md", "KNOWN_ISSUES.md", "ARCHITECTURE.md"]
 
 
@@ -35,33 +41,18 @@ def copy_pages(gallery, pages):
     (pages / "python" / "index.md").unlink()
 
 
-def picture_of_skeletons(folder):
-    """A picture of skeletons by scikit-image and here, side by side."""
-    import matplotlib
-
-    matplotlib.use("agg")
-    import matplotlib.pyplot as plt
-    import numpy as np
-    from skimage import data, morphology
-
-    import medial.image
-
-    horse = ~data.horse()
-    pairs = [
-        ("scikit-image medial_axis", morphology.medial_axis(horse)),
-        ("medial.image.medial_axis", medial.image.medial_axis(horse)),
-        ("scikit-image skeletonize", morphology.skeletonize(horse)),
-        ("medial.image.skeletonize", medial.image.skeletonize(horse)),
-    ]
-    figure, axes = plt.subplots(2, 2, figsize=(9, 7.6))
-    for ax, (title, skeleton) in zip(axes.flat, pairs, strict=True):
-        ax.imshow(np.where(horse, 0.88, 1), cmap="gray", vmin=0, vmax=1)
-        y, x = np.nonzero(skeleton)
-        ax.plot(x, y, "s", markersize=0.9, color="#b02010")
-        ax.set_title(title)
-        ax.set_axis_off()
-    figure.tight_layout()
-    figure.savefig(folder / "skeletons.png", dpi=110)
+def write_reference(folder):
+    """The manual, and the public headers, which hold the contract of each function of the library."""
+    headers = ROOT / "include" / "medial"
+    parts = ["# Headers of the C++ library\n"]
+    for header in sorted(headers.rglob("*.h")):
+        parts.append(f"## {header.relative_to(headers.parent)}\n\n```cpp\n{header.read_text()}```\n")
+    (folder / "headers.md").write_text("\n".join(parts))
+    source = ROOT / "docs" / "medial.1"
+    manual = subprocess.run(["man", "--nj", "--nh", "-l", source], env={**os.environ, "MANWIDTH": "80"}, text=True,
+                            check=False, capture_output=True)  # fmt: skip
+    text = re.sub(".\b", "", manual.stdout) or source.read_text()  # bold letters are struck twice
+    (folder / "manual.md").write_text(f"# Manual of the command line\n\n```text\n{text}```\n")
 
 
 def mend_links(pages):
@@ -71,6 +62,8 @@ def mend_links(pages):
             file = target.split("#")[0]
             if re.match(r"[a-z]+:", target) or not file or (page.parent / file).is_file():
                 return link[0]
+            if target in MADE:
+                return f"[{text}]({MADE[target]})"
             return "" if picture else text
 
         page.write_text(LINK.sub(mended, page.read_text()))
@@ -95,7 +88,7 @@ theme:
   font: false
   features: [navigation.tabs, navigation.top, content.code.copy]
   palette: {{ primary: indigo }}
-markdown_extensions: [admonition, attr_list, md_in_html, tables, toc, pymdownx.superfences, pymdownx.highlight]
+markdown_extensions: [admonition, attr_list, md_in_html, tables, toc, pymdownx.superfences, pymdownx.details, pymdownx.highlight]
 plugins:
   - search
   - mkdocstrings:
@@ -112,8 +105,9 @@ nav:
       - In five lines: python/five_lines.md
       - Images: python/images.md
       - Installing: python/install.md
-      - Reference: python/reference.md
-  - How to:
+  - Reference:
+      - Contents: python/reference.md
+{listed(*(f"python/reference/{name}.md" for name in REFERENCE))}  - How to:
 {listed("python/how_to/*.md")}  - Gallery:
 {listed("python/gallery/*.md")}  - Command line and C++:
 {listed("docs/README.md", "docs/[!R]*.md")}  - Project:
@@ -130,15 +124,11 @@ def main():
     shutil.rmtree(folder, ignore_errors=True)
     pages.mkdir(parents=True)
     copy_pages(gallery, pages)
-    images = pages / "python" / "images.md"
-    try:
-        picture_of_skeletons(images.parent)
-        picture = "![Skeletons of one image by both](skeletons.png)"
-    except ImportError as missing:
-        print(f"pages: no picture of skeletons: {missing}")
-        picture = ""
-    images.write_text(images.read_text().replace("@PICTURE@", picture))
+    show_pictures.draw(pages / "python" / "pictures")
+    for page in (pages / "python").rglob("*.md"):
+        show_pictures.show(page, pages / "python")
     mend_links(pages)
+    write_reference(pages / "docs")
     (folder / "mkdocs.yml").write_text(settings(pages))
 
 

@@ -13,9 +13,8 @@ from typing import TYPE_CHECKING, Any
 from ._axes import Axes, axes
 from ._axis import MedialAxis, axis
 from ._contour import Contour
-from ._core import methods
 from ._errors import MedialError, MissingPackage
-from ._options import options
+from ._options import methods, options
 from ._records import NO_SITE, NODE_KINDS, SITE_KINDS
 from ._shape import Shape
 

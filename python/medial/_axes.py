@@ -280,9 +280,9 @@ def ragged(x: Any) -> Ragged:
     """Many features, of any source, as arrays."""
     if isinstance(x, Ragged):
         return x
-    if isinstance(x, tuple) and len(x) in (2, 3) and isinstance(x[0], np.ndarray):
-        coordinates, offsets = (x[-2], x[-1])
-        if not isinstance(offsets, tuple) or len(offsets) not in (2, 3):
+    if isinstance(x, tuple) and len(x) in (2, 3) and isinstance(x[-2], np.ndarray) and isinstance(x[-1], tuple):
+        coordinates, offsets = x[-2:]
+        if len(offsets) not in (2, 3):
             raise MedialError("offsets are (ring, polygon) or (ring, polygon, feature)", "malformed")
         flat = np.ascontiguousarray(np.asarray(coordinates, np.float64)[:, :2])
         ring, polygon, *feature = (np.ascontiguousarray(part, np.int64) for part in offsets)

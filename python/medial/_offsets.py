@@ -142,7 +142,7 @@ def offset(x: Any, distances: float | Sequence[float] | Floats, *, threads: int 
     return _regions(_core.offsets_of(shape, values, options.threads if threads is None else threads))
 
 
-def offset_passes(x: Any, step: float, *, first: float | None = None) -> list[Region]:
+def offset_passes(x: Any, step: float, *, first: float | None = None, until: float | None = None) -> list[Region]:
     """Nested offset curves, one every `step`, until nothing is left inside: passes of a pocket.
 
     Parameters
@@ -150,6 +150,8 @@ def offset_passes(x: Any, step: float, *, first: float | None = None) -> list[Re
     x : MedialAxis or geometry
     step, first : float
         Between passes, and of the first one (`step`), in units of the input.
+    until : float, optional
+        The largest distance of a pass.
 
     Raises
     ------
@@ -163,7 +165,8 @@ def offset_passes(x: Any, step: float, *, first: float | None = None) -> list[Re
     [0.75, 1.5]
     """
     of = axis_of(x)
-    return offset(of, _core.offset_passes(of._core, step if first is None else first, step))
+    passes = _core.offset_passes(of._core, step if first is None else first, step)
+    return offset(of, passes if until is None else passes[passes <= until])
 
 
 def buffer(x: Any, distances: float | Sequence[float] | Floats, *, bulges: npt.ArrayLike | None = None,

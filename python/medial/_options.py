@@ -31,6 +31,18 @@ class Settings:
 options = Settings()
 
 
+def methods() -> list[dict[str, Any]]:
+    """The methods of `axis`, and what each takes: holes, arcs, the exterior, several threads.
+
+    Examples
+    --------
+    >>> import medial
+    >>> [row["name"] for row in medial.methods() if row["exact"]]
+    ['disks', 'biarc-dc', 'lee', 'auto']
+    """
+    return _core.methods()
+
+
 def log(text: str, *values: object) -> None:
     """A record of the logger "medial", for whoever has imported logging."""
     logging = sys.modules.get("logging")

@@ -14,20 +14,37 @@ from ._records import Floats, points_of
 from ._shape import load
 
 
+def compressed_size(streams: Sequence[bytes]) -> int:
+    """The bytes of streams, each compressed by zlib."""
+    import zlib
+
+    return sum(len(zlib.compress(stream, 9)) for stream in streams)
+
+
 @dataclass(frozen=True)
 class Pack:
-    """A compact code of a shape within an error."""
+    """A compact code of a shape within an error.
+
+    Attributes
+    ----------
+    streams : tuple of bytes
+    disks : int
+        How many it holds.
+    quantum : float
+        The step of its numbers, in units of the input.
+    boundary_nbytes : int
+        What the boundary takes instead: simplified within the same error, coded alike.
+    """
 
     streams: tuple[bytes, ...]
     disks: int
     quantum: float
+    boundary_nbytes: int
 
     @property
     def nbytes(self) -> int:
         """The number of bytes, compressed by zlib."""
-        import zlib
-
-        return sum(len(zlib.compress(stream, 9)) for stream in self.streams)
+        return compressed_size(self.streams)
 
     def unpack(self) -> MedialAxis:
         """The axis of disks, with the shape that they cover."""
@@ -36,6 +53,8 @@ class Pack:
 
 def pack(x: Any, error: float) -> Pack:
     """Codes a shape so that it and the unpacked one lie within `error` of each other.
+
+    `medial.image.pack` codes images.
 
     Parameters
     ----------
@@ -49,8 +68,10 @@ def pack(x: Any, error: float) -> Pack:
     >>> round(medial.pack([(0, 0), (4, 0), (4, 2), (0, 2)], 0.01).unpack().shape.area)
     8
     """
-    streams, disks, _, quantum = _core.packed(axis_of(x)._core, error)
-    return Pack(tuple(streams), disks, quantum)
+    of = axis_of(x)
+    streams, disks, _, quantum = _core.packed(of._core, error)
+    boundary = compressed_size(_core.packed_boundary(of.shape._core, error))
+    return Pack(tuple(streams), disks, quantum, boundary)
 
 
 def unpack(code: Pack) -> MedialAxis:

@@ -3,15 +3,30 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._errors import MedialError
+from ._errors import MedialError, need
 from ._options import options
 from ._records import Floats
+
+
+class Surface(NamedTuple):
+    """Sheets as triangles, curves as lines, with a radius at each vertex."""
+
+    vertices: Floats
+    radii: Floats
+    triangles: npt.NDArray[np.uint32]
+    lines: npt.NDArray[np.uint32]
+
+    def to_trimesh(self) -> Any:
+        """The sheets as a mesh of trimesh, with the radii as attributes of its vertices."""
+        mesh = need("trimesh", "mesh").Trimesh(self.vertices, self.triangles, process=False)
+        mesh.vertex_attributes["radius"] = self.radii
+        return mesh
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,6 +43,8 @@ class VoxelAxis:
         Pairs of voxels that share a face, an edge or a corner.
     topology, interior : (components, tunnels, cavities)
         Of the axis, and of all interior voxels.
+    surface : Surface
+        Empty but where `voxels` was asked for it.
     """
 
     resolution: float
@@ -40,6 +57,7 @@ class VoxelAxis:
     links: npt.NDArray[np.uint32]
     topology: tuple[int, int, int]
     interior: tuple[int, int, int]
+    surface: Surface
 
     def volume(self) -> npt.NDArray[np.bool_]:
         """The axis as a volume with the indices x, y, z."""
@@ -84,6 +102,9 @@ def voxels(
     count: int = 128,
     angle: float = 30,
     thinning: str = "sheets",
+    surface: bool = False,
+    method: str = "ridge",
+    order: int = 8,
     spacing: tuple[float, float, float] = (1, 1, 1),
     memory: float = 4,
     threads: int | None = None,
@@ -102,6 +123,12 @@ def voxels(
     angle : float
         Between the two feet of a voxel at least, in degrees.
     thinning : {"none", "sheets", "curves"}
+    surface : bool
+        Also make ``VoxelAxis.surface``.
+    method : {"ridge", "potential"}
+        Of ``"potential"``, the force lines of a charged surface, there is only the surface.
+    order : int
+        Of the potential, 1 / distance to this power; 2 to 64.
     spacing : three floats
         The edges of a volume's voxels.
     memory : float
@@ -119,6 +146,8 @@ def voxels(
     >>> medial.voxels(np.ones((4, 4, 12)), count=24).topology
     (1, 0, 0)
     """
+    if method not in ("ridge", "potential"):
+        raise MedialError("method is 'ridge' or 'potential'", "invalid_option")
     if faces is not None:
         vertices, triangles = x, faces
     elif hasattr(x, "vertices") and hasattr(x, "faces"):
@@ -132,4 +161,6 @@ def voxels(
     points = np.ascontiguousarray(vertices, np.float64)
     corners = np.ascontiguousarray(triangles, np.uint32)
     some = options.threads if threads is None else threads
-    return VoxelAxis(**_core.voxels_of(points, corners, resolution, count, angle, thinning, memory, some))
+    made = _core.voxels_of(points, corners, resolution, count, angle, thinning, surface,
+                           order if method == "potential" else 0, memory, some)  # fmt: skip
+    return VoxelAxis(**{**made, "surface": Surface(*made["surface"])})

@@ -201,6 +201,10 @@ void add_outline(const Ring& ring, double chord, std::vector<Vec2>& points);
 void add_lines(const MedialAxis& axis, double chord, double step, std::vector<Disk>& disks,
                std::vector<std::int64_t>& begin);
 
+/// A code of shapes or images as its streams, and back.
+nb::list streams_of(const ShapeCode& code);
+ShapeCode code_of(const std::vector<nb::bytes>& streams);
+
 // Each adds the functions and classes of its topic to the module.
 void bind_shapes(nb::module_& module);
 void bind_axes(nb::module_& module);

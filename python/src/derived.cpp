@@ -110,20 +110,15 @@ nb::tuple packed(const AxisOf& self, double error) {
   options.error = error;
   const ShapeCode code = value_of(
       without_lock([&] { return encode_axes(std::span(&self.axis, 1), options, &report); }));
-  nb::list streams;
-  for (const auto& stream : code)
-    streams.append(nb::bytes(reinterpret_cast<const char*>(stream.data()), stream.size()));
-  return nb::make_tuple(streams, report.disks, report.lines, report.quantum);
+  return nb::make_tuple(streams_of(code), report.disks, report.lines, report.quantum);
+}
+nb::list packed_boundary(const ShapeOf& of, double error) {
+  return streams_of(
+      value_of(without_lock([&] { return encode_boundary(std::span(of.shape.get(), 1), error); })));
 }
 
 std::unique_ptr<AxisOf> unpacked(const std::vector<nb::bytes>& streams) {
-  ShapeCode code;
-  if (streams.size() != code.size()) refuse(ErrorCode::malformed, "a code has four streams");
-  for (std::size_t i = 0; i < code.size(); ++i) {
-    const auto* const data = reinterpret_cast<const std::uint8_t*>(streams[i].c_str());
-    code[i].assign(data, data + streams[i].size());
-  }
-  auto axes = value_of(decode_axes(code));
+  auto axes = value_of(decode_axes(code_of(streams)));
   if (axes.size() != 1) refuse(ErrorCode::unsupported, "the code holds another number of axes");
   RebuildOptions options;
   options.by = RebuildBy::hulls;
@@ -171,6 +166,22 @@ nb::list nested(const ShapeOf& fixed, const ShapeOf& moving, double gap, bool mi
 
 }  // namespace
 
+nb::list streams_of(const ShapeCode& code) {
+  nb::list streams;
+  for (const auto& stream : code)
+    streams.append(nb::bytes(reinterpret_cast<const char*>(stream.data()), stream.size()));
+  return streams;
+}
+ShapeCode code_of(const std::vector<nb::bytes>& streams) {
+  ShapeCode code;
+  if (streams.size() != code.size()) refuse(ErrorCode::malformed, "a code has four streams");
+  for (std::size_t i = 0; i < code.size(); ++i) {
+    const auto* const data = reinterpret_cast<const std::uint8_t*>(streams[i].c_str());
+    code[i].assign(data, data + streams[i].size());
+  }
+  return code;
+}
+
 void bind_derived(nb::module_& module) {
   module.def("rebuilt", &rebuilt);
   module.def("inward_offsets", &inward);
@@ -181,6 +192,7 @@ void bind_derived(nb::module_& module) {
   module.def("certificate", &certificate);
   module.def("shape_distance", &distance_of);
   module.def("packed", &packed);
+  module.def("packed_boundary", &packed_boundary);
   module.def("unpacked", &unpacked);
   module.def("legality", &legal);
   module.def("curvatures", &curvatures);

@@ -102,6 +102,14 @@ nb::tuple disk_image(const AxisOf& self, std::uint32_t pixels, bool y_down) {
   return nb::make_tuple(array_of_image(from.image), t[1], nb::make_tuple(t[0], low));
 }
 
+/// Streams of a code of squares, the number of squares, and of pixels that none covers.
+nb::tuple packed_image(const Pixels& pixels, std::uint32_t error) {
+  SquareReport report;
+  const ShapeCode code =
+      without_lock([&] { return encode_squares(image_of(pixels), error, &report); });
+  return nb::make_tuple(streams_of(code), report.squares, report.missing);
+}
+
 }  // namespace
 
 void bind_images(nb::module_& module) {
@@ -121,6 +129,10 @@ void bind_images(nb::module_& module) {
     return std::pair{of.components, of.holes};
   });
   module.def("disk_image", &disk_image);
+  module.def("packed_image", &packed_image);
+  module.def("unpacked_image", [](const std::vector<nb::bytes>& streams) {
+    return array_of_image(value_of(decode_squares(code_of(streams))));
+  });
 }
 
 }  // namespace medial::python

@@ -97,29 +97,43 @@ void bind_contour(nb::module_& module) {
     for (const auto& p : points) result.push_back(point_of(p));
     return result;
   };
+  const nb::lock_self lock;  // without the interpreter's lock two threads may add pieces
   nb::class_<Contour>(module, "Contour")
       .def(nb::init<>())
-      .def("start_at", [](Contour& self, std::array<double, 2> p) { self.start_at(point_of(p)); })
-      .def("line_to", [](Contour& self, std::array<double, 2> p) { self.line_to(point_of(p)); })
-      .def("arc_to", [](Contour& self, std::array<double, 2> p,
-                        double bulge) { self.arc_to(point_of(p), bulge); })
-      .def("bezier_to",
-           [points_from](Contour& self, const std::vector<std::array<double, 2>>& control,
-                         const Weights& weights) {
-             self.bezier_to(points_from(control), weights.value_or(std::vector<double>{}));
-           })
-      .def("ellipse_to",
-           [](Contour& self, std::array<double, 2> center, std::array<double, 2> u,
-              std::array<double, 2> v, double begin, double end) {
-             self.ellipse_to(point_of(center), point_of(u), point_of(v), begin, end);
-           })
+      .def(
+          "start_at", [](Contour& self, std::array<double, 2> p) { self.start_at(point_of(p)); },
+          lock)
+      .def(
+          "line_to", [](Contour& self, std::array<double, 2> p) { self.line_to(point_of(p)); },
+          lock)
+      .def(
+          "arc_to",
+          [](Contour& self, std::array<double, 2> p, double bulge) {
+            self.arc_to(point_of(p), bulge);
+          },
+          lock)
+      .def(
+          "bezier_to",
+          [points_from](Contour& self, const std::vector<std::array<double, 2>>& control,
+                        const Weights& weights) {
+            self.bezier_to(points_from(control), weights.value_or(std::vector<double>{}));
+          },
+          lock)
+      .def(
+          "ellipse_to",
+          [](Contour& self, std::array<double, 2> center, std::array<double, 2> u,
+             std::array<double, 2> v, double begin, double end) {
+            self.ellipse_to(point_of(center), point_of(u), point_of(v), begin, end);
+          },
+          lock)
       .def(
           "spline_to",
           [points_from](Contour& self, std::uint32_t degree, const std::vector<double>& knots,
                         const std::vector<std::array<double, 2>>& control, const Weights& weights) {
             value_of(self.spline_to(degree, knots, points_from(control),
                                     weights.value_or(std::vector<double>{})));
-          })
+          },
+          lock)
       .def_prop_ro("piece_count", [](const Contour& self) { return self.pieces.size(); })
       .def_prop_ro("end",
                    [](const Contour& self) {
@@ -127,7 +141,8 @@ void bind_contour(nb::module_& module) {
                        refuse(ErrorCode::empty, "the contour has no point yet");
                      return std::array{self.points.back().x, self.points.back().y};
                    })
-      .def("set_role", [](Contour& self, std::uint8_t role) { self.role = role_from(role); });
+      .def(
+          "set_role", [](Contour& self, std::uint8_t role) { self.role = role_from(role); }, lock);
 }
 
 }  // namespace

@@ -21,13 +21,24 @@ nb::tuple tuple_of(const VoxelTopology& topology) {
   return nb::make_tuple(topology.components, topology.tunnels, topology.cavities);
 }
 
+/// Vertices, radii, triangles and lines of sheets and curves.
+nb::tuple tuple_of(AxisSurface surface) {
+  return nb::make_tuple(rows_of<double>(std::move(surface.vertices)),
+                        array_of(std::move(surface.radii)),
+                        rows_of<std::uint32_t>(std::move(surface.triangles)),
+                        rows_of<std::uint32_t>(std::move(surface.lines)));
+}
+
 nb::dict voxels_of(const Vertices& vertices, const Faces& faces, double resolution, int voxels,
-                   double angle, const std::string& thinning, double gibibytes, int threads) {
+                   double angle, const std::string& thinning, bool surface, int order,
+                   double gibibytes, int threads) {
   VoxelOptions options;
   options.resolution = resolution;
   options.voxels = voxels;
   options.angle = angle;
   options.thinning = thinning_from(thinning);
+  options.surface = surface;
+  options.order = order;
   options.memory = static_cast<std::uint64_t>(std::clamp(gibibytes, 0.0, 1e6) * 0x1p30);
   options.threads = threads;
   TriangleMesh mesh;
@@ -58,6 +69,7 @@ nb::dict voxels_of(const Vertices& vertices, const Faces& faces, double resoluti
   result["radii"] = array_of(std::move(radii));
   result["qualities"] = array_of(std::move(qualities));
   result["links"] = rows_of<std::uint32_t>(std::move(axis.links));
+  result["surface"] = tuple_of(std::move(axis.surface));
   result["topology"] = tuple_of(axis.topology);
   result["interior"] = tuple_of(axis.interior);
   return result;

@@ -27,6 +27,17 @@ def test_each_feature_is_its_own_axis(plan):
     assert all_axes.summary()["radius"] == pytest.approx(np.full(700, 2.5 if False else all_axes[0].nodes["radius"].max()))
 
 
+def test_what_shapely_calls_a_ragged_array():
+    shapely = pytest.importorskip("shapely")
+    box, frame = shapely.box(0, 0, 4, 2), shapely.box(0, 0, 9, 9).difference(shapely.box(3, 3, 6, 7))
+    for given in ([box, frame], [shapely.MultiPolygon([box, shapely.box(7, 0, 8, 9)]), frame]):
+        kind, coordinates, offsets = shapely.to_ragged_array(given)
+        for x in ((kind, coordinates, offsets), (coordinates, offsets)):
+            assert [medial.axes(x)[i] == medial.axis(given[i]) for i in (0, 1)] == [True, True]
+    with pytest.raises(medial.MedialError):
+        medial.axes((coordinates, offsets[:1]))
+
+
 def test_errors_are_raised_or_listed():
     good, bad = [(0, 0), (4, 0), (4, 2), (0, 2)], [(0, 0), (2, 2), (2, 0), (0, 2)]
     with pytest.raises(medial.MedialError) as caught:

@@ -2,9 +2,11 @@
 
 import multiprocessing
 import os
+import pickle
 import signal
 import subprocess
 import sys
+import sysconfig
 import threading
 import time
 
@@ -113,6 +115,37 @@ def test_threads_compute_at_the_same_time():
         thread.join()
     assert len(results) == 6 and results[0][0] == results[2][0] == results[4][0]
     assert np.array_equal(results[1][1], results[5][1])
+
+
+def test_threads_share_what_was_made():
+    """In a free-threaded Python at the same time; the first question of each builds its index."""
+    rng = np.random.default_rng(4)
+    angles = 2 * np.pi * np.arange(300) / 300
+    points = np.stack([np.cos(angles), np.sin(angles)], axis=1) * rng.uniform(1, 3, (300, 1))
+    places = rng.uniform(-3, 3, (500, 2))
+    axis, diagram, contour = medial.axis(points), medial.voronoi(points), medial.Contour((0, 0))
+    axes = medial.axes([points + k for k in range(20)])
+    start, results = threading.Barrier(8), []
+
+    def work():
+        start.wait()
+        for k in range(10):
+            contour.line_to((k, 1))
+        results.append((
+            axis.nearest(places).tobytes(), axis.clearance(places).tobytes(), diagram.nearest(places).site.tobytes(),
+            axis.prune("erosion", 0.1).length, medial.centerline(axis).length, axes[7].length, len(pickle.dumps(axis)),
+            axes.summary()["length"].tobytes(), medial.offset(axis, 0.1)[0].area, repr(medial.axis(points)),
+        ))  # fmt: skip
+
+    threads = [threading.Thread(target=work) for _ in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(results) == 8 and len(set(results)) == 1
+    assert repr(contour) == "<medial.Contour: 80 pieces>"
+    if hasattr(sys, "_is_gil_enabled") and sysconfig.get_config_var("Py_GIL_DISABLED"):
+        assert not sys._is_gil_enabled()
 
 
 def area_of(count):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import medial
+import medial.image
 
 
 def test_prune(rectangle):
@@ -117,6 +118,26 @@ def test_pack(plan):
     code = medial.pack(plan, 0.05)
     assert medial.distance(code.unpack().shape, plan)["hausdorff"] <= 0.05
     assert code.nbytes < 400 and medial.unpack(code) == code.unpack()
+    assert 20 < code.boundary_nbytes < 200
+
+
+def test_pack_of_an_image():
+    y, x = np.mgrid[:60, :80]
+    image = (np.hypot(x - 30, y - 30) < 25) | (abs(x - 60) < 12) & (abs(y - 30) < 6)
+    exact, coarse = medial.image.pack(image), medial.image.pack(image, 2)
+    assert np.array_equal(exact.unpack(), image) and exact.missing == 0
+    rest = image & ~coarse.unpack()
+    assert rest.sum() == coarse.missing > 0 and coarse.count < exact.count and coarse.nbytes < exact.nbytes
+    near = np.pad(coarse.unpack(), 2)
+    assert all(near[r : r + 5, c : c + 5].any() for r, c in zip(*np.nonzero(rest)))
+    assert not (coarse.unpack() & ~image).any()
+    with pytest.raises(medial.MedialError):
+        medial.image.pack(image, -1)
+
+
+def test_passes_up_to_a_distance():
+    square = [(0, 0), (8, 0), (8, 8), (0, 8)]
+    assert [r.distance for r in medial.offset_passes(square, 1, first=0.5, until=2)] == [0.5, 1.5]
 
 
 def test_voronoi():
@@ -151,6 +172,25 @@ def test_voxels():
     torus = np.ones((9, 9, 3))
     torus[3:6, 3:6] = 0
     assert medial.voxels(torus, count=27).topology == (1, 1, 0)
+    assert len(box.surface.vertices) == 0
+
+
+def test_surfaces_of_solids():
+    plate = medial.voxels(np.ones((9, 9, 2)), count=27, surface=True)
+    points, radii, triangles, lines = plate.surface
+    assert len(plate.cells) and len(triangles) and triangles.max() < len(points) == len(radii)
+    corners = points[triangles]
+    sheet = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum() / 2
+    assert 49 < sheet < 49 + 32 * np.sqrt(3)  # the middle sheet, and those to the edges
+    middle = abs(points[:, 2] - 1) < 0.5 * plate.resolution
+    assert radii[middle].max() == pytest.approx(1, abs=0.5 * plate.resolution)
+    force = medial.voxels(np.ones((9, 9, 2)), count=16, method="potential", order=6)
+    assert len(force.cells) == 0 and len(force.surface.triangles)
+    for wrong in ({"method": "magic"}, {"method": "potential", "order": 1}):
+        with pytest.raises(medial.MedialError):
+            medial.voxels(np.ones((4, 4, 4)), count=8, **wrong)
+    trimesh = pytest.importorskip("trimesh")
+    assert isinstance(plate.surface.to_trimesh(), trimesh.Trimesh)
 
 
 def test_against_shapely(plan):

@@ -1,4 +1,4 @@
-"""The snippets of the page "In five lines": each has five lines at most, and runs."""
+"""The snippets of the documentation run; those of the page "In five lines" have five lines at most."""
 
 import pathlib
 import re
@@ -24,14 +24,33 @@ def files(tmp_path, monkeypatch):
     for i in range(5):
         image[10 : 70 - 5 * i, 10 + 40 * i : 25 + 40 * i] = 255
     io.imsave(tmp_path / "cells.png", image, check_contrast=False)
+    buildings = [shapely.box(0, 0, 9, 4), shapely.box(20, 0, 24, 9)]
+    geopandas.GeoDataFrame(geometry=buildings, crs=2056).to_file(tmp_path / "buildings.gpkg")
+    font = pytest.importorskip("matplotlib.font_manager").findfont("DejaVu Serif")
+    (tmp_path / "DejaVuSerif.ttf").symlink_to(font)
     (tmp_path / "plan.wkt").write_text("POLYGON ((0 0, 10 0, 10 6, 0 6, 0 0), (4 2, 4 4, 6 4, 6 2, 4 2))")
     monkeypatch.chdir(tmp_path)
 
 
-def test_five_lines(files):
-    if not PAGE.is_file():
+def snippets_of(page):
+    if not page.is_file():
         pytest.skip("the documentation is elsewhere")
-    snippets = re.findall(r"```python\n(.*?)```", PAGE.read_text(), re.DOTALL)
+    return re.findall(r"```python\n(.*?)```", page.read_text(), re.DOTALL)
+
+
+PAGES = "../README tutorial how_to/carving how_to/letters how_to/rivers how_to/roads how_to/robot how_to/vessels"
+
+
+@pytest.mark.parametrize("name", PAGES.split())
+def test_pages_run_as_they_stand(files, name):
+    page = PAGE.parent / f"{name}.md"
+    names: dict[str, object] = {}
+    for snippet in snippets_of(page):
+        exec(compile(snippet, str(page), "exec"), names)
+
+
+def test_five_lines(files):
+    snippets = snippets_of(PAGE)
     assert len(snippets) == 5 and all(snippet.count("\n") <= 5 for snippet in snippets)
     made = []
     for snippet in snippets:
