@@ -281,7 +281,7 @@ Table rows_table(const std::vector<Row>& rows) {
                {"axis us/arc", "{:.2f}"},
                {"biarc-dc s", "{:.3f}"},
                {"biarc-dc / axis", "{:.1f}"},
-               {"its conquer s", "{:.3f}"},
+               {"its conquer s (wall)", "{:.3f}"},
                {"exact s", "{:.4f}"},
                {"leaves"},
                {"branchings"},

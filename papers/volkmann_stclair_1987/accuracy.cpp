@@ -216,8 +216,7 @@ Status measure_accuracy(const Request& request) {
 }
 
 Result<bool> run_volkmann_stclair_1987(const Request& request) {
-  const Status measured =
-      in_order([&] { return measure_accuracy(request); }, [&] { return measure_packing(request); });
+  const Status measured = measure_accuracy(request);
   if (!measured) return measured.error();
   return measure_ridge_following(request);
 }
