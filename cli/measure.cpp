@@ -321,7 +321,7 @@ Document<io::Layer> layers_of(const Document<AxisItem>& file, const std::vector<
     layers.items.push_back(profile_of(all));
     return layers;
   }
-  io::Layer transects{"transects", io::LayerKind::lines, {"line", "along", "width", "span"}, {}, 2};
+  io::Layer transects{"transects", io::LayerKind::lines, {"line", "along", "width", "span"}, {}, 3};
   io::Layer necks{"necks", io::LayerKind::lines, {"width", "opens_to", "around_hole"}, {}, 0};
   io::Layer disks{"disks", io::LayerKind::disks, {"r", "rank"}, {}, 0};
   for (std::uint32_t i = 0; i < all.size(); ++i) {

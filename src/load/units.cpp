@@ -12,7 +12,7 @@ struct NamedUnit {
   double millimetres;
 };
 constexpr double inch = 25.4;
-constexpr std::array<NamedUnit, 10> lengths{{{Unit::micrometre, "um", 1e-3},
+constexpr std::array<NamedUnit, 11> lengths{{{Unit::micrometre, "um", 1e-3},
                                              {Unit::millimetre, "mm", 1},
                                              {Unit::centimetre, "cm", 10},
                                              {Unit::metre, "m", 1e3},
@@ -20,6 +20,7 @@ constexpr std::array<NamedUnit, 10> lengths{{{Unit::micrometre, "um", 1e-3},
                                              {Unit::mil, "mil", 1e-3 * inch},
                                              {Unit::inch, "in", inch},
                                              {Unit::foot, "ft", 12 * inch},
+                                             {Unit::us_foot, "us-ft", 1.2e6 / 3937},
                                              {Unit::yard, "yd", 36 * inch},
                                              {Unit::css_pixel, "px", inch / 96}}};
 
