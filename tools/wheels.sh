@@ -46,7 +46,7 @@ except medial.MissingPackage as error:
     assert "pip install shapely" in str(error)
 TEST
   )
-  "$bare/bin/pip" install --quiet --disable-pip-version-check pytest hypothesis
+  "$bare/bin/pip" install --quiet --prefer-binary --disable-pip-version-check pytest hypothesis
   (cd "$work/tests" && "$bare/bin/python" -m pytest -q -p no:cacheprovider .)
   echo "$(basename "$wheel"): $size bytes, runs with NumPy only on $("$python" -V)"
 }
