@@ -97,10 +97,6 @@ Result<int> run_axis(const AxisArguments& arguments) {
   InputOptions input = arguments.input;
   if (is_of_pixels(name_of(options.method))) input.source.read.smooth_contour = input.whole_smooth;
   input.source.load.keep_contours = info_of(options.method).contours;
-  if (arguments.fit > 0 && !input.source.load.keep_contours)
-    return invalid_option(
-        "--fit is for methods that follow smooth contours: add "
-        "--method curve-axis");
   input.source.load.fit = arguments.fit;
   if (!arguments.mask) {
     const auto streamed = stream_axes(arguments, input, options);
