@@ -374,12 +374,31 @@ Result<std::optional<LoadedAxes>> stream(const FileArguments& arguments, const I
   return std::optional(std::move(out));
 }
 
+namespace {
+
+/// Items of which the axis is one point, the centre of a disk.
+std::uint64_t points_of(const Document<AxisItem>& file) {
+  return static_cast<std::uint64_t>(std::ranges::count_if(file.items, [](const AxisItem& item) {
+    return item.axis.edges.empty() && !item.axis.nodes.empty();
+  }));
+}
+
+void note_points(std::uint64_t points, const FileArguments& arguments) {
+  if (points == 0 || arguments.common.quiet || arguments.output.empty()) return;
+  say("medial: {}: note: the axis of {} is a single point, the centre of a disk, and no line; "
+      ".json, .graphml and .nodelink have it as a node\n",
+      arguments.input.path, counted(points, "feature"));
+}
+
+}  // namespace
+
 Result<std::optional<int>> stream_axes(
     const FileArguments& arguments, const InputOptions& input, Options options,
     const std::function<Status(Document<AxisItem>& part)>& change,
     const std::function<std::string()>& line) {
   const bool talkative = is_talkative(arguments);
   AxisSummary summary;
+  std::uint64_t points = 0;
   options = engine_options(arguments.common, 1, 0, std::move(options));
   io::StreamOptions how;
   how.compute = [&](Document<ShapeItem> shapes, int threads,
@@ -393,11 +412,14 @@ Result<std::optional<int>> stream_axes(
     return io::StreamItems(std::move(*axes));
   };
   how.visit = [&](const io::StreamItems& part) {
-    if (talkative) add_to(summary, std::get<Document<AxisItem>>(part));
+    const auto& of_part = std::get<Document<AxisItem>>(part);
+    points += points_of(of_part);
+    if (talkative) add_to(summary, of_part);
   };
   auto axes = stream(arguments, input, std::move(how));
   if (!axes) return std::move(axes).error();
   if (!*axes) return std::optional<int>();
+  if (!line) note_points(points, arguments);
   if (!talkative) return std::optional<int>(exit_success);
   auto printed = line ? finish(arguments, {}, (*axes)->phases, line())
                       : print_summary(**axes, summary, arguments);
@@ -405,29 +427,13 @@ Result<std::optional<int>> stream_axes(
   return std::optional<int>(*printed);
 }
 
-namespace {
-
-/// Of a disk the axis is one point, which lines do not show.
-void note_points(const Document<AxisItem>& file, const FileArguments& arguments) {
-  const auto points = std::ranges::count_if(file.items, [](const AxisItem& item) {
-    return item.axis.edges.empty() && !item.axis.nodes.empty();
-  });
-  if (points == 0 || arguments.common.quiet || arguments.output.empty()) return;
-  say("medial: {}: note: the axis of {} is a single point, the centre of a disk, and no line; "
-      ".json, "
-      ".graphml and .nodelink have it as a node\n",
-      arguments.input.path, counted(static_cast<std::uint64_t>(points), "feature"));
-}
-
-}  // namespace
-
 Result<int> finish_axes(LoadedAxes& axes, const FileArguments& arguments) {
   Status written =
       write_output(arguments, axes.phases, [&](const std::string& path, const std::string& format) {
         return io::write_axes(path, format, axes.file, write_options(arguments));
       });
   if (!written) return std::move(written).error();
-  note_points(axes.file, arguments);
+  note_points(points_of(axes.file), arguments);
   if (!is_talkative(arguments)) return exit_success;
   return print_summary(axes, summarize(axes.file), arguments);
 }
