@@ -9,6 +9,7 @@
 
 #include "cli/commands.h"
 #include "cli/common.h"
+#include "cli/mask.h"
 #include "cli/pipeline.h"
 #include "cli/prune_options.h"
 #include "medial/query.h"
@@ -49,34 +50,8 @@ struct AxisArguments : FileArguments {
   MethodArguments methods;
   double fit = 0;  ///< for curve-axis: polygons become smooth within this distance; 0: they do not
   bool mask = false;  ///< the axis as an image of the input's size
+  const CLI::App* command = nullptr;
 };
-
-/// The pixels of an image that an axis passes through.
-void draw_pixels(const MedialAxis& axis, const PixelPlacement& t, Image& image) {
-  const double side = std::hypot(t[1], t[4]), area = t[1] * t[5] - t[2] * t[4];
-  for (const Edge& edge : axis.edges) {
-    for (const Disk& disk : sample_by_step(axis, edge, 0.25 * side)) {
-      const double x = disk.center.x - t[0], y = disk.center.y - t[3];
-      const auto column = static_cast<std::int64_t>(std::floor((x * t[5] - y * t[2]) / area));
-      const auto row = static_cast<std::int64_t>(std::floor((y * t[1] - x * t[4]) / area));
-      if (column >= 0 && row >= 0 && column < image.width() && row < image.height())
-        image.set(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row));
-    }
-  }
-}
-
-/// The axes as lines one pixel wide, in an image like the one that they are of.
-Status write_mask(const Document<AxisItem>& axes, const AxisArguments& arguments) {
-  io::ImageOptions options = arguments.input.source.read.image;
-  if (options.labels) options = {.threshold = 1};
-  auto file = io::read_image(arguments.input.path, options);
-  if (!file) return std::move(file).error();
-  Image drawn(file->image.width(), file->image.height());
-  for (const AxisItem& item : axes.items) draw_pixels(item.axis, file->placement, drawn);
-  const auto lines = thin(drawn);
-  if (!lines) return lines.error();
-  return io::write_image(arguments.output, *lines, *file);
-}
 
 /// Leaves of the axes of an image what a person would draw, and says so.
 Status prune_image(LoadedAxes& axes, const AxisArguments& arguments) {
@@ -94,21 +69,34 @@ Status prune_image(LoadedAxes& axes, const AxisArguments& arguments) {
   return success();
 }
 
+/// Whether options of methods, which stand in groups "... (--method NAME, NAME)", are for this one.
+Status check_method_options(const CLI::App& command, std::string_view method) {
+  constexpr std::string_view before = "(--method ";
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string& group = option->get_group();
+    const std::size_t begin = group.find(before);
+    if (option->count() == 0 || begin == std::string::npos) continue;
+    const std::string names =
+        group.substr(begin + before.size(), group.find(')', begin) - begin - before.size());
+    if (names.find(method) == std::string::npos)
+      return invalid_option(fmt::format("{} is for --method {}", option->get_name(), names));
+  }
+  return success();
+}
+
 Result<int> run_axis(const AxisArguments& arguments) {
   Status writable = check_output(
       arguments, io::formats_of(arguments.mask ? io::DocumentKind::image : io::DocumentKind::axes));
   if (!writable) return std::move(writable).error();
-  if (arguments.mask && (arguments.output.empty() || !io::is_image(arguments.input.path)))
-    return invalid_option("--mask is for images, and needs -o with the name of one");
+  if (Status possible = arguments.mask ? check_mask(arguments) : success(); !possible)
+    return std::move(possible).error();
   Options options = arguments.options;
   options.method = arguments.methods.method();
+  if (Status suited = check_method_options(*arguments.command, name_of(options.method)); !suited)
+    return std::move(suited).error();
   InputOptions input = arguments.input;
   if (is_of_pixels(name_of(options.method))) input.source.read.smooth_contour = input.whole_smooth;
   input.source.load.keep_contours = info_of(options.method).contours;
-  if (arguments.fit > 0 && !input.source.load.keep_contours)
-    return invalid_option(
-        "--fit is for methods that follow smooth contours: add "
-        "--method curve-axis");
   input.source.load.fit = arguments.fit;
   if (!arguments.mask) {
     const auto streamed = stream_axes(arguments, input, options);
@@ -121,7 +109,7 @@ Result<int> run_axis(const AxisArguments& arguments) {
   if (!axes) return std::move(axes).error();
   if (Status pruned = prune_image(*axes, arguments); !pruned) return std::move(pruned).error();
   if (!arguments.mask) return finish_axes(*axes, arguments);
-  Status written = write_mask(axes->file, arguments);
+  Status written = write_mask(axes->file, arguments, arguments.options.exterior);
   if (!written) return std::move(written).error();
   return exit_success;
 }
@@ -250,12 +238,14 @@ Command make_axis_command(CLI::App& program) {
   auto arguments = std::make_shared<AxisArguments>();
   CLI::App* command =
       program.add_subcommand("axis", "Compute medial axes and write them to a file.");
+  arguments->command = command;
   add_input_options(*command, arguments->input);
   add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::axes));
   command->add_flag("--radius-as-z", arguments->write.radius_as_z,
                     "Drawings (.dxf): splines in space, with the radius as z.");
-  command->add_flag("--mask", arguments->mask,
-                    "Images: write a mask of pixels (.png .pbm .pgm .tif).");
+  command->add_flag(
+      "--mask", arguments->mask,
+      "Images: write a mask of pixels (" + io::formats_of(io::DocumentKind::image) + ").");
   add_method_options(*command, arguments->methods);
   add_exterior_options(
       *command, arguments->options,

@@ -7,7 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <map>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -23,6 +26,7 @@ namespace {
 
 /// In millimetres: no usual tool cuts so deep, so the input's units are hardly millimetres.
 constexpr double unlikely_depth = 50;
+constexpr char gcode_formats[] = ".nc .gcode .ngc .tap .cnc";
 
 /// What is given, in units of the result; the rest has defaults in millimetres.
 struct MachineArguments {
@@ -83,6 +87,15 @@ Vec2 zero_of(const Document<ShapeItem>& file, const std::string& origin) {
   return box.low + Vec2{named.across * size.x, up * size.y};
 }
 
+/// Whether the drawing keeps its six decimals in a double when this is its origin.
+Status check_zero(const Document<ShapeItem>& file, Vec2 zero) {
+  constexpr double most = 1e9;
+  for (const ShapeItem& item : file.items)
+    if (!item.shape.points.empty() && distance(item.shape.points[0], zero) > most)
+      return invalid_option("--origin is too far from the drawing for six decimals");
+  return success();
+}
+
 /// Options with the defaults of hobby machines in wood.
 io::MachineOptions machine_of(const CarveArguments& arguments, Unit unit) {
   const MachineArguments& given = arguments.machine;
@@ -96,7 +109,8 @@ io::MachineOptions machine_of(const CarveArguments& arguments, Unit unit) {
   machine.carving = {or_else(given.feed, 1000 * one), or_else(given.plunge, 300 * one),
                      given.spindle};
   machine.clearing = {or_else(given.clear_feed, machine.carving.feed),
-                      or_else(given.clear_plunge, machine.carving.plunge), given.clear_spindle};
+                      or_else(given.clear_plunge, machine.carving.plunge),
+                      given.clear_spindle > 0 ? given.clear_spindle : given.spindle};
   machine.chord = arguments.carve.chord;
   machine.post = given.post;
   return machine;
@@ -140,8 +154,25 @@ Status unite(std::vector<ShapeItem>& items) {
   return success();
 }
 
-Result<io::CarveItem> carve_one(Shape shape, const CarveArguments& arguments,
-                                CarveOptions carving_options, const Options& options, Unit unit) {
+struct CarvedItem : io::CarveItem {
+  std::uint64_t parts = 0, narrow = 0;  ///< of the shape; and those that the tool does not fit into
+};
+
+/// Counts parts by their largest disks. They are at nodes, or hardly larger.
+void count_parts(const MedialAxis& axis, const CarveOptions& options, CarvedItem& item) {
+  constexpr double rounding = 1e-9;
+  std::map<std::uint32_t, double> widest;
+  for (const Node& node : axis.nodes) {
+    double& radius = widest[node.component];
+    radius = std::max(radius, node.disk.radius);
+  }
+  const double least = (1 - rounding) * 0.5 * (options.angle == 0 ? options.tool : options.tip);
+  item.parts = widest.size();
+  for (const auto& [part, radius] : widest) item.narrow += radius < least ? 1 : 0;
+}
+
+Result<CarvedItem> carve_one(Shape shape, const CarveArguments& arguments,
+                             CarveOptions carving_options, const Options& options, Unit unit) {
   if (arguments.options.exterior) {
     auto around = surroundings(shape, arguments.options.margin);
     if (!around) return std::move(around).error();
@@ -154,7 +185,8 @@ Result<io::CarveItem> carve_one(Shape shape, const CarveArguments& arguments,
   carving_options.tabs = std::move(tabs).value();
   auto carving = carve(*axis, carving_options);
   if (!carving) return std::move(carving).error();
-  io::CarveItem item{std::move(shape), std::move(carving).value()};
+  CarvedItem item{{std::move(shape), std::move(carving).value()}};
+  count_parts(*axis, carving_options, item);
   if (arguments.clear_tool > 0) {
     auto clearing = carve(
         *axis,
@@ -164,6 +196,32 @@ Result<io::CarveItem> carve_one(Shape shape, const CarveArguments& arguments,
     item.clearing = std::move(clearing).value();
   }
   return item;
+}
+
+/// What the tools do not reach, in notes.
+void note_uncut(const std::vector<CarvedItem>& items, const CarveArguments& arguments) {
+  const std::string& input = arguments.input.path;
+  const CarveOptions& tool = arguments.carve;
+  std::uint64_t parts = 0, narrow = 0, paths = 0, clearing = 0;
+  for (const CarvedItem& item : items) {
+    parts += item.parts, narrow += item.narrow;
+    paths += item.carving.paths.size(), clearing += item.clearing.paths.size();
+  }
+  if (paths == 0)
+    say("medial: {}: note: nothing is cut: the tool fits nowhere into the shape; a smaller {}, or "
+        "another --units or --scale\n",
+        input, tool.angle == 0 ? "--tool" : "--tip");
+  else if (narrow > 0)
+    say("medial: {}: note: {} of {} parts {} narrower than the tool and not cut\n", input, narrow,
+        parts, narrow == 1 ? "is" : "are");
+  const double margin = arguments.options.margin, diameter = tool.angle == 0 ? tool.tool : tool.tip;
+  if (arguments.options.exterior && margin > 0 && margin < diameter)
+    say("medial: {}: note: --margin is narrower than the tool, which does not fit between the "
+        "shape "
+        "and the rectangle around it\n",
+        input);
+  if (arguments.clear_tool > 0 && clearing == 0)
+    say("medial: {}: note: the mill of --clear-tool fits nowhere: the V clears all\n", input);
 }
 
 Result<int> finish_carve(const Document<io::CarveItem>& file, const CarveArguments& arguments,
@@ -186,11 +244,6 @@ Result<int> finish_carve(const Document<io::CarveItem>& file, const CarveArgumen
         input, deepest, unit,
         arguments.input.font.empty() ? "--units gives"
                                      : "--font-size is how large letters are, --units");
-  if (paths == 0 && !arguments.common.quiet)
-    say("medial: {}: note: nothing is cut: the tool fits nowhere into the shape; a smaller --tool, "
-        "or "
-        "another --units or --scale\n",
-        input);
   if (arguments.tabs.wanted() && tabs == 0 && !arguments.common.quiet)
     say("medial: {}: note: there are no tabs, as nothing comes loose: there are no holes{}\n",
         input, arguments.options.exterior ? "" : "; --exterior cuts around shapes");
@@ -240,17 +293,42 @@ Status read_post(std::string& post) {
   return success();
 }
 
+/// What tools need, and what has no effect.
+Status check_tools(const CarveArguments& arguments) {
+  const CarveOptions& carve = arguments.carve;
+  if (!arguments.tabs.wanted() && (arguments.tabs.width || arguments.tabs.height))
+    return invalid_option("--tab-width and --tab-height need --tabs or --tab-spacing");
+  if (carve.angle == 0 && !(carve.depth > 0 && carve.tool > 0))
+    return invalid_option("--angle 0 is an end mill, which needs --tool and --depth");
+  if (carve.angle == 0 && carve.tip > 0)
+    return invalid_option("--tip is of a V: how wide an end mill is, --tool says");
+  if (arguments.clear_tool > 0 && carve.angle > 0 && !(carve.depth > 0 || carve.tool > 0))
+    return invalid_option("--clear-tool clears flat bottoms, which need --depth or --tool");
+  const std::string& output = arguments.output;
+  if (!output.empty() && output == arguments.preview)
+    return invalid_option("--preview and -o name the same file");
+  const std::string format =
+      output == "-" ? "." + arguments.format : std::filesystem::path(output).extension().string();
+  const bool program =
+      (" " + std::string(gcode_formats) + " ").find(" " + format + " ") != std::string::npos;
+  if (!arguments.machine.post.empty() && !output.empty() && !program)
+    return invalid_option(std::string("--post is for G-code: ") + gcode_formats);
+  return success();
+}
+
 Result<int> run_carve(const CarveArguments& given) {
   CarveArguments arguments = given;
   const CommonOptions& common = arguments.common;
-  Status possible = check_output(arguments, io::formats_of(io::DocumentKind::carving));
+  FileArguments program = arguments;
+  if (!arguments.preview.empty()) program.write.width = io::WriteOptions{}.width;  // of the preview
+  Status possible = check_output(program, io::formats_of(io::DocumentKind::carving));
   if (possible)
     possible =
         check_output(arguments.preview, {}, ".png .svg .pdf .ps", arguments.input.path, false);
   if (possible) possible = read_post(arguments.machine.post);
   if (!possible) return std::move(possible).error();
-  if (!arguments.tabs.wanted() && (arguments.tabs.width || arguments.tabs.height))
-    return invalid_option("--tab-width and --tab-height need --tabs or --tab-spacing");
+  if (possible) possible = check_tools(arguments);
+  if (!possible) return std::move(possible).error();
   UnitOptions& units = arguments.input.source.units;
   const bool usual = units.wanted == Unit::unknown || units.wanted == Unit::millimetre ||
                      units.wanted == Unit::inch;
@@ -267,14 +345,16 @@ Result<int> run_carve(const CarveArguments& given) {
   file.indices.clear();
   file.crs_wkt.clear();  // a machine has no reference system
   const Vec2 zero = zero_of(shapes->file, arguments.origin);
+  if (Status near = check_zero(shapes->file, zero); !near) return std::move(near).error();
   const CarveOptions options = carve_options(arguments, file.unit);
-  auto items = map_items<io::CarveItem>(
+  auto items = map_items<CarvedItem>(
       weights_of(shapes->file), common.threads, [&](std::size_t i, int threads) {
         return carve_one(std::move(shapes->file.items[i].shape), arguments, options,
                          engine_options(common, threads, shapes->file.corner_angle), file.unit);
       });
-  if (!items) return std::move(items).error();
-  file.items = std::move(items).value();
+  if (!items) return in_feature_of(shapes->file, std::move(items).error());
+  if (!common.quiet) note_uncut(*items, arguments);
+  std::ranges::move(*items, std::back_inserter(file.items));
   io::place(file, zero);
   shapes->phases.end("carve");
   const io::MachineOptions machine = machine_of(arguments, file.unit);
@@ -362,7 +442,7 @@ void add_clearing_options(CLI::App& command, CarveArguments& arguments) {
       "The depth of one pass (default: half of the diameter).");
   add("--clear-feed", machine.clear_feed, "F", "As --feed, of the mill (default: --feed).");
   add("--clear-plunge", machine.clear_plunge, "F", "As --plunge (default: --plunge).");
-  add("--clear-spindle", machine.clear_spindle, "S", "As --spindle.");
+  add("--clear-spindle", machine.clear_spindle, "S", "As --spindle (default: --spindle).");
 }
 
 void add_machine_options(CLI::App& command, CarveArguments& arguments) {

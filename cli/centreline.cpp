@@ -50,6 +50,14 @@ void append(MedialAxis& all, const MedialAxis& one) {
   all.resolution = std::max(all.resolution, one.resolution);
 }
 
+/// The pieces of all paths of a shape, for what takes time in proportion to the shape.
+AxisPath all_of(const std::vector<AxisPath>& paths) {
+  AxisPath all;
+  for (const AxisPath& path : paths)
+    all.pieces.insert(all.pieces.end(), path.pieces.begin(), path.pieces.end());
+  return all;
+}
+
 /// Replaces the axes of a file by lines along the paths.
 Status make_lines(Document<AxisItem>& file, const Paths& paths,
                   const CentrelineArguments& arguments, int threads) {
@@ -58,17 +66,20 @@ Status make_lines(Document<AxisItem>& file, const Paths& paths,
     MedialAxis all;
     all.method = item.axis.method;
     all.tolerance = item.axis.tolerance;
-    all.sites = item.axis.sites;
     all.resolution = item.axis.resolution;
-    for (const AxisPath& path : paths[i]) {
-      if (arguments.keep_loops) {
-        std::vector<PathPiece> pieces = side_channels(item.axis, path);
-        pieces.insert(pieces.begin(), path.pieces.begin(), path.pieces.end());
-        append(all, part_of(item.axis, pieces));
-      } else {
-        append(all, centre_line(item.shape, item.axis, path, arguments.line));
-      }
+    if (arguments.keep_loops) {
+      std::vector<PathPiece> pieces = all_of(paths[i]).pieces;
+      const std::vector<PathPiece> channels = side_channels(item.axis, all_of(paths[i]));
+      pieces.insert(pieces.end(), channels.begin(), channels.end());
+      append(all, part_of(item.axis, pieces));
     }
+    // A line that is not extended needs no sites, which are those of all parts.
+    std::vector<Site> sites = item.axis.sites;
+    if (!arguments.line.extend) item.axis.sites.clear();
+    for (const AxisPath& path : paths[i])
+      if (!arguments.keep_loops)
+        append(all, centre_line(item.shape, item.axis, path, arguments.line));
+    all.sites = std::move(sites);
     item.axis = std::move(all);
     item.part = true;
     return success();
@@ -121,18 +132,17 @@ LineSums sums_of(const Paths& paths) {
 Status add_what_is_left_out(const Document<AxisItem>& file, const Paths& paths,
                             const CentrelineArguments& arguments, int threads, LineSums& sums) {
   if (arguments.common.quiet || arguments.path.between_places()) return success();
-  auto each = map_items<LineSums>(edge_weights_of(file), threads,
-                                  [&](std::size_t i, int) -> Result<LineSums> {
-                                    const MedialAxis& axis = file.items[i].axis;
-                                    auto network = network_of(axis, arguments.path.path.trim);
-                                    if (!network) return std::move(network).error();
-                                    LineSums out;
-                                    out.network = total_length(*network);
-                                    for (const AxisPath& path : paths[i])
-                                      for (const PathPiece& piece : side_channels(axis, path))
-                                        out.channels += length(axis, axis.edges[piece.edge]);
-                                    return out;
-                                  });
+  auto each = map_items<LineSums>(
+      edge_weights_of(file), threads, [&](std::size_t i, int) -> Result<LineSums> {
+        const MedialAxis& axis = file.items[i].axis;
+        auto network = network_of(axis, arguments.path.path.trim);
+        if (!network) return std::move(network).error();
+        LineSums out;
+        out.network = total_length(*network);
+        for (const PathPiece& piece : side_channels(axis, all_of(paths[i])))
+          out.channels += length(axis, axis.edges[piece.edge]);
+        return out;
+      });
   if (!each) return std::move(each).error();
   for (const LineSums& one : *each) sums += one;
   return success();

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <charconv>
@@ -11,6 +12,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <optional>
 #include <system_error>
@@ -228,6 +230,7 @@ void add_image_options(CLI::App& command, io::ImageOptions& options) {
       .add_option("--threshold", options.threshold,
                   "Images: pixels of at least this value are foreground (default: half of\n"
                   "the format's range; 128 of 8 bits).")
+      ->check(in_range(-1e300, 1e300, true))
       ->option_text("VALUE");
   command.add_flag("--invert", options.invert,
                    "Images: pixels below the threshold are foreground instead.");
@@ -243,6 +246,16 @@ void add_format_option(CLI::App& command, std::string& format, const std::string
       ->option_text("NAME");
 }
 
+void add_layer_options(CLI::App& command, io::WriteOptions& write) {
+  command
+      .add_option("--output-layer", write.layer,
+                  "The name of the layer in a .gpkg; further ones are called NAME_nodes and so on.")
+      ->check(a_name())
+      ->option_text("NAME");
+  command.add_flag("--overwrite", write.overwrite,
+                   "Replace layers of the same name in an existing .gpkg; other layers stay.");
+}
+
 void add_output_options(CLI::App& command, FileArguments& arguments, const std::string& formats,
                         const std::string& piped) {
   add_output_option(
@@ -251,9 +264,7 @@ void add_output_options(CLI::App& command, FileArguments& arguments, const std::
                   "- is standard output, see --format. Without -o, only a summary is\n"
                   "printed.",
                   formats));
-  if (lists(formats, "gpkg"))
-    command.add_flag("--overwrite", arguments.write.overwrite,
-                     "Replace layers of the same name in an existing .gpkg; other layers stay.");
+  if (lists(formats, "gpkg")) add_layer_options(command, arguments.write);
   add_format_option(command, arguments.format, piped);
 }
 
@@ -405,6 +416,36 @@ CLI::Validator a_whole_number() {
 
 namespace {
 
+/// The image that a map of ROS names; empty: none.
+fs::path image_of_map(const fs::path& map) {
+  std::ifstream file(map);
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t colon = line.find(':');
+    if (colon == std::string::npos || CLI::detail::trim_copy(line.substr(0, colon)) != "image")
+      continue;
+    std::string name = CLI::detail::trim_copy(line.substr(colon + 1));
+    return fs::path(map).replace_filename(CLI::detail::remove_quotes(name));
+  }
+  return {};
+}
+
+/// Whether what is written with this name is what is read with the input's: a file itself, a part
+/// of a shapefile, or the image of a map.
+bool is_read_with(const fs::path& target, const fs::path& input) {
+  std::error_code ignored;
+  const auto same = [&](const fs::path& a, const fs::path& b) {
+    return fs::exists(a, ignored) && fs::equivalent(a, b, ignored);
+  };
+  if (input == "-") return false;
+  const std::string kind = lower(input.extension().string());
+  if (same(target, input)) return true;
+  if ((kind == ".yaml" || kind == ".yml") && same(target, image_of_map(input))) return true;
+  if (lower(target.extension().string()) != ".shp") return false;
+  return std::ranges::any_of(std::array{".shx", ".dbf", ".prj", ".cpg"}, [&](const char* part) {
+    return same(fs::path(target).replace_extension(part), input);
+  });
+}
+
 /// Checks a path that is not standard output.
 Status check_file(const std::string& path, const std::string& known_formats,
                   const std::string& input) {
@@ -428,11 +469,11 @@ Status check_file(const std::string& path, const std::string& known_formats,
   if (access(parent.c_str(), W_OK | X_OK) != 0)
     return unwritable(
         fmt::format("cannot create files in its directory ({})", std::strerror(errno)));
+  if (is_read_with(target, input))
+    return unwritable("is the input itself, or a part of it; write to another file");
   if (!fs::exists(target, ignored)) return success();
   if (!fs::is_regular_file(target, ignored)) return unwritable("exists and is not a regular file");
   if (access(target.c_str(), W_OK) != 0) return unwritable(std::strerror(errno));
-  if (input != "-" && fs::equivalent(target, input, ignored))
-    return unwritable("is the input itself");
   return success();
 }
 
@@ -462,8 +503,11 @@ namespace {
 /// GeoPackages, too.
 Status check_picture_options(const FileArguments& arguments) {
   const io::WriteOptions& write = arguments.write;
-  const bool asked = write.disks > 0 || write.contacts || !write.shape;
+  const bool asked =
+      write.disks > 0 || write.contacts || !write.shape || write.width != io::WriteOptions{}.width;
   const std::string& output = arguments.output;
+  if ((write.overwrite || !write.layer.empty()) && !output.ends_with(".gpkg"))
+    return invalid_option("--output-layer and --overwrite are for .gpkg");
   if ((!asked && !write.nodes && write.simplify == 0) || output.empty()) return success();
   const std::string extension = fs::path(output).extension().string();
   const std::string format = output == "-"       ? arguments.format
@@ -476,7 +520,8 @@ Status check_picture_options(const FileArguments& arguments) {
   if (!asked && (!write.nodes || lists("gpkg graphml nodelink edgelist", lower(format))))
     return success();
   return invalid_option(fmt::format(
-      "--disks, --contacts, --nodes and --no-shape are for pictures, which {} is not", output));
+      "--disks, --contacts, --nodes, --no-shape and --width are for pictures, which {} is not",
+      output));
 }
 
 }  // namespace

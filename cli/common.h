@@ -71,6 +71,8 @@ void add_common_options(CLI::App& command, CommonOptions& common);
 /// `piped` says which format -o - has.
 void add_output_options(CLI::App& command, FileArguments& arguments, const std::string& formats,
                         const std::string& piped = "default: json");
+/// --output-layer and --overwrite.
+void add_layer_options(CLI::App& command, io::WriteOptions& write);
 /// -o alone, with this help, for a file of this kind; and --format, with the format of -o -.
 CLI::Option* add_output_option(CLI::App& command, std::string& output, const std::string& kind,
                                const std::string& help);

@@ -32,6 +32,9 @@ Result<int> run_distance(const DistanceArguments& arguments) {
   auto file = io::read_image(arguments.input, arguments.image);
   if (!file) return std::move(file).error();
   phases.end("read");
+  if (!arguments.common.quiet)
+    for (const std::string& note : file->notes)
+      say("medial: {}: note: {}\n", arguments.input, note);
   DistanceOptions options = arguments.options;
   options.to = arguments.cracks ? DistanceTo::cracks : DistanceTo::pixels;
   options.threads = arguments.common.threads;
@@ -76,7 +79,8 @@ Command make_distance_command(CLI::App& program) {
       program.add_subcommand("distance", "Measure each pixel's distance to the background.");
   command
       ->add_option("IMAGE", arguments->input,
-                   "A binary image: PNG, TIFF, GeoTIFF, PGM or PBM; - is standard input.")
+                   "A binary image: PNG, TIFF, GeoTIFF, PGM or PBM, or a ROS map (.yaml); - is\n"
+                   "standard input.")
       ->required()
       ->check(a_name())
       ->option_text(" ");

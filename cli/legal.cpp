@@ -176,7 +176,7 @@ Status write_curvatures(const Document<AxisItem>& file, const LegalArguments& ar
 Result<int> run_legal(const LegalArguments& arguments) {
   Phases phases;
   if (Status writable =
-          check_output(arguments.curvature, {}, ".csv " + io::formats_of(io::DocumentKind::layers),
+          check_output(arguments.curvature, {}, io::formats_of(io::DocumentKind::layers),
                        arguments.path, arguments.common.json);
       !writable)
     return std::move(writable).error();
@@ -217,7 +217,7 @@ Command make_legal_command(CLI::App& program) {
             "for samples, whose derivatives are differences.");
   add_value(*command, "--curvature", arguments->curvature, "FILE", a_name(),
             "Write the boundary's curvature at the feet of the disks, and its derivative\n"
-            "along the boundary: .csv, or as a comb of lines, as long as the curvature:\n" +
+            "along the boundary: numbers in .csv, else a comb of lines, as long as it:\n" +
                 io::formats_of(io::DocumentKind::layers));
   add_width_option(*command, arguments->write.width);
   add_report_options(*command, arguments->common);

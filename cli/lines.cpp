@@ -123,8 +123,8 @@ void note_places_outside(const Document<AxisItem>& file, const PathOptions& argu
 void add_path_options(CLI::App& command, PathOptions& arguments) {
   CLI::Option* from = command.add_option(
       "--from", arguments.from,
-      "Where the line begins, instead of the end that is farthest from all: at a\n"
-      "point X,Y or in the middle of a side, as RING/VERTEX, the vertex where it\n"
+      "Where the line begins, with --to, instead of the two ends farthest apart: at\n"
+      "a point X,Y or in the middle of a side, as RING/VERTEX, the vertex where it\n"
       "starts in the input.");
   CLI::Option* to = command.add_option("--to", arguments.to, "Where it ends, likewise.");
   CLI::Option* widest = command.add_option(

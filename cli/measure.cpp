@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <cstdio>
 #include <limits>
+#include <map>
 #include <memory>
+#include <mutex>
 
 #include "cli/commands.h"
 #include "cli/common.h"
@@ -227,58 +229,42 @@ std::string summary_of(const Measured& measured, const MeasureArguments& argumen
 std::string name_of_feature(const Document<AxisItem>& file, std::size_t i) {
   const Attributes& attributes = file.items[i].attributes;
   const bool label = file.pixel > 0 && attributes.size() == 1 && attributes[0].first == "value";
-  return label ? attributes[0].second : fmt::format("{}", i);
+  return label ? attributes[0].second : fmt::format("{}", file.index_of(i));
+}
+
+/// Whether features are called by the values of an image of labels.
+bool has_labels(const Document<AxisItem>& file) {
+  return file.pixel > 0 && !file.items.empty() && !file.items[0].attributes.empty();
+}
+
+std::string table_head(bool labels) {
+  return fmt::format("{:>7} {:>12} {:>12} {:>12} {:>12} {:>12} {:>12} {:>12}\n",
+                     labels ? "value" : "feature", "area", "length", "narrowest", "by length",
+                     "by area", "widest", "neck");
+}
+
+/// A feature in one line.
+std::string table_row(const Measured& one, const std::string& name) {
+  const Neck* neck = narrowest_neck(one);
+  const auto number = [](double value, bool known) {
+    return known ? fmt::format("{:.6g}", value) : std::string("-");
+  };
+  const bool line = one.mean.length > 0;
+  return fmt::format("{:>7} {:>12.6g} {:>12.6g} {:>12} {:>12} {:>12.6g} {:>12.6g} {:>12}\n", name,
+                     one.mean.area, one.mean.length, number(narrowest_of(one), line),
+                     number(one.mean.by_length, line), one.mean.by_area, 2 * one.widest.radius,
+                     number(neck == nullptr ? 0 : neck->width.width(), neck != nullptr));
+}
+
+std::string table_end(Unit unit) {
+  return unit == Unit::unknown ? std::string() : fmt::format("{:>7} {}\n", "unit", name_of(unit));
 }
 
 /// Several features, one line each.
 std::string summary_of(const std::vector<Measured>& all, const Document<AxisItem>& file) {
-  const bool labels = file.pixel > 0 && !all.empty() && !file.items[0].attributes.empty();
-  std::string text = fmt::format("{:>7} {:>12} {:>12} {:>12} {:>12} {:>12} {:>12} {:>12}\n",
-                                 labels ? "value" : "feature", "area", "length", "narrowest",
-                                 "by length", "by area", "widest", "neck");
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const Measured& one = all[i];
-    const Neck* neck = narrowest_neck(one);
-    const auto number = [](double value, bool known) {
-      return known ? fmt::format("{:.6g}", value) : std::string("-");
-    };
-    const bool line = one.mean.length > 0;
-    text += fmt::format("{:>7} {:>12.6g} {:>12.6g} {:>12} {:>12} {:>12.6g} {:>12.6g} {:>12}\n",
-                        name_of_feature(file, i), one.mean.area, one.mean.length,
-                        number(narrowest_of(one), line), number(one.mean.by_length, line),
-                        one.mean.by_area, 2 * one.widest.radius,
-                        number(neck == nullptr ? 0 : neck->width.width(), neck != nullptr));
-  }
-  if (file.unit != Unit::unknown) text += fmt::format("{:>7} {}\n", "unit", name_of(file.unit));
-  return text;
-}
-
-/// feature,line,along,x,y,width,span, both feet, and the unit if it is known. Places of a local
-/// projection become longitudes and latitudes again; widths stay in metres.
-Result<std::string> profile_csv(const std::vector<Measured>& all, const std::string& crs_wkt,
-                                Unit unit) {
-  std::vector<Vec2> places;
-  for (const Measured& one : all)
-    for (const Line& line : one.lines)
-      for (const LocalWidth& width : line.profile)
-        places.insert(places.end(), {width.disk.center, width.feet[0], width.feet[1]});
-  if (Status placed = io::back_to_geographic(crs_wkt, places); !placed)
-    return std::move(placed).error();
-  auto place = places.begin();
-  const std::string known = name_of(unit), end = known.empty() ? "\n" : "," + known + "\n";
-  std::string text = "feature,line,along,x,y,width,span,left_x,left_y,right_x,right_y";
-  text += known.empty() ? "\n" : ",unit\n";
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    for (std::size_t k = 0; k < all[i].lines.size(); ++k) {
-      for (const LocalWidth& width : all[i].lines[k].profile) {
-        const Vec2 center = *place++, left = *place++, right = *place++;
-        fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{}{}", i, k,
-                       width.along, center.x, center.y, width.width(), width.span(), left.x, left.y,
-                       right.x, right.y, end);
-      }
-    }
-  }
-  return text;
+  std::string text = table_head(has_labels(file));
+  for (std::size_t i = 0; i < all.size(); ++i) text += table_row(all[i], name_of_feature(file, i));
+  return text + table_end(file.unit);
 }
 
 std::vector<Plot> profile_plots(const std::vector<Measured>& all, const std::string& name,
@@ -313,10 +299,29 @@ std::vector<Plot> profile_plots(const std::vector<Measured>& all, const std::str
   return plots;
 }
 
+bool is_profile(const MeasureArguments& arguments) {
+  return arguments.format == "csv" || arguments.output.ends_with(".csv");
+}
+
+io::Layer profile_of(const std::vector<Measured>& all) {
+  io::Layer profile{"profile", io::LayerKind::profile, {"line", "along", "width", "span"}, {}};
+  for (std::uint32_t i = 0; i < all.size(); ++i)
+    for (std::size_t k = 0; k < all[i].lines.size(); ++k)
+      for (const LocalWidth& at : all[i].lines[k].profile)
+        profile.features.push_back({i,
+                                    {{at.disk.center, at.feet[0], at.feet[1]}},
+                                    {static_cast<double>(k), at.along, at.width(), at.span()}});
+  return profile;
+}
+
 Document<io::Layer> layers_of(const Document<AxisItem>& file, const std::vector<Measured>& all,
                               const MeasureArguments& arguments) {
   Document<io::Layer> layers{file, {}};
-  io::Layer transects{"transects", io::LayerKind::lines, {"line", "along", "width", "span"}, {}, 2};
+  if (is_profile(arguments)) {
+    layers.items.push_back(profile_of(all));
+    return layers;
+  }
+  io::Layer transects{"transects", io::LayerKind::lines, {"line", "along", "width", "span"}, {}, 3};
   io::Layer necks{"necks", io::LayerKind::lines, {"width", "opens_to", "around_hole"}, {}, 0};
   io::Layer disks{"disks", io::LayerKind::disks, {"r", "rank"}, {}, 0};
   for (std::uint32_t i = 0; i < all.size(); ++i) {
@@ -349,11 +354,6 @@ Document<io::Layer> layers_of(const Document<AxisItem>& file, const std::vector<
 Status write_measures(Document<AxisItem>& file, const std::vector<Measured>& all,
                       const MeasureArguments& arguments) {
   if (arguments.output.empty()) return success();
-  if (arguments.format == "csv" || arguments.output.ends_with(".csv")) {
-    const auto text = profile_csv(all, file.crs_wkt, file.unit);
-    if (!text) return text.error();
-    return arguments.output == "-" ? print(*text) : io::write_text(arguments.output, *text);
-  }
   const Document<io::Layer> layers = layers_of(file, all, arguments);
   for (std::size_t i = 0; i < all.size(); ++i) {
     std::vector<PathPiece> pieces;
@@ -365,14 +365,106 @@ Status write_measures(Document<AxisItem>& file, const std::vector<Measured>& all
                           write_options(arguments));
 }
 
-Result<std::vector<Measured>> measure_all(const Document<AxisItem>& file,
+Result<std::vector<Measured>> measure_all(const Document<AxisItem>& file, int threads,
                                           const MeasureArguments& arguments) {
-  note_places_outside(file, arguments.path, arguments);
-  auto paths = choose_paths(file, arguments.path, arguments.common.threads);
+  auto paths = choose_paths(file, arguments.path, threads);
   if (!paths) return std::move(paths).error();
-  return map_items<Measured>(
-      std::vector<double>(paths->size(), 1.0), arguments.common.threads,
+  auto all = map_items<Measured>(
+      std::vector<double>(paths->size(), 1.0), threads,
       [&](std::size_t i, int) { return measure(file.items[i], (*paths)[i], arguments); });
+  if (!all) return in_feature_of(file, std::move(all).error());
+  return all;
+}
+
+/// The table is what is asked for where nothing is written.
+bool prints_table(const MeasureArguments& arguments) {
+  return arguments.output != "-" &&
+         (!arguments.common.quiet || (arguments.output.empty() && arguments.plot.empty()));
+}
+
+/// The table of a stream, in a temporary file until the end: errors print nothing.
+class LateTable {
+ public:
+  void add(const std::vector<Measured>& all, const Document<AxisItem>& file) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (features_++ == 0) first_ = all[i];
+      put(table_row(all[i], name_of_feature(file, i)));
+    }
+  }
+  Status print_all(const MeasureArguments& arguments, Unit unit) {
+    if (features_ == 1) return print(summary_of(first_, arguments, unit));
+    if (!file_ || std::fflush(file_.get()) != 0 || std::fseek(file_.get(), 0, SEEK_SET) != 0)
+      failed_ = true;
+    if (failed_) return Error{ErrorCode::unwritable, "cannot write a temporary file", {}};
+    if (Status head = print(table_head(false)); !head) return head;
+    std::string chunk(1 << 16, 0);
+    while (const std::size_t count = std::fread(chunk.data(), 1, chunk.size(), file_.get()))
+      if (Status printed = print(chunk.substr(0, count)); !printed) return printed;
+    return print(table_end(unit));
+  }
+
+ private:
+  void put(const std::string& row) {
+    failed_ = failed_ || !file_ || std::fwrite(row.data(), 1, row.size(), file_.get()) < row.size();
+  }
+
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_{std::tmpfile(), std::fclose};
+  std::uint64_t features_ = 0;
+  Measured first_;
+  bool failed_ = false;
+};
+
+/// Measures shapes whose axes and boundaries are not needed any more.
+Result<io::MeasuredItems> measure_part(Document<ShapeItem> shapes, int threads, AxesReport& report,
+                                       const MeasureArguments& arguments,
+                                       std::vector<Measured>& all) {
+  Options options =
+      engine_options(arguments.common, threads, shapes.corner_angle, arguments.options);
+  auto file = medial::compute_axes(std::move(shapes), std::move(options), &report);
+  if (!file) return std::move(file).error();
+  auto measured = measure_all(*file, threads, arguments);
+  if (!measured) return std::move(measured).error();
+  all = std::move(*measured);
+  io::MeasuredItems out{layers_of(*file, all, arguments), std::move(*file)};
+  for (AxisItem& item : out.second.items) item = {{}, {}, std::move(item.attributes)};
+  return out;
+}
+
+/// Measures a file of many features part by part; nothing where that cannot be.
+Result<std::optional<int>> stream_measures(const MeasureArguments& arguments) {
+  const CommonOptions& common = arguments.common;
+  if (!arguments.plot.empty() || common.json || arguments.path.between_places())
+    return std::optional<int>();
+  const bool table_wanted = prints_table(arguments);
+  LateTable table;
+  std::mutex adding;
+  std::map<std::uint64_t, std::vector<Measured>> parts;  // on their way, by their first features
+  io::StreamOptions how;
+  how.none = io::MeasuredItems{layers_of({}, {}, arguments), {}};
+  how.compute = [&](Document<ShapeItem> shapes, int threads,
+                    AxesReport& report) -> Result<io::StreamItems> {
+    std::vector<Measured> all;
+    const std::uint64_t first = shapes.index_of(0);
+    auto made = measure_part(std::move(shapes), threads, report, arguments, all);
+    if (!made) return std::move(made).error();
+    const std::lock_guard<std::mutex> alone(adding);
+    if (table_wanted) parts[first] = std::move(all);
+    return io::StreamItems(std::move(*made));
+  };
+  how.visit = [&](const io::StreamItems& part) {
+    const Document<AxisItem>& file = std::get<io::MeasuredItems>(part).second;
+    const std::lock_guard<std::mutex> alone(adding);
+    if (table_wanted && !file.items.empty())
+      table.add(parts.extract(file.index_of(0)).mapped(), file);
+  };
+  auto done = stream(arguments, arguments.input, std::move(how));
+  if (!done) return std::move(done).error();
+  if (!*done) return std::optional<int>();
+  if (table_wanted)
+    if (Status printed = table.print_all(arguments, (*done)->file.unit); !printed)
+      return std::move(printed).error();
+  auto status = finish(common, {}, (*done)->phases, {});
+  return status ? Result<std::optional<int>>(*status) : std::move(status).error();
 }
 
 Result<int> finish_measure(const std::vector<Measured>& all, const LoadedAxes& axes,
@@ -388,7 +480,7 @@ Result<int> finish_measure(const std::vector<Measured>& all, const LoadedAxes& a
       one["attributes"] = to_json(axes.file.items[i].attributes);
       object["features"].push_back(std::move(one));
     }
-  } else if (!common.quiet && arguments.output != "-") {
+  } else if (prints_table(arguments)) {
     text = all.size() == 1 ? summary_of(all[0], arguments, axes.file.unit)
                            : summary_of(all, axes.file);
   }
@@ -399,19 +491,29 @@ Result<int> run_measure(const MeasureArguments& given) {
   MeasureArguments arguments = given;
   const InputOptions& input = arguments.input;
   const CommonOptions& common = arguments.common;
-  Status writable = check_output(arguments, ".csv " + io::formats_of(io::DocumentKind::layers));
+  Status writable = check_output(arguments, io::formats_of(io::DocumentKind::layers));
   if (writable)
     writable = check_output(arguments.plot, {}, ".svg .png .pdf", input.path, common.json);
+  if (writable && !arguments.plot.empty() && arguments.plot == arguments.output)
+    writable = invalid_option("--plot and -o name the same file");
   if (!writable) return std::move(writable).error();
   // Layers without any would be empty.
   if (arguments.transects == 0 && arguments.spacing == 0 && arguments.necks == 0 &&
       arguments.disks == 0 && !arguments.output.empty())
     arguments.transects = 50;
+  const auto streamed = stream_measures(arguments);
+  if (!streamed) return streamed.error();
+  if (*streamed) return **streamed;
   auto shapes = load_shapes(input, common);
   if (!shapes) return std::move(shapes).error();
   auto axes = compute_axes(std::move(shapes).value(), input, common, arguments.options);
   if (!axes) return std::move(axes).error();
-  const auto all = measure_all(axes->file, arguments);
+  note_places_outside(axes->file, arguments.path, arguments);
+  if (axes->file.pixel > 0 && input.source.read.smooth_contour && !common.quiet)
+    say("medial: {}: note: areas and widths are those of the smoothed outline, which lies within "
+        "half a pixel of the pixels' edges; --pixel-outline measures these\n",
+        input.path);
+  const auto all = measure_all(axes->file, common.threads, arguments);
   if (!all) return all.error();
   axes->phases.end("measure");
   if (Status written = write_measures(axes->file, *all, arguments); !written)
@@ -435,6 +537,7 @@ Command make_measure_command(CLI::App& program) {
                     "as layers or as a picture:\n" +
                         io::formats_of(io::DocumentKind::layers) +
                         "\n- is standard output, see --format.");
+  add_layer_options(*command, arguments->write);
   add_format_option(*command, arguments->format, "for example csv");
   command->add_option("--plot", arguments->plot, "Draw the width profiles: .svg .png .pdf.")
       ->check(a_name())

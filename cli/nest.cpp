@@ -63,7 +63,10 @@ std::string line_of(const Placement& at) {
 
 Result<int> run_nest(const NestArguments& arguments) {
   Phases phases;
-  Status writable = check_output(arguments, io::formats_of(io::DocumentKind::axes));
+  const std::string formats = io::formats_of(io::DocumentKind::axes);
+  Status writable = check_output(arguments, formats);
+  if (writable)
+    writable = check_output(arguments.output, arguments.format, formats, arguments.other, false);
   if (!writable) return std::move(writable).error();
   const auto fixed = first_shape(arguments, arguments.input.path);
   if (!fixed) return fixed.error();

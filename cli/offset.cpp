@@ -26,7 +26,6 @@ struct OffsetArguments : FileArguments {
   double last = std::numeric_limits<double>::infinity();  ///< of the passes, by `until`
   bool exterior = false;
   bool loose = false;
-  bool chords = false;
 };
 
 /// The passes step, 2 step, ... of one shape: as clearances, inside until nothing is left.
@@ -51,36 +50,46 @@ Result<Offsets> offset_one(const Shape& shape, const OffsetArguments& arguments,
   return offset_curves(shape, clearances, options);
 }
 
-Result<int> finish_offsets(const Document<io::OffsetItem>& file, const OffsetArguments& arguments,
-                           const Phases& phases) {
-  std::uint64_t regions = 0, rings = 0, edges = 0;
-  double seconds_axis = 0, seconds_curves = 0, total = 0;
-  for (const io::OffsetItem& item : file.items) {
-    seconds_axis += item.offsets.seconds_axis;
-    seconds_curves += item.offsets.seconds_curves;
-    regions += item.offsets.regions.size();
-    for (const OffsetRegion& region : item.offsets.regions) {
-      rings += region.rings.size();
-      total += length(region);
-      for (const Ring& ring : region.rings) edges += ring.points.size();
+/// Of all features.
+struct OffsetSums {
+  std::uint64_t features = 0, regions = 0, rings = 0, edges = 0;
+  double length = 0, seconds_axis = 0, seconds_curves = 0;
+
+  void add(const Document<io::OffsetItem>& file) {
+    features += file.items.size();
+    for (const io::OffsetItem& item : file.items) {
+      seconds_axis += item.offsets.seconds_axis;
+      seconds_curves += item.offsets.seconds_curves;
+      regions += item.offsets.regions.size();
+      for (const OffsetRegion& region : item.offsets.regions) {
+        rings += region.rings.size();
+        length += medial::length(region);
+        for (const Ring& ring : region.rings) edges += ring.points.size();
+      }
     }
   }
-  const Json seconds = {{"axis", seconds_axis},
-                        {"curves", seconds_curves},
-                        {"all", phases.seconds("offset")},
-                        {"write", phases.seconds("write")}};
+};
+
+Result<int> finish_offsets(const OffsetSums& sums, const OffsetArguments& arguments,
+                           const Phases& phases) {
   const std::string& input = arguments.input.path;
+  if (sums.regions == 0 && !arguments.common.quiet)
+    say("medial: {}: note: the result is empty: no shape is as wide as that distance\n", input);
+  const Json seconds = {{"axis", sums.seconds_axis},
+                        {"curves", sums.seconds_curves},
+                        {"all", phases.seconds("offset") + phases.seconds("stream")},
+                        {"write", phases.seconds("write")}};
   return finish(arguments,
                 {{"input", input},
-                 {"features", file.items.size()},
-                 {"regions", regions},
-                 {"rings", rings},
-                 {"edges", edges},
-                 {"length", total}},
+                 {"features", sums.features},
+                 {"regions", sums.regions},
+                 {"rings", sums.rings},
+                 {"edges", sums.edges},
+                 {"length", sums.length}},
                 phases,
                 fmt::format("{}: {}, {}, {} of {}, length {:.6g}", input,
-                            counted(file.items.size(), "feature"), counted(regions, "region"),
-                            counted(rings, "ring"), counted(edges, "edge"), total),
+                            counted(sums.features, "feature"), counted(sums.regions, "region"),
+                            counted(sums.rings, "ring"), counted(sums.edges, "edge"), sums.length),
                 {{"seconds", seconds}});
 }
 
@@ -142,29 +151,51 @@ Result<Document<io::OffsetItem>> buffer_all(const OffsetArguments& arguments) {
   return file;
 }
 
-/// The offset curves of each shape of the file.
-Result<Document<io::OffsetItem>> offset_each(const OffsetArguments& arguments) {
-  const CommonOptions& common = arguments.common;
-  auto shapes = load_shapes(arguments.input, common);
-  if (!shapes) return std::move(shapes).error();
-  std::vector<ShapeItem>& items = shapes->file.items;
-  Document<io::OffsetItem> file{shapes->file, {}};
-  const auto offset_item = [&](std::size_t i, int threads) -> Result<io::OffsetItem> {
-    auto offsets =
-        offset_one(items[i].shape, arguments, engine_options(common, threads, file.corner_angle));
+/// The offset curves of each shape.
+Result<Document<io::OffsetItem>> offset_each(Document<ShapeItem> shapes, int threads,
+                                             const OffsetArguments& arguments) {
+  std::vector<ShapeItem>& items = shapes.items;
+  Document<io::OffsetItem> file{shapes, {}};
+  const auto offset_item = [&](std::size_t i, int own_threads) -> Result<io::OffsetItem> {
+    auto offsets = offset_one(items[i].shape, arguments,
+                              engine_options(arguments.common, own_threads, file.corner_angle));
     if (!offsets) return std::move(offsets).error();
     return io::OffsetItem{std::move(items[i].shape), std::move(offsets).value(),
                           std::move(items[i].attributes)};
   };
-  auto computed = map_items<io::OffsetItem>(weights_of(shapes->file), common.threads, offset_item);
-  if (!computed) return std::move(computed).error();
+  auto computed = map_items<io::OffsetItem>(weights_of(shapes), threads, offset_item);
+  if (!computed) return in_feature_of(file, std::move(computed).error());
   file.items = std::move(computed).value();
   return file;
 }
 
-bool is_empty(const Document<io::OffsetItem>& file) {
-  return std::ranges::all_of(file.items,
-                             [](const auto& item) { return item.offsets.regions.empty(); });
+Result<Document<io::OffsetItem>> offset_file(const OffsetArguments& arguments) {
+  if (arguments.loose) return buffer_all(arguments);
+  auto shapes = load_shapes(arguments.input, arguments.common);
+  if (!shapes) return std::move(shapes).error();
+  return offset_each(std::move(shapes->file), arguments.common.threads, arguments);
+}
+
+/// The same for a file of many features, part by part; nothing where that cannot be.
+Result<std::optional<int>> stream_offsets(const OffsetArguments& arguments) {
+  if (arguments.loose) return std::optional<int>();
+  OffsetSums sums;
+  io::StreamOptions how;
+  how.none = Document<io::OffsetItem>();
+  how.compute = [&](Document<ShapeItem> shapes, int threads,
+                    AxesReport&) -> Result<io::StreamItems> {
+    auto file = offset_each(std::move(shapes), threads, arguments);
+    if (!file) return std::move(file).error();
+    return io::StreamItems(std::move(*file));
+  };
+  how.visit = [&](const io::StreamItems& part) {
+    sums.add(std::get<Document<io::OffsetItem>>(part));
+  };
+  const auto done = stream(arguments, arguments.input, std::move(how));
+  if (!done) return done.error();
+  if (!*done) return std::optional<int>();
+  auto status = finish_offsets(sums, arguments, (*done)->phases);
+  return status ? Result<std::optional<int>>(*status) : std::move(status).error();
 }
 
 Result<int> run_offset(const OffsetArguments& arguments) {
@@ -176,18 +207,20 @@ Result<int> run_offset(const OffsetArguments& arguments) {
     return invalid_option("--loose goes with --distance only");
   Status writable = check_output(arguments, io::formats_of(io::DocumentKind::offsets));
   if (!writable) return std::move(writable).error();
+  const auto streamed = stream_offsets(arguments);
+  if (!streamed) return streamed.error();
+  if (*streamed) return **streamed;
   Phases phases;
-  const auto file = arguments.loose ? buffer_all(arguments) : offset_each(arguments);
+  const auto file = offset_file(arguments);
   if (!file) return file.error();
   phases.end("offset");
-  if (is_empty(*file) && !arguments.common.quiet)
-    say("medial: {}: note: the result is empty: no shape is as wide as that distance\n",
-        arguments.input.path);
   Status written = write_output(arguments, phases, [&](const auto& path, const auto& format) {
-    return io::write_offsets(path, format, *file, write_options(arguments), arguments.chords);
+    return io::write_offsets(path, format, *file, write_options(arguments));
   });
   if (!written) return std::move(written).error();
-  return finish_offsets(*file, arguments, phases);
+  OffsetSums sums;
+  sums.add(*file);
+  return finish_offsets(sums, arguments, phases);
 }
 
 }  // namespace
@@ -222,7 +255,7 @@ Command make_offset_command(CLI::App& program) {
                     "Buffers: all places within each distance of the file's points, lines and\n"
                     "boundaries, taken together; --repair splits them where they cross.");
   add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::offsets));
-  command->add_flag("--chords", arguments->chords,
+  command->add_flag("--chords", arguments->write.chords,
                     "Well-known text: polygons of chords (see --chord) instead of exact arcs.");
   add_width_option(*command, arguments->write.width);
   add_common_options(*command, arguments->common);

@@ -161,7 +161,7 @@ Result<int> unpack_squares(const FileArguments& arguments, const ShapeCode& code
     return std::move(image).error();
   }
   if (!arguments.output.empty()) {
-    Status written = io::write_image(arguments.output, *image, {});
+    Status written = io::write_image(arguments.output, arguments.format, *image, {});
     if (!written) return std::move(written).error();
     if (!arguments.common.json) return exit_success;
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "medial/document.h"
@@ -55,6 +56,8 @@ Error with_cure(Error error, const InputOptions& input) {
   if ((tangled || flat) && read.repair == RepairRule::none && !io::is_image(input.path))
     error.text += tangled ? "; --repair mends such rings"
                           : "; --repair drops such rings, and so does --skip-invalid";
+  else if (flat && !read.skip_invalid)
+    error.text += "; --skip-invalid leaves such features out";
   return error;
 }
 
@@ -138,13 +141,32 @@ bool has_effect(const UnitOptions& units) {
 
 }  // namespace
 
+namespace {
+
+/// Options of images have no effect on other files.
+Status check_image_options(const InputOptions& input) {
+  const io::ImageOptions& image = input.source.read.image;
+  if (!image.threshold && !image.invert && !image.labels) return success();
+  if (image.labels && (image.threshold || image.invert))
+    return invalid_option(
+        "--labels takes each value but 0: --threshold and --invert have no effect");
+  const bool other =
+      input.path != "-" && std::filesystem::exists(input.path) && !io::is_image(input.path);
+  return other ? invalid_option("--threshold, --invert and --labels are for images, which " +
+                                input.path + " is not")
+               : success();
+}
+
+}  // namespace
+
 Result<LoadedShapes> load_shapes(const InputOptions& input, const CommonOptions& common) {
   LoadedShapes out;
+  if (Status suited = check_image_options(input); !suited) return std::move(suited).error();
   auto features = [&input] {
     const Activity shown("reading", input.path);
     return io::read_features(input.path, input.source);
   }();
-  if (!features) return std::move(features).error();
+  if (!features) return with_cure(std::move(features).error(), input);
   out.phases.end("read");
   LoadOptions options = input.source.load;
   options.repair = input.source.read.repair;
@@ -329,67 +351,81 @@ Result<int> print_summary(LoadedAxes& axes, const AxisSummary& summary,
 
 }  // namespace
 
-Result<std::optional<int>> stream_axes(
-    const FileArguments& arguments, const InputOptions& input, Options options,
-    const std::function<Status(Document<AxisItem>& part)>& change,
-    const std::function<std::string()>& line) {
+Result<std::optional<LoadedAxes>> stream(const FileArguments& arguments, const InputOptions& input,
+                                         io::StreamOptions stream) {
   const CommonOptions& common = arguments.common;
-  const bool talkative = is_talkative(arguments);
-  AxisSummary summary;
   Progress progress("medial axis", error_is_terminal() && !common.quiet);
-  options = engine_options(common, 1, 0, std::move(options));
-  io::StreamOptions stream;
   stream.source = input.source;
   stream.write = write_options(arguments);
   stream.threads = common.threads;
-  stream.compute = [&](Document<ShapeItem> shapes, int threads,
-                       AxesReport& axes_report) -> Result<Document<AxisItem>> {
-    Options own = options;
-    own.threads = threads;
-    auto axes = medial::compute_axes(std::move(shapes), std::move(own), &axes_report);
-    if (!axes || !change) return axes;
-    if (Status changed = change(*axes); !changed) return std::move(changed).error();
-    return axes;
-  };
-  stream.visit = [&](const Document<AxisItem>& part) {
-    if (talkative) add_to(summary, part);
-  };
   stream.progress = progress.counting_callback();
-  LoadedAxes axes;
-  auto report =
-      in_file(io::stream_axes(input.path, arguments.output, arguments.format, stream), input);
+  auto report = in_file(io::stream(input.path, arguments.output, arguments.format, stream), input);
   if (!report) return with_cure(std::move(report).error(), input);
-  if (!*report) return std::optional<int>();
-  axes.phases.end("stream");
+  if (!*report) return std::optional<LoadedAxes>();
+  LoadedAxes out;
+  out.phases.end("stream");
   io::StreamReport& done = **report;
-  axes.report = done.load;
-  axes.axes = done.axes;
-  axes.axes.statistics.threads = effective_threads(common.threads);
-  axes.file = std::move(done.document);
-  print_notes(axes.file, input, common);
-  note_unresolved(axes.axes, input, common);
-  if (!talkative) return std::optional<int>(exit_success);
-  auto printed =
-      line ? finish(arguments, {}, axes.phases, line()) : print_summary(axes, summary, arguments);
-  if (!printed) return std::move(printed).error();
-  return std::optional<int>(*printed);
+  out.report = done.load;
+  out.axes = done.axes;
+  out.axes.statistics.threads = effective_threads(common.threads);
+  static_cast<DocumentInfo&>(out.file) = std::move(done.document);
+  print_notes(out.file, input, common);
+  note_unresolved(out.axes, input, common);
+  return std::optional(std::move(out));
 }
 
 namespace {
 
-/// Of a disk the axis is one point, which lines do not show.
-void note_points(const Document<AxisItem>& file, const FileArguments& arguments) {
-  const auto points = std::ranges::count_if(file.items, [](const AxisItem& item) {
+/// Items of which the axis is one point, the centre of a disk.
+std::uint64_t points_of(const Document<AxisItem>& file) {
+  return static_cast<std::uint64_t>(std::ranges::count_if(file.items, [](const AxisItem& item) {
     return item.axis.edges.empty() && !item.axis.nodes.empty();
-  });
+  }));
+}
+
+void note_points(std::uint64_t points, const FileArguments& arguments) {
   if (points == 0 || arguments.common.quiet || arguments.output.empty()) return;
   say("medial: {}: note: the axis of {} is a single point, the centre of a disk, and no line; "
-      ".json, "
-      ".graphml and .nodelink have it as a node\n",
-      arguments.input.path, counted(static_cast<std::uint64_t>(points), "feature"));
+      ".json, .graphml and .nodelink have it as a node\n",
+      arguments.input.path, counted(points, "feature"));
 }
 
 }  // namespace
+
+Result<std::optional<int>> stream_axes(
+    const FileArguments& arguments, const InputOptions& input, Options options,
+    const std::function<Status(Document<AxisItem>& part)>& change,
+    const std::function<std::string()>& line) {
+  const bool talkative = is_talkative(arguments);
+  AxisSummary summary;
+  std::uint64_t points = 0;
+  options = engine_options(arguments.common, 1, 0, std::move(options));
+  io::StreamOptions how;
+  how.compute = [&](Document<ShapeItem> shapes, int threads,
+                    AxesReport& report) -> Result<io::StreamItems> {
+    Options own = options;
+    own.threads = threads;
+    auto axes = medial::compute_axes(std::move(shapes), std::move(own), &report);
+    if (!axes) return std::move(axes).error();
+    if (Status changed = change ? change(*axes) : success(); !changed)
+      return std::move(changed).error();
+    return io::StreamItems(std::move(*axes));
+  };
+  how.visit = [&](const io::StreamItems& part) {
+    const auto& of_part = std::get<Document<AxisItem>>(part);
+    points += points_of(of_part);
+    if (talkative) add_to(summary, of_part);
+  };
+  auto axes = stream(arguments, input, std::move(how));
+  if (!axes) return std::move(axes).error();
+  if (!*axes) return std::optional<int>();
+  if (!line) note_points(points, arguments);
+  if (!talkative) return std::optional<int>(exit_success);
+  auto printed = line ? finish(arguments, {}, (*axes)->phases, line())
+                      : print_summary(**axes, summary, arguments);
+  if (!printed) return std::move(printed).error();
+  return std::optional<int>(*printed);
+}
 
 Result<int> finish_axes(LoadedAxes& axes, const FileArguments& arguments) {
   Status written =
@@ -397,7 +433,7 @@ Result<int> finish_axes(LoadedAxes& axes, const FileArguments& arguments) {
         return io::write_axes(path, format, axes.file, write_options(arguments));
       });
   if (!written) return std::move(written).error();
-  note_points(axes.file, arguments);
+  note_points(points_of(axes.file), arguments);
   if (!is_talkative(arguments)) return exit_success;
   return print_summary(axes, summarize(axes.file), arguments);
 }

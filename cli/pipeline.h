@@ -50,6 +50,12 @@ Result<LoadedAxes> compute_axes(LoadedShapes shapes, const InputOptions& input,
 Result<LoadedAxes> load_axes(const InputOptions& input, const CommonOptions& common,
                              double specks = 0, const Options& options = {});
 
+/// An error that names an item of a document, in terms of the document's file.
+inline Error in_feature_of(const DocumentInfo& file, Error error) {
+  if (auto& feature = error.place.feature) feature = file.index_of(*feature);
+  return error;
+}
+
 /// --corner-angle, or what suits the kind of input: Document::corner_angle.
 double corner_angle(const CommonOptions& common, double of_input);
 /// The common options of all engines.
@@ -103,6 +109,11 @@ struct Panel {
 Status write_panels(const FileArguments& arguments, const DocumentInfo& info, const Box& box,
                     std::vector<Panel> panels, double width);
 
+/// Reads, computes and writes a file in constant memory by io::stream(), where the file is large
+/// and the formats allow it, and prints notes; otherwise nothing. Of `stream`, this sets what the
+/// arguments hold. Returns no items. Errors name the file.
+Result<std::optional<LoadedAxes>> stream(const FileArguments& arguments, const InputOptions& input,
+                                         io::StreamOptions stream);
 /// What load_shapes(), compute_axes(), `change` and finish_axes() do together, in constant memory,
 /// where the file is large and the formats allow it; otherwise nothing. `change` is called for
 /// several parts at once; `line` replaces the summary that is printed. Of `options`, this sets what

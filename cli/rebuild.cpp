@@ -155,7 +155,7 @@ Status write_pixels(const Document<AxisItem>& axes, const RebuildArguments& argu
   object["pixel"] = h;
   object["pixels"] = image->image.count();
   object["area"] = static_cast<double>(image->image.count()) * h * h;
-  return io::write_image(arguments.output, image->image, placed);
+  return io::write_image(arguments.output, arguments.format, image->image, placed);
 }
 
 void add_measures(const Rebuilt& rebuilt, Json& object) {
@@ -202,7 +202,13 @@ Status check(const RebuildArguments& arguments) {
   if (pixels && (arguments.output.empty() || arguments.output == "-"))
     return invalid_option("--pixels needs -o with the name of an image");
   if (pixels && !arguments.against.empty()) return invalid_option("--against is not for --pixels");
-  return check_output(arguments, pixels ? image_formats : io::formats_of(io::DocumentKind::shapes));
+  const std::string formats = pixels ? image_formats : io::formats_of(io::DocumentKind::shapes);
+  if (Status possible = arguments.against.empty() ? success()
+                                                  : check_output(arguments.output, arguments.format,
+                                                                 formats, arguments.against, false);
+      !possible)
+    return possible;
+  return check_output(arguments, formats);
 }
 
 Result<int> run(const RebuildArguments& arguments, bool smooths) {

@@ -232,6 +232,13 @@ Result<std::vector<Certificate>> verify_all(const Document<ShapeItem>& shapes,
   return map_items<Certificate>(weights_of(shapes), common.threads, verify_one);
 }
 
+/// Whether the axes are of other shapes than these, as other options of reading make them.
+bool are_other_shapes(const Document<AxisItem>& stored, const Document<ShapeItem>& shapes) {
+  for (std::size_t i = 0; i < shapes.items.size(); ++i)
+    if (stored.items[i].shape.points != shapes.items[i].shape.points) return true;
+  return false;
+}
+
 Result<int> run_verify(const VerifyArguments& arguments) {
   const auto& [input, common] = std::tie(arguments.input, arguments.common);
   const std::string& axis_path = arguments.axis_path;
@@ -264,6 +271,10 @@ Result<int> run_verify(const VerifyArguments& arguments) {
   if (!certificates) return certificates.error();
   loaded->phases.end("verify");
   const Certificate all = merge(*certificates);
+  if (!all.passed && !common.quiet && are_other_shapes(*stored, shapes))
+    say("medial: {}: note: its axes are of other shapes than those of the input; give verify the "
+        "options that they were made with, such as --pixel-outline or --repair\n",
+        axis_path);
   Json object = {{"input", input.path}, {"axis", axis_path}, {"features", count}};
   const bool part =
       std::ranges::any_of(stored->items, [](const AxisItem& item) { return item.part; });

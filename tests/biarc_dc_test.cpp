@@ -16,6 +16,7 @@
 #include "medial/medial.h"
 #ifdef MEDIAL_BENCH_SHAPES
 #include "papers/aichholzer_2009/shapes.h"
+#include "papers/aichholzer_2009/stability.h"
 #endif
 #include "support/generate.h"
 #include "support/generate_arcs.h"
@@ -294,6 +295,45 @@ TEST(BiarcDc, EndsInTheCentreOfTheArcOfLargestCurvature) {
     EXPECT_EQ(leaf_count(*axis, 0), leaf_count(*other, 0)) << "seed " << seed;
   }
 }
+
+/// Beside a hole's vertex that its cutting disk touches, elements are parts of sites whose ends
+/// belong to other parts: what touches such an end touches the vertex. Of 729 letters with such
+/// holes a wrong contact would spoil some, whatever the seed.
+TEST(BiarcDc, PartsOfSitesAreNotTouchedAtTheSitesEnds) {
+  const auto rings = approximate_by_arcs(papers::lettering(27), {.tolerance = 1e-6});
+  ASSERT_TRUE(rings.ok());
+  const auto shape = build_shape(*rings);
+  ASSERT_TRUE(shape.ok());
+  const auto axis = compute(*shape, options_for(method::BiarcDc{})),
+             other = compute(*shape, options_for(method::Disks{}));
+  ASSERT_TRUE(axis.ok()) << to_string(axis.error());
+  EXPECT_EQ(leaf_count(*axis, 0), leaf_count(*other, 0));
+  EXPECT_NEAR(total_length(*axis) / total_length(*other), 1, 1e-9);
+}
+
+/// Section 2.4: where the boundary is off by at most epsilon, a point of the axis is at most
+/// 4 epsilon / (1 - cos(xi / 2)) off, where its disk's rays to the boundary enclose the angle xi,
+/// but near leaves.
+TEST(BiarcDc, TheAxisIsAsStableAsThePaperSays) {
+  const std::vector<Contour> contours = papers::tree(3);
+  const auto axis_at = [&](double tolerance, ArcReport& report) {
+    const auto rings = approximate_by_arcs(contours, {.tolerance = tolerance}, &report);
+    return *compute(*build_shape(*rings), options_for(method::BiarcDc{}));
+  };
+  ArcReport fine;
+  const MedialAxis exact = axis_at(1e-9, fine);
+  double last = 0;
+  for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
+    ArcReport coarse;
+    const MedialAxis axis = axis_at(tolerance, coarse);
+    const papers::Stability stability =
+        papers::stability(exact, axis, coarse.largest_error + fine.largest_error);
+    EXPECT_LE(stability.worst_share, 1) << tolerance;
+    EXPECT_GT(stability.points, exact.edges.size());
+    EXPECT_TRUE(last == 0 || stability.largest < 0.2 * last) << tolerance;
+    last = stability.largest;
+  }
+}
 #endif
 
 /// Holes side by side, nested components, holes whose cutting disks divide one long wall; one hole
@@ -309,6 +349,32 @@ TEST(BiarcDc, CutsHolesOpen) {
     ASSERT_TRUE(axis.ok());
     EXPECT_EQ(axis->statistics.bridges, shape->hole_count());
   }
+}
+
+/// Conics that are left to later are those of the axis with all of them, wherever they are asked
+/// for: each follows from the two sites and the two disks of its edge.
+TEST(BiarcDc, ConicsCanComeLater) {
+  for (const std::uint64_t seed : {3U, 8U, 11U, 20U, 41U, 55U})
+    for (const RandomShape& random : {random_shape(seed), random_arc_shape(seed)}) {
+      const auto shape = build_shape(random.rings);
+      if (!shape) continue;
+      auto now = compute(*shape, options_for(method::BiarcDc{1, true}));
+      auto later = compute(*shape, options_for(method::BiarcDc{1, false}));
+      ASSERT_EQ(now.ok(), later.ok());
+      if (!now) continue;
+      ASSERT_EQ(now->edges.size(), later->edges.size());
+      const double size = diagonal(bounding_box(*shape));
+      for (std::size_t i = 0; i < now->edges.size(); ++i) {
+        const Edge& edge = now->edges[i];
+        EXPECT_EQ(sample_by_step(*later, later->edges[i], size).size(), 2U);
+        later->edges[i] = conic_of(*later, later->edges[i]);
+        for (const double t : {0.25, 0.5, 0.75}) {
+          const Disk a = disk_at(*now, edge, t), b = disk_at(*later, later->edges[i], t);
+          EXPECT_LE(distance(a.center, b.center), 1e-9 * size) << random.kind << ", edge " << i;
+        }
+      }
+      EXPECT_EQ(joined(verify(*shape, *later, {.threads = 1})), "") << random.kind;
+    }
 }
 
 /// However an axis branches, divisions scan O(n log n) elements in all.

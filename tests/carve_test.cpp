@@ -303,11 +303,24 @@ TEST(Carve, AMillClearsBeforeAVAndTouchesNoWall) {
   EXPECT_LT(shorter, 0.7 * longer);
 }
 
+/// From bars with flat ends, as polygons; negative inside.
 double distance_to(const Tabs& tabs, Vec2 p) {
   double least = INFINITY;
-  for (const TabLine& line : tabs.lines)
-    for (const std::size_t k : {0, 1})
-      least = std::min(least, verify_detail::distance_to_segment(p, line[k], line[k + 1]));
+  for (const TabLine& line : tabs.lines) {
+    for (const std::size_t k : {0, 1}) {
+      const Vec2 a = line[k], b = line[k + 1];
+      const Vec2 aside = tabs.width / 2 / distance(a, b) * left_of(b - a);
+      const std::array corners{a - aside, b - aside, b + aside, a + aside};
+      double nearest = INFINITY;
+      bool inside = true;
+      for (std::size_t i = 0; i < 4; ++i) {
+        const Vec2 from = corners[i], to = corners[(i + 1) % 4];
+        nearest = std::min(nearest, verify_detail::distance_to_segment(p, from, to));
+        inside = inside && cross(to - from, p - from) > 0;
+      }
+      least = std::min(least, inside ? -nearest : nearest);
+    }
+  }
   return least;
 }
 
@@ -344,7 +357,7 @@ TEST(Carve, TabsStandAndNothingElseDoes) {
       return std::max(cutter.depth_at(p, carving.paths),
                       test::Cutter{after.cleared / 2, 0}.depth_at(p, mill));
     };
-    const double beside = 1 + carving.slope * high;  // where the bottom begins
+    const double beside = carving.slope * high;  // where the bottom begins
     test::Random random(3);
     std::size_t on_tabs = 0, bottom = 0;
     const double left = cleared ? 5e-3 : 1e-6;  // chords of grooves
@@ -352,7 +365,7 @@ TEST(Carve, TabsStandAndNothingElseDoes) {
       const Vec2 p{random.between(-4, 30), random.between(-4, 16)};
       const double off = distance_to(tabs, p), room = clearance(around, p);
       if (room < 0) continue;
-      if (off < 1) {
+      if (off < 0) {
         EXPECT_LE(cut_at(p), tabs.top + 1e-6) << p.x << " " << p.y;
         ++on_tabs;
         // A mill leaves nothing above them; a V leaves what it would reach from nearer to the wall.
@@ -371,6 +384,29 @@ TEST(Carve, TabsStandAndNothingElseDoes) {
     }
     EXPECT_GT(on_tabs, 5U);
     EXPECT_GT(bottom, 20U);
+  }
+}
+
+TEST(Carve, TabsEndAtTheWalls) {
+  // A window behind a thin wall: nothing of a tab outside of the part is left in it.
+  const Shape part = shape_of({{.points = {{0, 0}, {20, 0}, {20, 12}, {0, 12}}},
+                               {.points = {{0.6, 3}, {6, 3}, {6, 9}, {0.6, 9}}}});
+  const Shape around = surroundings(part, 4).value();
+  const Tabs tabs{{{{{-4, 6}, {-2, 6}, {0, 6}}}}, 4, 1};
+  for (CarveOptions options : {CarveOptions{.angle = 0, .depth = 3, .tool = 1.5},
+                               CarveOptions{.angle = 40, .depth = 3, .tip = 0.4}}) {
+    const Carving plain = carving_of(around, options);
+    options.tabs = tabs;
+    const Carving carving = carving_of(around, options);
+    const test::Cutter cutter{carving.tip_radius, carving.slope};
+    test::Random random(5);
+    for (int i = 0; i < 100; ++i) {
+      const Vec2 in_window{random.between(0.6, 6), random.between(3, 9)};
+      EXPECT_NEAR(cutter.depth_at(in_window, carving.paths),
+                  cutter.depth_at(in_window, plain.paths), 1e-6);
+      const Vec2 on_tab{random.between(-4, 0), random.between(4, 8)};
+      EXPECT_LE(cutter.depth_at(on_tab, carving.paths), 1 + 1e-6);
+    }
   }
 }
 

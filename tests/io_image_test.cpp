@@ -206,12 +206,12 @@ TEST_F(ImageFiles, ImagesComeBack) {
   file.image = Image(19, 3);
   for (std::uint32_t i = 0; i < 57; i += 2) file.image.set(i % 19, i / 19);
   for (const char* name : {"a.png", "a.tif", "a.pbm"}) {
-    ASSERT_TRUE(write_image(path(name), file.image, file).ok());
+    ASSERT_TRUE(write_image(path(name), {}, file.image, file).ok());
     const Result<ImageFile> back = read_image(path(name));
     ASSERT_TRUE(back.ok());
     EXPECT_EQ(back->image, file.image) << name;
   }
-  EXPECT_EQ(write_image(path("a.gif"), file.image, file).error().code, ErrorCode::unsupported);
+  EXPECT_EQ(write_image(path("a.gif"), {}, file.image, file).error().code, ErrorCode::unsupported);
 }
 
 }  // namespace

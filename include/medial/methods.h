@@ -32,6 +32,7 @@ struct Disks {};
 /// The randomised divide and conquer of Aichholzer et al., with balanced cuts: O(n log n) expected.
 struct BiarcDc {
   std::uint64_t seed = 1;  ///< the same seed gives the same result, byte for byte
+  bool curves = true;      ///< false: edges stay straight until conic_of() works them out
 };
 
 /// Lee's divide and conquer: merges Voronoi diagrams of lists of segments and reflex vertices.
@@ -47,8 +48,7 @@ struct Ridge {
   /// Drops vertices between straight edges that turn by less than this, in degrees, in [0, 45],
   /// where the combined edge stays within a quarter of a pixel of them; 0 keeps all.
   double collinear = 5;
-  /// Finds the nearest edges by the report's list of all, sorted by lower bounds of distances, in
-  /// place of a tree: slower, the same pixels.
+  /// Finds nearest edges by the report's sorted list, not by a tree: slower, the same pixels.
   bool sorted_list = false;
   RidgeRule rule = RidgeRule::crossing;
 };
@@ -62,11 +62,10 @@ struct Brushfire {
 /// Valleys of a potential after Ahuja and Chuang (docs/potential.md). The size is the longer side
 /// of the bounding box.
 struct Potential {
-  /// n of the force that finds the points, in [1, 4096], any real number; 0: chosen for each point
-  /// (the algorithm MAT-Generalized-Polygonal).
+  /// n of the force that finds the points, in [1, 4096], any real number; 0: chosen for each point.
   double order = 0;
-  /// Of the first force lines, in [1, 4096]; above 24 points of the exact axis take their place. 0:
-  /// that of `order`, 24 at most; for higher orders on the exact axis above 2,000 edges.
+  /// Of the first force lines, in [1, 4096]; above 24 points of the exact axis instead. 0: that of
+  /// `order`, 24 at most; for higher orders on the exact axis above 2,000 edges.
   double base_order = 0;
   double step = 0.01;  ///< the longest step, as a share of the size, in [1e-4, 0.1]
   /// Above 0, from coarse to fine: the skeleton of a polygon that is this close to the border (a
@@ -83,11 +82,9 @@ struct Potential {
 
 /// Follows the axis of one smooth curve from its maxima of curvature: see compute_curve_axis().
 struct CurveAxis {
-  /// From point to point along the axis, relative to the bounding box's diagonal, in [1e-6, 0.1];
-  /// shorter where the boundary turns fast. Halved up to five times where the process goes astray.
+  /// From point to point, relative to the diagonal, in [1e-6, 0.1]; halved where it strays.
   double step = 1e-3;
-  /// The maximum of curvature, counted from the boundary's start, at which the first generation
-  /// begins. The axis is the same for each, to the steps.
+  /// Which maximum of curvature is followed first; the axis is the same for each, to the steps.
   std::size_t first_maximum = 0;
 };
 

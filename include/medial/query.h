@@ -10,6 +10,9 @@ namespace medial {
 /// The disk at parameter t in [0, 1] of an edge; exactly the node's disk at 0 and 1.
 Disk disk_at(const MedialAxis& axis, const Edge& edge, double t);
 
+/// An edge of an exact axis with the conic that its sites and nodes determine. O(1).
+Edge conic_of(const MedialAxis& axis, const Edge& edge);
+
 /// The point of a site nearest to p: where a disk around p touches it.
 Vec2 foot(const Site& site, Vec2 p);
 

@@ -15,6 +15,7 @@
 #include "medial/verify.h"
 #include "methods/biarc_dc/biarc_dc.h"
 #include "papers/aichholzer_2009/shapes.h"
+#include "papers/aichholzer_2009/stability.h"
 #include "papers/table.h"
 
 namespace medial::papers {
@@ -229,6 +230,37 @@ bool compare_with_polygon(const NamedContours& input, double tolerance, Table& t
   return failure.empty();
 }
 
+// ---- Section 2.4 --------------------------------------------------------------------------------
+
+/// How far the axis is off where the boundary is off by a tolerance, beside the bound of Section
+/// 2.4; the axis at 1e-10 stands in for the exact one. False if one failed, or the bound.
+bool measure_stability(const Request& request, const NamedContours& input, Table& table) {
+  progress(fmt::format("{}: stability", input.first));
+  const auto axis_at = [&](double tolerance, ArcReport& report) -> Result<MedialAxis> {
+    const auto rings = approximate_by_arcs(input.second, {.tolerance = tolerance}, &report);
+    if (!rings) return rings.error();
+    const auto shape = build_shape(*rings);
+    return shape ? compute(*shape) : shape.error();
+  };
+  ArcReport fine;
+  const auto exact = axis_at(1e-10, fine);
+  if (!exact) return false;
+  bool holds = true;
+  for (int i = 2; i <= (request.quick ? 3 : 7); ++i) {
+    ArcReport coarse;
+    const double tolerance = std::pow(10, -i);
+    const auto axis = axis_at(tolerance, coarse);
+    if (!axis) return false;
+    const double epsilon = coarse.largest_error + fine.largest_error;
+    const Stability found = stability(*exact, *axis, epsilon);
+    const double diagonal = coarse.tolerance / tolerance;
+    table.add({input.first, tolerance, epsilon / diagonal, std::uint64_t{found.points},
+               found.largest / diagonal, found.worst_share, found.worst_share <= 1 ? "yes" : "NO"});
+    holds = holds && found.worst_share <= 1;
+  }
+  return holds;
+}
+
 // ---- Tables and plots ---------------------------------------------------------------------------
 
 /// Microseconds an edge.
@@ -249,7 +281,7 @@ Table rows_table(const std::vector<Row>& rows) {
                {"axis us/arc", "{:.2f}"},
                {"biarc-dc s", "{:.3f}"},
                {"biarc-dc / axis", "{:.1f}"},
-               {"its conquer s", "{:.3f}"},
+               {"its conquer s (wall)", "{:.3f}"},
                {"exact s", "{:.4f}"},
                {"leaves"},
                {"branchings"},
@@ -383,6 +415,18 @@ Result<bool> run_aichholzer_2009(const Request& request) {
     passed = compare_with_polygon({"lettering", lettering(1)}, tolerance, polygons) && passed;
     passed = compare_with_polygon({"tree", tree(3)}, tolerance, polygons) && passed;
   }
+  Table stable({{"shape"},
+                {"tolerance", "{:.0e}"},
+                {"epsilon", "{:.2e}"},
+                {"points"},
+                {"largest distance", "{:.2e}"},
+                {"of the bound", "{:.3f}"},
+                {"holds"}});
+  for (const NamedContours& input : {NamedContours{"tree", tree(5)},
+                                     {"snowflake", snowflake(4)},
+                                     {"lettering", lettering(2)},
+                                     {"border", border(10)}})
+    passed = measure_stability(request, input, stable) && passed;
   for (const auto* rows : {&by_tolerance, &by_size})
     for (const Row& row : *rows) passed = passed && row.failure.empty();
   const Table tolerances = rows_table(by_tolerance), sizes = rows_table(by_size);
@@ -393,14 +437,17 @@ Result<bool> run_aichholzer_2009(const Request& request) {
       "## By tolerance (Table 1, Figs. 12, 15, 16)\n\n{}\n{}\n"
       "## Base cases of biarc-dc (Figs. 5, 6)\n\n{}\n"
       "## By size\n\n{}\n{}\n"
-      "## Arcs and polygons (Fig. 13)\n\n{}",
+      "## Arcs and polygons (Fig. 13)\n\n{}\n"
+      "## Stability (Section 2.4)\n\n{}",
       request.rounds, tolerances.markdown(), fits_table(by_tolerance),
-      base_cases_table(by_tolerance), sizes.markdown(), fits_table(by_size), polygons.markdown());
+      base_cases_table(by_tolerance), sizes.markdown(), fits_table(by_size), polygons.markdown(),
+      stable.markdown());
   const Status written =
       in_order([&] { return write(request, "tables.md", text); },
                [&] { return write(request, "by_tolerance.csv", tolerances.csv()); },
                [&] { return write(request, "by_size.csv", sizes.csv()); },
                [&] { return write(request, "polygons.csv", polygons.csv()); },
+               [&] { return write(request, "stability.csv", stable.csv()); },
                [&] { return draw_plots(request, by_tolerance, by_size); },
                [&] { return write_shapes(request); });
   if (!written) return written.error();

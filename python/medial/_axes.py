@@ -79,6 +79,11 @@ class Axes:
         return self._input.errors(self._core.errors())
 
     @property
+    def error_codes(self) -> npt.NDArray[Any]:
+        """The same as a column: the code of each feature's error, None where there is none."""
+        return column_of(self.errors, len(self))
+
+    @property
     def method(self) -> str:
         """The name of the method."""
         return self._core.method()
@@ -219,6 +224,14 @@ class Axes:
     def __repr__(self) -> str:
         failed = f", {len(self.errors)} errors" if self.errors else ""
         return f"<medial.Axes: {len(self)} features, {len(self.nodes)} nodes, {len(self.edges)} edges{failed}>"
+
+
+def column_of(errors: dict[int, MedialError], size: int) -> npt.NDArray[Any]:
+    """The codes of errors by feature."""
+    column: npt.NDArray[Any] = np.full(size, None, object)
+    for feature, error in errors.items():
+        column[feature] = error.code
+    return column
 
 
 def _from_rings(all_rings: Sequence[Rings]) -> Ragged:

@@ -20,7 +20,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._axes import axes, progress_of, ragged
+from ._axes import axes, column_of, progress_of, ragged
 from ._errors import MedialError, need
 from ._options import computing, options
 from ._records import Floats, Indices
@@ -59,6 +59,11 @@ class _Result:
         good = np.ones(len(self), bool)
         good[list(self.errors)] = False
         return good
+
+    @property
+    def error_codes(self) -> npt.NDArray[Any]:
+        """As `medial.Axes.error_codes`."""
+        return column_of(self.errors, len(self))
 
     def __repr__(self) -> str:
         failed = f", {len(self.errors)} errors" if self.errors else ""

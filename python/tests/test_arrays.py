@@ -65,6 +65,7 @@ def test_errors_by_feature():
         found = function([BAD, FEATURES[0], BAD], on_error="ignore")
         assert list(found.errors) == [0, 2] and found.errors[2].code == "crossing"
         assert found.ok.tolist() == [False, True, False] and len(found) == 3
+        assert found.error_codes.tolist() == ["crossing", None, "crossing"]
     with pytest.raises(ValueError):
         medial.arrays.width(FEATURES, on_error="maybe")
     assert len(medial.arrays.width([])) == 0

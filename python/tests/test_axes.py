@@ -45,6 +45,7 @@ def test_errors_are_raised_or_listed():
     assert caught.value.feature == 1
     found = medial.axes([bad, good, bad], on_error="ignore")
     assert list(found.errors) == [0, 2] and found.errors[2].code == "crossing"
+    assert found.error_codes.tolist() == ["crossing", None, "crossing"]
     assert found.ok.tolist() == [False, True, False] and found[1].branch_count == 5
     with pytest.raises(medial.MedialError):
         found[0]

@@ -1,11 +1,14 @@
 #include "axis/sites.h"
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 
 #include "base/memory.h"
 #include "base/predicates.h"
 #include "base/threads.h"
+#include "medial/query.h"
+#include "site/bisector.h"
 
 namespace medial::site {
 namespace {
@@ -93,3 +96,43 @@ std::vector<medial::Site> result_sites(const Shape& shape, const SiteNumbers& nu
 }
 
 }  // namespace medial::site
+
+namespace medial {
+namespace {
+
+/// A site of the result in a frame; of an arc in two pieces the one that is nearer to a disk.
+site::Site local_site(const Site& own, const LocalFrame& frame, Vec2 center) {
+  if (own.kind == SiteKind::vertex) return site::make_vertex(frame.to_local(own.start));
+  const site::Pieces pieces =
+      site::pieces_of(frame.to_local(own.start), frame.to_local(own.end), own.bulge);
+  const bool is_first =
+      squared_distance(pieces.first(), center) <= squared_distance(pieces.last(), center);
+  return is_first ? pieces.first() : pieces.last();
+}
+
+}  // namespace
+
+Edge conic_of(const MedialAxis& axis, const Edge& edge) {
+  if (edge.site[0] == no_site || edge.site[1] == no_site) return edge;
+  Box box = Box::nothing();
+  for (const std::uint32_t i : edge.site)
+    for (const Vec2 p : {axis.sites[i].start, axis.sites[i].end}) box.add(p);
+  for (const std::uint32_t i : edge.node) box.add(axis.nodes[i].disk.center);
+  const LocalFrame frame = frame_of(box);
+  const auto disk_of = [&](std::uint32_t node) -> Disk {
+    const Disk& own = axis.nodes[node].disk;
+    return {frame.to_local(own.center), frame.scale * own.radius};
+  };
+  const Disk from = disk_of(edge.node[0]), to = disk_of(edge.node[1]);
+  const auto site_of = [&](std::uint32_t site) {
+    return local_site(axis.sites[site], frame, from.center);
+  };
+  const site::Control control =
+      site::control_of(site_of(edge.site[0]), site_of(edge.site[1]), from, to);
+  Edge curved = edge;
+  curved.control = {frame.to_input(control.point.center), frame.inverse * control.point.radius};
+  curved.weight = control.weight;
+  return curved;
+}
+
+}  // namespace medial

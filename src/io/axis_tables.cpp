@@ -115,7 +115,7 @@ Status add_nodes(TableSink& sink, const Row& row, bool all) {
 
 }  // namespace
 
-std::vector<Column> own_axis_columns() {
+std::vector<Column> own_columns(const AxesOutput&) {
   std::vector<Column> own = branch_columns();
   own.insert(own.end(), node_columns().begin(), node_columns().end());
   return own;
@@ -125,7 +125,7 @@ TableSource tables_of(const AxesOutput& output, const Target& target) {
   const bool nodes = target.format != "shp" && target.format != "fgb" && target.format != "geojson";
   const auto attributes = target.columns ? target.columns
                                          : std::make_shared<const AttributeColumns>(
-                                               output.document, own_axis_columns());
+                                               output.document, own_columns(output));
   TableSource source;
   source.tables.push_back({"axis", GeometryKind::line, attributes->appended_to(branch_columns())});
   if (nodes)
@@ -137,7 +137,7 @@ TableSource tables_of(const AxesOutput& output, const Target& target) {
       const AxisItem& item = output.document.items[i];
       const std::vector<Value> values = attributes->values_of(item.attributes);
       const std::vector<Branch> all = branches(item.axis);
-      const Row row{part.feature + i, first_node, item, all, values};
+      const Row row{part.number_of(output.document, i), first_node, item, all, values};
       if (Status added = add_branches(sink, row, output.options); !added) return added;
       if (nodes)
         if (Status added = add_nodes(sink, row, output.options.nodes); !added) return added;

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <variant>
 #include <vector>
 
 #include "io/feature_reader.h"
@@ -37,9 +38,7 @@ struct DocumentOutput {
 using AxesOutput = DocumentOutput<AxisItem, DocumentKind::axes>;
 using ShapesOutput = DocumentOutput<ShapeItem, DocumentKind::shapes>;
 using VoronoiOutput = DocumentOutput<VoronoiItem, DocumentKind::voronoi>;
-struct OffsetsOutput : DocumentOutput<OffsetItem, DocumentKind::offsets> {
-  bool chords;
-};
+using OffsetsOutput = DocumentOutput<OffsetItem, DocumentKind::offsets>;
 struct CarvingOutput : DocumentOutput<CarveItem, DocumentKind::carving> {
   const MachineOptions& machine;
 };
@@ -50,6 +49,8 @@ struct FeaturesOutput : DocumentOutput<AxisItem, DocumentKind::features> {
 struct LayersOutput : DocumentOutput<Layer, DocumentKind::layers> {
   const Document<AxisItem>& background;
 };
+/// What is written in parts.
+using PartOutput = std::variant<AxesOutput, OffsetsOutput, LayersOutput>;
 struct FieldOutput {
   static constexpr DocumentKind kind = DocumentKind::field;
   std::span<const Shape> shapes;
@@ -78,6 +79,11 @@ struct ImageOutput {
 struct Part {
   bool begins = true, ends = true;
   std::uint64_t feature = 0, node = 0, edge = 0;
+
+  /// Of an item in the file that it was read from, as notes and errors say it.
+  std::uint64_t number_of(const DocumentInfo& document, std::size_t i) const {
+    return document.indices.empty() ? feature + i : document.indices[i];
+  }
 };
 
 class AttributeColumns;
@@ -95,6 +101,7 @@ class Target {
   std::string unit;  ///< of lengths, by its name; empty: unknown, or the reference system says
   bool adds_to_file = false;  ///< to the file `path`, which may hold other layers
   bool overwrite = false;     ///< layers of the same name
+  std::string layer;          ///< see WriteOptions
   OutputCrs crs;
 
   /// Points of the document become points of the output. Where one cannot be projected, the error
@@ -117,7 +124,7 @@ using Opener = Result<std::unique_ptr<FeatureReader>> (*)(const Input& input,
 using MeshReader = Result<TriangleMesh> (*)(const Input& input);
 using Sniff = bool (*)(std::string_view beginning);
 
-/// Writes a document of axes in parts.
+/// Writes a document in parts.
 class PartWriter {
  public:
   PartWriter() = default;
@@ -126,7 +133,7 @@ class PartWriter {
   virtual ~PartWriter() = default;
 
   /// Makes a part ready, on any thread.
-  virtual Result<std::shared_ptr<void>> prepare(const AxesOutput& output, const Part& part) = 0;
+  virtual Result<std::shared_ptr<void>> prepare(const PartOutput& output, const Part& part) = 0;
   /// Adds what prepare() made, in the order of parts.
   virtual Status add(void* prepared) = 0;
   virtual Status finish() = 0;
@@ -158,9 +165,10 @@ struct Format {
              Writer<FieldOutput>, Writer<VoxelsOutput>, Writer<DistancesOutput>,
              Writer<ImageOutput>>
       writers{};
-  /// Axes in parts: by the writer of all where it is null and `in_parts` is set, which must write
-  /// a comma in front of each row but those of the first part.
-  Result<std::unique_ptr<PartWriter>> (*write_parts)(Target& target) = nullptr;
+  /// In parts: by the writer of all where it is null and `in_parts` is set, which must write a
+  /// comma in front of each row but those of the first part. `none` is a document without items.
+  Result<std::unique_ptr<PartWriter>> (*write_parts)(Target& target,
+                                                     const PartOutput& none) = nullptr;
   bool in_parts = false;
   unsigned kinds = 0;      ///< of documents that are written, a bit each
   unsigned announced = 0;  ///< those that the row of this name in formats() writes as well

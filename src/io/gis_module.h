@@ -18,7 +18,6 @@ struct GisModule {
   decltype(&io::output_crs_of) output_crs_of;
   decltype(&io::urn_of_crs) urn_of_crs;
   decltype(&io::project_to_local) project_to_local;
-  decltype(&io::back_to_geographic) back_to_geographic;
   decltype(&io::make_valid) make_valid;
   decltype(&io::read_image) read_image;
   decltype(&io::build_info) build_info;

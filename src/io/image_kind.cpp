@@ -27,9 +27,11 @@ bool begins_like_image(std::string_view text) {
   return begins_like_pnm(text) || begins_like_raster(text);
 }
 
+bool is_ros_map(std::string_view path) { return path.ends_with(".yaml") || path.ends_with(".yml"); }
+
 bool is_image(const std::string& path) {
   const Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
-  return source && begins_like_image((*source)->lookahead(image_sniffed));
+  return source && (is_ros_map(path) || begins_like_image((*source)->lookahead(image_sniffed)));
 }
 
 }  // namespace medial::io

@@ -100,11 +100,6 @@ Status project_to_local(Document<Feature>& document) {
   return in_module(&GisModule::project_to_local, document);
 }
 
-Status back_to_geographic(const std::string& crs_wkt, std::vector<Vec2>& points) {
-  if (crs_wkt.empty()) return success();
-  return in_module(&GisModule::back_to_geographic, crs_wkt, points);
-}
-
 Status make_valid(Feature& feature, std::size_t index, std::vector<std::string>& notes) {
   return in_module(&GisModule::make_valid, feature, index, notes);
 }

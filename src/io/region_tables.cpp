@@ -87,19 +87,23 @@ Status add_diagram(TableSink& sink, const VoronoiItem& item, std::size_t feature
 
 }  // namespace
 
-TableSource tables_of(const OffsetsOutput& output, const Target&) {
-  const std::vector<Column> own{{"feature", whole_type},  {"region", whole_type},
-                                {"clearance", real_type}, {"parent", whole_type},
-                                {"area", real_type},      {"length", real_type},
-                                {"features", text_type}};
-  const AttributeColumns attributes = attribute_columns(output.document, own);
+std::vector<Column> own_columns(const OffsetsOutput&) {
+  return {{"feature", whole_type}, {"region", whole_type}, {"clearance", real_type},
+          {"parent", whole_type},  {"area", real_type},    {"length", real_type},
+          {"features", text_type}};
+}
+
+TableSource tables_of(const OffsetsOutput& output, const Target& target) {
+  const std::vector<Column> own = own_columns(output);
+  const AttributeColumns attributes =
+      target.columns ? *target.columns : attribute_columns(output.document, own);
   TableSource source;
   source.tables.push_back({"offsets", GeometryKind::polygon, attributes.appended_to(own)});
-  source.fill = [&output, attributes](TableSink& sink) -> Status {
+  source.fill = [&output, attributes, part = target.part](TableSink& sink) -> Status {
     const auto& items = output.document.items;
     for (std::size_t i = 0; i < items.size(); ++i)
-      if (Status added =
-              add_regions(sink, items[i], i, attributes, chord_of(items[i], output.options));
+      if (Status added = add_regions(sink, items[i], part.number_of(output.document, i), attributes,
+                                     chord_of(items[i], output.options));
           !added)
         return added;
     return success();
@@ -120,7 +124,7 @@ TableSource tables_of(const ShapesOutput& output, const Target&) {
       std::uint64_t part = 0;
       for (const std::vector<Ring>& polygon : polygons_of(items[i].shape)) {
         auto parts = parts_of(polygon, chord);
-        const std::vector<Value> values{whole(i), whole(part++)};
+        const std::vector<Value> values{whole(output.document.index_of(i)), whole(part++)};
         if (Status added = sink.add(0, values, rest, parts); !added) return added;
       }
     }
@@ -147,7 +151,8 @@ TableSource tables_of(const VoronoiOutput& output, const Target&) {
     const auto& items = output.document.items;
     for (std::size_t i = 0; i < items.size(); ++i) {
       const auto rest = attributes.values_of(items[i].attributes);
-      if (Status added = add_diagram(sink, items[i], i, rest, chord_of(items[i], output.options));
+      if (Status added = add_diagram(sink, items[i], output.document.index_of(i), rest,
+                                     chord_of(items[i], output.options));
           !added)
         return added;
     }

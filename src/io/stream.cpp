@@ -101,17 +101,44 @@ Result<Survey> survey_of(PartReader reader, const std::string& crs) {
   if (Status complete = reader.finish(survey.common); !complete) return std::move(complete).error();
   if (Status settled = settle_crs(survey.common, crs, degrees); !settled)
     return std::move(settled).error();
-  survey.columns.name_apart(own_axis_columns());
   return survey;
+}
+
+PartOutput output_of(const Document<AxisItem>& made, const WriteOptions& options) {
+  return AxesOutput{made, options};
+}
+PartOutput output_of(const Document<OffsetItem>& made, const WriteOptions& options) {
+  return OffsetsOutput{made, options};
+}
+PartOutput output_of(const MeasuredItems& made, const WriteOptions& options) {
+  return LayersOutput{{made.first, options}, made.second};
+}
+PartOutput output_of(const StreamItems& made, const WriteOptions& options) {
+  return std::visit([&](const auto& own) { return output_of(own, options); }, made);
+}
+
+template <class Item>
+Document<Item>& features_of(Document<Item>& made) {
+  return made;
+}
+Document<AxisItem>& features_of(MeasuredItems& made) { return made.second; }
+DocumentInfo& info_of(StreamItems& made) {
+  return std::visit([](auto& own) -> DocumentInfo& { return features_of(own); }, made);
+}
+/// The same kind of items, none, in a document with this information.
+StreamItems without_items(StreamItems none, const DocumentInfo& info) {
+  info_of(none) = info;
+  if (auto* measured = std::get_if<MeasuredItems>(&none))
+    static_cast<DocumentInfo&>(measured->first) = info;
+  return none;
 }
 
 /// Parts as text, by the writer of whole documents.
 class TextParts final : public PartWriter {
  public:
-  TextParts(Target& target, const Format& format)
-      : target_(target), writer_(std::get<Writer<AxesOutput>>(format.writers)) {}
+  TextParts(Target& target, const Format& format) : target_(target), format_(format) {}
 
-  Result<std::shared_ptr<void>> prepare(const AxesOutput& output, const Part& part) override {
+  Result<std::shared_ptr<void>> prepare(const PartOutput& output, const Part& part) override {
     auto text = std::make_shared<std::string>();
     OutputStream out = OutputStream::to(*text);
     Target own;
@@ -125,7 +152,12 @@ class TextParts final : public PartWriter {
     own.out = &out;
     std::unique_lock<std::mutex> alone(projecting_, std::defer_lock);
     if (own.crs.changes_points()) alone.lock();
-    if (Status written = writer_(own, output); !written) return std::move(written).error();
+    Status written = std::visit(
+        [&]<class Output>(const Output& one) {
+          return std::get<Writer<Output>>(format_.writers)(own, one);
+        },
+        output);
+    if (!written) return std::move(written).error();
     if (!own.status()) return own.status().error();
     if (Status complete = out.finish(); !complete) return std::move(complete).error();
     return std::shared_ptr<void>(std::move(text));
@@ -145,23 +177,24 @@ class TextParts final : public PartWriter {
 
  private:
   Target& target_;
-  const Writer<AxesOutput> writer_;
+  const Format& format_;
   std::mutex projecting_;
   bool begun_ = false, any_ = false;
 };
 
-/// Where nobody wants the axes themselves.
+/// Where nobody wants the items themselves.
 class NoParts final : public PartWriter {
  public:
-  Result<std::shared_ptr<void>> prepare(const AxesOutput&, const Part&) override {
+  Result<std::shared_ptr<void>> prepare(const PartOutput&, const Part&) override {
     return std::shared_ptr<void>();
   }
   Status add(void*) override { return success(); }
   Status finish() override { return success(); }
 };
 
-Result<std::unique_ptr<PartWriter>> writer_of_parts(Target& target, const Format& format) {
-  if (format.write_parts != nullptr) return format.write_parts(target);
+Result<std::unique_ptr<PartWriter>> writer_of_parts(Target& target, const Format& format,
+                                                    const PartOutput& none) {
+  if (format.write_parts != nullptr) return format.write_parts(target, none);
   return std::unique_ptr<PartWriter>(std::make_unique<TextParts>(target, format));
 }
 
@@ -171,7 +204,7 @@ struct PartTask {
   double points = 0;
   LoadReport load;
   AxesReport report;
-  Document<AxisItem> axes;
+  StreamItems made;
   Part numbers{false, false};
   std::shared_ptr<void> prepared;
   std::optional<Error> error;
@@ -179,19 +212,21 @@ struct PartTask {
 };
 
 /// Reads, computes and writes all parts of a file.
-class AxesStream {
+class Stream {
  public:
-  AxesStream(PartReader reader, const Survey& survey, const StreamOptions& options,
-             PartWriter& writer)
-      : reader_(std::move(reader)), survey_(survey), options_(options), writer_(writer) {
-    report.document = Document<AxisItem>{survey.common, {}};
-    common_ = report.document;
-    common_.notes.clear();
+  Stream(PartReader reader, const Survey& survey, const StreamItems& none,
+         const StreamOptions& options, PartWriter& writer)
+      : reader_(std::move(reader)),
+        survey_(survey),
+        none_(none),
+        options_(options),
+        writer_(writer) {
+    report.document = survey.common;
   }
 
   Status run() {
     if (Status begun = write_frame({true, false}); !begun) return begun;
-    const auto stage = [this](bool in_order, void (AxesStream::*work)(PartTask&)) {
+    const auto stage = [this](bool in_order, void (Stream::*work)(PartTask&)) {
       return PipelineStage{in_order, [this, work](void* task) {
                              PartTask& part = *static_cast<PartTask*>(task);
                              if (part.error || failed_.load()) return;
@@ -203,8 +238,8 @@ class AxesStream {
                            }};
     };
     const std::array stages{
-        stage(false, &AxesStream::compute), stage(true, &AxesStream::number),
-        stage(false, &AxesStream::prepare), stage(true, &AxesStream::add),
+        stage(false, &Stream::compute), stage(true, &Stream::number),
+        stage(false, &Stream::prepare), stage(true, &Stream::add),
         PipelineStage{true, [this](void* task) { take_error(*static_cast<PartTask*>(task)); }}};
     run_pipeline(
         options_.threads, window_of(effective_threads(options_.threads)), [this] { return next(); },
@@ -235,14 +270,15 @@ class AxesStream {
     task->features = std::move(**part);
     for (const Feature& feature : task->features.items)
       task->points += static_cast<double>(point_count(feature));
-    task->features.crs_wkt = common_.crs_wkt;
-    task->features.geographic = common_.geographic;
-    task->features.unit = common_.unit;
+    task->features.crs_wkt = survey_.common.crs_wkt;
+    task->features.geographic = survey_.common.geographic;
+    task->features.unit = survey_.common.unit;
     task->features.notes.clear();  // the survey has them
     return task;
   }
 
   void compute(PartTask& part) {
+    part.made = none_;
     if (part.features.items.empty()) return;
     const int threads = part.points >= long_work ? options_.threads : 1;
     LoadOptions load = options_.source.load;
@@ -255,35 +291,37 @@ class AxesStream {
       return;
     }
     if (shapes->items.empty()) {
-      part.axes.notes = std::move(shapes->notes);
+      info_of(part.made).notes = std::move(shapes->notes);
       return;
     }
-    auto axes = options_.compute(std::move(*shapes), threads, part.report);
-    if (axes)
-      part.axes = std::move(*axes);
+    auto made = options_.compute(std::move(*shapes), threads, part.report);
+    if (made)
+      part.made = std::move(*made);
     else
-      part.error = std::move(axes).error();
+      part.error = std::move(made).error();
   }
 
   void number(PartTask& part) {
     part.numbers = next_;
-    next_.feature += part.axes.items.size();
-    for (const AxisItem& item : part.axes.items) {
-      next_.node += item.axis.nodes.size();
-      next_.edge += item.axis.edges.size();
-    }
+    next_.feature +=
+        std::visit([](auto& made) { return features_of(made).items.size(); }, part.made);
+    if (const auto* axes = std::get_if<Document<AxisItem>>(&part.made))
+      for (const AxisItem& item : axes->items) {
+        next_.node += item.axis.nodes.size();
+        next_.edge += item.axis.edges.size();
+      }
     report.load += part.load;
     report.axes.statistics += part.report.statistics;
     report.axes.unresolved += part.report.unresolved;
-    std::ranges::move(part.axes.notes, std::back_inserter(report.document.notes));
-    if (options_.visit) options_.visit(part.axes);
+    std::ranges::move(info_of(part.made).notes, std::back_inserter(report.document.notes));
+    if (options_.visit) options_.visit(part.made);
   }
 
   void prepare(PartTask& part) {
-    auto prepared = writer_.prepare({part.axes, options_.write}, part.numbers);
+    auto prepared = writer_.prepare(output_of(part.made, options_.write), part.numbers);
     if (!prepared) return fail_to_write(part, std::move(prepared).error());
     part.prepared = std::move(*prepared);
-    part.axes = {};
+    part.made = none_;
   }
 
   void add(PartTask& part) {
@@ -308,15 +346,15 @@ class AxesStream {
 
   /// What stands before the first part, or behind the last one.
   Status write_frame(const Part& part) {
-    auto prepared = writer_.prepare({common_, options_.write}, part);
+    auto prepared = writer_.prepare(output_of(none_, options_.write), part);
     return prepared ? writer_.add(prepared->get()) : Status(std::move(prepared).error());
   }
 
   PartReader reader_;
   const Survey& survey_;
+  const StreamItems& none_;
   const StreamOptions& options_;
   PartWriter& writer_;
-  Document<AxisItem> common_;
   Part next_{false, false};
   double done_ = 0;
   bool ended_ = false;                ///< nothing more is read
@@ -324,18 +362,25 @@ class AxesStream {
   std::optional<Error> output_error_;
 };
 
+/// Several layers stand one after another in a text, so none is complete before all features are.
+bool holds_in_parts(const Format& format, const StreamItems& none) {
+  const auto* measured = std::get_if<MeasuredItems>(&none);
+  return format.write_parts != nullptr ||
+         (format.in_parts && (measured == nullptr || measured->first.items.size() == 1));
+}
+
 }  // namespace
 
-Result<std::optional<StreamReport>> stream_axes(const std::string& path, const Destination& target,
-                                                const std::string& format,
-                                                const StreamOptions& options) {
+Result<std::optional<StreamReport>> stream(const std::string& path, const Destination& target,
+                                           const std::string& format,
+                                           const StreamOptions& options) {
   const bool silent = target.path.empty();
-  const Format* row =
-      silent ? nullptr : find_format(format_name(target.path, format), DocumentKind::axes);
-  const bool in_parts =
-      silent || (row != nullptr && (row->in_parts || row->write_parts != nullptr));
+  const DocumentKind kind = std::visit([](const auto& none) { return none.kind; },
+                                       output_of(options.none, options.write));
+  const Format* row = silent ? nullptr : find_format(format_name(target.path, format), kind);
   // What has gone to a pipe cannot be taken back after an error.
-  if (!in_parts || (is_stream(target.path) && target.text == nullptr) ||
+  if (!(silent || (row != nullptr && holds_in_parts(*row, options.none))) ||
+      (is_stream(target.path) && target.text == nullptr) ||
       !is_large_file(path, options.least_bytes) || needs_all_features(options.source))
     return std::optional<StreamReport>();
   const ReadOptions& read = options.source.read;
@@ -344,30 +389,36 @@ Result<std::optional<StreamReport>> stream_axes(const std::string& path, const D
   if (*first == nullptr) return std::optional<StreamReport>();
   auto survey = survey_of(PartReader(std::move(*first), read), read.crs);
   if (!survey) return std::move(survey).error();
+  DocumentInfo info = survey->common;
+  info.notes.clear();
+  const StreamItems none = without_items(options.none, info);
+  const PartOutput frame = output_of(none, options.write);
+  survey->columns.name_apart(
+      std::visit([](const auto& output) { return own_columns(output); }, frame));
   std::optional<StreamReport> report;
   std::optional<Error> input_error;
   const auto write_by = [&](PartWriter& writer) -> Status {
     auto again = open_features(path, read);
     if (!again) return std::move(again).error();
-    AxesStream stream(PartReader(std::move(*again), read), *survey, options, writer);
-    Status done = stream.run();
-    report = std::move(stream.report);
-    input_error = std::move(stream.input_error);
+    Stream parts(PartReader(std::move(*again), read), *survey, none, options, writer);
+    Status done = parts.run();
+    report = std::move(parts.report);
+    input_error = std::move(parts.input_error);
     return done;
   };
   const auto write = [&](Target& to, const Format& chosen) -> Status {
     to.columns = std::make_shared<const AttributeColumns>(std::move(survey->columns));
     to.arcs = survey->arcs;
-    auto writer = writer_of_parts(to, chosen);
+    auto writer = writer_of_parts(to, chosen, frame);
     return writer ? write_by(**writer) : Status(std::move(writer).error());
   };
-  const Document<Feature>& common = survey->common;
   NoParts nowhere;
-  Status done = silent ? write_by(nowhere)
-                       : write_target(target, format,
-                                      {DocumentKind::axes, "json", "medial", common.crs_wkt,
-                                       common.unit, options.write.overwrite},
-                                      write);
+  Status done =
+      silent ? write_by(nowhere)
+             : write_target(target, format,
+                            {kind, kind == DocumentKind::layers ? "geojson" : "json", "medial",
+                             info.crs_wkt, info.unit, options.write.overwrite, options.write.layer},
+                            write);
   if (input_error) return *input_error;
   if (!done) return std::move(done).error();
   return report;

@@ -66,8 +66,10 @@ struct TableSource {
   std::function<Status(TableSink& sink)> fill;  ///< adds all rows
 };
 
-/// The columns that tables of axes have besides the attributes.
-std::vector<Column> own_axis_columns();
+/// The columns that tables have besides the attributes.
+std::vector<Column> own_columns(const AxesOutput& output);
+std::vector<Column> own_columns(const OffsetsOutput& output);
+std::vector<Column> own_columns(const LayersOutput& output);
 
 /// Of axes: a line for each branch, and for a GeoPackage the nodes as a second table. Of features:
 /// for a GeoPackage all tables, else the one of the options. Of layers: a table each. Lengths and

@@ -31,8 +31,6 @@ std::string urn_of_crs(const std::string&) { return {}; }
 
 Status project_to_local(Document<Feature>&) { return missing("GDAL", "project"); }
 
-Status back_to_geographic(const std::string&, std::vector<Vec2>&) { return success(); }
-
 /// load_shapes() mends these by noding.
 Status make_valid(Feature&, std::size_t, std::vector<std::string>&) { return success(); }
 

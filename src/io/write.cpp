@@ -36,7 +36,24 @@ Status write_checked(const Destination& target, const std::string& asked, Writte
   written.crs_wkt = output.document.crs_wkt;
   written.unit = output.document.unit;
   written.overwrite = output.options.overwrite;
+  written.layer = output.options.layer;
   return write_document(target, asked, written, output);
+}
+
+/// Puts a file in its place. Of a shapefile that was there nothing stays: not its indices, nor a
+/// reference system that the new one does not have.
+Status commit_whole(PendingFile& pending, const std::string& path) {
+  namespace fs = std::filesystem;
+  std::vector<fs::path> stale;
+  std::error_code ignored;
+  if (fs::path(path).extension() == ".shp")
+    for (const char* part : {".prj", ".cpg", ".qix", ".sbn", ".sbx", ".qpj"})
+      if (!fs::exists(fs::path(pending.path()).replace_extension(part), ignored))
+        stale.push_back(fs::path(path).replace_extension(part));
+  Status done = pending.commit();
+  if (done)
+    for (const fs::path& part : stale) fs::remove(part, ignored);
+  return done;
 }
 
 }  // namespace
@@ -76,6 +93,7 @@ Status write_target(const Destination& destination, const std::string& asked,
     target.path = pending->path();
     target.adds_to_file = format->adds_layers;
     target.overwrite = written.overwrite;
+    target.layer = written.layer;
     // A library adds to a copy: what is there stays whole whatever happens.
     std::error_code failed;
     if (format->adds_layers && std::filesystem::exists(path, failed))
@@ -83,7 +101,7 @@ Status write_target(const Destination& destination, const std::string& asked,
     if (failed)
       return Error{ErrorCode::unwritable, "cannot copy what is there: " + failed.message(), {}};
     Status done = fill();
-    return done ? pending->commit() : done;
+    return done ? commit_whole(*pending, path) : done;
   });
 }
 
@@ -103,8 +121,8 @@ Status write_voronoi(const Destination& target, const std::string& format,
 }
 
 Status write_offsets(const Destination& target, const std::string& format,
-                     const Document<OffsetItem>& file, const WriteOptions& options, bool chords) {
-  return write_checked(target, format, {{}, "json"}, OffsetsOutput{{file, options}, chords});
+                     const Document<OffsetItem>& file, const WriteOptions& options) {
+  return write_checked(target, format, {{}, "json"}, OffsetsOutput{file, options});
 }
 
 Status write_carving(const Destination& target, const std::string& format,
@@ -151,8 +169,9 @@ Status write_distances(const std::string& path, const DistanceMap& distances,
                         DistancesOutput{distances, source, format});
 }
 
-Status write_image(const std::string& path, const Image& image, const ImageFile& source) {
-  return write_document(path, {}, {ImageOutput::kind, "pbm"}, ImageOutput{image, source});
+Status write_image(const std::string& path, const std::string& format, const Image& image,
+                   const ImageFile& source) {
+  return write_document(path, format, {ImageOutput::kind, "pbm"}, ImageOutput{image, source});
 }
 
 }  // namespace medial::io

@@ -12,6 +12,7 @@ struct Written {
   std::string crs_wkt = {};
   Unit unit = Unit::unknown;
   bool overwrite = false;
+  std::string layer = {};
 };
 
 /// The one way from a document to a file: looks the format up, decides on the reference system,

@@ -12,7 +12,7 @@ struct NamedUnit {
   double millimetres;
 };
 constexpr double inch = 25.4;
-constexpr std::array<NamedUnit, 10> lengths{{{Unit::micrometre, "um", 1e-3},
+constexpr std::array<NamedUnit, 11> lengths{{{Unit::micrometre, "um", 1e-3},
                                              {Unit::millimetre, "mm", 1},
                                              {Unit::centimetre, "cm", 10},
                                              {Unit::metre, "m", 1e3},
@@ -20,6 +20,7 @@ constexpr std::array<NamedUnit, 10> lengths{{{Unit::micrometre, "um", 1e-3},
                                              {Unit::mil, "mil", 1e-3 * inch},
                                              {Unit::inch, "in", inch},
                                              {Unit::foot, "ft", 12 * inch},
+                                             {Unit::us_foot, "us-ft", 1.2e6 / 3937},
                                              {Unit::yard, "yd", 36 * inch},
                                              {Unit::css_pixel, "px", inch / 96}}};
 
@@ -69,6 +70,10 @@ Status take_units(Document<Feature>& features, const UnitOptions& options) {
   const bool says_nothing =
       features.unit == Unit::unknown || (unplaced && !(features.dots_per_inch > 0));
   if (options.given != Unit::unknown || options.pixel_size > 0) {
+    if (unplaced && options.pixel_size == 0 && features.dots_per_inch > 0)
+      features.notes.push_back(std::string("each pixel is taken for 1 ") + name_of(options.given) +
+                               ", though the image says how large it is; --output-units " +
+                               name_of(options.given) + " goes by that");
     features.unit = options.given;
   } else if (says_nothing && options.assumed != Unit::unknown) {
     features.unit = options.assumed;
@@ -120,6 +125,11 @@ Status convert_units(Document<Feature>& features, const UnitOptions& options) {
     const double from = length_of_unit(features);
     if (!(from > 0)) return refused("the input has no unit to convert; --units gives it one");
     factor *= from / millimetres(options.wanted);
+    if (options.assumed != Unit::unknown && options.given == Unit::unknown &&
+        features.unit != Unit::css_pixel && features.unit != Unit::pixel)
+      features.notes.push_back(std::string("the drawing is in ") + name_of(features.unit) +
+                               ", the result and lengths of options in " + name_of(options.wanted) +
+                               "; --output-units chooses");
     features.unit = options.wanted;
   }
   scale(features, factor);

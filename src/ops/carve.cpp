@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "axis/node_kinds.h"
 #include "base/arc.h"
 #include "base/box_tree.h"
 #include "base/compat.h"
@@ -345,6 +346,21 @@ std::vector<ToolPoint> path_along(const std::vector<ops::GrooveStep>& trail,
   return points;
 }
 
+/// Disks that are the whole axis of a part, as of a circle, with radii in [least, most]: the tool
+/// goes straight down there.
+std::vector<Disk> lone_disks(const MedialAxis& axis, double least, double most) {
+  constexpr double rounding = 1e-9;
+  const std::vector<std::uint32_t> degree = degrees_of(axis);
+  std::vector<Disk> disks;
+  for (std::size_t i = 0; i < axis.nodes.size(); ++i) {
+    const Disk& disk = axis.nodes[i].disk;
+    if (degree[i] == 0 && disk.radius >= (1 - rounding) * least &&
+        disk.radius <= (1 + rounding) * most)
+      disks.push_back(disk);
+  }
+  return disks;
+}
+
 Result<Offsets> floor_rings(const MedialAxis& axis, double flat_from, double step) {
   if (!std::isfinite(flat_from)) return Offsets{};
   auto rings = offset_passes(axis, flat_from, step);
@@ -381,8 +397,7 @@ Result<ClearedBefore> cleared_before(const MedialAxis& axis, const CarveOptions&
   if (!rings) return std::move(rings).error();
   constexpr double rounding = 1 - 1e-9;
   const double reach = rounding * (radius - std::max(carving.step, carving.tip_radius));
-  return ClearedBefore(*rings, least, reach, options.tabs,
-                       options.tabs.width / 2 + radius + std::max(reach, 0.0));
+  return ClearedBefore(*rings, least, reach, options.tabs, radius + std::max(reach, 0.0));
 }
 
 Result<Carving> plan(const MedialAxis& axis, const CarveOptions& options) {
@@ -431,6 +446,11 @@ Result<Carving> plan(const MedialAxis& axis, const CarveOptions& options) {
     };
     for (const auto& trail : ops::trails_of(grooves, start))
       planner.add(ToolPathKind::groove, path_along(trail, grooves, depth_of, floor), -1);
+    const double level = -(pass * options.pass_depth);
+    for (const Disk& disk : lone_disks(axis, cleared, carving.flat_from))
+      planner.add(ToolPathKind::groove,
+                  {{disk.center, level, 0}, {disk.center, -std::min(depth_of(disk), floor), 0}},
+                  -1);
     carving.travel_unordered += unordered_travel(*offsets, grooves);
     if (!tool.mill) cleared = tip + floor * slope;
   }

@@ -7,9 +7,12 @@
 #include <numbers>
 #include <optional>
 
+#include "axis/sites.h"
+#include "base/local_frame.h"
 #include "medial/compute.h"
 #include "medial/features.h"
 #include "medial/query.h"
+#include "site/boundary_tree.h"
 
 namespace medial {
 namespace {
@@ -31,6 +34,7 @@ struct Part {
 };
 
 constexpr std::size_t most_tips = 10;
+constexpr double disk_step = 0.02;  ///< from disk to disk along the axis, as a share of the size
 
 /// The convex hull, counter-clockwise (Andrew's monotone chain).
 std::vector<Vec2> hull_of(std::vector<Vec2> points) {
@@ -99,7 +103,7 @@ Result<Part> part_of(const Shape& shape) {
   std::vector<Vec2> points(shape.points.begin(), shape.points.end());
   for (const Node& node : inner->nodes) part.disks.push_back(node.disk);
   for (const Edge& edge : inner->edges)
-    for (const Disk& disk : sample_by_step(*inner, edge, 0.02 * part.size))
+    for (const Disk& disk : sample_by_step(*inner, edge, disk_step * part.size))
       part.disks.push_back(disk);
   if (!shape.bulges.empty())  // what bulges out lies on disks
     for (const Disk& disk : part.disks)
@@ -138,28 +142,80 @@ class Motion {
   Vec2 move_;
 };
 
+/// The boundary of a shape as something to keep away from.
+class Border {
+ public:
+  explicit Border(const Shape& shape)
+      : shape_(shape),
+        frame_(frame_of(bounding_box(shape))),
+        edges_(site::edge_sites(shape, frame_)),
+        tree_(edges_) {}
+
+  /// Whether it comes nearer to a place than `reach`. O(log n).
+  bool is_within(double reach, Vec2 p) const {
+    const auto last = static_cast<std::uint32_t>(edges_.size() - 1);
+    return static_cast<bool>(tree_.nearest(frame_.to_local(p), frame_.scale * reach, 0, last));
+  }
+  bool encloses(Vec2 p) const { return clearance(shape_, p) > 0; }
+
+ private:
+  const Shape& shape_;
+  LocalFrame frame_;
+  std::vector<site::Site> edges_;
+  site::BoundaryTree tree_;
+};
+
 class Nesting {
  public:
   Nesting(const Part& fixed, const Part& moving, double gap)
-      : fixed_(fixed), moving_(moving), gap_(gap) {}
+      : fixed_(fixed),
+        moving_(moving),
+        gap_(gap),
+        fixed_border_(fixed.shape),
+        moving_border_(moving.shape) {}
 
-  /// The least distance between the shapes: disks tell, as their union is the shape. Below `enough`
-  /// any number that is.
-  double distance_at(const Placement& at, double enough) const {
+  /// The least distance between the shapes: disks tell, as their union is the shape.
+  double distance_at(const Placement& at) const {
     const Motion motion(at);
     double least = std::numeric_limits<double>::infinity();
-    for (const Disk& disk : moving_.disks) {
+    for (const Disk& disk : moving_.disks)
       least = std::min(least, -clearance(fixed_.shape, motion.of(disk.center)) - disk.radius);
-      if (least < enough) return least;
-    }
-    for (const Vec2 p : fixed_.shape.points) {
+    for (const Vec2 p : fixed_.shape.points)
       least = std::min(least, -clearance(moving_.shape, motion.back(p)));
-      if (least < enough) return least;
-    }
     return least;
   }
 
-  bool fits(const Placement& at) const { return distance_at(at, gap_) >= gap_; }
+  /// Whether that is the gap at least: no disk comes nearer to the fixed border, and all are
+  /// outside; and no fixed vertex lies in a dent between disks. A disk that is larger than the step
+  /// from disk to disk holds its neighbours' centres, which are on its side of the border then.
+  bool fits(const Placement& at) const {
+    const Motion motion(at);
+    const auto is_free = [&](const Disk& disk) {
+      return !fixed_border_.is_within(disk.radius + gap_, motion.of(disk.center));
+    };
+    // What was in the way last is often so again.
+    if (last_ < moving_.disks.size() && !is_free(moving_.disks[last_])) return false;
+    for (std::size_t i = 0; i < moving_.disks.size(); ++i) {
+      if (is_free(moving_.disks[i])) continue;
+      last_ = i;
+      return false;
+    }
+    const double dent = std::max(gap_, 0.01 * moving_.size);
+    for (const Vec2 p : fixed_.shape.points) {
+      const Vec2 place = motion.back(p);
+      if (moving_border_.is_within(dent, place) &&
+          (moving_border_.is_within(gap_, place) || moving_border_.encloses(place)))
+        return false;
+    }
+    // The largest disk comes first, the small ones last.
+    const auto is_outside = [&](const Disk& disk) {
+      return !fixed_border_.encloses(motion.of(disk.center));
+    };
+    const auto small = std::partition_point(
+        moving_.disks.begin(), moving_.disks.end(),
+        [&](const Disk& disk) { return disk.radius > disk_step * moving_.size; });
+    return is_outside(moving_.disks.front()) && std::all_of(small, moving_.disks.end(), is_outside);
+  }
 
   double saved_at(const Placement& at) const {
     const Motion motion(at);
@@ -223,6 +279,8 @@ class Nesting {
   const Part& fixed_;
   const Part& moving_;
   double gap_;
+  Border fixed_border_, moving_border_;
+  mutable std::size_t last_ = 0;
 };
 
 bool is_near(const Placement& a, const Placement& b, double size) {
@@ -276,7 +334,7 @@ Result<std::vector<Placement>> nest(const Shape& fixed, const Shape& moving, dou
     if (std::any_of(kept.begin(), kept.end(),
                     [&](const Placement& other) { return is_near(at, other, two->size); }))
       continue;
-    at.gap = nesting.distance_at(at, -std::numeric_limits<double>::infinity());
+    at.gap = nesting.distance_at(at);
     kept.push_back(at);
   }
   return kept;

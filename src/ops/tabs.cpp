@@ -18,15 +18,19 @@
 namespace medial {
 namespace {
 
-double distance_to_segment(Vec2 p, Vec2 a, Vec2 b) {
-  const Vec2 way = b - a;
-  const double square = squared_norm(way);
-  const double share = square > 0 ? std::clamp(dot(p - a, way) / square, 0.0, 1.0) : 0;
-  return distance(p, a + share * way);
+/// From a bar with flat ends, so that none reaches through the walls that it stands between.
+double distance_to_bar(Vec2 p, Vec2 a, Vec2 b, double width) {
+  const double length = distance(a, b);
+  if (!(length > 0)) return distance(p, a);
+  const double along = dot(p - a, b - a) / length, aside = std::abs(cross(b - a, p - a)) / length;
+  return std::hypot(std::max({-along, along - length, 0.0}), std::max(aside - width / 2, 0.0));
 }
-double distance_to_line(Vec2 p, const TabLine& line) {
-  return std::min(distance_to_segment(p, line[0], line[1]),
-                  distance_to_segment(p, line[1], line[2]));
+/// Of a tab: two bars, and around where they meet a disk that is no wider than what they cross.
+double distance_to_tab(Vec2 p, const TabLine& line, double width) {
+  const double round = std::min(width / 2, distance(line[0], line[1]));
+  return std::min({distance_to_bar(p, line[0], line[1], width),
+                   distance_to_bar(p, line[1], line[2], width),
+                   std::max(distance(p, line[1]) - round, 0.0)});
 }
 
 /// A disk between two loops: a tab may stand there.
@@ -132,10 +136,11 @@ void tie(const std::vector<TabPlace>& places, std::size_t loops,
 /// A move, and the parts of it that would cut into tabs.
 class Crossing {
  public:
-  /// `reach`: from the middle line of a tab to the tool's centre beside it.
-  Crossing(const BulgeArc& move, std::vector<const TabLine*> near, double reach)
+  /// `reach`: from a tab to the tool's centre beside it.
+  Crossing(const BulgeArc& move, std::vector<const TabLine*> near, double width, double reach)
       : move_(move),
         near_(std::move(near)),
+        width_(width),
         reach_(reach),
         length_(arc_length(norm(move.chord()), move.bulge)) {
     collect(0, 1);
@@ -148,7 +153,7 @@ class Crossing {
   double excess(double share) const {
     double least = infinity;
     for (const TabLine* line : near_)
-      least = std::min(least, distance_to_line(point_at_share(move_, share), *line));
+      least = std::min(least, distance_to_tab(point_at_share(move_, share), *line, width_));
     constexpr double rounding = 1 - 1e-9;
     return least - rounding * reach_;
   }
@@ -188,7 +193,7 @@ class Crossing {
 
   BulgeArc move_;
   std::vector<const TabLine*> near_;
-  double reach_, length_;
+  double width_, reach_, length_;
   std::vector<std::pair<double, double>> inside_;
 };
 
@@ -197,7 +202,7 @@ class Lift {
  public:
   explicit Lift(const Carving& carving)
       : tabs_(carving.tabs),
-        reach_(carving.tabs.width / 2 + carving.tip_radius +
+        reach_(carving.tip_radius +
                carving.slope * std::max(carving.deepest - carving.tabs.top, 0.0)) {
     std::vector<Box> boxes;
     for (const TabLine& line : tabs_.lines) {
@@ -217,7 +222,7 @@ class Lift {
 
  private:
   Box wider(const Box& box) const {
-    const Vec2 by = reach_ * Vec2{1, 1};
+    const Vec2 by = (tabs_.width / 2 + reach_) * Vec2{1, 1};
     return {box.low - by, box.high + by};
   }
   std::vector<const TabLine*> near(const BulgeArc& move) const {
@@ -239,7 +244,7 @@ class Lift {
     std::vector<std::pair<double, double>> inside;
     if (!above && !(move.start == move.end)) {
       if (auto lines = near(move); !lines.empty())
-        inside = Crossing(move, std::move(lines), reach_).inside();
+        inside = Crossing(move, std::move(lines), tabs_.width, reach_).inside();
     } else if (!above && ops::distance_to(tabs_, from.point) < reach_) {
       inside = {{0, 1}};
     }
@@ -274,7 +279,8 @@ namespace ops {
 
 double distance_to(const Tabs& tabs, Vec2 p) {
   double least = infinity;
-  for (const TabLine& line : tabs.lines) least = std::min(least, distance_to_line(p, line));
+  for (const TabLine& line : tabs.lines)
+    least = std::min(least, distance_to_tab(p, line, tabs.width));
   return least;
 }
 

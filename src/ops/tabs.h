@@ -10,7 +10,7 @@ namespace medial::ops {
 /// 1e-8 of the tool's radius and a tab's width.
 void spare_tabs(Carving& carving);
 
-/// The distance from the nearest tab's middle line; infinite without tabs.
+/// The distance from the nearest tab; infinite without tabs.
 double distance_to(const Tabs& tabs, Vec2 p);
 
 }  // namespace medial::ops

@@ -187,6 +187,43 @@ class Carve(CommandLine):
         self.assertTrue(program.rstrip().endswith("M2"), program)
         self.assertEqual(self.moves("s.nc"), [])
 
+    def test_circles_are_cut_by_going_straight_down(self):
+        """Beside other shapes and alone; a hole as wide as the mill is drilled."""
+        self.write("c.svg", '<svg xmlns="http://www.w3.org/2000/svg" width="60mm" viewBox="0 0 60 40">'
+                            '<circle cx="20" cy="20" r="8"/><rect x="40" y="10" width="10" height="20"/></svg>')
+        self.succeed("carve", "c.svg", "--angle", "60", "--origin", "drawing", "-o", "c.nc")
+        deep = 8 / math.tan(math.pi / 6)
+        down = [move for move in self.moves("c.nc") if (move[2]["X"], abs(move[2]["Y"])) == (20, 20) and move[0] == 1]
+        self.assertAlmostEqual(min(move[2]["Z"] for move in down), -deep, 5)
+        self.assertEqual({(move[1]["X"], move[1]["Y"]) for move in down}, {(down[0][2]["X"], down[0][2]["Y"])})
+        self.assertTrue(all(move[3].get("F", 300) == 300 for move in down))
+        self.write("h.wkt", "CURVEPOLYGON (CIRCULARSTRING (0 0, 3 0, 0 0))\nCURVEPOLYGON (CIRCULARSTRING (9 0, 11 0, 9 0))")
+        done = self.succeed("carve", "h.wkt", "--units", "mm", "--angle", "0", "--tool", "3", "--depth", "2", "-o", "h.nc")
+        self.assertEqual({(move[2]["X"], move[2]["Z"]) for move in self.moves("h.nc") if move[0] == 1 and
+                          move[2]["Z"] < -1.9}, {(1.5, -2)})
+        self.assertIn(b"1 of 2 parts is narrower than the tool", done.stderr)
+
+    def test_notes_and_defaults_of_tools(self):
+        self.write("s.wkt", "POLYGON ((0 0, 40 0, 40 30, 0 30, 0 0))")
+        common = ["carve", "s.wkt", "--units", "mm"]
+        self.succeed(*common, "--angle", "60", "--depth", "3", "--clear-tool", "6", "--spindle", "12000", "-o", "s.nc")
+        self.assertEqual([line for line in self.lines("s.nc") if line.startswith("M3")], ["M3 S12000"] * 2)
+        narrow = self.succeed(*common, "--angle", "0", "--tool", "3", "--depth", "2", "--exterior", "--margin", "2",
+                              "-o", "n.nc")
+        self.assertIn(b"--margin is narrower", narrow.stderr)
+        self.assertIn(b"fits nowhere: the V clears", self.succeed(*common, "--angle", "60", "--depth", "3", "--clear-tool",
+                                                                 "100", "-o", "n.nc").stderr)
+        self.write("i.dxf", "\n".join(["0", "SECTION", "2", "HEADER", "9", "$INSUNITS", "70", "1", "0", "ENDSEC", "0",
+                                        "SECTION", "2", "ENTITIES", "0", "CIRCLE", "8", "0", "10", "0", "20", "0", "40", "1",
+                                        "0", "ENDSEC", "0", "EOF", ""]))
+        if self.supported("i.dxf"):
+            self.assertIn(b"the drawing is in in", self.succeed("carve", "i.dxf", "--angle", "60", "-o", "i.nc").stderr)
+            self.assertNotIn(b"drawing is in", self.succeed("carve", "i.dxf", "--angle", "60", "--output-units", "in",
+                                                            "-o", "i.tap").stderr)
+        for wrong in (["--angle", "0"], ["--angle", "0", "--tool", "3", "--depth", "2", "--tip", "1"],
+                      ["--angle", "60", "--clear-tool", "3"], ["--angle", "60", "--post", "grbl", "-o", "a.png"]):
+            self.refuse("invalid_option", *common, *wrong)
+
     def test_templates_and_preview(self):
         self.write("s.wkt", self.SQUARE)
         common = ["carve", "s.wkt", "--units", "mm", "--angle", "60"]
@@ -264,11 +301,13 @@ class Carve(CommandLine):
         for name, text in (("square", self.SQUARE), ("comb", comb(5)), ("star", star(30)), ("frame", FRAME)):
             drawings[name] = self.path(self.write(name + ".wkt", text))
         sharp = {"maze.wkt", "plan.wkt", "square", "comb", "frame"}  # corners at all four sides
+        beyond = 2  # around a drawing its enclosure is cut, whose corners are sharp
         for name, path in drawings.items():
             # Its module in Python knows no table of tools, so the program with a change of tool has a pause instead.
-            tabs = ["--depth", "1", "--exterior", "--margin", "2", "--tabs", "3", "--tab-width", "1"]
+            around = ["--depth", "1", "--exterior", "--margin", str(beyond)]
+            tabs = [*around, "--tabs", "3", "--tab-width", "1"]
             for unit, post, options in (("mm", "linuxcnc", []), ("in", "plain", ["--pass-depth", "0"]),
-                                        ("mm", "linuxcnc", tabs)):
+                                        ("mm", "linuxcnc", tabs), ("in", "plain", around)):
                 units = ["--units", "mm", "--output-units", unit]
                 x0, y0, x1, y1 = json.loads(self.succeed("info", path, "--json", *units).stdout)["extent"]
                 self.succeed("carve", path, *units, "--angle", "90", *options,
@@ -277,7 +316,8 @@ class Carve(CommandLine):
                                                  check=True, cwd=self.folder.name).stdout)
                 self.assertEqual(read["error"], "", name)
                 self.assertGreater(read["moves"], 4)
-                if name in sharp and options is not tabs:
+                margin = beyond if "--exterior" in options else 0
+                if margin or name in sharp:
                     for low, high, size in zip(read["low"], read["high"], (x1 - x0, y1 - y0)):
-                        self.assertAlmostEqual(low, 0, delta=1e-6)
-                        self.assertAlmostEqual(high, size, delta=1e-6)
+                        self.assertAlmostEqual(low, -margin, delta=1e-6, msg=name)
+                        self.assertAlmostEqual(high, size + margin, delta=1e-6, msg=name)

@@ -155,7 +155,7 @@ class Words(CommandLine):
                 ("'x' is not numbers separated by commas", "offset", "r.wkt", "--distance", "x"),
                 ("'1,2' is not 4 numbers separated by commas", "axis", "r.wkt", "--within", "1,2"),
                 ("'1,2' is not 4 numbers separated by commas", "voronoi", "r.wkt", "--frame", "1,2"),
-                ("--fit is for methods that follow smooth contours", "axis", "r.wkt", "--fit", "1"),
+                ("--fit is for --method curve-axis", "axis", "r.wkt", "--fit", "1"),
                 ("0 is not in [1 - 1e+06]", "measure", "r.wkt", "--samples", "0")):
             report = self.refuse("invalid_option", *line)
             self.assertIn(words, report)

@@ -1,6 +1,7 @@
 """What happens to files that are there already."""
 
 import contextlib
+import json
 import sqlite3
 
 from support import FRAME, RECTANGLE, CommandLine
@@ -33,6 +34,68 @@ class Files(CommandLine):
         self.refuse("unwritable", "prune", "a.json", "-o", "a.json")
         self.assertEqual(self.read("a.json"), before)
 
+    def test_layers_have_names(self):
+        self.write("a.wkt", RECTANGLE)
+        self.succeed("axis", "a.wkt", "-o", "t.gpkg")
+        self.succeed("axis", "a.wkt", "-o", "t.gpkg", "--output-layer", "roads")
+        self.succeed("measure", "a.wkt", "-o", "t.gpkg", "--transects", "3", "--output-layer", "widths")
+        self.assertEqual([self.rows(layer) for layer in ("axis", "nodes", "roads", "roads_nodes", "widths")],
+                         [5, 6, 5, 6, 3])
+        self.assertIn("--output-layer", self.refuse("unwritable", "measure", "a.wkt", "-o", "t.gpkg", "--transects", "3",
+                                                    "--output-layer", "widths"))
+        self.succeed("measure", "a.wkt", "-o", "t.gpkg", "--transects", "4", "--output-layer", "widths", "--overwrite")
+        self.assertEqual(self.rows("widths"), 4)
+        self.refuse("invalid_option", "axis", "a.wkt", "-o", "a.wkt", "--output-layer", "roads")
+
+    def test_no_input_is_overwritten(self):
+        self.write("a.wkt", RECTANGLE)
+        self.write("b.wkt", RECTANGLE)
+        self.succeed("axis", "a.wkt", "-o", "a.json")
+        self.refuse("unwritable", "rebuild", "a.json", "--against", "b.wkt", "-o", "b.wkt")
+        self.assertEqual(self.read("b.wkt").decode(), RECTANGLE)
+        self.refuse("unwritable", "nest", "a.wkt", "b.wkt", "-o", "b.wkt")
+        self.refuse("invalid_option", "measure", "a.wkt", "-o", "m.svg", "--plot", "m.svg")
+        # What is read along with an input: a part of a shapefile, the image of a map.
+        self.succeed("rebuild", "a.json", "-o", "s.shp")
+        before = self.read("s.shp")
+        self.refuse("unwritable", "centreline", "s.dbf", "-o", "s.shp")
+        self.assertEqual(self.read("s.shp"), before)
+        self.succeed("axis", "a.wkt", "-o", "m.png")
+        self.write("m.yaml", "image: 'm.png'\nresolution: 1\norigin: [0, 0, 0]\n")
+        before = self.read("m.png")
+        self.refuse("unwritable", "axis", "m.yaml", "-o", "m.png")
+        self.assertEqual(self.read("m.png"), before)
+        self.refuse("invalid_option", "carve", "a.wkt", "--angle", "60", "-o", "p.png", "--preview", "p.png")
+
+    def test_shapefiles_keep_letters(self):
+        names = ["\u9ec4\u6cb3", "\u0394\u03ad\u03bb\u03c4\u03b1"]
+        self.write("a.geojson", json.dumps({"type": "FeatureCollection", "features": [
+            {"type": "Feature", "properties": {"name": name}, "geometry": {
+                "type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 2], [0, 2], [0, 0]]]}} for name in names]}))
+        self.succeed("centreline", "a.geojson", "-o", "a.shp")
+        self.assertEqual(self.read("a.cpg").strip(), b"UTF-8")
+        for name in names:
+            self.assertIn(name.encode(), self.read("a.dbf"))
+        # Of a shapefile that is replaced nothing stays.
+        for part in ("qix", "sbn", "prj"):
+            self.write("a." + part, "old")
+        self.write("b.wkt", RECTANGLE)
+        self.succeed("axis", "b.wkt", "-o", "a.shp")
+        self.assertEqual([name for name in self.files() if name.startswith("a.")],
+                         ["a.cpg", "a.dbf", "a.geojson", "a.shp", "a.shx"])
+
+    def test_features_keep_their_numbers(self):
+        """Tables name a feature as notes do, also behind one that is left out."""
+        self.write("a.wkt", "POLYGON ((0 0, 1 0, 2 0, 0 0))\n" + RECTANGLE)
+        said = self.succeed("axis", "a.wkt", "--skip-invalid", "-o", "a.geojson").stderr
+        self.assertIn(b"left out: feature 0", said)
+        lines = json.loads(self.read("a.geojson"))["features"]
+        self.assertEqual({line["properties"]["feature"] for line in lines}, {1})
+        self.succeed("offset", "a.wkt", "--skip-invalid", "--distance", "0.5", "-o", "o.geojson")
+        self.assertEqual(json.loads(self.read("o.geojson"))["features"][0]["properties"]["feature"], 1)
+        self.succeed("measure", "a.wkt", "--skip-invalid", "--samples", "2", "-o", "m.csv")
+        self.assertTrue(self.read("m.csv").splitlines()[1].startswith(b"1,"))
+
     def test_empty_results_and_options_without_effect(self):
         self.write("a.wkt", RECTANGLE)
         self.assertIn(b"the result is empty",
@@ -40,3 +103,7 @@ class Files(CommandLine):
         for option in (["--disks", "10"], ["--contacts"], ["--nodes"], ["--no-shape"]):
             self.assertIn("pictures", self.refuse("invalid_option", "axis", "a.wkt", "-o", "a.csv", *option))
         self.succeed("axis", "a.wkt", "-o", "a.svg", "--disks", "10")
+        self.assertIn("pictures", self.refuse("invalid_option", "axis", "a.wkt", "-o", "a.csv", "--width", "500"))
+        for option, method in ((["--pixels", "50"], "ridge"), (["--order", "3"], "potential"),
+                               (["--curve-step", "0.01"], "curve-axis"), (["--brushfire", "sides"], "brushfire")):
+            self.assertIn(method, self.refuse("invalid_option", "axis", "a.wkt", *option))

@@ -77,6 +77,11 @@ class Graphs(CommandLine):
                 node = graph.nodes[line["properties"]["from_node"]]
                 self.assertEqual([node["x"], node["y"]], line["geometry"]["coordinates"][0])
                 self.assertEqual(node["r"], line["properties"]["r_from"])
+        drawn = sorted(line["geometry"]["coordinates"] for line in lines)
+        self.assertEqual(sorted(points for *_, points in link.edges(data="geometry")), drawn)
+        read = sorted([[float(v) for v in point.split()] for point in text[12:-1].split(",")]
+                      for *_, text in xml.edges(data="geometry"))
+        self.assertEqual(read, drawn)
 
     @unittest.skipIf(networkx is None, "networkx is not installed")
     def test_names_survive_xml(self):

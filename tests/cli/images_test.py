@@ -63,6 +63,11 @@ class Images(CommandLine):
         self.assertGreater(mask["foreground"], 60)
         self.refuse("unsupported", "axis", "key.pbm", "--mask", "-o", "skeleton.svg")
         self.refuse("invalid_option", "axis", self.write("a.wkt", FRAME), "--mask", "-o", "a.png")
+        for option in (["--labels"], ["--invert"], ["--threshold", "3"]):
+            self.assertIn("images", self.refuse("invalid_option", "axis", "a.wkt", *option))
+        self.refuse("invalid_option", "axis", "key.pbm", "--labels", "--invert")
+        self.refuse("invalid_option", "axis", "key.pbm", "--threshold", "nan")
+        self.assertIn(b"--pixel-outline", self.succeed("measure", "key.pbm").stderr)
 
     def test_values(self):
         """Masks of zeros and ones, labels, and grey values."""
@@ -143,6 +148,113 @@ class Images(CommandLine):
         self.write("c.yaml", self.read("map.yaml").decode().replace("map.pgm", "gone.pgm"))
         self.assertIn("gone.pgm", self.refuse("unreadable", "axis", "c.yaml"))
         self.refuse("invalid_option", "axis", "map.yaml", "--threshold", "3")
+        # Lists of a line each, probabilities in per cent, and what is wrong with a number.
+        text = self.read("map.yaml").decode()
+        self.write("list.yaml", text.replace("[-10, 20, 0.0]", "\n- -10\n- 20\n- 0.0"))
+        self.assertEqual(json.loads(self.succeed("info", "list.yaml", "--json").stdout)["extent"], info["extent"])
+        self.write("raw.yaml", text + "mode: raw\n")
+        self.assertAlmostEqual(json.loads(self.succeed("info", "raw.yaml", "--json").stdout)["area"], 1.5,
+                               delta=0.01)
+        self.assertIn("above 0", self.refuse("malformed", "info", self.write("n.yaml", text.replace("0.5", "-0.5"))))
+        self.assertIn("origin", self.refuse("malformed", "info", self.write("n.yaml", text.replace("20", "nan"))))
+        # Distances and masks of their cells.
+        done = self.succeed("distance", "map.yaml", "--json", "-o", "d.tif")
+        self.assertEqual(json.loads(done.stdout)["foreground"], 4)
+        self.assertIn(b"unknown cells", done.stderr)
+        self.succeed("axis", "map.yaml", "--mask", "-o", "m.png")
+        self.assertEqual(json.loads(self.succeed("distance", "m.png", "--json").stdout)["width"], 4)
+
+    def test_pixels_of_maps_are_the_grid(self):
+        """However the origin and the resolution round: single cells stay holes."""
+        self.write("m.pgm", b"P5\n40 23\n255\n" + bytes(0 if x % 6 == 3 and y % 6 == 3 else 254
+                                                         for y in range(23) for x in range(40)))
+        for origin in ("-10.0, -6.0", "-10.35, -6.15", "0.1, 0.3"):
+            self.write("m.yaml", f"image: m.pgm\nresolution: 0.05\norigin: [{origin}, 0]\n")
+            done = self.succeed("axis", "m.yaml", "--method", "brushfire", "-o", "a.json")
+            self.assertNotIn(b"does not resolve", done.stderr)
+            item = json.loads(self.read("a.json"))["items"][0]["axis"]
+            self.assertEqual(len(item["edges"]) - len(item["nodes"]) + 1, 24)  # four more are at the side
+
+    @staticmethod
+    def bits(data):
+        """The set pixels of a raw PBM."""
+        _, size, rows = data.split(b"\n", 2)
+        width, height = map(int, size.split())
+        stride = (width + 7) // 8
+        return {(x, y) for y in range(height) for x in range(width)
+                if rows[y * stride + x // 8] >> (7 - x % 8) & 1}
+
+    def test_masks_are_as_connected_as_the_image(self):
+        """A disk, a ring, a slanted bar, a chain of pixels that touch in corners, and one pixel."""
+        def inside(x, y):
+            return ((x - 15) ** 2 + (y - 15) ** 2 < 145 or 60 < (x - 50) ** 2 + (y - 15) ** 2 < 170 or
+                    abs(x - 2 * y + 30) < 12 and 62 < x < 110 or (x - y == 60 and 5 < y < 12) or (x, y) == (2, 50))
+        size = 120, 60
+        rows = ["".join("1" if inside(x, y) else "0" for x in range(size[0])) for y in range(size[1])]
+        self.write("a.pbm", "P1\n120 60\n" + "\n".join(rows))
+        self.succeed("axis", "a.pbm", "--method", "brushfire", "--mask", "-o", "b.pbm")
+        shape = json.loads(self.succeed("distance", "a.pbm", "--json").stdout)
+        for options in ([], ["--pixel-outline"], ["--smooth-contour"], ["--method", "ridge"], ["--method", "brushfire"]):
+            self.succeed("axis", "a.pbm", "--mask", "-o", "m.pbm", *options)
+            mask = json.loads(self.succeed("distance", "m.pbm", "--json").stdout)
+            self.assertEqual([mask[key] for key in ("components", "holes")],
+                             [shape[key] for key in ("components", "holes")], options)
+            drawn = self.bits(self.read("m.pbm"))
+            self.assertTrue(all(inside(x, y) for x, y in drawn), options)
+            squares = sum({(x + 1, y), (x, y + 1), (x + 1, y + 1)} <= drawn for x, y in drawn)
+            self.assertLess(squares, 0.05 * len(drawn), options)  # where lines cross
+        # Units change no pixel, a pipe has its format, and options of pictures have no effect.
+        self.succeed("axis", "a.pbm", "--mask", "-o", "m.pbm")
+        self.succeed("axis", "a.pbm", "--mask", "-o", "n.pbm", "--pixel-size", "0.3", "--units", "um", "--scale", "2")
+        self.assertEqual(self.read("m.pbm"), self.read("n.pbm"))
+        piped = self.succeed("axis", "a.pbm", "--mask", "-o", "-", "--format", "png").stdout
+        self.assertTrue(piped.startswith(b"\x89PNG"))
+        for option in (["--disks", "4"], ["--width", "400"], ["--no-shape"]):
+            self.refuse("invalid_option", "axis", "a.pbm", "--mask", "-o", "o.png", *option)
+
+    @staticmethod
+    def tiff(pages):
+        """Uncompressed little-endian pages of 16 x 8 pixels: (data, bits, photometric, samples, description)."""
+        out = bytearray(b"II*\0\0\0\0\0")
+        link = 4
+        for data, bits, photometric, samples, text in pages:
+            def put(block):
+                out.extend(b"\0" * (len(out) % 2))
+                at = len(out)
+                out.extend(block)
+                return at
+            strip = put(data)
+            tags = [(256, 3, 1, 16), (257, 3, 1, 8), (259, 3, 1, 1), (262, 3, 1, photometric), (273, 4, 1, strip),
+                    (277, 3, 1, samples), (278, 3, 1, 8), (279, 4, 1, len(data)), (296, 3, 1, 1)]
+            depth = put(struct.pack("<HH", bits, bits)) if samples == 2 else 0
+            tags.append((258, 3, samples, depth or bits) if samples == 1 else (258, 3, 2, bits * 65537))
+            if text:
+                tags += [(270, 2, len(text) + 1, put(text + b"\0")), (282, 5, 1, put(struct.pack("<II", 10, 1))),
+                         (283, 5, 1, put(struct.pack("<II", 10, 1)))]
+            place = put(struct.pack("<H", len(tags)) + b"".join(struct.pack("<HHII", *tag) for tag in sorted(tags)) +
+                        b"\0" * 4)
+            out[link:link + 4] = struct.pack("<I", place)
+            link = place + 2 + 12 * len(tags)
+        return bytes(out)
+
+    def test_tiffs_of_microscopes(self):
+        bar = bytes(255 if 2 <= x < 14 and 2 <= y < 6 else 0 for y in range(8) for x in range(16))
+        ones = b"".join(struct.pack(">H", 0x3FFC if 2 <= y < 6 else 0) for y in range(8))
+        info = lambda name, *options: json.loads(self.succeed("info", name, "--json", *options).stdout)
+        # Set bits are the foreground, also where they are drawn black.
+        self.write("white.tif", self.tiff([(ones, 1, 1, 1, b"")]))
+        self.write("black.tif", self.tiff([(ones, 1, 0, 1, b"")]))
+        self.assertEqual([info("white.tif")["area"], info("black.tif")["area"]], [48, 48])
+        self.assertIn(b"drawn black", self.succeed("info", "black.tif").stderr)
+        # What is not read is noted.
+        self.write("stack.tif", self.tiff([(bar, 8, 1, 1, b"")] * 3))
+        self.assertIn(b"3 pages", self.succeed("info", "stack.tif").stderr)
+        self.write("two.tif", self.tiff([(bytes(v for v in bar for _ in range(2)), 8, 1, 2, b"")]))
+        self.assertIn(b"2 channels", self.succeed("info", "two.tif").stderr)
+        # ImageJ says how long a pixel is in its own way.
+        self.write("ij.tif", self.tiff([(bar, 8, 1, 1, b"ImageJ=1.53\nunit=micron\n")]))
+        self.assertAlmostEqual(info("ij.tif", "--output-units", "um")["area"], 0.48)
+        self.assertIn(b"--output-units um", self.succeed("info", "ij.tif", "--units", "um").stderr)
 
     def test_families(self):
         self.write("l.pbm", self.PICTURE)

@@ -111,6 +111,29 @@ class Inputs(CommandLine):
             self.assertEqual(json.loads(mended.stdout)["components"], parts, rule)
             self.assertIn(b"cross or overlap in 2 places", mended.stderr)
 
+    def test_overlaps_leave_no_flat_corners(self):
+        """Letters of overlapping rectangles have a leaf in each of their corners, and in no point of an edge."""
+        for k in range(12):
+            scale = 1 + k / 7
+            path = "".join("M{0} {1}H{2}V{3}H{0}Z".format(*(scale * v for v in box)) for box in
+                           ((60, 0, 160, 700), (340, 0, 440, 700), (110, 600, 430, 700), (160, 300, 340, 400)))
+            self.write("a.svg", f'<svg xmlns="http://www.w3.org/2000/svg" width="800mm" viewBox="0 0 777 800"><path d="{path}"/></svg>')
+            self.succeed("axis", "a.svg", "-o", "a.json")
+            nodes = json.loads(self.read("a.json"))["items"][0]["axis"]["nodes"]
+            self.assertEqual(sum(node[2] == 0 for node in nodes), 6, k)
+            self.succeed("verify", "a.svg", "a.json")
+
+    def test_projections_go_on_beyond_180_degrees(self):
+        ring = [[179, 0], [181, 0], [181, 1], [179, 1], [179, 0]]
+        self.write("a.geojson", json.dumps({"type": "Polygon", "coordinates": [ring]}))
+        self.succeed("centreline", "a.geojson", "--project", "-o", "b.geojson")
+        for line in json.loads(self.read("b.geojson"))["features"]:
+            self.assertTrue(all(179 < x < 181 for x, _ in line["geometry"]["coordinates"]), line)
+        # What one projection of a wide file does to lengths is said.
+        far = [[[10, 60], [10.1, 60], [10.1, 60.1], [10, 60]], [[-120, -40], [-119, -40], [-119, -39], [-120, -40]]]
+        self.write("c.geojson", json.dumps({"type": "MultiPolygon", "coordinates": [[ring] for ring in far]}))
+        self.assertIn(b"lengths are off by up to", self.succeed("axis", "c.geojson", "--project", "-o", "c.json").stderr)
+
     def test_fill_rules_need_no_repair(self):
         """Outlines of a drawing that cross, overlap along edges and arcs, or enclose nothing."""
         half = "a1 1 0 0 1 2 0"

@@ -3,10 +3,27 @@
 import json
 import os
 
-from support import FRAME, CommandLine
+from support import DATA, FRAME, CommandLine
 
 
 class Pack(CommandLine):
+    def test_the_docs_say_what_packs_take(self):
+        """The table on the first lines of the page, but for other versions of zstd."""
+        page = os.path.join(DATA, "..", "docs", "pack.md")
+        with open(page, encoding="utf-8") as file:
+            rows = [line.split("|")[1:-1] for line in file if line.startswith("| ")]
+        table = {row[0].strip(): [int(cell.replace(",", "")) for cell in row[1:]]
+                 for row in rows if row[0].strip() in ("spanner.svg", "gear.wkt", "plan.wkt")}
+        self.assertEqual(len(table), 3)
+        for name, wanted in table.items():
+            found = []
+            for error in ("0.005", "0.001"):
+                report = json.loads(self.succeed("pack", os.path.join(DATA, name), "--error", error, "-o", "a.mpk",
+                                                 "--compare", "--json").stdout)
+                found += [report["bytes"], report["compare"]["boundary_within_error"]]
+            for ours, said in zip(found, wanted):
+                self.assertAlmostEqual(ours, said, delta=4 + 0.02 * said, msg=name)
+
     def test_pack(self):
         """What is packed comes back within the error; damage is reported."""
         self.write("frame.wkt", FRAME)

@@ -17,8 +17,10 @@ def footprints(count, seed=1):
         yield [(x + u, y + v) for u, v in ((0, 0), (a, 0), (a, c), (d + 1, c), (d + 1, b), (d, b + 1), (0, b + 1), (0, 0))]
 
 
-def wkt(rings):
-    return "".join("POLYGON ((" + ", ".join(f"{x!r} {y!r}" for x, y in ring) + "))\n" for ring in rings)
+def wkt(rings, decimals=None):
+    """With many decimals few features are a large file."""
+    number = repr if decimals is None else f"{{:.{decimals}f}}".format
+    return "".join("POLYGON ((" + ", ".join(f"{number(x)} {number(y)}" for x, y in ring) + "))\n" for ring in rings)
 
 
 def geojson(rings):
@@ -48,7 +50,8 @@ class Stream(CommandLine):
             threads = "1" if folder == "one_" else "2"
             target = ["-o", folder + "a." + output] if output else []
             done = self.run_medial(command, source, *target, "--threads", threads, *more)
-            printed = done.stdout.decode().rpartition(";")[0]  # without the seconds
+            printed = done.stdout.decode()
+            printed = printed.rpartition(";")[0] or printed  # without the seconds
             said[folder] = done.returncode, (printed + done.stderr.decode()).replace(source, "FILE")
         self.assertEqual(said["whole_"], said["parts_"])
         self.assertEqual(said["whole_"], said["one_"])
@@ -73,6 +76,27 @@ class Stream(CommandLine):
             self.assert_same("csv")
         self.assertIn("main paths", self.both_ways("f.wkt", text, "csv", "--trim", "0", command="centreline")[1])
 
+    def test_offsets_are_those_of_the_whole(self):
+        text = wkt(footprints(9000))
+        for output, options in (("json", ["--distance", "0.5,-1,1"]), ("wkt", ["--step", "0.8"]),
+                                ("geojson", ["--step", "1", "--chord", "1e-2"])):  # fmt: skip
+            self.assertEqual(self.both_ways("f.wkt", text, output, *options, command="offset")[0], 0)
+            self.assert_same(output)
+        self.assertIn("result is empty", self.both_ways("f.wkt", text, "wkt", "--distance", "50", command="offset")[1])
+        self.assertIn("9000 features, ", self.both_ways("f.wkt", text, "", "--distance", "1", command="offset")[1])
+
+    def test_measures_are_those_of_the_whole(self):
+        text = wkt(footprints(2500), 30)
+        for output, options in (("csv", ["--samples", "5"]), ("geojson", ["--spacing", "4"]), ("wkt", ["--necks", "1"])):
+            said = self.both_ways("f.wkt", text, output, *options, command="measure")
+            self.assertEqual((said[0], said[1].count("\n")), (0, 2501))
+            self.assert_same(output)
+        said = self.both_ways("f.wkt", text, "", "--quiet", command="measure")
+        self.assertEqual((said[0], said[1].count("\n")), (0, 2501))
+        # One after another, layers of a text cannot go part by part.
+        self.both_ways("f.wkt", text, "geojson", "--necks", "1", "--disks", "1", command="measure")
+        self.assert_same("geojson")
+
     def test_summaries_are_those_of_the_whole(self):
         """Without an output nothing is held either."""
         text = wkt(footprints(9000))
@@ -84,12 +108,20 @@ class Stream(CommandLine):
         self.both_ways("f.geojson", text, "geojson")
         self.assert_same("geojson")
         self.both_ways("f.geojson", text, "gpkg")
-        for table in ("axis", "nodes"):
+        self.assert_same_tables("axis", "nodes")
+        for command, options, tables in (
+                ("offset", ["--distance", "1"], ["offsets"]),
+                ("measure", ["--spacing", "3", "--disks", "2"], ["transects", "disks"])):  # fmt: skip
+            self.both_ways("f.geojson", text, "gpkg", *options, "--overwrite", command=command)
+            self.assert_same_tables(*tables)
+
+    def assert_same_tables(self, *tables):
+        for table in tables:
             rows = []
             for way in ("whole", "parts", "one"):
                 with sqlite3.connect(self.path(f"{way}_a.gpkg")) as database:
                     rows.append(database.execute(f"SELECT * FROM {table} ORDER BY fid").fetchall())
-            self.assertGreater(len(rows[0]), 5000)
+            self.assertGreaterEqual(len(rows[0]), 5000)
             self.assertTrue(rows[0] == rows[1] == rows[2], table)
 
     def test_errors_are_those_of_the_whole_and_leave_nothing(self):

@@ -89,6 +89,14 @@ class Units(CommandLine):
         return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 8, 8, 8, 0, 0, 0, 0)) + resolution +
                 chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
+    def test_feet_of_american_surveys(self):
+        """EPSG:2263, the plane coordinates of New York, is in feet of 1200 / 3937 m."""
+        self.write("a.wkt", "POLYGON ((987000 210000, 988000 210000, 988000 210100, 987000 210100, 987000 210000))")
+        info = json.loads(self.succeed("info", "a.wkt", "--crs", "EPSG:2263", "--json").stdout)
+        self.assertEqual(info["unit"], "us-ft")
+        info = json.loads(self.succeed("info", "a.wkt", "--crs", "EPSG:2263", "--output-units", "m", "--json").stdout)
+        self.assertAlmostEqual(info["area"], 1e5 * (1200 / 3937) ** 2, 6)
+
     def test_images(self):
         self.write("i.png", self.png(0))
         self.assertEqual(self.size("i.png", "--pixel-outline"), (8, "pixel"))

@@ -13,7 +13,7 @@ namespace medial::io {
 
 struct ImageOptions {
   /// Pixels at or above this value are foreground. Nothing: half of the format's largest value (128
-  /// of 8 bits, 0.5 of real numbers, any set bit of 1 bit); of an image of zeros and ones, 1.
+  /// of 8 bits, 0.5 of real numbers and of 32 bits, any set bit of 1 bit); of zeros and ones, 1.
   std::optional<double> threshold;
   bool invert = false;  ///< pixels below the threshold are foreground instead
   /// Of read_document(): a feature for each value but 0, with the attribute `value`.
@@ -97,18 +97,14 @@ struct VoronoiItem {
 bool is_voronoi(const std::string& path);
 Result<Document<VoronoiItem>> read_voronoi(const std::string& path);
 
-/// Takes points of a reference system that ReadOptions::project made back to degrees, within 2 mm;
-/// those of any other stay. Errors: unsupported (a point without counterpart).
-Status back_to_geographic(const std::string& crs_wkt, std::vector<Vec2>& points);
-
 struct ImageFile : PlacedImage, DocumentInfo {};
 
-/// Whether a file begins like an image of read_image(); false if it cannot be opened.
+/// Whether a file is one for read_image() by its beginning; false if it cannot be opened.
 bool is_image(const std::string& path);
 
-/// Reads a binary image: PBM (set bits, black, are the foreground) and PGM, gzipped or not, or PNG,
-/// JPEG, BMP, WebP, GIF, TIFF and GeoTIFF through GDAL. Of colours the luminance counts (BT.601);
-/// what is transparent or without data is background. Errors: also empty (no foreground).
+/// A binary image: PBM (set bits are the foreground) and PGM, gzipped or not, or PNG, JPEG, BMP,
+/// WebP, GIF, TIFF and GeoTIFF through GDAL, or a ROS map's free cells. Of colours the luminance
+/// counts (BT.601); what is transparent or without data is background. Errors: also empty.
 Result<ImageFile> read_image(const std::string& path, const ImageOptions& options = {});
 
 /// Reads a mesh by its extension and cuts polygons into triangles: .obj and .stl through Assimp, in

@@ -42,6 +42,7 @@ std::string formats_of(DocumentKind kind);
 
 struct WriteOptions {
   double chord = 1e-3;       ///< chords stay within this share (> 0) of the bounding box diagonal
+  std::string layer = {};    ///< of a .gpkg: the name of its first layer, and with _ of the others
   bool overwrite = false;    ///< replaces layers of the same name in a .gpkg that is there
   bool radius_as_z = false;  ///< drawings (.dxf) have the radius as z
   // pictures (.svg .pdf .png .ps)
@@ -51,6 +52,7 @@ struct WriteOptions {
   bool shape = true;      ///< draw the shape
   bool nodes = false;     ///< draw the nodes by kind; tables have those between two edges as well
   bool titles = false;    ///< write each item's attribute "title" below its shape
+  bool chords = false;    ///< .wkt of offset curves: polygons of chords instead of exact arcs
   /// Lines of axes in tables, .wkt and graphs have few points within this distance of the curve, in
   /// units of the input; 0: chords. Their ends stay, so networks stay connected.
   double simplify = 0;
@@ -60,36 +62,6 @@ struct WriteOptions {
 /// .graphml, .nodelink (JSON, as networkx reads it) and .edgelist hold the graph of branches.
 Status write_axes(const Destination& target, const std::string& format,
                   const Document<AxisItem>& file, const WriteOptions& options = {});
-
-struct StreamOptions {
-  SourceOptions source;
-  WriteOptions write;
-  int threads = 0;  ///< see Options
-  /// The axes of some shapes of the file; called for several parts of it at once.
-  std::function<Result<Document<AxisItem>>(Document<ShapeItem> shapes, int threads,
-                                           AxesReport& report)>
-      compute;
-  /// Sees the parts in order, before they are written; may be empty.
-  std::function<void(const Document<AxisItem>& part)> visit;
-  /// Gets the share that is done, in [0, 1], and the number of features; may be empty.
-  std::function<void(double share, std::uint64_t features)> progress;
-  std::uint64_t least_bytes = std::uint64_t{1} << 20;  ///< of a file; smaller ones are read whole
-};
-
-struct StreamReport {
-  LoadReport load;
-  AxesReport axes;
-  Document<AxisItem> document;  ///< without items: what held for all, and the notes
-};
-
-/// What load_shapes(), options.compute and write_axes() make of a file, with the same bytes, part
-/// by part; the file is read twice. Without a target's name nothing is written. Returns nothing
-/// where the input is no file of .wkt or GDAL's vector formats, the output no table, .wkt, .csv or
-/// .json, or an option needs all features (repair, project, units, contours). A .fgb has no spatial
-/// index. Errors: those of the three, of the first part with one.
-Result<std::optional<StreamReport>> stream_axes(const std::string& path, const Destination& target,
-                                                const std::string& format,
-                                                const StreamOptions& options);
 
 /// Shapes. .json (native), .svg (but for the shift of its viewport), .dxf (polylines with bulges)
 /// and .wkt (a geometry per line; with arcs a MULTISURFACE) are lossless, .geojson has chords.
@@ -116,11 +88,10 @@ struct OffsetItem {
 };
 
 /// Offset curves: .json is lossless; .wkt has a multi-surface with exact circular strings for each
-/// clearance of a feature, or a multi-polygon of chords with `chords`; .geojson a polygon of chords
-/// for each region; .dxf closed polylines with bulges, a layer for each clearance.
+/// clearance of a feature; .geojson a polygon of chords for each region; .dxf closed polylines with
+/// bulges, a layer for each clearance.
 Status write_offsets(const Destination& target, const std::string& format,
-                     const Document<OffsetItem>& file, const WriteOptions& options = {},
-                     bool chords = false);
+                     const Document<OffsetItem>& file, const WriteOptions& options = {});
 
 struct CarveItem {
   Shape shape;
@@ -192,6 +163,7 @@ enum class LayerKind : std::uint8_t {
   disks,     ///< points; the first value is the radius
   lines,     ///< one part: the points of the line
   polygons,  ///< the parts are rings, the outer one first
+  profile,   ///< one part: the centre of a disk and its two feet; .csv holds one such layer
 };
 
 /// A geometry with values: what measuring a shape gives besides axes.
@@ -216,6 +188,38 @@ Status write_layers(const Destination& target, const std::string& format,
                     const Document<Layer>& layers, const Document<AxisItem>& background,
                     const WriteOptions& options = {});
 
+/// Layers, and the features that they are of.
+using MeasuredItems = std::pair<Document<Layer>, Document<AxisItem>>;
+/// What is made of a file's features.
+using StreamItems = std::variant<Document<AxisItem>, Document<OffsetItem>, MeasuredItems>;
+
+struct StreamOptions {
+  SourceOptions source;
+  WriteOptions write;
+  int threads = 0;   ///< see Options
+  StreamItems none;  ///< of the kind that compute() makes, without features
+  /// What becomes of some shapes of the file; called for several parts of it at once.
+  std::function<Result<StreamItems>(Document<ShapeItem> shapes, int threads, AxesReport& report)>
+      compute;
+  std::function<void(const StreamItems& part)> visit;  ///< in order, before writing; may be empty
+  /// Gets the share that is done, in [0, 1], and the number of features; may be empty.
+  std::function<void(double share, std::uint64_t features)> progress;
+  std::uint64_t least_bytes = std::uint64_t{1} << 20;  ///< of a file; smaller ones are read whole
+};
+
+struct StreamReport {
+  LoadReport load;
+  AxesReport axes;
+  DocumentInfo document;  ///< what held for all, and the notes
+};
+
+/// What load_shapes(), options.compute and a writer make of a file, with the same bytes, part by
+/// part; the file is read twice. Without a target's name nothing is written. Returns nothing where
+/// the input is no .wkt or GDAL's vector format, the output no table, .wkt, .csv or .json, or an
+/// option needs all features (repair, project, units, contours). A .fgb has no spatial index.
+Result<std::optional<StreamReport>> stream(const std::string& path, const Destination& target,
+                                           const std::string& format, const StreamOptions& options);
+
 struct FieldPictureOptions {
   double width = 800;      ///< of the picture, in pixels or points, in [16, 8000]
   int lines = 40;          ///< along the longer side of the grid where force lines start; 0: none
@@ -235,7 +239,8 @@ Status write_voxels(const std::string& path, const std::string& format, const Vo
                     const Solid& solid, double width = 1536);
 
 /// An image as .png, .tif (bytes 0 and 255) or .pbm, placed as `source`.
-Status write_image(const std::string& path, const Image& image, const ImageFile& source);
+Status write_image(const std::string& path, const std::string& format, const Image& image,
+                   const ImageFile& source);
 
 struct DistanceFormat {
   bool squared = false;  ///< the squared distance, exactly, instead of the distance

@@ -1,4 +1,5 @@
-// Comma-separated values: samples of axes and diagrams, tables of features, tool paths.
+// Comma-separated values: samples of axes and diagrams, tables of features, width profiles, tool
+// paths.
 
 #include <fmt/format.h>
 
@@ -143,6 +144,33 @@ Status write_csv(Target& target, const CarvingOutput& output) {
   return success();
 }
 
+/// A width profile. Widths are in the unit that is named, wherever the places are.
+Status write_csv(Target& target, const LayersOutput& output) {
+  const auto& layers = output.document.items;
+  if (layers.size() != 1 || layers[0].kind != LayerKind::profile)
+    return Error{ErrorCode::unsupported, ".csv holds width profiles; use .geojson or .gpkg", {}};
+  const std::string unit = name_of(output.document.unit);
+  const std::string end = unit.empty() ? "\n" : "," + unit + "\n";
+  if (target.part.begins) {
+    target.out->put("feature,line,along,x,y,width,span,left_x,left_y,right_x,right_y");
+    target.out->put(unit.empty() ? "\n" : ",unit\n");
+  }
+  std::vector<Vec2> places;
+  for (const LayerFeature& at : layers[0].features)
+    places.insert(places.end(), at.parts[0].begin(), at.parts[0].end());
+  target.place(places);
+  auto place = places.begin();
+  for (const LayerFeature& at : layers[0].features) {
+    const Vec2 center = *place++, left = *place++, right = *place++;
+    const auto& value = at.values;
+    target.out->put(fmt::format("{},{},{},{},{},{},{},{},{},{},{}{}",
+                                target.part.number_of(output.background, at.feature), value[0],
+                                value[1], center.x, center.y, value[2], value[3], left.x, left.y,
+                                right.x, right.y, end));
+  }
+  return success();
+}
+
 Result<Document<Feature>> read_vertices(const Input& input, const ReadOptions& options) {
   return read_xy(*input.source, options.loose);
 }
@@ -156,8 +184,8 @@ Format csv_format() {
   format.accepts = has_two_columns;
   format.gdal_chooses = true;
   format.geographic = format.in_parts = true;
-  return format.writes<AxesOutput, VoronoiOutput, FeaturesOutput, CarvingOutput>(
-      write_csv, write_csv, write_csv, write_csv);
+  return format.writes<AxesOutput, VoronoiOutput, FeaturesOutput, LayersOutput, CarvingOutput>(
+      write_csv, write_csv, write_csv, write_csv, write_csv);
 }
 
 Format xy_format() {

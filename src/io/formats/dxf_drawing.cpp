@@ -45,7 +45,7 @@ void write_tables(DL_Dxf& drawing, DxfGroups& groups, const std::vector<std::str
   groups.sectionEnd();
 }
 
-constexpr std::array<std::pair<int, Unit>, 10> units_of_dxf{{{1, Unit::inch},
+constexpr std::array<std::pair<int, Unit>, 11> units_of_dxf{{{1, Unit::inch},
                                                              {2, Unit::foot},
                                                              {4, Unit::millimetre},
                                                              {5, Unit::centimetre},
@@ -54,6 +54,7 @@ constexpr std::array<std::pair<int, Unit>, 10> units_of_dxf{{{1, Unit::inch},
                                                              {9, Unit::mil},
                                                              {10, Unit::yard},
                                                              {13, Unit::micrometre},
+                                                             {21, Unit::us_foot},
                                                              {0, Unit::unknown}}};
 
 void write_blocks(DL_Dxf& drawing, DxfGroups& groups) {

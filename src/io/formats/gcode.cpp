@@ -249,6 +249,8 @@ void place(Document<CarveItem>& file, Vec2 zero) {
   file.y_down = false;
 }
 
-Format gcode_format() { return Format{".nc .gcode .ngc"}.writes<CarvingOutput>(write_gcode); }
+Format gcode_format() {
+  return Format{".nc .gcode .ngc .tap .cnc"}.writes<CarvingOutput>(write_gcode);
+}
 
 }  // namespace medial::io

@@ -184,7 +184,7 @@ Status write_geojson(Target& target, const OffsetsOutput& output) {
     for (std::size_t k = 0; k < item.offsets.regions.size(); ++k) {
       const OffsetRegion& region = item.offsets.regions[k];
       collection.start();
-      collection.member("\"feature\"", i);
+      collection.member("\"feature\"", target.part.number_of(output.document, i));
       collection.member("\"region\"", k);
       collection.member("\"clearance\"", region.clearance);
       collection.key("\"parent\"");

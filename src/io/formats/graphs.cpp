@@ -7,6 +7,7 @@
 #include <string>
 
 #include "io/formats/json_text.h"
+#include "io/ring_text.h"
 #include "io/tables.h"
 
 namespace medial::io {
@@ -25,7 +26,7 @@ class GraphTables : public TableSink {
 
  protected:
   virtual void put_node(std::span<const Value> values, Vec2 place) = 0;
-  virtual void put_edge(std::span<const Value> values) = 0;
+  virtual void put_edge(std::span<const Value> values, const std::vector<Vec2>& line) = 0;
 
   static std::int64_t number(const Value& value) { return std::get<std::int64_t>(value); }
   static bool is_known(const Value& value) {
@@ -50,7 +51,7 @@ class GraphTables : public TableSink {
              std::span<std::vector<Vec2>> parts) override {
     values_.assign(first.begin(), first.end());
     values_.insert(values_.end(), rest.begin(), rest.end());
-    table == branch_table ? put_edge(values_) : put_node(values_, parts[0][0]);
+    table == branch_table ? put_edge(values_, parts[0]) : put_node(values_, parts[0][0]);
     return success();
   }
 
@@ -83,6 +84,7 @@ class GraphmlTables final : public GraphTables {
       for (std::size_t i = 0; i < tables_[table].columns.size(); ++i)
         put_key(table, i, tables_[table].columns[i]);
     for (const char* place : {"x", "y"}) put_key_of(place, "node", place, "double");
+    put_key_of("geometry", "edge", "geometry", "string");
     if (!target.unit.empty()) put_key_of("unit", "graph", "unit", "string");
     out_.put("<graph edgedefault=\"undirected\">\n");
     if (!target.unit.empty()) out_.put("<data key=\"unit\">" + xml_of(target.unit) + "</data>\n");
@@ -111,11 +113,14 @@ class GraphmlTables final : public GraphTables {
     put_values(1 - branch_table, values);
     out_.put("</node>\n");
   }
-  void put_edge(std::span<const Value> values) override {
+  /// With its line as well-known text, as OSMnx reads it.
+  void put_edge(std::span<const Value> values, const std::vector<Vec2>& line) override {
     out_.put(fmt::format("<edge id=\"{}\" source=\"{}\" target=\"{}\">", edges_++,
                          number(values[from_column]), number(values[to_column])));
     put_values(branch_table, values);
-    out_.put("</edge>\n");
+    out_.put("<data key=\"geometry\">LINESTRING ");
+    put_wkt_points(out_, line);
+    out_.put("</data></edge>\n");
   }
   void put_values(std::size_t table, std::span<const Value> values) {
     each_value(table, values, [&](std::size_t i, const Value& value) {
@@ -157,10 +162,16 @@ class NodelinkTables final : public GraphTables {
                          members(1 - branch_table, values)));
     first_node_ = false;
   }
-  void put_edge(std::span<const Value> values) override {
-    edges_json_ += fmt::format("{}{{\"source\":{},\"target\":{},\"key\":{}{}}}",
+  void put_edge(std::span<const Value> values, const std::vector<Vec2>& line) override {
+    edges_json_ += fmt::format("{}{{\"source\":{},\"target\":{},\"key\":{}{},\"geometry\":",
                                edges_json_.empty() ? "\n" : ",\n", number(values[from_column]),
                                number(values[to_column]), edges_++, members(branch_table, values));
+    char separator = '[';
+    for (const Vec2 p : line) {
+      edges_json_ += fmt::format("{}[{},{}]", separator, p.x, p.y);
+      separator = ',';
+    }
+    edges_json_ += "]}";
   }
   std::string members(std::size_t table, std::span<const Value> values) const {
     std::string text;
@@ -192,7 +203,7 @@ class EdgelistTables final : public GraphTables {
 
  private:
   void put_node(std::span<const Value>, Vec2) override {}
-  void put_edge(std::span<const Value> values) override {
+  void put_edge(std::span<const Value> values, const std::vector<Vec2>&) override {
     out_.put(fmt::format("{} {} {}\n", number(values[from_column]), number(values[to_column]),
                          std::get<double>(values[length_column])));
   }

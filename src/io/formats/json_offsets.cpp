@@ -39,10 +39,12 @@ void put_region(OutputStream& out, const OffsetRegion& region, const BufferSourc
 
 Status write_json(Target& target, const OffsetsOutput& output) {
   OutputStream& out = *target.out;
-  out.put("{\"medial_offsets\":1");
-  put_unit(target);
-  out.put(",\n\"items\":");
-  put_items(out, output.document.items, [&](const OffsetItem& item) {
+  if (target.part.begins) {
+    out.put("{\"medial_offsets\":1");
+    put_unit(target);
+    out.put(",\n\"items\":");
+  }
+  put_items(out, target.part, output.document.items, [&](const OffsetItem& item) {
     put_member(out, "{\"tolerance\":", item.offsets.tolerance);
     out.put(",\"attributes\":");
     put_attributes(out, item.attributes);

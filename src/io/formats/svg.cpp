@@ -360,10 +360,12 @@ Result<Document<Feature>> read_svg(const Input& input, const ReadOptions& option
     dataset.items.push_back(std::move(outlines));
   }
   if (dataset.items.empty()) {
-    return error({ErrorCode::empty,
-                  drawing.unfilled > 0 ? "no shape is filled, and a stroke alone has no inside"
-                                       : "there is no filled shape",
-                  {}});
+    return error(
+        {ErrorCode::empty,
+         drawing.unfilled > 0
+             ? "no shape is filled, and a stroke alone has no inside: give closed paths a fill"
+             : "there is no filled shape",
+         {}});
   }
   if (drawing.unfilled > 0) {
     dataset.notes.push_back(

@@ -481,7 +481,7 @@ Status write_wkt(Target& target, const ShapesOutput& output) {
 
 /// The regions of each clearance of an item.
 Status write_wkt(Target& target, const OffsetsOutput& output) {
-  const bool curved = !output.chords && !target.crs.changes_points();
+  const bool curved = !output.options.chords && !target.crs.changes_points();
   for (const OffsetItem& item : output.document.items) {
     const auto& regions = item.offsets.regions;
     const double chord = chord_of(item, output.options);

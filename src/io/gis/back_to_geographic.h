@@ -27,6 +27,7 @@ class BackToGeographic {
  private:
   BackToGeographic() = default;
   std::shared_ptr<OGRCoordinateTransformation> transformation_;
+  double middle_ = 0;  ///< of the projection, as a longitude
   std::string crs_wkt_;
 };
 

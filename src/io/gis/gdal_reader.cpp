@@ -238,7 +238,9 @@ class GdalReader final : public FeatureReader {
     }
     if (without_geometry_ > 0) {
       common_.notes.push_back(
-          fmt::format("{} features have no geometry and were left out", without_geometry_));
+          without_geometry_ == 1
+              ? "1 feature has no geometry and was left out"
+              : fmt::format("{} features have no geometry and were left out", without_geometry_));
     }
     return success();
   }

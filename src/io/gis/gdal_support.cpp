@@ -83,6 +83,10 @@ void CPL_STDCALL GdalMessages::collect(CPLErr level, CPLErrorNum, const char* te
       line, [](unsigned char c) { return c < ' '; }, ' ');
   while (!line.empty() && (line.back() == '.' || line.back() == ' ')) line.pop_back();
   constexpr std::size_t enough = 20;  // a broken file can warn at each of its features
+  // What is no news, or noted in other words.
+  if (line.starts_with("Non closed ring detected") ||
+      line.starts_with("This version of GeoPackage"))
+    return;
   if (level == CE_Warning) {
     if (self->warnings_.size() < enough &&
         std::ranges::find(self->warnings_, line) == self->warnings_.end()) {

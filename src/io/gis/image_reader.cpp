@@ -190,17 +190,33 @@ class Bands {
  public:
   Bands(GDALDataset& dataset, const ImageOptions& options) : options_(options) {
     const int count = dataset.GetRasterCount();
+    int channels = 0;
     for (int i = 1; i <= count; ++i) {
       GDALRasterBand* const band = dataset.GetRasterBand(i);
       if (band->GetColorInterpretation() == GCI_AlphaBand) {
         alpha_ = band;
-      } else if (colors_.size() < 3) {
-        colors_.push_back(band);
+        continue;
       }
+      ++channels;
+      if (colors_.size() < 3) colors_.push_back(band);
     }
     if (colors_.size() == 2) colors_.pop_back();
     if (colors_.empty()) return;
+    if (channels != static_cast<int>(colors_.size()))
+      notes_.push_back(fmt::format(
+          "the image has {} channels: {}", channels,
+          channels == 2 ? "the first is read" : "the first three are taken for colours"));
+    if (const int pages = CSLCount(dataset.GetMetadata("SUBDATASETS")) / 2; pages > 1)
+      notes_.push_back(fmt::format("the file has {} pages: the first is read", pages));
     table_ = colors_[0]->GetColorTable();
+    const char* ones_are_black = dataset.GetMetadataItem("MINISWHITE", "IMAGE_STRUCTURE");
+    if (ones_are_black != nullptr && EQUAL(ones_are_black, "YES") && table_ != nullptr &&
+        half_range(*colors_[0]) == 1) {
+      table_ = nullptr;
+      notes_.emplace_back(
+          "of this image of one bit the ones are the foreground, which are drawn black; --invert "
+          "takes the zeros");
+    }
     nodata_ = colors_[0]->GetNoDataValue(&has_nodata_);
     threshold_ = options.threshold.value_or(default_threshold());
   }
@@ -242,9 +258,12 @@ class Bands {
     return true;
   }
   std::vector<std::string> notes() const {
-    return options_.threshold || options_.labels ? std::vector<std::string>()
-                                                 : seen_.notes(threshold_);
+    std::vector<std::string> all = notes_;
+    if (!options_.threshold && !options_.labels)
+      std::ranges::move(seen_.notes(threshold_), std::back_inserter(all));
+    return all;
   }
+  bool hold_labels() const { return colors_.size() == 1; }
 
   /// Whether the values of the first band could be appended.
   bool append_labels(int y, int count, int width, Labels& labels) {
@@ -274,10 +293,6 @@ class Bands {
       case GDT_UInt16:
       case GDT_Int16:
         return 32768 / (band.GetRasterDataType() == GDT_Int16 ? 2.0 : 1.0);
-      case GDT_UInt32:
-        return 2147483648.0;
-      case GDT_Int32:
-        return 1073741824.0;
       default:
         return 0.5;
     }
@@ -313,6 +328,7 @@ class Bands {
   int has_nodata_ = 0;
   double threshold_ = 0;
   Values seen_;
+  std::vector<std::string> notes_;
   std::vector<double> values_, part_;
 };
 
@@ -338,15 +354,31 @@ double dots_per_inch_of_png(std::string_view bytes) {
   return 0;
 }
 
+/// How many of the lengths that ImageJ names in the description of a TIFF are in an inch.
+double per_inch_of_imagej(std::string_view description) {
+  const auto begin = description.find("\nunit=");
+  if (!description.starts_with("ImageJ=") || begin == std::string_view::npos) return 0;
+  std::string name(description.substr(begin + 6, description.find('\n', begin + 1) - begin - 6));
+  if (name == "micron" || name == "\\u00B5m" || name == "\xc2\xb5m" || name == "\xb5m") name = "um";
+  if (name == "inch") name = "in";
+  const auto unit = unit_of(name == "nm" ? "um" : name);
+  if (!unit || *unit == Unit::css_pixel) return 0;
+  return millimetres(Unit::inch) / millimetres(*unit) * (name == "nm" ? 1000 : 1);
+}
+
 /// The same of a TIFF.
 double dots_per_inch_of(GDALDataset& dataset) {
-  const char* across = dataset.GetMetadataItem("TIFFTAG_XRESOLUTION");
-  const char* down = dataset.GetMetadataItem("TIFFTAG_YRESOLUTION");
-  const char* unit = dataset.GetMetadataItem("TIFFTAG_RESOLUTIONUNIT");
-  if (across == nullptr || down == nullptr || unit == nullptr || !EQUAL(across, down)) return 0;
-  const double dots = CPLAtof(across);
+  const auto item = [&dataset](const char* name) {
+    const char* text = dataset.GetMetadataItem(name);
+    return std::string(text == nullptr ? "" : text);
+  };
+  const std::string across = item("TIFFTAG_XRESOLUTION"), unit = item("TIFFTAG_RESOLUTIONUNIT");
+  if (across.empty() || unit.empty() || across != item("TIFFTAG_YRESOLUTION")) return 0;
+  const double dots = CPLAtof(across.c_str());
   constexpr double centimetres_per_inch = 2.54;
-  return unit[0] == '2' ? dots : unit[0] == '3' ? dots * centimetres_per_inch : 0;
+  if (unit[0] == '2') return dots;
+  if (unit[0] == '3') return dots * centimetres_per_inch;
+  return dots * per_inch_of_imagej(item("TIFFTAG_IMAGEDESCRIPTION"));
 }
 
 /// All rows into the image and, if asked for, the labels. What is wrong, or nothing.
@@ -379,6 +411,9 @@ Result<ImageFile> read_raster(const std::string& name, const ImageOptions& optio
   ImageFile file;
   Bands bands(*dataset, options);
   if (!bands.usable()) return Error{ErrorCode::unsupported, "its pixels are not numbers", {}};
+  if (options.labels && !bands.hold_labels())
+    return Error{
+        ErrorCode::unsupported, "labels are in images of one channel; this one has colours", {}};
   do {
     file.image = Image(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
     const char* problem = read_rows(bands, options, file.image, labels);
@@ -552,6 +587,7 @@ Result<ImageFile> read_image(const std::string& path, const ImageOptions& option
   if (!source) return source.error();
   if (options.labels)
     return Error{ErrorCode::invalid_option, "labels make features, not one image", in_file(path)};
+  if (is_ros_map(path)) return read_ros_image(path, **source, options);
   Labels none;
   return read_foreground({path, *source}, options, none);
 }

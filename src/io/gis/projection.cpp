@@ -120,6 +120,18 @@ GlobeExtent extent_of(const Document<Feature>& dataset) {
           degrees(std::acos(std::clamp(cosine, -1.0, 1.0)))};
 }
 
+std::string note_on(const GlobeExtent& extent, bool conformal) {
+  std::string note = fmt::format("projected to metres by the {} projection at {:.4f}, {:.4f}",
+                                 conformal ? "transverse Mercator" : "azimuthal equal-area",
+                                 extent.longitude, extent.latitude);
+  // Lengths across the way to the middle grow as those along it shrink.
+  constexpr double most = 179;
+  if (!conformal)
+    note += fmt::format("; far from there, lengths are off by up to {:.2g} %",
+                        100 * (1 / std::cos(0.5 * radians(std::min(extent.reach, most))) - 1));
+  return note;
+}
+
 }  // namespace
 
 Status project_to_local(Document<Feature>& dataset) {
@@ -173,21 +185,13 @@ Status project_to_local(Document<Feature>& dataset) {
       return failed(dataset.index_of(i));
   }
   set_crs(local, dataset);
-  dataset.notes.push_back(fmt::format("projected to metres by the {} projection at {:.4f}, {:.4f}",
-                                      conformal ? "transverse Mercator" : "azimuthal equal-area",
-                                      extent.longitude, extent.latitude));
+  dataset.notes.push_back(note_on(extent, conformal));
   return success();
 }
 
 bool is_local_projection(const std::string& crs_wkt) {
   return crs_wkt.starts_with(fmt::format("PROJCRS[\"{}\"", local_name)) ||
          crs_wkt.starts_with(fmt::format("PROJCS[\"{}\"", local_name));
-}
-
-Status back_to_geographic(const std::string& crs_wkt, std::vector<Vec2>& points) {
-  if (!is_local_projection(crs_wkt)) return success();
-  auto back = BackToGeographic::make(crs_wkt);
-  return back ? back->transform(points) : std::move(back).error();
 }
 
 Result<BackToGeographic> BackToGeographic::make(const std::string& crs_wkt) {
@@ -201,6 +205,8 @@ Result<BackToGeographic> BackToGeographic::make(const std::string& crs_wkt) {
   OGRSpatialReference geographic;
   geographic.CopyGeogCSFrom(&local);
   BackToGeographic back;
+  back.middle_ =
+      local.GetProjParm(SRS_PP_CENTRAL_MERIDIAN, local.GetProjParm(SRS_PP_LONGITUDE_OF_CENTER));
   back.transformation_ = transformer(local, geographic);
   if (!back.transformation_) {
     return Error{ErrorCode::unsupported, "the local projection cannot be undone", {}};
@@ -213,7 +219,11 @@ Result<BackToGeographic> BackToGeographic::make(const std::string& crs_wkt) {
 
 Status BackToGeographic::transform(std::vector<Vec2>& points) const {
   const GdalMessages messages;
-  if (transform_points(*transformation_, points)) return success();
+  if (transform_points(*transformation_, points)) {
+    // Within half a turn of the projection's middle: lines across 180 degrees go on beyond it.
+    for (Vec2& p : points) p.x += 360 * std::round((middle_ - p.x) / 360);
+    return success();
+  }
   return Error{ErrorCode::unsupported, "a point of the axis has no longitude and latitude", {}};
 }
 

@@ -9,4 +9,8 @@ namespace medial::io {
 Result<Document<Feature>> outline_document(ImageFile file, std::span<const std::uint32_t> labels,
                                            const ReadOptions& options);
 
+/// The free cells of a map of ROS.
+Result<ImageFile> read_ros_image(const std::string& path, TextSource& source,
+                                 const ImageOptions& options);
+
 }  // namespace medial::io

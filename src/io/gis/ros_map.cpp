@@ -9,6 +9,7 @@
 
 #include "io/format.h"
 #include "io/gis/rasters.h"
+#include "io/image_kind.h"
 #include "io/place.h"
 
 namespace medial::io {
@@ -21,15 +22,20 @@ std::string trimmed(std::string text) {
   return text.substr(begin, text.find_last_not_of(" \t\r'\"") + 1 - begin);
 }
 
-/// The lines `key: value` of a text, without comments.
+/// The lines `key: value` of a text, without comments. Lines `- value` are a list of the last key.
 std::map<std::string, std::string> keys_of(const std::string& text) {
   std::map<std::string, std::string> keys;
   std::istringstream lines(text);
+  std::string last;
   for (std::string line; std::getline(lines, line);) {
-    line = line.substr(0, line.find(" #"));
+    line = trimmed(line.substr(0, line.find(" #")));
     const auto colon = line.find(':');
-    if (line.starts_with('#') || colon == std::string::npos) continue;
-    keys[trimmed(line.substr(0, colon))] = trimmed(line.substr(colon + 1));
+    if (line.starts_with("- ")) {
+      keys[last] += line.substr(1) + " ";
+    } else if (!line.starts_with('#') && colon != std::string::npos) {
+      last = trimmed(line.substr(0, colon));
+      keys[last] = trimmed(line.substr(colon + 1));
+    }
   }
   return keys;
 }
@@ -40,6 +46,7 @@ struct RosMap {
   double resolution = 0;
   std::array<double, 3> origin{};  ///< of the lower left corner: x, y, and the angle in radians
   bool negate = false;
+  bool raw = false;  ///< pixels are probabilities in per cent; 255: unknown
   double free_threshold = 0.196;
 };
 
@@ -54,14 +61,22 @@ std::size_t read_numbers(const std::string& text, std::span<double> numbers) {
   return count;
 }
 
-std::optional<RosMap> map_of(const std::string& text) {
+Result<RosMap> map_of(const std::string& text) {
   auto keys = keys_of(text);
   RosMap map;
   map.image = keys["image"];
-  if (map.image.empty() || read_numbers(keys["resolution"], std::span(&map.resolution, 1)) != 1 ||
-      !(map.resolution > 0) || read_numbers(keys["origin"], map.origin) < 2)
-    return std::nullopt;
+  if (map.image.empty() || !keys.contains("resolution") || !keys.contains("origin"))
+    return Error{ErrorCode::malformed,
+                 "this is not a ROS map: it needs the keys image, resolution and origin",
+                 {}};
+  if (read_numbers(keys["resolution"], std::span(&map.resolution, 1)) != 1 ||
+      !(map.resolution > 0) || !std::isfinite(map.resolution))
+    return Error{ErrorCode::malformed, "the resolution of a ROS map must be above 0", {}};
+  if (read_numbers(keys["origin"], map.origin) < 2 ||
+      !std::ranges::all_of(map.origin, [](double v) { return std::isfinite(v); }))
+    return Error{ErrorCode::malformed, "the origin of a ROS map is x, y and an angle", {}};
   map.negate = keys["negate"] == "1" || keys["negate"] == "true";
+  map.raw = keys["mode"] == "raw";
   read_numbers(keys["free_thresh"], std::span(&map.free_threshold, 1));
   return map;
 }
@@ -70,6 +85,7 @@ std::optional<RosMap> map_of(const std::string& text) {
 /// below the threshold; what is unknown is at or above it.
 ImageOptions free_cells(const RosMap& map) {
   ImageOptions options;
+  if (map.raw) return {std::ceil(100 * map.free_threshold), true};
   options.invert = map.negate;
   options.threshold = map.negate ? std::ceil(255 * map.free_threshold)
                                  : std::floor(255 * (1 - map.free_threshold)) + 1;
@@ -85,37 +101,52 @@ PixelPlacement placement_of(const RosMap& map, std::uint32_t height) {
   return {corner.x, right.x, down.x, corner.y, right.y, down.y};
 }
 
+/// The outline of what is free.
 Result<Document<Feature>> read_ros_map(const Input& input, const ReadOptions& options) {
-  constexpr std::size_t longest = 1 << 20;
-  std::string text;
-  input.source->read_all(text, longest);
-  if (input.source->failure()) return *input.source->failure();
-  const auto map = map_of(text);
-  if (!map)
-    return Error{ErrorCode::malformed,
-                 "this is not a ROS map: it needs the keys image, resolution and origin",
+  if (options.image.labels || options.repair != RepairRule::none)
+    return Error{ErrorCode::invalid_option, "--labels and --repair are not for ROS maps",
                  in_file(input.path)};
-  const ImageOptions& given = options.image;
-  if (given.threshold || given.invert || given.labels || options.repair != RepairRule::none)
-    return Error{ErrorCode::invalid_option,
-                 "a map says itself which cells are free: --threshold, --invert, --labels and "
-                 "--repair are not for it",
-                 in_file(input.path)};
-  const auto beside = std::filesystem::path(input.path).replace_filename(map->image);
-  auto file = read_image(beside.string(), free_cells(*map));
-  if (!file) {
-    file.error().text =
-        fmt::format("its image {}: {}", beside.filename().string(), file.error().text);
-    return std::move(file).error();
-  }
-  file->placement = placement_of(*map, file->image.height());
-  file->notes.push_back("the shape is what is free; occupied and unknown cells lie outside");
+  auto file = read_ros_image(input.path, *input.source, options.image);
+  if (!file) return std::move(file).error();
+  if (options.smooth_contour)
+    file->notes.push_back(
+        "the outline is smoothed, within half a cell; --pixel-outline keeps the cells' edges");
   auto dataset = outline_document(std::move(*file), {}, options);
   if (dataset) dataset->unit = Unit::metre;
   return dataset;
 }
 
 }  // namespace
+
+Result<ImageFile> read_ros_image(const std::string& path, TextSource& source,
+                                 const ImageOptions& given) {
+  constexpr std::size_t longest = 1 << 20;
+  std::string text;
+  source.read_all(text, longest);
+  if (source.failure()) return *source.failure();
+  auto map = map_of(text);
+  if (!map) {
+    map.error().place = in_file(path);
+    return std::move(map).error();
+  }
+  if (given.threshold || given.invert)
+    return Error{ErrorCode::invalid_option,
+                 "a map says itself which cells are free: --threshold and --invert are not for it",
+                 in_file(path)};
+  const auto beside = std::filesystem::path(path).replace_filename(map->image).string();
+  auto file = is_ros_map(beside)
+                  ? Error{ErrorCode::unsupported, "a map is no image of another map", {}}
+                  : read_image(beside, free_cells(*map));
+  if (!file) {
+    file.error().text = fmt::format(
+        "its image {}: {}", std::filesystem::path(beside).filename().string(), file.error().text);
+    return std::move(file).error();
+  }
+  file->placement = placement_of(*map, file->image.height());
+  file->unit = Unit::metre;
+  file->notes.push_back("the shape is what is free; occupied and unknown cells lie outside");
+  return file;
+}
 
 Format ros_map_format() {
   Format format;

@@ -59,20 +59,28 @@ std::unique_ptr<OGRGeometry> geometry_of(GeometryKind kind,
   return polygon;
 }
 
+/// What a layer is called: of formats with one layer like the file.
+std::string layer_name(const Target& target, const Table& table, bool first) {
+  if (target.format != "gpkg") return target.name;
+  if (target.layer.empty()) return table.name;
+  return first ? target.layer : target.layer + "_" + table.name;
+}
+
 /// Layers of the same name as a table go, if they may.
 Status make_room(GDALDataset& dataset, const Target& target, const TableSource& source) {
   for (const Table& table : source.tables) {
+    const std::string name = layer_name(target, table, &table == source.tables.data());
     for (int i = dataset.GetLayerCount(); i-- > 0;) {
-      if (!EQUAL(dataset.GetLayer(i)->GetName(), table.name.c_str())) continue;
+      if (!EQUAL(dataset.GetLayer(i)->GetName(), name.c_str())) continue;
       if (!target.overwrite)
-        return Error{
-            ErrorCode::unwritable,
-            fmt::format("the file has a layer '{}' already; --overwrite replaces it", table.name),
-            {}};
-      if (dataset.DeleteLayer(i) != OGRERR_NONE)
         return Error{ErrorCode::unwritable,
-                     fmt::format("the layer '{}' cannot be replaced", table.name),
+                     fmt::format("the file has a layer '{}' already; --overwrite replaces it, "
+                                 "--output-layer gives the new one another name",
+                                 name),
                      {}};
+      if (dataset.DeleteLayer(i) != OGRERR_NONE)
+        return Error{
+            ErrorCode::unwritable, fmt::format("the layer '{}' cannot be replaced", name), {}};
     }
   }
   return success();
@@ -94,17 +102,21 @@ std::unique_ptr<OGRSpatialReference> reference_of(const OutputCrs& crs) {
 
 Status create_layers(GDALDataset& dataset, const Target& target, const TableSource& source,
                      const GdalMessages& messages) {
-  const bool several = target.format == "gpkg";
   // An index is left to who reads: row by row it takes three times as long as all else, and that of
   // a FlatGeobuf needs memory for all rows.
-  const bool unindexed = several || (target.columns != nullptr && target.format == "fgb");
+  const bool unindexed =
+      target.format == "gpkg" || (target.columns != nullptr && target.format == "fgb");
   std::array<char, 17> no_index{"SPATIAL_INDEX=NO"};
-  std::array<char*, 2> options{no_index.data(), nullptr};
+  std::array<char, 15> letters{"ENCODING=UTF-8"};  // of shapefiles, which says a .cpg beside them
+  std::array<char*, 2> options{unindexed                ? no_index.data()
+                               : target.format == "shp" ? letters.data()
+                                                        : nullptr,
+                               nullptr};
   const auto reference = reference_of(target.crs);
   for (const Table& table : source.tables) {
+    const std::string name = layer_name(target, table, &table == source.tables.data());
     OGRLayer* layer =
-        dataset.CreateLayer((several ? table.name : target.name).c_str(), reference.get(),
-                            type_of(table.kind), unindexed ? options.data() : nullptr);
+        dataset.CreateLayer(name.c_str(), reference.get(), type_of(table.kind), options.data());
     if (layer == nullptr) return cannot_write(messages);
     for (const Column& column : table.columns) {
       OGRFieldDefn field(column.name.c_str(), type_of(column.type));
@@ -255,14 +267,28 @@ Result<PendingFile> temporary_file(const Target& target) {
   return PendingFile::create((folder / (target.name + "." + target.format)).string());
 }
 
-/// Axes in parts, whose rows become features of GDAL on all threads.
+/// Whether the format holds what is to be written.
+Status check_tables(const Target& target, const TableSource& source) {
+  if (source.tables.size() != 1 && target.format != "gpkg")
+    return Error{ErrorCode::unsupported,
+                 fmt::format(".{} holds one layer only, and there are {}; .gpkg and .geojson hold "
+                             "several",
+                             target.format, source.tables.size()),
+                 {}};
+  if (target.out != nullptr && target.format == "shp")
+    return Error{
+        ErrorCode::unsupported, "a shapefile is several files and cannot go to a stream", {}};
+  return success();
+}
+
+/// A document in parts, whose rows become features of GDAL on all threads.
 class GdalParts final : public PartWriter {
  public:
-  static Result<std::unique_ptr<PartWriter>> make(Target& target) {
+  static Result<std::unique_ptr<PartWriter>> make(Target& target, const PartOutput& none) {
     std::unique_ptr<GdalParts> parts(new GdalParts(target));
-    const Document<AxisItem> nothing;
-    const WriteOptions options;
-    const TableSource source = tables_of(AxesOutput{nothing, options}, target);
+    const TableSource source = source_of(none, target);
+    if (Status possible = check_tables(target, source); !possible)
+      return std::move(possible).error();
     std::string path = target.path;
     if (target.out != nullptr) {
       Result<PendingFile> made = temporary_file(target);
@@ -275,7 +301,7 @@ class GdalParts final : public PartWriter {
     return std::unique_ptr<PartWriter>(std::move(parts));
   }
 
-  Result<std::shared_ptr<void>> prepare(const AxesOutput& output, const Part& part) override {
+  Result<std::shared_ptr<void>> prepare(const PartOutput& output, const Part& part) override {
     auto rows = std::make_shared<std::vector<GdalRow>>();
     Target own;
     own.part = part;
@@ -285,7 +311,7 @@ class GdalParts final : public PartWriter {
     std::unique_lock<std::mutex> alone(projecting_, std::defer_lock);
     if (own.crs.changes_points()) alone.lock();
     GdalTables tables(own, file_, rows.get());
-    Status filled = heard([&] { return tables_of(output, own).fill(tables); });
+    Status filled = heard([&] { return source_of(output, own).fill(tables); });
     if (!filled) return std::move(filled).error();
     return std::shared_ptr<void>(std::move(rows));
   }
@@ -305,6 +331,9 @@ class GdalParts final : public PartWriter {
 
  private:
   explicit GdalParts(Target& target) : target_(target) {}
+  static TableSource source_of(const PartOutput& output, const Target& target) {
+    return std::visit([&](const auto& own) { return tables_of(own, target); }, output);
+  }
 
   Target& target_;
   std::optional<PendingFile> temporary_;
@@ -313,15 +342,7 @@ class GdalParts final : public PartWriter {
 };
 
 Status put_gdal_tables(Target& target, const TableSource& source) {
-  if (source.tables.size() != 1 && target.format != "gpkg")
-    return Error{ErrorCode::unsupported,
-                 fmt::format(".{} holds one layer only, and there are {}; .gpkg and .geojson hold "
-                             "several",
-                             target.format, source.tables.size()),
-                 {}};
-  if (target.out != nullptr && target.format == "shp")
-    return Error{
-        ErrorCode::unsupported, "a shapefile is several files and cannot go to a stream", {}};
+  if (Status possible = check_tables(target, source); !possible) return possible;
   return make_file(target,
                    [&](const std::string& path) { return make_dataset(path, target, source); });
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "axis/steps.h"
 #include "base/arc.h"
 #include "base/stopwatch.h"
 #include "methods/biarc_dc/conquer.h"
@@ -76,8 +77,9 @@ struct Attempt {
   bool is_certain = false;
 };
 
-/// Aichholzer et al., Section 3: sites, divide by random maximal disks, conquer, curves.
-Result<Attempt> attempt(const Problem& problem, std::uint64_t seed, Report* report) {
+/// Aichholzer et al., Section 3: sites, divide by random maximal disks, conquer, curves. Where the
+/// axis is to be verified, its edges need their curves whatever the options say.
+Result<Attempt> attempt(const Problem& problem, std::uint64_t seed, bool verified, Report* report) {
   MedialAxis axis;
   axis.method = "biarc-dc";
   axis.tolerance = problem.tolerance;
@@ -98,28 +100,41 @@ Result<Attempt> attempt(const Problem& problem, std::uint64_t seed, Report* repo
   const Skeleton skeleton = conquer(context, *division);
   axis.statistics = context.statistics;
   const bool is_certain = is_sound(skeleton, context, problem.local_tolerance());
-  add_curves(skeleton, context, problem.frame, axis);
+  const bool curves = problem.own<method::BiarcDc>().curves || verified || !is_certain;
+  add_edges(skeleton, context, problem.frame, curves, axis);
   axis.sites = problem.result_sites();
   axis.statistics.seconds_collect = watch.lap();
   axis.statistics.seconds = all.lap();
   return Attempt{std::move(axis), is_certain};
 }
 
+/// The axis as the options ask for it: with its conics, or straight until conic_of().
+MedialAxis finished(MedialAxis axis, bool curves) {
+  if (curves) return axis;
+  for (Edge& edge : axis.edges) {
+    edge.control = straight_edge(axis, edge.node[0], edge.node[1]).control;
+    edge.weight = 1;
+  }
+  return axis;
+}
+
 }  // namespace
 
 Result<MedialAxis> run(const Problem& problem, Report* report) {
   constexpr std::uint64_t most_attempts = 4;
+  const method::BiarcDc& own = problem.own<method::BiarcDc>();
   const std::optional<Vec2> doubtful = doubtful_place(problem);
   std::optional<Error> refused;
   for (std::uint64_t i = 0; i < most_attempts; ++i) {
-    auto tried = attempt(problem, problem.own<method::BiarcDc>().seed + i, report);
+    auto tried = attempt(problem, own.seed + i, doubtful.has_value(), report);
     if (!tried) {
       refused = std::move(tried).error();
       continue;
     }
-    if ((!doubtful && tried->is_certain) || problem.is_cancelled()) return std::move(tried->axis);
+    if ((!doubtful && tried->is_certain) || problem.is_cancelled())
+      return finished(std::move(tried->axis), own.curves);
     const auto error = error_if_refused(problem, tried->axis);
-    if (!error) return std::move(tried->axis);
+    if (!error) return finished(std::move(tried->axis), own.curves);
     refused = refusal_at(error->place.point);
   }
   return std::move(*refused);

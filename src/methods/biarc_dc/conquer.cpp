@@ -206,7 +206,8 @@ std::optional<Disk> disk_touching(const Context& context, const std::vector<std:
 }
 
 /// Makes one node of several that are some tolerances apart where one disk touches all their sites
-/// (regular polygons): each of them saw the sites of its sub-shape only.
+/// (regular polygons): each of them saw the sites of its sub-shape only. So may a single node whose
+/// dividing disk misses a site of another sub-shape by some tolerances; it moves to all its sites.
 void join_ties(const Context& context, Skeleton& skeleton) {
   const double reach = tie_reach * context.tolerance;
   const auto is_short = [&](const Bone& edge) {
@@ -214,12 +215,20 @@ void join_ties(const Context& context, Skeleton& skeleton) {
     return a.radius > 0 && b.radius > 0 && distance(a.center, b.center) <= reach &&
            std::abs(a.radius - b.radius) <= reach;
   };
+  const auto misses_site = [&](const Bone& edge, const Disk& disk) {
+    const auto gap = [&](std::uint32_t site) {
+      return std::abs(site::carrier_distance(context.outline.sites[site], disk.center) -
+                      disk.radius);
+    };
+    return std::max(gap(edge.right), gap(edge.left)) > context.tolerance;
+  };
   Nodes nodes(skeleton.nodes.size());
   std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> sites_of;
   for (const Bone& edge : skeleton.edges)
     if (is_short(edge)) nodes.join(edge.from, edge.to);
   for (const Bone& edge : skeleton.edges)
-    if (is_short(edge)) sites_of[nodes.find(edge.from)];
+    for (const std::uint32_t node : {edge.from, edge.to})
+      if (is_short(edge) || misses_site(edge, skeleton.nodes[node])) sites_of[nodes.find(node)];
   if (sites_of.empty()) return;
   for (const Bone& edge : skeleton.edges)
     for (const std::uint32_t node : {edge.from, edge.to}) {
@@ -312,8 +321,8 @@ Skeleton conquer(Context& context, const Division& division) {
   return skeleton;
 }
 
-void add_curves(const Skeleton& skeleton, const Context& context, const LocalFrame& frame,
-                MedialAxis& axis) {
+void add_edges(const Skeleton& skeleton, const Context& context, const LocalFrame& frame,
+               bool curves, MedialAxis& axis) {
   const SiteOutline& outline = context.outline;
   axis.edges.resize(skeleton.edges.size());
   constexpr std::size_t block = 4096;
@@ -325,7 +334,8 @@ void add_curves(const Skeleton& skeleton, const Context& context, const LocalFra
         r = std::max(
             r, std::abs(site::carrier_distance(outline.sites[site], disk->center) - disk->radius));
     const site::Control control =
-        site::control_of(outline.sites[edge.left], outline.sites[edge.right], from, to);
+        curves ? site::control_of(outline.sites[edge.left], outline.sites[edge.right], from, to)
+               : site::Control{};
     axis.edges[i] = {{edge.from, edge.to},
                      {outline.originals[edge.left], outline.originals[edge.right]},
                      {frame.to_input(control.point.center), frame.inverse * control.point.radius},

@@ -26,8 +26,8 @@ struct Skeleton {
 /// that coincide become one node, and those that divide an edge none.
 Skeleton conquer(Context& context, const Division& division);
 
-/// Works out the conics and the nodes' kinds, in units of the input.
-void add_curves(const Skeleton& skeleton, const Context& context, const LocalFrame& frame,
-                MedialAxis& axis);
+/// The edges, with or without their conics, and the nodes with their kinds, in units of the input.
+void add_edges(const Skeleton& skeleton, const Context& context, const LocalFrame& frame,
+               bool curves, MedialAxis& axis);
 
 }  // namespace medial::biarc_dc

@@ -173,12 +173,10 @@ std::optional<EndDisk> disk_at_end(const Context& context, const Subshape& subsh
 }
 
 /// Of the copies of a reflex vertex that cutting disks leave, the one that a disk around `center`
-/// touches.
-std::size_t facing_copy(Context& context, const Subshape& subshape, std::size_t k, Vec2 center,
-                        const DiskList& disks) {
-  if (context.outline.cutting_disks.empty() || faces(context, subshape, k, center, disks)) return k;
+/// touches; `k` if none is in the sub-shape.
+std::size_t facing_copy(Context& context, const Subshape& subshape, std::size_t k, Vec2 point,
+                        Vec2 center, const DiskList& disks) {
   constexpr double same_place = 0x1p-48;
-  const Vec2 point = context.site(subshape.elements[k]).point;
   context.tree.within(point, same_place, subshape.elements.front().site,
                       subshape.elements.back().site, context.found);
   for (const std::uint32_t site : context.found) {
@@ -188,6 +186,24 @@ std::size_t facing_copy(Context& context, const Subshape& subshape, std::size_t 
       return copy;
   }
   return k;
+}
+
+/// Where a disk touches element `k` or, where cutting disks have divided the boundary, another copy
+/// of the vertex that it touches: a vertex whose range of directions it is not in, or the end of a
+/// site of which the element is a part further on.
+Place place_or_copy(Context& context, const Subshape& subshape, std::size_t k, const Disk& disk,
+                    const DiskList& disks) {
+  const Element& element = subshape.elements[k];
+  const Site& site = context.site(element);
+  const double s = site.is_vertex() ? 0 : site::foot_parameter(site, disk.center);
+  const bool is_beyond =
+      (s <= 0 && element.from > 0) || (s >= site.length && element.to < site.length);
+  const Place place{k, false, std::clamp(s, element.from, element.to)};
+  if (context.outline.cutting_disks.empty()) return place;
+  if (site.is_vertex() ? faces(context, subshape, k, disk.center, disks) : !is_beyond) return place;
+  const std::size_t copy = facing_copy(
+      context, subshape, k, site.at(std::clamp(s, 0.0, site.length)), disk.center, disks);
+  return copy == k ? place : Place{copy, false, 0};
 }
 
 /// Where a disk touches element `k`, or its neighbour if the nearest point of both is their joint
@@ -202,7 +218,6 @@ Place place_on(Context& context, const Subshape& subshape, std::size_t k, const 
     const bool joins_before = context.joins_smoothly(subshape.elements[before]),
                joins_next = context.joins_smoothly(element);
     bool goes_back = false, goes_on = false;
-    double s = 0;
     if (site.is_vertex()) {
       const auto lies_inside = [&](std::size_t i) {
         const Site& neighbor = context.site(subshape.elements[i]);
@@ -211,14 +226,12 @@ Place place_on(Context& context, const Subshape& subshape, std::size_t k, const 
       };
       goes_on = joins_next && lies_inside(next);
       goes_back = !goes_on && joins_before && lies_inside(before);
-      if (!goes_on && !goes_back)
-        return {facing_copy(context, subshape, k, disk.center, disks), false, 0};
     } else {
-      s = site::foot_parameter(site, disk.center);
+      const double s = site::foot_parameter(site, disk.center);
       goes_back = s <= 0 && joins_before;
       goes_on = s >= site.length && joins_next;
     }
-    if (!goes_back && !goes_on) return {k, false, std::clamp(s, element.from, element.to)};
+    if (!goes_back && !goes_on) return place_or_copy(context, subshape, k, disk, disks);
     if (goes_back && direction > 0) return {before, true, 0};
     if (goes_on && direction < 0) return {k, true, 0};
     direction = goes_on ? 1 : -1;
@@ -541,6 +554,8 @@ std::optional<MaximalDisk> branching_disk(Context& context, const Subshape& subs
   const BranchWalk walk{context, subshape, disks, gate.right, gate.left, gate.disk};
   Stop stop = walk.first_stop();
   if (!stop.third) return std::nullopt;
+  if (!stop.third->at_joint)
+    stop.third = place_or_copy(context, subshape, stop.third->element, stop.disk, disks);
   for (const std::size_t k : {walk.right, stop.third->element, walk.left}) {
     const Disk* const passed = disk_passed(context, subshape, k, stop.disk, disks);
     if (passed == nullptr) continue;

@@ -14,7 +14,8 @@
 namespace medial::lee {
 namespace {
 
-/// Lists of about this many chains are merged by one task, all their levels: they stay in its cache.
+/// Lists of about this many chains are merged by one task, all their levels: they stay in its
+/// cache.
 constexpr std::uint32_t block_size = 1024;
 /// Lists of 2 to the power of this many chains at most are merged level by level.
 constexpr int levels_at_bottom = 3;

@@ -53,6 +53,7 @@ std::uint32_t Charges::build(std::uint32_t begin, std::uint32_t end) {
     node.xy += lengths[i] * (middle.x * middle.y + own * t.x * t.y);
     node.yy += lengths[i] * (middle.y * middle.y + own * t.y * t.y);
   }
+  node.logarithm = std::log(node.radius);
   if (end - begin > leaf_size) {
     // Whole blocks go to the left, so that most leaves are full.
     const std::uint32_t blocks = (end - begin + leaf_size - 1) / leaf_size;

@@ -31,6 +31,7 @@ class Charges {
     double length = 0;              ///< the charge
     Vec2 center;                    ///< of the charge
     double radius = 0;              ///< of a disk around `center` that holds all of it
+    double logarithm = 0;           ///< of `radius`
     double xx = 0, xy = 0, yy = 0;  ///< second moments about `center`
   };
 

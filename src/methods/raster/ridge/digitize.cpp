@@ -29,7 +29,10 @@ Result<Grid> grid_for(const Box& box, const PixelGrid& wanted) {
                  {}};
   const double pixels = static_cast<double>(wanted.pixels > 0 ? wanted.pixels : default_pixels);
   const double step = wanted.resolution > 0 ? wanted.resolution : longer / pixels;
-  const double columns = std::ceil(size.x / step) + 2, rows = std::ceil(size.y / step) + 2;
+  // Where the shape is made of pixels, rounding must not shift the grid by half of one.
+  constexpr double rounding = 1e-6;
+  const double columns = std::ceil(size.x / step - rounding) + 2;
+  const double rows = std::ceil(size.y / step - rounding) + 2;
   if (!(columns * rows <= static_cast<double>(most_pixels)))
     return Error{ErrorCode::too_large, "the grid has more than 2^31 pixels", {}};
   if (!(step > 16 * spacing_in(box)))
