@@ -57,7 +57,7 @@ Certainty::Contact Certainty::contact_of(const site::Site& s, const Disk& disk) 
   const double size = taxicab_norm(d), unsure = rounding * size;
   if (s.is_vertex()) {
     const double away = norm(d);
-    return {(1 / away) * d, away - disk.radius, unsure, 1 / away, 0};
+    return {(1 / away) * d, away - disk.radius, unsure, 0, 0};
   }
   if (!s.is_arc()) return {s.normal(), cross(s.direction, d) - disk.radius, unsure, 0, 0};
   // The direction, the curvature and, between two pieces of an arc, the point have been rounded.
@@ -97,28 +97,34 @@ double Certainty::error_of_three(std::uint32_t third) const {
                 std::abs(c.residual) + c.unsure});
   const Vec2 ab = b.toward - a.toward, ac = c.toward - a.toward;
   const double area = cross(ab, ac);
-  const double bend = std::max({a.bend, b.bend, c.bend, 1 / to_.radius});
+  const double bend = std::max({1.0, a.bend * to_.radius, b.bend * to_.radius, c.bend * to_.radius});
   if (!(area > 4 * (a.askew + b.askew + c.askew))) return unknown;
   const double spread = 1 + 2 * (taxicab_norm(ab) + taxicab_norm(ac)) / area;
   const double within = 2.01 * spread * residual;
-  return 2 * spread * within * bend < 1 ? within + rounding : unknown;
+  return 2 * spread * within * bend < to_.radius ? within + rounding : unknown;
 }
 
 double Certainty::error_at_joint(const Boundary& boundary, std::uint32_t before,
                                  std::uint32_t after, std::uint32_t third, const Disk& disk) {
-  // The centre lies on the normal at the joint.
   const auto [joint, normal] = boundary.smooth_place(before, after);
-  const Vec2 d = disk.center - joint;
   const Contact b = contact_of(boundary.sites[third], disk);
   const double closing = 1 - dot(normal, b.toward);
   if (!(closing > 0)) return unknown;
-  const double unsure = 4 * rounding * taxicab_norm(d), beside = std::abs(cross(normal, d));
-  const double within = 2.01 *
-                        (std::abs(b.residual) + b.unsure + std::abs(dot(normal, d) - disk.radius) +
-                         2 * beside + 3 * unsure) /
-                        closing;
-  const double bend = std::max(b.bend, 1 / disk.radius);
-  return 2 * within * bend < closing ? within + rounding : unknown;
+  // The centre lies on the normal at the joint.
+  const Vec2 d = disk.center - joint;
+  double height = dot(normal, d) - disk.radius, beside = std::abs(cross(normal, d)),
+         unsure = 4 * rounding * taxicab_norm(d);
+  const site::Site &first = boundary.sites[before], &second = boundary.sites[after];
+  if (!first.is_arc() && !second.is_arc()) {
+    const Contact a = contact_of(first.is_vertex() ? second : first, disk);
+    height = a.residual, unsure = a.unsure;
+  }
+  const double within =
+      2.01 *
+      (std::abs(b.residual) + b.unsure + std::abs(height) + unsure + 2 * (beside + unsure)) /
+      closing;
+  const double bend = std::max(1.0, b.bend * disk.radius);
+  return 2 * within * bend < disk.radius * closing ? within + rounding : unknown;
 }
 
 bool Certainty::moves_forward() const {
@@ -173,10 +179,12 @@ bool Certainty::comes_before(std::uint32_t fourth) const {
   const double level =
       of_b * b.residual + of_d * d.residual - of_a * a.residual - of_c * c.residual;
   double unsure = of_a * a.unsure + of_b * b.unsure + of_c * c.unsure + of_d * d.unsure;
-  const double bend = std::max({a.bend, b.bend, c.bend, d.bend});
-  const double way = norm(to_.center - from_.center);
-  if (!(2 * way * bend < 1)) return false;
-  unsure += 2 * bend * (of_a + of_b + of_c + of_d) * way * way;
+  double bend = std::max({a.bend, b.bend, c.bend, d.bend});
+  const double squared_way = squared_norm(to_.center - from_.center);
+  if (!(4 * squared_way * bend * bend < 1)) return false;
+  for (const std::uint32_t i : {span_.right, fourth, span_.left, span_.third})
+    if (site(i).is_vertex()) bend = std::max(bend, 1 / std::min(from_.radius, to_.radius));
+  unsure += (of_a + of_b + of_c + of_d) * squared_way * bend;
   return level > 2 * unsure;
 }
 

@@ -32,7 +32,7 @@ class Certainty {
     Vec2 toward;
     double residual;
     double unsure;  ///< by how much the residual may be off
-    double bend;    ///< how fast `toward` turns, at most
+    double bend;    ///< on an arc, how fast `toward` turns; by 1 / radius round a vertex
     double askew;   ///< by how much `toward` may be off on an arc
   };
 

@@ -254,7 +254,8 @@ class Walker {
   /// there.
   bool is_open(const Span& span) {
     const std::uint32_t between = span.left - span.right;
-    const bool ends = between == 1 || (between > 2 && contacts_.is_reflex_chain(span));
+    const bool at_bridge = between == 2 && element(span.right + 1) == Element::bridge;
+    const bool ends = between == 1 || (!at_bridge && contacts_.is_reflex_chain(span));
     if (ends && boundary_.has_arcs && context_.exact != nullptr && !is_exact() &&
         !Certainty::ends(boundary_, context_.tolerance, span, chunk_.nodes[span.node]))
       lose(span, span.left);
@@ -266,7 +267,7 @@ class Walker {
       finished(2);
       return false;
     }
-    if (between == 2 && element(span.right + 1) == Element::bridge) {
+    if (at_bridge) {
       end_at_bridge(span, boundary_.originals[span.right + 1]);
       finished(2);
       return false;
