@@ -97,7 +97,8 @@ double Certainty::error_of_three(std::uint32_t third) const {
                 std::abs(c.residual) + c.unsure});
   const Vec2 ab = b.toward - a.toward, ac = c.toward - a.toward;
   const double area = cross(ab, ac);
-  const double bend = std::max({1.0, a.bend * to_.radius, b.bend * to_.radius, c.bend * to_.radius});
+  const double bend =
+      std::max({1.0, a.bend * to_.radius, b.bend * to_.radius, c.bend * to_.radius});
   if (!(area > 4 * (a.askew + b.askew + c.askew))) return unknown;
   const double spread = 1 + 2 * (taxicab_norm(ab) + taxicab_norm(ac)) / area;
   const double within = 2.01 * spread * residual;
@@ -120,8 +121,7 @@ double Certainty::error_at_joint(const Boundary& boundary, std::uint32_t before,
     height = a.residual, unsure = a.unsure;
   }
   const double within =
-      2.01 *
-      (std::abs(b.residual) + b.unsure + std::abs(height) + unsure + 2 * (beside + unsure)) /
+      2.01 * (std::abs(b.residual) + b.unsure + std::abs(height) + unsure + 2 * (beside + unsure)) /
       closing;
   const double bend = std::max(1.0, b.bend * disk.radius);
   return 2 * within * bend < disk.radius * closing ? within + rounding : unknown;

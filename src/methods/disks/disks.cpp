@@ -61,10 +61,11 @@ void find_lost(const Chunk& chunk, std::vector<std::uint32_t>& lost) {
 }
 
 /// Connects the holes of the boundary, walks it, and joins what the walk finds. Nothing where the
-/// caller cancels, and where sites of a polygon are lost.
+/// caller cancels, where sites of a polygon are lost, and where contacts are separated too
+/// coarsely.
 std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers,
                               double walk_tolerance, const Way& way, Boundary& boundary,
-                              Statistics& statistics, std::vector<std::uint32_t>& lost) {
+                              Statistics& statistics, Findings& findings) {
   Stopwatch watch;
 #ifdef MEDIAL_HAS_EXACT
   const bool takes_exact = !boundary.two_sided && !way.in_double;
@@ -84,14 +85,18 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   statistics.seconds_tree = watch.lap();
 
   std::atomic<std::uint64_t> finished = 0;
+  std::atomic<bool> in_centers = false;
   const ExactEvents exact(sites, boundary, tree, way.in_precise);
-  auto chunks = walk({boundary, bridges, tree, walk_tolerance, problem.radius_limit,
-                      takes_exact ? &exact : nullptr, problem.options.cancel,
-                      reporter(problem.options, boundary, finished)});
+  auto chunks =
+      walk({boundary, bridges, tree, walk_tolerance, problem.radius_limit,
+            takes_exact ? &exact : nullptr, problem.options.cancel,
+            findings.in_centers ? nullptr : &in_centers, near_circle * problem.fine_tolerance,
+            reporter(problem.options, boundary, finished)});
   statistics.seconds_walk = watch.lap();
   if (problem.is_cancelled()) return std::nullopt;
-  for (const auto& chunk : chunks) find_lost(*chunk, lost);
-  if (!lost.empty() && !boundary.has_arcs) return std::nullopt;
+  findings.too_coarse = in_centers;
+  for (const auto& chunk : chunks) find_lost(*chunk, findings.lost);
+  if (findings.too_coarse || (!findings.lost.empty() && !boundary.has_arcs)) return std::nullopt;
 
   // A diagram has nodes for a planar graph's points, and edges that lead there, as well.
   const std::size_t spare_nodes = boundary.two_sided ? problem.shape.points.size() : 0;
@@ -134,7 +139,7 @@ Result<MedialAxis> attempt(const Problem& problem, bool two_sided, const Way& wa
 
   const double share = findings.in_centers ? in_centers_share : boundary.has_arcs ? 1 : fine_share;
   auto graph = graph_of(problem, *numbers, share * problem.fine_tolerance, way, boundary,
-                        axis.statistics, findings.lost);
+                        axis.statistics, findings);
 #ifdef MEDIAL_HAS_EXACT
   if (parted) rename(parted->names, boundary);
 #endif

@@ -72,8 +72,9 @@ class ExactEvents::Search {
   }
 
   std::optional<Found> run(std::uint32_t hint, bool all_around) {
-    std::vector<std::uint32_t> candidates{span_.right + 1, span_.left - 1, span_.right + 2,
-                                          span_.left - 2, hint};
+    const std::vector<std::uint32_t> neighbors{span_.right + 1, span_.left - 1, span_.right + 2,
+                                               span_.left - 2};
+    std::vector<std::uint32_t> candidates{hint};
     double reach = std::max(from_.radius, 0.0) + rounding;
     for (;;) {
       for (const std::uint32_t site : candidates)
@@ -81,7 +82,7 @@ class ExactEvents::Search {
           consider_at_joint(site);
         else
           consider(site);
-      candidates = best_ ? intruders() : std::vector<std::uint32_t>{};
+      candidates = best_ ? intruders() : neighbors;
       if (is_hopeless_) return std::nullopt;
       if (best_ && candidates.empty()) return Found{site_, rounded(), is_well_known()};
       std::erase_if(candidates, [&](std::uint32_t site) { return is_seen(site); });

@@ -4,6 +4,7 @@
 #include "methods/disks/certainty.h"
 #include "methods/disks/events.h"
 #include "methods/disks/exact_event.h"
+#include "methods/disks/near_circle.h"
 #include "site/tangent_disk.h"
 
 namespace medial::disks {
@@ -56,7 +57,7 @@ class Walker {
     while (!stack_.empty()) {
       const Span next = stack_.back();
       stack_.pop_back();
-      if (context_.cancel != nullptr && context_.cancel->load(std::memory_order_relaxed)) break;
+      if (is_set(context_.cancel) || is_set(context_.in_centers)) break;
       follow(next);
     }
     report_progress(true);
@@ -111,6 +112,19 @@ class Walker {
       ++second;
     const Vec2 a = middle_from(run.first), b = middle_from(second);
     return {midpoint(a, b), 0.5 * distance(a, b)};
+  }
+
+  static bool is_set(const std::atomic<bool>* flag) {
+    return flag != nullptr && flag->load(std::memory_order_relaxed);
+  }
+
+  /// Whether a step stays in the centre of one of the span's arcs, and the walk is to end there.
+  bool needs_separation(const Span& span, const Disk& from, const Disk& to) const {
+    if (context_.in_centers == nullptr) return false;
+    return ranges::any_of(std::array{span.right, span.left}, [&](std::uint32_t i) {
+      return is_own_circle(site(i), from, context_.near) &&
+             is_own_circle(site(i), to, context_.near);
+    });
   }
 
   bool is_exact() const {
@@ -169,6 +183,10 @@ class Walker {
         ++chunk_.statistics.exact_filtered;
         return event;
       }
+    }
+    if (needs_separation(span, from, event.disk)) {
+      context_.in_centers->store(true, std::memory_order_relaxed);
+      return event;
     }
     ++chunk_.statistics.exact_precise;
     Span asked = span;
