@@ -133,9 +133,11 @@ Result<MedialAxis> attempt(const Problem& problem, bool two_sided, const Way& wa
 #endif
   Boundary boundary = loops_boundary(problem, *numbers, two_sided);
   const double near = near_circle * problem.fine_tolerance;
-  findings.in_centers =
-      way.in_centers || (!two_sided && is_near_circle(boundary, problem.local_box(), near));
+  findings.in_centers = way.in_centers;
+  findings.too_coarse =
+      !way.in_centers && !two_sided && is_near_circle(boundary, problem.local_box(), near);
   axis.statistics.seconds_sites = watch.lap();
+  if (findings.too_coarse) return axis;
 
   const double share = findings.in_centers ? in_centers_share : boundary.has_arcs ? 1 : fine_share;
   auto graph = graph_of(problem, *numbers, share * problem.fine_tolerance, way, boundary,
@@ -217,7 +219,8 @@ struct Attempts {
 
 /// What to try after an attempt that lost its way at these sites, or failed: joints of arcs as they
 /// stand around the sites, in ever more of them; 256 bits in their components; double only, which
-/// comes before where so many arcs would take long. None where all has been tried.
+/// comes before where so many arcs would take long, and first in the centres of arcs. None where
+/// all has been tried.
 std::optional<Way> next_way(const Problem& problem, const Way& last,
                             const std::vector<std::uint32_t>& lost, Attempts& attempts) {
   constexpr int most_parted = 3;
@@ -225,7 +228,8 @@ std::optional<Way> next_way(const Problem& problem, const Way& last,
   Way way;
   way.in_centers = last.in_centers;
   const bool with_arcs = has_arcs(problem.shape);
-  const bool goes_on = !attempts.in_precise && !attempts.in_double;
+  if (last.in_centers && last.in_double) return way;
+  const bool goes_on = !attempts.in_precise && (last.in_centers || !attempts.in_double);
   if (goes_on && with_arcs && !lost.empty() && attempts.parted < most_parted) {
     way.parted = points_around(problem, lost, around << (2 * attempts.parted++));
     for (std::size_t i = 0; i < last.parted.size(); ++i)
@@ -257,7 +261,8 @@ Result<MedialAxis> run(const Problem& problem) {
     Findings findings;
     Result<MedialAxis> axis = attempt(problem, false, *way, edges, findings);
     if (findings.too_coarse) {
-      way->in_centers = true;
+      // All that is left open there is mostly one node: what double makes of it is measured.
+      way->in_double = way->in_centers = attempts.in_double = true;
       continue;
     }
     if (axis) {

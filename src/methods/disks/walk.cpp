@@ -118,11 +118,12 @@ class Walker {
     return flag != nullptr && flag->load(std::memory_order_relaxed);
   }
 
-  /// Whether a step stays in the centre of one of the span's arcs, and the walk is to end there.
+  /// Whether a step stays in the centre of an arc that its node touches, and the walk is to end
+  /// there.
   bool needs_separation(const Span& span, const Disk& from, const Disk& to) const {
     if (context_.in_centers == nullptr) return false;
-    return ranges::any_of(std::array{span.right, span.left}, [&](std::uint32_t i) {
-      return is_own_circle(site(i), from, context_.near) &&
+    return ranges::any_of(std::array{span.right, span.left, span.third}, [&](std::uint32_t i) {
+      return i < boundary_.sites.size() && is_own_circle(site(i), from, context_.near) &&
              is_own_circle(site(i), to, context_.near);
     });
   }
