@@ -202,6 +202,35 @@ TEST(SmoothBiarcs, AreDecidedInDouble) {
   }
 }
 
+/// Repair leaves a shape a place for bulges even where none of its edges is bent.
+TEST(Polygon, WithBulgesOfZeroHasTheSameAxis) {
+  for (const std::uint64_t seed : {3U, 5U, 4924U}) {
+    Random random(seed);
+    auto shape = build_shape(narrow_gaps(random));
+    ASSERT_TRUE(shape) << to_string(shape.error());
+    const auto axis = compute(*shape, {.threads = 1});
+    ASSERT_TRUE(axis) << to_string(axis.error());
+    shape->bulges.assign(shape->points.size(), 0);
+    const auto other = compute(*shape, {.threads = 1});
+    ASSERT_TRUE(other) << to_string(other.error());
+    EXPECT_GT(axis->statistics.exact_filtered, 0) << seed;
+    EXPECT_EQ(axis->statistics.exact_filtered, other->statistics.exact_filtered) << seed;
+    ASSERT_EQ(axis->nodes.size(), other->nodes.size()) << seed;
+    for (std::size_t i = 0; i < axis->nodes.size(); ++i)
+      EXPECT_EQ(axis->nodes[i].disk.center, other->nodes[i].disk.center) << seed << ", node " << i;
+  }
+}
+
+/// The tips of its teeth are of one circle, and all that rounding leaves open there is one node.
+TEST(Gear, IsMeasuredInsteadOfDecided) {
+  const auto shape = build_shape(Rings{gear(40, 0.8)});
+  ASSERT_TRUE(shape) << to_string(shape.error());
+  const auto axis = compute(*shape, {.threads = 1});
+  ASSERT_TRUE(axis) << to_string(axis.error());
+  EXPECT_EQ(axis->statistics.exact_precise, 0);
+  EXPECT_TRUE(verify(*shape, *axis, {.threads = 1}).passed);
+}
+
 // ---- Classes.
 
 /// How many of a thousand shapes of a class may fail: none where it is mended.
