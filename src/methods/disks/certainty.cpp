@@ -46,8 +46,9 @@ Certainty::Certainty(const Boundary& boundary, double tolerance, const Span& spa
     certain_ = touches(fourth, tolerance);
     return;
   }
-  for (const std::uint32_t i : {span.right, fourth, span.left})
-    if (!fits(i, tolerance)) return;
+  if (boundary.has_arcs)
+    for (const std::uint32_t i : {span.right, fourth, span.left})
+      if (!fits(i, tolerance)) return;
   certain_ = (error_ <= well_known * to_.radius || touches(fourth, tolerance)) &&
              (moves_forward() || comes_before(fourth) || (ties && is_one_tie(0.5 * tolerance)));
 }
@@ -107,19 +108,29 @@ double Certainty::error_of_three(std::uint32_t third) const {
 
 double Certainty::error_at_joint(const Boundary& boundary, std::uint32_t before,
                                  std::uint32_t after, std::uint32_t third, const Disk& disk) {
-  const auto [joint, normal] = boundary.smooth_place(before, after);
+  const site::Site &first = boundary.sites[before], &second = boundary.sites[after];
   const Contact b = contact_of(boundary.sites[third], disk);
+  // The centre lies on the normal at the joint: how far the disk is from touching there, and beside
+  // the normal.
+  Vec2 normal;
+  double height, beside, unsure;
+  if (first.is_arc() || second.is_arc()) {
+    const auto place = boundary.smooth_place(before, after);
+    const Vec2 d = disk.center - place.point;
+    normal = place.normal;
+    height = dot(normal, d) - disk.radius;
+    beside = std::abs(cross(normal, d));
+    unsure = 4 * rounding * taxicab_norm(d);
+  } else {
+    const site::Site& edge = first.is_vertex() ? second : first;
+    const Contact a = contact_of(edge, disk);
+    normal = a.toward;
+    height = a.residual;
+    beside = std::abs(dot(edge.direction, disk.center - second.point));
+    unsure = a.unsure;
+  }
   const double closing = 1 - dot(normal, b.toward);
   if (!(closing > 0)) return unknown;
-  // The centre lies on the normal at the joint.
-  const Vec2 d = disk.center - joint;
-  double height = dot(normal, d) - disk.radius, beside = std::abs(cross(normal, d)),
-         unsure = 4 * rounding * taxicab_norm(d);
-  const site::Site &first = boundary.sites[before], &second = boundary.sites[after];
-  if (!first.is_arc() && !second.is_arc()) {
-    const Contact a = contact_of(first.is_vertex() ? second : first, disk);
-    height = a.residual, unsure = a.unsure;
-  }
   const double within =
       2.01 * (std::abs(b.residual) + b.unsure + std::abs(height) + unsure + 2 * (beside + unsure)) /
       closing;
