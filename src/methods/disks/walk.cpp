@@ -251,7 +251,7 @@ class Walker {
     if (is_exact()) return true;
     return context_.exact != nullptr && touched != Hit::none &&
            !(Certainty::error_at_joint(boundary_, run.last, run.first, touched, disk) <=
-             context_.tolerance);
+             spread * context_.tolerance);
   }
 
   /// start_at_smooth_place() in 256 bits; `about` and `hint` are what double takes for it. Whether
@@ -366,8 +366,6 @@ class Walker {
 
   void split(const Span& span, const Disk& disk, std::uint32_t sure, bool all_around) {
     contacts_.split(span, disk, sure, all_around, parts_);
-    // The disks of a tie are as far off as rounding leaves each three of its contacts open.
-    constexpr double spread = 16;
     for (Span& part : parts_) {
       part.error = span.error + spread * context_.tolerance;
       part.third = part.right != span.right ? span.right : span.left;
@@ -384,6 +382,10 @@ class Walker {
     if ((all || finished_ > 0) && context_.finished_sites) context_.finished_sites(finished_);
     finished_ = 0;
   }
+
+  /// In tolerances: the disks of a tie are as far off as rounding leaves each three of its contacts
+  /// open.
+  static constexpr double spread = 16;
 
   const WalkContext& context_;
   std::uint32_t fork_size_;
