@@ -6,9 +6,8 @@
 #include "base/compat.h"
 
 namespace medial::disks {
-using site::Site;
 
-bool is_own_circle(const Site& site, const Disk& disk, double slack) {
+bool is_own_circle(const site::Site& site, const Disk& disk, double slack) {
   constexpr double alike = 0x1p-33;
   const auto is_on_disk = [&](Vec2 p) {
     return std::abs(distance(p, disk.center) - disk.radius) <= slack;
@@ -34,7 +33,7 @@ bool is_near_circle(const Boundary& boundary, const Box& box, double slack) {
   if (!boundary.has_arcs || boundary.runs.size() != 1) return false;
   const Vec2 center = midpoint(box.low, box.high);
   const double radius = 0.5 * (box.high.x - box.low.x);
-  return ranges::all_of(boundary.sites, [&](const Site& site) {
+  return ranges::all_of(boundary.sites, [&](const site::Site& site) {
     const bool convex = site.is_vertex() || site.curvature > 0;
     return convex && std::abs(distance(site.point, center) - radius) <= slack &&
            std::abs(distance(site.at(0.5 * site.length), center) - radius) <= slack;
