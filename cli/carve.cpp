@@ -217,8 +217,7 @@ void note_uncut(const std::vector<CarvedItem>& items, const CarveArguments& argu
   const double margin = arguments.options.margin, diameter = tool.angle == 0 ? tool.tool : tool.tip;
   if (arguments.options.exterior && margin > 0 && margin < diameter)
     say("medial: {}: note: --margin is narrower than the tool, which does not fit between the "
-        "shape "
-        "and the rectangle around it\n",
+        "shape and the rectangle around it\n",
         input);
   if (arguments.clear_tool > 0 && clearing == 0)
     say("medial: {}: note: the mill of --clear-tool fits nowhere: the V clears all\n", input);
@@ -301,7 +300,7 @@ Status check_tools(const CarveArguments& arguments) {
   if (carve.angle == 0 && !(carve.depth > 0 && carve.tool > 0))
     return invalid_option("--angle 0 is an end mill, which needs --tool and --depth");
   if (carve.angle == 0 && carve.tip > 0)
-    return invalid_option("--tip is of a V: how wide an end mill is, --tool says");
+    return invalid_option("--tip is for V-shaped tools; --tool is the diameter of an end mill");
   if (arguments.clear_tool > 0 && carve.angle > 0 && !(carve.depth > 0 || carve.tool > 0))
     return invalid_option("--clear-tool clears flat bottoms, which need --depth or --tool");
   const std::string& output = arguments.output;
@@ -326,7 +325,6 @@ Result<int> run_carve(const CarveArguments& given) {
     possible =
         check_output(arguments.preview, {}, ".png .svg .pdf .ps", arguments.input.path, false);
   if (possible) possible = read_post(arguments.machine.post);
-  if (!possible) return std::move(possible).error();
   if (possible) possible = check_tools(arguments);
   if (!possible) return std::move(possible).error();
   UnitOptions& units = arguments.input.source.units;

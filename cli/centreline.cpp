@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 #include "cli/commands.h"
 #include "cli/common.h"
@@ -67,18 +68,18 @@ Status make_lines(Document<AxisItem>& file, const Paths& paths,
     all.method = item.axis.method;
     all.tolerance = item.axis.tolerance;
     all.resolution = item.axis.resolution;
-    if (arguments.keep_loops) {
-      std::vector<PathPiece> pieces = all_of(paths[i]).pieces;
-      const std::vector<PathPiece> channels = side_channels(item.axis, all_of(paths[i]));
-      pieces.insert(pieces.end(), channels.begin(), channels.end());
-      append(all, part_of(item.axis, pieces));
-    }
     // A line that is not extended needs no sites, which are those of all parts.
-    std::vector<Site> sites = item.axis.sites;
-    if (!arguments.line.extend) item.axis.sites.clear();
-    for (const AxisPath& path : paths[i])
-      if (!arguments.keep_loops)
+    std::vector<Site> sites =
+        arguments.line.extend ? item.axis.sites : std::exchange(item.axis.sites, {});
+    if (arguments.keep_loops) {
+      AxisPath whole = all_of(paths[i]);
+      const std::vector<PathPiece> channels = side_channels(item.axis, whole);
+      whole.pieces.insert(whole.pieces.end(), channels.begin(), channels.end());
+      append(all, part_of(item.axis, whole.pieces));
+    } else {
+      for (const AxisPath& path : paths[i])
         append(all, centre_line(item.shape, item.axis, path, arguments.line));
+    }
     all.sites = std::move(sites);
     item.axis = std::move(all);
     item.part = true;

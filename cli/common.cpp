@@ -12,7 +12,6 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <optional>
 #include <system_error>
@@ -416,19 +415,6 @@ CLI::Validator a_whole_number() {
 
 namespace {
 
-/// The image that a map of ROS names; empty: none.
-fs::path image_of_map(const fs::path& map) {
-  std::ifstream file(map);
-  for (std::string line; std::getline(file, line);) {
-    const std::size_t colon = line.find(':');
-    if (colon == std::string::npos || CLI::detail::trim_copy(line.substr(0, colon)) != "image")
-      continue;
-    std::string name = CLI::detail::trim_copy(line.substr(colon + 1));
-    return fs::path(map).replace_filename(CLI::detail::remove_quotes(name));
-  }
-  return {};
-}
-
 /// Whether what is written with this name is what is read with the input's: a file itself, a part
 /// of a shapefile, or the image of a map.
 bool is_read_with(const fs::path& target, const fs::path& input) {
@@ -437,9 +423,7 @@ bool is_read_with(const fs::path& target, const fs::path& input) {
     return fs::exists(a, ignored) && fs::equivalent(a, b, ignored);
   };
   if (input == "-") return false;
-  const std::string kind = lower(input.extension().string());
-  if (same(target, input)) return true;
-  if ((kind == ".yaml" || kind == ".yml") && same(target, image_of_map(input))) return true;
+  if (same(target, input) || same(target, io::image_of_map(input.string()))) return true;
   if (lower(target.extension().string()) != ".shp") return false;
   return std::ranges::any_of(std::array{".shx", ".dbf", ".prj", ".cpg"}, [&](const char* part) {
     return same(fs::path(target).replace_extension(part), input);

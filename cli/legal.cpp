@@ -217,7 +217,7 @@ Command make_legal_command(CLI::App& program) {
             "for samples, whose derivatives are differences.");
   add_value(*command, "--curvature", arguments->curvature, "FILE", a_name(),
             "Write the boundary's curvature at the feet of the disks, and its derivative\n"
-            "along the boundary: numbers in .csv, else a comb of lines, as long as it:\n" +
+            "along the boundary: as numbers (.csv), or as a comb of lines that long:\n" +
                 io::formats_of(io::DocumentKind::layers));
   add_width_option(*command, arguments->write.width);
   add_report_options(*command, arguments->common);

@@ -2,6 +2,7 @@
 
 #include <cctype>
 
+#include "io/ros_map_keys.h"
 #include "io/text_source.h"
 #include "medial/io/read.h"
 
@@ -26,8 +27,6 @@ bool begins_like_raster(std::string_view text) {
 bool begins_like_image(std::string_view text) {
   return begins_like_pnm(text) || begins_like_raster(text);
 }
-
-bool is_ros_map(std::string_view path) { return path.ends_with(".yaml") || path.ends_with(".yml"); }
 
 bool is_image(const std::string& path) {
   const Result<std::shared_ptr<TextSource>> source = TextSource::open(path);

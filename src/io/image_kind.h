@@ -13,7 +13,5 @@ bool begins_like_pnm(std::string_view text);
 bool begins_like_raster(std::string_view text);
 /// Whether it is an image, by its first bytes, whatever its name.
 bool begins_like_image(std::string_view text);
-/// Whether a file is called like a map of ROS.
-bool is_ros_map(std::string_view path);
 
 }  // namespace medial::io

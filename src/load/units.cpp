@@ -73,7 +73,7 @@ Status take_units(Document<Feature>& features, const UnitOptions& options) {
     if (unplaced && options.pixel_size == 0 && features.dots_per_inch > 0)
       features.notes.push_back(std::string("each pixel is taken for 1 ") + name_of(options.given) +
                                ", though the image says how large it is; --output-units " +
-                               name_of(options.given) + " goes by that");
+                               name_of(options.given) + " uses that size");
     features.unit = options.given;
   } else if (says_nothing && options.assumed != Unit::unknown) {
     features.unit = options.assumed;

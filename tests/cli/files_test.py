@@ -61,10 +61,11 @@ class Files(CommandLine):
         self.refuse("unwritable", "centreline", "s.dbf", "-o", "s.shp")
         self.assertEqual(self.read("s.shp"), before)
         self.succeed("axis", "a.wkt", "-o", "m.png")
-        self.write("m.yaml", "image: 'm.png'\nresolution: 1\norigin: [0, 0, 0]\n")
         before = self.read("m.png")
-        self.refuse("unwritable", "axis", "m.yaml", "-o", "m.png")
-        self.assertEqual(self.read("m.png"), before)
+        for image in ("m.png", "'m.png'", "m.png  # drawn by hand", '"m.png"   '):
+            self.write("m.yaml", f"image: {image}\nresolution: 1\norigin: [0, 0, 0]\n")
+            self.refuse("unwritable", "axis", "m.yaml", "-o", "m.png")
+            self.assertEqual(self.read("m.png"), before)
         self.refuse("invalid_option", "carve", "a.wkt", "--angle", "60", "-o", "p.png", "--preview", "p.png")
 
     def test_shapefiles_keep_letters(self):

@@ -96,11 +96,11 @@ struct VoronoiItem {
 /// reference system. Errors: also unsupported (a newer version), too_large (4 GiB or more).
 bool is_voronoi(const std::string& path);
 Result<Document<VoronoiItem>> read_voronoi(const std::string& path);
-
 struct ImageFile : PlacedImage, DocumentInfo {};
-
 /// Whether a file is one for read_image() by its beginning; false if it cannot be opened.
 bool is_image(const std::string& path);
+/// The image that a ROS map names, which is read with it; empty for all other files.
+std::string image_of_map(const std::string& path);
 
 /// A binary image: PBM (set bits are the foreground) and PGM, gzipped or not, or PNG, JPEG, BMP,
 /// WebP, GIF, TIFF and GeoTIFF through GDAL, or a ROS map's free cells. Of colours the luminance

@@ -55,7 +55,7 @@ struct Drawing {
   std::uint64_t copies = 0;
   std::uint64_t copied_points = 0;
   std::uint64_t unfilled = 0;
-  std::vector<Contour> strokes = {};  ///< the closed ones of shapes that are not filled
+  std::vector<Contour> strokes = {};  ///< closed ones, while nothing is filled
 };
 
 /// The context that svgpp fills for every element; what is inherited is copied from the parent.
@@ -192,6 +192,7 @@ void Element::add_feature() {
   if (!displayed_ || !visible_) return;
   if (!filled_ && !drawing_.loose) {
     ++drawing_.unfilled;
+    if (!drawing_.dataset.items.empty()) return;
     for (Contour& contour : contours(transform_, RingRole::any, false, true)) {
       if (contour.open && contour.points.front() != contour.points.back()) continue;
       contour.open = false;

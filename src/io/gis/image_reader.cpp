@@ -15,6 +15,7 @@
 #include "io/guarded.h"
 #include "io/image_kind.h"
 #include "io/place.h"
+#include "io/ros_map_keys.h"
 #include "io/text_source.h"
 #include "medial/io/read.h"
 
@@ -214,8 +215,8 @@ class Bands {
         half_range(*colors_[0]) == 1) {
       table_ = nullptr;
       notes_.emplace_back(
-          "of this image of one bit the ones are the foreground, which are drawn black; --invert "
-          "takes the zeros");
+          "the set bits of this image of one bit are its foreground, though they are drawn black; "
+          "--invert takes the others");
     }
     nodata_ = colors_[0]->GetNoDataValue(&has_nodata_);
     threshold_ = options.threshold.value_or(default_threshold());
@@ -413,7 +414,7 @@ Result<ImageFile> read_raster(const std::string& name, const ImageOptions& optio
   if (!bands.usable()) return Error{ErrorCode::unsupported, "its pixels are not numbers", {}};
   if (options.labels && !bands.hold_labels())
     return Error{
-        ErrorCode::unsupported, "labels are in images of one channel; this one has colours", {}};
+        ErrorCode::unsupported, "labels need an image of one channel; this one has colours", {}};
   do {
     file.image = Image(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
     const char* problem = read_rows(bands, options, file.image, labels);

@@ -4,41 +4,16 @@
 
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <sstream>
 
 #include "io/format.h"
 #include "io/gis/rasters.h"
-#include "io/image_kind.h"
 #include "io/place.h"
+#include "io/ros_map_keys.h"
 
 namespace medial::io {
 
 namespace {
-
-std::string trimmed(std::string text) {
-  const auto begin = text.find_first_not_of(" \t\r'\"");
-  if (begin == std::string::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\r'\"") + 1 - begin);
-}
-
-/// The lines `key: value` of a text, without comments. Lines `- value` are a list of the last key.
-std::map<std::string, std::string> keys_of(const std::string& text) {
-  std::map<std::string, std::string> keys;
-  std::istringstream lines(text);
-  std::string last;
-  for (std::string line; std::getline(lines, line);) {
-    line = trimmed(line.substr(0, line.find(" #")));
-    const auto colon = line.find(':');
-    if (line.starts_with("- ")) {
-      keys[last] += line.substr(1) + " ";
-    } else if (!line.starts_with('#') && colon != std::string::npos) {
-      last = trimmed(line.substr(0, colon));
-      keys[last] = trimmed(line.substr(colon + 1));
-    }
-  }
-  return keys;
-}
 
 /// What the file says of its image.
 struct RosMap {
@@ -62,7 +37,7 @@ std::size_t read_numbers(const std::string& text, std::span<double> numbers) {
 }
 
 Result<RosMap> map_of(const std::string& text) {
-  auto keys = keys_of(text);
+  auto keys = ros_map_keys(text);
   RosMap map;
   map.image = keys["image"];
   if (map.image.empty() || !keys.contains("resolution") || !keys.contains("origin"))
@@ -120,9 +95,8 @@ Result<Document<Feature>> read_ros_map(const Input& input, const ReadOptions& op
 
 Result<ImageFile> read_ros_image(const std::string& path, TextSource& source,
                                  const ImageOptions& given) {
-  constexpr std::size_t longest = 1 << 20;
   std::string text;
-  source.read_all(text, longest);
+  source.read_all(text, longest_ros_map);
   if (source.failure()) return *source.failure();
   auto map = map_of(text);
   if (!map) {
@@ -135,7 +109,7 @@ Result<ImageFile> read_ros_image(const std::string& path, TextSource& source,
                  in_file(path)};
   const auto beside = std::filesystem::path(path).replace_filename(map->image).string();
   auto file = is_ros_map(beside)
-                  ? Error{ErrorCode::unsupported, "a map is no image of another map", {}}
+                  ? Error{ErrorCode::unsupported, "the image of a map cannot be a map", {}}
                   : read_image(beside, free_cells(*map));
   if (!file) {
     file.error().text = fmt::format(
