@@ -25,6 +25,7 @@ from ._records import (
     Records,
     packed,
     points_of,
+    where_known,
     records,
     unpacked,
 )
@@ -171,7 +172,8 @@ class MedialAxis:
         >>> a.radius_at([(2, 1.5)])
         array([1.])
         """
-        return np.array(self.nearest(points)["radius"])
+        places = points_of(points)
+        return where_known(places, np.array(self.nearest(places)["radius"]))
 
     def clearance(self, points: npt.ArrayLike) -> Floats:
         """The distance of points to the boundary of the shape, negative outside.

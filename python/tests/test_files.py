@@ -54,9 +54,9 @@ def test_shapes_of_files(tmp_path, plan):
     assert (caught.value.code, caught.value.feature, caught.value.point) == ("crossing", 0, (1.0, 1.0))
     with pytest.warns(UserWarning):
         assert medial.read(tmp_path / "bow.wkt", repair="even_odd")[0].area == pytest.approx(2)
-    (tmp_path / "x.dxf").write_text("0\nEOF\n")
-    with pytest.raises(medial.MedialError, match="ezdxf"):
-        medial.read(tmp_path / "x.dxf")
+    (tmp_path / "x.gpkg").write_bytes(b"SQLite format 3\0")
+    with pytest.raises(medial.MedialError, match="geopandas"):
+        medial.read(tmp_path / "x.gpkg")
     with pytest.raises(medial.MedialError) as caught:
         medial.read(tmp_path / "none.svg")
     assert caught.value.code == "unreadable"
