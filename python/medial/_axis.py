@@ -504,6 +504,8 @@ class MedialAxis:
         >>> a.to_text("edgelist").splitlines()[0]
         '# from_node to_node length'
         """
+        if format == "safetensors":
+            raise MedialError("columns are no text: save() writes them", "unsupported")
         return _core.write_axis(self._core, None, format, chord, simplify) or ""
 
     def save(self, path: str | PathLike[str], *, chord: float = 1e-3, simplify: float = 0) -> None:
@@ -513,7 +515,7 @@ class MedialAxis:
         ----------
         path : path
             ``.json`` is the native format, with the shape and without loss, which `medial.load`
-            reads; ``.geojson``, ``.wkt`` and ``.csv`` hold lines; ``.graphml``, ``.nodelink`` and
+            reads; ``.safetensors`` the same as columns, for `medial.columns` as well; ``.geojson``, ``.wkt`` and ``.csv`` hold lines; ``.graphml``, ``.nodelink`` and
             ``.edgelist`` the graph of branches, as networkx reads it. With ``.gz`` compressed.
         chord : float
             How far chords may be from curves, as a share of the diagonal.

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import gzip
+import json
 import os
 import warnings
 from os import PathLike
 from pathlib import Path
 from typing import Any
+
+import numpy as np
+import numpy.typing as npt
 
 from . import _core
 from ._axis import MedialAxis, axis
@@ -47,7 +51,9 @@ def loads(text: str | bytes) -> list[MedialAxis]:
 
 
 def load(path: str | PathLike[str]) -> list[MedialAxis]:
-    """The axes of a native file, ``.json`` or ``.json.gz``: one for each of its shapes.
+    """The axes of a native file, ``.json`` or ``.safetensors``: one for each of its shapes.
+
+    Compressed (``.gz``) as well. `columns` maps a ``.safetensors`` file into memory instead.
 
     Parameters
     ----------
@@ -68,6 +74,54 @@ def load(path: str | PathLike[str]) -> list[MedialAxis]:
     True
     """
     return _completed(_core.native_of_file(os.fsdecode(path)))
+
+
+def columns(path: str | PathLike[str]) -> dict[str, npt.NDArray[Any]]:
+    """The columns of a ``.safetensors`` file, mapped into memory: no byte is read before it is used.
+
+    What they hold is described in columns.md of the C++ documentation. Checksums are for
+    `medial.load`, which reads all bytes.
+
+    Parameters
+    ----------
+    path : path
+
+    Returns
+    -------
+    dict of str to numpy.ndarray
+        By the name of the column, read-only.
+
+    Raises
+    ------
+    MedialError
+        With the code ``"unreadable"`` or ``"malformed"``.
+
+    Examples
+    --------
+    >>> import medial, tempfile, pathlib
+    >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     a.save(pathlib.Path(folder, "a.safetensors"))
+    ...     float(medial.columns(pathlib.Path(folder, "a.safetensors"))["node_disk"][:, 2].max())
+    1.0
+    """
+    types = {"F64": "<f8", "U64": "<u8", "U32": "<u4", "U8": "u1"}
+    name = os.fsdecode(path)
+    try:
+        file = np.memmap(name, np.uint8, "r")
+        end = 8 + int(file[:8].view("<u8")[0])
+        header = json.loads(bytes(file[8:end]))
+        header.pop("__metadata__", None)
+        found = {}
+        for key, column in header.items():
+            first, last = column["data_offsets"]
+            numbers = file[end + first : end + last].view(np.dtype(types[column["dtype"]]))
+            found[key] = numbers.reshape(column["shape"]).view(np.ndarray)
+        return found
+    except OSError as error:
+        raise MedialError(f"{name}: {error.strerror or error}", "unreadable") from None
+    except (ValueError, KeyError, TypeError, IndexError, AttributeError):
+        raise MedialError(f"{name}: these are not columns of safetensors", "malformed") from None
 
 
 def _taken(found: tuple[list[Any], list[str]]) -> list[Shape]:
