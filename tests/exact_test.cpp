@@ -108,7 +108,9 @@ TEST(RootNumber, TellsWhatIsNearZero) {
 // ---- Decisions.
 
 exact::SiteLoops outline_of(const Shape& shape) {
-  return exact::outline_of(Problem(shape, Options{}));
+  const Options options;
+  const Problem problem(shape, options);
+  return exact::outline_of(problem, problem.numbers());
 }
 
 TEST(InDisk, DecidesTiesOfEveryKind) {

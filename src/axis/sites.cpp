@@ -62,6 +62,12 @@ SiteNumbers number_sites(const Shape& shape, const LocalFrame& frame, double tol
             joint_at(loop, static_cast<std::uint32_t>(i) - loop.begin(), tolerance, radians);
     }
   });
+  count_sites(shape, numbers);
+  return numbers;
+}
+
+void count_sites(const Shape& shape, SiteNumbers& numbers) {
+  numbers.count = 0;
   for (std::size_t loop = 0; loop < shape.loop_count(); ++loop) {
     const std::size_t begin = shape.loop_begin[loop], end = shape.loop_begin[loop + 1];
     for (std::size_t i = begin; i < end; ++i) {
@@ -70,7 +76,6 @@ SiteNumbers number_sites(const Shape& shape, const LocalFrame& frame, double tol
       if (end - begin > 1) ++numbers.count;
     }
   }
-  return numbers;
 }
 
 std::vector<medial::Site> result_sites(const Shape& shape, const SiteNumbers& numbers) {

@@ -68,6 +68,8 @@ struct SiteNumbers {
 /// `tolerance` in units of the input, `corner_angle` in degrees; see Options.
 SiteNumbers number_sites(const Shape& shape, const LocalFrame& frame, double tolerance,
                          double corner_angle);
+/// Numbers the sites again, by other joints.
+void count_sites(const Shape& shape, SiteNumbers& numbers);
 
 /// The result's sites, in units of the input.
 std::vector<medial::Site> result_sites(const Shape& shape, const SiteNumbers& numbers);

@@ -37,7 +37,7 @@ Result<Outcome> run_automatic(const Problem& problem) {
         (problem.is_cancelled() || has_right_topology(problem.shape, axis->nodes, axis->edges)))
       return outcome_of(std::move(axis));
   }
-  return disks::run(problem);
+  return outcome_of(disks::run(problem));
 }
 
 }  // namespace medial

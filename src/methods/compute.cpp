@@ -48,17 +48,17 @@ Result<MedialAxis> compute_exterior(const Problem& problem) {
 }
 
 #ifdef MEDIAL_HAS_EXACT
-/// Makes the combinatorics of an axis certain. Where disks are in the centres of several arcs, the
-/// result is measured, and joints that count as smooth are taken as they stand if it fails so.
-std::optional<Error> make_certain(const Problem& problem, Outcome& outcome) {
-  MedialAxis& axis = outcome.axis;
+/// Makes the combinatorics of an axis certain. Next to arcs the result is measured, and joints that
+/// count as smooth are taken as they stand if it fails so.
+std::optional<Error> make_certain(const Problem& problem, MedialAxis& axis) {
+  const bool measures = has_arcs(problem.shape);
   const auto attempt = [&](bool part_joints) -> std::optional<Error> {
     Status certain = on_threads(problem.options.threads,
                                 [&] { return exact::certify(problem, part_joints, axis); });
     if (!certain) return std::move(certain).error();
-    return outcome.in_centers ? error_if_refused(problem, axis) : std::nullopt;
+    return measures ? error_if_refused(problem, axis) : std::nullopt;
   };
-  if (!outcome.in_centers) return attempt(false);
+  if (!measures) return attempt(false);
   MedialAxis copy = axis;
   auto error = attempt(false);
   if (!error) return error;
@@ -89,7 +89,7 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options,
           "report this shape");
 #ifdef MEDIAL_HAS_EXACT
     if (options.exact)
-      if (auto error = make_certain(problem, *outcome)) return std::move(*error);
+      if (auto error = make_certain(problem, axis)) return std::move(*error);
 #endif
     if (options.progress) options.progress(1);
     return std::move(axis);

@@ -53,16 +53,13 @@ struct Problem {
 /// What a method makes of a problem.
 struct Outcome {
   MedialAxis axis;
-  /// Whether disks are the own circles of several arcs at once: rounding may have decided what the
-  /// axis is there.
-  bool in_centers = false;
   /// Whether the graph has one part for each component and one cycle for each hole.
   bool connected = true;
 };
 
 inline Result<Outcome> outcome_of(Result<MedialAxis> axis, bool connected = true) {
   if (!axis) return std::move(axis).error();
-  return Outcome{std::move(axis).value(), false, connected};
+  return Outcome{std::move(axis).value(), connected};
 }
 
 }  // namespace medial

@@ -15,9 +15,7 @@ std::optional<Error> error_if_refused(const Problem& problem, const MedialAxis& 
   demands.threads = problem.options.threads;
   const Certificate certificate = verify(problem.shape, axis, demands);
   if (certificate.passed) return std::nullopt;
-  Error error{ErrorCode::unsupported,
-              "rounding alone decides which of the arcs here, of almost one circle, a disk touches",
-              {}};
+  Error error{ErrorCode::unsupported, "rounding alone decides what a disk touches here", {}};
   error.place.point = certificate.worst;
   return error;
 }

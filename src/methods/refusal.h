@@ -7,9 +7,9 @@
 
 namespace medial {
 
-/// The error instead of an axis that verify() refuses, for shapes of arcs of almost one circle.
-/// Disks there touch nearly all of these, so that every search takes O(n): of large axes fewer
-/// disks are measured.
+/// The error instead of an axis that verify() refuses, where decisions alone do not make it
+/// certain. Disks there touch nearly all of these, so that every search takes O(n): of large axes
+/// fewer disks are measured.
 std::optional<Error> error_if_refused(const Problem& problem, const MedialAxis& axis);
 
 /// The error instead of an axis that has come out wrong: unsupported, with the place, where it has

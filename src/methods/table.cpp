@@ -27,7 +27,7 @@ const std::array<MethodRow, std::variant_size_v<Method>> rows = {{
       .threads = true},
      method::Disks{},
      takes_all,
-     disks::run},
+     [](const Problem& problem) { return outcome_of(disks::run(problem)); }},
     {{.name = "biarc-dc",
       .summary = "the published randomised divide and conquer",
       .holes = true,

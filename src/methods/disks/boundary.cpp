@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/arc.h"
+#include "methods/checks.h"
 
 namespace medial::disks {
 namespace {
@@ -182,11 +183,10 @@ bool in_wedge(Vec2 first, Vec2 last, Vec2 to) {
   return angle <= wedge + beyond || angle >= 2 * std::numbers::pi - beyond;
 }
 
-Boundary loops_boundary(const Problem& problem, bool two_sided) {
+Boundary loops_boundary(const Problem& problem, const SiteNumbers& numbers, bool two_sided) {
   const Shape& shape = problem.shape;
-  const SiteNumbers& numbers = problem.numbers();
   Boundary boundary;
-  boundary.has_arcs = !shape.bulges.empty();
+  boundary.has_arcs = has_arcs(shape);
   boundary.two_sided = two_sided;
   boundary.reserve(numbers.count);
   for (std::size_t l = 0; l < shape.loop_count(); ++l) {

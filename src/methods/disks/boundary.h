@@ -75,12 +75,8 @@ struct Boundary {
     if (elements[i] != elements[i + 1]) return true;
     return elements[i] == Element::edge && joint(i) == site::Joint::smooth;
   }
-  /// Where two sites, one after the other, join smoothly: the point and the inward unit normal.
-  struct Place {
-    Vec2 point;
-    Vec2 normal;
-  };
-  Place smooth_place(std::uint32_t before, std::uint32_t after) const {
+  /// Of two sites that join smoothly, whether the normal of the second one counts for both.
+  bool by_second(std::uint32_t before, std::uint32_t after) const {
     // Of two edges the longer one knows its direction better. But of two arcs of almost one circle
     // the rounder one says where a disk as round has to be; and so it does of others where that
     // disk reaches less over the flatter one, by turn^2 / (2 bend) at most, than the longer one's
@@ -94,10 +90,17 @@ struct Boundary {
     const bool by_rounder =
         alike || (edges && std::max(a, b) > 0 &&
                   std::abs(cross(first.end_normal(), second.normal())) < 2 * bend * shorter);
-    const bool by_after = by_rounder ? b > a : second.length > first.length;
+    return by_rounder ? b > a : second.length > first.length;
+  }
+  /// Where two sites, one after the other, join smoothly: the point and the inward unit normal.
+  struct Place {
+    Vec2 point;
+    Vec2 normal;
+  };
+  Place smooth_place(std::uint32_t before, std::uint32_t after) const {
     const Vec2 point =
         elements[before] == Element::vertex ? sites[before].point : sites[after].point;
-    return {point, by_after ? sites[after].normal() : sites[before].end_normal()};
+    return {point, by_second(before, after) ? sites[after].normal() : sites[before].end_normal()};
   }
 };
 
@@ -106,7 +109,7 @@ struct Boundary {
 /// else at the joint where its curvature is smallest; a hole at its furthest point in the direction
 /// `outreach`: a reflex vertex, or a place inside an arc, which is divided there. A loop of one
 /// point is a vertex with the shape all around it, and without a neighbour.
-Boundary loops_boundary(const Problem& problem, bool two_sided);
+Boundary loops_boundary(const Problem& problem, const SiteNumbers& numbers, bool two_sided);
 
 /// The angle from one direction to another, clockwise, in [0, 2 pi).
 double clockwise_turn(Vec2 from, Vec2 to);

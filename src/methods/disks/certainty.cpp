@@ -18,18 +18,18 @@ double taxicab_norm(Vec2 v) { return std::abs(v.x) + std::abs(v.y); }
 
 }  // namespace
 
+Certainty::Certainty(const Boundary& boundary, const Span& span, const Disk& from,
+                     const Event& event)
+    : boundary_(boundary), span_(span), from_(from), to_(event.disk) {}
+
 Certainty::Certainty(const Boundary& boundary, double tolerance, const Span& span, const Disk& from,
                      const Event& event)
-    : boundary_(boundary), span_(span), from_(from), to_(event.disk) {
+    : Certainty(boundary, span, from, event) {
   using Kind = Event::Kind;
   const bool ties = tolerance <= small_tolerance * to_.radius;
-  const auto is_near = [&](std::uint32_t i) {
-    const double away = std::sqrt(site::squared_distance(site(i), to_.center));
-    return std::abs(away - to_.radius) <= tolerance;
-  };
   if (event.kind == Kind::at_node) {
     error_ = span.error;
-    certain_ = ties && is_near(span.right) && is_near(span.left);
+    certain_ = ties && is_near(span.right, tolerance) && is_near(span.left, tolerance);
     return;
   }
   const std::uint32_t fourth = event.kind == Kind::pass_right  ? span.right + 1
@@ -37,29 +37,49 @@ Certainty::Certainty(const Boundary& boundary, double tolerance, const Span& spa
                                                                : event.site;
   const bool joins_right = fourth == span.right + 1 && boundary.is_smooth(span.right),
              joins_left = fourth + 1 == span.left && boundary.is_smooth(fourth);
-  error_ = joins_right || joins_left ? error_at_joint(joins_right) : error_of_three(fourth);
+  error_ = joins_right  ? error_at_joint(boundary, span.right, fourth, span.left, to_)
+           : joins_left ? error_at_joint(boundary, fourth, span.left, span.right, to_)
+                        : error_of_three(fourth);
   const bool stays = squared_norm(to_.center - from_.center) <= tolerance * tolerance &&
                      std::abs(to_.radius - from_.radius) <= tolerance;
   if (stays) {
     certain_ = touches(fourth, tolerance);
     return;
   }
+  for (const std::uint32_t i : {span.right, fourth, span.left})
+    if (!fits(i, tolerance)) return;
   certain_ = (error_ <= well_known * to_.radius || touches(fourth, tolerance)) &&
              (moves_forward() || comes_before(fourth) || (ties && is_one_tie(0.5 * tolerance)));
 }
 
-Certainty::Contact Certainty::contact(std::uint32_t i) const {
-  const site::Site& s = site(i);
-  const Vec2 d = to_.center - s.point;
-  const double unsure = rounding * taxicab_norm(d);
-  if (!s.is_vertex()) return {s.normal(), cross(s.direction, d) - to_.radius, unsure};
-  const double away = norm(d);
-  return {(1 / away) * d, away - to_.radius, unsure};
+Certainty::Contact Certainty::contact_of(const site::Site& s, const Disk& disk) {
+  const Vec2 d = disk.center - s.point;
+  const double size = taxicab_norm(d), unsure = rounding * size;
+  if (s.is_vertex()) {
+    const double away = norm(d);
+    return {(1 / away) * d, away - disk.radius, unsure, 0, 0};
+  }
+  if (!s.is_arc()) return {s.normal(), cross(s.direction, d) - disk.radius, unsure, 0, 0};
+  // The direction, the curvature and, between two pieces of an arc, the point have been rounded.
+  const site::ArcView view = site::view_of_arc(s, disk.center);
+  const double bend = std::abs(s.curvature), all = 1 + bend * size;
+  return {(1 / view.size) * view.toward, view.distance - disk.radius,
+          4 * unsure * all + 0.5 * rounding, bend / view.size, 4 * rounding * all / view.size};
+}
+
+bool Certainty::is_near(std::uint32_t i, double slack) const {
+  return std::abs(std::sqrt(site::squared_distance(site(i), to_.center)) - to_.radius) <= slack;
+}
+
+bool Certainty::fits(std::uint32_t i, double tolerance) const {
+  const double bend = site(i).curvature;
+  return !(bend > 0) || bend * (to_.radius - error_ - tolerance) <= 1;
 }
 
 bool Certainty::touches(std::uint32_t third, double slack) const {
   for (const std::uint32_t i : {span_.right, third, span_.left})
-    if (!(std::abs(contact(i).residual) <= slack)) return false;
+    if (!(std::abs(contact(i).residual) <= slack) || (site(i).is_arc() && !is_near(i, 2 * slack)))
+      return false;
   return slack <= small_tolerance * to_.radius;
 }
 
@@ -77,39 +97,73 @@ double Certainty::error_of_three(std::uint32_t third) const {
                 std::abs(c.residual) + c.unsure});
   const Vec2 ab = b.toward - a.toward, ac = c.toward - a.toward;
   const double area = cross(ab, ac);
-  if (!(area > 0)) return unknown;
+  const double bend =
+      std::max({1.0, a.bend * to_.radius, b.bend * to_.radius, c.bend * to_.radius});
+  if (!(area > 4 * (a.askew + b.askew + c.askew))) return unknown;
   const double spread = 1 + 2 * (taxicab_norm(ab) + taxicab_norm(ac)) / area;
   const double within = 2.01 * spread * residual;
-  // A vertex bends by 1 / (2 r).
-  return 2 * spread * within < to_.radius ? within + rounding : unknown;
+  return 2 * spread * within * bend < to_.radius ? within + rounding : unknown;
 }
 
-double Certainty::error_at_joint(bool on_right) const {
-  const std::uint32_t own = on_right ? span_.right : span_.left;
-  const std::uint32_t next = on_right ? own + 1 : own - 1;
-  const std::uint32_t edge = site(own).is_vertex() ? next : own;
-  const Contact a = contact(edge), b = contact(on_right ? span_.left : span_.right);
-  const double closing = 1 - dot(a.toward, b.toward);
+double Certainty::error_at_joint(const Boundary& boundary, std::uint32_t before,
+                                 std::uint32_t after, std::uint32_t third, const Disk& disk) {
+  const auto [joint, normal] = boundary.smooth_place(before, after);
+  const Contact b = contact_of(boundary.sites[third], disk);
+  const double closing = 1 - dot(normal, b.toward);
   if (!(closing > 0)) return unknown;
   // The centre lies on the normal at the joint.
-  const Vec2 joint = site(own).is_vertex() ? site(own).point : site(next).point;
-  const double beside = std::abs(dot(site(edge).direction, to_.center - joint)) + a.unsure;
+  const Vec2 d = disk.center - joint;
+  double height = dot(normal, d) - disk.radius, beside = std::abs(cross(normal, d)),
+         unsure = 4 * rounding * taxicab_norm(d);
+  const site::Site &first = boundary.sites[before], &second = boundary.sites[after];
+  if (!first.is_arc() && !second.is_arc()) {
+    const Contact a = contact_of(first.is_vertex() ? second : first, disk);
+    height = a.residual, unsure = a.unsure;
+  }
   const double within =
-      2.01 * (std::abs(b.residual) + b.unsure + std::abs(a.residual) + a.unsure + 2 * beside) /
+      2.01 * (std::abs(b.residual) + b.unsure + std::abs(height) + unsure + 2 * (beside + unsure)) /
       closing;
-  return 2 * within < to_.radius * closing ? within + rounding : unknown;
+  const double bend = std::max(1.0, b.bend * disk.radius);
+  return 2 * within * bend < disk.radius * closing ? within + rounding : unknown;
 }
 
 bool Certainty::moves_forward() const {
-  const double error = error_ + span_.error;
-  const auto forward = [&](const site::Site& s) {
-    if (!s.is_vertex()) return dot(s.direction, to_.center - from_.center);
-    // Round a vertex, normals turn to the right.
-    return cross(to_.center - s.point, from_.center - s.point) /
-           (norm(to_.center - s.point) + error);
-  };
   constexpr double both = 2.01;
-  return forward(site(span_.right)) > both * error || -forward(site(span_.left)) > both * error;
+  const Vec2 way = to_.center - from_.center;
+  // How far the foot moves, and by how much more than `error` that may be off.
+  const auto moves = [&](const site::Site& s, double sense) {
+    const double error = both * (error_ + span_.error);
+    if (s.is_vertex()) {
+      // Round a vertex, normals turn to the right.
+      const double turn = cross(to_.center - s.point, from_.center - s.point);
+      return sense * turn / (norm(to_.center - s.point) + error_ + span_.error) > error;
+    }
+    if (!s.is_arc()) return sense * dot(s.direction, way) > error;
+    const Vec2 toward = s.normal() - s.curvature * (from_.center - s.point);
+    const double unsure = 4 * rounding + std::abs(s.curvature) * both * (span_.error + rounding);
+    return sense * cross(way, toward) > error * norm(toward) + unsure * norm(way);
+  };
+  return moves(site(span_.right), 1) || moves(site(span_.left), -1);
+}
+
+bool Certainty::ends(const Boundary& boundary, double tolerance, const Span& span,
+                     const Disk& disk) {
+  constexpr double open = 16;  // tolerances: what a tie leaves open
+  const auto is_touched = [&](std::uint32_t after) {
+    const double away = distance(boundary.sites[after].point, disk.center);
+    return std::abs(away - disk.radius) <= open * tolerance + span.error;
+  };
+  for (std::uint32_t i = span.right; i < span.left; ++i) {
+    if (boundary.is_smooth(i)) {
+      const std::uint32_t at = boundary.elements[i] == Element::vertex ? i : i + 1;
+      if (!is_touched(at)) return false;
+      continue;
+    }
+    const Event leaf{Event::Kind::contact, i + 1, Disk{boundary.sites[i + 1].point, 0}};
+    Certainty end(boundary, span, disk, leaf);
+    if (disk.radius > open * tolerance && !end.moves_forward()) return false;
+  }
+  return true;
 }
 
 bool Certainty::comes_before(std::uint32_t fourth) const {
@@ -125,11 +179,12 @@ bool Certainty::comes_before(std::uint32_t fourth) const {
   const double level =
       of_b * b.residual + of_d * d.residual - of_a * a.residual - of_c * c.residual;
   double unsure = of_a * a.unsure + of_b * b.unsure + of_c * c.unsure + of_d * d.unsure;
-  const bool bends = site(span_.right).is_vertex() || site(span_.left).is_vertex() ||
-                     site(fourth).is_vertex() || site(span_.third).is_vertex();
-  if (bends)
-    unsure += (of_a + of_b + of_c + of_d) * squared_norm(to_.center - from_.center) /
-              std::min(from_.radius, to_.radius);
+  double bend = std::max({a.bend, b.bend, c.bend, d.bend});
+  const double squared_way = squared_norm(to_.center - from_.center);
+  if (!(4 * squared_way * bend * bend < 1)) return false;
+  for (const std::uint32_t i : {span_.right, fourth, span_.left, span_.third})
+    if (site(i).is_vertex()) bend = std::max(bend, 1 / std::min(from_.radius, to_.radius));
+  unsure += (of_a + of_b + of_c + of_d) * squared_way * bend;
   return level > 2 * unsure;
 }
 

@@ -4,8 +4,7 @@
 
 namespace medial::disks {
 
-/// Whether an event that was found in double is certain (docs/exact.md, How disks decides). For
-/// shapes of segments.
+/// Whether an event that was found in double is certain (docs/exact.md, How disks decides).
 class Certainty {
  public:
   Certainty(const Boundary& boundary, double tolerance, const Span& span, const Disk& from,
@@ -15,22 +14,36 @@ class Certainty {
   double error() const { return error_; }
   bool is_certain() const { return certain_; }
 
+  /// Whether the walk certainly ends at the disk of the span's node, with nothing in between.
+  static bool ends(const Boundary& boundary, double tolerance, const Span& span, const Disk& disk);
+  /// How far the exact disk may be that touches `third` and the joint of two sites, one after the
+  /// other: infinite where it may not exist.
+  static double error_at_joint(const Boundary& boundary, std::uint32_t before, std::uint32_t after,
+                               std::uint32_t third, const Disk& disk);
+
   /// What rounding a centre of the local frame moves it by, at most.
   static constexpr double rounding = 0x1p-51;
 
  private:
+  Certainty(const Boundary& boundary, const Span& span, const Disk& from, const Event& event);
+
   /// A contact of the event's disk: the unit vector from the foot, and what is left to touch.
   struct Contact {
     Vec2 toward;
     double residual;
     double unsure;  ///< by how much the residual may be off
+    double bend;    ///< on an arc, how fast `toward` turns; by 1 / radius round a vertex
+    double askew;   ///< by how much `toward` may be off on an arc
   };
 
   const site::Site& site(std::uint32_t i) const { return boundary_.sites[i]; }
-  Contact contact(std::uint32_t i) const;
+  static Contact contact_of(const site::Site& s, const Disk& disk);
+  Contact contact(std::uint32_t i) const { return contact_of(site(i), to_); }
+  bool is_near(std::uint32_t i, double slack) const;
   bool touches(std::uint32_t third, double slack) const;
   double error_of_three(std::uint32_t third) const;
-  double error_at_joint(bool on_right) const;
+  /// Whether the disk is no larger than an arc's own circle, but for the tolerance.
+  bool fits(std::uint32_t i, double tolerance) const;
   /// Whether the feet move forward, further than the disks may be off.
   bool moves_forward() const;
   /// Whether the node's disk, which touches `third` of the span, is before that of the event,

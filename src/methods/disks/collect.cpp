@@ -12,6 +12,7 @@
 #include "base/memory.h"
 #include "base/numbers.h"
 #include "base/threads.h"
+#include "medial/query.h"
 #include "site/bisector.h"
 
 namespace medial::disks {
@@ -227,9 +228,10 @@ bool touches_its_sites(const MedialAxis& axis, const Edge& edge, double slack) {
       return false;
     return std::abs(std::sqrt(squared_distance(site, disk.center)) - disk.radius) <= slack;
   };
-  for (const std::uint32_t node : edge.node)
-    for (const std::uint32_t site : edge.site)
-      if (!touches(axis.nodes[node].disk, axis.sites[site])) return false;
+  const Disk &from = axis.nodes[edge.node[0]].disk, &to = axis.nodes[edge.node[1]].disk;
+  for (const std::uint32_t site : edge.site)
+    for (const Disk& disk : {from, disk_at(axis, edge, 0.5), to})
+      if (!touches(disk, axis.sites[site])) return false;
   return true;
 }
 

@@ -32,8 +32,8 @@ template <class E>
 std::vector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& frame, double slack,
                                     Graph& graph, std::vector<E>& edges);
 
-/// Whether both ends of an edge touch the edge's two sites, give or take `slack`, in the input's
-/// units.
+/// Whether the disks at both ends and in the middle of an edge touch its two sites, give or take
+/// `slack`, in units of the input.
 bool touches_its_sites(const MedialAxis& axis, const Edge& edge, double slack);
 
 }  // namespace medial::disks

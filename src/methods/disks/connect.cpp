@@ -91,7 +91,7 @@ class Connector {
  public:
   Connector(const Shape& shape, const Boundary& loops, const site::FirstTouch& first_touch,
             double furthest, double typical, double tolerance, const ExactSites* exact,
-            double least)
+            const std::vector<bool>& in_precise)
       : shape_(shape),
         loops_(loops),
         first_touch_(first_touch),
@@ -99,7 +99,7 @@ class Connector {
         typical_(typical),
         tolerance_(tolerance),
         exact_(exact),
-        least_(least) {}
+        in_precise_(in_precise) {}
 
   /// Prepares for these holes.
   void begin(std::span<const std::uint32_t> holes) {
@@ -137,7 +137,8 @@ class Connector {
       touch = first_touch_.find(foot, outreach, radius, component, own.first, own.last);
     }
     if (touch) radius = touch->radius;
-    if (exact_ != nullptr && radius <= least_)
+    const bool is_precise = !in_precise_.empty() && in_precise_[component];
+    if (exact_ != nullptr && (is_precise || radius <= exact_bridges))
       if (const auto bridge = exact_bridge(hole, foot, radius)) return *bridge;
     found_.push_back(radius);
     Bridge bridge{{foot + radius * outreach, radius}, hole, touch ? touch->site : own.first};
@@ -194,7 +195,7 @@ class Connector {
   const site::FirstTouch& first_touch_;
   const double furthest_, typical_, tolerance_;
   const ExactSites* exact_;
-  double least_;
+  const std::vector<bool>& in_precise_;
   site::FirstTouch::Region region_;
   double expected_ = 0;        ///< radius: twice the middle one of the last run; 0 before the first
   std::vector<double> found_;  ///< radii of the run under way
@@ -343,7 +344,7 @@ class Splicer {
 }  // namespace
 
 std::vector<Bridge> connecting_disks(const Shape& shape, const Boundary& loops, double tolerance,
-                                     const ExactSites* exact, double least,
+                                     const ExactSites* exact, const std::vector<bool>& in_precise,
                                      std::uint64_t& queries) {
   std::vector<std::uint32_t> holes;
   for (std::uint32_t loop = 0; loop < shape.loop_count(); ++loop)
@@ -382,7 +383,7 @@ std::vector<Bridge> connecting_disks(const Shape& shape, const Boundary& loops, 
   std::vector<Bridge> bridges(holes.size());
   constexpr std::size_t together = 16;
   parallel_ranges(holes.size(), 4 * together, [&](std::size_t begin, std::size_t last) {
-    Connector connector(shape, loops, first_touch, furthest, typical, tolerance, exact, least);
+    Connector connector(shape, loops, first_touch, furthest, typical, tolerance, exact, in_precise);
     for (; begin < last; begin += together) {
       const std::size_t end = std::min(begin + together, last);
       connector.begin(std::span(holes).subspan(begin, end - begin));
@@ -398,16 +399,15 @@ Boundary connect(const Shape& shape, const Boundary& loops, const std::vector<Br
 }
 
 Boundary connected_boundary(const Problem& problem, std::vector<Bridge>& bridges) {
-  const Boundary loops = loops_boundary(problem, false);
+  const Boundary loops = loops_boundary(problem, problem.numbers(), false);
 #ifdef MEDIAL_HAS_EXACT
-  const ExactSites sites(problem);
-  const ExactSites* exact = loops.has_arcs ? nullptr : &sites;
+  const ExactSites sites(problem, problem.numbers(), loops);
+  const ExactSites* exact = &sites;
 #else
   const ExactSites* exact = nullptr;
 #endif
   std::uint64_t queries = 0;
-  bridges =
-      connecting_disks(problem.shape, loops, problem.fine_tolerance, exact, exact_bridges, queries);
+  bridges = connecting_disks(problem.shape, loops, problem.fine_tolerance, exact, {}, queries);
   return connect(problem.shape, loops, bridges);
 }
 

@@ -23,10 +23,11 @@ constexpr double exact_bridges = 0x1p-24;
 /// One bridge for each hole (docs/disks.md, step 3). The disk at the furthest point lies beyond it,
 /// where the hole has no other point; the loop that it touches has a point further out than the
 /// hole has, so no cycle of holes can arise and all loops of a component get connected. `queries`
-/// counts nearest-site queries. With `exact`, bridges with radii up to `least` are decided in 256
-/// bits. O(h log n) expected.
+/// counts nearest-site queries. With `exact`, bridges with radii up to `exact_bridges` are decided
+/// in 256 bits, and all bridges of components that are `in_precise`. O(h log n) expected.
 std::vector<Bridge> connecting_disks(const Shape& shape, const Boundary& loops, double tolerance,
-                                     const ExactSites* exact, double least, std::uint64_t& queries);
+                                     const ExactSites* exact, const std::vector<bool>& in_precise,
+                                     std::uint64_t& queries);
 
 /// The boundary with all holes spliced in: one run for each component.
 Boundary connect(const Shape& shape, const Boundary& loops, const std::vector<Bridge>& bridges);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "axis/statistics.h"
+#include "base/compat.h"
 #include "base/memory.h"
 #include "base/stopwatch.h"
 #include "methods/checks.h"
@@ -28,10 +29,6 @@ namespace {
 /// other arcs ties are known to the tolerance only, since their bulges round, too.
 constexpr double fine_share = 0.25, in_centers_share = 0.125, near_circle = 1 << 12;
 
-/// The axis of such arcs is certified before it is returned. With more of them that takes too long,
-/// as searches among them take O(n).
-constexpr std::size_t most_arcs_in_near_circle = 1 << 14;
-
 /// Reports the share of the walk that is done, if the caller wants it.
 std::function<void(std::uint64_t)> reporter(const Options& options, const Boundary& boundary,
                                             std::atomic<std::uint64_t>& finished) {
@@ -41,29 +38,44 @@ std::function<void(std::uint64_t)> reporter(const Options& options, const Bounda
   };
 }
 
-Error error_of_too_many_arcs(const Box& box) {
-  Error error{ErrorCode::unsupported, "too many arcs are of one circle but for rounding", {}};
-  error.place.point = midpoint(box.low, box.high);
-  return error;
+/// How an attempt decides what ends an edge: in double where that is certain and else in 256 bits,
+/// or in double only.
+struct Way {
+  bool in_double = false;
+  bool in_centers = false;       ///< contacts are separated as the centres of several arcs ask for
+  std::vector<bool> parted;      ///< points whose joints are taken as they stand; empty: none
+  std::vector<bool> in_precise;  ///< components in which double is never asked; empty: none
+};
+
+/// What an attempt has found out beside the axis.
+struct Findings {
+  std::vector<std::uint32_t> lost;  ///< sites where the walk found that a step before was wrong
+  bool in_centers = false;          ///< disks are the own circles of several arcs
+  bool too_coarse = false;          ///< and contacts have not been separated so
+};
+
+/// Adds the sites, as the boundary has them, where the walk found that a step before was wrong.
+void find_lost(const Chunk& chunk, std::vector<std::uint32_t>& lost) {
+  lost.insert(lost.end(), chunk.lost.begin(), chunk.lost.end());
+  for (const auto& child : chunk.children) find_lost(*child, lost);
 }
 
 /// Connects the holes of the boundary, walks it, and joins what the walk finds. Nothing where the
-/// caller cancels.
-std::optional<Graph> graph_of(const Problem& problem, double walk_tolerance, Decides decides,
-                              Boundary& boundary, Statistics& statistics) {
+/// caller cancels, where sites of a polygon are lost, and where contacts are separated too
+/// coarsely.
+std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers,
+                              double walk_tolerance, const Way& way, Boundary& boundary,
+                              Statistics& statistics, Findings& findings) {
   Stopwatch watch;
 #ifdef MEDIAL_HAS_EXACT
-  const bool takes_exact =
-      !boundary.two_sided &&
-      (decides == Decides::in_precise || (decides == Decides::in_stages && !boundary.has_arcs));
+  const bool takes_exact = !boundary.two_sided && !way.in_double;
 #else
   constexpr bool takes_exact = false;
 #endif
-  const bool always_exact = decides == Decides::in_precise;
-  const ExactSites sites(problem);
+  const ExactSites sites(problem, numbers, boundary);
   const std::vector<Bridge> bridges =
       connecting_disks(problem.shape, boundary, walk_tolerance, takes_exact ? &sites : nullptr,
-                       always_exact ? problem.radius_limit : exact_bridges, statistics.queries);
+                       way.in_precise, statistics.queries);
   if (!bridges.empty()) boundary = connect(problem.shape, boundary, bridges);
   statistics.bridges = bridges.size();
   statistics.seconds_connect = watch.lap();
@@ -73,12 +85,18 @@ std::optional<Graph> graph_of(const Problem& problem, double walk_tolerance, Dec
   statistics.seconds_tree = watch.lap();
 
   std::atomic<std::uint64_t> finished = 0;
-  const ExactEvents exact(sites, boundary, tree, always_exact);
-  auto chunks = walk({boundary, bridges, tree, walk_tolerance, problem.radius_limit,
-                      takes_exact ? &exact : nullptr, problem.options.cancel,
-                      reporter(problem.options, boundary, finished)});
+  std::atomic<bool> in_centers = false;
+  const ExactEvents exact(sites, boundary, tree, way.in_precise);
+  auto chunks =
+      walk({boundary, bridges, tree, walk_tolerance, problem.radius_limit,
+            takes_exact ? &exact : nullptr, problem.options.cancel,
+            findings.in_centers ? nullptr : &in_centers, near_circle * problem.fine_tolerance,
+            reporter(problem.options, boundary, finished)});
   statistics.seconds_walk = watch.lap();
   if (problem.is_cancelled()) return std::nullopt;
+  findings.too_coarse = in_centers;
+  for (const auto& chunk : chunks) find_lost(*chunk, findings.lost);
+  if (findings.too_coarse || (!findings.lost.empty() && !boundary.has_arcs)) return std::nullopt;
 
   // A diagram has nodes for a planar graph's points, and edges that lead there, as well.
   const std::size_t spare_nodes = boundary.two_sided ? problem.shape.points.size() : 0;
@@ -88,33 +106,52 @@ std::optional<Graph> graph_of(const Problem& problem, double walk_tolerance, Dec
   return graph;
 }
 
-/// The engine: sites, holes connected, tree, walk, graph. Contacts are separated to a share of the
-/// tolerance, which by default depends on the shape. The edges are returned apart from the axis.
+/// The sites of a boundary get the names that the axis has for them.
+void rename(const std::vector<std::uint32_t>& names, Boundary& boundary) {
+  for (std::size_t i = 0; i < boundary.originals.size(); ++i)
+    if (boundary.elements[i] != Element::bridge)
+      boundary.originals[i] = names[boundary.originals[i]];
+}
+
+/// The engine: sites, holes connected, tree, walk, graph. The edges are returned apart from the
+/// axis.
 template <class E>
-Result<Outcome> attempt(const Problem& problem, bool two_sided, std::optional<double> share,
-                        Decides decides, std::vector<E>& edges) {
-  Outcome outcome;
-  MedialAxis& axis = outcome.axis;
+Result<MedialAxis> attempt(const Problem& problem, bool two_sided, const Way& way,
+                           std::vector<E>& edges, Findings& findings) {
+  MedialAxis axis;
   axis.method = "disks";
   axis.tolerance = problem.tolerance;
   Stopwatch all, watch;
 
-  Boundary boundary = loops_boundary(problem, two_sided);
+  const SiteNumbers* numbers = &problem.numbers();
+#ifdef MEDIAL_HAS_EXACT
+  std::optional<exact::PartedNumbers> parted;
+  if (!way.parted.empty()) {
+    parted = exact::parted_numbers(problem, way.parted);
+    numbers = &parted->numbers;
+  }
+#endif
+  Boundary boundary = loops_boundary(problem, *numbers, two_sided);
   const double near = near_circle * problem.fine_tolerance;
-  outcome.in_centers = !two_sided && is_near_circle(boundary, problem.local_box(), near);
-  if (outcome.in_centers && boundary.sites.size() > most_arcs_in_near_circle)
-    return error_of_too_many_arcs(problem.box);
-  if (outcome.in_centers && !share) return outcome;
-  const double usual_share = boundary.has_arcs ? 1 : fine_share;
+  findings.in_centers = way.in_centers;
+  findings.too_coarse =
+      !way.in_centers && !two_sided && is_near_circle(boundary, problem.local_box(), near);
   axis.statistics.seconds_sites = watch.lap();
+  if (findings.too_coarse) return axis;
 
-  auto graph = graph_of(problem, share.value_or(usual_share) * problem.fine_tolerance, decides,
-                        boundary, axis.statistics);
-  if (!graph) return outcome;
-  if (graph->statistics.exact_changes > 0)
+  const double share = findings.in_centers ? in_centers_share : boundary.has_arcs ? 1 : fine_share;
+  auto graph = graph_of(problem, *numbers, share * problem.fine_tolerance, way, boundary,
+                        axis.statistics, findings);
+#ifdef MEDIAL_HAS_EXACT
+  if (parted) rename(parted->names, boundary);
+#endif
+  for (std::uint32_t& site : findings.lost) site = boundary.originals[site];
+  if (!graph) {
+    if (problem.is_cancelled()) return axis;
     return Error{ErrorCode::internal, "the walk lost its way: please report this shape", {}};
+  }
+  findings.too_coarse = !two_sided && !findings.in_centers && is_in_centers(boundary, *graph, near);
   watch.lap();
-  if (!two_sided && !outcome.in_centers) outcome.in_centers = is_in_centers(boundary, *graph, near);
   constexpr double loose = 0x1p-20;  // of the size: no near tie is that far off
   const double slack = std::max(loose * diagonal(problem.box), 4 * axis.tolerance);
   reserve_large(edges, graph->links.size() + (two_sided ? problem.numbers().count : 0));
@@ -133,44 +170,122 @@ Result<Outcome> attempt(const Problem& problem, bool two_sided, std::optional<do
     if (!touches_its_sites(axis, edges[edge], slack))
       return error_of_wrong_axis(
           axis, "a disk of the axis misses a site that it should touch: please report this shape");
-  return outcome;
+  return axis;
+}
+
+/// Whether the disks of all edges touch their sites to the tolerance: where all of an axis is some
+/// tolerances long, contracting ties may move them further.
+bool touches_all_sites(const MedialAxis& axis) {
+  return ranges::all_of(
+      axis.edges, [&](const Edge& edge) { return touches_its_sites(axis, edge, axis.tolerance); });
+}
+
+/// Marks points along the boundary, so many on both sides of each of these sites.
+std::vector<bool> points_around(const Problem& problem, const std::vector<std::uint32_t>& sites,
+                                std::size_t around) {
+  const std::vector<std::uint32_t>& edge = problem.numbers().edge;
+  std::vector<bool> marked(edge.size(), false);
+  for (const std::uint32_t site : sites) {
+    const auto point = static_cast<std::size_t>(ranges::lower_bound(edge, site) - edge.begin());
+    const auto& begin = problem.shape.loop_begin;
+    const auto loop = std::upper_bound(begin.begin(), begin.end(), point) - 1;
+    const std::size_t size = loop[1] - loop[0];
+    for (std::size_t i = 0; i <= std::min(2 * around, size); ++i)
+      marked[loop[0] + (point - loop[0] + size + i - std::min(around, size)) % size] = true;
+  }
+  return marked;
+}
+
+/// Marks the components of these sites, and all of their points.
+void mark_components(const Problem& problem, const std::vector<std::uint32_t>& sites, Way& way) {
+  const Shape& shape = problem.shape;
+  const std::vector<bool> points = points_around(problem, sites, 0);
+  way.in_precise.assign(shape.component_count(), sites.empty());
+  way.parted.assign(shape.points.size(), false);
+  for (const bool marks_points : {false, true})
+    for (std::size_t loop = 0; loop < shape.loop_count(); ++loop)
+      for (std::size_t i = shape.loop_begin[loop]; i < shape.loop_begin[loop + 1]; ++i)
+        if (marks_points)
+          way.parted[i] = way.in_precise[shape.component[loop]];
+        else if (points[i])
+          way.in_precise[shape.component[loop]] = true;
+}
+
+/// What has been tried, and what to try next.
+struct Attempts {
+  int parted = 0;
+  bool in_precise = false, in_double = false;
+};
+
+/// What to try after an attempt that lost its way at these sites, or failed: joints of arcs as they
+/// stand around the sites, in ever more of them; 256 bits in their components; double only, which
+/// comes before where so many arcs would take long, and first in the centres of arcs. None where
+/// all has been tried.
+std::optional<Way> next_way(const Problem& problem, const Way& last,
+                            const std::vector<std::uint32_t>& lost, Attempts& attempts) {
+  constexpr int most_parted = 3;
+  constexpr std::size_t around = 4, long_time = 1024;
+  Way way;
+  way.in_centers = last.in_centers;
+  const bool with_arcs = has_arcs(problem.shape);
+  if (last.in_centers && last.in_double) return way;
+  const bool goes_on = !attempts.in_precise && (last.in_centers || !attempts.in_double);
+  if (goes_on && with_arcs && !lost.empty() && attempts.parted < most_parted) {
+    way.parted = points_around(problem, lost, around << (2 * attempts.parted++));
+    for (std::size_t i = 0; i < last.parted.size(); ++i)
+      if (last.parted[i]) way.parted[i] = true;
+    return way;
+  }
+  if (attempts.in_precise && attempts.in_double) return std::nullopt;
+  mark_components(problem, lost, way);
+  const bool takes_long = with_arcs && std::count(way.parted.begin(), way.parted.end(), true) >
+                                           std::ptrdiff_t{long_time};
+  if (!attempts.in_precise && (attempts.in_double || !takes_long)) {
+    attempts.in_precise = true;
+    return way;
+  }
+  attempts.in_double = way.in_double = true;
+  way.parted.clear();
+  way.in_precise.clear();
+  return way;
 }
 
 }  // namespace
 
-Result<Outcome> run(const Problem& problem) {
+Result<MedialAxis> run(const Problem& problem) {
+  Attempts attempts;
   std::optional<Error> error;
-  // Next to arcs double decides. To another share of the tolerance, what misled it may be one
-  // contact, or two; in 256 bits it is what the shape has.
-  struct Attempt {
-    std::optional<double> share;
-    Decides decides = Decides::in_double;
-  };
-  std::vector<Attempt> attempts{{{}, Decides::in_stages}, {{}, Decides::in_precise}, {}};
-  if (!problem.shape.bulges.empty())
-    attempts = {{}, {in_centers_share}, {1.0}, {1.0, Decides::in_precise}};
-  for (const auto& [share, decides] : attempts) {
+  for (std::optional<Way> way = Way{}; way;) {
+    const bool is_first = attempts.parted == 0 && !attempts.in_precise && !attempts.in_double;
     std::vector<Edge> edges;
-    Result<Outcome> outcome = attempt(problem, false, share, decides, edges);
-    if (!outcome) {
-      if (!error) error = std::move(outcome).error();
+    Findings findings;
+    Result<MedialAxis> axis = attempt(problem, false, *way, edges, findings);
+    if (findings.too_coarse) {
+      // All that is left open there is mostly one node: what double makes of it is measured.
+      way->in_double = way->in_centers = attempts.in_double = true;
       continue;
     }
-    outcome->axis.edges = std::move(edges);
-    const bool is_doubtful =
-        outcome->in_centers || (error && (share || decides == Decides::in_double));
-    if (!is_doubtful || problem.is_cancelled()) return outcome;
-    if (outcome->in_centers && !share) continue;  // a finer one is due
-    auto refused = error_if_refused(problem, outcome->axis);
-    if (!refused) return outcome;
-    if (!error) error = std::move(refused);
+    if (axis) {
+      axis->edges = std::move(edges);
+      const bool is_certain = findings.lost.empty() &&
+                              (!findings.in_centers || touches_all_sites(*axis)) &&
+                              (is_first || (!way->in_double && !has_arcs(problem.shape)));
+      if (is_certain || problem.is_cancelled()) return axis;
+    }
+    auto refused = axis ? error_if_refused(problem, *axis) : std::move(axis).error();
+    if (!refused) return axis;
+    if (!error || axis) error = std::move(refused);
+    way = next_way(problem, *way, findings.lost, attempts);
   }
   return std::move(*error);
 }
 
 template <class E>
 MedialAxis run_two_sided(const Problem& problem, std::vector<E>& edges) {
-  return std::move(attempt(problem, true, std::nullopt, Decides::in_double, edges)->axis);
+  Findings findings;
+  Way in_double;
+  in_double.in_double = true;
+  return *attempt(problem, true, in_double, edges, findings);
 }
 
 template MedialAxis run_two_sided(const Problem&, std::vector<Edge>&);

@@ -9,9 +9,9 @@ namespace medial::disks {
 
 /// The method `disks` (docs/disks.md). Requires what compute() has checked. Cut short, with any
 /// content, where the caller cancels. Errors: error_of_wrong_axis() where a disk misses one of its
-/// sites by far more than rounding explains; unsupported, with the place, where verify() refuses
-/// disks that are the own circles of several arcs but for rounding.
-Result<Outcome> run(const Problem& problem);
+/// sites by far more than rounding explains; unsupported, with the place, where no way to decide
+/// finds an axis that verify() passes.
+Result<MedialAxis> run(const Problem& problem);
 
 /// run() for what lies around a planar graph (shape/around.h): a shape whose edges may stand there
 /// twice, once for each side, and with loops of one point. The axis' edges, Edge or VoronoiEdge,

@@ -17,8 +17,31 @@ using Number = Bounded<Precise>;
 using Hit = Contacts::Hit;
 
 const exact::SiteLoops& ExactSites::outline() const {
-  std::call_once(once_, [&] { outline_ = exact::outline_of(problem_); });
+  std::call_once(once_, [&] {
+    outline_ = exact::outline_of(problem_, numbers_);
+    before_.resize(outline_.sites.size());
+    for (std::uint32_t i = 0; i < before_.size(); ++i) before_[outline_.next[i]] = i;
+    if (boundary_.has_arcs) choose_normals();
+  });
   return outline_;
+}
+
+void ExactSites::choose_normals() const {
+  outline_.by_next.resize(outline_.sites.size());
+  for (const Boundary::SiteRange& run : boundary_.runs)
+    for (std::uint32_t i = run.first; i <= run.last; ++i) {
+      const std::uint32_t after = i == run.last ? run.first : i + 1;
+      if (boundary_.elements[i] != Element::edge || boundary_.elements[after] != Element::edge)
+        continue;
+      const std::uint32_t site = boundary_.originals[i];
+      if (outline_.joined(site, boundary_.originals[after]))
+        outline_.by_next[site] = boundary_.by_second(i, after);
+    }
+}
+
+std::optional<std::uint32_t> ExactSites::joined_before(std::uint32_t site) const {
+  if (!outline().joined(before_[site], site)) return std::nullopt;
+  return before_[site];
 }
 
 std::optional<ExactSites::Touch> ExactSites::first_touch(
@@ -43,20 +66,24 @@ std::optional<ExactSites::Touch> ExactSites::first_touch(
 /// the two sites and a third one between them, in this order around it, and keeps clear of all.
 class ExactEvents::Search {
  public:
-  Search(const ExactEvents& events, const Span& span, const Disk& from)
-      : events_(events), outline_(events.sites_.outline()), span_(span), from_(from) {}
+  Search(const ExactEvents& events, const Span& span, const Disk& from, bool is_exact)
+      : events_(events), outline_(events.sites_.outline()), span_(span), from_(from) {
+    if (is_exact) node_ = disk_of_node();
+  }
 
   std::optional<Found> run(std::uint32_t hint, bool all_around) {
-    std::vector<std::uint32_t> candidates{span_.right + 1, span_.left - 1, span_.right + 2,
-                                          span_.left - 2, hint};
-    double reach = from_.radius + rounding;
+    const std::vector<std::uint32_t> neighbors{span_.right + 1, span_.left - 1, span_.right + 2,
+                                               span_.left - 2};
+    std::vector<std::uint32_t> candidates{hint};
+    double reach = std::max(from_.radius, 0.0) + rounding;
     for (;;) {
       for (const std::uint32_t site : candidates)
         if (all_around)
           consider_at_joint(site);
         else
           consider(site);
-      candidates = best_ ? intruders() : std::vector<std::uint32_t>{};
+      candidates = best_ ? intruders() : neighbors;
+      if (is_hopeless_) return std::nullopt;
       if (best_ && candidates.empty()) return Found{site_, rounded(), is_well_known()};
       std::erase_if(candidates, [&](std::uint32_t site) { return is_seen(site); });
       if (!candidates.empty()) continue;
@@ -72,6 +99,8 @@ class ExactEvents::Search {
   static constexpr double rounding = 0x1p-47;
   /// No two points of the local frame are further apart.
   static constexpr double furthest = 8;
+  /// In the centre of more arcs of one circle but for rounding, 256 bits take too long.
+  static constexpr std::size_t most_around = 1024;
 
   const exact::ExactSite& exact_site(std::uint32_t i) const { return outline_.sites[name(i)]; }
   std::uint32_t name(std::uint32_t i) const { return events_.boundary_.originals[i]; }
@@ -96,8 +125,18 @@ class ExactEvents::Search {
     return forward > 0;
   }
 
+  /// The node's disk as the sites have it, where all three that it touches are known.
+  std::optional<PreciseDisk> disk_of_node() const {
+    if (span_.third >= events_.boundary_.sites.size()) return std::nullopt;
+    const std::uint32_t right = name(span_.right), left = name(span_.left),
+                        third = name(span_.third);
+    if (third == right || third == left || right == left) return std::nullopt;
+    return exact::disk_bounds<Precise>(outline_, {right, left, third}, Disk{});
+  }
+
   /// Whether a disk lies behind that of the node, by more than that is off.
   bool is_behind(const PreciseDisk& disk) const {
+    if (node_) return comes_before(disk, *node_);
     constexpr double clear = 0x1p-8;  // of the radius: more than any node is off
     const double slack =
         std::min(span_.error, clear * from_.radius) +
@@ -117,8 +156,12 @@ class ExactEvents::Search {
     if (!disk) return;
     if ((Number(events_.sites_.problem_.radius_limit) - disk->radius).sign() == -1) return;
     if (is_behind(*disk) || (best_ && !comes_before(*disk, *best_))) return;
-    for (const std::uint32_t i : {span_.right, site, span_.left})
-      if (!is_touched(i, *disk)) return;
+    // At a joint of two of them the disk touches both, whichever normal it is on.
+    const bool joins_right = outline_.joined(right, third),
+               joins_left = outline_.joined(third, left);
+    if (!is_touched(span_.right, *disk, joins_right)) return;
+    if (!is_touched(site, *disk, joins_right || joins_left)) return;
+    if (!is_touched(span_.left, *disk, joins_left)) return;
     best_ = disk;
     site_ = site;
   }
@@ -137,7 +180,7 @@ class ExactEvents::Search {
     const std::uint32_t before = name(span_.left), after = name(span_.right), third = name(site);
     const auto disk = exact::disk_bounds<Precise>(outline_, {before, after, third}, Disk{});
     if (!disk || (best_ && !(best_->radius - disk->radius).positive())) return;
-    if (!is_touched(site, *disk)) return;
+    if (!is_touched(site, *disk, false)) return;
     best_ = disk;
     site_ = site;
   }
@@ -165,19 +208,48 @@ class ExactEvents::Search {
     std::vector<std::uint32_t> near;
     events_.tree_.within(disk.center, disk.radius + rounding, span_.right + 1, span_.left - 1,
                          near);
-    for (const std::uint32_t site : near)
-      if (!is_bridge(site) && exact::clearance(exact_site(site), *best_) < 0) add(site);
+    is_hopeless_ = events_.boundary_.has_arcs && near.size() > most_around;
+    if (is_hopeless_) return found;
+    std::erase_if(near, [&](std::uint32_t site) {
+      return is_bridge(site) || exact::clearance(exact_site(site), *best_) >= 0;
+    });
+    // Of many that are new, a few take the place of most others.
+    std::vector<std::uint32_t> fresh = near;
+    std::erase_if(fresh, [&](std::uint32_t site) {
+      return is_seen(site) && is_seen(site - 1) && is_seen(site + 1);
+    });
+    const std::vector<std::uint32_t>& some = fresh.empty() ? near : fresh;
+    constexpr std::size_t few = 8;
+    for (std::size_t i = 0; i < some.size(); i += some.size() / few + 1) add(some[i]);
     return found;
   }
 
-  /// Whether a disk that touches a site's carrier touches the site, in the part of it that bridges
-  /// leave between them.
-  bool is_touched(std::uint32_t site, const PreciseDisk& disk) const {
-    if (!exact::may_have_foot(exact_site(site), disk)) return false;
+  /// Whether a disk that touches a site's carrier, or its joint, touches the site, in the part of
+  /// it that bridges leave between them.
+  bool is_touched(std::uint32_t site, const PreciseDisk& disk, bool at_joint) const {
+    if (!at_joint && !has_foot(site, disk)) return false;
     const bool too_early = site > 0 && is_bridge(site - 1) && beyond(site - 1, site, disk) == -1;
     const bool too_late = site + 1 < events_.boundary_.sites.size() && is_bridge(site + 1) &&
                           beyond(site + 1, site, disk) == 1;
     return !too_early && !too_late;
+  }
+
+  /// Whether the foot of a disk's centre on the carrier of a site may lie on the site. Where two
+  /// edges join smoothly but for rounding, one normal ends the first one and begins the second.
+  bool has_foot(std::uint32_t site, const PreciseDisk& disk) const {
+    const std::uint32_t own = name(site);
+    const auto before = events_.sites_.joined_before(own);
+    const bool is_joined = before || outline_.joined(own, outline_.next[own]);
+    if (!is_joined || exact_site(site).is_vertex())
+      return exact::may_have_foot(exact_site(site), disk);
+    exact::ApproximateRoots<Precise> roots;
+    const auto begin = before ? outline_.spoke_after<Number>(*before, roots)
+                              : exact::spoke_of<Number>(exact_site(site), false, roots);
+    const auto end = outline_.joined(own, outline_.next[own])
+                         ? outline_.spoke_after<Number>(own, roots)
+                         : exact::spoke_of<Number>(exact_site(site), true, roots);
+    return cross(disk.center - begin.foot, begin.normal).sign() != -1 &&
+           cross(disk.center - end.foot, end.normal).sign() != 1;
   }
 
   /// Whether a disk's foot on a site lies further along than that of the bridge beside it.
@@ -198,19 +270,21 @@ class ExactEvents::Search {
   const exact::SiteLoops& outline_;
   const Span span_;
   const Disk from_;
+  std::optional<PreciseDisk> node_;  ///< of the span, where it is asked for
   std::unordered_set<std::uint32_t> seen_;
+  bool is_hopeless_ = false;
   std::optional<PreciseDisk> best_;
   std::uint32_t site_ = 0;
 };
 
 std::optional<ExactEvents::Found> ExactEvents::next(const Span& span, const Disk& from,
-                                                    std::uint32_t hint) const {
-  return Search(*this, span, from).run(hint, false);
+                                                    std::uint32_t hint, bool is_exact) const {
+  return Search(*this, span, from, is_exact).run(hint, false);
 }
 
 std::optional<ExactEvents::Found> ExactEvents::start(const Span& whole, const Disk& about,
                                                      std::uint32_t hint) const {
-  return Search(*this, whole, about).run(hint, true);
+  return Search(*this, whole, about, false).run(hint, true);
 }
 
 }  // namespace medial::disks
@@ -224,7 +298,8 @@ std::optional<ExactSites::Touch> ExactSites::first_touch(Vec2, const Boundary&,
   return std::nullopt;
 }
 
-std::optional<ExactEvents::Found> ExactEvents::next(const Span&, const Disk&, std::uint32_t) const {
+std::optional<ExactEvents::Found> ExactEvents::next(const Span&, const Disk&, std::uint32_t,
+                                                    bool) const {
   return std::nullopt;
 }
 

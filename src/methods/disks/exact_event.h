@@ -4,6 +4,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "methods/disks/contacts.h"
 #ifdef MEDIAL_HAS_EXACT
@@ -12,15 +13,13 @@
 
 namespace medial::disks {
 
-/// Who decides what ends an edge: double where it is certain and else 256 bits, 256 bits always,
-/// or double always.
-enum class Decides : std::uint8_t { in_stages, in_precise, in_double };
-
 /// The sites as the shape has them, for what double cannot decide: made by the first question.
 /// Thread-safe.
 class ExactSites {
  public:
-  explicit ExactSites(const Problem& problem) : problem_(problem) {}
+  /// `boundary`: with holes connected or not, by whose normals joints are decided.
+  ExactSites(const Problem& problem, const SiteNumbers& numbers, const Boundary& boundary)
+      : problem_(problem), numbers_(numbers), boundary_(boundary) {}
 
   /// Of the sites of a boundary, the one that a disk touches first that grows at a point in the
   /// direction `outreach`, and the disk. None where it touches none.
@@ -34,10 +33,16 @@ class ExactSites {
  private:
   friend class ExactEvents;
   const Problem& problem_;
+  const SiteNumbers& numbers_;
+  const Boundary& boundary_;
 #ifdef MEDIAL_HAS_EXACT
   const exact::SiteLoops& outline() const;
+  /// The site from which a foot passes on to a site at its start; none where it does not.
+  std::optional<std::uint32_t> joined_before(std::uint32_t site) const;
+  void choose_normals() const;
   mutable std::once_flag once_;
   mutable exact::SiteLoops outline_;
+  mutable std::vector<std::uint32_t> before_;  ///< of each site, that before it on the loop
 #endif
 };
 
@@ -45,12 +50,14 @@ class ExactSites {
 /// it is decided).
 class ExactEvents {
  public:
-  /// `is_always`: whether double is never asked.
+  /// `in_precise`: of each component, whether double is never asked; empty: it always is.
   ExactEvents(const ExactSites& sites, const Boundary& boundary, const site::BoundaryTree& tree,
-              bool is_always)
-      : always(is_always), sites_(sites), boundary_(boundary), tree_(tree) {}
+              const std::vector<bool>& in_precise)
+      : sites_(sites), boundary_(boundary), tree_(tree), in_precise_(in_precise) {}
 
-  const bool always;
+  bool always(std::uint32_t component) const {
+    return !in_precise_.empty() && in_precise_[component];
+  }
 
   struct Found {
     std::uint32_t site = 0;
@@ -59,8 +66,10 @@ class ExactEvents {
   };
   /// The site in a span that a disk touches together with the span's two, and its disk, which
   /// keeps clear of all sites in the span. `from`: about the disk of the span's node; `hint`: a
-  /// site to begin with, if it lies in the span. None where the span has no such disk.
-  std::optional<Found> next(const Span& span, const Disk& from, std::uint32_t hint) const;
+  /// site to begin with, if it lies in the span; `is_exact`: whether the node is the one of its
+  /// three sites. None where the span has no such disk.
+  std::optional<Found> next(const Span& span, const Disk& from, std::uint32_t hint,
+                            bool is_exact) const;
   /// The site that the disk touches first that grows where the ends of a run join smoothly.
   std::optional<Found> start(const Span& whole, const Disk& about, std::uint32_t hint) const;
 
@@ -68,6 +77,7 @@ class ExactEvents {
   const ExactSites& sites_;
   const Boundary& boundary_;
   const site::BoundaryTree& tree_;
+  const std::vector<bool>& in_precise_;
   class Search;
 };
 

@@ -6,12 +6,8 @@
 #include "base/compat.h"
 
 namespace medial::disks {
-namespace {
-
 using site::Site;
 
-/// Whether a disk is an arc's own circle, within `slack`: as round, and through both ends. Two arcs
-/// on both sides of an apex, as curves have them, are small, and not that much alike.
 bool is_own_circle(const Site& site, const Disk& disk, double slack) {
   constexpr double alike = 0x1p-33;
   const auto is_on_disk = [&](Vec2 p) {
@@ -21,6 +17,8 @@ bool is_own_circle(const Site& site, const Disk& disk, double slack) {
          std::abs(site.curvature * disk.radius - 1) <= std::min(slack * site.curvature, alike) &&
          is_on_disk(site.point) && is_on_disk(site.end());
 }
+
+namespace {
 
 /// Whether an edge's end is the own circle of arcs of several edges of the input, which the axis
 /// goes no further into: the sites from one to another one.

@@ -5,6 +5,10 @@
 
 namespace medial::disks {
 
+/// Whether a disk is an arc's own circle, within `slack`: as round, and through both ends. Two arcs
+/// on both sides of an apex, as curves have them, are small, and not that much alike.
+bool is_own_circle(const site::Site& site, const Disk& disk, double slack);
+
 /// Whether all of the boundary is one loop of arcs that lie within `slack` of one circle. `box` is
 /// the boundary's. O(n), and mostly O(1) where it is not so.
 bool is_near_circle(const Boundary& boundary, const Box& box, double slack);

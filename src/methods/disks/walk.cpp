@@ -4,6 +4,7 @@
 #include "methods/disks/certainty.h"
 #include "methods/disks/events.h"
 #include "methods/disks/exact_event.h"
+#include "methods/disks/near_circle.h"
 #include "site/tangent_disk.h"
 
 namespace medial::disks {
@@ -32,13 +33,17 @@ class Walker {
   /// that touches the boundary where the two join smoothly.
   void walk_run(const Boundary::SiteRange& run) {
     chunk_.nodes.push_back({site(run.first).point, 0});  // stands for no parent
-    if (run.at_corner) {
+    if (run.at_corner && boundary_.joint(run.last) == site::Joint::blunt) {
+      starts_blunt_ = true;
+      stack_.push_back({run.first, run.last, 0});
+    } else if (run.at_corner) {
       const std::uint32_t corner = add_node({site(run.first).point, 0});
       stack_.push_back({run.first, run.last, corner});
     } else {
       start_at_smooth_place(run);
     }
     walk_stack();
+    if (starts_blunt_ && chunk_.nodes.size() == 1) add_node(disk_between(run));
   }
 
   /// Walks one span and all that branches off it.
@@ -52,7 +57,7 @@ class Walker {
     while (!stack_.empty()) {
       const Span next = stack_.back();
       stack_.pop_back();
-      if (context_.cancel != nullptr && context_.cancel->load(std::memory_order_relaxed)) break;
+      if (is_set(context_.cancel) || is_set(context_.in_centers)) break;
       follow(next);
     }
     report_progress(true);
@@ -95,7 +100,37 @@ class Walker {
     }
   }
 
-  bool is_exact() const { return context_.exact != nullptr && context_.exact->always; }
+  /// The disk between two arcs that are the whole boundary and join bluntly: the largest one.
+  Disk disk_between(const Boundary::SiteRange& run) const {
+    const auto middle_from = [&](std::uint32_t first) {
+      std::uint32_t last = first;
+      while (last < run.last && boundary_.originals[last + 1] == boundary_.originals[first]) ++last;
+      return last > first ? site(last).point : site(first).at(0.5 * site(first).length);
+    };
+    std::uint32_t second = run.first;
+    while (second < run.last && boundary_.originals[second] == boundary_.originals[run.first])
+      ++second;
+    const Vec2 a = middle_from(run.first), b = middle_from(second);
+    return {midpoint(a, b), 0.5 * distance(a, b)};
+  }
+
+  static bool is_set(const std::atomic<bool>* flag) {
+    return flag != nullptr && flag->load(std::memory_order_relaxed);
+  }
+
+  /// Whether a step stays in the centre of an arc that its node touches, and the walk is to end
+  /// there.
+  bool needs_separation(const Span& span, const Disk& from, const Disk& to) const {
+    if (context_.in_centers == nullptr) return false;
+    return ranges::any_of(std::array{span.right, span.left, span.third}, [&](std::uint32_t i) {
+      return i < boundary_.sites.size() && is_own_circle(site(i), from, context_.near) &&
+             is_own_circle(site(i), to, context_.near);
+    });
+  }
+
+  bool is_exact() const {
+    return context_.exact != nullptr && context_.exact->always(chunk_.component);
+  }
 
   /// Passes on to the last piece of an arc that the boundary has in several, which are one site of
   /// the shape. Whether there were any.
@@ -110,9 +145,35 @@ class Walker {
     return span.right != before.right || span.left != before.left;
   }
 
+  /// Notes that the shape as its doubles say does not continue here: what led to a span was wrong,
+  /// or arcs join so that rounding alone decides.
+  void lose(const Span& span, std::uint32_t third) {
+    ++chunk_.statistics.exact_changes;
+    for (const std::uint32_t i : {span.right, span.left, span.third, third})
+      if (i < boundary_.sites.size() && element(i) != Element::bridge) chunk_.lost.push_back(i);
+  }
+
+  /// Of the sites of two spans that differ by pieces of one arc, those on which the foot lies.
+  void stay_on_pieces(const Span& last, Vec2 center, Span& span) const {
+    while (span.right < last.right &&
+           site::carrier_parameter(site(span.right), center) >= site(span.right).length)
+      ++span.right;
+    while (span.left > last.left && site::carrier_parameter(site(span.left), center) <= 0)
+      --span.left;
+  }
+
+  /// Whether the event is that a foot passes on to the next piece of the same arc.
+  bool stays_on_arc(const Span& span, const Event& event) const {
+    using Kind = Event::Kind;
+    if (event.kind != Kind::pass_right && event.kind != Kind::pass_left) return false;
+    const std::uint32_t i = event.kind == Kind::pass_right ? span.right : span.left - 1;
+    return element(i) == element(i + 1) && boundary_.originals[i] == boundary_.originals[i + 1];
+  }
+
   /// What ends the edge of a span: decided in double where that is certain, otherwise in 256 bits.
-  /// `error` gets how far the exact disk may be.
-  Event next_event(const Span& span, const Disk& from, double& error) {
+  /// Where these find nothing, double's event stays and is noted. `error` gets how far the exact
+  /// disk may be.
+  Event next_event(Span& span, const Disk& from, double& error) {
     Event event;
     if (!is_exact()) {
       event = EventSearch(context_, contacts_, chunk_.statistics, span, from).next();
@@ -124,15 +185,25 @@ class Walker {
         return event;
       }
     }
+    if (needs_separation(span, from, event.disk)) {
+      context_.in_centers->store(true, std::memory_order_relaxed);
+      return event;
+    }
     ++chunk_.statistics.exact_precise;
-    const auto found = context_.exact->next(span, from, event.site);
+    Span asked = span;
+    joins_pieces(asked);
+    const auto found = context_.exact->next(asked, from, event.site, is_exact());
     if (!found) {
-      // What led here was wrong.
-      ++chunk_.statistics.exact_changes;
-      return {};
+      lose(span, event.site);
+      return event;
     }
     // Between sites that are all but parallel, double's disk is as good as any.
     if (!found->well_known && event.site == found->site) return event;
+    Span ahead = span;
+    stay_on_pieces(asked, found->disk.center, ahead);
+    const bool passes = ahead.right != span.right || ahead.left != span.left;
+    if (passes && !is_exact() && stays_on_arc(span, event)) return event;
+    span = ahead;
     error = Certainty::rounding;
     event.disk = found->disk;
     event.site = found->site;
@@ -169,32 +240,44 @@ class Walker {
       radius = smaller;
     }
     const Disk disk = disk_of(radius);
-    if (is_exact()) {
-      start_exactly(whole, disk, touched);
-      return;
-    }
+    if (is_uncertain(run, touched, disk) && start_exactly(whole, disk, touched)) return;
     const std::uint32_t node = add_node(disk);
     if (touched != Hit::none) touched = contacts_.owner(touched, disk.center, whole);
     split({run.first, run.last, node}, disk, touched, true);
   }
 
-  /// start_at_smooth_place() in 256 bits; `about` and `hint` are what double takes for it.
-  void start_exactly(const Span& whole, const Disk& about, std::uint32_t hint) {
+  /// Whether double leaves open what the disk touches that grows where a run begins.
+  bool is_uncertain(const Boundary::SiteRange& run, std::uint32_t touched, const Disk& disk) const {
+    if (is_exact()) return true;
+    return context_.exact != nullptr && touched != Hit::none &&
+           !(Certainty::error_at_joint(boundary_, run.last, run.first, touched, disk) <=
+             context_.tolerance);
+  }
+
+  /// start_at_smooth_place() in 256 bits; `about` and `hint` are what double takes for it. Whether
+  /// there is such a disk.
+  bool start_exactly(const Span& whole, const Disk& about, std::uint32_t hint) {
     ++chunk_.statistics.exact_precise;
     const auto found = context_.exact->start(whole, about, hint);
     if (!found) {
-      ++chunk_.statistics.exact_changes;
-      return;
+      lose(whole, hint);
+      return is_exact();
     }
     const std::uint32_t node = add_node(found->disk);
     push({whole.right, found->site, node, whole.left, Certainty::rounding},
          {found->site, whole.left, node, whole.right, Certainty::rounding});
+    return true;
   }
 
   /// Whether a walk is needed between the two sites; where they are neighbours, ends the axis
   /// there.
   bool is_open(const Span& span) {
     const std::uint32_t between = span.left - span.right;
+    const bool at_bridge = between == 2 && element(span.right + 1) == Element::bridge;
+    const bool ends = between == 1 || (!at_bridge && contacts_.is_reflex_chain(span));
+    if (ends && boundary_.has_arcs && context_.exact != nullptr && !is_exact() &&
+        !Certainty::ends(boundary_, context_.tolerance, span, chunk_.nodes[span.node]))
+      lose(span, span.left);
     if (between == 1) {
       if (boundary_.is_corner(span.right)) {
         const std::uint32_t leaf = add_node({site(span.left).point, 0});
@@ -203,12 +286,12 @@ class Walker {
       finished(2);
       return false;
     }
-    if (between == 2 && element(span.right + 1) == Element::bridge) {
+    if (at_bridge) {
       end_at_bridge(span, boundary_.originals[span.right + 1]);
       finished(2);
       return false;
     }
-    return !contacts_.is_reflex_chain(span);
+    return !ends;
   }
 
   void end_at_bridge(const Span& span, std::uint32_t bridge) {
@@ -220,7 +303,8 @@ class Walker {
     const auto edge = static_cast<std::uint32_t>(chunk_.links.size());
     const std::uint32_t node = add_node(disk);
     add_edge(span, node);
-    chunk_.bridge_ends.push_back({bridge, node, edge});
+    const bool added = chunk_.links.size() > edge;
+    chunk_.bridge_ends.push_back({bridge, node, added ? edge : BridgeEnd::no_edge});
   }
 
   bool coincide(const Disk& a, const Disk& b) const {
@@ -237,6 +321,7 @@ class Walker {
   }
 
   void add_edge(const Span& span, std::uint32_t to) {
+    if (starts_blunt_ && span.node == 0) return;  // no edge leads to a blunt joint
     chunk_.links.push_back({{span.node, to}, {span.left, span.right}});
   }
 
@@ -306,6 +391,7 @@ class Walker {
   TaskGroup& tasks_;
   Chunk& chunk_;
   Contacts contacts_;
+  bool starts_blunt_ = false;  ///< the run begins at a blunt joint, node 0
   std::vector<Span> stack_;
   std::vector<Span> parts_;
   std::uint64_t finished_ = 0;

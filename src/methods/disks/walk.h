@@ -86,6 +86,7 @@ struct Chunk {
   BlockList<Disk> nodes;
   BlockList<Link> links;
   std::vector<BridgeEnd> bridge_ends;
+  std::vector<std::uint32_t> lost;  ///< sites at which a step before has turned out to be wrong
   std::vector<std::unique_ptr<Chunk>> children;  ///< in the order in which they were forked
   Statistics statistics;
 };

@@ -484,7 +484,7 @@ class Certifier {
 
 Status certify(const Problem& problem, bool part_joints, MedialAxis& axis) {
   Stopwatch watch;
-  SiteLoops outline = outline_of(problem);
+  SiteLoops outline = outline_of(problem, problem.numbers());
   if (part_joints) exact::part_joints(outline);
   ContactGraph graph;
   // Arcs that join smoothly only to within the tolerance, on one circle but for that, may have no

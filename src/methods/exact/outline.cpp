@@ -6,10 +6,17 @@ namespace {
 
 double curvature_of(const ExactSite& edge) { return curvature({edge.start, edge.end, edge.bulge}); }
 
+/// By which way the boundary turns from one edge to the next: 1 to the left, 0 not at all.
+int turn_between(const ExactSite& before, const ExactSite& after) {
+  RootField field;
+  const auto arriving = spoke_of<RootNumber>(before, true, field);
+  const auto leaving = spoke_of<RootNumber>(after, false, field);
+  return cross(arriving.normal, leaving.normal).sign();
+}
+
 }  // namespace
 
-SiteLoops outline_of(const Problem& problem) {
-  const site::SiteNumbers& numbers = problem.numbers();
+SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers) {
   SiteLoops outline;
   outline.sites.resize(numbers.count);
   outline.next.resize(numbers.count);
@@ -49,10 +56,7 @@ void part_joints(SiteLoops& outline) {
     if (!outline.joined(edge, after) || outline.sites[edge].is_vertex() ||
         outline.sites[after].is_vertex())
       continue;
-    RootField field;
-    const auto arriving = spoke_of<RootNumber>(outline.sites[edge], true, field);
-    const auto leaving = spoke_of<RootNumber>(outline.sites[after], false, field);
-    const int turn = cross(arriving.normal, leaving.normal).sign();
+    const int turn = turn_between(outline.sites[edge], outline.sites[after]);
     if (turn > 0) outline.blunt[edge] = true;
     if (turn >= 0) continue;
     outline.next[edge] = static_cast<std::uint32_t>(outline.sites.size());
@@ -63,6 +67,38 @@ void part_joints(SiteLoops& outline) {
     outline.flatter.push_back(
         curvature_of(outline.sites[after]) < curvature_of(outline.sites[edge]) ? after : edge);
   }
+}
+
+PartedNumbers parted_numbers(const Problem& problem, const std::vector<bool>& points) {
+  using site::Joint;
+  const site::SiteNumbers& whole = problem.numbers();
+  PartedNumbers parted{whole, {}};
+  site::SiteNumbers& numbers = parted.numbers;
+  std::vector<std::uint32_t> flatter(numbers.joints.size());
+  for (std::size_t l = 0; l < problem.shape.loop_count(); ++l) {
+    const site::LoopEdges loop(problem.shape, l, problem.frame);
+    const auto edge = [&](std::uint32_t i) {
+      return ExactSite{loop.local(i), loop.local(loop.next(i)), loop.bulge(i)};
+    };
+    for (std::uint32_t i = 0; i < loop.size(); ++i) {
+      const std::uint32_t before = loop.begin() + loop.before(i), point = loop.begin() + i;
+      flatter[point] = whole.edge[point];
+      if (numbers.joints[point] != Joint::smooth || !points[point]) continue;
+      const ExactSite first = edge(loop.before(i)), second = edge(i);
+      const int turn = turn_between(first, second);
+      if (turn != 0) numbers.joints[point] = turn > 0 ? Joint::blunt : Joint::reflex;
+      if (curvature_of(first) < curvature_of(second)) flatter[point] = whole.edge[before];
+    }
+  }
+  site::count_sites(problem.shape, numbers);
+  parted.names.resize(numbers.count);
+  for (std::size_t point = 0; point < numbers.joints.size(); ++point) {
+    const std::uint32_t edge = numbers.edge[point];
+    if (edge < numbers.count) parted.names[edge] = whole.edge[point];
+    if (numbers.is_site(point))
+      parted.names[edge - 1] = whole.is_site(point) ? whole.edge[point] - 1 : flatter[point];
+  }
+  return parted;
 }
 
 }  // namespace medial::exact

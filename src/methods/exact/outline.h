@@ -21,6 +21,9 @@ struct SiteLoops {
   std::vector<std::uint32_t> loop_begin;  ///< first site of each loop, and the number of all sites
   std::vector<std::uint32_t> component;   ///< of each loop
   bool parted = false;                    ///< see part_joints()
+  /// Of a site that ends in a joint smooth only to rounding, whether the next one's normal counts
+  /// for both, and not its own; empty: never.
+  std::vector<bool> by_next;
   /// Of the vertices that it has added behind all other sites: the flatter of the edges that join
   /// there, whose own centre is further away.
   std::vector<std::uint32_t> flatter;
@@ -35,16 +38,28 @@ struct SiteLoops {
     return passes[site] && !blunt[site] && next[site] == after;
   }
   /// The disks that touch the boundary where `site` ends and the next one begins: on the normal of
-  /// the edge that ends there, or, after a vertex, of the edge that begins. So where two edges join
-  /// smoothly only to rounding, the first one's normal counts for both.
+  /// the edge that ends there, or, after a vertex and by `by_next`, of the edge that begins. So
+  /// where two edges join smoothly only to rounding, the normal of one counts for both.
   template <class Number, class Roots>
   Spoke<Number> spoke_after(std::uint32_t site, Roots& roots) const {
-    if (sites[site].is_vertex()) return spoke_of<Number>(sites[next[site]], false, roots);
+    if (sites[site].is_vertex() || (!by_next.empty() && by_next[site]))
+      return spoke_of<Number>(sites[next[site]], false, roots);
     return spoke_of<Number>(sites[site], true, roots);
   }
 };
 
-SiteLoops outline_of(const Problem& problem);
+/// `numbers`: the problem's, or those of parted_numbers().
+SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers);
+
+/// Sites that are numbered by joints as they stand: what counts as smooth is blunt where the
+/// boundary turns to the left, and where it turns to the right the vertex is a site.
+struct PartedNumbers {
+  site::SiteNumbers numbers;
+  /// What the axis calls each site: a vertex that counts as smooth has the name of an edge there.
+  std::vector<std::uint32_t> names;
+};
+/// `points`: those whose joints are parted.
+PartedNumbers parted_numbers(const Problem& problem, const std::vector<bool>& points);
 
 /// Takes joints that count as smooth as they stand: as blunt where the boundary turns to the left;
 /// where it turns to the right their vertex becomes a site, added behind the others.

@@ -52,7 +52,7 @@ InPrecise::Disk precise_bridge(Vec2 vertex, const exact::ExactSite& touched, con
 }  // namespace
 
 PreciseSites precise_sites(const Problem& problem, const Elements& elements) {
-  const exact::SiteLoops outline = exact::outline_of(problem);
+  const exact::SiteLoops outline = exact::outline_of(problem, problem.numbers());
   PreciseSites all;
   all.elements.reserve(elements.size());
   for (const std::uint32_t site : elements.originals)
