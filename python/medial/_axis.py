@@ -505,6 +505,8 @@ class MedialAxis:
         '# from_node to_node length'
         """
         if format == "safetensors":
+            from ._errors import MedialError
+
             raise MedialError("columns are no text: save() writes them", "unsupported")
         return _core.write_axis(self._core, None, format, chord, simplify) or ""
 
