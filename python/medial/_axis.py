@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._errors import need
+from ._errors import MedialError, need
 from ._options import computing, options
 from ._records import (
     EDGE,
@@ -505,8 +505,6 @@ class MedialAxis:
         '# from_node to_node length'
         """
         if format == "safetensors":
-            from ._errors import MedialError
-
             raise MedialError("columns are no text: save() writes them", "unsupported")
         return _core.write_axis(self._core, None, format, chord, simplify) or ""
 
