@@ -164,6 +164,7 @@ OptionGroup::OptionGroup(CLI::App& command, std::string_view name)
   command.option_defaults()->group(std::string(name));
 }
 
+// NOLINTNEXTLINE(bugprone-exception-escape): only a new name may be refused.
 OptionGroup::~OptionGroup() { command_.option_defaults()->group(before_); }
 
 void add_input_options(CLI::App& command, InputOptions& input, const std::string& second_name,

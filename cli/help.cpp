@@ -71,8 +71,8 @@ class HelpFormatter : public CLI::Formatter {
   std::string make_options(const CLI::App* app, bool fold) const {
     std::string described, folded;
     std::vector<std::string> groups = app->get_groups();
-    std::ranges::stable_partition(groups,
-                                  [](const std::string& group) { return group != common_group; });
+    std::stable_partition(groups.begin(), groups.end(),
+                          [](const std::string& group) { return group != common_group; });
     for (const std::string& group : groups) {
       const auto options = app->get_options([&group](const CLI::Option* option) {
         return option->nonpositional() && option->get_group() == group;
@@ -154,7 +154,7 @@ std::string unknown_words(const CLI::App& command, const std::string& otherwise)
       extra, [](const std::string& word) { return word.size() > 1 && word[0] == '-'; });
   if (unknown != extra.end()) return unknown_option(*unknown, command);
   if (extra.empty()) return otherwise;
-  const std::string text = "unexpected argument: " + extra.back();
+  std::string text = "unexpected argument: " + extra.back();
   double number = 0;
   if (!CLI::detail::lexical_cast(extra.back(), number)) return text;
   return text + "; an optional value follows its option after '=', as in --option=" + extra.back();
@@ -172,7 +172,7 @@ std::string no_number(const std::string& text, const CLI::App& command) {
 }
 
 std::string explain_in(const CLI::ParseError& error, const CLI::App& command) {
-  const std::string text = error.what();
+  std::string text = error.what();
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) return unknown_words(command, text);
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr &&
       text.find(" required ") != std::string::npos)

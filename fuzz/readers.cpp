@@ -25,13 +25,13 @@ struct Extension {
   const char* text;
 };
 constexpr std::array extensions{
-    Extension{'j', ".json"}, Extension{'g', ".geojson"}, Extension{'w', ".wkt"},
-    Extension{'c', ".csv"},  Extension{'x', ".xy"},      Extension{'d', ".dxf"},
-    Extension{'s', ".svg"},  Extension{'k', ".mpk"},     Extension{'b', ".pbm"},
-    Extension{'m', ".pgm"},  Extension{'n', ".png"},     Extension{'o', ".obj"},
-    Extension{'f', ".off"},  Extension{'l', ".stl"},     Extension{'y', ".ply"},
-    Extension{'i', ".tif"},  Extension{'q', ".gpkg"},    Extension{'a', ".fgb"},
-    Extension{'p', ".shp"}};
+    Extension{'j', ".json"}, Extension{'g', ".geojson"},    Extension{'w', ".wkt"},
+    Extension{'c', ".csv"},  Extension{'x', ".xy"},         Extension{'d', ".dxf"},
+    Extension{'s', ".svg"},  Extension{'k', ".mpk"},        Extension{'b', ".pbm"},
+    Extension{'m', ".pgm"},  Extension{'n', ".png"},        Extension{'o', ".obj"},
+    Extension{'f', ".off"},  Extension{'l', ".stl"},        Extension{'y', ".ply"},
+    Extension{'i', ".tif"},  Extension{'q', ".gpkg"},       Extension{'a', ".fgb"},
+    Extension{'p', ".shp"},  Extension{'t', ".safetensors"}};
 
 const char* extension_of(std::uint8_t byte) {
   for (const Extension& each : extensions)

@@ -176,6 +176,17 @@ TEST_F(CurvedDxf, Layers) {
   EXPECT_EQ(refused("a.dxf", dxf(two), options).code, ErrorCode::invalid_option);
 }
 
+TEST_F(CurvedDxf, PointsAreLoose) {
+  const std::string points = "0 POINT\n8 A\n10 1\n20 2\n0 POINT\n8 A\n10 4\n20 2\n";
+  ReadOptions options;
+  options.loose = true;
+  const Document<Feature> all = read("a.dxf", dxf(points), options);
+  ASSERT_EQ(all.items.size(), 1U);
+  ASSERT_EQ(all.items[0].contours.size(), 2U);
+  EXPECT_EQ(all.items[0].contours[1].points, (std::vector<Vec2>{{4, 2}}));
+  EXPECT_NE(refused("a.dxf", dxf(points)).text.find("2 POINT"), std::string::npos);
+}
+
 TEST_F(CurvedDxf, RefusesWhatIsBroken) {
   const auto code = [this](const std::string& text) { return refused("bad.dxf", text).code; };
   const std::string circle = "0 CIRCLE\n8 A\n10 0\n20 0\n40 1\n";

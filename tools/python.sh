@@ -14,7 +14,7 @@ cd "$(dirname "$0")/.."
 task=$1 folder=$2 tree=${3:-}
 python=${PYTHON:-python3}
 needed="nanobind numpy pytest hypothesis mypy"
-wished="shapely geopandas pyarrow networkx scipy igraph matplotlib scikit-image trimesh tqdm zstandard pandas-stubs pyright"
+wished="shapely geopandas pyarrow networkx scipy igraph matplotlib scikit-image trimesh ezdxf tqdm zstandard pandas-stubs pyright"
 
 environment() {
   [ -x "$folder/bin/python" ] || "$python" -m venv "$folder" || return 1

@@ -23,8 +23,9 @@ Result<std::vector<T>> map_items(std::span<const double> weights, int threads,
   std::vector<T> results(weights.size());
   const auto keep = [&](std::size_t i, int own_threads) -> Status {
     Result<T> result = work(i, own_threads);
-    if (result) results[i] = std::move(result).value();
-    return result ? success() : Status(std::move(result).error());
+    if (!result) return std::move(result).error();
+    results[i] = std::move(result).value();
+    return success();
   };
   Status done = for_each_item(weights, threads, keep, cancel);
   return done ? Result<std::vector<T>>(std::move(results)) : std::move(done).error();
@@ -57,7 +58,6 @@ struct LoadReport {
   ShapeReport shapes;
   ArcReport arcs;
   std::uint64_t features = 0, left_out = 0;
-
   LoadReport& operator+=(const LoadReport& part);
 };
 

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
         verify,
     )
     from ._features import Match, Placement, features, match, nest
-    from ._files import load, loads, read, text
+    from ._files import columns, load, loads, read, text
     from ._lines import (
         Circle,
         Line,
@@ -63,8 +63,8 @@ __all__ = [
     "Match", "MedialAxis", "MedialError", "MissingPackage", "NODE_KINDS", "NO_SITE", "Neck",
     "Pack", "Placement", "Region", "SITE_KINDS", "Shape", "Voronoi", "VoxelAxis", "Widths",
     "arrays", "axes", "axis", "boundary_curvature", "buffer", "carve", "centerline",
-    "centerlines", "centreline", "centrelines", "collapse", "compare", "curve_axis", "distance",
-    "features", "field", "image", "inscribed_circles", "legality", "load", "loads", "match",
+    "centerlines", "centreline", "centrelines", "collapse", "columns", "compare", "curve_axis",
+    "distance", "features", "field", "image", "inscribed_circles", "legality", "load", "loads", "match",
     "maximum_inscribed_circle", "mean_width", "methods", "necks", "nest", "network", "offset",
     "offset_passes", "options", "pack", "prune", "prune_measures", "read", "rebuild", "smooth",
     "text", "transects", "unpack", "verify", "voronoi", "voxels", "widest_path",
@@ -77,7 +77,7 @@ _WHERE = {
     "_carving": "Carving carve",
     "_checks": "Certificate Curvatures boundary_curvature compare distance legality verify",
     "_features": "Match Placement features match nest",
-    "_files": "load loads read text",
+    "_files": "columns load loads read text",
     "_lines": "Circle Line Neck Widths centerline centerlines inscribed_circles maximum_inscribed_circle mean_width necks network transects widest_path width_profile",
     "_offsets": "Region buffer offset offset_passes",
     "_others": "Field Pack curve_axis field pack unpack",

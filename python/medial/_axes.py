@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from typing import Any
 
@@ -13,9 +13,9 @@ from . import _core
 from ._axis import MedialAxis
 from ._errors import MedialError, need
 from ._options import computing, log, options
-from ._read import Ragged, Rings, from_wkb, from_wkb_buffer, read
-from ._records import EDGE, NODE, SITE, Floats, Indices, Records, records
-from ._shape import load
+from ._read import OUTER, Ragged, from_wkb, from_wkb_buffer, read, rows
+from ._records import EDGE, NODE, SITE, Floats, Indices, Records, numbers_of, records
+from ._shape import Shape, load
 
 
 _AT_A_TIME = 4096  # features whose coordinates stay in the cache until shapely has read them
@@ -131,7 +131,8 @@ class Axes:
         return self._lines(chord, 0, len(self), flat=False)
 
     def _lines(self, chord: float | None, first: int, last: int, *, flat: bool) -> tuple[Floats, Indices, Indices]:
-        points, lines, features = self._core.lines(chord or options.chord, chord is None, first, last, flat)
+        own = options.chord if chord is None else chord
+        points, lines, features = self._core.lines(own, chord is None, first, last, flat)
         return points, lines, features
 
     def to_shapely(self, chord: float | None = None) -> npt.NDArray[Any]:
@@ -234,23 +235,48 @@ def column_of(errors: dict[int, MedialError], size: int) -> npt.NDArray[Any]:
     return column
 
 
-def _from_rings(all_rings: Sequence[Rings]) -> Ragged:
-    """Features of rings, one polygon for each outer ring."""
-    coordinates, ring, polygon, feature = [], [0], [0], [0]
-    for rings in all_rings:
-        if rings.contours or rings.coordinates is None:
-            raise MedialError("medial.axes() takes polygons; medial.axis() takes curves", "unsupported")
+def _loops_of(value: Any) -> tuple[Floats, Indices, npt.NDArray[np.bool_], Floats | None]:
+    """The rings of one feature: coordinates, offsets, which begin a polygon, bulges. Curves become arcs."""
+    if value is None:
+        raise MedialError("the geometry is missing", "empty")
+    rings = read(value)
+    if not rings.contours and rings.bulges is None and rings.coordinates is not None:
         begin = np.array([0, len(rings.coordinates)]) if rings.begin is None else rings.begin
-        coordinates.append(rings.coordinates)
-        for i in range(len(begin) - 1):
-            if i and (rings.roles is not None and rings.roles[i] == 1):
+        outer = np.zeros(len(begin) - 1, bool) if rings.roles is None else rings.roles == OUTER
+        return rings.coordinates, begin, outer, None
+    shape = Shape._of(load(rings)[0])
+    order = np.lexsort((shape.hole, shape.component))
+    starts: list[int] = shape.loop_begin.tolist()
+    loops = [np.arange(starts[i], starts[i + 1]) for i in order.tolist()]
+    at, bulges = np.concatenate(loops), shape.bulges
+    offsets = np.cumsum([0, *map(len, loops)])
+    return shape.points[at], offsets, ~shape.hole[order], bulges[at] if len(bulges) else None
+
+
+def _from_values(values: Iterable[Any]) -> Ragged:
+    """Features of anything, one polygon for each outer ring; what cannot be read is an error of its feature."""
+    ring, polygon, feature, failed = [0], [0], [0], []
+    parts, arcs, curved = [np.empty((0, 2))], [np.empty(0)], False
+    for i, value in enumerate(values):
+        try:
+            points, begin, outer, bulges = _loops_of(value)
+        except MedialError as error:
+            failed.append((error.text, error.code, i, error.ring, error.vertex, error.point))
+            feature.append(feature[-1])
+            continue
+        parts.append(points)
+        arcs.append(np.zeros(len(points)) if bulges is None else bulges)
+        curved = curved or bulges is not None
+        sizes = np.diff(begin).tolist()
+        for k, (size, begins) in enumerate(zip(sizes, outer.tolist(), strict=True)):
+            if k and begins:
                 polygon.append(len(ring) - 1)
-            ring.append(ring[-1] + int(begin[i + 1] - begin[i]))
-        if len(begin) > 1:
+            ring.append(ring[-1] + size)
+        if sizes:
             polygon.append(len(ring) - 1)
         feature.append(len(polygon) - 1)
-    flat = np.concatenate(coordinates) if coordinates else np.empty((0, 2))
-    return Ragged(flat, np.asarray(ring), np.asarray(polygon), np.asarray(feature))
+    return Ragged(np.concatenate(parts), np.asarray(ring), np.asarray(polygon), np.asarray(feature), failed,
+                  np.concatenate(arcs) if curved else None)  # fmt: skip
 
 
 def _from_arrow(array: Any) -> Ragged:
@@ -271,6 +297,11 @@ def _from_arrow(array: Any) -> Ragged:
         offsets = np.frombuffer(buffers[1], width)[first : first + len(array) + 1].astype(np.int64)
         missing = np.flatnonzero(array.is_null().to_numpy(zero_copy_only=False)) if array.null_count else ()
         return from_wkb_buffer(np.frombuffer(buffers[2] or b"", np.uint8), offsets, missing)
+    return _from_geoarrow(pyarrow, array)
+
+
+def _from_geoarrow(pyarrow: Any, array: Any) -> Ragged:
+    """GeoArrow polygons or multipolygons; points are structs of x and y, or lists of a fixed size."""
     if array.null_count:
         raise MedialError("a geometry of the array is null", "empty")
     offsets_list: list[Indices] = []
@@ -280,13 +311,23 @@ def _from_arrow(array: Any) -> Ragged:
         array = array.flatten()
     if len(offsets_list) not in (2, 3):
         raise MedialError("the Arrow array holds neither WKB, polygons nor multipolygons", "unsupported")
-    if pyarrow.types.is_struct(array.type):
+    if pyarrow.types.is_struct(array.type) and array.type.num_fields >= 2:
         flat = np.stack([array.field(0).to_numpy(False), array.field(1).to_numpy(False)], axis=1)
-    else:
+    elif pyarrow.types.is_fixed_size_list(array.type) and array.type.list_size >= 2:
         flat = array.flatten().to_numpy(False).reshape(-1, array.type.list_size)[:, :2]
+    else:
+        raise MedialError(f"the points of the Arrow array are {array.type}, not x and y", "unsupported")
+    flat = numbers_of(flat, "coordinates are rows of x and y")
     ring = offsets_list[-1]
     return Ragged(np.ascontiguousarray(flat, np.float64), ring, offsets_list[-2],
                   offsets_list[0] if len(offsets_list) == 3 else None)  # fmt: skip
+
+
+def _offsets(part: Any) -> Indices:
+    numbers = numbers_of(part, "offsets are whole numbers")
+    if numbers.ndim != 1 or not len(numbers) or not (numbers == np.floor(numbers)).all():
+        raise MedialError("offsets are whole numbers, from 0 on", "malformed")
+    return np.ascontiguousarray(part, np.int64)
 
 
 def ragged(x: Any) -> Ragged:
@@ -297,9 +338,8 @@ def ragged(x: Any) -> Ragged:
         coordinates, offsets = x[-2:]
         if len(offsets) not in (2, 3):
             raise MedialError("offsets are (ring, polygon) or (ring, polygon, feature)", "malformed")
-        flat = np.ascontiguousarray(np.asarray(coordinates, np.float64)[:, :2])
-        ring, polygon, *feature = (np.ascontiguousarray(part, np.int64) for part in offsets)
-        return Ragged(flat, ring, polygon, feature[0] if feature else None)
+        ring, polygon, *feature = (_offsets(part) for part in offsets)
+        return Ragged(rows(coordinates), ring, polygon, feature[0] if feature else None)
     if hasattr(x, "__arrow_c_stream__") and not hasattr(x, "geometry"):
         return _from_arrow(x)
     if hasattr(x, "__arrow_c_array__"):
@@ -308,6 +348,8 @@ def ragged(x: Any) -> Ragged:
     series = getattr(x, "geometry", x) if hasattr(x, "columns") else x
     if to_wkb := getattr(series, "to_wkb", None):  # a GeoSeries or a GeometryArray
         return from_wkb(np.asarray(to_wkb(), dtype=object))
+    if isinstance(x, (str, bytes, bytearray, Mapping)) or not isinstance(x, Iterable):
+        raise MedialError(f"a {type(x).__name__} is no sequence of features: medial.axis() takes one", "unsupported")
     values = list(x) if not isinstance(x, np.ndarray) else x
     first = next((value for value in values if value is not None), None)
     if type(first).__module__.startswith("shapely."):
@@ -315,7 +357,7 @@ def ragged(x: Any) -> Ragged:
             return from_wkb(need("shapely", "geo").to_wkb(np.fromiter(values, object, len(values))))
     if isinstance(first, bytes) and all(value is None or isinstance(value, bytes) for value in values):
         return from_wkb(values)
-    return _from_rings([read(value) for value in values])
+    return _from_values(values)
 
 
 @contextmanager
@@ -354,7 +396,7 @@ def axes(
     Parameters
     ----------
     x : features
-        A GeoSeries or GeoDataFrame, a sequence of anything that `axis` takes but curves,
+        A GeoSeries or GeoDataFrame, a sequence of anything that `axis` takes,
         well-known binary in a sequence or an Arrow array, a GeoArrow array of polygons or
         multipolygons, or what ``shapely.to_ragged_array`` returns: ``(coordinates, offsets)``
         with or without the geometry type before them.
@@ -387,7 +429,7 @@ def axes(
     computed = computing(method, tolerance=tolerance, threads=threads, exterior=exterior,
                          margin=margin, own=own)  # fmt: skip
     with progress_of(progress, len(given)) as shown:
-        core = _core.axes_of(given.coordinates, given.ring, given.polygon, given.feature, computed, shown)
+        core = _core.axes_of(given.coordinates, given.ring, given.polygon, given.feature, given.bulges, computed, shown)
     result = Axes(core, given)
     log("%d features, %d errors", len(result), len(core.errors()))
     if on_error == "raise" and (errors := result.errors):

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._errors import need
+from ._errors import MedialError, need
 from ._options import computing, options
 from ._records import (
     EDGE,
@@ -25,6 +25,7 @@ from ._records import (
     Records,
     packed,
     points_of,
+    where_known,
     records,
     unpacked,
 )
@@ -171,7 +172,8 @@ class MedialAxis:
         >>> a.radius_at([(2, 1.5)])
         array([1.])
         """
-        return np.array(self.nearest(points)["radius"])
+        places = points_of(points)
+        return where_known(places, np.array(self.nearest(places)["radius"]))
 
     def clearance(self, points: npt.ArrayLike) -> Floats:
         """The distance of points to the boundary of the shape, negative outside.
@@ -502,6 +504,8 @@ class MedialAxis:
         >>> a.to_text("edgelist").splitlines()[0]
         '# from_node to_node length'
         """
+        if format == "safetensors":
+            raise MedialError("columns are no text: save() writes them", "unsupported")
         return _core.write_axis(self._core, None, format, chord, simplify) or ""
 
     def save(self, path: str | PathLike[str], *, chord: float = 1e-3, simplify: float = 0) -> None:
@@ -511,7 +515,7 @@ class MedialAxis:
         ----------
         path : path
             ``.json`` is the native format, with the shape and without loss, which `medial.load`
-            reads; ``.geojson``, ``.wkt`` and ``.csv`` hold lines; ``.graphml``, ``.nodelink`` and
+            reads; ``.safetensors`` the same as columns, for `medial.columns` as well; ``.geojson``, ``.wkt`` and ``.csv`` hold lines; ``.graphml``, ``.nodelink`` and
             ``.edgelist`` the graph of branches, as networkx reads it. With ``.gz`` compressed.
         chord : float
             How far chords may be from curves, as a share of the diagonal.

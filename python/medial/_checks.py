@@ -64,6 +64,8 @@ def verify(x: MedialAxis, shape: Any = None, *, tolerance: float = 0, samples: i
     >>> medial.verify(medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])).passed
     True
     """
+    if not isinstance(x, MedialAxis):
+        raise TypeError(f"a {type(x).__name__} is no axis: medial.axis() makes one")
     of = x
     if shape is not None:
         of = MedialAxis._of(_rebound(x, Shape._of(load(shape)[0])))

@@ -1,12 +1,17 @@
-"""Files: the native format, and shapes of SVG, WKT, GeoJSON, fonts and plain text."""
+"""Files: the native format, and shapes of SVG, DXF, WKT, GeoJSON, fonts and plain text."""
 
 from __future__ import annotations
 
 import gzip
+import json
 import os
 import warnings
-from os import PathLike, fspath
+from os import PathLike
 from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
 
 from . import _core
 from ._axis import MedialAxis, axis
@@ -42,11 +47,13 @@ def loads(text: str | bytes) -> list[MedialAxis]:
     >>> medial.loads(a.to_text())[0] == a
     True
     """
-    return _completed(_core.native_of_text(text.encode() if isinstance(text, str) else text))
+    return _completed(_core.native_of_text(text.encode("utf-8", "replace") if isinstance(text, str) else text))
 
 
 def load(path: str | PathLike[str]) -> list[MedialAxis]:
-    """The axes of a native file, ``.json`` or ``.json.gz``: one for each of its shapes.
+    """The axes of a native file, ``.json`` or ``.safetensors``: one for each of its shapes.
+
+    Compressed (``.gz``) as well. `columns` maps a ``.safetensors`` file into memory instead.
 
     Parameters
     ----------
@@ -66,27 +73,118 @@ def load(path: str | PathLike[str]) -> list[MedialAxis]:
     ...     medial.load(pathlib.Path(folder, "a.json"))[0] == a
     True
     """
-    return _completed(_core.native_of_file(fspath(path)))
+    return _completed(_core.native_of_file(os.fsdecode(path)))
 
 
-def _shapes(path: str, text: str, repair: str | None, arc_tolerance: float, fit: float) -> list[Shape]:
+def columns(path: str | PathLike[str]) -> dict[str, npt.NDArray[Any]]:
+    """The columns of a ``.safetensors`` file, mapped into memory: no byte is read before it is used.
+
+    What they hold is described in columns.md of the C++ documentation. Checksums are for
+    `medial.load`, which reads all bytes.
+
+    Parameters
+    ----------
+    path : path
+
+    Returns
+    -------
+    dict of str to numpy.ndarray
+        By the name of the column, read-only.
+
+    Raises
+    ------
+    MedialError
+        With the code ``"unreadable"`` or ``"malformed"``.
+
+    Examples
+    --------
+    >>> import medial, tempfile, pathlib
+    >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     a.save(pathlib.Path(folder, "a.safetensors"))
+    ...     float(medial.columns(pathlib.Path(folder, "a.safetensors"))["node_disk"][:, 2].max())
+    1.0
+    """
+    types = {"F64": "<f8", "U64": "<u8", "U32": "<u4", "U8": "u1"}
+    name = os.fsdecode(path)
     try:
-        shapes, notes = _core.shapes_of_file(path, text, repair, arc_tolerance, fit, options.threads)
+        file = np.memmap(name, np.uint8, "r")
+        end = 8 + int(file[:8].view("<u8")[0])
+        header = json.loads(bytes(file[8:end]))
+        header.pop("__metadata__", None)
+        found = {}
+        for key, column in header.items():
+            first, last = column["data_offsets"]
+            numbers = file[end + first : end + last].view(np.dtype(types[column["dtype"]]))
+            found[key] = numbers.reshape(column["shape"]).view(np.ndarray)
+        return found
+    except OSError as error:
+        raise MedialError(f"{name}: {error.strerror or error}", "unreadable") from None
+    except (ValueError, KeyError, TypeError, IndexError, AttributeError):
+        raise MedialError(f"{name}: these are not columns of safetensors", "malformed") from None
+
+
+def _taken(found: tuple[list[Any], list[str]]) -> list[Shape]:
+    """Shapes with their attributes; notes become warnings."""
+    shapes, notes = found
+    for note in notes:
+        warnings.warn(note, stacklevel=4)
+    return [Shape._of(core, dict(attributes)) for core, attributes in shapes]
+
+
+def _in_python(text: str) -> str:
+    """A text that names options of the command line."""
+    text = text.replace("; --units gives it one", ": leave out `unit`, and scale the shapes")
+    return text.replace("--close=GAP", "close=GAP").replace("--close ", "close=math.inf ")
+
+
+def _of_file(path: str, text: str, reading: _core.Reading) -> list[Shape]:
+    try:
+        return _taken(_core.shapes_of_file(path, text, reading))
     except MedialError as error:
+        error.text = _in_python(error.text)
         if "GDAL" not in error.text:
             raise
-        other = "geopandas.read_file() reads the formats of GIS, the package ezdxf DXF"
+        other = "geopandas.read_file() reads the formats of GIS"
         raise MedialError(f"{path}: not a format that medial.read() knows; {other}", "unsupported") from None
-    for note in notes:
-        warnings.warn(note, stacklevel=3)
-    return [Shape._of(core) for core, _ in shapes]
+
+
+def _of_drawing(path: str, reading: _core.Reading) -> list[Shape]:
+    from ._drawing import drawing_of
+
+    try:
+        return _taken(_core.shapes_of_drawing(drawing_of(path), reading))
+    except MedialError as error:
+        error.text = _in_python(error.text)
+        raise
+
+
+def _of_geojson(path: str, repair: str | None, arc_tolerance: float, fit: float) -> list[Shape]:
+    try:
+        data = Path(path).read_bytes()
+        text = gzip.decompress(data) if data.startswith(b"\x1f\x8b") else data
+    except (OSError, EOFError) as error:
+        raise MedialError(f"{path}: {getattr(error, 'strerror', None) or error}", "unreadable") from None
+    document = parsed(text)
+    shapes = []
+    parts = document.get("features", [document]) if isinstance(document, dict) else None
+    if not isinstance(parts, list):
+        raise MedialError(f"{path}: this is no GeoJSON", "malformed")
+    for part in parts:
+        shape = Shape(part, repair=repair, arc_tolerance=arc_tolerance, fit=fit)
+        properties = part.get("properties")
+        shape.attributes = dict(properties) if isinstance(properties, dict) else {}
+        shapes.append(shape)
+    return shapes
 
 
 def read(path: str | PathLike[str], *, repair: str | None = None, arc_tolerance: float = 1e-6,
-         fit: float = 0) -> list[Shape]:  # fmt: skip
-    """The shapes of a file: SVG, WKT, GeoJSON, plain `x y` text, or the native format.
+         fit: float = 0, layer: str | None = None, close: float | None = None,
+         unit: str | None = None) -> list[Shape]:  # fmt: skip
+    """The shapes of a file: SVG, DXF, WKT, GeoJSON, plain `x y` text, or the native format.
 
-    All are read with ``.gz`` as well. GeoPandas reads the formats of GIS, `ezdxf` DXF.
+    All are read with ``.gz`` as well. DXF needs the package `ezdxf`. GeoPandas reads the formats of
+    GIS.
 
     Parameters
     ----------
@@ -97,12 +195,22 @@ def read(path: str | PathLike[str], *, repair: str | None = None, arc_tolerance:
     arc_tolerance : float
         How far arcs may be from free-form curves, as a share of the diagonal.
     fit : float
-        Boundaries become smooth curves within this distance, in units of the file; 0: they stay.
+        Boundaries become smooth curves within this distance, in the unit of the result; 0: they
+        stay.
+    layer : str, optional
+        Of a drawing in DXF: this layer alone, even if it is hidden.
+    close : float, optional
+        Of a drawing in DXF: loose curves are joined where their ends are at most this far apart, by
+        default 1e-6 of the diagonal of their layer; ``math.inf`` closes every open chain.
+    unit : str, optional
+        Converts lengths: ``"mm"``, ``"cm"``, ``"m"``, ``"in"`` ... By default they stay in the unit
+        of the file.
 
     Returns
     -------
     list of Shape
-        One for each feature, painted path or polygon, in their order.
+        One for each feature, painted path, polygon, or layer of a drawing, in their order, with
+        `Shape.attributes`. Notes on what was left out or repaired are warnings.
 
     Raises
     ------
@@ -118,13 +226,14 @@ def read(path: str | PathLike[str], *, repair: str | None = None, arc_tolerance:
     ...     [round(shape.area, 6) for shape in medial.read(path)]
     [12.566371]
     """
-    name = fspath(path)
-    if name.removesuffix(".gz").endswith(".geojson"):
-        data = Path(name).read_bytes()
-        document = parsed(gzip.decompress(data) if name.endswith(".gz") else data)
-        parts = document.get("features", [document]) if isinstance(document, dict) else []
-        return [Shape(part, repair=repair, arc_tolerance=arc_tolerance, fit=fit) for part in parts]
-    return _shapes(name, "", repair, arc_tolerance, fit)
+    name = os.fsdecode(path)
+    kind = name.lower().removesuffix(".gz")
+    if kind.endswith(".geojson"):
+        if layer or close is not None or unit:
+            raise MedialError("GeoJSON has no layers, no loose curves, and degrees for a unit")
+        return _of_geojson(name, repair, arc_tolerance, fit)
+    reading = _core.reading(repair, arc_tolerance, fit, layer or "", close, unit or "", options.threads)
+    return _of_drawing(name, reading) if kind.endswith(".dxf") else _of_file(name, "", reading)
 
 
 def text(text: str, font: str | PathLike[str], *, arc_tolerance: float = 1e-6) -> list[Shape]:
@@ -156,7 +265,8 @@ def text(text: str, font: str | PathLike[str], *, arc_tolerance: float = 1e-6) -
     >>> [int(shape.hole.sum()) for shape in medial.text("Rg8", font)]
     [1, 1, 2]
     """
-    return _shapes(fspath(font), text, None, arc_tolerance, 0)
+    reading = _core.reading(None, arc_tolerance, 0, "", None, "", options.threads)
+    return _of_file(os.fsdecode(font), text, reading)
 
 
 def write_compressed(path: str, text: str) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Sequence
 from dataclasses import dataclass, field as dataclass_field
 from typing import Any, NamedTuple
@@ -123,10 +124,11 @@ class Line:
         5
         """
         if spacing is None:
+            count = operator.index(count)
             places = self.length * ((np.arange(count) + 0.5) / count)
             return self._widths(np.asarray(places, np.float64), across=True)
-        if not spacing > 0:
-            raise ValueError("spacing is positive")
+        if not 0 < spacing < np.inf:
+            raise MedialError("spacing is positive")
         steps = int(self.length / spacing)
         at: Floats = (self.length - steps * spacing) / 2 + spacing * np.arange(steps + 1, dtype=np.float64)
         return self._widths(at, across=True)

@@ -88,6 +88,8 @@ def unpack(code: Pack) -> MedialAxis:
     >>> medial.unpack(code).method
     'pack'
     """
+    if not isinstance(code, Pack):
+        raise TypeError(f"a {type(code).__name__} is no code: medial.pack() makes one")
     return code.unpack()
 
 

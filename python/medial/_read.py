@@ -13,7 +13,7 @@ import numpy.typing as npt
 from . import _core
 from ._contour import Contour
 from ._errors import MedialError
-from ._records import Floats, Indices
+from ._records import Floats, Indices, numbers_of
 
 ANY, OUTER, HOLE, WINDING = range(4)
 
@@ -38,6 +38,7 @@ class Ragged:
     polygon: Indices
     feature: Indices | None = None
     failed: list[Any] = field(default_factory=list)
+    bulges: Floats | None = None
 
     def __len__(self) -> int:
         return len(self.polygon if self.feature is None else self.feature) - 1
@@ -57,16 +58,14 @@ class Ragged:
             return Rings(np.empty((0, 2)), np.zeros(1, np.int64))
         roles = np.full(len(begin) - 1, HOLE, np.uint8)
         roles[polygons[:-1] - polygons[0]] = OUTER
-        coordinates = self.coordinates[begin[0] : begin[-1]]
-        return Rings(coordinates, begin - begin[0], roles)
+        part = slice(begin[0], begin[-1])
+        bulges = None if self.bulges is None else self.bulges[part]
+        return Rings(self.coordinates[part], begin - begin[0], roles, bulges)
 
 
 def rows(points: Any) -> Floats:
     """Coordinates as rows of x and y; more columns are dropped."""
-    try:
-        array = np.asarray(points, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise MedialError("coordinates are rows of x and y", "malformed") from error
+    array = numbers_of(points, "coordinates are rows of x and y")
     if array.ndim != 2 or (array.shape[1] < 2 and array.size):
         raise MedialError("coordinates are rows of x and y", "malformed")
     return np.ascontiguousarray(array[:, :2])
@@ -80,23 +79,45 @@ def _from_lists(rings: Sequence[Any], roles: Sequence[int] | None) -> Rings:
     return Rings(coordinates, begin, None if roles is None else np.asarray(roles, np.uint8))
 
 
-def _polygons_of(geometry: Mapping[str, Any]) -> Iterator[Sequence[Any]]:
+def _part(geometry: Mapping[str, Any], name: str, of: type | tuple[type, ...]) -> Any:
+    """A member of GeoJSON, of the right type."""
+    value = geometry.get(name)
+    if not isinstance(value, of):
+        raise MedialError(f"the {geometry.get('type')} has no {name}", "malformed")
+    return value
+
+
+def _polygons_of(geometry: Any) -> Iterator[Sequence[Any]]:
     """The polygons, as lists of rings, of a geometry, feature or collection of GeoJSON."""
+    if not isinstance(geometry, Mapping):
+        raise MedialError(f"a {type(geometry).__name__} is no geometry of GeoJSON", "malformed")
     kind = geometry.get("type")
+    lists = (Sequence, np.ndarray)
     if kind == "Feature":
-        yield from _polygons_of(geometry["geometry"])
+        yield from _polygons_of(_part(geometry, "geometry", Mapping))
     elif kind == "FeatureCollection":
-        for feature in geometry["features"]:
+        for feature in _part(geometry, "features", lists):
             yield from _polygons_of(feature)
     elif kind == "GeometryCollection":
-        for part in geometry["geometries"]:
+        for part in _part(geometry, "geometries", lists):
             yield from _polygons_of(part)
     elif kind == "Polygon":
-        yield geometry["coordinates"]
+        yield _part(geometry, "coordinates", lists)
     elif kind == "MultiPolygon":
-        yield from geometry["coordinates"]
+        yield from _part(geometry, "coordinates", lists)
     else:
         raise MedialError(f"the geometry is a {kind}, not a polygon", "unsupported")
+
+
+def _interface_of(x: Any) -> Any:
+    """What an object says of its geometry; None: nothing."""
+    if isinstance(x, type):
+        return None
+    try:
+        return getattr(x, "__geo_interface__", None)
+    except Exception as error:  # of any kind: the code is the object's
+        text = f"the __geo_interface__ of a {type(x).__name__} fails: {error}"
+        raise MedialError(text, "malformed") from error
 
 
 def _from_polygons(polygons: Sequence[Sequence[Any]]) -> Rings:
@@ -127,7 +148,7 @@ def parsed(text: str | bytes) -> Any:
 
     try:
         return json.loads(text)
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise MedialError(f"this is no JSON: {error}", "malformed") from error
 
 
@@ -163,6 +184,13 @@ def _joined(shapes: Sequence[Any]) -> Rings:
 
 def read(x: Any) -> Rings:
     """The rings or contours of a geometry."""
+    try:
+        return _read(x)
+    except RecursionError:
+        raise MedialError("the geometry is nested too deeply", "malformed") from None
+
+
+def _read(x: Any) -> Rings:
     if isinstance(x, np.ndarray) and x.dtype != object:
         return Rings(rows(x)) if x.ndim == 2 else _from_lists(list(x), None)
     if isinstance(x, str):
@@ -176,7 +204,7 @@ def read(x: Any) -> Rings:
     wkb = getattr(type(x), "__module__", "").startswith("shapely.") and getattr(x, "wkb", None)
     if wkb:
         return from_wkb([wkb]).one(0)
-    if geometry := getattr(x, "__geo_interface__", None):
+    if geometry := _interface_of(x):
         return _from_polygons(list(_polygons_of(geometry)))
     if isinstance(x, Mapping):
         return _from_polygons(list(_polygons_of(x)))
@@ -193,10 +221,17 @@ def read(x: Any) -> Rings:
 
 def chains_of(x: Any) -> tuple[Floats, Indices, npt.NDArray[np.uint8]]:
     """Points and lines: coordinates, where chains begin, whether they are closed."""
+    try:
+        return _chains_of(x)
+    except RecursionError:
+        raise MedialError("the geometry is nested too deeply", "malformed") from None
+
+
+def _chains_of(x: Any) -> tuple[Floats, Indices, npt.NDArray[np.uint8]]:
     parts: list[tuple[Floats, bool]] = []
 
     def add(geometry: Mapping[str, Any]) -> None:
-        kind, at = geometry["type"], geometry.get("coordinates", ())
+        kind, at = geometry.get("type"), geometry.get("coordinates", ())
         if kind == "Point":
             parts.append((rows([at]), False))
         elif kind == "MultiPoint":
@@ -208,14 +243,19 @@ def chains_of(x: Any) -> tuple[Floats, Indices, npt.NDArray[np.uint8]]:
         elif kind == "MultiLineString":
             parts.extend((rows(line), False) for line in at)
         elif kind == "GeometryCollection":
-            for part in geometry["geometries"]:
+            for part in _part(geometry, "geometries", Sequence):
+                add(part)
+        elif kind == "Feature":
+            add(_part(geometry, "geometry", Mapping))
+        elif kind == "FeatureCollection":
+            for part in _part(geometry, "features", Sequence):
                 add(part)
         else:
             parts.extend((rows(ring), True) for polygon in _polygons_of(geometry) for ring in polygon)
 
     def add_any(value: Any) -> None:
-        if hasattr(value, "__geo_interface__"):
-            add(value.__geo_interface__)
+        if isinstance(geometry := _interface_of(value), Mapping):
+            add(geometry)
         elif isinstance(value, Mapping):
             add(value)
         else:
@@ -226,10 +266,11 @@ def chains_of(x: Any) -> tuple[Floats, Indices, npt.NDArray[np.uint8]]:
     if isinstance(x, np.ndarray) and x.ndim == 2 and x.dtype != object:
         points = rows(x)
         return points, np.arange(len(points) + 1), np.zeros(len(points), np.uint8)
-    geometry = getattr(x, "__geo_interface__", None)
-    if geometry and "features" not in geometry:
+    if isinstance(x, Mapping) or isinstance(_interface_of(x), Mapping):
         add_any(x)
-    elif len(x) and not hasattr(x[0], "__geo_interface__") and len(x[0]) and _is_point(x[0]):
+    elif not isinstance(x, (Sequence, np.ndarray)) or isinstance(x, (str, bytes)):
+        raise MedialError(f"a {type(x).__name__} has neither points nor lines", "unsupported")
+    elif len(x) and isinstance(x[0], (Sequence, np.ndarray)) and len(x[0]) and _is_point(x[0]):
         return chains_of(rows(x))
     else:
         for value in x:

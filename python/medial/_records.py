@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
+
+from ._errors import MedialError
 
 Floats = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.int64]
@@ -64,11 +68,30 @@ def unpacked(values: npt.ArrayLike, dtype: np.dtype[np.void]) -> npt.NDArray[np.
     return result.view(np.uint8).reshape(-1)
 
 
-def points_of(points: npt.ArrayLike) -> Floats:
+def numbers_of(values: Any, what: str) -> Floats:
+    """Numbers as an array; complex ones, dates and what a mask hides are none."""
+    if isinstance(values, np.ndarray):
+        if values.dtype.kind not in "biufO":
+            raise MedialError(f"{what}, not {values.dtype}", "malformed")
+        if np.any(getattr(values, "mask", False)):
+            raise MedialError(f"{what}, and some are masked", "malformed")
+    try:
+        return np.asarray(values, np.float64)
+    except Exception as error:  # of whatever has an __array__
+        raise MedialError(f"{what}: {error}", "malformed") from error
+
+
+def points_of(points: Any) -> Floats:
     """Points as rows of x and y."""
-    array = np.ascontiguousarray(points, dtype=np.float64)
-    if array.ndim == 1 and array.shape == (2,):
-        array = array.reshape(1, 2)
+    array = numbers_of(points, "points are rows of x and y")
+    if array.shape == (2,) or array.size == 0:
+        array = array.reshape(-1, 2)
     if array.ndim != 2 or array.shape[1] < 2:
-        raise ValueError("points are rows of x and y")
+        raise MedialError("points are rows of x and y", "malformed")
     return np.ascontiguousarray(array[:, :2])
+
+
+def where_known(points: Floats, values: Floats) -> Floats:
+    """Values at points, not a number where a point is none."""
+    unknown = np.isnan(points).any(axis=1)
+    return np.where(unknown, np.nan, values) if unknown.any() else values

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from copy import deepcopy
 from os import PathLike, fspath
 from typing import Any
 
@@ -9,9 +11,9 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._errors import need
+from ._errors import MedialError, need
 from ._options import options
-from ._records import Floats, points_of
+from ._records import Floats, numbers_of, points_of, where_known
 from ._read import HOLE, OUTER, Rings, read
 
 _CoreShape = _core.Shape
@@ -36,6 +38,12 @@ class Shape:
     fit : float
         Boundaries become smooth curves within this distance; 0: they stay.
 
+    Attributes
+    ----------
+    attributes : dict
+        What `read` found beside the geometry: the layer of a drawing, the `id` of a path, the
+        properties of GeoJSON. They do not count for ``==``.
+
     Examples
     --------
     >>> import medial
@@ -44,9 +52,10 @@ class Shape:
     (12.0, (0.0, 0.0, 4.0, 3.0))
     """
 
-    __slots__ = ("_core", "__weakref__")
+    __slots__ = ("_core", "attributes", "__weakref__")
 
     _core: _CoreShape
+    attributes: dict[str, Any]
 
     def __init__(
         self,
@@ -58,11 +67,13 @@ class Shape:
         fit: float = 0,
     ) -> None:
         self._core = load(x, bulges, repair, arc_tolerance, fit)[0]
+        self.attributes = dict(x.attributes) if isinstance(x, Shape) else {}
 
     @classmethod
-    def _of(cls, core: _CoreShape) -> Shape:
+    def _of(cls, core: _CoreShape, attributes: Mapping[str, Any] | None = None) -> Shape:
         shape = cls.__new__(cls)
         shape._core = core
+        shape.attributes = dict(attributes or {})
         return shape
 
     @property
@@ -122,7 +133,8 @@ class Shape:
         >>> s.clearance([(1, 1)])
         array([1.])
         """
-        return _core.clearances(self._core, points_of(points))
+        places = points_of(points)
+        return where_known(places, _core.clearances(self._core, places))
 
     def polygons(self, chord: float | None = None) -> list[list[Floats]]:
         """The components as lists of closed rings, the outer one first.
@@ -193,10 +205,11 @@ class Shape:
         >>> medial.Shape([(0, 0), (4, 0), (4, 3), (0, 3)]).scaled(0.5, move=(1, 0)).bounds
         (1.0, 0.0, 3.0, 1.5)
         """
-        if not factor > 0:
-            raise ValueError("factor is positive")
         points, *others = self._state()
-        return restored(np.ascontiguousarray(points * factor + np.asarray(move, np.float64)), *others)
+        moved = np.ascontiguousarray(points * factor + numbers_of(move, "move is x and y"))
+        if not factor > 0 or not np.isfinite(moved).all():
+            raise MedialError("factor is positive, and the result within the range of numbers")
+        return restored(moved, *others)
 
     def to_text(self, format: str = "wkt", *, chord: float = 1e-3) -> str:
         """The text of a file: see `save`.
@@ -257,13 +270,14 @@ class Shape:
     __hash__ = None  # type: ignore[assignment]
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return restored, tuple(np.array(part) for part in self._state())
+        arrays = tuple(np.array(part) for part in self._state())
+        return restored, arrays, (None, {"attributes": self.attributes})
 
     def __copy__(self) -> Shape:
-        return Shape._of(self._core)
+        return Shape._of(self._core, self.attributes)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Shape:
-        return Shape._of(self._core)  # nothing in it can change
+        return Shape._of(self._core, deepcopy(self.attributes, memo))  # nothing else can change
 
 
 def restored(*state: npt.NDArray[Any]) -> Shape:
@@ -280,10 +294,12 @@ def load(
     keep_contours: bool = False,
 ) -> tuple[_core.Shape, list[_core.Contour]]:
     """The shape of a geometry, and its contours for methods that follow them."""
+    if not fit >= 0:
+        raise MedialError("fit is a distance")
     if isinstance(x, Shape) and not (repair or fit or keep_contours):
         return x._core, []
     rings = x if isinstance(x, Rings) else read(x)
-    own = rings.bulges if bulges is None else np.ascontiguousarray(bulges, np.float64)
+    own = rings.bulges if bulges is None else np.ascontiguousarray(numbers_of(bulges, "bulges are numbers"))
     if not (rings.contours or repair or fit or keep_contours):
         if rings.coordinates is None:
             rings.coordinates = np.empty((0, 2))

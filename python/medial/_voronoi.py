@@ -12,7 +12,7 @@ from . import _core
 from ._errors import need
 from ._options import computing, options
 from ._read import chains_of
-from ._records import NODE, SITE, Floats, Indices, Records, points_of, records
+from ._records import NODE, SITE, Floats, Indices, Records, numbers_of, points_of, records
 from ._shape import load
 
 
@@ -206,7 +206,7 @@ def voronoi(
         raise ValueError("method is 'disks' or 'lee'")
     frame = enclosure if frame is None else frame
     coordinates, begin, closed = chains_of(x)
-    own = None if bulges is None else np.ascontiguousarray(bulges, np.float64)
+    own = None if bulges is None else np.ascontiguousarray(numbers_of(bulges, "bulges are numbers"))
     box = None if frame is None else (float(frame[0]), float(frame[1]), float(frame[2]), float(frame[3]))
     computed = computing("disks", threads=threads, margin=margin)
     return Voronoi(_core.voronoi_of(coordinates, begin, closed, own, node_crossings, box, computed))

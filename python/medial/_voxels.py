@@ -11,7 +11,7 @@ import numpy.typing as npt
 from . import _core
 from ._errors import MedialError, need
 from ._options import options
-from ._records import Floats
+from ._records import Floats, numbers_of
 
 
 class Surface(NamedTuple):
@@ -71,6 +71,8 @@ class VoxelAxis:
 
 def _surface(volume: npt.NDArray[Any], spacing: tuple[float, float, float]) -> tuple[Floats, npt.NDArray[np.uint32]]:
     """The surface of the voxels that are set, as triangles."""
+    if np.shape(spacing) != (3,) or not ((np.asarray(spacing) > 0) & np.isfinite(spacing)).all():
+        raise MedialError("spacing is three positive numbers")
     grid = np.pad(np.asarray(volume) != 0, 1)
     quads = []
     for direction in range(3):
@@ -158,7 +160,10 @@ def voxels(
         vertices, triangles = _surface(x, spacing)
     else:
         raise MedialError(f"a {type(x).__name__} is neither a mesh nor a volume", "unsupported")
-    points = np.ascontiguousarray(vertices, np.float64)
+    points = np.ascontiguousarray(numbers_of(vertices, "vertices are rows of x, y and z"))
+    whole = numbers_of(triangles, "faces are rows of three vertices")
+    if not ((whole >= 0) & (whole < max(len(points), 1)) & (whole == np.floor(whole))).all():
+        raise MedialError("faces are rows of three vertices, by their numbers", "malformed")
     corners = np.ascontiguousarray(triangles, np.uint32)
     some = options.threads if threads is None else threads
     made = _core.voxels_of(points, corners, resolution, count, angle, thinning, surface,

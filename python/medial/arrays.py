@@ -190,7 +190,8 @@ def _each(
     computed = computing(method, threads=threads)
     with progress_of(progress, len(features)) as shown:
         flat, columns, begin, failed, attributes = _core.each_of(
-            features.coordinates, features.ring, features.polygon, features.feature, computed, operation, given, shown
+            features.coordinates, features.ring, features.polygon, features.feature, features.bulges,
+            computed, operation, given, shown,
         )
     errors = features.errors(failed)
     if errors and on_error == "raise":

@@ -12,7 +12,7 @@ import numpy as np
 
 from . import arrays
 from ._axes import Axes, axes
-from ._errors import need
+from ._errors import MedialError, need
 
 geopandas = need("geopandas", "geo")
 pandas = need("pandas", "geo")
@@ -49,8 +49,11 @@ class MedialAccessor:
         self._local: Any = None
 
     def _metric(self) -> Any:
-        if self._crs is None or not self._crs.is_geographic:
+        if self._crs is None or not self._crs.is_geographic or not np.isfinite(self._series.total_bounds).all():
             return self._series
+        west, south, east, north = self._series.total_bounds
+        if west < -540 or east > 540 or south < -90 or north > 90:
+            raise MedialError("the coordinates are no longitudes and latitudes, as the reference system says", "invalid_option")
         self._local = _local_crs(self._series)
         return self._series.to_crs(self._local)
 

@@ -27,10 +27,12 @@ _ARC = 0.05  # pixels that arcs may be from the smooth outline
 
 
 def _pixels(image: npt.ArrayLike, mask: npt.ArrayLike | None = None) -> npt.NDArray[np.uint8]:
-    array = np.asarray(image)
+    array = np.asarray(image.filled(0) if isinstance(image, np.ma.MaskedArray) else image)
     if array.ndim != 2:
         raise ValueError("images have two dimensions; medial.voxels() takes volumes")
     if mask is not None:
+        if np.shape(mask) != array.shape:
+            raise ValueError("a mask has the shape of its image")
         array = np.where(np.asarray(mask, bool), array, 0)
     binary = array if array.dtype == bool else array != 0
     return np.ascontiguousarray(binary).view(np.uint8)
@@ -180,6 +182,8 @@ def distance_transform(image: npt.ArrayLike, *, spacing: float = 1, to: str = "p
     """
     if to not in ("pixels", "cracks"):
         raise ValueError("to is 'pixels' or 'cracks'")
+    if not 0 < spacing < np.inf:
+        raise MedialError("spacing is positive")
     result = _core.distances(_pixels(image), to == "cracks", frame, squared, options.threads)
     return result if spacing == 1 else result * (spacing * spacing if squared else spacing)
 
@@ -358,10 +362,16 @@ def axis(
     >>> list(axes), round(float(axes[3].nodes["radius"].max()))
     ([3], 5)
     """
-    labels = np.asarray(label_image)
+    labels = np.asarray(label_image.filled(0) if isinstance(label_image, np.ma.MaskedArray) else label_image)
     if labels.ndim != 2:
         raise ValueError("label images have two dimensions")
-    dx, dy = (spacing, spacing) if isinstance(spacing, (int, float)) else spacing
+    if labels.dtype.kind not in "biu" and not (labels.dtype.kind == "f" and (labels == np.floor(labels)).all()
+                                               and np.isfinite(labels).all()):  # fmt: skip
+        raise MedialError("labels are whole numbers")
+    sides, corners = np.ravel(spacing), np.ravel(origin)
+    if len(sides) > 2 or len(corners) != 2 or not ((sides > 0) & (sides < np.inf)).all() or not np.isfinite(corners).all():
+        raise MedialError("spacing is a positive number or two, origin is x and y")
+    dx, dy = float(sides[0]), float(sides[-1])
     result = {}
     for label, (rows, columns) in _boxes(labels).items():
         region = np.ascontiguousarray(labels[rows, columns] == label).view(np.uint8)

@@ -19,7 +19,7 @@ class Named {
   template <class T>
   Named& take(const char* name, T& to) {
     if (!left_.contains(name)) return *this;
-    to = nb::cast<T>(left_[name]);
+    to = option_as<T>(left_[name], name);
     nb::del(left_[name]);
     return *this;
   }
@@ -73,6 +73,8 @@ std::unique_ptr<AxisOf> restored(const ShapeOf& of, const std::string& method, d
 /// polyline begins.
 std::pair<Array<double, 2>, Array<std::int64_t>> lines(const AxisOf& self, double chord,
                                                        double step) {
+  positive_chord(chord);
+  if (!(step >= 0)) refuse(ErrorCode::invalid_option, "step is positive");
   std::vector<Disk> disks;
   std::vector<std::int64_t> begin{0};
   without_lock([&] {
@@ -183,6 +185,8 @@ Options options_of(const std::string& method, double tolerance, double corner_an
     throw Failure(Error{ErrorCode::invalid_option,
                         "there is no method '" + method + "'; medial.methods() lists them",
                         {}});
+  if (threads < 0 || threads > most_threads)
+    refuse(ErrorCode::invalid_option, "the number of threads must be in [0, 1024]");
   Options options;
   options.method = *found;
   options.tolerance = tolerance;

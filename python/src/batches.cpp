@@ -50,7 +50,7 @@ class Given {
   explicit Given(const nb::dict& from) : from_(from) {}
   template <class T>
   T get(const char* name) const {
-    return nb::cast<T>(from_[name]);
+    return option_as<T>(from_[name], name);
   }
 
  private:
@@ -62,7 +62,9 @@ struct Chord {
   double share, absolute;
   explicit Chord(const Given& given)
       : share(given.get<double>("share")),
-        absolute(given.get<std::optional<double>>("chord").value_or(0)) {}
+        absolute(given.get<std::optional<double>>("chord").value_or(0)) {
+    if (!(absolute >= 0)) refuse(ErrorCode::invalid_option, "chord is positive");
+  }
   double of(const Shape& shape) const {
     const double chord = absolute > 0 ? absolute : share * diagonal(bounding_box(shape));
     return chord > 0 ? chord : 1;
@@ -275,9 +277,10 @@ void add_range(const Features& features, std::size_t first, std::size_t last,
 
 nb::tuple each_of(const Coordinates& coordinates, const Values<std::int64_t>& ring,
                   const Values<std::int64_t>& polygon,
-                  const std::optional<Values<std::int64_t>>& feature, const Options& options,
+                  const std::optional<Values<std::int64_t>>& feature,
+                  const std::optional<Values<double>>& bulges, const Options& options,
                   const std::string& name, const nb::dict& given, const nb::object& progress) {
-  const Features features = features_of(coordinates, ring, polygon, feature);
+  const Features features = features_of(coordinates, ring, polygon, feature, bulges);
   const Operation operation = operation_from(name, Given(given));
   std::vector<Table> parts((features.count() + block - 1) / block, operation.empty);
   for_each_block(features, options, progress,
@@ -299,8 +302,8 @@ nb::tuple each_of(const Coordinates& coordinates, const Values<std::int64_t>& ri
 
 void bind_batches(nb::module_& module) {
   module.def("each_of", &each_of, nb::arg("coordinates"), nb::arg("ring"), nb::arg("polygon"),
-             nb::arg("feature").none(), nb::arg("options"), nb::arg("operation"), nb::arg("given"),
-             nb::arg("progress").none());
+             nb::arg("feature").none(), nb::arg("bulges").none(), nb::arg("options"),
+             nb::arg("operation"), nb::arg("given"), nb::arg("progress").none());
 }
 
 }  // namespace medial::python

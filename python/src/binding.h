@@ -90,6 +90,22 @@ T value_of(Result<T> result) {
   throw Failure(Error{code, text, {}});
 }
 
+/// The value of an option. Errors: TypeError, with its name.
+template <class T>
+T option_as(nb::handle value, const std::string& name) {
+  try {
+    return nb::cast<T>(value);
+  } catch (const std::bad_cast&) {
+    throw nb::type_error(("the value of '" + name + "' has the wrong type").c_str());
+  }
+}
+
+/// How far lines may be from curves. Errors: invalid_option.
+inline double positive_chord(double chord) {
+  if (!(chord > 0)) refuse(ErrorCode::invalid_option, "chord is positive");
+  return chord;
+}
+
 /// Runs work() without the interpreter's lock.
 template <class Work>
 auto without_lock(const Work& work) {
@@ -98,6 +114,7 @@ auto without_lock(const Work& work) {
 }
 
 constexpr std::size_t long_work = 20'000;  ///< from so many points on, interrupts are looked for
+constexpr int most_threads = 1024;         ///< what compute() takes, for work of many shapes too
 constexpr int fine_work = 1000;            ///< below so many, one thread is as fast as several
 
 /// Runs work(cancel) without the interpreter's lock. Of large size in a thread of its own:

@@ -21,7 +21,7 @@ CarveOptions carve_options(const nb::dict& given) {
                        : name == "cleared"    ? &options.cleared
                                               : nullptr;
     if (to == nullptr) throw nb::type_error(("carve() has no option '" + name + "'").c_str());
-    *to = nb::cast<double>(value);
+    *to = option_as<double>(value, name);
   }
   return options;
 }

@@ -93,8 +93,9 @@ AxesOf joined(std::vector<AxesOf>& parts) {
 std::unique_ptr<AxesOf> axes_of(const Coordinates& coordinates, const Values<std::int64_t>& ring,
                                 const Values<std::int64_t>& polygon,
                                 const std::optional<Values<std::int64_t>>& feature,
-                                const Options& options, const nb::object& progress) {
-  const Features features = features_of(coordinates, ring, polygon, feature);
+                                const std::optional<Values<double>>& bulges, const Options& options,
+                                const nb::object& progress) {
+  const Features features = features_of(coordinates, ring, polygon, feature, bulges);
   const std::size_t count = features.count();
   // One thread computes block after block, and needs no parts to be joined.
   const bool in_order = effective_threads(options.threads) == 1;
@@ -137,6 +138,7 @@ MedialAxis axis_of(const AxesOf& all, std::size_t i) {
 /// where lines begin; where features begin among the lines.
 nb::tuple lines_of(const AxesOf& all, double chord, bool relative, std::size_t first,
                    std::size_t last, bool flat) {
+  positive_chord(chord);
   if (first > last || last > all.size()) throw nb::index_error("there are no such features");
   std::vector<Disk> disks;
   std::vector<Vec2> centers;
@@ -206,7 +208,8 @@ void bind_collections(nb::module_& module) {
         return share(shape.shape, axis_of(self, i));
       });
   module.def("axes_of", &axes_of, nb::arg("coordinates"), nb::arg("ring"), nb::arg("polygon"),
-             nb::arg("feature").none(), nb::arg("options"), nb::arg("progress").none());
+             nb::arg("feature").none(), nb::arg("bulges").none(), nb::arg("options"),
+             nb::arg("progress").none());
 }
 
 }  // namespace medial::python

@@ -17,6 +17,7 @@ constexpr std::size_t block = 256;  ///< features that one thread computes at a 
 struct Features {
   std::span<const Vec2> points;
   std::span<const std::int64_t> ring, polygon, feature;  ///< feature: empty, a polygon each
+  std::span<const double> bulges;                        ///< of each point's edge; empty: straight
 
   std::size_t count() const { return feature.empty() ? polygon.size() - 1 : feature.size() - 1; }
   std::pair<std::size_t, std::size_t> polygons(std::size_t i) const {
@@ -37,14 +38,23 @@ struct Features {
            r < static_cast<std::size_t>(polygon[p + 1]); ++r) {
         if (used == rings.size()) rings.emplace_back();
         Ring& ring_to = rings[used++];
-        const auto part = points.subspan(static_cast<std::size_t>(ring[r]),
-                                         static_cast<std::size_t>(ring[r + 1] - ring[r]));
+        const auto begin = static_cast<std::size_t>(ring[r]);
+        const auto size = static_cast<std::size_t>(ring[r + 1]) - begin;
+        const auto part = points.subspan(begin, size);
         ring_to.points.assign(part.begin(), part.end());
+        ring_to.bulges.clear();
+        if (!bulges.empty() && has_arcs(bulges.subspan(begin, size)))
+          ring_to.bulges.assign(&bulges[begin], &bulges[begin] + size);
         ring_to.role =
             static_cast<std::int64_t>(r) == polygon[p] ? RingRole::outer : RingRole::hole;
       }
     }
     rings.resize(used);
+  }
+
+ private:
+  static bool has_arcs(std::span<const double> some) {
+    return std::ranges::any_of(some, [](double bulge) { return bulge != 0; });
   }
 };
 
@@ -57,8 +67,12 @@ inline void check_offsets(std::span<const std::int64_t> offsets, std::size_t end
 
 inline Features features_of(const Coordinates& coordinates, const Values<std::int64_t>& ring,
                             const Values<std::int64_t>& polygon,
-                            const std::optional<Values<std::int64_t>>& feature) {
-  Features all{points_of(coordinates), span_of(ring), span_of(polygon), {}};
+                            const std::optional<Values<std::int64_t>>& feature,
+                            const std::optional<Values<double>>& bulges) {
+  Features all{points_of(coordinates), span_of(ring), span_of(polygon), {}, {}};
+  if (bulges) all.bulges = span_of(*bulges);
+  if (bulges && all.bulges.size() != all.points.size())
+    refuse(ErrorCode::malformed, "bulges go with coordinates");
   check_offsets(all.ring, all.points.size());
   check_offsets(all.polygon, all.ring.size() - 1);
   if (!feature) return all;
@@ -92,24 +106,29 @@ void for_each_block(const Features& features, const Options& options, const nb::
   for (std::size_t b = 0; b < blocks; ++b)
     weights.push_back(features.weight(b * block, std::min(count, (b + 1) * block)) + 1);
   const bool reports = !progress.is_none();
-  value_of(run(features.points.size(), [&](const std::atomic<bool>* cancel) {
+  std::optional<nb::python_error> raised;  // by `progress`, which ends the work
+  const auto report = [&](std::size_t done) -> Status {
+    const nb::gil_scoped_acquire held;
+    try {
+      if (!raised) progress(done);
+    } catch (const nb::python_error& error) {
+      raised.emplace(error);
+    }
+    return raised ? Status(Error{ErrorCode::cancelled, "progress failed", {}}) : success();
+  };
+  Status done = run(features.points.size(), [&](const std::atomic<bool>* cancel) {
     const auto one_block = [&](std::size_t b, int threads) -> Status {
       Options own = options;
       own.threads = threads;
       own.cancel = cancel;
       const std::size_t last = std::min(count, (b + 1) * block);
       work(b * block, last, own);
-      if (!reports) return success();
-      const nb::gil_scoped_acquire held;
-      try {
-        progress(last - b * block);
-      } catch (nb::python_error& error) {
-        error.discard_as_unraisable("progress of medial.axes()");
-      }
-      return success();
+      return reports ? report(last - b * block) : success();
     };
     return for_each_item(weights, options.threads, one_block, cancel);
-  }));
+  });
+  if (raised) throw nb::python_error(*raised);
+  value_of(std::move(done));
 }
 
 template <class T>

@@ -81,6 +81,7 @@ ShapeOf restored(const Coordinates& points, const Values<double>& bulges,
 
 /// The boundary as closed rings of points with arcs as chords: points, and where rings begin.
 std::pair<Array<double, 2>, Array<std::int64_t>> outline(const Shape& shape, double chord) {
+  positive_chord(chord);
   std::vector<Vec2> points;
   std::vector<std::int64_t> begin{0};
   for (std::size_t i = 0; i < shape.loop_count(); ++i) {

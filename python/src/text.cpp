@@ -1,6 +1,10 @@
 // Files and texts that medial::text reads and writes.
 
+#include <functional>
+
 #include "binding.h"
+#include "io/checks.h"
+#include "io/drawing.h"
 #include "medial/io/write.h"
 
 namespace medial::python {
@@ -37,23 +41,120 @@ nb::tuple rings_of_text(const std::string& text) {
   return tuple_of(std::move(read.items));
 }
 
-/// The shapes of a file, or of a text in the font `path`; the attributes of each; notes.
-nb::tuple shapes_of_file(const std::string& path, const std::string& text,
-                         const std::optional<std::string>& repair, double arc_tolerance, double fit,
-                         int threads) {
+/// How a file is read, by the names of Python.
+io::SourceOptions reading(const std::optional<std::string>& repair, double arc_tolerance,
+                          double fit, const std::string& layer, std::optional<double> close,
+                          const std::string& unit, int threads) {
+  if (close && !(*close >= 0)) refuse(ErrorCode::invalid_option, "close is a distance");
   io::SourceOptions options;
-  options.read.repair = repair_from(repair);
-  options.text = text;
+  options.read.repair = options.load.repair = repair_from(repair);
+  options.read.layer = layer;
+  options.read.close = close;
   options.load.arcs.tolerance = arc_tolerance;
   options.load.fit = fit;
   options.load.threads = threads;
-  Document<ShapeItem> loaded = value_of(
-      run(long_work, [&](const std::atomic<bool>*) { return io::load_shapes(path, options); }));
+  const auto wanted = unit_of(unit);
+  if (!unit.empty() && !wanted)
+    throw Failure({ErrorCode::invalid_option, "unit is one of " + unit_names(), {}});
+  if (wanted) options.units.wanted = *wanted;
+  return options;
+}
+
+/// Shapes with the attributes of each; notes.
+nb::tuple shapes_of(
+    const std::function<Result<Document<ShapeItem>>(const std::atomic<bool>*)>& load) {
+  Document<ShapeItem> loaded = value_of(run(long_work, load));
   nb::list shapes;
   for (ShapeItem& item : loaded.items)
     shapes.append(nb::make_tuple(ShapeOf{std::make_shared<const Shape>(std::move(item.shape))},
                                  item.attributes));
   return nb::make_tuple(shapes, loaded.notes);
+}
+
+/// The shapes of a file, or of a text in the font `path`.
+nb::tuple shapes_of_file(const std::string& path, const std::string& text,
+                         io::SourceOptions options) {
+  options.text = text;
+  return shapes_of([&](const std::atomic<bool>* cancel) {
+    options.load.cancel = cancel;
+    return io::load_shapes(path, options);
+  });
+}
+
+/// What read_document() makes of the file of a drawing.
+Result<Document<ShapeItem>> load_drawing(const io::Drawing& drawing,
+                                         const io::SourceOptions& options) {
+  Result<Document<Feature>> features = io::features_of(drawing, options.read);
+  if (!features) return std::move(features).error();
+  io::FeatureChecks checks(options.read);
+  Status status = checks.check(*features);
+  if (status) status = checks.finish(*features);
+  if (status) status = convert_units(*features, options.units);
+  if (!status) return std::move(status).error();
+  return load_shapes(std::move(features).value(), options.load);
+}
+
+nb::tuple shapes_of_drawing(const io::Drawing& drawing, io::SourceOptions options) {
+  return shapes_of([&](const std::atomic<bool>* cancel) {
+    options.load.cancel = cancel;
+    return load_drawing(drawing, options);
+  });
+}
+
+Vec2 vec2_of(const std::array<double, 2>& p) { return {p[0], p[1]}; }
+std::vector<Vec2> copied(const Coordinates& coordinates) {
+  const auto points = points_of(coordinates);
+  return {points.begin(), points.end()};
+}
+std::vector<double> copied(const Values<double>& values) {
+  return {values.data(), values.data() + values.shape(0)};
+}
+
+/// Entities as ezdxf reads them.
+void bind_drawing(nb::module_& module) {
+  using Point = std::array<double, 2>;
+  nb::class_<io::Drawing>(module, "Drawing")
+      .def(nb::init<>())
+      .def_rw("units", &io::Drawing::units)
+      .def("layer",
+           [](io::Drawing& self, const std::string& name, bool hidden) {
+             self.layers.insert(name);
+             if (hidden) self.hidden.insert(name);
+           })
+      .def("begin_block", [](io::Drawing& self, const std::string& name,
+                             Point base) { self.begin_block(name, vec2_of(base)); })
+      .def("end_block", &io::Drawing::end_block)
+      .def("leave_out", [](io::Drawing& self, const std::string& name) { ++self.left_out[name]; })
+      .def("begin_entity", &io::Drawing::begin_entity)
+      .def("point", [](io::Drawing& self, Point p) { self.add_point(vec2_of(p)); })
+      .def("line",
+           [](io::Drawing& self, Point a, Point b) { self.add_line(vec2_of(a), vec2_of(b)); })
+      .def("circle", [](io::Drawing& self, Point center,
+                        double radius) { self.add_circle(vec2_of(center), radius); })
+      .def("arc", [](io::Drawing& self, Point center, double radius, double begin,
+                     double end) { self.add_arc(vec2_of(center), radius, begin, end); })
+      .def("ellipse",
+           [](io::Drawing& self, Point center, Point major, double ratio, double begin,
+              double end) { self.add_ellipse(vec2_of(center), vec2_of(major), ratio, begin, end); })
+      .def("polyline",
+           [](io::Drawing& self, const Coordinates& points, const Values<double>& bulges,
+              bool closed) {
+             if (points.shape(0) != bulges.shape(0))
+               refuse(ErrorCode::malformed, "a bulge goes with each point");
+             self.add_polyline(copied(points), copied(bulges), closed);
+           })
+      .def("spline",
+           [](io::Drawing& self, std::uint32_t degree, const Values<double>& knots,
+              const Coordinates& points, const Values<double>& weights, bool closed) {
+             value_of(
+                 self.add_spline(degree, copied(knots), copied(points), copied(weights), closed));
+           })
+      .def("copies", [](io::Drawing& self, const std::string& block, Point place, Point scale,
+                        double angle, std::array<int, 2> counts, Point steps) {
+        self.add_copies({block, vec2_of(place), scale[0], scale[1], angle, counts[0], counts[1],
+                         steps[0], steps[1]});
+      });
+  module.def("shapes_of_drawing", &shapes_of_drawing, nb::arg("drawing"), nb::arg("reading"));
 }
 
 /// The shape and the axis of each item of a native file.
@@ -133,9 +234,13 @@ void bind_text(nb::module_& module) {
   module.def("rings_of_text", &rings_of_text);
   module.def("contours_of_path",
              [](const std::string& text) { return value_of(io::read_path_data(text)); });
-  module.def("shapes_of_file", &shapes_of_file, nb::arg("path"), nb::arg("text"),
-             nb::arg("repair").none(), nb::arg("arc_tolerance"), nb::arg("fit"),
+  nb::class_<io::SourceOptions>(module, "Reading");
+  module.def("reading", &reading, nb::arg("repair").none(), nb::arg("arc_tolerance"),
+             nb::arg("fit"), nb::arg("layer"), nb::arg("close").none(), nb::arg("unit"),
              nb::arg("threads"));
+  module.def("shapes_of_file", &shapes_of_file, nb::arg("path"), nb::arg("text"),
+             nb::arg("reading"));
+  bind_drawing(module);
   module.def("native_of_file", [](const std::string& path) {
     return native(without_lock([&] { return io::read_native(path); }));
   });

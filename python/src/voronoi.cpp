@@ -65,6 +65,7 @@ std::unique_ptr<VoronoiOf> diagram_inside(const ShapeOf& of, const Options& give
 
 /// The faces as rings: points, where each face begins (an empty face has none).
 nb::tuple outlines(const VoronoiOf& self, double chord) {
+  positive_chord(chord);
   std::vector<Vec2> points;
   std::vector<std::int64_t> begin{0};
   without_lock([&] {
@@ -80,6 +81,7 @@ nb::tuple outlines(const VoronoiOf& self, double chord) {
 
 /// The edges as polylines of x, y, radius; where each begins.
 nb::tuple edge_lines(const VoronoiOf& self, double chord) {
+  positive_chord(chord);
   std::vector<Disk> disks;
   std::vector<std::int64_t> begin{0};
   for (const VoronoiEdge& edge : self.diagram.edges) {

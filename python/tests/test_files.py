@@ -54,9 +54,9 @@ def test_shapes_of_files(tmp_path, plan):
     assert (caught.value.code, caught.value.feature, caught.value.point) == ("crossing", 0, (1.0, 1.0))
     with pytest.warns(UserWarning):
         assert medial.read(tmp_path / "bow.wkt", repair="even_odd")[0].area == pytest.approx(2)
-    (tmp_path / "x.dxf").write_text("0\nEOF\n")
-    with pytest.raises(medial.MedialError, match="ezdxf"):
-        medial.read(tmp_path / "x.dxf")
+    (tmp_path / "x.gpkg").write_bytes(b"SQLite format 3\0")
+    with pytest.raises(medial.MedialError, match="geopandas"):
+        medial.read(tmp_path / "x.gpkg")
     with pytest.raises(medial.MedialError) as caught:
         medial.read(tmp_path / "none.svg")
     assert caught.value.code == "unreadable"
@@ -107,3 +107,28 @@ def test_programs_of_tools():
     assert cleared.clearing and "(tool 2:" in cleared.to_gcode(clear_feed=500)
     with pytest.raises(ValueError):
         cleared.to_gcode(unit="m")
+
+
+def test_columns_are_those_of_the_axis(tmp_path, plan):
+    a = medial.axis(plan)
+    path = tmp_path / "a.safetensors"
+    a.save(path)
+    (b,) = medial.load(path)
+    assert np.array_equal(b.nodes, a.nodes) and np.array_equal(b.edges, a.edges) and np.array_equal(b.sites, a.sites)
+    columns = medial.columns(path)
+    assert not columns["node_disk"].flags.writeable and not columns["node_disk"].flags.owndata
+    assert np.array_equal(columns["node_disk"], np.stack([a.nodes["x"], a.nodes["y"], a.nodes["radius"]], axis=1))
+    assert columns["item_node_begin"].tolist() == [0, len(a.nodes)]
+    for damaged in (b"", path.read_bytes()[:100], path.read_bytes()[:-8], b"\x02" + b"\0" * 7 + b"{}", b"no columns"):
+        (tmp_path / "b.safetensors").write_bytes(damaged)
+        for read in (medial.load, medial.columns):
+            if damaged.endswith(b"{}") and read is medial.columns:
+                assert read(tmp_path / "b.safetensors") == {}
+                continue
+            with pytest.raises(medial.MedialError) as caught:
+                read(tmp_path / "b.safetensors")
+            assert caught.value.code in ("malformed", "unreadable")
+    with pytest.raises(medial.MedialError):
+        a.to_text("safetensors")
+    with pytest.raises(medial.MedialError):
+        medial.columns(tmp_path / "none.safetensors")

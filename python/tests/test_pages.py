@@ -28,6 +28,8 @@ def files(tmp_path, monkeypatch):
     geopandas.GeoDataFrame(geometry=buildings, crs=2056).to_file(tmp_path / "buildings.gpkg")
     font = pytest.importorskip("matplotlib.font_manager").findfont("DejaVu Serif")
     (tmp_path / "DejaVuSerif.ttf").symlink_to(font)
+    pytest.importorskip("ezdxf")
+    (tmp_path / "plate.dxf").symlink_to(PAGE.parents[2] / "data" / "plate.dxf")
     (tmp_path / "plan.wkt").write_text("POLYGON ((0 0, 10 0, 10 6, 0 6, 0 0), (4 2, 4 4, 6 4, 6 2, 4 2))")
     monkeypatch.chdir(tmp_path)
 

@@ -219,18 +219,15 @@ bool Curve::straight() const {
 }
 
 double Curve::length(double t) const {
-  if (weight == 1) {
-    const Vec2 a = p1, b = p2 - 2 * p1;
-    return arc_length(t * a, (t * t) * b);
-  }
-  if (straight()) {
-    const Vec2 d = offset(t);
-    return std::hypot(d.x, d.y);
-  }
-  if (t == 1) return conic_length({p1, p2, weight});
   const double s = 1 - t, q = s + t * weight;
-  const double d = s * s + 2 * s * t * weight + t * t;
-  return conic_length({(t * weight / q) * p1, offset(t), q / std::sqrt(d)});
+  const Conic piece{(t * weight / q) * p1, offset(t),
+                    q / std::sqrt(s * s + 2 * s * t * weight + t * t)};
+  // No conic is shorter than its chord or longer than its control polygon.
+  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+  const auto size = [](Vec2 v) { return std::hypot(v.x, v.y); };  // of the tiniest shapes, too
+  const double chord = size(piece.p2);
+  if (size(piece.p1) + size(piece.p2 - piece.p1) <= (1 + rounding) * chord) return chord;
+  return weight == 1 ? arc_length(t * p1, (t * t) * (p2 - 2 * p1)) : conic_length(piece);
 }
 
 double Curve::at_length(double s) const {

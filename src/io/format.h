@@ -218,6 +218,7 @@ const Format* find_format(std::string_view extension, DocumentKind kind);
 
 // The rows of the table, each in its own file.
 Format json_format();
+Format safetensors_format();
 Format geojson_format();
 Format gpkg_format();
 Format shp_format();

@@ -20,6 +20,7 @@ Format with_meshes(Format format) { return format; }
 const std::vector<Format>& formats_at_hand() {
   static const std::vector<Format> rows{
       json_format(),
+      safetensors_format(),
       geojson_format(),
 #ifdef MEDIAL_GIS
       gpkg_format(),

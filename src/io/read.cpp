@@ -194,7 +194,16 @@ Result<Document<T>> read_json(const std::string& path,
 }
 
 constexpr const char* no_native =
-    "this is not one of medial's own JSON files, which -o NAME.json writes";
+    "this is not one of medial's own files, which -o NAME.json or NAME.safetensors writes";
+
+bool begins_like_axes(std::string_view text) {
+  return begins_like_native(text) || begins_like_safetensors(text);
+}
+
+Result<Document<AxisItem>> read_axes(TextSource& source) {
+  return begins_like_safetensors(source.lookahead(sniffed)) ? read_safetensors(source)
+                                                            : read_native(source);
+}
 
 bool begins(const std::string& path, Sniff sniff) {
   const Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
@@ -203,15 +212,14 @@ bool begins(const std::string& path, Sniff sniff) {
 
 }  // namespace
 
-bool is_native(const std::string& path) { return begins(path, begins_like_native); }
+bool is_native(const std::string& path) { return begins(path, begins_like_axes); }
 
 Result<Document<AxisItem>> read_native(const std::string& path) {
-  return read_json<AxisItem>(path, TextSource::open(path), begins_like_native, no_native,
-                             read_native);
+  return read_json<AxisItem>(path, TextSource::open(path), begins_like_axes, no_native, read_axes);
 }
 
 Result<Document<AxisItem>> read_native_text(std::string_view text) {
-  return read_json<AxisItem>({}, TextSource::of(text), begins_like_native, no_native, read_native);
+  return read_json<AxisItem>({}, TextSource::of(text), begins_like_axes, no_native, read_axes);
 }
 
 bool is_voronoi(const std::string& path) { return begins(path, begins_like_voronoi); }

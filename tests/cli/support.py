@@ -22,7 +22,7 @@ FRAME = "POLYGON ((0 0, 9 0, 9 6, 0 6, 0 0), (3 2, 3 4, 6 4, 6 2, 3 2))"
 SQUARES = "\n".join(f"POLYGON (({x} 0, {x + 1} 0, {x + 1} 1, {x} 1, {x} 0))" for x in (0, 3, 6))
 BOW_TIE = "POLYGON ((0 0, 2 2, 2 0, 0 2, 0 0))"
 
-FORMATS = ["json", "geojson", "gpkg", "shp", "fgb", "wkt", "csv", "graphml",
+FORMATS = ["json", "safetensors", "geojson", "gpkg", "shp", "fgb", "wkt", "csv", "graphml",
            "nodelink", "edgelist", "dxf", "svg", "pdf", "png", "ps"]
 
 GEOGRAPHIC = json.dumps({

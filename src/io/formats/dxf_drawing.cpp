@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <string_view>
-#include <utility>
+
+#include "io/drawing.h"
 
 namespace medial::io {
 
@@ -45,18 +45,6 @@ void write_tables(DL_Dxf& drawing, DxfGroups& groups, const std::vector<std::str
   groups.sectionEnd();
 }
 
-constexpr std::array<std::pair<int, Unit>, 11> units_of_dxf{{{1, Unit::inch},
-                                                             {2, Unit::foot},
-                                                             {4, Unit::millimetre},
-                                                             {5, Unit::centimetre},
-                                                             {6, Unit::metre},
-                                                             {7, Unit::kilometre},
-                                                             {9, Unit::mil},
-                                                             {10, Unit::yard},
-                                                             {13, Unit::micrometre},
-                                                             {21, Unit::us_foot},
-                                                             {0, Unit::unknown}}};
-
 void write_blocks(DL_Dxf& drawing, DxfGroups& groups) {
   groups.sectionBlocks();
   for (const char* name : {"*Model_Space", "*Paper_Space", "*Paper_Space0"}) {
@@ -67,17 +55,6 @@ void write_blocks(DL_Dxf& drawing, DxfGroups& groups) {
 }
 
 }  // namespace
-
-int dxf_units(Unit unit) {
-  for (const auto& [number, one] : units_of_dxf)
-    if (one == unit) return number;
-  return 0;
-}
-Unit unit_of_dxf(int units) {
-  for (const auto& [number, one] : units_of_dxf)
-    if (number == units) return one;
-  return Unit::unknown;
-}
 
 void DxfGroups::dxfReal(int code, double value) const {
   group(out_, code, [&] { out_.put(value); });

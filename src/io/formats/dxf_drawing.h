@@ -27,10 +27,6 @@ class DxfGroups : public DL_WriterA {
   OutputStream& out_;
 };
 
-/// $INSUNITS of a unit, 0 for those without; and back.
-int dxf_units(Unit unit);
-Unit unit_of_dxf(int units);
-
 /// A drawing in DXF (AutoCAD 2000): everything up to the entities, the entities, and the rest.
 class DxfDrawing {
  public:

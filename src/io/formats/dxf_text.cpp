@@ -17,8 +17,8 @@ constexpr std::size_t longest_drawing = std::size_t{1} << 32U;  // bytes
 constexpr std::size_t longest_line = 256;  // what is kept of a text; dxflib stops at 1,024
 constexpr std::array<std::string_view, 9> structure{
     "SECTION", "ENDSEC", "TABLE", "ENDTAB", "LAYER", "BLOCK", "ENDBLK", "SEQEND", "VERTEX"};
-constexpr std::array<std::string_view, 8> entities{"LINE",     "ARC",    "CIRCLE", "ELLIPSE",
-                                                   "POLYLINE", "SPLINE", "INSERT", "LWPOLYLINE"};
+constexpr std::array<std::string_view, 9> entities{
+    "POINT", "LINE", "ARC", "CIRCLE", "ELLIPSE", "POLYLINE", "SPLINE", "INSERT", "LWPOLYLINE"};
 constexpr std::array<std::string_view, 3> sections{"TABLES", "BLOCKS", "ENTITIES"};
 
 template <class List>

@@ -22,6 +22,14 @@ bool begins_like_voronoi(std::string_view text);
 Result<Document<AxisItem>> read_native(TextSource& source);
 Result<Document<VoronoiItem>> read_voronoi(TextSource& source);
 
+/// The same of columns (safetensors), and how they begin.
+bool begins_like_safetensors(std::string_view text);
+Result<Document<AxisItem>> read_safetensors(TextSource& source);
+
+/// What files in JSON and in columns have in common: they throw Malformed.
+void check_item(const AxisItem& item);
+Unit unit_from(const std::string& name);
+
 /// The shapes of a native file as features: their loops are the rings, with their sources.
 Document<Feature> dataset_of(Document<AxisItem> file);
 

@@ -25,6 +25,46 @@ VertexSource read_vertex_source(json::value value) {
   return source;
 }
 
+void check_shape(const Shape& shape) {
+  const std::size_t loops = shape.component.size();
+  demand(shape.sources.size() == shape.points.size(), "not one source for each point");
+  demand(shape.bulges.empty() || shape.bulges.size() == shape.points.size(),
+         "not one bulge for each point");
+  demand(shape.hole.size() == loops, "not one 'hole' for each loop");
+  if (loops == 0) {
+    demand(shape.points.empty() && shape.loop_begin.size() <= 1, "points without a loop");
+    return;
+  }
+  demand(shape.loop_begin.size() == loops + 1, "not one 'loop_begin' for each loop and one more");
+  demand(shape.loop_begin.front() == 0 && shape.loop_begin.back() == shape.points.size(),
+         "the loops do not cover the points");
+  const std::size_t components = shape.component_count();
+  for (std::size_t i = 0; i < loops; ++i) {
+    // Two arcs can make a loop, two segments cannot.
+    const std::uint32_t fewest = shape.bulges.empty() ? 3 : 2;
+    demand(shape.loop_begin[i] < shape.loop_begin[i + 1] &&
+               shape.loop_begin[i + 1] - shape.loop_begin[i] >= fewest,
+           "a loop has too few points");
+    demand(shape.component[i] < components, "a component out of range");
+  }
+}
+
+void check_axis(const Shape& shape, const MedialAxis& axis) {
+  for (const Edge& edge : axis.edges) {
+    demand(std::max(edge.node[0], edge.node[1]) < axis.nodes.size(), "an edge's node out of range");
+    for (const std::uint32_t site : edge.site) {
+      demand(site < axis.sites.size() || (site == no_site && axis.resolution > 0),
+             "an edge's site out of range");
+    }
+    demand(edge.weight > 0, "an edge's weight is not positive");
+  }
+  // The exterior has components of its own: a frame, and what loops enclose between their vertices.
+  const std::size_t components =
+      std::max<std::size_t>(axis.exterior != 0 ? shape.points.size() : shape.component_count(), 1);
+  for (const Node& node : axis.nodes)
+    demand(node.component < components, "a node's component out of range");
+}
+
 void read_shape(json::value value, Shape& shape) {
   const auto list = [](const char* name, auto& values, auto read) {
     return Member{name, [&values, read](json::value v) { append_all(v, values, read); }};
@@ -111,30 +151,6 @@ void read_axis(json::value value, MedialAxis& axis, Unresolved& unresolved) {
                Member{"statistics", [&](json::value v) { read_statistics(v, axis.statistics); }});
 }
 
-void check_shape(const Shape& shape) {
-  const std::size_t loops = shape.component.size();
-  demand(shape.sources.size() == shape.points.size(), "not one source for each point");
-  demand(shape.bulges.empty() || shape.bulges.size() == shape.points.size(),
-         "not one bulge for each point");
-  demand(shape.hole.size() == loops, "not one 'hole' for each loop");
-  if (loops == 0) {
-    demand(shape.points.empty() && shape.loop_begin.size() <= 1, "points without a loop");
-    return;
-  }
-  demand(shape.loop_begin.size() == loops + 1, "not one 'loop_begin' for each loop and one more");
-  demand(shape.loop_begin.front() == 0 && shape.loop_begin.back() == shape.points.size(),
-         "the loops do not cover the points");
-  const std::size_t components = shape.component_count();
-  for (std::size_t i = 0; i < loops; ++i) {
-    // Two arcs can make a loop, two segments cannot.
-    const std::uint32_t fewest = shape.bulges.empty() ? 3 : 2;
-    demand(shape.loop_begin[i] < shape.loop_begin[i + 1] &&
-               shape.loop_begin[i + 1] - shape.loop_begin[i] >= fewest,
-           "a loop has too few points");
-    demand(shape.component[i] < components, "a component out of range");
-  }
-}
-
 void resolve(const Shape& shape, MedialAxis& axis, const Unresolved& unresolved) {
   std::vector<std::uint32_t> next(shape.points.size());
   for (std::size_t i = 0; i + 1 < shape.loop_begin.size(); ++i) {
@@ -152,23 +168,11 @@ void resolve(const Shape& shape, MedialAxis& axis, const Unresolved& unresolved)
     site.ring = shape.sources[vertex].ring;
     site.vertex = shape.sources[vertex].vertex;
   }
-  for (const Edge& edge : axis.edges) {
-    demand(std::max(edge.node[0], edge.node[1]) < axis.nodes.size(), "an edge's node out of range");
-    for (const std::uint32_t site : edge.site) {
-      demand(site < axis.sites.size() || (site == no_site && axis.resolution > 0),
-             "an edge's site out of range");
-    }
-    demand(edge.weight > 0, "an edge's weight is not positive");
-  }
   for (const std::uint32_t i : unresolved.plain_edges) {
     Edge& edge = axis.edges[i];
+    demand(std::max(edge.node[0], edge.node[1]) < axis.nodes.size(), "an edge's node out of range");
     edge.control = middle_of(axis.nodes[edge.node[0]].disk, axis.nodes[edge.node[1]].disk);
   }
-  // The exterior has components of its own: a frame, and what loops enclose between their vertices.
-  const std::size_t components =
-      std::max<std::size_t>(axis.exterior != 0 ? shape.points.size() : shape.component_count(), 1);
-  for (const Node& node : axis.nodes)
-    demand(node.component < components, "a node's component out of range");
 }
 
 RingRole ring_role(const std::string& name) {
@@ -255,14 +259,8 @@ AxisItem read_item(json::value value) {
          "an item has both contours and a shape");
   check_shape(item.shape);
   resolve(item.shape, item.axis, unresolved);
+  check_axis(item.shape, item.axis);
   return item;
-}
-
-Unit unit_from(const std::string& name) {
-  if (name == name_of(Unit::pixel)) return Unit::pixel;
-  const auto unit = unit_of(name);
-  demand(unit.has_value(), "an unknown unit");
-  return *unit;
 }
 
 Document<AxisItem> read_file(json::document& document) {
@@ -275,6 +273,23 @@ Document<AxisItem> read_file(json::document& document) {
 }
 
 }  // namespace
+
+void check_item(const AxisItem& item) {
+  for (const Site& site : item.axis.sites) site_kind(static_cast<std::uint32_t>(site.kind));
+  for (const Node& node : item.axis.nodes) {
+    node_kind(static_cast<std::uint32_t>(node.kind));
+    demand(node.disk.radius >= 0, "a node's radius is negative");
+  }
+  check_shape(item.shape);
+  check_axis(item.shape, item.axis);
+}
+
+Unit unit_from(const std::string& name) {
+  if (name == name_of(Unit::pixel)) return Unit::pixel;
+  const auto unit = unit_of(name);
+  demand(unit.has_value(), "an unknown unit");
+  return *unit;
+}
 
 bool begins_like_native(std::string_view text) { return begins_with_member(text, "\"medial\""); }
 

@@ -1,0 +1,179 @@
+"""Drawings in DXF: ezdxf reads their tags, and the library makes shapes of the entities."""
+
+from __future__ import annotations
+
+import gzip
+import io
+import logging
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from . import _core
+from ._errors import MedialError, need
+
+Tags = list[tuple[int, Any]]
+_MESH = 16 | 64  # flags of a POLYLINE
+_STRUCTURE = ("SECTION", "ENDSEC", "TABLE", "ENDTAB", "LAYER", "BLOCK", "ENDBLK", "SEQEND", "VERTEX", "EOF")
+
+
+def _groups(data: bytes) -> Iterator[tuple[str, Tags]]:
+    """Each entity, and each section, with the tags that follow its name.
+
+    Tags are read, not ezdxf's documents: those lose what entities of later versions have in drawings
+    that do not name their version.
+    """
+    faults: list[Any] = []
+    if data.startswith(b"AutoCAD Binary DXF"):
+        tagger = need("ezdxf.lldxf.tagger", "cad")
+        tags = tagger.tag_compiler(tagger.binary_tags_loader(data))
+    else:
+        tags = need("ezdxf.recover", "cad").safe_tag_loader(io.BytesIO(data), messages=faults)
+    logging.getLogger("ezdxf").addHandler(logging.NullHandler())
+    name, section = "", ""
+    group: Tags = []
+    for code, value in tags:
+        if faults and section in ("TABLES", "BLOCKS", "ENTITIES"):
+            text = str(faults[0][1]).removeprefix("recovered ").split(" as ")[0]
+            raise MedialError(text, "malformed")
+        faults.clear()
+        if code == 2 and name == "SECTION":
+            section = value
+        if code == 0:
+            yield name, group
+            name, group = str(value), []
+        else:
+            group.append((code, value))
+    if name != "EOF":
+        raise MedialError("the drawing ends without its end mark", "malformed")
+
+
+def _word(text: Any) -> str:
+    """A name, with bytes that are no text replaced."""
+    return str(text).encode("utf-8", "replace").decode()
+
+
+def _xy(point: Any) -> tuple[float, float]:
+    return float(point[0]), float(point[1])
+
+
+class _Filling:
+    """A drawing that is filled group by group."""
+
+    def __init__(self) -> None:
+        self.drawing = _core.Drawing()
+        self.section = ""
+        self.polyline: tuple[Tags, list[tuple[float, float, float]]] | None = None
+
+    def add(self, name: str, tags: Tags) -> None:
+        values = dict(tags)
+        if name == "VERTEX":
+            if self.polyline is not None:
+                self.polyline[1].append((*_xy(values.get(10, (0, 0))), values.get(42, 0.0)))
+            return
+        self.end_polyline()
+        if name == "SECTION":
+            self.section = values.get(2, "") if tags else ""
+            for (_, variable), (_, value) in zip(tags, tags[1:], strict=False):
+                if variable == "$INSUNITS":
+                    self.drawing.units = value
+        elif name == "LAYER" and self.section == "TABLES":
+            hidden = bool(values.get(70, 0) & 1) or values.get(62, 7) < 0
+            self.drawing.layer(_word(values.get(2, "")), hidden)
+        elif name == "BLOCK" and self.section == "BLOCKS":
+            self.drawing.begin_block(_word(values.get(2, "")), _xy(values.get(10, (0, 0))))
+        elif name == "ENDBLK":
+            self.drawing.end_block()
+        elif self.section in ("BLOCKS", "ENTITIES") and name not in _STRUCTURE:
+            self.add_entity(name, tags, values)
+
+    def add_entity(self, name: str, tags: Tags, values: dict[int, Any]) -> None:
+        add = getattr(self, f"add_{name.lower()}", None) if name in _CURVES else None
+        if add is None:
+            if self.section == "ENTITIES":
+                self.drawing.leave_out(_word(name[:40]))
+            return
+        kind = "POLYLINE" if name == "LWPOLYLINE" else name
+        normal = tuple(float(x) for x in values.get(210, (0, 0, 1)))
+        if self.drawing.begin_entity(kind, _word(values.get(8, "0")), normal) and not values.get(67, 0):
+            add(tags, values)
+
+    def add_point(self, _: Tags, values: dict[int, Any]) -> None:
+        self.drawing.point(_xy(values[10]))
+
+    def add_line(self, _: Tags, values: dict[int, Any]) -> None:
+        self.drawing.line(_xy(values[10]), _xy(values[11]))
+
+    def add_circle(self, _: Tags, values: dict[int, Any]) -> None:
+        self.drawing.circle(_xy(values[10]), values[40])
+
+    def add_arc(self, _: Tags, values: dict[int, Any]) -> None:
+        self.drawing.arc(_xy(values[10]), values[40], values.get(50, 0.0), values.get(51, 0.0))
+
+    def add_ellipse(self, _: Tags, values: dict[int, Any]) -> None:
+        self.drawing.ellipse(_xy(values[10]), _xy(values[11]), values.get(40, 1.0),
+                             values.get(41, 0.0), values.get(42, 2 * np.pi))  # fmt: skip
+
+    def add_lwpolyline(self, tags: Tags, values: dict[int, Any]) -> None:
+        rows: list[tuple[float, float, float]] = []
+        for code, value in tags:
+            if code == 10:
+                rows.append((*_xy(value), 0.0))
+            elif code == 42 and rows:
+                rows[-1] = (*rows[-1][:2], value)
+        self.draw(rows, bool(values.get(70, 0) & 1))
+
+    def add_polyline(self, tags: Tags, values: dict[int, Any]) -> None:
+        if values.get(70, 0) & _MESH:
+            self.drawing.leave_out("polygon mesh")
+        else:
+            self.polyline = (tags, [])
+
+    def end_polyline(self) -> None:
+        if self.polyline is not None:
+            (tags, rows), self.polyline = self.polyline, None
+            self.draw(rows, bool(dict(tags).get(70, 0) & 1))
+
+    def draw(self, rows: list[tuple[float, float, float]], closed: bool) -> None:
+        table = np.array(rows, np.float64).reshape(-1, 3)
+        self.drawing.polyline(np.ascontiguousarray(table[:, :2]), np.ascontiguousarray(table[:, 2]), closed)
+
+    def add_spline(self, tags: Tags, values: dict[int, Any]) -> None:
+        def numbers(wanted: int) -> Any:
+            return np.array([value for code, value in tags if code == wanted], np.float64)
+
+        points = np.array([_xy(value) for code, value in tags if code == 10], np.float64).reshape(-1, 2)
+        weights = np.ones(len(points))
+        given = numbers(41)[: len(points)]
+        weights[: len(given)] = given
+        self.drawing.spline(values.get(71, 3), numbers(40), points, weights, bool(values.get(70, 0) & 1))
+
+    def add_insert(self, _: Tags, values: dict[int, Any]) -> None:
+        self.drawing.copies(
+            _word(values[2]), _xy(values[10]), (values.get(41, 1.0), values.get(42, 1.0)), values.get(50, 0.0),
+            (values.get(70, 1), values.get(71, 1)), (values.get(44, 0.0), values.get(45, 0.0)),
+        )  # fmt: skip
+
+
+_CURVES = ("POINT", "LINE", "CIRCLE", "ARC", "ELLIPSE", "LWPOLYLINE", "POLYLINE", "SPLINE", "INSERT")
+
+
+def drawing_of(path: str) -> _core.Drawing:
+    """The entities of a drawing, with its layers, blocks and unit."""
+    structure_error = need("ezdxf", "cad").DXFError
+    filling, name = _Filling(), ""
+    try:
+        data = Path(path).read_bytes()
+        for name, tags in _groups(gzip.decompress(data) if data.startswith(b"\x1f\x8b") else data):
+            filling.add(name, tags)
+    except (OSError, EOFError) as error:
+        raise MedialError(f"{path}: {getattr(error, 'strerror', None) or error}", "unreadable") from None
+    except KeyError as error:
+        raise MedialError(f"{path}: a {name} without its group {error}", "malformed") from None
+    except (structure_error, TypeError, ValueError, IndexError) as error:
+        code = error.code if isinstance(error, MedialError) else "malformed"
+        text = error.text if isinstance(error, MedialError) else str(error)
+        raise MedialError(f"{path}: {text}", code) from None
+    return filling.drawing
