@@ -1,10 +1,11 @@
 // The curve axis against the exact engine on arcs within 1e-9, every rule of the control process,
-// and smooth fits.
+// corners, arcs, holes, surroundings, and smooth fits.
 #include "methods/curve_axis/curve_axis.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -14,7 +15,7 @@
 #include "medial/raster.h"
 #include "medial/sides.h"
 #include "medial/verify.h"
-#include "methods/curve_axis/smooth_boundary.h"
+#include "methods/curve_axis/boundary.h"
 #include "papers/shaked_bruckstein_1996/spline.h"
 #include "support/contours.h"
 #include "support/generate.h"
@@ -289,23 +290,19 @@ TEST(CurveAxis, RefusesWhatItCannotFollow) {
     const auto result = compute_curve_axis(contours, options, cancel);
     return result ? ErrorCode::internal : result.error().code;
   };
-  Contour square;
-  square.start_at({0, 0});
-  for (const Vec2 p : {Vec2{1, 0}, Vec2{1, 1}, Vec2{0, 1}, Vec2{0, 0}}) square.line_to(p);
-  EXPECT_EQ(code({square}), ErrorCode::unsupported);
-  const auto corner = compute_curve_axis({&square, 1});
-  EXPECT_NE(corner.error().text.find("disks"), std::string::npos);
-  EXPECT_TRUE(corner.error().place.point.has_value());
-  Contour stadium;  // smooth, but its curvature jumps
-  stadium.start_at({0, 0});
-  stadium.line_to({2, 0});
-  stadium.arc_to({2, 2}, 1);
-  stadium.line_to({0, 2});
-  stadium.arc_to({0, 0}, 1);
-  EXPECT_EQ(code({stadium}), ErrorCode::unsupported);
-  EXPECT_EQ(code({ellipse(1, 1)}), ErrorCode::unsupported);
-  EXPECT_EQ(code({ellipse(2, 1), ellipse(1, 0.5)}), ErrorCode::unsupported);
-  EXPECT_EQ(code({}), ErrorCode::unsupported);
+  Contour drop;  // its cusp has no angle
+  drop.start_at({0, 0});
+  drop.bezier_to(std::array{Vec2{4, 0}, Vec2{4, 3}, Vec2{2, 3}});
+  drop.bezier_to(std::array{Vec2{0, 3}, Vec2{2, 0}, Vec2{0, 0}});
+  EXPECT_EQ(code({drop}), ErrorCode::unsupported);
+  const auto cusp = compute_curve_axis({&drop, 1});
+  EXPECT_NE(cusp.error().text.find("cusp"), std::string::npos);
+  EXPECT_NE(cusp.error().text.find("disks"), std::string::npos);
+  EXPECT_TRUE(cusp.error().place.point.has_value());
+  const std::vector<Vec2> square{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, inside{{0, 2}, {2, 1}, {2, 3}};
+  EXPECT_EQ(code({contour_of(square, {}, true), contour_of(inside, {}, true)}),
+            ErrorCode::unsupported);  // they touch
+  EXPECT_EQ(code({}), ErrorCode::empty);
   EXPECT_EQ(code({Contour{}}), ErrorCode::empty);
   EXPECT_EQ(code({ellipse(2, 1)}, {.step = 0}), ErrorCode::invalid_option);
   EXPECT_EQ(code({ellipse(2, NAN)}), ErrorCode::not_finite);
@@ -315,9 +312,9 @@ TEST(CurveAxis, RefusesWhatItCannotFollow) {
   EXPECT_EQ(code({ellipse(2, 1)}, {}, &stop), ErrorCode::cancelled);
 }
 
-/// A closed spline of 59 corners, beside which a branch takes a wrong turn.
+/// A closed spline of many corners, beside which a branch takes a wrong turn.
 Contour shaky_star() {
-  test::Random random(1122);
+  test::Random random(1299);
   const auto n = static_cast<std::size_t>(random.integer(3, 60));
   std::vector<Vec2> corners;
   for (std::size_t i = 0; i < n; ++i) {
@@ -404,7 +401,8 @@ TEST(CurveAxis, LeastSquaresSplinesRoundWhatIsSmallWithFewKnots) {
   for (const double tolerance : {1.0, 0.1, 0.01}) {
     const auto contour = fit_smooth_contour(polygon.points, tolerance);
     ASSERT_TRUE(contour.ok());
-    EXPECT_TRUE(curve_axis::find_roughness(*contour).ok());
+    const curve_axis::Boundary boundary(curve_axis::normalized(*contour));
+    for (const auto& tip : boundary.tips()) EXPECT_EQ(tip.kind, curve_axis::Tip::Kind::maximum);
     EXPECT_GT(contour->pieces.size(), before);
     before = contour->pieces.size();
     double worst = 0;
@@ -422,20 +420,146 @@ TEST(CurveAxis, LeastSquaresSplinesRoundWhatIsSmallWithFewKnots) {
             ErrorCode::not_finite);
 }
 
-/// The refusal of a polygon names a fit, which the method follows.
+/// The refusal of a boundary with a cusp names a fit, which the method follows.
 TEST(CurveAxis, RefusalsNameAFitThatWouldDo) {
-  for (const Ring& polygon : {test::l_shape(5)[0], test::jagged_star(7)[0], test::blob(30)[0]}) {
-    const Contour contour = contour_of(polygon.points, {}, true);
-    const auto refused = compute_curve_axis({&contour, 1});
-    ASSERT_FALSE(refused.ok());
-    const std::string& text = refused.error().text;
-    const auto at = text.find("--fit ");
-    ASSERT_NE(at, std::string::npos) << text;
-    const auto fit = fit_smooth_contour(polygon.points, std::stod(text.substr(at + 6)));
-    ASSERT_TRUE(fit.ok());
-    const auto followed = compute_curve_axis({&*fit, 1});
-    EXPECT_TRUE(followed.ok()) << followed.error().text;
+  Contour drop;
+  drop.start_at({0, 0});
+  drop.bezier_to(std::array{Vec2{4, 0}, Vec2{4, 3}, Vec2{2, 3}});
+  drop.bezier_to(std::array{Vec2{0, 3}, Vec2{2, 0}, Vec2{0, 0}});
+  const auto refused = compute_curve_axis({&drop, 1});
+  ASSERT_FALSE(refused.ok());
+  const std::string& text = refused.error().text;
+  const auto at = text.find("--fit ");
+  ASSERT_NE(at, std::string::npos) << text;
+  const auto fit = fit_smooth_contour(curve::polygon_of(drop), std::stod(text.substr(at + 6)));
+  ASSERT_TRUE(fit.ok());
+  const auto followed = compute_curve_axis({&*fit, 1});
+  EXPECT_TRUE(followed.ok()) << followed.error().text;
+}
+
+/// The axis of contours is verified, and has the branches of the exact one within the tolerance.
+void expect_the_exact_axis(const std::vector<Contour>& contours, double tolerance) {
+  const auto rings = approximate_by_arcs(contours, {.tolerance = 1e-10});
+  ASSERT_TRUE(rings.ok());
+  const auto shape = build_shape(*rings);
+  ASSERT_TRUE(shape.ok()) << to_string(shape.error());
+  const auto exact = compute(*shape);
+  ASSERT_TRUE(exact.ok());
+  const auto result = compute_curve_axis(contours);
+  ASSERT_TRUE(result.ok()) << to_string(result.error());
+  const Certificate certificate = verify(*shape, result->axis);
+  EXPECT_TRUE(certificate.passed) << certificate.failures.front();
+  EXPECT_EQ(certificate.cycles, shape->hole_count());
+  EXPECT_EQ(leaves(result->axis), leaves(*exact));
+  const double size = diagonal(bounding_box(*shape));
+  const AxisLocator on_exact(*exact), on_curve(result->axis);
+  for (const Node& node : result->axis.nodes)
+    EXPECT_LE(on_exact.nearest(node.disk.center).distance, tolerance * size);
+  for (const Edge& edge : exact->edges)
+    EXPECT_LE(on_curve.nearest(disk_at(*exact, edge, 0.5).center).distance, tolerance * size);
+}
+
+std::vector<Contour> contours_of(const std::vector<Ring>& rings) {
+  std::vector<Contour> contours;
+  for (const Ring& ring : rings) contours.push_back(contour_of(ring.points, ring.bulges, true));
+  return contours;
+}
+
+/// Convex corners are tips of their own, reflex ones fans; in crosses and regular polygons more
+/// than three branches meet.
+TEST(CurveAxis, FollowsPolygons) {
+  for (const auto& rings :
+       {test::l_shape(5), test::rectangle(10, 10), test::cross_shape(2), test::comb(4),
+        test::jagged_star(7), test::regular_polygon(6), test::triangle({0, 0}, {10, 0}, {0, 8})}) {
+    SCOPED_TRACE(rings[0].points.size());
+    expect_the_exact_axis(contours_of(rings), 1e-7);
   }
+}
+
+/// Arcs that are more curved than their neighbours are tips; a circle is all tip.
+TEST(CurveAxis, FollowsRoundedCorners) {
+  Contour stadium;
+  stadium.start_at({0, 0});
+  stadium.line_to({2, 0});
+  stadium.arc_to({2, 2}, 1);
+  stadium.line_to({0, 2});
+  stadium.arc_to({0, 0}, 1);
+  expect_the_exact_axis({stadium}, 1e-9);
+  Contour rounded;  // with a concave fillet
+  const double quarter = std::tan(std::numbers::pi / 8);
+  rounded.start_at({1, 0});
+  rounded.line_to({9, 0});
+  rounded.arc_to({10, 1}, quarter);
+  rounded.line_to({10, 4});
+  rounded.line_to({5, 4});
+  rounded.arc_to({4, 5}, -quarter);
+  rounded.line_to({4, 8});
+  rounded.arc_to({3, 9}, quarter);
+  rounded.line_to({0, 9});
+  rounded.line_to({0, 1});
+  rounded.arc_to({1, 0}, quarter);
+  expect_the_exact_axis({rounded}, 1e-7);
+  const Contour circle = ellipse(2, 2);
+  const auto centre = compute_curve_axis({&circle, 1});
+  ASSERT_TRUE(centre.ok());
+  ASSERT_EQ(centre->axis.nodes.size(), 1U);
+  EXPECT_NEAR(centre->axis.nodes[0].disk.radius, 2, 1e-14);
+}
+
+/// Loops around holes are entered through disks that touch two loops.
+TEST(CurveAxis, FollowsLoopsAroundHoles) {
+  expect_the_exact_axis({ellipse(9, 6), ellipse(2, 1, 0, {-4, 0.3}), ellipse(1, 1.5, 1, {2, 2}),
+                         ellipse(1.5, 1, 2, {4, -1})},
+                        1e-6);
+  expect_the_exact_axis({ellipse(2, 2), ellipse(1, 1)}, 1e-7);  // the axis is a circle
+  auto frame = contours_of(test::rectangle(20, 8));
+  for (const auto& hole : {std::vector<Vec2>{{3, 3}, {6, 3.5}, {5, 6}, {3.2, 5}},
+                           std::vector<Vec2>{{12, 2}, {14, 2.2}, {13, 3}},
+                           std::vector<Vec2>{{14, 7}, {17, 6}, {15, 4}}})
+    frame.push_back(contour_of(hole, {}, true));
+  frame.push_back(ellipse(3, 2, 0, {30, 4}));  // and a component of its own
+  expect_the_exact_axis(frame, 1e-6);
+}
+
+TEST(CurveAxis, FollowsSurroundings) {
+  const auto check = [](const Shape& shape, const std::vector<Contour>& contours) {
+    const auto exact = compute(shape, {.exterior = true});
+    const auto axis = compute(shape, {.method = method::CurveAxis(), .exterior = true}, contours);
+    ASSERT_TRUE(axis.ok()) << to_string(axis.error());
+    EXPECT_GT(axis->exterior, 0);
+    EXPECT_TRUE(verify(shape, *axis).passed);
+    EXPECT_EQ(leaves(*axis), leaves(*exact));
+    const AxisLocator on_exact(*exact);
+    for (const Node& node : axis->nodes)
+      EXPECT_LE(on_exact.nearest(node.disk.center).distance, 1e-5);
+  };
+  check(*build_shape(test::l_shape(5)), {});
+  check(*build_shape(test::cross_shape(2)), {});
+  const Contour contour = smooth_star(3);
+  check(*build_shape(*approximate_by_arcs({&contour, 1}, {.tolerance = 1e-9})), {contour});
+}
+
+/// Random polygons and shapes with arcs are followed and verified, or refused with a reason.
+TEST(CurveAxis, RandomShapesAreVerifiedOrRefused) {
+  std::size_t followed = 0, shapes = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    const auto shape = build_shape(test::random_any(seed).rings);
+    if (!shape || shape->points.size() > 150) continue;
+    ++shapes;
+    const auto axis = compute(*shape, {.method = method::CurveAxis()});
+    if (!axis) {
+      EXPECT_TRUE(axis.error().code == ErrorCode::unsupported ||
+                  axis.error().code == ErrorCode::too_large)
+          << to_string(axis.error());
+      continue;
+    }
+    ++followed;
+    const Certificate certificate = verify(*shape, *axis);
+    EXPECT_TRUE(certificate.passed) << certificate.failures.front();
+  }
+  EXPECT_GE(shapes, 20U);
+  EXPECT_GE(3 * followed, 2 * shapes);
 }
 
 TEST(CurveAxis, FitsOfSilhouettesAreVerifiedOrRefused) {

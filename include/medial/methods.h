@@ -80,7 +80,7 @@ struct Potential {
   bool whole() const { return !from && !within; }
 };
 
-/// Follows the axis of one smooth curve from its maxima of curvature: see compute_curve_axis().
+/// Follows the axis from maxima of curvature and corners: see compute_curve_axis().
 struct CurveAxis {
   /// From point to point, relative to the diagonal, in [1e-6, 0.1]; halved where it strays.
   double step = 1e-3;

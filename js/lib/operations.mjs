@@ -322,5 +322,5 @@ export function field(x, order = 2) {
   return new Field(call("field", shape_of(x).address, order));
 }
 
-/** The axis of one smooth closed curve, followed from its maxima of curvature. */
+/** The axis of closed curves, followed from maxima of curvature and corners. */
 export const curveAxis = (x, given = {}) => axis(x, { ...given, method: "curve-axis" });

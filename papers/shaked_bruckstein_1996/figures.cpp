@@ -18,12 +18,13 @@ namespace medial::papers {
 namespace {
 
 using curve_axis::AxisPoint;
+using curve_axis::Boundary;
 using curve_axis::BoundaryPoint;
 using curve_axis::Control;
 using curve_axis::Decision;
 using curve_axis::Generator;
 using curve_axis::Segment;
-using curve_axis::SmoothBoundary;
+using curve_axis::Tip;
 using Rule = Decision::Rule;
 
 Contour spline_through(std::vector<Vec2> corners) {
@@ -118,19 +119,20 @@ struct Stage {
   }
 
   method::CurveAxis options{.step = 2e-3};
-  SmoothBoundary boundary;
+  Boundary boundary;
   double step;
 };
 
-double sharpest(const SmoothBoundary& boundary) {
-  return *std::max_element(
-      boundary.maxima().begin(), boundary.maxima().end(),
-      [&](double a, double b) { return boundary.at(a).curvature < boundary.at(b).curvature; });
+double sharpest(const Boundary& boundary) {
+  return std::max_element(boundary.tips().begin(), boundary.tips().end(),
+                          [&](const Tip& a, const Tip& b) {
+                            return boundary.at(a.u).turn < boundary.at(b.u).turn;
+                          })
+      ->u;
 }
 
 /// `density`: points on a piece.
-std::vector<Vec2> part_of(const SmoothBoundary& boundary, double from, double to,
-                          double density = 24) {
+std::vector<Vec2> part_of(const Boundary& boundary, double from, double to, double density = 24) {
   std::vector<Vec2> line;
   const int count = std::max(2, static_cast<int>(std::ceil(density * (to - from))));
   for (int i = 0; i <= count; ++i)
@@ -138,7 +140,7 @@ std::vector<Vec2> part_of(const SmoothBoundary& boundary, double from, double to
   return line;
 }
 
-void draw_boundary(Figure& figure, const SmoothBoundary& boundary) {
+void draw_boundary(Figure& figure, const Boundary& boundary) {
   figure.line(part_of(boundary, 0, boundary.period()));
 }
 
@@ -158,7 +160,7 @@ void draw_tree(Figure& figure, const Control& control, int segment, std::optiona
     if (child >= 0) draw_tree(figure, control, child, root.branch.front().disk.center);
 }
 
-void draw_scanned(Figure& figure, const SmoothBoundary& boundary, const AxisPoint& last) {
+void draw_scanned(Figure& figure, const Boundary& boundary, const AxisPoint& last) {
   figure.line(part_of(boundary, last.left.u, boundary.above(last.right.u, last.left.u)));
 }
 
@@ -418,7 +420,7 @@ Status ending(const std::filesystem::path& path) {
   // Of all maxima to start from, the one that leaves the longest branch for the end.
   Stage stage(animal());
   std::size_t longest = 0, best = 0;
-  for (std::size_t i = 0; i < stage.boundary.maxima().size(); ++i) {
+  for (std::size_t i = 0; i < stage.boundary.tips().size(); ++i) {
     stage.options.first_maximum = i;
     stage.at(Rule::end, [&](const Control& control, const Decision& d) {
       const auto& branch = control.segments()[static_cast<std::size_t>(d.active)].branch;
@@ -459,9 +461,9 @@ Status result(const std::filesystem::path& path, const Contour& contour) {
     for (const CurveAxisPoint& point : branch) line.push_back(point.disk.center);
     figure.line(line);
   }
-  for (const double u : stage.boundary.maxima()) {
-    const BoundaryPoint tip = stage.boundary.at(u);
-    const Vec2 centre = tip.point + (1 / tip.curvature) * tip.normal();
+  for (const Tip& place : stage.boundary.tips()) {
+    const BoundaryPoint tip = stage.boundary.at(place.u);
+    const Vec2 centre = tip.point + (1 / tip.turn) * tip.normal();
     bool has_leaf = false;
     for (const Node& node : axis->axis.nodes)
       has_leaf = has_leaf ||

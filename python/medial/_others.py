@@ -130,7 +130,7 @@ def field(x: Any, order: float = 2) -> Field:
 
 
 def curve_axis(x: Any, *, fit: float = 0, **own: Any) -> MedialAxis:
-    """The axis of one smooth closed curve, followed from its maxima of curvature.
+    """The axis of closed curves, followed from maxima of curvature and corners.
 
     Parameters
     ----------
@@ -143,7 +143,7 @@ def curve_axis(x: Any, *, fit: float = 0, **own: Any) -> MedialAxis:
     Raises
     ------
     MedialError
-        With the code ``"unsupported"``: holes, corners, or several curves.
+        With the code ``"unsupported"``: cusps, or loops that touch.
 
     Examples
     --------

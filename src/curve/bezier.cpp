@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/arc.h"
+
 namespace medial::curve {
 namespace {
 
@@ -94,6 +96,25 @@ Bezier make_bezier(std::span<const Vec2> points, std::span<const double> weights
     if (curve.rational) curve.w[i] = w;
   }
   return curve;
+}
+
+Bezier bezier_of(const Contour& contour, const CurvePiece& piece) {
+  const std::span<const Vec2> points(contour.points.data() + piece.first, piece.degree + 1);
+  if (contour.weights.empty()) return make_bezier(points);
+  return make_bezier(points, {contour.weights.data() + piece.first, piece.degree + 1});
+}
+
+std::vector<Vec2> polygon_of(const Contour& contour) {
+  std::vector<Vec2> points;
+  for (const CurvePiece& piece : contour.pieces) {
+    const Vec2 start = contour.points[piece.first], end = contour.points[piece.first + 1];
+    points.push_back(start);
+    if (piece.degree == 1 && piece.bulge == 0) continue;
+    for (const double share : {0.25, 0.5, 0.75})
+      points.push_back(piece.degree == 1 ? point_at_share(BulgeArc{start, end, piece.bulge}, share)
+                                         : evaluate(bezier_of(contour, piece), share).point);
+  }
+  return points;
 }
 
 Jet evaluate(const Bezier& curve, double t) {

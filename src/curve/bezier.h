@@ -1,8 +1,10 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "curve/bernstein.h"
+#include "medial/contour.h"
 #include "medial/geometry.h"
 
 namespace medial::curve {
@@ -25,6 +27,12 @@ struct Bezier {
 
 /// A curve with these control points and positive weights (empty, or all alike: not rational).
 Bezier make_bezier(std::span<const Vec2> points, std::span<const double> weights = {});
+
+/// A piece of a contour that is no arc.
+Bezier bezier_of(const Contour& contour, const CurvePiece& piece);
+
+/// A contour as a polygon: where its pieces begin, and three points on each curved one.
+std::vector<Vec2> polygon_of(const Contour& contour);
 
 /// Point and derivatives at t, by de Casteljau's algorithm.
 struct Jet {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/counted.h"
+#include "curve/bezier.h"
 #include "load/file_index.h"
 #include "load/progress.h"
 #include "medial/load.h"
@@ -95,7 +96,7 @@ void keep_sources(Shape& shape, const Feature& feature,
 /// The shape within smooth curves instead, which the contours become.
 Result<Shape> smooth_shape(std::vector<Contour>& contours, const LoadOptions& options) {
   for (Contour& contour : contours) {
-    auto curve = fit_smooth_contour(contour.points, options.fit);
+    auto curve = fit_smooth_contour(curve::polygon_of(contour), options.fit);
     if (!curve) return std::move(curve).error();
     contour = std::move(curve).value();
   }

@@ -20,6 +20,21 @@
 namespace medial {
 namespace {
 
+/// The exterior's boundary, if the shape's is there as contours, one for each loop.
+std::vector<Contour> exterior_contours(const Problem& problem, const Exterior& exterior) {
+  std::vector<Contour> contours;
+  if (problem.contours.size() != problem.shape.loop_count()) return contours;
+  std::vector<Vec2> enclosure;
+  for (std::size_t i = 0; i < exterior.of_enclosure.size(); ++i)
+    if (exterior.of_enclosure[i]) enclosure.push_back(exterior.shape.points[i]);
+  contours.push_back(contour_of(enclosure, {}, true));
+  for (const Contour& contour : problem.contours) {
+    contours.push_back(contour);
+    contours.back().role = RingRole::any;
+  }
+  return contours;
+}
+
 /// The axis of the enclosure less the shape, without what touches the enclosure.
 Result<MedialAxis> compute_exterior(const Problem& problem) {
   const Options& options = problem.options;
@@ -29,7 +44,8 @@ Result<MedialAxis> compute_exterior(const Problem& problem) {
   if (!exterior) return std::move(exterior).error();
   Options inside = options;
   inside.exterior = false;
-  auto axis = compute(exterior->shape, inside);
+  const std::vector<Contour> contours = exterior_contours(problem, *exterior);
+  auto axis = compute(exterior->shape, inside, contours);
   if (!axis) return axis;
   // The sites of the enclosure: those that begin and end in its corners, however a method numbers
   // them.
@@ -42,7 +58,7 @@ Result<MedialAxis> compute_exterior(const Problem& problem) {
   std::vector<bool> of_enclosure;
   for (const Site& site : axis->sites)
     of_enclosure.push_back(is_corner(site.start) && is_corner(site.end));
-  drop_enclosure(of_enclosure, *axis);
+  drop_enclosure(of_enclosure, bounding_box(exterior->shape), *axis);
   axis->exterior = *margin;
   return axis;
 }

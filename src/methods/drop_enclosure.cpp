@@ -3,10 +3,12 @@
 #include <algorithm>
 
 #include "axis/node_kinds.h"
+#include "medial/query.h"
 
 namespace medial {
 
-void drop_enclosure(const std::vector<bool>& site_of_enclosure, MedialAxis& axis) {
+void drop_enclosure(const std::vector<bool>& site_of_enclosure, const Box& enclosure,
+                    MedialAxis& axis) {
   std::vector<std::uint32_t> site(axis.sites.size()), node(axis.nodes.size());
   std::uint32_t count = 0;
   for (std::size_t i = 0; i < axis.sites.size(); ++i) {
@@ -16,7 +18,14 @@ void drop_enclosure(const std::vector<bool>& site_of_enclosure, MedialAxis& axis
   axis.sites.resize(count);
 
   std::vector<bool> lost(axis.nodes.size(), false), needed(axis.nodes.size(), false);
+  // A sampled axis misses the enclosure by less where it follows it.
+  const double slack = 1e-7 * diagonal(enclosure);
   const auto touches_enclosure = [&](const Edge& edge) {
+    if (edge.site[0] == no_site && edge.site[1] == no_site) {
+      const auto [center, radius] = disk_at(axis, edge, 0.5);
+      return std::min({center.x - enclosure.low.x, enclosure.high.x - center.x,
+                       center.y - enclosure.low.y, enclosure.high.y - center.y}) <= radius + slack;
+    }
     return std::any_of(edge.site.begin(), edge.site.end(),
                        [&](std::uint32_t s) { return s != no_site && site_of_enclosure[s]; });
   };

@@ -85,9 +85,11 @@ const std::array<MethodRow, std::variant_size_v<Method>> rows = {{
        return outcome_of(potential::run(problem), problem.own<method::Potential>().whole());
      }},
     {{.name = "curve-axis",
-      .summary = "follows one smooth curve from the maxima of its curvature",
+      .summary = "follows the axis from maxima of curvature and corners",
       .sampling = Sampling::points,
+      .holes = true,
       .arcs = true,
+      .exterior = true,
       .contours = true},
      method::CurveAxis{},
      takes_all,

@@ -93,7 +93,7 @@ class Methods(CommandLine):
         self.refuse("invalid_option", "axis", "frame.wkt", "--exterior", "--margin", "0")
 
     def test_curve_axis(self):
-        """One smooth curve is followed; corners are refused, and fitted on request."""
+        """Curves, corners and holes are followed; what the method does not follow is fitted on request."""
         self.write("ellipse.svg", '<svg xmlns="http://www.w3.org/2000/svg">'
                                   '<ellipse cx="20" cy="10" rx="18" ry="8"/></svg>')
         self.succeed("axis", "ellipse.svg", "--method", "curve-axis", "-o", "curve.json")
@@ -102,9 +102,13 @@ class Methods(CommandLine):
         self.assertEqual(report["nodes"]["leaf"], 2)
         self.assertAlmostEqual(report["length"], 2 * (18 - 64 / 18), places=6)  # between the centres of curvature
         self.succeed("legal", "curve.json")
-        self.write("triangle.wkt", "POLYGON((0 0,10 0,0 8,0 0))")
-        text = self.refuse("unsupported", "axis", "triangle.wkt", "--method", "curve-axis", "-o", "t.json")
-        self.assertIn("corner", text)
+        self.write("frame.wkt", "POLYGON((0 0,10 0,10 8,0 8,0 0),(3 3,6 3.5,5 6,3.2 5,3 3))")
+        for exterior in ([], ["--exterior"]):
+            self.succeed("axis", "frame.wkt", *exterior, "--method", "curve-axis", "-o", "frame.json")
+            self.succeed("verify", "frame.wkt", "frame.json")
+        self.write("cusp.svg", '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0,0C4,0 4,3 2,3C0,3 2,0 0,0Z"/></svg>')
+        text = self.refuse("unsupported", "axis", "cusp.svg", "--method", "curve-axis", "-o", "t.json")
+        self.assertIn("cusp", text)
         fit = re.search(r"--fit ([0-9.]+)", text).group(1)
-        self.succeed("axis", "triangle.wkt", "--method", "curve-axis", "--fit", fit, "-o", "t.json")
+        self.succeed("axis", "cusp.svg", "--method", "curve-axis", "--fit", fit, "-o", "t.json")
         self.assertEqual(self.run_medial("legal", "t.json").returncode, 0)

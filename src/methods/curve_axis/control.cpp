@@ -25,7 +25,7 @@ double between(double a, double b, double share) { return a + share * (b - a); }
 
 }  // namespace
 
-Control::Control(const SmoothBoundary& boundary, const method::CurveAxis& options, double step,
+Control::Control(const Boundary& boundary, const method::CurveAxis& options, double step,
                  Observer observer, const std::atomic<bool>* cancel)
     : boundary_(boundary),
       options_(options),
@@ -33,27 +33,28 @@ Control::Control(const SmoothBoundary& boundary, const method::CurveAxis& option
       observer_(std::move(observer)),
       generator_(boundary, step),
       step_(step) {
-  rules_.maxima = boundary.maxima().size();
+  rules_.maxima = boundary.tips().size();
 }
 
 Status Control::run() {
-  const std::vector<double>& maxima = boundary_.maxima();
-  const std::size_t count = maxima.size();
-  if (count == 0)
-    return Error{ErrorCode::unsupported,
-                 "the boundary has no maximum of curvature to start from, as a circle: the method "
-                 "curve-axis cannot begin; use disks",
-                 {}};
+  const std::vector<Tip>& tips = boundary_.tips();
+  const std::size_t count = tips.size();
   const auto cancelled = [&] { return cancel_ != nullptr && cancel_->load(); };
+  // No branch steps over a bridge.
+  std::vector<int> bridges(count, -1);
+  for (std::size_t i = 0; i < count; ++i)
+    if (tips[i].kind == Tip::Kind::bridge) bridges[i] = start(tips[i]);
   // Clockwise, as the paper has it.
   for (std::size_t i = 0; i < count; ++i) {
     if (cancelled()) return Error{ErrorCode::cancelled, "cancelled", {}};
-    const double u = maxima[(options_.first_maximum % count + count - i) % count];
-    if (is_scanned(u)) {
+    const std::size_t which = (options_.first_maximum % count + count - i) % count;
+    int segment = bridges[which];
+    if (segment < 0 ? is_scanned(tips[which].u) : at(segment).next < 0) {
       ++rules_.skipped;
       continue;
     }
-    if (grow(start(u)) == Stop::complete) return success();
+    if (segment < 0) segment = start(tips[which]);
+    if (grow(segment) == Stop::complete) return success();
   }
   // A branch that stopped before one that was taken back later may go on now.
   for (int round = 0; round < most_resumptions; ++round) {
@@ -63,8 +64,8 @@ Status Control::run() {
       ++rules_.resumed;
       if (grow(segment) == Stop::complete) return success();
     }
-    for (const double u : maxima)
-      if (!is_scanned(u) && grow(start(u)) == Stop::complete) return success();
+    for (const Tip& tip : tips)
+      if (!is_scanned(tip.u) && grow(start(tip)) == Stop::complete) return success();
   }
   if (is_exhausted())
     return Error{ErrorCode::too_large,
@@ -109,9 +110,10 @@ bool Control::is_scanned(double u) const {
   return false;
 }
 
-int Control::start(double maximum) {
+int Control::start(const Tip& tip) {
   const int created = static_cast<int>(segments_.size());
-  segments_.push_back({{generator_.at_maximum(maximum)}, -1, -1, 0, created, created});
+  segments_.push_back(
+      {{generator_.at(tip)}, -1, -1, 0, created, created, tip.kind == Tip::Kind::bridge});
   if (any_ < 0) {
     any_ = created;
     return created;
@@ -119,8 +121,7 @@ int Control::start(double maximum) {
   // Before the segment that begins next.
   int next = any_, segment = any_;
   do {
-    if (boundary_.above(last(segment).left.u, maximum) <
-        boundary_.above(last(next).left.u, maximum))
+    if (boundary_.above(last(segment).left.u, tip.u) < boundary_.above(last(next).left.u, tip.u))
       next = segment;
     segment = at(segment).next;
   } while (segment != any_);
@@ -176,13 +177,13 @@ std::optional<Control::Stop> Control::resolve_conflicts(int& segment, const Axis
     const AxisPoint& old = last(contact->neighbour);
     const AxisPoint& active = contact->active;
     const bool only_two = at(at(segment).next).next == segment;
-    if (only_two && distance(active.disk.center, old.disk.center) <= same_disk * boundary_.size()) {
+    if (only_two && is_same_disk(active, old)) {
       ++rules_.meetings;
       at(segment).branch.push_back(active);
       roots_ = {segment, contact->neighbour};
       return Stop::complete;
     }
-    if (active.disk.radius < old.disk.radius) {
+    if (active.disk.radius < old.disk.radius && !is_bridge(contact->neighbour)) {
       ++rules_.smaller;
       tell({Decision::Rule::smaller, segment, active, contact->neighbour});
       shrink(contact->neighbour);
@@ -205,6 +206,14 @@ std::optional<Control::Stop> Control::resolve_conflicts(int& segment, const Axis
     return std::nullopt;
   }
   return std::nullopt;
+}
+
+bool Control::is_same_disk(const AxisPoint& there, const AxisPoint& back) const {
+  // Disks of symmetric shapes touch more than two places: branches may come from elsewhere.
+  const double size = boundary_.size(), feet = std::sqrt(same_disk);
+  return distance(there.disk.center, back.disk.center) <= same_disk * size &&
+         distance(there.left.point, back.right.point) <= feet * size &&
+         distance(there.right.point, back.left.point) <= feet * size;
 }
 
 std::optional<Generator::Junction> Control::junction_at(const Conflict& contact,
@@ -238,6 +247,12 @@ std::optional<Generator::Junction> Control::junction_at(const Conflict& contact,
   return junction;
 }
 
+double Control::first_foot(double u, double begin, double end) const {
+  // A junction may lie a little beyond the place where one of its branches had stopped.
+  const double inside = boundary_.above(u, begin);
+  return inside <= end ? u - (inside - begin) : boundary_.above(begin, u);
+}
+
 std::optional<Control::Conflict> Control::first_contact(int segment, const AxisPoint& from,
                                                         const AxisPoint& to) const {
   if (at(segment).next == segment) return std::nullopt;
@@ -245,8 +260,8 @@ std::optional<Control::Conflict> Control::first_contact(int segment, const AxisP
   double first_share = 2;
   {
     const int neighbour = at(segment).next;
-    const double foot = boundary_.above(last(neighbour).left.u, from.right.u);
-    const double share = (foot - from.right.u) / (to.right.u - from.right.u);
+    const double foot = first_foot(from.right.u, last(neighbour).left.u, last(neighbour).right.u);
+    const double share = std::max(-1.0, (foot - from.right.u) / (to.right.u - from.right.u));
     if (share < 1) {
       const auto active = generator_.with_right(between(from.left.u, to.left.u, share), foot);
       first = Conflict{neighbour, true, foot, active.value_or(to)};
@@ -254,8 +269,8 @@ std::optional<Control::Conflict> Control::first_contact(int segment, const AxisP
     }
   }
   const int neighbour = at(segment).previous;
-  const double foot = -boundary_.above(-last(neighbour).right.u, -from.left.u);
-  const double share = (from.left.u - foot) / (from.left.u - to.left.u);
+  const double foot = -first_foot(-from.left.u, -last(neighbour).right.u, -last(neighbour).left.u);
+  const double share = std::max(-1.0, (from.left.u - foot) / (from.left.u - to.left.u));
   if (share < 1 && share < first_share) {
     const auto active = generator_.with_left(foot, between(from.right.u, to.right.u, share));
     first = Conflict{neighbour, false, foot, active.value_or(to)};
@@ -298,6 +313,7 @@ int Control::join(int segment, const Conflict& contact, const Generator::Junctio
 bool Control::is_last_tip(int tip, int segment) const {
   // In needles a branch may get no further than a share of a step.
   return at(tip).next == segment && at(segment).next == tip && at(tip).first_child < 0 &&
+         !at(tip).from_bridge &&
          distance(at(tip).branch.front().disk.center, last(tip).disk.center) <= step_;
 }
 
@@ -315,7 +331,7 @@ int Control::join_tip(int segment, const AxisPoint& here) {
     // The feet of the tip's first point, seen from this branch's.
     const double tip_u = on_right ? boundary_.above(tip.left.u, here.right.u)
                                   : -boundary_.above(-tip.right.u, -here.left.u);
-    const double shift = tip_u - tip.left.u;  // both of its feet are one
+    const double shift = tip_u - (on_right ? tip.left.u : tip.right.u);
     const double near = (on_right ? first->left.u : first->right.u) + shift;
     const double far = (on_right ? first->right.u : first->left.u) + shift;
     const double shared = 0.5 * (near + (on_right ? here.right.u : here.left.u));
@@ -390,21 +406,27 @@ void Control::replace(int segment, int first, int second) {
 
 bool Control::steps_over_twist(const AxisPoint& from, const AxisPoint& to) const {
   const double radius = std::min(from.disk.radius, to.disk.radius);
-  const std::vector<double>& maxima = boundary_.maxima();
+  const std::vector<Tip>& tips = boundary_.tips();
   const auto twisted = [&](double low, double high) {
-    // The first maximum from `low` on, and its followers.
+    // The first tip from `low` on, and its followers.
     const double n = boundary_.period(), start = boundary_.above(low, 0);
-    auto next = std::lower_bound(maxima.begin(), maxima.end(), start);
-    for (std::size_t i = 0; i < maxima.size(); ++i, ++next) {
-      if (next == maxima.end()) next = maxima.begin();
-      double way = *next - start;
+    auto next = std::lower_bound(tips.begin(), tips.end(), start,
+                                 [](const Tip& tip, double u) { return tip.u < u; });
+    for (std::size_t i = 0; i < tips.size(); ++i, ++next) {
+      if (next == tips.end()) next = tips.begin();
+      double way = next->u - start;
       if (way < 0) way += n;
       if (way >= high - low) return false;
-      if (way > 0 && boundary_.at(*next).curvature * radius > 1 && !is_scanned(*next)) return true;
+      if (way > 0 && is_sharper(*next, radius) && !is_scanned(next->u)) return true;
     }
     return false;
   };
   return twisted(to.left.u, from.left.u) || twisted(from.right.u, to.right.u);
+}
+
+bool Control::is_sharper(const Tip& tip, double radius) const {
+  if (tip.kind == Tip::Kind::bridge) return false;
+  return tip.kind == Tip::Kind::corner || boundary_.at(tip.u).turn * radius >= 1;
 }
 
 bool Control::end_in_tip(int segment, const AxisPoint& from) {
@@ -417,15 +439,15 @@ bool Control::end_in_tip(int segment, const AxisPoint& from) {
       return false;
   }
   // Two tips, with circles smaller than the disk, are ends of two branches.
-  std::vector<double> tips;
-  for (const double maximum : boundary_.maxima()) {
-    const double u = boundary_.above(maximum, from.right.u);
+  std::vector<Tip> tips;
+  for (const Tip& tip : boundary_.tips()) {
+    const double u = boundary_.above(tip.u, from.right.u);
     if (u <= from.right.u || u >= from.left.u + boundary_.period()) continue;
-    if (boundary_.at(u).curvature * from.disk.radius >= 1) tips.push_back(u);
+    if (is_sharper(tip, from.disk.radius)) tips.push_back(tip);
   }
   if (tips.size() > 1) return false;
-  for (const double u : tips) {
-    const AxisPoint tip = generator_.at_maximum(u);
+  for (const Tip& one : tips) {
+    const AxisPoint tip = generator_.at(one);
     if (distance(tip.disk.center, from.disk.center) > junction_reach * step_) continue;
     ++rules_.ends;
     tell({Decision::Rule::end, segment, tip, -1});

@@ -11,15 +11,16 @@
 namespace medial::curve_axis {
 
 /// A scanned piece of boundary, from the left foot of its last axis point to the right one, and the
-/// axis that describes it: a branch from a maximum of curvature, or from a junction of two older
+/// axis that describes it: a branch from a tip of the boundary, or from a junction of two older
 /// segments, which then stand behind it.
 struct Segment {
-  std::vector<AxisPoint> branch;  ///< the first one is the maximum's or the junction's
+  std::vector<AxisPoint> branch;  ///< the first one is the tip's or the junction's
   int first_child = -1;           ///< of a junction: the segment whose boundary comes first
   int second_child = -1;
   double middle = 0;  ///< of a junction: the foot that its children share
   int previous = -1;  ///< neighbours along the boundary, among the segments in use
   int next = -1;
+  bool from_bridge = false;  ///< its first disk is certain
 };
 
 class Control;
@@ -37,10 +38,10 @@ using Observer = std::function<void(const Control&, const Decision&)>;
 /// Section 5.2: decides where generations start, who wins a conflict, and when all is done.
 class Control {
  public:
-  Control(const SmoothBoundary& boundary, const method::CurveAxis& options, double step,
+  Control(const Boundary& boundary, const method::CurveAxis& options, double step,
           Observer observer = {}, const std::atomic<bool>* cancel = nullptr);
 
-  /// Scans the whole boundary. Errors: cancelled, internal, too_large, unsupported (no maximum).
+  /// Scans the whole boundary. Requires a tip. Errors: cancelled, too_large, unsupported.
   Status run();
 
   const std::vector<Segment>& segments() const { return segments_; }
@@ -48,7 +49,7 @@ class Control {
   std::vector<int> in_use() const;
   /// After run(): the segments in which the axis came to its end, the last two of a meeting.
   const std::vector<int>& roots() const { return roots_; }
-  /// The maximum in which the last branch ends; not for a meeting.
+  /// The tip in which the last branch ends; not for a meeting.
   const std::optional<AxisPoint>& last_tip() const { return last_tip_; }
   const CurveAxisRules& rules() const { return rules_; }
 
@@ -64,7 +65,7 @@ class Control {
 
   bool is_exhausted() const;
   bool is_scanned(double u) const;
-  int start(double maximum);
+  int start(const Tip& tip);
   /// Generates axis points until a rule stops the branch, or the branches behind its junctions.
   Stop grow(int segment);
   bool is_in_box(Vec2 p) const;
@@ -73,15 +74,21 @@ class Control {
   /// junction (Fig 6).
   std::optional<Stop> resolve_conflicts(int& segment, const AxisPoint& here,
                                         const AxisPoint& there);
+  /// Whether two branches have met head-on.
+  bool is_same_disk(const AxisPoint& there, const AxisPoint& back) const;
   /// The junction of a contact whose radii become equal within the step.
   std::optional<Generator::Junction> junction_at(const Conflict& contact, const AxisPoint& here,
                                                  const AxisPoint& there) const;
   std::optional<Conflict> first_contact(int segment, const AxisPoint& from,
                                         const AxisPoint& to) const;
+  /// Where boundary that is scanned from `begin` to `end` begins, seen from u: ahead of it, or
+  /// behind it where u lies in between.
+  double first_foot(double u, double begin, double end) const;
   int join(int segment, const Conflict& contact, const Generator::Junction& at);
-  /// Whether a segment is the point of a maximum, and no more.
+  /// Whether a segment is the point of a tip, and no more.
   bool is_tip(int segment) const;
-  /// Whether the only other segment is the last maximum (Fig 8), or a step of its branch.
+  bool is_bridge(int segment) const { return is_tip(segment) && at(segment).from_bridge; }
+  /// Whether the only other segment is the last tip (Fig 8), or a step of its branch.
   bool is_last_tip(int tip, int segment) const;
   /// The junction of a branch that can go no further with a neighbour that is a tip only: it lies
   /// on the tip's first step, which is longer than others. The joined segment, or -1.
@@ -93,6 +100,8 @@ class Control {
   void unlink(int segment);
   void replace(int segment, int first, int last);
   bool steps_over_twist(const AxisPoint& from, const AxisPoint& to) const;
+  /// Whether a tip's circle is smaller than a disk, so that it has a branch before that.
+  bool is_sharper(const Tip& tip, double radius) const;
   bool end_in_tip(int segment, const AxisPoint& from);
 
   const AxisPoint& last(int segment) const {
@@ -101,7 +110,7 @@ class Control {
   Segment& at(int segment) { return segments_[static_cast<std::size_t>(segment)]; }
   const Segment& at(int segment) const { return segments_[static_cast<std::size_t>(segment)]; }
 
-  const SmoothBoundary& boundary_;
+  const Boundary& boundary_;
   const method::CurveAxis& options_;
   const std::atomic<bool>* cancel_;
   Observer observer_;

@@ -7,11 +7,13 @@
 #include <cstdlib>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "axis/node_kinds.h"
 #include "base/box_tree.h"
 #include "base/in_flight.h"
 #include "medial/shape.h"
+#include "methods/curve_axis/bridges.h"
 #include "methods/curve_axis/control.h"
 
 namespace medial {
@@ -49,6 +51,9 @@ constexpr double disk_rounding = 3e-16;
 constexpr double shortest_step = 0.25;
 /// The least number of ways between points on a smooth run: jets_along() takes seven points.
 constexpr std::size_t smooth_run = 6;
+/// Disks whose centres are nearer than this share of the size are one node: in symmetric shapes,
+/// junctions of more than three branches.
+constexpr double one_node = 1e-12;
 /// How often the way between two points of the generation is halved at most.
 constexpr int most_halvings = 12;
 /// What first points after a tip are sought with: see Generator::first_after().
@@ -74,8 +79,8 @@ double distance_to_quadratic(const AxisPoint& a, const AxisPoint& b, const Disk&
 /// that is a number in a tip.
 std::array<double, 2> bends_of(const AxisPoint& p) {
   const double square = (1 - p.radius_rate) * (1 + p.radius_rate), radius = p.disk.radius;
-  return {-p.left.curvature * square / (1 - p.left.curvature * radius),
-          -p.right.curvature * square / (1 - p.right.curvature * radius)};
+  return {-p.left.turn * square / p.left.slack(radius),
+          -p.right.turn * square / p.right.slack(radius)};
 }
 
 /// Whether second derivatives change too much from a to b for differences of seven points to tell
@@ -96,21 +101,25 @@ bool bends_unevenly(const AxisPoint& a, const AxisPoint& b, const AxisPoint& bet
 /// The segments' branches as a graph and as lists of points.
 class Assembly {
  public:
-  Assembly(const SmoothBoundary& boundary, const Control& control, double step)
+  Assembly(const Boundary& boundary, const Control& control, double step)
       : boundary_(boundary), control_(control), generator_(boundary, step), step_(step) {}
 
   CurveAxis take() {
     const std::vector<int>& roots = control_.roots();
     if (control_.last_tip()) {
-      add(roots[0], node_of(*control_.last_tip()), *control_.last_tip());
+      AxisPoint end = *control_.last_tip();
+      if (end.left.u != end.right.u) turn_round(end, 0);
+      add(roots[0], node_of(end), end);
     } else {
       // Both branches of a meeting end in its disk, which is the last point of the first.
       const AxisPoint& meeting = segment(roots[0]).branch.back();
-      const std::uint32_t node = node_of(meeting);
+      const Segment& other = segment(roots[1]);
+      const bool in_bridge = other.from_bridge && other.branch.size() == 1;
+      const std::uint32_t node = in_bridge ? node_of_bridge(other) : node_of(meeting);
       add(roots[0], node, meeting);
       AxisPoint backwards = meeting;
       turn_round(backwards, 0);
-      add(roots[1], node, backwards);
+      if (!in_bridge) add(roots[1], node, backwards);
     }
     while (!waiting_.empty()) {
       const Waiting next = waiting_.back();
@@ -135,12 +144,21 @@ class Assembly {
     return static_cast<std::uint32_t>(result_.axis.nodes.size() - 1);
   }
 
+  /// The node that both branches of a bridge share.
+  std::uint32_t node_of_bridge(const Segment& from) {
+    const std::size_t bridge = boundary_.piece(from.branch.front().left.u).source;
+    if (bridges_.size() <= bridge) bridges_.resize(bridge + 1, no_node);
+    if (bridges_[bridge] == no_node) bridges_[bridge] = node_of(from.branch.front());
+    return bridges_[bridge];
+  }
+
   /// A segment's branch from its first point to a node that is there already.
   void add(int index, std::uint32_t end_node, const AxisPoint& end) {
     const Segment& from = segment(index);
     std::vector<AxisPoint> points;
     for (const AxisPoint& point : from.branch)
-      if (!(point.disk.center == end.disk.center)) points.push_back(point);
+      if (distance(point.disk.center, end.disk.center) > one_node * boundary_.size())
+        points.push_back(point);
     while (points.size() > 1 && is_close(points[points.size() - 2], points.back(), end))
       points.pop_back();
     points.push_back(end);
@@ -149,7 +167,9 @@ class Assembly {
     std::uint32_t before = 0, first = end_node;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const AxisPoint& point = points[i];
-      const std::uint32_t node = i + 1 == points.size() ? end_node : node_of(point);
+      const std::uint32_t node = i + 1 == points.size()       ? end_node
+                                 : i == 0 && from.from_bridge ? node_of_bridge(from)
+                                                              : node_of(point);
       double length = 0;
       if (i == 0) {
         first = node;
@@ -158,8 +178,8 @@ class Assembly {
         result_.axis.edges.push_back(
             {{before, node}, {no_site, no_site}, control_between(points[i - 1], point), 1});
       }
-      list.push_back({length, point.disk, boundary_.above(point.left.u, 0),
-                      boundary_.above(point.right.u, 0)});
+      list.push_back({length, point.disk, boundary_.source_of(point.left.u),
+                      boundary_.source_of(point.right.u)});
       before = node;
     }
     if (list.size() > 1) result_.branches.push_back(std::move(list));
@@ -182,6 +202,7 @@ class Assembly {
     std::vector<AxisPoint> out{points.front()};
     std::vector<AxisPoint> run{points.front()};
     const auto end_run = [&] {
+      if (run.size() == 1) return;
       int halvings = 0;
       while ((run.size() - 1) << halvings < smooth_run) ++halvings;
       for (std::size_t i = 0; i + 1 < run.size(); ++i) {
@@ -321,49 +342,66 @@ class Assembly {
     set_node_kinds(axis);
   }
 
-  const SmoothBoundary& boundary_;
+  const Boundary& boundary_;
   const Control& control_;
   const Generator generator_;
   double step_;
   CurveAxis result_;
   std::vector<Waiting> waiting_;
+  static constexpr std::uint32_t no_node = 0xFFFFFFFF;
+  std::vector<std::uint32_t> bridges_;  ///< the node of each
 };
 
-std::optional<Error> refuse(std::span<const Contour> contours, const method::CurveAxis& options) {
+/// A component's loops as normalized() gives them, the outer one first.
+using Loops = std::vector<Contour>;
+
+/// Which contours bound which component. Errors: see compute_curve_axis().
+Result<std::vector<Loops>> loops_of(std::span<const Contour> contours,
+                                    const method::CurveAxis& options) {
   if (!(options.step >= 1e-6 && options.step <= 0.1))
     return Error{ErrorCode::invalid_option, "the step must be in [1e-6, 0.1]", {}};
-  if (contours.size() != 1)
-    return Error{ErrorCode::unsupported,
-                 "the method curve-axis takes one boundary without holes: use the method disks",
-                 {}};
-  if (contours[0].pieces.empty()) return Error{ErrorCode::empty, "the contour is empty", {}};
-  // Segments are looked up one by one: the time grows with the square of the maxima.
+  // Segments are looked up one by one: the time grows with the square of the tips.
   constexpr std::size_t most_pieces = 20000;
-  if (contours[0].pieces.size() > most_pieces)
-    return Error{ErrorCode::too_large, "the contour has more than 20,000 pieces", {}};
-  if (Status rough = find_roughness(normalized(contours[0])); !rough) return rough.error();
+  std::size_t pieces = 0;
+  for (const Contour& contour : contours) pieces += contour.pieces.size();
+  if (pieces == 0) return Error{ErrorCode::empty, "the contour is empty", {}};
+  if (pieces > most_pieces)
+    return Error{ErrorCode::too_large, "the contours have more than 20,000 pieces", {}};
+  std::vector<Contour> normal;
+  for (const Contour& contour : contours) {
+    if (contour.pieces.empty()) return Error{ErrorCode::empty, "a contour is empty", {}};
+    normal.push_back(normalized(contour));
+    if (Status cusp = find_cusp(normal.back()); !cusp) return cusp.error();
+  }
   // Crossings, and whatever else makes no shape.
-  const auto rings = approximate_by_arcs(contours, {.tolerance = 1e-4});
+  const auto rings = approximate_by_arcs(contours);
   if (!rings) return rings.error();
   const auto shape = build_shape(*rings);
   if (!shape) return shape.error();
-  return std::nullopt;
+  std::vector<Loops> all(shape->component_count());
+  for (const bool hole : {false, true})
+    for (std::size_t l = 0; l < shape->loop_count(); ++l) {
+      if (shape->hole[l] != hole) continue;
+      const std::uint32_t ring = shape->sources[shape->loop_begin[l]].ring;
+      for (std::size_t i = shape->loop_begin[l]; i < shape->loop_begin[l + 1]; ++i)
+        if (shape->sources[i].ring != ring || shape->loop_count() != contours.size())
+          return Error{ErrorCode::unsupported,
+                       "the method curve-axis does not take boundaries that touch: use disks",
+                       {}};
+      all[shape->component[l]].push_back(normal[ring]);
+    }
+  return all;
 }
 
 /// A branch that took a wrong turn, or one that is missing, leaves disks that the boundary reaches
 /// into. Success if no point of the boundary, at distances of `spacing` of the size, lies deeper
 /// inside of a node's disk than `slack` of the size; the farthest of generation and graph from the
 /// axis is far less. O((n + points) log n) but for points near a disk's box and not in the disk.
-Status check_disks(const SmoothBoundary& boundary, const MedialAxis& axis) {
+Status check_disks(const Boundary& boundary, const MedialAxis& axis) {
   constexpr double spacing = 1e-3, slack = 1e-5;
-  std::vector<Vec2> points;
+  const std::vector<Vec2> points = boundary.samples(spacing * boundary.size());
   std::vector<Box> boxes;
-  for (double u = 0, next = 0; u < boundary.period(); u = next) {
-    points.push_back(boundary.at(u).point);
-    boxes.push_back({points.back(), points.back()});
-    next = boundary.advanced(u, spacing * boundary.size());
-    if (!(next > u)) break;
-  }
+  for (const Vec2 p : points) boxes.push_back({p, p});
   const BoxTree tree(boxes);
   for (const Node& node : axis.nodes) {
     const Vec2 center = node.disk.center;
@@ -383,12 +421,24 @@ Status check_disks(const SmoothBoundary& boundary, const MedialAxis& axis) {
   return success();
 }
 
+/// The axis of a circle: without a tip the curvature is the same everywhere.
+CurveAxis centre_of(const Boundary& boundary, double step) {
+  CurveAxis result;
+  result.axis.method = "curve-axis";
+  result.axis.resolution = step;
+  const BoundaryPoint foot = boundary.at(0);
+  const double radius = 1 / foot.turn;
+  result.axis.nodes.push_back({{foot.point + radius * foot.normal(), radius}, 0, NodeKind::leaf});
+  return result;
+}
+
 /// How often the method restarts after an axis that has gone astray.
 constexpr int most_attempts = 5;
 
-Result<CurveAxis> attempt(const SmoothBoundary& boundary, const method::CurveAxis& options,
+Result<CurveAxis> attempt(const Boundary& boundary, const method::CurveAxis& options,
                           const std::atomic<bool>* cancel) {
   const double step = options.step * boundary.size();
+  if (boundary.tips().empty()) return centre_of(boundary, step);
   Control control(boundary, options, step, {}, cancel);
   if (Status done = control.run(); !done) return std::move(done).error();
   CurveAxis result = Assembly(boundary, control, step).take();
@@ -396,53 +446,86 @@ Result<CurveAxis> attempt(const SmoothBoundary& boundary, const method::CurveAxi
   return result;
 }
 
-/// The method on one smooth contour, again with shorter steps where it goes astray.
-Result<CurveAxis> follow(const Contour& contour, const method::CurveAxis& options,
+/// The bridges' direction in an attempt: none that drawings have.
+Vec2 direction_of(int round) {
+  const double angle = 2.9 + 1.7 * round;
+  return {std::cos(angle), std::sin(angle)};
+}
+
+/// The method on one component, again with shorter steps and other bridges where it goes astray.
+Result<CurveAxis> follow(const Loops& loops, const method::CurveAxis& options,
                          const std::atomic<bool>* cancel) {
-  const SmoothBoundary boundary(normalized(contour));
-  Result<CurveAxis> result = attempt(boundary, options, cancel);
-  // What has gone astray does so at some steps only, and from some maxima.
+  Result<CurveAxis> result =
+      Error{ErrorCode::unsupported,
+            "the loops around the holes cannot be entered: no disk connects them; use disks",
+            {}};
+  // What has gone astray does so at some steps only, and from some tips.
   method::CurveAxis again = options;
-  for (int round = 0; round < most_attempts && !result.ok() &&
-                      result.error().code == ErrorCode::unsupported && !boundary.maxima().empty();
-       ++round) {
+  std::uint64_t spent = 0;
+  bool failed = false;
+  for (int round = 0; round <= most_attempts; ++round) {
+    std::vector<Piece> pieces = bridged(loops, direction_of(round));
+    if (pieces.empty()) continue;
+    const Boundary boundary(std::move(pieces), spent);
+    Result<CurveAxis> next = attempt(boundary, again, cancel);
+    spent = boundary.evaluations();
+    // The first error is the most useful one.
+    if (!failed || next.ok() || next.error().code == ErrorCode::cancelled) result = std::move(next);
+    failed = true;
+    if (result.ok() || result.error().code != ErrorCode::unsupported) break;
     again.step /= 2;
     ++again.first_maximum;
-    Result<CurveAxis> next = attempt(boundary, again, cancel);
-    // The first error is the most useful one.
-    if (next.ok() || next.error().code == ErrorCode::cancelled) result = std::move(next);
   }
   return result;
 }
 
-/// A contour as a polygon: both ends of every piece, and points between them of a curved one.
-std::vector<Vec2> polygon_of(const Contour& curves) {
-  const SmoothBoundary boundary(curves);
-  std::vector<Vec2> points;
-  for (std::size_t i = 0; i < curves.pieces.size(); ++i)
-    for (int k = 0; k < (curves.pieces[i].degree > 1 ? 4 : 1); ++k)
-      points.push_back(boundary.at(static_cast<double>(i) + 0.25 * k).point);
-  return points;
+void append(CurveAxis& all, std::uint32_t component, CurveAxis part) {
+  for (Node& node : part.axis.nodes) node.component = component;
+  const auto first = static_cast<std::uint32_t>(all.axis.nodes.size());
+  for (Edge& edge : part.axis.edges)
+    for (std::uint32_t& node : edge.node) node += first;
+  MedialAxis& axis = all.axis;
+  axis.nodes.insert(axis.nodes.end(), part.axis.nodes.begin(), part.axis.nodes.end());
+  axis.edges.insert(axis.edges.end(), part.axis.edges.begin(), part.axis.edges.end());
+  axis.resolution = std::max(axis.resolution, part.axis.resolution);
+  std::move(part.branches.begin(), part.branches.end(), std::back_inserter(all.branches));
+  all.rules += part.rules;
 }
 
-/// The error of a contour that the method does not follow, with the closest of some fits that it
+Result<CurveAxis> follow_all(std::span<const Contour> contours, const method::CurveAxis& options,
+                             const std::atomic<bool>* cancel) {
+  const auto components = loops_of(contours, options);
+  if (!components) return components.error();
+  CurveAxis all;
+  all.axis.method = "curve-axis";
+  for (std::uint32_t i = 0; i < components->size(); ++i) {
+    Result<CurveAxis> part = follow((*components)[i], options, cancel);
+    if (!part) return part;
+    append(all, i, std::move(part).value());
+  }
+  return all;
+}
+
+/// The error of contours that the method does not follow, with the closest of some fits that it
 /// does follow.
-Error with_fit(Error error, const Contour& contour, const method::CurveAxis& options,
+Error with_fit(Error error, std::span<const Contour> contours, const method::CurveAxis& options,
                const std::atomic<bool>* cancel) {
-  const Contour curves = normalized(contour);
-  if (find_roughness(curves).ok() && SmoothBoundary(curves).maxima().empty()) return error;
-  const std::vector<Vec2> polygon = polygon_of(curves);
-  Box box{polygon[0], polygon[0]};
-  for (const Vec2 p : polygon)
-    box = {{std::min(box.low.x, p.x), std::min(box.low.y, p.y)},
-           {std::max(box.high.x, p.x), std::max(box.high.y, p.y)}};
+  std::vector<std::vector<Vec2>> polygons;
+  for (const Contour& contour : contours) polygons.push_back(curve::polygon_of(contour));
+  Box box = Box::nothing();
+  for (const auto& polygon : polygons)
+    for (const Vec2 p : polygon) box.add(p);
   constexpr std::array<double, 6> shares = {0.05, 0.025, 0.012, 0.006, 0.003, 0.0015};
   std::string found;
   for (const double share : shares) {
     std::array<char, 16> text{};
     std::snprintf(text.data(), text.size(), "%.2g", share * distance(box.low, box.high));
-    const auto curve = fit_smooth_contour(polygon, std::strtod(text.data(), nullptr));
-    if (!curve || refuse({&*curve, 1}, options) || !follow(*curve, options, cancel).ok()) {
+    std::vector<Contour> curves;
+    for (const auto& polygon : polygons) {
+      auto curve = fit_smooth_contour(polygon, std::strtod(text.data(), nullptr));
+      if (curve) curves.push_back(std::move(curve).value());
+    }
+    if (curves.size() != polygons.size() || !follow_all(curves, options, cancel).ok()) {
       if (!found.empty()) break;
       continue;
     }
@@ -472,21 +555,33 @@ Result<MedialAxis> run(const Problem& problem) {
 
 }  // namespace curve_axis
 
+CurveAxisRules& CurveAxisRules::operator+=(const CurveAxisRules& other) {
+  maxima += other.maxima;
+  skipped += other.skipped;
+  larger += other.larger;
+  smaller += other.smaller;
+  junctions += other.junctions;
+  dissolved += other.dissolved;
+  abandoned += other.abandoned;
+  retreats += other.retreats;
+  outside_box += other.outside_box;
+  resumed += other.resumed;
+  ends += other.ends;
+  meetings += other.meetings;
+  return *this;
+}
+
 Result<CurveAxis> compute_curve_axis(std::span<const Contour> contours,
                                      const method::CurveAxis& options,
                                      const std::atomic<bool>* cancel) {
   using namespace curve_axis;
   try {
-    auto error = refuse(contours, options);
-    if (!error) {
-      Result<CurveAxis> result = follow(contours[0], options, cancel);
-      if (result) return result;
-      error = result.error();
-    }
-    const bool may_fit =
-        error->code == ErrorCode::unsupported || error->code == ErrorCode::too_large;
-    if (!may_fit || contours.size() != 1) return std::move(*error);
-    return with_fit(std::move(*error), contours[0], options, cancel);
+    Result<CurveAxis> result = follow_all(contours, options, cancel);
+    if (result) return result;
+    const ErrorCode code = result.error().code;
+    const bool may_fit = code == ErrorCode::unsupported || code == ErrorCode::too_large;
+    if (!may_fit) return result;
+    return with_fit(result.error(), contours, options, cancel);
   } catch (...) {
     return error_in_flight();
   }

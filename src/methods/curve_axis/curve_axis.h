@@ -9,13 +9,13 @@ struct CurveAxisPoint {
   double length = 0;  ///< along its branch, from the branch's first point
   Disk disk;
   double left = 0;   ///< where the disk touches the boundary: index of the contour's piece plus the
-  double right = 0;  ///< parameter on it, in [0, number of pieces)
+  double right = 0;  ///< parameter on it; holes count on from the outer contour, and run clockwise
 };
 
 /// How often each rule of the control process was applied (Section 5.2 of the paper).
 struct CurveAxisRules {
-  std::uint64_t maxima = 0;       ///< positive maxima of curvature on the boundary
-  std::uint64_t skipped = 0;      ///< maxima on boundary that was scanned already
+  std::uint64_t maxima = 0;       ///< of curvature, corners and ends of bridges on the boundary
+  std::uint64_t skipped = 0;      ///< of these, on boundary that was scanned already
   std::uint64_t larger = 0;       ///< conflicts that ended a generation (Fig 5a)
   std::uint64_t smaller = 0;      ///< conflicts that took a point from an older branch (Fig 5b)
   std::uint64_t junctions = 0;    ///< conflicts at equal radius: merged, redirected (Fig 6)
@@ -26,6 +26,7 @@ struct CurveAxisRules {
   std::uint64_t resumed = 0;      ///< generations resumed where boundary was left
   std::uint64_t ends = 0;         ///< the end in the last maximum (Fig 8)
   std::uint64_t meetings = 0;     ///< the end where two branches meet head-on
+  CurveAxisRules& operator+=(const CurveAxisRules& other);
 };
 
 struct CurveAxis {
@@ -38,16 +39,16 @@ struct CurveAxis {
   CurveAxisRules rules;
 };
 
-/// The medial axis of one smooth closed curve, followed from the boundary's maxima of curvature:
-/// Shaked and Bruckstein, "The Curve Axis", 1996. Each point is a zero of (14), as exact as the
-/// curve. The contour has any orientation; its pieces join with one direction and, to a hundredth,
-/// one curvature. Time grows with the number of points, and with the square of that of maxima.
+/// The medial axis of closed curves, followed from the boundary's maxima of curvature and convex
+/// corners, and into loops around holes from disks that touch two loops: after Shaked and
+/// Bruckstein, "The Curve Axis", 1996. Each point is a zero of (14), as exact as the curve. The
+/// contours have any orientation and order. Time grows with the number of points, and with the
+/// square of that of tips.
 ///
 /// Errors: not_finite, invalid_option, cancelled, too_large (20,000 pieces, 2^21 points, some
-/// seconds of work), unsupported (not smooth, with the place; more than one contour; no maximum of
-/// curvature, as for a circle; a disk that the boundary enters by more than 1e-5 of the size, or
-/// boundary that no branch reaches: the method has gone astray), crossing and others of
-/// build_shape().
+/// seconds of work), unsupported (a cusp, with the place; contours that touch; a circle; a disk
+/// that the boundary enters by more than 1e-5 of the size, or boundary that no branch reaches: the
+/// method has gone astray), crossing and others of build_shape().
 Result<CurveAxis> compute_curve_axis(std::span<const Contour> contours,
                                      const method::CurveAxis& options = {},
                                      const std::atomic<bool>* cancel = nullptr);

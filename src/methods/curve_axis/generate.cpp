@@ -19,6 +19,11 @@ constexpr double largest_turn = 0.05;
 /// Half of the angle between the normals at the first two feet on both sides of a maximum.
 constexpr double first_turn = 0.05;
 
+/// No step is a smaller share of the longest.
+constexpr double least_step = 1e-7;
+/// Feet nearer to each other than this share of the boundary's size are one.
+constexpr double same_place = 1e-9;
+
 Vec2 right_of(Vec2 v) { return -left_of(v); }
 
 /// Decides by the size of the corrections whether an iteration has converged.
@@ -36,16 +41,16 @@ class Convergence {
   double last_ = std::numeric_limits<double>::infinity();
 };
 
-/// (14) and its derivatives by the lengths of boundary that the feet advance on their sides. On the
-/// zero set these are (1 - cos) (1 - K R), with the angle between the two normals.
+/// (14) and its derivatives by the ways that the feet advance on their sides. On the zero set these
+/// are (1 - cos) (1 - K R), with the angle between the two normals, and in fans (1 - cos) R.
 struct Symmetry {
   double value, by_left, by_right;
 };
 Symmetry symmetry(const BoundaryPoint& l, const BoundaryPoint& r) {
   const Vec2 chord = l.point - r.point;
   const Vec2 sum = r.tangent - l.tangent;  // the left foot goes against the boundary
-  return {dot(chord, sum), -dot(l.tangent, sum) + l.curvature * dot(chord, l.normal()),
-          -dot(r.tangent, sum) + r.curvature * dot(chord, r.normal())};
+  return {dot(chord, sum), -l.along * dot(l.tangent, sum) + l.turn * dot(chord, l.normal()),
+          -r.along * dot(r.tangent, sum) + r.turn * dot(chord, r.normal())};
 }
 
 }  // namespace
@@ -66,19 +71,41 @@ AxisPoint Generator::point_of(const BoundaryPoint& left, const BoundaryPoint& ri
 
 AxisPoint Generator::at_maximum(double u) const {
   const BoundaryPoint tip = boundary_.at(u);
-  const double radius = 1 / tip.curvature;
+  const double radius = 1 / tip.turn;
   return {tip, tip, {tip.point + radius * tip.normal(), radius}, tip.normal(), 1};
+}
+
+AxisPoint Generator::at(const Tip& tip) const {
+  if (tip.kind == Tip::Kind::maximum) return at_maximum(tip.u);
+  const BoundaryPoint left = boundary_.before(tip.left), right = boundary_.at(tip.right);
+  if (tip.kind != Tip::Kind::corner) return point_of(left, right);
+  // The axis halves the angle; R_a is the sine of that half.
+  const Vec2 sum = left.normal() + right.normal();
+  return {left, right, {left.point, 0}, (1 / norm(sum)) * sum, norm(sum) / 2};
+}
+
+std::optional<AxisPoint> Generator::first_after_corner(double u, double share) const {
+  const BoundaryPoint left = boundary_.before(u), right = boundary_.at(u);
+  // The way of the feet that takes the centre on by a step, on the pieces next to the corner.
+  const double sine = norm(right.tangent - left.tangent) / 2;
+  double way = share * std::min({step_ * sine, left.speed / 4, right.speed / 4});
+  for (int halvings = 0; halvings < 8; ++halvings, way /= 2) {
+    const auto point = stabilised(boundary_.advanced(u, -way), boundary_.advanced(u, way));
+    if (point && point->left.u < u && point->right.u > u && point->disk.radius > 0) return point;
+  }
+  return std::nullopt;
 }
 
 /// (13) is 0 / 0 in a tip. Where the curvature falls by a l on the left and by b r on the right,
 /// the circle tangent at both feet has, to leading order, a x^3 + 3 a x^2 - 3 b x - b = 0 with x =
 /// l / r (docs/curve-axis.md): one positive root, 1 where both sides are alike.
 std::optional<AxisPoint> Generator::first_after(const AxisPoint& tip, double turn_at_most) const {
-  const double u = tip.left.u, peak = tip.left.curvature;
+  if (tip.disk.radius == 0) return first_after_corner(tip.left.u, turn_at_most / first_turn);
+  const double u = tip.left.u, peak = tip.left.turn;
   for (double turn = turn_at_most; turn > first_turn / 1024; turn /= 2) {
     const double way = turn / peak;
-    const double a = peak - boundary_.at(boundary_.advanced(u, -way)).curvature;
-    const double b = peak - boundary_.at(boundary_.advanced(u, way)).curvature;
+    const double a = peak - boundary_.at(boundary_.advanced(u, -way)).turn;
+    const double b = peak - boundary_.at(boundary_.advanced(u, way)).turn;
     if (!(a > 0 && b > 0)) continue;
     double low = 0, high = 1 + 3 * std::sqrt(b / a);
     while (high - low > 1e-3 * high) {
@@ -94,27 +121,40 @@ std::optional<AxisPoint> Generator::first_after(const AxisPoint& tip, double tur
   return std::nullopt;
 }
 
-std::optional<AxisPoint> Generator::next(const AxisPoint& here) const {
+std::optional<AxisPoint> Generator::next(AxisPoint here) const {
   if (here.left.u == here.right.u) return first_after(here, first_turn);
+  // A foot next to where rates jump stands behind that.
+  const double no_way = same_place * boundary_.size();
+  if (boundary_.way_to_jump(here.left.u, false) < no_way)
+    here.left = boundary_.before(std::ceil(here.left.u) - 1);
+  if (boundary_.way_to_jump(here.right.u, true) < no_way)
+    here.right = boundary_.at(std::floor(here.right.u) + 1);
   const double radius = here.disk.radius;
   const double s = distance(here.left.point, here.right.point) / (2 * radius);
-  const double left_slack = 1 - here.left.curvature * radius;
-  const double right_slack = 1 - here.right.curvature * radius;
+  const double left_slack = here.left.slack(radius), right_slack = here.right.slack(radius);
   if (!(left_slack > 0 && right_slack > 0)) return std::nullopt;
   const double left_rate = s / left_slack, right_rate = s / right_slack;  // (13)
   double step = step_;
-  step = std::min(step, largest_turn / (std::abs(here.left.curvature) * left_rate));
-  step = std::min(step, largest_turn / (std::abs(here.right.curvature) * right_rate));
-  step = std::min(step, 16 * step_ / std::max(left_rate, right_rate));
+  step = std::min(step, largest_turn / (std::abs(here.left.turn) * left_rate));
+  step = std::min(step, largest_turn / (std::abs(here.right.turn) * right_rate));
+  step = std::min(
+      step, 16 * step_ / std::max(here.left.along * left_rate, here.right.along * right_rate));
+  // Other rates hold behind a jump: the foot that comes there first stops in it.
+  const double left_jump = boundary_.way_to_jump(here.left.u, false) / left_rate;
+  const double right_jump = boundary_.way_to_jump(here.right.u, true) / right_rate;
   // Where the rates outgrow every step the feet stand before a twist: (10) ends there.
   for (int halvings = 0; halvings < 8; ++halvings, step /= 2) {
-    if (!(step > 1e-7 * step_)) return std::nullopt;
-    const auto point = stabilised(boundary_.advanced(here.left.u, -step * left_rate),
-                                  boundary_.advanced(here.right.u, step * right_rate));
+    if (!(step > least_step * step_)) return std::nullopt;
+    const double jump = std::min(left_jump, right_jump), way = std::min(step, jump);
+    const double left = boundary_.advanced(here.left.u, -way * left_rate);
+    const double right = boundary_.advanced(here.right.u, way * right_rate);
+    const auto point = jump > step              ? stabilised(left, right)
+                       : left_jump < right_jump ? with_left(std::ceil(here.left.u) - 1, right)
+                                                : with_right(left, std::floor(here.right.u) + 1);
     // Both feet advance, and the centre moves on about as far as it should.
     if (point && point->left.u < here.left.u && point->right.u > here.right.u &&
-        point->disk.radius > 0 && distance(point->disk.center, here.disk.center) < 2 * step &&
-        distance(point->disk.center, here.disk.center) > step / 2)
+        point->disk.radius > 0 && distance(point->disk.center, here.disk.center) < 2 * way &&
+        distance(point->disk.center, here.disk.center) > way / 2)
       return point;
   }
   return std::nullopt;
@@ -123,7 +163,7 @@ std::optional<AxisPoint> Generator::next(const AxisPoint& here) const {
 std::optional<AxisPoint> Generator::stabilised(double left, double right) const {
   Convergence convergence(boundary_.size());
   for (int round = 0; round < most_rounds; ++round) {
-    const BoundaryPoint l = boundary_.at(left), r = boundary_.at(right);
+    const BoundaryPoint l = boundary_.before(left), r = boundary_.at(right);
     const Symmetry f = symmetry(l, r);
     const double square = f.by_left * f.by_left + f.by_right * f.by_right;
     if (!(square > 0)) return std::nullopt;
@@ -140,10 +180,10 @@ std::optional<AxisPoint> Generator::stabilised(double left, double right) const 
 
 std::optional<AxisPoint> Generator::with_one_foot(double fixed, double moving,
                                                   bool moves_left) const {
-  const BoundaryPoint foot = boundary_.at(fixed);
+  const BoundaryPoint foot = moves_left ? boundary_.at(fixed) : boundary_.before(fixed);
   Convergence convergence(boundary_.size());
   for (int round = 0; round < most_rounds; ++round) {
-    const BoundaryPoint other = boundary_.at(moving);
+    const BoundaryPoint other = moves_left ? boundary_.before(moving) : boundary_.at(moving);
     const BoundaryPoint &l = moves_left ? other : foot, &r = moves_left ? foot : other;
     const Symmetry f = symmetry(l, r);
     const double move = -f.value / (moves_left ? f.by_left : f.by_right);
@@ -161,7 +201,8 @@ std::optional<Generator::Junction> Generator::junction(double left, double middl
                                                        double right) const {
   Convergence convergence(boundary_.size());
   for (int round = 0; round < most_rounds; ++round) {
-    const BoundaryPoint a = boundary_.at(left), b = boundary_.at(middle), c = boundary_.at(right);
+    const BoundaryPoint a = boundary_.before(left), b = boundary_.at(middle),
+                        c = boundary_.at(right);
     // Derivatives by lengths along increasing u: a left foot counts the other way.
     const Symmetry ab = symmetry(a, b), bc = symmetry(b, c), ac = symmetry(a, c);
     const double m[3][3] = {{-ab.by_left, ab.by_right, 0},

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "medial/axis.h"
-#include "methods/curve_axis/smooth_boundary.h"
+#include "methods/curve_axis/boundary.h"
 
 namespace medial::curve_axis {
 
@@ -19,14 +19,17 @@ struct AxisPoint {
 /// Section 5.1: knows no more of the shape than the boundary around the two feet.
 class Generator {
  public:
-  Generator(const SmoothBoundary& boundary, double step) : boundary_(boundary), step_(step) {}
+  Generator(const Boundary& boundary, double step) : boundary_(boundary), step_(step) {}
 
   /// The point at a maximum of curvature: the centre of curvature, both feet in one.
   AxisPoint at_maximum(double u) const;
 
+  /// The point where a branch begins.
+  AxisPoint at(const Tip& tip) const;
+
   /// The next point: prediction by (13), then the zero set of (14). Nothing where the feet cannot
   /// both advance: restriction (10) does not hold, the boundary supports no further axis.
-  std::optional<AxisPoint> next(const AxisPoint& here) const;
+  std::optional<AxisPoint> next(AxisPoint here) const;
 
   /// The point with these feet, corrected along the boundary to the zero set of (14) by the
   /// shortest way.
@@ -47,16 +50,17 @@ class Generator {
   std::optional<Junction> junction(double left, double middle, double right) const;
 
   /// The first point after a maximum, as near to it as `turn_at_most` says: half of the angle
-  /// between its normals, in radians.
+  /// between its normals, in radians. After a corner: the nearer, the less.
   std::optional<AxisPoint> first_after(const AxisPoint& tip, double turn_at_most) const;
 
   /// The point of a valid pair.
   AxisPoint point_of(const BoundaryPoint& left, const BoundaryPoint& right) const;
 
  private:
+  std::optional<AxisPoint> first_after_corner(double u, double share) const;
   std::optional<AxisPoint> with_one_foot(double fixed, double moving, bool moves_left) const;
 
-  const SmoothBoundary& boundary_;
+  const Boundary& boundary_;
   double step_;
 };
 
