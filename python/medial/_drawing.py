@@ -16,7 +16,37 @@ from ._errors import MedialError, need
 
 Tags = list[tuple[int, Any]]
 _MESH = 16 | 64  # flags of a POLYLINE
-_STRUCTURE = ("SECTION", "ENDSEC", "TABLE", "ENDTAB", "LAYER", "BLOCK", "ENDBLK", "SEQEND", "VERTEX", "EOF")
+_SECTIONS = ("TABLES", "BLOCKS", "ENTITIES")
+_STRUCTURE = ("ENDSEC", "TABLE", "ENDTAB", "LAYER", "BLOCK", "ENDBLK", "SEQEND", "VERTEX", "EOF")
+_CURVES = ("POINT", "LINE", "CIRCLE", "ARC", "ELLIPSE", "LWPOLYLINE", "POLYLINE", "SPLINE", "INSERT")
+
+
+def _lines(data: bytes, tag: Any) -> Iterator[Any]:
+    """The tags of a text. ezdxf's own loader guesses what a damaged group code may have been."""
+    lines = iter(data.splitlines())
+    for at, (code, value) in enumerate(zip(lines, lines, strict=False)):
+        try:
+            number = int(code)
+        except ValueError:
+            text = code.strip().decode("ascii", "replace")[:40]
+            raise MedialError(f"line {2 * at + 1}: '{text}' is not a group code", "malformed") from None
+        if number != 999:
+            yield tag(number, value.strip())
+        if number == 0 and value.strip() == b"EOF":
+            return
+
+
+def _kept(tags: Iterator[Any]) -> Iterator[Any]:
+    """The names of all entities, and the tags of those that are read."""
+    name = section = ""
+    for tag in tags:
+        code, value = tag
+        if code == 0 or (code == 2 and name == "SECTION"):
+            text = value.decode("latin-1") if isinstance(value, bytes) else str(value)
+            name, section = (name, text) if code else (text, "" if text == "SECTION" else section)
+            yield tag
+        elif (code in (9, 70) and name == "SECTION") or (section in _SECTIONS and name in (*_CURVES, *_STRUCTURE)):
+            yield tag
 
 
 def _groups(data: bytes) -> Iterator[tuple[str, Tags]]:
@@ -26,21 +56,20 @@ def _groups(data: bytes) -> Iterator[tuple[str, Tags]]:
     that do not name their version.
     """
     faults: list[Any] = []
+    types, recover = need("ezdxf.lldxf.types", "cad"), need("ezdxf.recover", "cad")
+    logging.getLogger("ezdxf").addHandler(logging.NullHandler())
     if data.startswith(b"AutoCAD Binary DXF"):
         tagger = need("ezdxf.lldxf.tagger", "cad")
-        tags = tagger.tag_compiler(tagger.binary_tags_loader(data))
+        tags = tagger.tag_compiler(_kept(tagger.binary_tags_loader(data)))
     else:
-        tags = need("ezdxf.recover", "cad").safe_tag_loader(io.BytesIO(data), messages=faults)
-    logging.getLogger("ezdxf").addHandler(logging.NullHandler())
-    name, section = "", ""
+        in_order = need("ezdxf.lldxf.repair", "cad").tag_reorder_layer
+        encoding = recover.detect_encoding(_lines(data, types.DXFTag))
+        tags = recover.byte_tag_compiler(in_order(_kept(_lines(data, types.DXFTag))), encoding, messages=faults)
+    name = ""
     group: Tags = []
     for code, value in tags:
-        if faults and section in ("TABLES", "BLOCKS", "ENTITIES"):
-            text = str(faults[0][1]).removeprefix("recovered ").split(" as ")[0]
-            raise MedialError(text, "malformed")
-        faults.clear()
-        if code == 2 and name == "SECTION":
-            section = value
+        if faults and "floating" in str(faults[-1][1]):
+            raise MedialError(str(faults[-1][1]).removeprefix("recovered ").split(" near ")[0], "malformed")
         if code == 0:
             yield name, group
             name, group = str(value), []
@@ -157,9 +186,6 @@ class _Filling:
         )  # fmt: skip
 
 
-_CURVES = ("POINT", "LINE", "CIRCLE", "ARC", "ELLIPSE", "LWPOLYLINE", "POLYLINE", "SPLINE", "INSERT")
-
-
 def drawing_of(path: str) -> _core.Drawing:
     """The entities of a drawing, with its layers, blocks and unit."""
     structure_error = need("ezdxf", "cad").DXFError
@@ -174,6 +200,7 @@ def drawing_of(path: str) -> _core.Drawing:
         raise MedialError(f"{path}: a {name} without its group {error}", "malformed") from None
     except (structure_error, TypeError, ValueError, IndexError) as error:
         code = error.code if isinstance(error, MedialError) else "malformed"
-        text = error.text if isinstance(error, MedialError) else str(error)
+        # ezdxf counts the lines of what is left to read.
+        text = error.text if isinstance(error, MedialError) else str(error).split(" near line")[0]
         raise MedialError(f"{path}: {text}", code) from None
     return filling.drawing

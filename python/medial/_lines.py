@@ -13,7 +13,7 @@ import numpy.typing as npt
 from . import _core
 from ._axis import MedialAxis, axis_of
 from ._errors import MedialError, need
-from ._records import Floats
+from ._records import Floats, numbers_of, points_of
 from ._shape import load
 
 
@@ -103,9 +103,11 @@ class Line:
         array([2., 2., 2.])
         """
         if isinstance(samples, (int, np.integer)):
+            if not 0 < samples < 2**31:
+                raise MedialError("samples is a number of places")
             at = np.linspace(0, self.length, int(samples))
         else:
-            at = np.ascontiguousarray(samples, np.float64)
+            at = np.ascontiguousarray(numbers_of(samples, "samples are lengths along the line"))
         return self._widths(at, across=False)
 
     def transects(self, count: int = 10, *, spacing: float | None = None) -> Widths:
@@ -124,7 +126,8 @@ class Line:
         5
         """
         if spacing is None:
-            count = operator.index(count)
+            if not 0 <= operator.index(count) < 2**31:
+                raise MedialError("count is a number of places")
             places = self.length * ((np.arange(count) + 0.5) / count)
             return self._widths(np.asarray(places, np.float64), across=True)
         if not 0 < spacing < np.inf:
@@ -184,6 +187,8 @@ class Widths(NamedTuple):
 
 
 def _line(of: MedialAxis, path: _core.Path, extend: bool, smooth: float) -> Line:
+    if not smooth >= 0:
+        raise MedialError("smooth is a length, or 0")
     made = MedialAxis._of(_core.centre_line(of._core, path, extend, smooth))
     return Line(made, path.length, path.narrowest, path.closed, path, of)
 
@@ -192,7 +197,9 @@ def _place(of: MedialAxis, point: Sequence[float] | str) -> tuple[int, float]:
     if isinstance(point, str):
         x, y = _middle_of_side(of, point)
     else:
-        x, y = point
+        ((x, y),) = points_of(point).tolist()
+    if not (np.isfinite(x) and np.isfinite(y)):
+        raise MedialError("a place is two finite numbers", "not_finite")
     place = _core.place_at(of._core, (x, y))
     if place is None:
         raise MedialError("the shape's axis is a single point", "invalid_option")

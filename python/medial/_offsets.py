@@ -166,7 +166,7 @@ def offset_passes(x: Any, step: float, *, first: float | None = None, until: flo
     """
     of = axis_of(x)
     passes = _core.offset_passes(of._core, step if first is None else first, step)
-    return offset(of, passes if until is None else passes[passes <= until])
+    return offset(of, passes if until is None else passes[passes <= float(until)])
 
 
 def buffer(x: Any, distances: float | Sequence[float] | Floats, *, bulges: npt.ArrayLike | None = None,

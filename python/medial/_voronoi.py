@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._errors import need
+from ._errors import MedialError, need
 from ._options import computing, options
 from ._read import chains_of
 from ._records import NODE, SITE, Floats, Indices, Records, numbers_of, points_of, records
@@ -207,6 +207,8 @@ def voronoi(
     frame = enclosure if frame is None else frame
     coordinates, begin, closed = chains_of(x)
     own = None if bulges is None else np.ascontiguousarray(numbers_of(bulges, "bulges are numbers"))
-    box = None if frame is None else (float(frame[0]), float(frame[1]), float(frame[2]), float(frame[3]))
+    box = None if frame is None else numbers_of(frame, "an enclosure is four numbers").tolist()
+    if box is not None and np.shape(box) != (4,):
+        raise MedialError("an enclosure is four numbers: low x, low y, high x, high y")
     computed = computing("disks", threads=threads, margin=margin)
     return Voronoi(_core.voronoi_of(coordinates, begin, closed, own, node_crossings, box, computed))

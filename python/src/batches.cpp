@@ -78,12 +78,14 @@ Result<AxisPath> longest_path(const MedialAxis& axis, const MainPathOptions& opt
 }
 
 MainPathOptions main_path_options(const Given& given) {
-  return {given.get<double>("trim"), route_from(given.get<std::string>("route"))};
+  return {length_as(given.get<double>("trim"), "trim"),
+          route_from(given.get<std::string>("route"))};
 }
 
 /// A line each: rows of x, y, radius.
 Operation centerlines(const Given& given) {
-  const CentreLineOptions line_options{given.get<bool>("extend"), given.get<double>("smooth")};
+  const CentreLineOptions line_options{given.get<bool>("extend"),
+                                       length_as(given.get<double>("smooth"), "smooth")};
   const auto work = [=, chord = Chord(given), path_options = main_path_options(given)](
                         const Shape& shape, const Options& options, Table& table) -> Status {
     const auto axis = compute(shape, options);

@@ -106,6 +106,13 @@ inline double positive_chord(double chord) {
   return chord;
 }
 
+/// A length that may be 0. Errors: invalid_option.
+inline double length_as(double length, const char* name) {
+  if (!(length >= 0))
+    throw Failure({ErrorCode::invalid_option, std::string(name) + " is a length, or 0", {}});
+  return length;
+}
+
 /// Runs work() without the interpreter's lock.
 template <class Work>
 auto without_lock(const Work& work) {

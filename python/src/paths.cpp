@@ -42,7 +42,7 @@ Array<double> significance(const AxisOf& self, const std::string& measure) {
 }
 
 std::vector<PathOf> paths_of(const AxisOf& self, double trim, const std::string& route) {
-  const MainPathOptions options{trim, route_from(route)};
+  const MainPathOptions options{length_as(trim, "trim"), route_from(route)};
   std::vector<PathOf> paths;
   for (AxisPath& path : without_lock([&] { return main_paths(self.axis, options); }))
     paths.push_back({std::move(path)});

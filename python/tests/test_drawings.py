@@ -133,6 +133,8 @@ def test_a_drawing_without_a_version(tmp_path):
     (lambda text: text.replace("20 3", "20 three"), "malformed"),
     (lambda text: text.replace("20 3", "20 3x"), "malformed"),
     (lambda text: text.replace("20 3", "20 nan"), "not_finite"),
+    (lambda text: text.replace("20 3", "2 3"), "malformed"),
+    (lambda text: text.replace("20 3", "20.5 3"), "malformed"),
     (lambda text: text.replace("8 A", "eight A"), "malformed"),
     (lambda text: text.replace("0 LWPOLYLINE", "0 CIRCLE"), "malformed"),
     (lambda text: "", "malformed"),

@@ -208,6 +208,15 @@ def test_lengths(bad):
             medial.Shape(SQUARE, fit=bad)
 
 
+def test_places():
+    for call in (lambda: medial.widest_path(SQUARE, (math.nan, 1), (3, 1)), lambda: medial.centerline(SQUARE, trim=-1),
+                 lambda: medial.centerline(SQUARE, smooth=math.nan), lambda: medial.arrays.width([SQUARE], trim=math.nan),
+                 lambda: medial.width_profile(SQUARE, -1), lambda: medial.transects(SQUARE, 2**70),
+                 lambda: medial.voronoi(SQUARE, enclosure=[1, 2])):  # fmt: skip
+        with pytest.raises(medial.MedialError):
+            call()
+
+
 def test_options_of_other_types():
     for call in (lambda: medial.carve(SQUARE, angle="steep"), lambda: medial.axis(SQUARE, "potential", order="x")):
         with pytest.raises(TypeError, match="wrong type"):
