@@ -474,6 +474,9 @@ TEST(CurveAxis, FollowsPolygons) {
     SCOPED_TRACE(rings[0].points.size());
     expect_the_exact_axis(contours_of(rings), 1e-7);
   }
+  // A corner that turns by 5e-4, and one that turns back by as much, have branches as others do.
+  const std::vector<Vec2> blunt{{0, 0}, {10, -0.0025}, {20, 0}, {20, 8}, {10, 7.9975}, {0, 8}};
+  expect_the_exact_axis({contour_of(blunt, {}, true)}, 1e-7);
 }
 
 /// Arcs that are more curved than their neighbours are tips; a circle is all tip.

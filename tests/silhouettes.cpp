@@ -16,6 +16,7 @@
 #include <cstdlib>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "medial/io/read.h"
@@ -72,20 +73,23 @@ bool try_shape(const std::string& outline, std::uint64_t seed, const Shape& shap
   return good;
 }
 
-/// One outline without holes, as a spline within a share of its size.
+/// Outlines, with their holes, as splines within a share of their size.
 bool try_fit(std::uint64_t seed, const std::vector<Ring>& rings, double share) {
-  if (rings.size() != 1) return true;
   const Shape outline = *build_shape(rings);
   const Box box = bounding_box(outline);
-  const auto curve = fit_smooth_contour(rings[0].points, share * distance(box.low, box.high));
-  if (!curve) return false;
-  const auto arcs = approximate_by_arcs({&*curve, 1}, {.tolerance = 1e-6});
+  std::vector<Contour> curves;
+  for (const Ring& ring : rings) {
+    auto curve = fit_smooth_contour(ring.points, share * distance(box.low, box.high));
+    if (!curve) return true;  // a hole of a few pixels
+    curves.push_back(std::move(curve).value());
+  }
+  const auto arcs = approximate_by_arcs(curves, {.tolerance = 1e-6});
   const auto shape = arcs ? build_shape(*arcs) : Result<Shape>(arcs.error());
   if (!shape) return true;  // too coarse a fit may cross itself
   char name[40];
   std::snprintf(name, sizeof name, "curve-axis, fit %.3f", share);
   const auto began = std::chrono::steady_clock::now();
-  const auto found = compute_curve_axis({&*curve, 1});
+  const auto found = compute_curve_axis(curves);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
   Tally& tally = tallies[name];
   tally.slowest = std::max(tally.slowest, took.count());

@@ -43,7 +43,9 @@ End end_of(const Bezier& curve, bool last) {
 }
 
 /// Pieces that turn by less where they join, in radians, join smoothly.
-constexpr double smooth_turn = 1e-3;
+double smooth_turn(const Bezier& before, const Bezier& after) {
+  return before.degree == 1 && after.degree == 1 ? 1e-7 : 1e-3;
+}
 
 }  // namespace
 
@@ -149,9 +151,9 @@ std::vector<Piece> pieces_of(const Contour& contour) {
     piece.source = i;
     all.push_back(piece);
     const End end = end_of(piece.curve, true);
-    const Vec2 next = end_of(bezier_of(contour, contour.pieces[(i + 1) % count]), false).tangent;
-    const double turn = signed_angle(end.tangent, next);
-    if (turn >= -smooth_turn) continue;
+    const Bezier next = bezier_of(contour, contour.pieces[(i + 1) % count]);
+    const double turn = signed_angle(end.tangent, end_of(next, false).tangent);
+    if (turn >= -smooth_turn(piece.curve, next)) continue;
     Piece fan;
     fan.kind = Piece::Kind::fan;
     fan.point = end.point;
@@ -192,7 +194,8 @@ void Boundary::find_jumps() {
     const BoundaryPoint before = evaluate(last, 1), after = evaluate(i, 0);
     const bool curves =
         pieces_[i].kind == Piece::Kind::curve && pieces_[last].kind == Piece::Kind::curve;
-    corner_.push_back(curves && signed_angle(before.tangent, after.tangent) > smooth_turn);
+    corner_.push_back(curves && signed_angle(before.tangent, after.tangent) >
+                                    smooth_turn(pieces_[last].curve, pieces_[i].curve));
     const double most = std::max({std::abs(before.turn), std::abs(after.turn), 1 / size()});
     jump_.push_back(before.along != after.along ||
                     std::abs(before.turn - after.turn) > largest_jump * most);
