@@ -354,6 +354,7 @@ Result<int> print_summary(LoadedAxes& axes, const AxisSummary& summary,
 Result<std::optional<LoadedAxes>> stream(const FileArguments& arguments, const InputOptions& input,
                                          io::StreamOptions stream) {
   const CommonOptions& common = arguments.common;
+  LoadedAxes out;
   Progress progress("medial axis", error_is_terminal() && !common.quiet);
   stream.source = input.source;
   stream.write = write_options(arguments);
@@ -362,7 +363,6 @@ Result<std::optional<LoadedAxes>> stream(const FileArguments& arguments, const I
   auto report = in_file(io::stream(input.path, arguments.output, arguments.format, stream), input);
   if (!report) return with_cure(std::move(report).error(), input);
   if (!*report) return std::optional<LoadedAxes>();
-  LoadedAxes out;
   out.phases.end("stream");
   io::StreamReport& done = **report;
   out.report = done.load;

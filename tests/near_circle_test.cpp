@@ -147,5 +147,20 @@ TEST(CircleOfArcs, WithASliverIsACircle) {
 
 INSTANTIATE_TEST_SUITE_P(Arcs, NearCircle, testing::Values(3, 4, 5, 8, 12, 24, 64));
 
+#ifndef MEDIAL_SANITIZED
+/// Its sides turn by less than double tells of three neighbours' disks, and 256 bits for each of
+/// them would take minutes.
+TEST(NearCircles, OfVeryManySidesAreMeasuredInDouble) {
+  constexpr std::size_t n = 500'000;
+  const auto shape = build_shape(regular_polygon(n));
+  ASSERT_TRUE(shape.ok());
+  const auto axis = compute(*shape);
+  ASSERT_TRUE(axis.ok()) << to_string(axis.error());
+  EXPECT_EQ(axis->method, "disks");
+  EXPECT_EQ(axis->nodes.size(), n + 1);
+  EXPECT_LT(axis->statistics.exact_precise, 1000U);
+}
+#endif
+
 }  // namespace
 }  // namespace medial::test

@@ -103,6 +103,11 @@ class Stream(CommandLine):
         for command, what in (("axis", "9000 features"), ("prune", "branches"), ("centreline", "9000 lines")):
             self.assertIn(what, self.both_ways("f.wkt", text, "", command=command)[1])
 
+    def test_seconds_are_those_of_all_parts(self):
+        self.write("f.wkt", wkt(footprints(9000)))
+        done = json.loads(self.run_medial("axis", "f.wkt", "--json", "--stats").stdout)
+        self.assertGreater(done["seconds"]["stream"], done["phases"]["walk"] / (2 * done["threads"]))
+
     def test_attributes_and_reference_systems_are_those_of_the_whole(self):
         text = geojson(footprints(5000))
         self.both_ways("f.geojson", text, "geojson")

@@ -219,12 +219,12 @@ struct Attempts {
 
 /// What to try after an attempt that lost its way at these sites, or failed: joints of arcs as they
 /// stand around the sites, in ever more of them; 256 bits in their components; double only, which
-/// comes before where so many arcs would take long, and first in the centres of arcs. None where
-/// all has been tried.
+/// comes before where so many sites would take seconds, and first in the centres of arcs. None
+/// where all has been tried.
 std::optional<Way> next_way(const Problem& problem, const Way& last,
                             const std::vector<std::uint32_t>& lost, Attempts& attempts) {
   constexpr int most_parted = 3;
-  constexpr std::size_t around = 4, long_time = 1024;
+  constexpr std::size_t around = 4;
   Way way;
   way.in_centers = last.in_centers;
   const bool with_arcs = has_arcs(problem.shape);
@@ -238,8 +238,8 @@ std::optional<Way> next_way(const Problem& problem, const Way& last,
   }
   if (attempts.in_precise && attempts.in_double) return std::nullopt;
   mark_components(problem, lost, way);
-  const bool takes_long = with_arcs && std::count(way.parted.begin(), way.parted.end(), true) >
-                                           std::ptrdiff_t{long_time};
+  const std::ptrdiff_t long_time = with_arcs ? 1 << 10 : 1 << 14;
+  const bool takes_long = std::count(way.parted.begin(), way.parted.end(), true) > long_time;
   if (!attempts.in_precise && (attempts.in_double || !takes_long)) {
     attempts.in_precise = true;
     return way;
