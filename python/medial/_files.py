@@ -102,8 +102,8 @@ def columns(path: str | PathLike[str]) -> dict[str, npt.NDArray[Any]]:
     >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     a.save(pathlib.Path(folder, "a.safetensors"))
-    ...     float(medial.columns(pathlib.Path(folder, "a.safetensors"))["node_disk"][:, 2].max())
-    1.0
+    ...     medial.columns(pathlib.Path(folder, "a.safetensors"))["node_disk"].shape
+    (6, 3)
     """
     types = {"F64": "<f8", "U64": "<u8", "U32": "<u4", "U8": "u1"}
     name = os.fsdecode(path)
