@@ -148,7 +148,7 @@ TEST(CircleOfArcs, WithASliverIsACircle) {
 INSTANTIATE_TEST_SUITE_P(Arcs, NearCircle, testing::Values(3, 4, 5, 8, 12, 24, 64));
 
 #ifndef MEDIAL_SANITIZED
-/// Its sides turn by less than double tells of three neighbours' disks, and 256 bits for each of
+/// Its sides turn by less than double resolves in three neighbours' disks; 256 bits for each of
 /// them would take minutes.
 TEST(NearCircles, OfVeryManySidesAreMeasuredInDouble) {
   constexpr std::size_t n = 500'000;
