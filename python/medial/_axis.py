@@ -505,7 +505,7 @@ class MedialAxis:
         '# from_node to_node length'
         """
         if format == "safetensors":
-            raise MedialError("columns are no text: save() writes them", "unsupported")
+            raise MedialError("columns are not text: use save()", "unsupported")
         return _core.write_axis(self._core, None, format, chord, simplify) or ""
 
     def save(self, path: str | PathLike[str], *, chord: float = 1e-3, simplify: float = 0) -> None:
@@ -515,7 +515,8 @@ class MedialAxis:
         ----------
         path : path
             ``.json`` is the native format, with the shape and without loss, which `medial.load`
-            reads; ``.safetensors`` the same as columns, for `medial.columns` as well; ``.geojson``, ``.wkt`` and ``.csv`` hold lines; ``.graphml``, ``.nodelink`` and
+            reads; ``.safetensors`` holds the same as columns, for `medial.columns` as well;
+            ``.geojson``, ``.wkt`` and ``.csv`` hold lines; ``.graphml``, ``.nodelink`` and
             ``.edgelist`` the graph of branches, as networkx reads it. With ``.gz`` compressed.
         chord : float
             How far chords may be from curves, as a share of the diagonal.

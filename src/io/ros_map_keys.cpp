@@ -1,9 +1,9 @@
 #include "io/ros_map_keys.h"
 
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
+#include "io/text_source.h"
 #include "medial/io/read.h"
 
 namespace medial::io {
@@ -39,10 +39,10 @@ std::map<std::string, std::string> ros_map_keys(const std::string& text) {
 
 std::string image_of_map(const std::string& path) {
   if (!is_ros_map(path)) return {};
-  std::string text(longest_ros_map, ' ');
-  std::ifstream file(path, std::ios::binary);
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(file.gcount()));
+  const auto source = TextSource::open(path);
+  if (!source) return {};
+  std::string text;
+  (*source)->read_all(text, longest_ros_map);
   const std::string name = ros_map_keys(text)["image"];
   return name.empty() ? name : std::filesystem::path(path).replace_filename(name).string();
 }

@@ -1,6 +1,7 @@
 """What happens to files that are there already."""
 
 import contextlib
+import gzip
 import json
 import sqlite3
 
@@ -66,6 +67,9 @@ class Files(CommandLine):
             self.write("m.yaml", f"image: {image}\nresolution: 1\norigin: [0, 0, 0]\n")
             self.refuse("unwritable", "axis", "m.yaml", "-o", "m.png")
             self.assertEqual(self.read("m.png"), before)
+        self.write("m.yaml", gzip.compress(self.read("m.yaml")))
+        self.refuse("unwritable", "axis", "m.yaml", "-o", "m.png")
+        self.assertEqual(self.read("m.png"), before)
         self.refuse("invalid_option", "carve", "a.wkt", "--angle", "60", "-o", "p.png", "--preview", "p.png")
 
     def test_shapefiles_keep_letters(self):

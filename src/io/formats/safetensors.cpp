@@ -23,9 +23,7 @@ namespace {
 constexpr int newest_columns = 1;
 constexpr std::size_t longest_header = 100'000'000;  // of the format
 
-/// The type of a column of these numbers, and what stands in the file for one.
-template <class T>
-using Stored = std::conditional_t<sizeof(T) == 1, std::uint8_t, T>;
+/// The type of a column of these numbers.
 template <class T>
 constexpr std::string_view type_of = std::is_same_v<T, double> ? "F64"
                                      : sizeof(T) == 8          ? "U64"
@@ -347,13 +345,12 @@ void read_column(const ColumnFile& reader, const Tables& tables, const C& column
     auto& rows = column.rows(items[i]);
     rows.resize(begins[i + 1] - begins[i]);
     for (auto& row : rows) {
-      std::array<Stored<T>, width> numbers;
+      std::array<T, width> numbers;
       std::memcpy(numbers.data(), next, sizeof numbers);
       next += sizeof numbers;
       ColumnFile::check(numbers);
-      const Stored<T>* number = numbers.data();
-      std::apply([&](auto&... into) { ((into = static_cast<T>(*number++)), ...); },
-                 column.numbers(row));
+      const T* number = numbers.data();
+      std::apply([&](auto&... into) { ((into = *number++), ...); }, column.numbers(row));
     }
   }
 }
