@@ -138,9 +138,9 @@ class ExactEvents::Search {
   bool is_behind(const PreciseDisk& disk) const {
     if (node_) return comes_before(disk, *node_);
     constexpr double clear = 0x1p-8;  // of the radius: more than any node is off
-    const double slack =
-        std::min(span_.error, clear * from_.radius) +
-        std::min(8 * events_.sites_.fine_tolerance_, clear * from_.radius) + 0x1p-50;
+    const double slack = std::min(span_.error, clear * from_.radius) +
+                         std::min(8 * events_.sites_.fine_tolerance_, clear * from_.radius) +
+                         0x1p-50;
     const PreciseDisk from{exact::exact_vector<Number>(from_.center), Number(from_.radius)};
     const auto away = disk.center - from.center;
     return (dot(away, away) - Number(slack) * Number(slack)).positive() && comes_before(disk, from);

@@ -37,8 +37,11 @@ void NumberLists::remove(std::uint32_t list, std::uint32_t number) {
 }
 
 AxisGraph::AxisGraph(const MedialAxis& axis, const std::vector<std::uint32_t>& sites) {
-  nodes_.reserve(axis.nodes.size());
-  edges_.reserve(axis.edges.size());
+  const std::size_t node_count = axis.nodes.size(), edge_count = axis.edges.size();
+  nodes_.reserve(node_count + node_count / spare_share);
+  edges_.reserve(edge_count + edge_count / spare_share);
+  at_node_.reserve(node_count, 2 * edge_count);
+  at_site_.reserve(2 * sites.size(), 2 * edge_count);
   for (const Node& node : axis.nodes) add_node(node.disk);
   for (const medial::Edge& edge : axis.edges)
     add_edge({edge.node, {sites[edge.site[0]], sites[edge.site[1]]}, edge.control, edge.weight});

@@ -10,11 +10,20 @@
 
 namespace medial::edit {
 
+/// Lists have room for so much more, that seldom an edit has to move them: one in so many.
+constexpr std::size_t spare_share = 8;
+
 /// Lists of numbers, each number in one list, in which they can be added and removed in O(1).
 class NumberLists {
  public:
-  std::uint32_t first(std::uint32_t list) const { return list < first_.size() ? first_[list] : none; }
+  std::uint32_t first(std::uint32_t list) const {
+    return list < first_.size() ? first_[list] : none;
+  }
   std::uint32_t next(std::uint32_t number) const { return links_[number][0]; }
+  void reserve(std::size_t lists, std::size_t numbers) {
+    first_.reserve(lists + lists / spare_share);
+    links_.reserve(numbers + numbers / spare_share);
+  }
   void add(std::uint32_t list, std::uint32_t number);
   void remove(std::uint32_t list, std::uint32_t number);
 
@@ -29,7 +38,8 @@ class AxisGraph {
  public:
   struct Edge {
     std::array<std::uint32_t, 2> node{none, none};  ///< from, to; none: there is no such edge
-    std::array<std::uint32_t, 2> site{none, none};  ///< on the left and on the right, as Rings has them
+    std::array<std::uint32_t, 2> site{none,
+                                      none};  ///< on the left and on the right, as Rings has them
     Disk control;
     double weight = 1;
   };

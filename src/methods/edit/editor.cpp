@@ -19,6 +19,7 @@ namespace medial {
 using edit::AxisGraph;
 using edit::none;
 using edit::Rings;
+using edit::spare_share;
 
 struct Editor::Parts {
   Options options;
@@ -103,8 +104,12 @@ Status Editor::Parts::start(const Shape& shape, const std::vector<std::uint32_t>
     apart = axis->sites;
     for (Site& site : apart) {
       const VertexSource source = shape.sources[site.vertex];
-      site = {frame.to_input(site.start), frame.to_input(site.end), source.ring, source.vertex,
-              site.kind, site.bulge};
+      site = {frame.to_input(site.start),
+              frame.to_input(site.end),
+              source.ring,
+              source.vertex,
+              site.kind,
+              site.bulge};
     }
     apart_shape = shape;
     for (const Node& node : axis->nodes) apart_components.push_back(node.component);
@@ -116,7 +121,7 @@ Status Editor::Parts::start(const Shape& shape, const std::vector<std::uint32_t>
     rings = Rings(shape, frame, numbers, std::max(rings.size(), numbers.size()));
     graph = AxisGraph(*axis, site_numbers(*axis, numbers));
   }
-  marks.assign(graph.node_slots(), 0);
+  marks.assign(graph.node_slots() + graph.node_slots() / spare_share, 0);
   mark = 0;
   return success();
 }
@@ -184,14 +189,14 @@ bool Editor::Parts::repair(const edit::Edit& edit, const std::vector<std::uint32
   for (int round = 0; round < most_rounds; ++round) {
     spread.spread(fresh, margin * measures.tolerance);
     const edit::Affected affected = spread.result();
-    const auto window = edit::window_of(rings, graph, affected, rings[edit.before].loop,
-                                        measures.radius_limit);
+    const auto window =
+        edit::window_of(rings, graph, affected, rings[edit.before].loop, measures.radius_limit);
     if (!window) return false;
     std::vector<std::uint32_t> doubtful;
     const auto found = edit::repair(rings, graph, affected, *window, measures, doubtful);
     if (found) return replace(affected, *found, change);
     if (doubtful.empty()) return false;
-    for (const std::uint32_t node : doubtful) spread.add_node(node);
+    for (const std::uint32_t node : doubtful) spread.add_around(node, std::size_t{1} << round);
   }
   return false;
 }
@@ -200,14 +205,15 @@ bool Editor::Parts::repair(const edit::Edit& edit, const std::vector<std::uint32
 /// change how many cycles there are.
 bool Editor::Parts::replace(const edit::Affected& affected, const edit::Repair& repair,
                             AxisChange& change) {
-  const auto fresh = static_cast<std::size_t>(
-      std::count(repair.old_nodes.begin(), repair.old_nodes.end(), none));
+  const auto fresh =
+      static_cast<std::size_t>(std::count(repair.old_nodes.begin(), repair.old_nodes.end(), none));
   if (fresh + affected.edges.size() != affected.nodes.size() + repair.links.size()) return false;
   for (const std::uint32_t edge : affected.edges) graph.remove_edge(edge);
   for (const std::uint32_t node : affected.nodes) graph.remove_node(node);
   std::vector<std::uint32_t> number = repair.old_nodes;
   for (std::size_t i = 0; i < number.size(); ++i)
-    if (number[i] == none) change.added_nodes.push_back(number[i] = graph.add_node(repair.disks[i]));
+    if (number[i] == none)
+      change.added_nodes.push_back(number[i] = graph.add_node(repair.disks[i]));
   for (const disks::Link& link : repair.links) {
     AxisGraph::Edge edge{{number[link.node[0]], number[link.node[1]]}, link.site, {}, 1};
     const site::Control control =
@@ -236,8 +242,7 @@ Result<AxisChange> Editor::Parts::rebuild(const edit::Edit& edit) {
   auto shape = build_shape(all);
   Status started = success();
   if (shape) {
-    for (VertexSource& source : shape->sources)
-      source.vertex = numbers[source.ring][source.vertex];
+    for (VertexSource& source : shape->sources) source.vertex = numbers[source.ring][source.vertex];
     started = start(*shape, rings.numbers_in(*shape));
   }
   if (!shape || !started) {
@@ -338,7 +343,8 @@ Result<Editor> Editor::make(const Shape& shape, const Options& options) {
 
 Result<AxisChange> Editor::move(std::uint32_t vertex, Vec2 to) {
   const Rings& rings = parts_->rings;
-  if (!rings.has(vertex)) return error_of(ErrorCode::invalid_option, "there is no such vertex", vertex);
+  if (!rings.has(vertex))
+    return error_of(ErrorCode::invalid_option, "there is no such vertex", vertex);
   if (rings[vertex].point == to) {
     AxisChange nothing;
     nothing.vertex = vertex;
@@ -351,14 +357,17 @@ Result<AxisChange> Editor::move(std::uint32_t vertex, Vec2 to) {
 
 Result<AxisChange> Editor::insert(std::uint32_t before, Vec2 point) {
   const Rings& rings = parts_->rings;
-  if (!rings.has(before)) return error_of(ErrorCode::invalid_option, "there is no such vertex", before);
-  return guarded<AxisChange>(
-      1, [&] { return parts_->change({before, rings[before].next, none, rings.unused(), point}); });
+  if (!rings.has(before))
+    return error_of(ErrorCode::invalid_option, "there is no such vertex", before);
+  return guarded<AxisChange>(1, [&] {
+    return parts_->change({before, rings[before].next, none, rings.unused(), point});
+  });
 }
 
 Result<AxisChange> Editor::remove(std::uint32_t vertex) {
   const Rings& rings = parts_->rings;
-  if (!rings.has(vertex)) return error_of(ErrorCode::invalid_option, "there is no such vertex", vertex);
+  if (!rings.has(vertex))
+    return error_of(ErrorCode::invalid_option, "there is no such vertex", vertex);
   return guarded<AxisChange>(1, [&] {
     return parts_->change({rings[vertex].before, rings[vertex].next, vertex, none, {}});
   });

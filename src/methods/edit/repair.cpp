@@ -6,6 +6,7 @@
 #include "methods/disks/disks.h"
 #include "methods/disks/exact_event.h"
 #include "methods/disks/merge_ties.h"
+#include "methods/disks/tie_fit.h"
 #include "site/boundary_tree.h"
 
 namespace medial::edit {
@@ -16,9 +17,6 @@ using disks::Element;
 
 /// How far a border's disk may be off, in tolerances: as the node of a tie.
 constexpr double border_error = 16;
-/// A border's node is doubtful where what its new neighbour touches is so many tolerances off, at
-/// most: the two may be one.
-constexpr double doubtful_distance = 1 << 10;
 /// What no disk is off by, in the local frame.
 constexpr double loose = 0x1p-20;
 
@@ -152,7 +150,9 @@ class Repairer {
     return repair;
   }
 
-  std::uint32_t name_of(std::uint32_t site) const { return window_.names[boundary_.originals[site]]; }
+  std::uint32_t name_of(std::uint32_t site) const {
+    return window_.names[boundary_.originals[site]];
+  }
 
   bool touches(const disks::Graph& part, const disks::Link& link) const {
     for (const std::uint32_t node : link.node)
@@ -164,31 +164,45 @@ class Repairer {
     return true;
   }
 
-  /// Borders whose node may be one with its new neighbour.
+  /// Adds the nodes of borders that merge_ties() might make one with their new neighbours, were the
+  /// edges between them in the window's inside.
   void find_doubtful(const Repair& repair, std::vector<std::uint32_t>& doubtful) const {
-    const double slack = doubtful_distance * measures_.tolerance;
-    std::vector<std::array<std::uint32_t, 2>> ends;  // inner node, node of the axis
+    constexpr std::size_t enough = 3;  // links: one of them has a third site
+    std::vector<std::vector<std::uint32_t>> links(repair.disks.size());
+    for (std::uint32_t i = 0; i < repair.links.size(); ++i)
+      for (const std::uint32_t node : repair.links[i].node)
+        if (links[node].size() < enough) links[node].push_back(i);
     for (const disks::Link& link : repair.links)
-      for (std::size_t k = 0; k < 2; ++k)
-        if (repair.old_nodes[link.node[k]] != none && repair.old_nodes[link.node[1 - k]] == none)
-          ends.push_back({link.node[1 - k], repair.old_nodes[link.node[k]]});
-    std::sort(ends.begin(), ends.end());
-    const auto is_off = [&](std::uint32_t site, const Disk& disk) {
-      const double away = std::sqrt(site::squared_distance(rings_.site(site), disk.center));
-      return std::abs(away - disk.radius) > slack;
-    };
-    // Of each inner node, the largest distance from the border's disk of what it touches.
-    std::vector<bool> is_clear(ends.size(), false);
-    for (const disks::Link& link : repair.links)
-      for (const std::uint32_t node : link.node)
-        for (auto i = std::lower_bound(ends.begin(), ends.end(), std::array{node, 0u});
-             i != ends.end() && (*i)[0] == node; ++i) {
-          const Disk& disk = graph_.disk((*i)[1]);
-          if (is_off(link.site[0], disk) || is_off(link.site[1], disk))
-            is_clear[static_cast<std::size_t>(i - ends.begin())] = true;
-        }
-    for (std::size_t i = 0; i < ends.size(); ++i)
-      if (!is_clear[i] && graph_.degree(ends[i][1]) > 2) doubtful.push_back(ends[i][1]);
+      for (std::size_t k = 0; k < 2; ++k) {
+        const std::uint32_t border = repair.old_nodes[link.node[k]], inner = link.node[1 - k];
+        if (border == none || graph_.degree(border) < enough || links[inner].size() < enough)
+          continue;
+        std::uint32_t before = none, after = none;
+        const auto take = [&](const std::array<std::uint32_t, 2>& sites, std::uint32_t& third) {
+          for (const std::uint32_t site : sites)
+            if (site != link.site[0] && site != link.site[1]) third = site;
+        };
+        for (const std::uint32_t i : links[inner]) take(repair.links[i].site, before);
+        graph_.for_edges_at(
+            border, [&](std::uint32_t edge, std::size_t) { take(graph_.edge(edge).site, after); });
+        if (may_be_one(repair.disks[inner], graph_.disk(border),
+                       {link.site[0], link.site[1], before, after}))
+          doubtful.push_back(border);
+      }
+  }
+
+  /// Whether one disk may touch four sites within the tolerance, of which each of two touches
+  /// three, as merge_ties() has it.
+  bool may_be_one(const Disk& from, const Disk& to,
+                  const std::array<std::uint32_t, 4>& sites) const {
+    if (std::count(sites.begin(), sites.end(), none) > 0) return true;
+    for (const Disk& disk : {from, to}) {
+      std::array<disks::ContactEquation, 4> contacts;
+      for (std::size_t i = 0; i < sites.size(); ++i)
+        contacts[i] = disks::contact_of(rings_.site(sites[i]), disk);
+      if (!(std::abs(disks::Dependency(contacts).level) > 2 * measures_.tolerance)) return true;
+    }
+    return false;
   }
 
   const Rings& rings_;

@@ -132,7 +132,7 @@ Rings::Judgement Rings::judge(const Edit& edit) const {
     for (const NewEdge& edge : edges) {
       if (s == edge.end || t == edge.start) continue;  // they meet there, and not in one line
       const Meeting how = meeting(edge.from, edge.to, a, b);
-      if (how == Meeting::cross) 
+      if (how == Meeting::cross)
         result = {Verdict::crosses, s, crossing_of(edge.from, edge.to, a, b)};
       if (how == Meeting::touch) result.verdict = Verdict::unclear;
     }
@@ -217,7 +217,8 @@ std::vector<std::uint32_t> Rings::numbers_in(const Shape& shape) const {
     if (loops_[vertices_[numbers[begin]].loop].size != end - begin) return {};
     for (std::uint32_t i = begin; i < end; ++i) {
       const Vertex& vertex = vertices_[numbers[i]];
-      if ((forward ? vertex.next : vertex.before) != numbers[i + 1 < end ? i + 1 : begin]) return {};
+      if ((forward ? vertex.next : vertex.before) != numbers[i + 1 < end ? i + 1 : begin])
+        return {};
     }
   }
   return numbers;

@@ -81,7 +81,8 @@ class Rings {
   };
   Judgement judge(const Edit& edit) const;
 
-  /// Sites that an edit takes away, or gives other neighbours to so that they change. Before apply().
+  /// Sites that an edit takes away, or gives other neighbours to so that they change. Before
+  /// apply().
   std::vector<std::uint32_t> changed_sites(const Edit& edit) const;
   void apply(const Edit& edit);
   /// The edit that takes this one back. Before apply().

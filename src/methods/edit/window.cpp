@@ -23,7 +23,8 @@ using Cycle = std::vector<Piece>;
 /// Puts the pieces of the boundary between the borders together, and connects what is apart.
 class Assembly {
  public:
-  Assembly(const Rings& rings, const AxisGraph& graph, const Affected& affected, double radius_limit)
+  Assembly(const Rings& rings, const AxisGraph& graph, const Affected& affected,
+           double radius_limit)
       : rings_(rings), graph_(graph), affected_(affected), radius_limit_(radius_limit) {}
 
   std::optional<Window> window(std::uint32_t loop) {
@@ -280,6 +281,14 @@ void Spread::add_node(std::uint32_t node) {
   nodes_.push_back(node);
 }
 
+void Spread::add_around(std::uint32_t node, std::size_t count) {
+  std::size_t next = nodes_.size();
+  for (add_node(node); next < nodes_.size() && count > 0; ++next, --count)
+    graph_.for_edges_at(nodes_[next], [&](std::uint32_t edge, std::size_t k) {
+      add_node(graph_.edge(edge).node[1 - k]);
+    });
+}
+
 void Spread::add_site(std::uint32_t site) {
   graph_.for_edges_of_site(site, [&](std::uint32_t edge, std::size_t) {
     for (const std::uint32_t node : graph_.edge(edge).node) add_node(node);
@@ -315,13 +324,14 @@ Affected Spread::result() const {
       affected.edges.push_back(number);
       if (!is_border) return;
       const bool goes_there = k == 0;
-      affected.borders.push_back({other, edge.site[goes_there ? 1 : 0], edge.site[goes_there ? 0 : 1]});
+      affected.borders.push_back(
+          {other, edge.site[goes_there ? 1 : 0], edge.site[goes_there ? 0 : 1]});
     });
   return affected;
 }
 
-std::optional<Window> window_of(const Rings& rings, const AxisGraph& graph, const Affected& affected,
-                                std::uint32_t loop, double radius_limit) {
+std::optional<Window> window_of(const Rings& rings, const AxisGraph& graph,
+                                const Affected& affected, std::uint32_t loop, double radius_limit) {
   return Assembly(rings, graph, affected, radius_limit).window(loop);
 }
 

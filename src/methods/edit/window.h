@@ -32,6 +32,8 @@ class Spread {
 
   void add_site(std::uint32_t site);
   void add_node(std::uint32_t node);
+  /// Adds a node and others behind it, about so many.
+  void add_around(std::uint32_t node, std::size_t count);
   /// Goes on to all disks that come as near as `margin` to one of these sites.
   void spread(const std::vector<site::Site>& fresh, double margin);
   Affected result() const;
@@ -45,8 +47,8 @@ class Spread {
   std::size_t spread_ = 0;  ///< so many of them have been looked at
 };
 
-/// The part of the boundary whose sites the disks of the new part of the axis can touch, as one run:
-/// between the borders' disks, which are its first bridges, and around loops that no border
+/// The part of the boundary whose sites the disks of the new part of the axis can touch, as one
+/// run: between the borders' disks, which are its first bridges, and around loops that no border
 /// touches, which further bridges connect. It begins behind border 0 and ends before it.
 struct Window {
   disks::Boundary boundary;
@@ -54,7 +56,7 @@ struct Window {
   std::vector<std::uint32_t> names;  ///< of the boundary's `originals`: the sites in Rings
 };
 /// None where all of the axis is affected, and where rounding leaves the borders' order open.
-std::optional<Window> window_of(const Rings& rings, const AxisGraph& graph, const Affected& affected,
-                                std::uint32_t loop, double radius_limit);
+std::optional<Window> window_of(const Rings& rings, const AxisGraph& graph,
+                                const Affected& affected, std::uint32_t loop, double radius_limit);
 
 }  // namespace medial::edit
