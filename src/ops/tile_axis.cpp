@@ -8,7 +8,7 @@
 #include "base/in_flight.h"
 #include "base/random.h"
 #include "medial/planar_graph.h"
-#include "medial/tiles.h"
+#include "ops/tiles.h"
 #include "shape/around.h"
 #include "shape/clean.h"
 #include "voronoi/axis_around.h"
@@ -82,8 +82,8 @@ class TileAxis {
       : edges_(edges), tile_(tile), axis_(axis) {
     boxes_.reserve(axis.edges.size());
     for (const Edge& edge : axis.edges)
-      boxes_.push_back(box_of_disks(disk(edge.node[0]), edge.control, disk(edge.node[1]),
-                                    edge.weight));
+      boxes_.push_back(
+          box_of_disks(disk(edge.node[0]), edge.control, disk(edge.node[1]), edge.weight));
     for (const Site& site : axis.sites) numbers_.push_back(number_of(site));
   }
 
@@ -143,9 +143,8 @@ class TileAxis {
   const Disk& disk(std::uint32_t node) const { return axis_.nodes[node].disk; }
   bool is_interior(std::uint32_t site) const { return numbers_[site] != outside; }
   bool at_enclosure(std::size_t edge) const {
-    return ranges::any_of(axis_.edges[edge].site, [&](std::uint32_t site) {
-      return axis_.sites[site].ring == no_index;
-    });
+    return ranges::any_of(axis_.edges[edge].site,
+                          [&](std::uint32_t site) { return axis_.sites[site].ring == no_index; });
   }
   /// The number that all tiles have for a site of the interior, else `outside`. A vertex has the
   /// interior around it if the edge that begins there has it on its left.

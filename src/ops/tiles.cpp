@@ -1,4 +1,4 @@
-#include "medial/tiles.h"
+#include "ops/tiles.h"
 
 #include <algorithm>
 #include <atomic>
@@ -22,17 +22,17 @@ namespace medial {
 namespace {
 
 /// One of the lines that divide a side of the grid into 2^level parts; open at the rim.
-double line_of(double low, double high, int level, std::uint32_t i) {
+double line_of(double low, double side, int level, std::uint32_t i) {
   constexpr double endless = std::numeric_limits<double>::infinity();
   const double share = std::ldexp(i, -level);
-  return share <= 0 ? -endless : share >= 1 ? endless : low + share * (high - low);
+  return share <= 0 ? -endless : share >= 1 ? endless : low + share * side;
 }
 
 /// The leaf along one side in which a coordinate lies.
-std::uint32_t leaf_of(double low, double high, int levels, double x) {
-  const double share = high > low ? (x - low) / (high - low) : 0;
+std::uint32_t leaf_of(double low, double side, int levels, double x) {
   const double count = std::ldexp(1, levels);
-  return static_cast<std::uint32_t>(std::clamp(std::floor(share * count), 0.0, count - 1));
+  return static_cast<std::uint32_t>(
+      std::clamp(std::floor((x - low) / side * count), 0.0, count - 1));
 }
 
 /// The tiles of one level by column and row, each with its edges.
@@ -47,38 +47,14 @@ struct Tiles {
   }
 };
 
-/// Calls visit(column, row) for the leaves that an edge meets or comes near to.
-template <class Visit>
-void for_each_leaf(const TileGrid& grid, Vec2 a, Vec2 b, Visit&& visit) {
-  const auto& [low, high] = grid.box;
-  const double slack = grid.slack();
-  if (a.y > b.y) std::swap(a, b);
-  const std::uint32_t first = leaf_of(low.y, high.y, grid.levels, a.y - slack),
-                      last = leaf_of(low.y, high.y, grid.levels, b.y + slack);
-  const auto x_at = [&](double y) {
-    return y <= a.y ? a.x : y >= b.y ? b.x : a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
-  };
-  for (std::uint32_t row = first; row <= last; ++row) {
-    const double bottom = line_of(low.y, high.y, grid.levels, row) - slack,
-                 top = line_of(low.y, high.y, grid.levels, row + 1) + slack;
-    const double x = x_at(bottom), other = x_at(top);
-    const std::uint32_t end =
-        leaf_of(low.x, high.x, grid.levels, std::max(x, other) + slack);
-    for (std::uint32_t column = leaf_of(low.x, high.x, grid.levels, std::min(x, other) - slack);
-         column <= end; ++column)
-      visit(column, row);
-  }
-}
-
-Tiles leaves_of(const Shape& shape, const TileGrid& grid) {
+Tiles leaves_with_edges(const Shape& shape, const TileGrid& grid) {
   Tiles leaves(grid.levels);
   for (std::size_t loop = 0; loop < shape.loop_count(); ++loop) {
     const std::uint32_t begin = shape.loop_begin[loop], end = shape.loop_begin[loop + 1];
     for (std::uint32_t k = begin; k < end; ++k) {
       const TileEdge edge{shape.points[k], shape.points[k + 1 == end ? begin : k + 1], k};
-      for_each_leaf(grid, edge.from, edge.to, [&](std::uint32_t column, std::uint32_t row) {
+      for (const auto& [column, row] : leaves_of(grid, edge))
         leaves.at(column, row).push_back(edge);
-      });
     }
   }
   return leaves;
@@ -95,9 +71,10 @@ std::vector<TileEdge> joined(const std::vector<TilePart>& parts, int level, std:
   }
   const auto number = [](const TileEdge& edge) { return edge.number; };
   ranges::sort(edges, {}, number);
-  edges.erase(std::unique(edges.begin(), edges.end(),
-                          [](const TileEdge& a, const TileEdge& b) { return a.number == b.number; }),
-              edges.end());
+  edges.erase(
+      std::unique(edges.begin(), edges.end(),
+                  [](const TileEdge& a, const TileEdge& b) { return a.number == b.number; }),
+      edges.end());
   return edges;
 }
 
@@ -105,7 +82,8 @@ std::vector<TileEdge> joined(const std::vector<TilePart>& parts, int level, std:
 std::vector<TilePart> parts_of(const Tiles& tiles, const TileGrid& grid, const Options& options,
                                const std::function<void()>& done, std::optional<Error>& error) {
   Options own = options;
-  if (static_cast<int>(tiles.edges.size()) >= 4 * effective_threads(options.threads)) own.threads = 1;
+  if (static_cast<int>(tiles.edges.size()) >= 4 * effective_threads(options.threads))
+    own.threads = 1;
   std::vector<TilePart> parts(tiles.edges.size());
   std::vector<std::optional<Error>> errors(tiles.edges.size());
   const auto work = [&](std::size_t i) {
@@ -150,80 +128,113 @@ std::optional<Error> refuse_tiles(const Shape& shape, const TileGrid& grid,
                    "tiles take the method disks, of the interior, without --exact");
   if (grid.levels < 0 || grid.levels > TileGrid::most_levels)
     return refused(ErrorCode::invalid_option, "the number of levels must be in [0, 10]");
-  constexpr double tolerances = 0x1p10;
-  if (!(grid.slack() > tolerances * tolerance_for(grid.box, options.tolerance)))
+  constexpr double far_above = 16;  // a disk may be off by some tolerances
+  if (!(grid.slack() > far_above * tolerance_for(grid.box, options.tolerance)))
     return refused(ErrorCode::invalid_option,
                    "the tiles are too small for the tolerance: take fewer levels");
   return std::nullopt;
 }
 
+/// Sorts edges by their sites and nodes, each from its lower site to its higher one, and drops
+/// those that are there twice: what follows does not depend on how the shape was divided.
+void put_in_order(std::vector<TileAxisEdge>& edges) {
+  for (TileAxisEdge& edge : edges) {
+    if (edge.site[0] <= edge.site[1]) continue;
+    std::swap(edge.site[0], edge.site[1]);
+    std::swap(edge.node[0], edge.node[1]);
+    std::swap(edge.disk[0], edge.disk[1]);
+  }
+  const auto key = [](const TileAxisEdge& edge) { return std::tie(edge.site, edge.node); };
+  std::stable_sort(edges.begin(), edges.end(),
+                   [&](const TileAxisEdge& a, const TileAxisEdge& b) { return key(a) < key(b); });
+  const auto same = [&](const TileAxisEdge& a, const TileAxisEdge& b) { return key(a) == key(b); };
+  edges.erase(std::unique(edges.begin(), edges.end(), same), edges.end());
+}
+
+/// The names of all nodes, each once, in order.
+std::vector<std::uint64_t> names_of(const std::vector<TileAxisEdge>& edges) {
+  std::vector<std::uint64_t> names;
+  names.reserve(2 * edges.size());
+  for (const TileAxisEdge& edge : edges)
+    names.insert(names.end(), edge.node.begin(), edge.node.end());
+  ranges::sort(names);
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+/// Adds edges in order, and their nodes as they come.
+void add_edges(const Shape& shape, const site::SiteNumbers& numbers,
+               const std::vector<TileAxisEdge>& edges, MedialAxis& axis) {
+  std::vector<std::uint32_t> component;  // of each edge of the boundary
+  for (std::size_t loop = 0; loop < shape.loop_count(); ++loop)
+    component.resize(shape.loop_begin[loop + 1], shape.component[loop]);
+  const std::vector<std::uint64_t> names = names_of(edges);
+  std::vector<std::uint32_t> number(names.size(), no_index);
+  axis.nodes.reserve(names.size());
+  axis.edges.reserve(edges.size());
+  for (const TileAxisEdge& edge : edges) {
+    Edge own{{}, {}, edge.control, edge.weight};
+    for (std::size_t i = 0; i < 2; ++i) {
+      own.site[i] = numbers.edge[edge.site[i] / 2] - static_cast<std::uint32_t>(edge.site[i] % 2);
+      const auto name = ranges::lower_bound(names, edge.node[i]) - names.begin();
+      std::uint32_t& node = number[static_cast<std::size_t>(name)];
+      if (node == no_index) {
+        node = static_cast<std::uint32_t>(axis.nodes.size());
+        axis.nodes.push_back({edge.disk[i], component[edge.site[0] / 2], NodeKind::leaf});
+      }
+      own.node[i] = node;
+    }
+    axis.edges.push_back(own);
+  }
+}
+
 }  // namespace
 
 Box TileGrid::window(int level, std::uint32_t column, std::uint32_t row) const {
-  return {{line_of(box.low.x, box.high.x, level, column), line_of(box.low.y, box.high.y, level, row)},
-          {line_of(box.low.x, box.high.x, level, column + 1),
-           line_of(box.low.y, box.high.y, level, row + 1)}};
+  const double x = box.low.x, y = box.low.y;
+  return {{line_of(x, side(), level, column), line_of(y, side(), level, row)},
+          {line_of(x, side(), level, column + 1), line_of(y, side(), level, row + 1)}};
 }
 
-double TileGrid::slack() const {
-  constexpr double of_leaf = 0x1p-20;
-  return std::ldexp(of_leaf * std::min(box.high.x - box.low.x, box.high.y - box.low.y), -levels);
+std::vector<std::array<std::uint32_t, 2>> leaves_of(const TileGrid& grid, const TileEdge& edge) {
+  const Vec2 low = grid.box.low;
+  const double side = grid.side(), slack = grid.slack();
+  const bool upward = edge.from.y <= edge.to.y;
+  const Vec2 a = upward ? edge.from : edge.to, b = upward ? edge.to : edge.from;
+  const auto leaf_at = [&](double from, double at) { return leaf_of(from, side, grid.levels, at); };
+  const auto x_at = [&](double y) {
+    return y <= a.y ? a.x : y >= b.y ? b.x : a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
+  };
+  std::vector<std::array<std::uint32_t, 2>> leaves;
+  const std::uint32_t last_row = leaf_at(low.y, b.y + slack);
+  for (std::uint32_t row = leaf_at(low.y, a.y - slack); row <= last_row; ++row) {
+    const double bottom = x_at(line_of(low.y, side, grid.levels, row) - slack),
+                 top = x_at(line_of(low.y, side, grid.levels, row + 1) + slack);
+    const std::uint32_t last = leaf_at(low.x, std::max(bottom, top) + slack);
+    for (std::uint32_t column = leaf_at(low.x, std::min(bottom, top) - slack); column <= last;
+         ++column)
+      leaves.push_back({column, row});
+  }
+  return leaves;
 }
 
 Result<MedialAxis> join_tiles(const Shape& shape, std::vector<TileAxisEdge> edges,
                               const Options& options) {
   try {
     const Problem problem(shape, options);
-    const std::vector<std::uint32_t>& site_of_edge = problem.numbers().edge;
-    for (TileAxisEdge& edge : edges) {
-      if (edge.site[0] / 2 >= site_of_edge.size() || edge.site[1] / 2 >= site_of_edge.size())
-        return Error{ErrorCode::malformed, "the tiles are of another shape", {}};
-      if (edge.site[0] <= edge.site[1]) continue;
-      std::swap(edge.site[0], edge.site[1]);
-      std::swap(edge.node[0], edge.node[1]);
-      std::swap(edge.disk[0], edge.disk[1]);
-    }
-    const auto key = [](const TileAxisEdge& edge) { return std::tie(edge.site, edge.node); };
-    std::stable_sort(edges.begin(), edges.end(), [&](const TileAxisEdge& a, const TileAxisEdge& b) {
-      return key(a) < key(b);
-    });
-    edges.erase(std::unique(edges.begin(), edges.end(),
-                            [&](const TileAxisEdge& a, const TileAxisEdge& b) {
-                              return key(a) == key(b);
-                            }),
-                edges.end());
-
-    std::vector<std::uint64_t> names;
-    names.reserve(2 * edges.size());
-    for (const TileAxisEdge& edge : edges) names.insert(names.end(), edge.node.begin(), edge.node.end());
-    ranges::sort(names);
-    names.erase(std::unique(names.begin(), names.end()), names.end());
-    std::vector<std::uint32_t> loop_of;
-    for (std::size_t loop = 0; loop < shape.loop_count(); ++loop)
-      loop_of.resize(shape.loop_begin[loop + 1], static_cast<std::uint32_t>(loop));
-
+    if (ranges::any_of(edges, [&](const TileAxisEdge& edge) {
+          return std::max(edge.site[0], edge.site[1]) / 2 >= shape.points.size();
+        }))
+      return Error{ErrorCode::malformed, "the tiles are of another shape", {}};
+    put_in_order(edges);
     MedialAxis axis;
     axis.method = "disks";
     axis.tolerance = problem.tolerance;
     axis.sites = problem.result_sites();
-    std::vector<std::uint32_t> number(names.size(), no_index);  // in the order of the edges
-    axis.edges.reserve(edges.size());
-    for (const TileAxisEdge& edge : edges) {
-      Edge own{{}, {}, edge.control, edge.weight};
-      for (std::size_t i = 0; i < 2; ++i) {
-        own.site[i] = site_of_edge[edge.site[i] / 2] - static_cast<std::uint32_t>(edge.site[i] % 2);
-        auto& node = number[static_cast<std::size_t>(ranges::lower_bound(names, edge.node[i]) -
-                                                     names.begin())];
-        if (node == no_index) {
-          node = static_cast<std::uint32_t>(axis.nodes.size());
-          axis.nodes.push_back({edge.disk[i], shape.component[loop_of[edge.site[0] / 2]], {}});
-        }
-        own.node[i] = node;
-      }
-      axis.edges.push_back(own);
-    }
+    add_edges(shape, problem.numbers(), edges, axis);
     if (!has_right_topology(shape, axis.nodes, axis.edges))
-      return Error{ErrorCode::internal, "the tiles make no whole axis: please report this shape", {}};
+      return Error{
+          ErrorCode::internal, "the tiles make no whole axis: please report this shape", {}};
     set_node_kinds(axis);
     return axis;
   } catch (...) {
@@ -243,9 +254,10 @@ Result<MedialAxis> compute_in_tiles(const Shape& shape, int levels, const Option
     std::atomic<std::size_t> finished = 0;
     const double count = (std::ldexp(4, 2 * levels) - 1) / 3;
     const auto done = [&] {
-      if (options.progress) options.progress(std::min(1.0, static_cast<double>(++finished) / count));
+      if (options.progress)
+        options.progress(std::min(1.0, static_cast<double>(++finished) / count));
     };
-    Tiles tiles = leaves_of(shape, grid);
+    Tiles tiles = leaves_with_edges(shape, grid);
     for (;;) {
       std::optional<Error> error;
       std::vector<TilePart> parts = parts_of(tiles, grid, options, done, error);
