@@ -1,7 +1,8 @@
 // One tile of a shape: for engines that give tiles to many machines.
 
-#include "binding.h"
 #include "ops/tiles.h"
+
+#include "binding.h"
 
 namespace medial::python {
 namespace {
@@ -15,8 +16,7 @@ TileGrid grid_of(const std::array<double, 4>& box, int levels) {
 }
 
 /// Rows of an edge's index, and the column and row of a leaf that it meets.
-Array<std::int64_t, 2> leaves(const EdgeRows& edges, const std::array<double, 4>& box,
-                              int levels) {
+Array<std::int64_t, 2> leaves(const EdgeRows& edges, const std::array<double, 4>& box, int levels) {
   const TileGrid grid = grid_of(box, levels);
   std::vector<std::array<std::int64_t, 3>> rows;
   for (std::size_t i = 0; i < edges.shape(0); ++i) {
@@ -27,13 +27,13 @@ Array<std::int64_t, 2> leaves(const EdgeRows& edges, const std::array<double, 4>
   return rows_of<std::int64_t>(std::move(rows));
 }
 
-/// Of the final edges rows of two nodes and two sites, and rows of two disks, the control point and
-/// the weight; and the numbers of the edges that stay open. The edges given come by number.
+/// Of the final edges rows of two nodes, two sites and two degrees, and rows of two disks, the
+/// control point and the weight; and the numbers of the edges that stay open. The edges given come
+/// by number.
 nb::tuple tile(const EdgeRows& edges, const Values<std::int64_t>& numbers,
                const std::array<double, 4>& box, int levels, int level, std::uint32_t column,
                std::uint32_t row, double tolerance) {
-  if (numbers.shape(0) != edges.shape(0))
-    refuse(ErrorCode::malformed, "each edge has one number");
+  if (numbers.shape(0) != edges.shape(0)) refuse(ErrorCode::malformed, "each edge has one number");
   std::vector<TileEdge> given(edges.shape(0));
   for (std::size_t i = 0; i < given.size(); ++i) {
     const double* const at = edges.data() + 4 * i;
@@ -47,10 +47,11 @@ nb::tuple tile(const EdgeRows& edges, const Values<std::int64_t>& numbers,
     options.cancel = cancel;
     return axis_of_tile(given, grid, level, column, row, options);
   }));
-  std::vector<std::array<std::uint64_t, 4>> names;
+  std::vector<std::array<std::uint64_t, 6>> names;
   std::vector<std::array<double, 10>> curves;
   for (const TileAxisEdge& edge : part.axis) {
-    names.push_back({edge.node[0], edge.node[1], edge.site[0], edge.site[1]});
+    names.push_back(
+        {edge.node[0], edge.node[1], edge.site[0], edge.site[1], edge.degree[0], edge.degree[1]});
     std::array<double, 10>& curve = curves.emplace_back();
     auto to = curve.begin();
     for (const Disk& disk : {edge.disk[0], edge.disk[1], edge.control})
@@ -67,9 +68,8 @@ nb::tuple tile(const EdgeRows& edges, const Values<std::int64_t>& numbers,
 
 void bind_tiles(nb::module_& module) {
   module.def("tile_leaves", &leaves, nb::arg("edges"), nb::arg("box"), nb::arg("levels"));
-  module.def("tile", &tile, nb::arg("edges"), nb::arg("numbers"), nb::arg("box"),
-             nb::arg("levels"), nb::arg("level"), nb::arg("column"), nb::arg("row"),
-             nb::arg("tolerance"));
+  module.def("tile", &tile, nb::arg("edges"), nb::arg("numbers"), nb::arg("box"), nb::arg("levels"),
+             nb::arg("level"), nb::arg("column"), nb::arg("row"), nb::arg("tolerance"));
 }
 
 }  // namespace medial::python

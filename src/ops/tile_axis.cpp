@@ -85,6 +85,7 @@ class TileAxis {
       boxes_.push_back(
           box_of_disks(disk(edge.node[0]), edge.control, disk(edge.node[1]), edge.weight));
     for (const Site& site : axis.sites) numbers_.push_back(number_of(site));
+    name_nodes();
   }
 
   /// Sites that disks of edges outside of the window touch, at their ends too.
@@ -123,14 +124,15 @@ class TileAxis {
                return is_inside(box, other, 2 * slack);
              });
     };
-    const std::vector<std::uint64_t> names = node_names();
     std::vector<TileAxisEdge> result;
     for (std::size_t i = 0; i < axis_.edges.size(); ++i) {
       const Edge& edge = axis_.edges[i];
       if (!is_interior(edge.site[0]) || !is_interior(edge.site[1]) || !is_new(boxes_[i])) continue;
-      result.push_back({{names[edge.node[0]], names[edge.node[1]]},
+      const auto [from, to] = edge.node;
+      result.push_back({{names_[from], names_[to]},
                         {numbers_[edge.site[0]], numbers_[edge.site[1]]},
-                        {disk(edge.node[0]), disk(edge.node[1])},
+                        {disk(from), disk(to)},
+                        {degrees_[from], degrees_[to]},
                         edge.control,
                         edge.weight});
     }
@@ -156,27 +158,19 @@ class TileAxis {
     return 2 * edge.number + (site.kind == SiteKind::vertex ? 1 : 0);
   }
 
-  /// A name for each node, by the sites beside the edges that leave it: no two nodes have the same
-  /// one, and the sites are the same in all tiles.
-  std::vector<std::uint64_t> node_names() const {
-    struct Leaving {
-      std::uint32_t node;
-      std::uint64_t right, left;
-      auto operator<=>(const Leaving&) const = default;
+  /// Names and degrees of the nodes. A name is made of the sites on both sides of each edge that
+  /// leaves: no two nodes have the same ones, and all tiles that have the node have the same sites.
+  void name_nodes() {
+    names_.resize(axis_.nodes.size());
+    degrees_.resize(axis_.nodes.size());
+    const auto leave = [&](std::uint32_t node, std::uint32_t right, std::uint32_t left) {
+      names_[node] += Random(Random(numbers_[right]).next() ^ numbers_[left]).next();
+      ++degrees_[node];
     };
-    std::vector<Leaving> leaving;
-    leaving.reserve(2 * axis_.edges.size());
     for (const Edge& edge : axis_.edges) {
-      const std::uint64_t left = numbers_[edge.site[0]], right = numbers_[edge.site[1]];
-      leaving.push_back({edge.node[0], right, left});
-      leaving.push_back({edge.node[1], left, right});
+      leave(edge.node[0], edge.site[1], edge.site[0]);
+      leave(edge.node[1], edge.site[0], edge.site[1]);
     }
-    ranges::sort(leaving);
-    std::vector<std::uint64_t> names(axis_.nodes.size(), 0);
-    for (const Leaving& one : leaving)
-      for (const std::uint64_t site : {one.right, one.left})
-        names[one.node] = Random(names[one.node] ^ site).next();
-    return names;
   }
 
   std::span<const TileEdge> edges_;
@@ -184,6 +178,8 @@ class TileAxis {
   const MedialAxis& axis_;
   std::vector<Box> boxes_;              ///< of the disks of each edge
   std::vector<std::uint64_t> numbers_;  ///< of each site
+  std::vector<std::uint64_t> names_;    ///< of each node
+  std::vector<std::uint32_t> degrees_;
 };
 
 /// The axis around a tile's planar graph, in an enclosure that no disk of the interior within the

@@ -10,6 +10,7 @@
 
 #include "axis/node_kinds.h"
 #include "base/compat.h"
+#include "base/disjoint_sets.h"
 #include "base/in_flight.h"
 #include "base/stopwatch.h"
 #include "base/threads.h"
@@ -143,6 +144,7 @@ void put_in_order(std::vector<TileAxisEdge>& edges) {
     std::swap(edge.site[0], edge.site[1]);
     std::swap(edge.node[0], edge.node[1]);
     std::swap(edge.disk[0], edge.disk[1]);
+    std::swap(edge.degree[0], edge.degree[1]);
   }
   const auto key = [](const TileAxisEdge& edge) { return std::tie(edge.site, edge.node); };
   std::stable_sort(edges.begin(), edges.end(),
@@ -162,14 +164,14 @@ std::vector<std::uint64_t> names_of(const std::vector<TileAxisEdge>& edges) {
   return names;
 }
 
-/// Adds edges in order, and their nodes as they come.
-void add_edges(const Shape& shape, const site::SiteNumbers& numbers,
-               const std::vector<TileAxisEdge>& edges, MedialAxis& axis) {
+/// Adds edges in order, and their nodes as they come. Returns of each node how many edges it lacks.
+std::vector<std::uint32_t> add_edges(const Shape& shape, const site::SiteNumbers& numbers,
+                                     const std::vector<TileAxisEdge>& edges, MedialAxis& axis) {
   std::vector<std::uint32_t> component;  // of each edge of the boundary
   for (std::size_t loop = 0; loop < shape.loop_count(); ++loop)
     component.resize(shape.loop_begin[loop + 1], shape.component[loop]);
   const std::vector<std::uint64_t> names = names_of(edges);
-  std::vector<std::uint32_t> number(names.size(), no_index);
+  std::vector<std::uint32_t> number(names.size(), no_index), lacking;
   axis.nodes.reserve(names.size());
   axis.edges.reserve(edges.size());
   for (const TileAxisEdge& edge : edges) {
@@ -181,11 +183,50 @@ void add_edges(const Shape& shape, const site::SiteNumbers& numbers,
       if (node == no_index) {
         node = static_cast<std::uint32_t>(axis.nodes.size());
         axis.nodes.push_back({edge.disk[i], component[edge.site[0] / 2], NodeKind::leaf});
+        lacking.push_back(edge.degree[i]);
       }
       own.node[i] = node;
+      --lacking[node];
     }
     axis.edges.push_back(own);
   }
+  return lacking;
+}
+
+/// Sites that touch a disk to within the tolerance only may be one node in one tile and several in
+/// another, each with a part of the edges: nodes that lack edges become one where they lie
+/// together, and edges between them go. Whether any edge is still missing.
+bool join_ties(const std::vector<std::uint32_t>& lacking, MedialAxis& axis) {
+  std::vector<std::uint32_t> open;
+  for (std::uint32_t node = 0; node < axis.nodes.size(); ++node)
+    if (lacking[node] != 0) open.push_back(node);
+  if (open.empty()) return false;
+  const auto x_of = [&](std::uint32_t node) { return axis.nodes[node].disk.center.x; };
+  ranges::sort(open, {}, x_of);
+  const double together = 0x1p10 * axis.tolerance;  // where sites hardly differ, a tie is long
+  DisjointSets sets(axis.nodes.size());
+  std::vector<bool> alone(axis.nodes.size(), false);
+  for (const std::uint32_t node : open) alone[node] = true;
+  for (std::size_t i = 0; i < open.size(); ++i)
+    for (std::size_t j = i + 1; j < open.size() && x_of(open[j]) - x_of(open[i]) <= together; ++j) {
+      const Node &a = axis.nodes[open[i]], &b = axis.nodes[open[j]];
+      if (a.component != b.component || distance(a.disk.center, b.disk.center) > together) continue;
+      sets.join(open[i], open[j]);
+      alone[open[i]] = alone[open[j]] = false;
+    }
+  if (ranges::any_of(open, [&](std::uint32_t node) { return alone[node]; })) return true;
+  std::vector<std::uint32_t> number(axis.nodes.size());
+  std::uint32_t count = 0;
+  for (std::uint32_t node = 0; node < axis.nodes.size(); ++node) {
+    const std::uint32_t first = sets.find(node);
+    number[node] = first == node ? count : number[first];
+    if (first == node) axis.nodes[count++] = axis.nodes[node];
+  }
+  axis.nodes.resize(count);
+  for (Edge& edge : axis.edges)
+    for (std::uint32_t& node : edge.node) node = number[node];
+  std::erase_if(axis.edges, [](const Edge& edge) { return edge.node[0] == edge.node[1]; });
+  return false;
 }
 
 }  // namespace
@@ -231,10 +272,9 @@ Result<MedialAxis> join_tiles(const Shape& shape, std::vector<TileAxisEdge> edge
     axis.method = "disks";
     axis.tolerance = problem.tolerance;
     axis.sites = problem.result_sites();
-    add_edges(shape, problem.numbers(), edges, axis);
-    if (!has_right_topology(shape, axis.nodes, axis.edges))
-      return Error{
-          ErrorCode::internal, "the tiles make no whole axis: please report this shape", {}};
+    const auto lacking = add_edges(shape, problem.numbers(), edges, axis);
+    if (join_ties(lacking, axis) || !has_right_topology(shape, axis.nodes, axis.edges))
+      return Error{ErrorCode::internal, "the tiles make no whole axis, as if one were missing", {}};
     set_node_kinds(axis);
     return axis;
   } catch (...) {

@@ -36,6 +36,7 @@ struct TileEdge {
 struct TileAxisEdge {
   std::array<std::uint64_t, 2> node, site;  ///< see Edge
   std::array<Disk, 2> disk;                 ///< of the nodes
+  std::array<std::uint32_t, 2> degree;      ///< of the nodes: how many edges the axis has there
   Disk control;
   double weight = 1;
 };
@@ -55,7 +56,7 @@ Result<TilePart> axis_of_tile(std::span<const TileEdge> edges, const TileGrid& g
                               std::uint32_t column, std::uint32_t row, const Options& options = {});
 
 /// The axis of a shape whose point k is the start of edge k, from the final edges of all tiles, in
-/// any order; an edge may be there twice. Errors: internal, where they are not one axis.
+/// any order; an edge may be there twice. Errors: internal, where edges are missing.
 Result<MedialAxis> join_tiles(const Shape& shape, std::vector<TileAxisEdge> edges,
                               const Options& options = {});
 
