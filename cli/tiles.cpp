@@ -91,8 +91,9 @@ Result<int> run_tiles(const TilesArguments& arguments) {
   Json object = to_json(summarize(axes.file));
   object["input"] = arguments.input.path;
   object["levels"] = std::move(list);
-  const bool silent = common.quiet || arguments.output == "-";
-  return finish(common, std::move(object), axes.phases, silent ? std::string() : text);
+  const bool silent = common.quiet || !arguments.output.empty();
+  return finish(common, std::move(object), axes.phases, silent ? std::string() : text,
+                {{"processor", axes.phases.by_processor()}});
 }
 
 }  // namespace
@@ -117,8 +118,8 @@ Command make_tiles_command(CLI::App& program) {
       "around it, up to the root. The axis is that of `medial axis`, but for rounding and\n"
       "the order of nodes and edges. For shapes of straight edges.\n"
       "\n"
-      "The table has a row for each level: tiles with edges, edges in all of them and in\n"
-      "the largest one, and edges of the axis that were finished there.\n"
+      "Without -o it prints a row for each level: tiles with edges, edges in all of them\n"
+      "and in the largest one, and edges of the axis that were finished there.\n"
       "\n"
       "Examples:\n"
       "  medial tiles coast.wkt.gz -o coast.json\n"
