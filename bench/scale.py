@@ -85,7 +85,8 @@ def growth(program, folder, most):
             points = report["input_points"] - 1
             per = min(times) / points
             grown = f"{math.log(min(times) / last[0]) / math.log(points / last[1]):.2f}" if last else ""
-            print(f"| {make.__name__} | {points:,} | {1e6 * per:.2f} | {grown} | {report['peak_bytes'] / points:.0f} |", flush=True)
+            peak = report["peak_bytes"] / points
+            print(f"| {make.__name__} | {points:,} | {1e6 * per:.2f} | {grown} | {peak:.0f} |", flush=True)
             last, count = (min(times), points), 10 * count
 
 
@@ -113,7 +114,9 @@ def tiles(program, folder, files):
             other = sum(((pairs - own_pairs) + (own_pairs - pairs)).values())
             equal = sum((nodes & own_nodes).values()) / sum(nodes.values())
             levels = ", ".join(f"{row['edges']:,}" for row in report["levels"])
-            print(f"| {pathlib.Path(file).name} | {count:,} | {seconds / alone:.1f} | {levels} | {sum(own_pairs.values()):,} | {other} | {equal:.1%} |", flush=True)
+            final = sum(own_pairs.values())
+            cells = [pathlib.Path(file).name, f"{count:,}", f"{seconds / alone:.1f}", levels, f"{final:,}", other, f"{equal:.1%}"]
+            print("|", *(f"{cell} |" for cell in cells), flush=True)
 
 
 def main():

@@ -68,8 +68,10 @@ def gshhg(path):
         count, offset = int(words[2]), int(words[5])
         rings.append(np.frombuffer(bytes_of, "<f4", 2 * count, offset).reshape(-1, 2).astype(float))
     rings = [ring for ring in rings if len(ring) > 3]
-    polygons = shapely.polygons(shapely.linearrings(np.concatenate(rings), indices=np.repeat(np.arange(len(rings)), [len(ring) for ring in rings])))
-    table = pyarrow.table({"id": np.arange(len(polygons)), "geometry": pyarrow.array(shapely.to_wkb(polygons), pyarrow.binary())})
+    owner = np.repeat(np.arange(len(rings)), [len(ring) for ring in rings])
+    polygons = shapely.polygons(shapely.linearrings(np.concatenate(rings), indices=owner))
+    geometry = pyarrow.array(shapely.to_wkb(polygons), pyarrow.binary())
+    table = pyarrow.table({"id": np.arange(len(polygons)), "geometry": geometry})
     pyarrow.parquet.write_table(table, path, row_group_size=10_000)
     return len(polygons), sum(len(ring) - 1 for ring in rings)
 
@@ -91,7 +93,8 @@ def footprints(path, count):
             place = np.stack([number % 3000, number // 3000], axis=1) * 40.0
             rows["points"] = size[:, None, None] * np.einsum("nij,pj->npi", turned, corners) + place[:, None]
             begins = pyarrow.py_buffer(np.arange(len(number) + 1, dtype=np.int32) * row.itemsize)
-            geometry = pyarrow.Array.from_buffers(pyarrow.binary(), len(number), [None, begins, pyarrow.py_buffer(rows.tobytes())])
+            buffers = [None, begins, pyarrow.py_buffer(rows.tobytes())]
+            geometry = pyarrow.Array.from_buffers(pyarrow.binary(), len(number), buffers)
             writer.write_table(pyarrow.table([pyarrow.array(number), geometry], schema=schema), row_group_size=CHUNK)
     return count, 8 * count
 
@@ -103,14 +106,17 @@ def measured(session, name, source, target, counts, weighed):
         frame = session.read.parquet(source)
         if weighed:
             frame = medial.spark.balanced(frame, partitions=8)
-        made = medial.spark.axis(frame).selectExpr("id", "ST_GeomFromWKB(axis.geometry) as geometry", "axis.length", "axis.radius", "axis.error.code as error")
+        columns = ["ST_GeomFromWKB(axis.geometry) as geometry", "axis.length", "axis.radius", "axis.error.code as error"]
+        made = medial.spark.axis(frame).selectExpr("id", *columns)
         made.write.format("geoparquet").mode("overwrite").save(target)
     seconds = time.perf_counter() - begin
     back = session.read.format("geoparquet").load(target)
     kept, errors = back.count(), back.where("error is not null").count()
     assert kept == features, (kept, features)
     size = sum(file.stat().st_size for file in pathlib.Path(target).glob("*.parquet"))
-    print(f"| {name} | {features:,} | {vertices:,} | {errors:,} | {seconds:.0f} | {1e6 * seconds / vertices:.2f} | {peak.most / 2**20:,.0f} | {size / 2**20:,.0f} |", flush=True)
+    numbers = [f"{features:,}", f"{vertices:,}", f"{errors:,}", f"{seconds:.0f}", f"{1e6 * seconds / vertices:.2f}"]
+    sizes = [f"{bytes_of / 2**20:,.0f}" for bytes_of in (peak.most, size)]
+    print("|", *(f"{cell} |" for cell in [name, *numbers, *sizes]), flush=True)
 
 
 def main():
@@ -119,12 +125,19 @@ def main():
     parser.add_argument("--no-gshhg", action="store_true")
     parser.add_argument("--folder", help="where inputs and results go (a temporary one)")
     options = parser.parse_args()
-    builder = SparkSession.builder.master("local[2]").config("spark.ui.enabled", "false").config("spark.driver.memory", "2g")
-    builder = builder.config("spark.jars", os.environ["MEDIAL_SEDONA_JARS"]).config("spark.sql.extensions", "org.apache.sedona.sql.SedonaSqlExtensions")
+    builder = SparkSession.builder.master("local[2]")
+    for name, value in (
+        ("spark.ui.enabled", "false"),
+        ("spark.driver.memory", "2g"),
+        ("spark.jars", os.environ["MEDIAL_SEDONA_JARS"]),
+        ("spark.sql.extensions", "org.apache.sedona.sql.SedonaSqlExtensions"),
+    ):
+        builder = builder.config(name, value)
     session = builder.getOrCreate()
     session.sparkContext.setLogLevel("OFF")
     SedonaContext.create(session)
-    print("| input | features | vertices | errors | seconds | us a vertex | peak MiB | result MiB |\n|---|--:|--:|--:|--:|--:|--:|--:|")
+    print("| input | features | vertices | errors | seconds | us a vertex | peak MiB | result MiB |")
+    print("|---|--:|--:|--:|--:|--:|--:|--:|")
     with tempfile.TemporaryDirectory(dir=options.folder) as folder:
         source, target = os.path.join(folder, "in.parquet"), os.path.join(folder, "out.parquet")
         if not options.no_gshhg:

@@ -182,8 +182,8 @@ def tiled(session, shape, levels):
     pairs = sorted(tuple(sorted((row.site0, row.site1))) for row in rows)
     nodes = {}
     for row in rows:
-        nodes[row.node0] = (row.x0, row.y0, row.radius0)
-        nodes[row.node1] = (row.x1, row.y1, row.radius1)
+        nodes[row.node0] = (row.node0_x, row.node0_y, row.node0_radius)
+        nodes[row.node1] = (row.node1_x, row.node1_y, row.node1_radius)
     return pairs, np.array(sorted(nodes.values()))
 
 

@@ -257,7 +257,7 @@ def balanced(df: DataFrame, column: str = "geometry", partitions: int | None = N
 
 _TILE_EDGE = [StructField("number", LongType()), *_doubles("x0", "y0", "x1", "y1")]
 _NAMES = ["node0", "node1", "site0", "site1", "degree0", "degree1"]
-_CURVES = [*(f"{name}{i}" for i in ("0", "1", "_control") for name in ("x", "y", "radius")), "weight"]
+_CURVES = [*(f"{disk}_{name}" for disk in ("node0", "node1", "control") for name in ("x", "y", "radius")), "weight"]
 _TILE_AXIS = [*(StructField(name, LongType()) for name in _NAMES), *_doubles(*_CURVES)]
 _TILE = [StructField("column", IntegerType()), StructField("row", IntegerType())]
 
@@ -324,7 +324,7 @@ def axis_of_tiles(edges: DataFrame, levels: int, *, tolerance: float = 0) -> Dat
 
     def to_leaves(batches: Iterator[Any]) -> Iterator[Any]:
         for batch in batches:
-            places = _core.tile_leaves(_rows(pyarrow.table(batch))[1], box, levels)
+            places = _core.tile_leaves(_rows(pyarrow.Table.from_batches([batch]))[1], box, levels)
             taken = batch.take(pyarrow.array(places[:, 0]))
             at = [pyarrow.array(places[:, i].astype(np.int32)) for i in (1, 2)]
             yield pyarrow.RecordBatch.from_arrays([*at, *taken.columns], ["column", "row", *taken.schema.names])
@@ -347,7 +347,8 @@ def axis_of_tiles(edges: DataFrame, levels: int, *, tolerance: float = 0) -> Dat
     final: DataFrame | None = None
     for level in range(levels, -1, -1):
         # Each row has the place of the tile around it, which the next level groups by.
-        done = tiles.groupBy("column", "row").applyInArrow(work(level), StructType([*_TILE, *_TILE_EDGE, *_TILE_AXIS])).persist()
+        rows = StructType([*_TILE, *_TILE_EDGE, *_TILE_AXIS])
+        done = tiles.groupBy("column", "row").applyInArrow(work(level), rows).persist()
         own = done.where("site0 is not null").select([field.name for field in _TILE_AXIS])
         final = own if final is None else final.union(own)
         opened = done.where("number is not null").select([field.name for field in (*_TILE, *_TILE_EDGE)])

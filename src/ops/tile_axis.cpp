@@ -75,7 +75,7 @@ Result<TileGraph> graph_of(std::span<const TileEdge> edges) {
   return tile;
 }
 
-/// The diagram of a tile's edges on both of their sides, and what of it is final.
+/// The diagram of a tile's edges on both of their sides, and its final edges.
 class TileAxis {
  public:
   TileAxis(std::span<const TileEdge> edges, const TileGraph& tile, const MedialAxis& axis)
