@@ -124,7 +124,7 @@ Result<bool> run_shaked_bruckstein_1996(const Request& request) {
                {"leaves and junctions missing"},
                {"largest distance", "{:.1e}"}});
   bool passed = true;
-  const std::uint64_t count = request.quick ? 10 : 300;
+  const std::uint64_t count = request.quick ? 10 : 1000;
   for (const auto& [name, make] :
        {std::pair{"waves", &waves}, std::pair{"stars", &star}, std::pair{"scribbles", &scribble}}) {
     progress(fmt::format("{} {}", count, name));
