@@ -236,9 +236,9 @@ void Graph::find_doubtful_edge(std::uint32_t edge) {
 
 bool Graph::runs_backward(std::uint32_t edge, double slack) const {
   const auto& [first, second] = diagram_.edges[edge].element;
-  const Vec2 way = disk(to(edge)).center - disk(edge).center;
-  return dot(elements().sites[first].direction, way) > slack ||
-         dot(elements().sites[second].direction, way) < -slack;
+  const Vec2 from = disk(edge).center, end = disk(to(edge)).center;
+  return advance(elements().sites[first], from, end) > slack ||
+         advance(elements().sites[second], from, end) < -slack;
 }
 
 std::array<std::uint32_t, 2> Graph::loop_around(std::uint32_t element) const {
@@ -293,8 +293,13 @@ void complete(Graph& graph, const LocalFrame& frame, double tolerance, MedialAxi
   };
   std::size_t kept = 0;
   for (const Elements::ChainLoop& loop : elements.loops) kept += 2 * std::size_t{loop.size} - 3;
-  for (const site::Site& site : elements.sites) kept -= site.is_vertex() ? 2 : 0;
-  kept += elements.passages.size();  // at each, a vertex has one spoke
+  if (elements.have_arcs()) {
+    for (const Beside joint : elements.joints) kept -= joint != Beside::no ? 1 : 0;
+    kept -= elements.loops.size();  // at most so many lists close smoothly
+  } else {
+    for (const site::Site& site : elements.sites) kept -= site.is_vertex() ? 2 : 0;
+    kept += elements.passages.size();  // at each, a vertex has one spoke
+  }
   const auto is_one = [&](const Disk& a, const Disk& b) {
     return squared_norm(a.center - b.center) <= tolerance * tolerance &&
            std::abs(a.radius - b.radius) <= tolerance;
@@ -326,11 +331,17 @@ void complete(Graph& graph, const LocalFrame& frame, double tolerance, MedialAxi
           largest_residual,
           std::abs(site::carrier_distance(elements.sites[element], to.center) - to.radius));
   };
-  for (const Elements::ChainLoop& loop : elements.loops)
+  for (const Elements::ChainLoop& loop : elements.loops) {
+    const std::size_t before = axis.edges.size();
+    std::uint32_t inside = none;
     graph.for_edges(loop, [&](std::uint32_t edge) {
-      if (graph.is_spoke(edge) || numbers.is_joined(edge) || graph.begins_at_bridge(edge)) return;
-      add(edge, edge, loop.component);
+      if (graph.is_beside_axis(edge) || graph.begins_at_bridge(edge)) return;
+      inside = edge;
+      if (!numbers.is_joined(edge)) add(edge, edge, loop.component);
     });
+    // All arcs of one circle.
+    if (axis.edges.size() == before && inside != none) numbers.of_end(end_of(inside), loop.component);
+  }
   for (const Bridged& one : bridged) add(one.edge, end_of(one.other), one.component);
   if (!elements.passages.empty()) set_node_kinds(axis);
   axis.statistics.largest_residual = frame.inverse * largest_residual;

@@ -29,6 +29,11 @@ class Graph {
   /// The number of places: every node and every edge is less.
   std::size_t places() const { return diagram_.edges.size(); }
   bool is_spoke(std::uint32_t edge) const { return diagram_.is_spoke(diagram_.edges[edge]); }
+  /// Whether no edge of the axis goes along an edge: a spoke, or one to a blunt joint.
+  bool is_beside_axis(std::uint32_t edge) const {
+    const auto& [i, j] = diagram_.edges[edge].element;
+    return elements().have_arcs() ? elements().beside(i, j) != Beside::no : is_spoke(edge);
+  }
 
   std::uint32_t to(std::uint32_t edge) const { return diagram_.edges[edge].inward[1]; }
   void set_to(std::uint32_t edge, std::uint32_t node) { diagram_.edges[edge].inward[1] = node; }

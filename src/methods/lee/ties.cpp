@@ -88,7 +88,12 @@ class Ties {
     const Disk &from = graph_.disk(edge), &to = graph_.disk(graph_.to(edge));
     if (from.center == to.center) return false;
     const auto& [first, second] = graph_[edge].element;
-    const Vec2 along = site::direction_along(elements_.sites[second], elements_.sites[first]);
+    const site::Site &right = elements_.sites[second], &left = elements_.sites[first];
+    if (right.is_arc() || left.is_arc()) {
+      const site::Bisector bisector(right, left);
+      return bisector.position(from.center) > bisector.position(to.center);
+    }
+    const Vec2 along = site::direction_along(right, left);
     return dot(along, from.center) > dot(along, to.center);
   }
 
@@ -148,12 +153,15 @@ class Ties {
   }
 
   /// Twice the area of the triangle of the unit vectors to a Voronoi point's feet: the determinant
-  /// of its equations.
+  /// of its equations. That in the centre of an arc is known as well as any.
   double spread(std::uint32_t node) const {
+    constexpr double own_circle = 2;
     std::array<Vec2, 3> g;
     const auto touched = graph_.touched(node);
-    for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t k = 0; k < 3; ++k) {
       g[k] = site::outward(elements_.sites[touched[k]], graph_.disk(node).center);
+      if (!(squared_norm(g[k]) > 0)) return own_circle;  // no number
+    }
     return std::abs(cross(g[1] - g[0], g[2] - g[0]));
   }
 
