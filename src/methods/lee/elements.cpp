@@ -94,8 +94,7 @@ void add_joints(const disks::Boundary& boundary, const disks::Boundary::SiteRang
 /// Whether a chain begins at an element, other than the first one of a list, or after a bridge.
 bool begins_chain(const disks::Boundary& boundary, std::uint32_t i) {
   if (boundary.elements[i - 1] == disks::Element::bridge) return false;
-  return boundary.is_corner(i - 1) ||
-         beside_of(boundary, i - 1, i) == Beside::blunt ||
+  return boundary.is_corner(i - 1) || beside_of(boundary, i - 1, i) == Beside::blunt ||
          std::max(boundary.sites[i - 1].curvature, boundary.sites[i].curvature) > 0;
 }
 

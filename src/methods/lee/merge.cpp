@@ -2,26 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <type_traits>
 
 #include "site/bisector.h"
-#include "site/smooth_place.h"
 #include "site/tangent_disk.h"
 
 namespace medial::lee {
 namespace {
 
 using std::abs, std::sqrt;
-
-/// Disks that touch three elements.
-template <class Disk>
-struct Touching {
-  std::array<Disk, 5> disk;
-  std::size_t count = 0;
-  void add(const Disk& one) { disk[count++] = one; }
-};
 
 /// The merge curve's way through two diagrams (Section II): the current bisector B(e_a, e_b), with
 /// a on side 0, the earlier list, and b on side 1. On side s, the edges still to be crossed are in
@@ -37,7 +27,11 @@ class MergeCurve {
  public:
   MergeCurve(DiagramIn<Kernel>& diagram, FreePlaces& free, const MergeLimits& limits,
              Statistics& statistics)
-      : diagram_(diagram), free_(free), limits_(limits), statistics_(statistics) {}
+      : diagram_(diagram),
+        free_(free),
+        limits_(limits),
+        statistics_(statistics),
+        contacts_(diagram.elements, limits, statistics) {}
 
   std::uint32_t follow(std::uint32_t first, std::uint32_t middle, std::uint32_t end) {
     const auto gate = diagram_.gate(middle);
@@ -84,17 +78,10 @@ class MergeCurve {
 
   /// Outward along B(e_i, e_j), i < j.
   Along along(std::uint32_t i, std::uint32_t j) const {
-    if constexpr (with_arcs) {
-      Along bisector(site(j), site(i));
-      if (diagram_.elements.beside(i, j) != Beside::smooth) return bisector;
-      // No foot moves along a spoke.
-      const Vector normal = spoke_between(i, j).normal;
-      bisector.reference = nullptr;
-      bisector.direction = j - i == 1 ? normal : -normal;
-      return bisector;
-    } else {
+    if constexpr (with_arcs)
+      return contacts_.bisector(i, j);
+    else
       return {direction_along(site(j), site(i))};
-    }
   }
 
   /// Where the merge curve leaves a Voronoi polygon.
@@ -218,7 +205,12 @@ class MergeCurve {
   }
 
   /// What a stored disk touches: far less than ties.h allows, which then joins such disks.
-  double tie() const { return (with_arcs ? 0.25 : 0.0625) * limits_.tolerance; }
+  double tie() const {
+    if constexpr (with_arcs)
+      return contacts_.tie();
+    else
+      return 0.0625 * limits_.tolerance;
+  }
   /// Whether a stored disk touches an element, and not only the end of a segment, maybe from
   /// behind.
   bool is_tied(std::uint32_t i, const Disk& disk) const {
@@ -274,93 +266,6 @@ class MergeCurve {
     return best;
   }
 
-  // ---- With arcs.
-
-  /// The disks that touch two elements where they join smoothly: up to the own circle of the rounder
-  /// one, if that is a convex arc.
-  struct Spoke {
-    Vec2 point, normal;
-    std::uint32_t rounder;
-    double limit;
-  };
-  Spoke spoke_between(std::uint32_t a, std::uint32_t b) const {
-    const auto [i, j] = std::minmax(a, b);
-    const bool next = j - i == 1;
-    const std::uint32_t before = next ? i : j, after = next ? j : i;
-    const auto [point, normal] = site::smooth_place(site(before), site(after));
-    const std::uint32_t rounder = site(i).curvature < site(j).curvature ? j : i;
-    return {point, normal, rounder, own_radius(rounder)};
-  }
-  bool are_joined(std::uint32_t a, std::uint32_t b) const {
-    const auto [i, j] = std::minmax(a, b);
-    return diagram_.elements.beside(i, j) == Beside::smooth;
-  }
-  double own_radius(std::uint32_t i) const {
-    return diagram_.elements.is_convex_arc(i) ? 1 / site(i).curvature
-                                              : std::numeric_limits<double>::infinity();
-  }
-  Disk own_circle(std::uint32_t arc) const {
-    const Site& s = site(arc);
-    return {s.point + (1 / s.curvature) * s.normal(), 1 / s.curvature};
-  }
-
-  /// The disks that touch three elements, of which two or more are joined smoothly: the own circle
-  /// of one that is joined to both others, if it is rounder than they; or a disk at a joint. False
-  /// where none are joined.
-  bool add_at_joint(const std::array<std::uint32_t, 3>& three, Touching<Disk>& found) const {
-    std::size_t joined = 0, single = 0;
-    std::array<bool, 3> across{};  // whether the other two are joined
-    for (std::size_t k = 0; k < 3; ++k) {
-      across[k] = are_joined(three[(k + 1) % 3], three[(k + 2) % 3]);
-      joined += across[k] ? 1 : 0;
-      if (across[k]) single = k;
-    }
-    if (joined == 0) return false;
-    if (joined > 1) {
-      const std::size_t k = !across[0] ? 0 : !across[1] ? 1 : 2;
-      const double own = site(three[k]).curvature;
-      if (own > 0 && own >= site(three[(k + 1) % 3]).curvature &&
-          own >= site(three[(k + 2) % 3]).curvature)
-        found.add(own_circle(three[k]));
-      return true;
-    }
-    const std::uint32_t other = three[single];
-    const Spoke spoke = spoke_between(three[(single + 1) % 3], three[(single + 2) % 3]);
-    if (std::isfinite(spoke.limit)) {
-      const Disk own = own_circle(spoke.rounder);
-      if (is_tied(other, own)) {
-        found.add(own);
-        return true;
-      }
-    }
-    const double radius = site::tangent_radius(spoke.point, spoke.normal, site(other));
-    if (radius <= std::min(spoke.limit, limits_.radius_limit)) {
-      const Disk disk{spoke.point + radius * spoke.normal, radius};
-      if (touches(other, disk)) found.add(disk);
-    }
-    return true;
-  }
-
-  /// The disks that touch three elements of which no two are joined smoothly.
-  void add_tangent_disks(const std::array<std::uint32_t, 3>& three, Touching<Disk>& found) {
-    for (const std::uint32_t i : three) {
-      if (!diagram_.elements.is_convex_arc(i)) continue;
-      const Disk own = own_circle(i);
-      if (std::all_of(three.begin(), three.end(), [&](std::uint32_t k) { return is_tied(k, own); }))
-        found.add(own);
-    }
-    ++statistics_.apollonius;
-    const auto disks = tangent_disks(site(three[0]), site(three[1]), site(three[2]));
-    for (std::size_t i = 0; i < disks.count; ++i) {
-      Disk disk = disks.disk[i];
-      if (!(disk.radius <= limits_.radius_limit)) continue;
-      refine(disk, three[0], three[1], three[2]);
-      if (std::all_of(three.begin(), three.end(),
-                      [&](std::uint32_t k) { return touches(k, disk); }))
-        found.add(disk);
-    }
-  }
-
   template <class NotBehind>
   std::optional<Crossing> crossing_with_arcs(std::size_t side, const ListEdge& edge,
                                              const NotBehind& not_behind) {
@@ -369,9 +274,7 @@ class MergeCurve {
     if (!is_spoke && edge.inner.radius > 0 && is_tied(other, edge.inner))
       return not_behind(edge.inner);
     if (!is_spoke && disk_.radius > 0 && is_tied(third, disk_)) return not_behind(disk_);
-    const std::array<std::uint32_t, 3> three{current_[1], current_[0], third};
-    Touching<Disk> found;
-    if (!add_at_joint(three, found)) add_tangent_disks(three, found);
+    const auto found = contacts_.disks_of({current_[1], current_[0], third});
     std::optional<Crossing> best;
     for (std::size_t i = 0; i < found.count; ++i) {
       const auto crossing = not_behind(found.disk[i]);
@@ -408,6 +311,7 @@ class MergeCurve {
   /// Whether a disk that touches an edge's elements lies outward of its inner end, but for
   /// rounding.
   bool is_outward(const ListEdge& edge, const Disk& disk) const {
+    if (with_arcs && edge.inner.radius == 0) return true;
     const Along bisector = along(edge.element[0], edge.element[1]);
     return bisector.position(disk.center) >= bisector.position(edge.inner.center) ||
            distance(disk.center, edge.inner.center) <= vagueness();
@@ -418,35 +322,13 @@ class MergeCurve {
   bool touches(std::uint32_t i, const Disk& disk) const {
     const Site& s = site(i);
     if (!s.is_vertex()) {
-      const Real foot = foot_on(s, disk.center);
-      if (with_arcs && disk.radius * curvature_of(s) > 1) return abs(gap(i, disk)) <= limits_.tolerance;
+      const Real foot = dot(s.direction, disk.center - s.point);
       if (foot >= 0 && foot <= s.length) return true;
       return abs(gap(i, disk)) <= limits_.tolerance;
     }
     const Vector d = disk.center - s.point;
-    const std::uint32_t before = diagram_.elements.before(i);
-    if (dot(end_direction(site(before)), d) >= 0 && dot(site(i + 1).direction, d) <= 0) return true;
-    return gap(before, disk) >= -limits_.tolerance && gap(i + 1, disk) >= -limits_.tolerance;
-  }
-
-  /// The parameter of the foot on a carrier, the curvature, the direction at the end.
-  static Real foot_on(const Site& s, const Vector& c) {
-    if constexpr (with_arcs)
-      return site::carrier_parameter(s, c);
-    else
-      return dot(s.direction, c - s.point);
-  }
-  static double curvature_of(const Site& s) {
-    if constexpr (with_arcs)
-      return s.curvature;
-    else
-      return 0;
-  }
-  static Vector end_direction(const Site& s) {
-    if constexpr (with_arcs)
-      return -left_of(s.end_normal());
-    else
-      return s.direction;
+    if (dot(site(i - 1).direction, d) >= 0 && dot(site(i + 1).direction, d) <= 0) return true;
+    return gap(i - 1, disk) >= -limits_.tolerance && gap(i + 1, disk) >= -limits_.tolerance;
   }
 
   void refine(Disk& disk, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -458,6 +340,7 @@ class MergeCurve {
   FreePlaces& free_;
   const MergeLimits& limits_;
   Statistics& statistics_;
+  ArcContacts contacts_;
   std::array<std::uint32_t, 2> current_{};
   std::uint32_t middle_ = 0;  ///< the first element of the later list
   Disk disk_;

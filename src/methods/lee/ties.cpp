@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -208,6 +209,31 @@ std::optional<Disk> find_overreach(const Graph& graph, double slack) {
       }
   }
   return std::nullopt;
+}
+
+bool is_right_locally(const Graph& graph, double slack) {
+  const Elements& elements = graph.elements();
+  // By how far a disk misses what a node touches; negative where it reaches over.
+  const auto reach = [&](std::uint32_t node, const Disk& disk, double& least, double& most) {
+    for (const std::uint32_t i : graph.touched(node)) {
+      const double gap =
+          std::sqrt(site::squared_distance(elements.sites[i], disk.center)) - disk.radius;
+      least = std::min(least, gap);
+      most = std::max(most, gap);
+    }
+  };
+  double least = 0, most = 0, any = 0;
+  for (const Elements::ChainLoop& loop : elements.loops)
+    graph.for_edges(loop, [&](std::uint32_t edge) {
+      const bool from_node = graph.disk(edge).radius > 0 && !graph.begins_at_bridge(edge);
+      if (from_node) reach(edge, graph.disk(edge), least, most);
+      const std::uint32_t end = graph.to(edge);
+      if (!from_node || !(graph.disk(end).radius > 0)) return;
+      reach(edge, graph.disk(end), least, any);
+      reach(end, graph.disk(edge), least, any);
+      if (graph.runs_backward(edge, slack)) most = std::numeric_limits<double>::infinity();
+    });
+  return least >= -slack && most <= slack;
 }
 
 }  // namespace medial::lee
