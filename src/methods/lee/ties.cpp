@@ -154,15 +154,12 @@ class Ties {
   }
 
   /// Twice the area of the triangle of the unit vectors to a Voronoi point's feet: the determinant
-  /// of its equations. That in the centre of an arc is known as well as any.
+  /// of its equations; no number in the centre of an arc.
   double spread(std::uint32_t node) const {
-    constexpr double own_circle = 2;
     std::array<Vec2, 3> g;
     const auto touched = graph_.touched(node);
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3; ++k)
       g[k] = site::outward(elements_.sites[touched[k]], graph_.disk(node).center);
-      if (!(squared_norm(g[k]) > 0)) return own_circle;  // no number
-    }
     return std::abs(cross(g[1] - g[0], g[2] - g[0]));
   }
 
