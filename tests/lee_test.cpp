@@ -505,9 +505,11 @@ TEST_P(Lee, HasTheAxisOfDisksNextToArcs) {
     const RandomShape random = random_arc_shape(base + i);
     const auto shape = build_shape(random.rings);
     ASSERT_TRUE(shape) << base + i;
-    // Of gears, whose tips are all of one circle, rounding contracts the ties elsewhere.
-    const bool as_graph = random.rigid && random.kind != "gear";
-    EXPECT_EQ(check_axis_of(*shape, as_graph), "") << base + i << ", " << random.kind;
+    // Of gears, one disk touches all teeth: rounding contracts that tie elsewhere, if it can.
+    const bool is_gear = random.kind == "gear";
+    const std::string fault = check_axis_of(*shape, random.rigid && !is_gear);
+    EXPECT_TRUE(fault.empty() || (is_gear && fault.find("use the method disks") != fault.npos))
+        << fault << ": " << base + i << ", " << random.kind;
     Options outside = by_lee();
     outside.exterior = true;
     const auto axis = compute(*shape, outside);

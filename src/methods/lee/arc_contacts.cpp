@@ -103,8 +103,8 @@ std::optional<Disk> ArcContacts::disk_at(const site::SmoothPlace& place, std::ui
 }
 
 /// The disks that touch three elements, of which two or more are joined smoothly: the own circle of
-/// one that is joined to both others and no flatter; or a disk at a joint, no larger than the
-/// circles of arcs that are joined there. False where none are joined.
+/// one that is joined to both others and no flatter, but for rounding; or a disk at a joint, no
+/// larger than the circles of arcs that are joined there. False where none are joined.
 bool ArcContacts::add_at_joint(const Three& three, Disks& found) const {
   std::size_t joined = 0, apart = 0, other = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -116,8 +116,13 @@ bool ArcContacts::add_at_joint(const Three& three, Disks& found) const {
   const std::size_t alone = joined == 1 ? other : apart;
   const std::uint32_t a = three[(alone + 1) % 3], b = three[(alone + 2) % 3], c = three[alone];
   if (joined > 1) {
-    const double own = site(c).curvature;
-    if (own > 0 && own >= site(a).curvature && own >= site(b).curvature) found.add(own_circle(c));
+    const double curvature = site(c).curvature;
+    if (!(curvature > 0)) return true;
+    const Disk own = own_circle(c);
+    const auto is_no_rounder = [&](std::uint32_t i) {
+      return site(i).curvature <= curvature || is_tied(i, own);
+    };
+    if (is_no_rounder(a) && is_no_rounder(b)) found.add(own);
     return true;
   }
   const std::uint32_t rounder = site(a).curvature < site(b).curvature ? b : a;

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <vector>
 
+#include "base/disjoint_sets.h"
 #include "site/bisector.h"
 
 namespace medial::lee {
@@ -208,7 +209,19 @@ std::optional<Disk> find_overreach(const Graph& graph, double slack) {
   return std::nullopt;
 }
 
+/// Whether so many Voronoi points are close together that what each may be off adds up.
+bool has_large_tie(const Graph& graph) {
+  constexpr std::uint32_t large = 8;
+  if (graph.doubtful_edges().size() < large) return false;
+  DisjointSets ties(graph.places());
+  for (const std::uint32_t edge : graph.doubtful_edges()) ties.join(edge, graph.to(edge));
+  std::vector<std::uint32_t> size(graph.places());
+  return std::any_of(graph.doubtful_edges().begin(), graph.doubtful_edges().end(),
+                     [&](std::uint32_t edge) { return ++size[ties.find(edge)] >= large; });
+}
+
 bool is_right_locally(const Graph& graph, double slack) {
+  if (has_large_tie(graph)) return false;
   const Elements& elements = graph.elements();
   // By how far a disk misses what a node touches; negative where it reaches over.
   const auto reach = [&](std::uint32_t node, const Disk& disk, double& least, double& most) {
