@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <ostream>
 #include <string>
 
 #include "medial/medial.h"
+#include "support/generate_arcs.h"
 #include "support/property.h"
 #include "support/random_shapes.h"
 
@@ -495,15 +497,95 @@ TEST(LeeThreads, GiveTheSameBytes) {
   }
 }
 
-TEST(LeeRefuses, ArcsAndNamesDisks) {
+// ---- Arcs.
+
+TEST_P(Lee, HasTheAxisOfDisksNextToArcs) {
+  const std::uint64_t count = shape_count(20, lee_shares), base = first_seed();
+  for (std::uint64_t i = GetParam(); i < count; i += lee_shares) {
+    const RandomShape random = random_arc_shape(base + i);
+    const auto shape = build_shape(random.rings);
+    ASSERT_TRUE(shape) << base + i;
+    // Of gears, one disk touches all teeth: rounding contracts that tie elsewhere, if it can.
+    const bool is_gear = random.kind == "gear";
+    const std::string fault = check_axis_of(*shape, random.rigid && !is_gear);
+    EXPECT_TRUE(fault.empty() || (is_gear && fault.find("use the method disks") != fault.npos))
+        << fault << ": " << base + i << ", " << random.kind;
+    Options outside = by_lee();
+    outside.exterior = true;
+    const auto axis = compute(*shape, outside);
+    ASSERT_TRUE(axis) << base + i << ", " << random.kind << ": " << to_string(axis.error());
+    EXPECT_TRUE(verify(*shape, *axis, {.threads = 1}).passed) << base + i << ", " << random.kind;
+  }
+}
+
+/// The number of leaves and branchings of an axis.
+std::array<std::size_t, 2> ends_of(const Rings& rings, const Options& options) {
+  const Shape shape = built(rings);
+  const auto axis = compute(shape, options);
+  if (!axis) return {~std::size_t{0}, 0};
+  EXPECT_TRUE(verify(shape, *axis, {.corner_angle = options.corner_angle, .threads = 1}).passed);
+  const Invariants found = invariants_of(*axis, diagonal(bounding_box(shape)));
+  return {found.leaves, found.branching};
+}
+using Ends = std::array<std::size_t, 2>;
+
+TEST(LeeArcs, EndInTheirCentresAndAtCorners) {
+  EXPECT_EQ(ends_of({circle({1, 2}, 3)}, by_lee()), (Ends{1, 0}));
+  EXPECT_EQ(ends_of({test::stadium(Vec2{0, 0}, Vec2{4, 1}, 1)}, by_lee()), (Ends{2, 0}));
+  EXPECT_EQ(ends_of({rounded(rectangle(8, 3)[0], 0.5)}, by_lee()), (Ends{4, 2}));
+  EXPECT_EQ(ends_of({bulged_polygon(3, std::tan(std::numbers::pi / 12))}, by_lee()), (Ends{3, 1}));
+  EXPECT_EQ(ends_of({bulged_polygon(2, 0.3)}, by_lee()), (Ends{2, 0}));
+  EXPECT_EQ(ends_of({bulged_polygon(4, -0.2)}, by_lee()), (Ends{4, 1}));
   Ring half_disk{{{0, 0}, {2, 0}}};
   half_disk.bulges = {0, 1};
-  const Shape shape = built({half_disk});
-  const auto axis = compute(shape, by_lee());
-  ASSERT_FALSE(axis.ok());
-  EXPECT_EQ(axis.error().code, ErrorCode::unsupported);
-  EXPECT_NE(axis.error().text.find("disks"), std::string::npos);
-  EXPECT_FALSE(voronoi_diagram(shape).ok());
+  EXPECT_EQ(ends_of({half_disk}, by_lee()), (Ends{2, 0}));
+}
+
+/// The one axis node of a circle, and of a ring the circle halfway.
+TEST(LeeArcs, OfCirclesAreTheirCentres) {
+  const auto one = compute(built({circle({1, 2}, 3)}), by_lee());
+  ASSERT_TRUE(one.ok());
+  ASSERT_EQ(one->nodes.size(), 1U);
+  EXPECT_LT(distance(one->nodes[0].disk.center, {1, 2}), 1e-14);
+  EXPECT_NEAR(one->nodes[0].disk.radius, 3, 1e-14);
+  const auto ring = compute(built({circle({0, 0}, 3), circle({0, 0}, 1)}), by_lee());
+  ASSERT_TRUE(ring.ok());
+  for (const Node& node : ring->nodes) EXPECT_NEAR(norm(node.disk.center), 2, 1e-14);
+}
+
+/// The start and the end of such a list join smoothly.
+TEST(LeeArcs, NeedNoCornerToBeginAt) {
+  Random random(7);
+  for (int i = 0; i < 20; ++i) {
+    const Rings smooth{smooth_biarcs(random, 48, 3)};
+    EXPECT_EQ(ends_of(smooth, by_lee()), ends_of(smooth, {.threads = 1})) << i;
+  }
+}
+
+/// A joint below the corner angle is no leaf.
+TEST(LeeArcs, HaveNoLeavesAtBluntJoints) {
+  Ring ring = bulged_polygon(6, 0.1);
+  Options blunt = by_lee(), other{.threads = 1};
+  blunt.corner_angle = other.corner_angle = 10;
+  ring.bulges.assign(6, std::tan(std::numbers::pi / 12 - 0.02));  // corners of 4.6 degrees
+  EXPECT_EQ(ends_of({ring}, blunt), ends_of({ring}, other));
+  EXPECT_EQ(ends_of({ring}, by_lee())[0], 6U);
+}
+
+TEST(LeeArcs, GiveTheSameBytesOnAnyNumberOfThreads) {
+  Random random(3);
+  for (const Rings& rings : {Rings{smooth_biarcs(random, 4000, 40)}, circle_grid(30, 0.3)}) {
+    const Shape shape = built(rings);
+    const auto one = compute(shape, by_lee(1));
+    ASSERT_TRUE(one.ok());
+    for (const int threads : {2, 8}) EXPECT_TRUE(identical(*one, *compute(shape, by_lee(threads))));
+  }
+}
+
+TEST(LeeRefuses, DiagramsWithArcs) {
+  const auto diagram = voronoi_diagram(built({circle({0, 0}, 1)}));
+  ASSERT_FALSE(diagram.ok());
+  EXPECT_EQ(diagram.error().code, ErrorCode::unsupported);
 }
 
 TEST(LeeRefuses, ShapesThatNobodyBuilt) {

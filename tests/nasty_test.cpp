@@ -291,19 +291,25 @@ INSTANTIATE_TEST_SUITE_P(Classes, NastyShapes, testing::ValuesIn(shapes),
 
 class NastyShapesByLee : public NastyShapes {};
 
+/// Where rounding decides what disks touch next to arcs, the shape is refused.
 TEST_P(NastyShapesByLee, HaveTheTrueGraphUnderAllSymmetries) {
-  expect_at_most(GetParam(), faults(false, method::Lee{}));
+  const Faults found = faults(false, method::Lee{});
+  expect_at_most(GetParam(), found);
+  EXPECT_EQ(found.count(Fault::wrong), 0U);
 }
 
-constexpr std::array<Mended, 9> shapes_by_lee{{{"strips"},
-                                               {"slits"},
-                                               {"stretched", 5},
-                                               {"needles"},
-                                               {"polygons"},
-                                               {"rings"},
-                                               {"grids"},
-                                               {"splinters"},
-                                               {"rounds", 30}}};
+constexpr std::array<Mended, 12> shapes_by_lee{{{"strips"},
+                                                {"slits"},
+                                                {"stretched", 5},
+                                                {"needles"},
+                                                {"polygons"},
+                                                {"rings"},
+                                                {"grids"},
+                                                {"splinters"},
+                                                {"rounds", 30},
+                                                {"circles", 200},
+                                                {"bars", 120},
+                                                {"tangents", 160}}};
 
 INSTANTIATE_TEST_SUITE_P(Classes, NastyShapesByLee, testing::ValuesIn(shapes_by_lee),
                          [](const auto& tested) { return std::string(tested.param.name); });

@@ -40,6 +40,7 @@ const std::array<MethodRow, std::variant_size_v<Method>> rows = {{
     {{.name = "lee",
       .summary = "merges Voronoi diagrams of chains",
       .holes = true,
+      .arcs = true,
       .exterior = true,
       .threads = true},
      method::Lee{},

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -9,6 +8,7 @@
 #include "methods/problem.h"
 #include "site/joint.h"
 #include "site/site.h"
+#include "site/smooth_place.h"
 
 namespace medial::disks {
 
@@ -76,32 +76,8 @@ struct Boundary {
     if (elements[i] != elements[i + 1]) return true;
     return elements[i] == Element::edge && joint(i) == site::Joint::smooth;
   }
-  /// Of two sites that join smoothly, whether the normal of the second one counts for both.
-  bool by_second(std::uint32_t before, std::uint32_t after) const {
-    // Of two edges the longer one knows its direction better. But of two arcs of almost one circle
-    // the rounder one says where a disk as round has to be; and so it does of others where that
-    // disk reaches less over the flatter one, by turn^2 / (2 bend) at most, than the longer one's
-    // disk does over the shorter edge, by turn * length.
-    const site::Site &first = sites[before], &second = sites[after];
-    const double a = first.curvature, b = second.curvature, bend = std::abs(a - b);
-    constexpr double almost = 0x1p-20;
-    const bool alike = a > 0 && b > 0 && bend > 0 && bend <= almost * a;
-    const bool edges = elements[before] == Element::edge && elements[after] == Element::edge;
-    const double shorter = std::min(first.length, second.length);
-    const bool by_rounder =
-        alike || (edges && std::max(a, b) > 0 &&
-                  std::abs(cross(first.end_normal(), second.normal())) < 2 * bend * shorter);
-    return by_rounder ? b > a : second.length > first.length;
-  }
-  /// Where two sites, one after the other, join smoothly: the point and the inward unit normal.
-  struct Place {
-    Vec2 point;
-    Vec2 normal;
-  };
-  Place smooth_place(std::uint32_t before, std::uint32_t after) const {
-    const Vec2 point =
-        elements[before] == Element::vertex ? sites[before].point : sites[after].point;
-    return {point, by_second(before, after) ? sites[after].normal() : sites[before].end_normal()};
+  site::SmoothPlace smooth_place(std::uint32_t before, std::uint32_t after) const {
+    return site::smooth_place(sites[before], sites[after]);
   }
 };
 

@@ -35,7 +35,7 @@ void ExactSites::choose_normals() const {
         continue;
       const std::uint32_t site = boundary_.originals[i];
       if (outline_.joined(site, boundary_.originals[after]))
-        outline_.by_next[site] = boundary_.by_second(i, after);
+        outline_.by_next[site] = site::by_second(boundary_.sites[i], boundary_.sites[after]);
     }
 }
 

@@ -73,9 +73,11 @@ struct DiagramIn {
                                               elements.passages.data())]};
   }
 
-  /// Whether the edge separates a reflex vertex from its own segment. Of a bridge no edge is:
-  /// elements stand in between.
+  /// Whether the edge separates a reflex vertex from its own edge, or two edges that join smoothly.
+  /// Of a bridge no edge is: elements stand in between.
   bool is_spoke(const ListEdge& edge) const {
+    if (elements.have_arcs())
+      return elements.beside(edge.element[0], edge.element[1]) == Beside::smooth;
     return edge.element[1] - edge.element[0] == 1 &&
            (elements.is_vertex(edge.element[0]) || elements.is_vertex(edge.element[1]));
   }

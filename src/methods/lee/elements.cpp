@@ -1,5 +1,8 @@
 #include "methods/lee/elements.h"
 
+#include <algorithm>
+
+#include "methods/checks.h"
 #include "methods/disks/connect.h"
 
 namespace medial::lee {
@@ -64,6 +67,37 @@ void add_passage(const disks::Boundary& boundary, std::uint32_t i,
   add(elements, half_tangent(disk, boundary.sites[i + 1], true), none);
 }
 
+Beside beside_of(const disks::Boundary& boundary, std::uint32_t before, std::uint32_t after) {
+  if (boundary.elements[before] == disks::Element::bridge ||
+      boundary.elements[after] == disks::Element::bridge)
+    return Beside::no;
+  if (boundary.elements[before] != boundary.elements[after]) return Beside::smooth;
+  const site::Joint joint = boundary.joint(before);
+  return joint == site::Joint::smooth  ? Beside::smooth
+         : joint == site::Joint::blunt ? Beside::blunt
+                                       : Beside::no;
+}
+
+/// How the elements of a run's list join, those of a shape with arcs.
+void add_joints(const disks::Boundary& boundary, const disks::Boundary::SiteRange& run,
+                std::uint32_t first, Elements& elements) {
+  elements.joints.resize(elements.size(), Beside::no);
+  elements.around.resize(elements.size(), Beside::no);
+  std::uint32_t element = first;
+  for (std::uint32_t i = run.first; i < run.last; ++i) {
+    elements.joints[element] = beside_of(boundary, i, i + 1);
+    element += boundary.elements[i] == disks::Element::bridge ? 2 : 1;
+  }
+  elements.around[first] = elements.around[element] = beside_of(boundary, run.last, run.first);
+}
+
+/// Whether a chain begins at an element, other than the first one of a list, or after a bridge.
+bool begins_chain(const disks::Boundary& boundary, std::uint32_t i) {
+  if (boundary.elements[i - 1] == disks::Element::bridge) return false;
+  return boundary.is_corner(i - 1) || beside_of(boundary, i - 1, i) == Beside::blunt ||
+         std::max(boundary.sites[i - 1].curvature, boundary.sites[i].curvature) > 0;
+}
+
 /// All components, with their holes.
 void add_connected(const Problem& problem, Elements& elements) {
   std::vector<disks::Bridge> bridges;
@@ -77,10 +111,11 @@ void add_connected(const Problem& problem, Elements& elements) {
         add_passage(boundary, i, bridges, elements);
         continue;
       }
-      if (i == run.first || boundary.is_corner(i - 1)) begin_chain(elements);
+      if (i == run.first || begins_chain(boundary, i)) begin_chain(elements);
       add(elements, boundary.sites[i], boundary.originals[i]);
     }
     end_loop(elements, first_chain, first, component++);
+    if (boundary.has_arcs) add_joints(boundary, run, first, elements);
   }
 }
 
@@ -91,7 +126,7 @@ std::optional<Elements> elements_of(const Problem& problem) {
   Elements elements;
   elements.sites.reserve(problem.numbers().count);
   elements.originals.reserve(problem.numbers().count);
-  if (shape.hole_count() > 0)
+  if (shape.hole_count() > 0 || has_arcs(shape))
     add_connected(problem, elements);
   else
     for (std::size_t l = 0; l < shape.loop_count(); ++l)

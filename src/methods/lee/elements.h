@@ -12,12 +12,21 @@ namespace medial::lee {
 
 constexpr std::uint32_t none = ~std::uint32_t{0};
 
+/// How an element joins another one beside it, where disks can touch both in one point only.
+enum class Beside : std::uint8_t {
+  no,
+  smooth,  ///< with one tangent, or a vertex: along a spoke
+  blunt,   ///< at a convex angle too small for a leaf of the axis
+};
+
 /// The elements of a shape, in the local frame: Section II's list e_1, ..., e_N of every component,
-/// segments and reflex vertices in boundary order, from one convex vertex on. Holes are spliced in
-/// where bridges touch (methods/disks/connect.h), so that a list is the boundary of a simply
-/// connected shape; what a bridge touches stands there in pieces.
+/// segments, arcs and reflex vertices in boundary order, from one convex vertex on, or where there
+/// is none, from a smooth place. Holes are spliced in where bridges touch
+/// (methods/disks/connect.h), so that a list is the boundary of a simply connected shape; what a
+/// bridge touches stands there in pieces.
 struct Elements {
-  /// The chains of one component (Definition 9); a bridge, too, ends one and begins another.
+  /// The chains of one component (Definition 9); a bridge, too, ends one and begins another, and a
+  /// convex arc is one by itself.
   struct ChainLoop {
     std::uint32_t first_chain = 0;
     std::uint32_t end_chain = 0;
@@ -33,16 +42,35 @@ struct Elements {
   };
   std::vector<site::Site> sites;
   std::vector<std::uint32_t> originals;  ///< index among the result's sites; none: of a bridge
-  /// The first element of every chain: a segment that begins at a convex vertex, or the second one
-  /// of a passage. One more at the end, the number of elements.
+  /// The first element of every chain: an edge that begins at a convex vertex, a convex arc or what
+  /// comes after one, or the second one of a passage. One more at the end, the number of elements.
   std::vector<std::uint32_t> chains;
   std::vector<ChainLoop> loops;
   std::vector<Passage> passages;  ///< in the order of the lists, two of each bridge
   std::vector<Disk> disks_of_passages;
+  /// Of a shape with arcs, of every element: how it joins the next one; and of the first and the
+  /// last one of a list, how these join.
+  std::vector<Beside> joints, around;
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(sites.size()); }
   bool is_vertex(std::uint32_t i) const { return sites[i].is_vertex(); }
   bool is_of_bridge(std::uint32_t i) const { return originals[i] == none; }
+  bool have_arcs() const { return !joints.empty(); }
+  bool is_convex_arc(std::uint32_t i) const { return sites[i].curvature > 0; }
+  /// Of two elements of a shape with arcs, i before j.
+  Beside beside(std::uint32_t i, std::uint32_t j) const {
+    if (j - i == 1) return joints[i];
+    return around[i] == around[j] ? around[i] : Beside::no;
+  }
+
+  /// The element before a vertex.
+  std::uint32_t before(std::uint32_t vertex) const {
+    if (!have_arcs() || around[vertex] == Beside::no) return vertex - 1;
+    const auto loop = std::find_if(loops.begin(), loops.end(), [&](const ChainLoop& one) {
+      return chains[one.first_chain] == vertex;
+    });
+    return chains[loop->end_chain] - 1;
+  }
 
   /// The first passage that begins at an element or later.
   const Passage& passage_from(std::uint32_t element) const {
@@ -52,8 +80,8 @@ struct Elements {
   }
 };
 
-/// Requires straight edges. Nothing where an outer loop has no convex vertex, as every simple
-/// polygon has. O(n), and O(h log n) expected with h holes.
+/// Nothing where an outer loop of straight edges has no convex vertex, as every simple polygon has.
+/// O(n), and O(h log n) expected with h holes.
 std::optional<Elements> elements_of(const Problem& problem);
 
 }  // namespace medial::lee

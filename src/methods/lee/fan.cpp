@@ -12,8 +12,8 @@ namespace {
 bool touches(const site::Site& segment, const Disk& disk, double slack) {
   const Vec2 d = disk.center - segment.point;
   const double foot = dot(segment.direction, d);
-  return std::abs(cross(segment.direction, d) - disk.radius) <= slack && foot >= 0 &&
-         foot <= segment.length;
+  return !segment.is_arc() && std::abs(cross(segment.direction, d) - disk.radius) <= slack &&
+         foot >= 0 && foot <= segment.length;
 }
 
 /// Segments of a list, one after another.
@@ -31,7 +31,7 @@ std::optional<Disk> disk_of_three(const Segments& segments, double radius_limit)
   const bool is_closed = site::meets(segments.back(), segments.front());
   const std::size_t last = is_closed ? 2 * (segments.size() / 3) : segments.size() - 1;
   const site::Site &a = segments[0], &b = segments[last / 2], &c = segments[last];
-  if (dot(a.direction, c.direction) > nearly_parallel) return std::nullopt;
+  if (a.is_arc() || dot(a.direction, c.direction) > nearly_parallel) return std::nullopt;
   const site::TangentDisks disks = site::tangent_disks(a, b, c);
   if (disks.count != 1 || !(disks.disk[0].radius <= radius_limit)) return std::nullopt;
   return disks.disk[0];

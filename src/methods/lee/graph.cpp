@@ -10,19 +10,42 @@
 namespace medial::lee {
 namespace {
 
-/// The curve of an edge from `from` to `to`, its ends, in units of the input.
-Edge result_edge(const Graph& graph, const LocalFrame& frame, std::uint32_t edge, const Disk& from,
-                 const Disk& to) {
+/// The curve of an edge from `from` to `to`, its ends.
+site::Control control_of(const Graph& graph, std::uint32_t edge, const Disk& from, const Disk& to) {
   const auto& [i, j] = graph[edge].element;
   const Elements& elements = graph.elements();
-  const site::Control control =
-      graph.is_spoke(edge)
-          ? site::Control{{midpoint(from.center, to.center), 0.5 * (from.radius + to.radius)}, 1}
-          : site::control_of(elements.sites[i], elements.sites[j], from, to);
+  if (!graph.is_spoke(edge))
+    return site::control_of(elements.sites[i], elements.sites[j], from, to);
+  return {{midpoint(from.center, to.center), 0.5 * (from.radius + to.radius)}, 1};
+}
+
+/// The edge with its curve, in units of the input.
+Edge result_edge(const Graph& graph, const LocalFrame& frame, std::uint32_t edge,
+                 const site::Control& control) {
+  const auto& [i, j] = graph[edge].element;
+  const std::vector<std::uint32_t>& originals = graph.elements().originals;
   return {{},
-          {elements.originals[i], elements.originals[j]},
+          {originals[i], originals[j]},
           {frame.to_input(control.point.center), frame.inverse * control.point.radius},
           control.weight};
+}
+
+/// By how far the disk in the middle of an edge misses its elements or reaches over them; or their
+/// carriers, where a bridge has divided the elements but not the edge.
+double residual_in_middle(const Graph& graph, std::uint32_t edge, const Disk& from,
+                          const site::Control& control, const Disk& to) {
+  const double scale = 1 / (2 + 2 * control.weight), weight = 2 * control.weight * scale;
+  const Vec2 center = scale * (from.center + to.center) + weight * control.point.center;
+  const double radius = scale * (from.radius + to.radius) + weight * control.point.radius;
+  double residual = 0;
+  for (const std::uint32_t i : graph[edge].element) {
+    const site::Site& site = graph.elements().sites[i];
+    const double away = graph.begins_at_bridge(edge)
+                            ? site::carrier_distance(site, center)
+                            : std::sqrt(site::squared_distance(site, center));
+    residual = std::max(residual, std::abs(away - radius));
+  }
+  return residual;
 }
 
 Disk to_input(const LocalFrame& frame, const Disk& disk) {
@@ -200,6 +223,7 @@ bool Graph::close(const Elements::ChainLoop& loop, std::uint32_t last_edge) {
       {begin, end - 1}, {none, none}, {elements().sites[begin].point, 0}};
   std::size_t count = 0;
   for (std::uint32_t i = end; i-- > begin;) {
+    broken_at_ = i;
     std::uint32_t outer = none;
     for (std::uint32_t edge = diagram_.top[i][0]; edge != none;
          edge = diagram_.edges[edge].inward[0]) {
@@ -236,9 +260,9 @@ void Graph::find_doubtful_edge(std::uint32_t edge) {
 
 bool Graph::runs_backward(std::uint32_t edge, double slack) const {
   const auto& [first, second] = diagram_.edges[edge].element;
-  const Vec2 way = disk(to(edge)).center - disk(edge).center;
-  return dot(elements().sites[first].direction, way) > slack ||
-         dot(elements().sites[second].direction, way) < -slack;
+  const Vec2 from = disk(edge).center, end = disk(to(edge)).center;
+  return advance(elements().sites[first], from, end) > slack ||
+         advance(elements().sites[second], from, end) < -slack;
 }
 
 std::array<std::uint32_t, 2> Graph::loop_around(std::uint32_t element) const {
@@ -270,14 +294,15 @@ void complete(const Graph& graph, const LocalFrame& frame, VoronoiDiagram& diagr
       faces.add(graph[edge].element, number);
       if (number < diagram.edges.size()) return;
       const std::uint32_t to = graph.to(edge);
-      Edge made = result_edge(graph, frame, edge, graph.disk(from), graph.disk(to));
+      Edge made = result_edge(graph, frame, edge,
+                              control_of(graph, edge, graph.disk(from), graph.disk(to)));
       made.node = {numbers.of_end(from, loop.component), numbers.of_end(to, loop.component)};
       diagram.edges.push_back({made, graph.is_spoke(edge)});
     });
   if (!bridged.empty()) faces.join_pieces();
 }
 
-void complete(Graph& graph, const LocalFrame& frame, double tolerance, MedialAxis& axis) {
+double complete(Graph& graph, const LocalFrame& frame, double tolerance, MedialAxis& axis) {
   const Elements& elements = graph.elements();
   Numbers numbers(graph, frame, axis.nodes);
   // Where an edge ends, if those without length are left out; found again at once next time.
@@ -293,8 +318,13 @@ void complete(Graph& graph, const LocalFrame& frame, double tolerance, MedialAxi
   };
   std::size_t kept = 0;
   for (const Elements::ChainLoop& loop : elements.loops) kept += 2 * std::size_t{loop.size} - 3;
-  for (const site::Site& site : elements.sites) kept -= site.is_vertex() ? 2 : 0;
-  kept += elements.passages.size();  // at each, a vertex has one spoke
+  if (elements.have_arcs()) {
+    for (const Beside joint : elements.joints) kept -= joint != Beside::no ? 1 : 0;
+    kept -= elements.loops.size();  // at most so many lists close smoothly
+  } else {
+    for (const site::Site& site : elements.sites) kept -= site.is_vertex() ? 2 : 0;
+    kept += elements.passages.size();  // at each, a vertex has one spoke
+  }
   const auto is_one = [&](const Disk& a, const Disk& b) {
     return squared_norm(a.center - b.center) <= tolerance * tolerance &&
            std::abs(a.radius - b.radius) <= tolerance;
@@ -311,29 +341,41 @@ void complete(Graph& graph, const LocalFrame& frame, double tolerance, MedialAxi
            numbers.unite(from, to, one.component);
   };
   bridged.erase(std::remove_if(bridged.begin(), bridged.end(), has_no_length), bridged.end());
-  double largest_residual = 0;
+  double largest_residual = 0, in_middle = 0;
   reserve_large(axis.edges, kept);
   reserve_large(axis.nodes, kept + elements.loops.size());  // one tree a loop
   const auto add = [&](std::uint32_t edge, std::uint32_t from, std::uint32_t component) {
     const std::uint32_t end = end_of(edge);
     const Disk& to = graph.disk(end);
-    Edge made = result_edge(graph, frame, edge, graph.disk(from), to);
+    const site::Control control = control_of(graph, edge, graph.disk(from), to);
+    Edge made = result_edge(graph, frame, edge, control);
     made.node = {numbers.of_end(from, component), numbers.of_end(end, component)};
     axis.edges.push_back(made);
+    if (elements.have_arcs())
+      in_middle =
+          std::max(in_middle, residual_in_middle(graph, edge, graph.disk(from), control, to));
     // Of the three elements of a Voronoi point, all are of edges that end there.
     for (const std::uint32_t element : graph[edge].element)
       largest_residual = std::max(
           largest_residual,
           std::abs(site::carrier_distance(elements.sites[element], to.center) - to.radius));
   };
-  for (const Elements::ChainLoop& loop : elements.loops)
+  for (const Elements::ChainLoop& loop : elements.loops) {
+    const std::size_t before = axis.edges.size();
+    std::uint32_t inside = none;
     graph.for_edges(loop, [&](std::uint32_t edge) {
-      if (graph.is_spoke(edge) || numbers.is_joined(edge) || graph.begins_at_bridge(edge)) return;
-      add(edge, edge, loop.component);
+      if (graph.is_beside_axis(edge) || graph.begins_at_bridge(edge)) return;
+      inside = edge;
+      if (!numbers.is_joined(edge)) add(edge, edge, loop.component);
     });
+    // All arcs of one circle.
+    if (axis.edges.size() == before && inside != none)
+      numbers.of_end(end_of(inside), loop.component);
+  }
   for (const Bridged& one : bridged) add(one.edge, end_of(one.other), one.component);
   if (!elements.passages.empty()) set_node_kinds(axis);
   axis.statistics.largest_residual = frame.inverse * largest_residual;
+  return in_middle;
 }
 
 }  // namespace medial::lee

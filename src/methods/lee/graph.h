@@ -23,12 +23,18 @@ class Graph {
   /// (Lemma 3), of which only the terminating bisector ends in a corner. Nothing else may be asked
   /// of a graph that is not.
   bool is_whole() const { return is_whole_; }
+  std::uint32_t broken_at() const { return broken_at_; }  ///< an element of one that is not
 
   const Elements& elements() const { return diagram_.elements; }
   const ListEdge& operator[](std::uint32_t edge) const { return diagram_.edges[edge]; }
   /// The number of places: every node and every edge is less.
   std::size_t places() const { return diagram_.edges.size(); }
   bool is_spoke(std::uint32_t edge) const { return diagram_.is_spoke(diagram_.edges[edge]); }
+  /// Whether no edge of the axis goes along an edge: a spoke, or one to a blunt joint.
+  bool is_beside_axis(std::uint32_t edge) const {
+    const auto& [i, j] = diagram_.edges[edge].element;
+    return elements().have_arcs() ? elements().beside(i, j) != Beside::no : is_spoke(edge);
+  }
 
   std::uint32_t to(std::uint32_t edge) const { return diagram_.edges[edge].inward[1]; }
   void set_to(std::uint32_t edge, std::uint32_t node) { diagram_.edges[edge].inward[1] = node; }
@@ -80,6 +86,7 @@ class Graph {
   Diagram& diagram_;
   double tolerance_;
   bool is_whole_ = true;
+  std::uint32_t broken_at_ = 0;
   std::vector<std::uint32_t> doubtful_edges_;
 };
 
@@ -88,7 +95,8 @@ void complete(const Graph& graph, const LocalFrame& frame, VoronoiDiagram& diagr
 
 /// The medial axis: the graph less its spokes (Corollary 3). Edges without length, of cocircular
 /// elements, become one node: ends whose disks agree within `tolerance`. Such edges are lost from
-/// the graph.
-void complete(Graph& graph, const LocalFrame& frame, double tolerance, MedialAxis& axis);
+/// the graph. Returns the largest residual in the middle of an edge with an arc, in the local
+/// frame.
+double complete(Graph& graph, const LocalFrame& frame, double tolerance, MedialAxis& axis);
 
 }  // namespace medial::lee

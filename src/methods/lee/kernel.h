@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -24,6 +26,18 @@ struct InDouble {
   /// disk.
   static constexpr double vagueness = 1e-5;
 };
+
+/// How far the foot on a site moves forward from one disk to another: seen from the centres, along
+/// the site's normals, and of an arc from the centre nearer to its own, in which there is no foot.
+inline double advance(const site::Site& site, Vec2 from, Vec2 to) {
+  if (!site.is_arc()) return dot(site.direction, to - from);
+  const Vec2 d = from - site.point, e = to - site.point, normal = site.normal();
+  const double way = dot(site.direction, e - d) + site.curvature * cross(d, e);
+  const double larger = std::max(squared_norm(normal - site.curvature * d),
+                                 squared_norm(normal - site.curvature * e));
+  const double most = distance(from, to);
+  return larger > 0 ? std::clamp(way / std::sqrt(larger), -most, most) : 0;
+}
 
 #ifdef MEDIAL_HAS_EXACT
 

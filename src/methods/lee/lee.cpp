@@ -8,6 +8,7 @@
 #include "base/stopwatch.h"
 #include "methods/lee/graph.h"
 #include "methods/lee/ties.h"
+#include "methods/refusal.h"
 
 namespace medial::lee {
 namespace {
@@ -47,6 +48,7 @@ class Solution {
     statistics.seconds_sites = watch.lap();
     statistics.bridges = elements_.passages.size() / 2;
     if (!merge_all(levels) && !problem_.is_cancelled()) {
+      if (elements_.have_arcs()) return undecided();
       // Of such a boundary, rounding may break the structure, too.
       if (const auto place = find_smooth_run(elements_)) return too_nearly_round(*place);
       merge_in_precise();
@@ -55,9 +57,10 @@ class Solution {
     if (!graph) return broken();
     statistics.seconds_walk = watch.lap();
     join_ties(*graph, problem_.local_tolerance());
-    // The certificate, too, would refuse such an axis.
     constexpr double slack = 2;
-    if (const auto disk = find_overreach(*graph, slack * problem_.local_tolerance()))
+    if (elements_.have_arcs()) is_doubtful_ = !is_right_locally(*graph, problem_.local_tolerance());
+    // The certificate, too, would refuse such an axis.
+    else if (const auto disk = find_overreach(*graph, slack * problem_.local_tolerance()))
       return too_nearly_round(disk->center);
     statistics.seconds_collect = watch.lap();
     return success();
@@ -69,6 +72,9 @@ class Solution {
     diagram_.reset();
     elements_ = {};
   }
+
+  /// Whether disks of a shape with arcs are off by more than the tolerance somewhere.
+  bool is_doubtful() const { return is_doubtful_; }
 
   Statistics statistics;
 
@@ -111,6 +117,7 @@ class Solution {
     if (!last_edges || problem_.is_cancelled()) return false;
     graph.emplace(*diagram_, *last_edges, problem_.local_tolerance());
     if (graph->is_whole()) return true;
+    broken_at_ = graph->broken_at();
     graph.reset();
     return false;
   }
@@ -120,10 +127,18 @@ class Solution {
         ErrorCode::internal, "the Voronoi diagrams cannot be merged: please report this shape", {}};
   }
   Error too_nearly_round(Vec2 place) const {
-    Error error{ErrorCode::unsupported,
-                "the boundary is too nearly round here to separate its sides from rounding: use "
-                "the method disks",
-                {}};
+    return unsupported(
+        place,
+        "the boundary is too nearly round here to separate its sides from rounding: use the method "
+        "disks");
+  }
+  Error undecided() const {
+    return unsupported(
+        elements_.sites[broken_at_].point,
+        "rounding alone decides what a disk touches next to arcs here: use the method disks");
+  }
+  Error unsupported(Vec2 place, const char* text) const {
+    Error error{ErrorCode::unsupported, text, {}};
     error.place.point = problem_.frame.to_input(place);
     return error;
   }
@@ -131,6 +146,8 @@ class Solution {
   const Problem& problem_;
   Elements elements_;
   std::optional<Diagram> diagram_;
+  std::uint32_t broken_at_ = 0;
+  bool is_doubtful_ = false;
 
  public:
   std::optional<Graph> graph;
@@ -148,10 +165,17 @@ Result<MedialAxis> run(const Problem& problem, std::vector<Level>* levels) {
   if (!solution.graph) return axis;
   axis.statistics = solution.statistics;
   Stopwatch watch;
-  complete(*solution.graph, problem.frame, problem.local_tolerance(), axis);
+  const double in_middle =
+      complete(*solution.graph, problem.frame, problem.local_tolerance(), axis);
   solution.free_graph();
   axis.sites = problem.result_sites();
   axis.statistics.seconds_collect += watch.lap();
+  // Next to arcs, rounding may have decided what disks touch.
+  if (solution.is_doubtful() || !(in_middle <= problem.local_tolerance()))
+    if (auto error = error_if_refused(problem, axis)) {
+      error->text += ": use the method disks";
+      return std::move(*error);
+    }
   axis.statistics.seconds = all.lap();
   return axis;
 }

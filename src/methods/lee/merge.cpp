@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <type_traits>
 
 #include "site/bisector.h"
 #include "site/tangent_disk.h"
@@ -15,7 +16,7 @@ using std::abs, std::sqrt;
 /// The merge curve's way through two diagrams (Section II): the current bisector B(e_a, e_b), with
 /// a on side 0, the earlier list, and b on side 1. On side s, the edges still to be crossed are in
 /// the stack of the current element in which it is element[1 - s].
-template <class Kernel>
+template <class Kernel, bool with_arcs>
 class MergeCurve {
   using Real = typename Kernel::Real;
   using Disk = typename Kernel::Disk;
@@ -26,7 +27,11 @@ class MergeCurve {
  public:
   MergeCurve(DiagramIn<Kernel>& diagram, FreePlaces& free, const MergeLimits& limits,
              Statistics& statistics)
-      : diagram_(diagram), free_(free), limits_(limits), statistics_(statistics) {}
+      : diagram_(diagram),
+        free_(free),
+        limits_(limits),
+        statistics_(statistics),
+        contacts_(diagram.elements, limits, statistics) {}
 
   std::uint32_t follow(std::uint32_t first, std::uint32_t middle, std::uint32_t end) {
     const auto gate = diagram_.gate(middle);
@@ -36,7 +41,7 @@ class MergeCurve {
     disk_ = gate.disk;
     std::uint32_t edge = add_edge();
     while (edge != none) {
-      const Along bisector(site(current_[1]), site(current_[0]));
+      const Along bisector = along(current_[0], current_[1]);
       const Real reached = bisector.position(disk_.center);
       State state = drop_covered(0);
       if (state == State::inside) state = drop_covered(1);
@@ -65,11 +70,19 @@ class MergeCurve {
 
  private:
   /// The order of disks on a bisector.
-  struct Along {
+  struct Straight {
     Vector direction;
-    Along(const Site& right, const Site& left) : direction(direction_along(right, left)) {}
     Real position(const Vector& center) const { return dot(direction, center); }
   };
+  using Along = std::conditional_t<with_arcs, site::Bisector, Straight>;
+
+  /// Outward along B(e_i, e_j), i < j.
+  Along along(std::uint32_t i, std::uint32_t j) const {
+    if constexpr (with_arcs)
+      return contacts_.bisector(i, j);
+    else
+      return {direction_along(site(j), site(i))};
+  }
 
   /// Where the merge curve leaves a Voronoi polygon.
   struct Crossing {
@@ -178,15 +191,26 @@ class MergeCurve {
     const Vector way = edge.inner.center - disk.center;
     const Real ahead = own.is_vertex()
                            ? Real(cross(way, disk.center - own.point) / edge.inner.radius)
-                           : dot(own.direction, way);
+                           : along_edge(own, disk.center, edge.inner.center);
     return side == 0 ? ahead : Real(-ahead);
+  }
+  static Real along_edge(const Site& edge, const Vector& from, const Vector& to) {
+    if constexpr (with_arcs)
+      return advance(edge, from, to);
+    else
+      return dot(edge.direction, to - from);
   }
   bool is_behind(std::size_t side, const ListEdge& edge) const {
     return passed(side, disk_, edge) > vagueness();
   }
 
   /// What a stored disk touches: far less than ties.h allows, which then joins such disks.
-  double tie() const { return 0.0625 * limits_.tolerance; }
+  double tie() const {
+    if constexpr (with_arcs)
+      return contacts_.tie();
+    else
+      return 0.0625 * limits_.tolerance;
+  }
   /// Whether a stored disk touches an element, and not only the end of a segment, maybe from
   /// behind.
   bool is_tied(std::uint32_t i, const Disk& disk) const {
@@ -210,6 +234,7 @@ class MergeCurve {
         return Crossing{is_tied(third, disk_) ? disk_ : disk, reached, side};
       return std::nullopt;
     };
+    if constexpr (with_arcs) return crossing_with_arcs(side, edge, not_behind);
     if (diagram_.is_spoke(edge)) {
       const bool own_vertex = site(current_[side]).is_vertex();
       const Site& vertex = site(own_vertex ? current_[side] : third);
@@ -241,6 +266,24 @@ class MergeCurve {
     return best;
   }
 
+  template <class NotBehind>
+  std::optional<Crossing> crossing_with_arcs(std::size_t side, const ListEdge& edge,
+                                             const NotBehind& not_behind) {
+    const std::uint32_t third = edge.element[side], other = current_[1 - side];
+    const bool is_spoke = diagram_.is_spoke(edge);
+    if (!is_spoke && edge.inner.radius > 0 && is_tied(other, edge.inner))
+      return not_behind(edge.inner);
+    if (!is_spoke && disk_.radius > 0 && is_tied(third, disk_)) return not_behind(disk_);
+    const auto found = contacts_.disks_of({current_[1], current_[0], third});
+    std::optional<Crossing> best;
+    for (std::size_t i = 0; i < found.count; ++i) {
+      const auto crossing = not_behind(found.disk[i]);
+      if (!crossing || (best && best->position <= crossing->position)) continue;
+      if (is_spoke || is_outward(edge, found.disk[i])) best = crossing;
+    }
+    return best;
+  }
+
   /// Where the curve leaves a polygon first. Where the positions are not known well, the other
   /// side's element decides: it must not reach into the disk.
   std::optional<Crossing> first_crossing(const Along& bisector, const Real& reached) {
@@ -268,7 +311,8 @@ class MergeCurve {
   /// Whether a disk that touches an edge's elements lies outward of its inner end, but for
   /// rounding.
   bool is_outward(const ListEdge& edge, const Disk& disk) const {
-    const Along bisector(site(edge.element[1]), site(edge.element[0]));
+    if (with_arcs && edge.inner.radius == 0) return true;
+    const Along bisector = along(edge.element[0], edge.element[1]);
     return bisector.position(disk.center) >= bisector.position(edge.inner.center) ||
            distance(disk.center, edge.inner.center) <= vagueness();
   }
@@ -296,6 +340,7 @@ class MergeCurve {
   FreePlaces& free_;
   const MergeLimits& limits_;
   Statistics& statistics_;
+  ArcContacts contacts_;
   std::array<std::uint32_t, 2> current_{};
   std::uint32_t middle_ = 0;  ///< the first element of the later list
   Disk disk_;
@@ -314,8 +359,11 @@ std::uint32_t merge(DiagramIn<Kernel>& diagram, std::uint32_t first, std::uint32
   diagram.edges[free.last].inward[0] = more.first;
   free.last = more.last;
   const auto& chains = diagram.elements.chains;
-  return MergeCurve<Kernel>(diagram, free, limits, statistics)
-      .follow(chains[first], chains[middle], chains[end]);
+  const std::uint32_t begin = chains[first], half = chains[middle], last = chains[end];
+  if constexpr (std::is_same_v<Kernel, InDouble>)
+    if (diagram.elements.have_arcs())
+      return MergeCurve<Kernel, true>(diagram, free, limits, statistics).follow(begin, half, last);
+  return MergeCurve<Kernel, false>(diagram, free, limits, statistics).follow(begin, half, last);
 }
 
 template std::uint32_t merge(Diagram&, std::uint32_t, std::uint32_t, std::uint32_t,

@@ -3,15 +3,10 @@
 #include <cstdint>
 
 #include "medial/axis.h"
+#include "methods/lee/arc_contacts.h"
 #include "methods/lee/diagram.h"
 
 namespace medial::lee {
-
-/// What all merges of a shape share.
-struct MergeLimits {
-  double tolerance = 0;     ///< in the local frame
-  double radius_limit = 0;  ///< no disk inside the shape is larger
-};
 
 /// Merges the diagrams of two lists of chains, [first, middle) and [middle, end), along their merge
 /// curve, which starts at the convex vertex between them, or at the disk of the bridge. Requires

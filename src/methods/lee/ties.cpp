@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <vector>
 
+#include "base/disjoint_sets.h"
 #include "site/bisector.h"
 
 namespace medial::lee {
@@ -88,7 +90,12 @@ class Ties {
     const Disk &from = graph_.disk(edge), &to = graph_.disk(graph_.to(edge));
     if (from.center == to.center) return false;
     const auto& [first, second] = graph_[edge].element;
-    const Vec2 along = site::direction_along(elements_.sites[second], elements_.sites[first]);
+    const site::Site &right = elements_.sites[second], &left = elements_.sites[first];
+    if (right.is_arc() || left.is_arc()) {
+      const site::Bisector bisector(right, left);
+      return bisector.position(from.center) > bisector.position(to.center);
+    }
+    const Vec2 along = site::direction_along(right, left);
     return dot(along, from.center) > dot(along, to.center);
   }
 
@@ -148,7 +155,7 @@ class Ties {
   }
 
   /// Twice the area of the triangle of the unit vectors to a Voronoi point's feet: the determinant
-  /// of its equations.
+  /// of its equations; no number in the centre of an arc.
   double spread(std::uint32_t node) const {
     std::array<Vec2, 3> g;
     const auto touched = graph_.touched(node);
@@ -200,6 +207,43 @@ std::optional<Disk> find_overreach(const Graph& graph, double slack) {
       }
   }
   return std::nullopt;
+}
+
+/// Whether so many Voronoi points are close together that what each may be off adds up.
+bool has_large_tie(const Graph& graph) {
+  constexpr std::uint32_t large = 8;
+  if (graph.doubtful_edges().size() < large) return false;
+  DisjointSets ties(graph.places());
+  for (const std::uint32_t edge : graph.doubtful_edges()) ties.join(edge, graph.to(edge));
+  std::vector<std::uint32_t> size(graph.places());
+  return std::any_of(graph.doubtful_edges().begin(), graph.doubtful_edges().end(),
+                     [&](std::uint32_t edge) { return ++size[ties.find(edge)] >= large; });
+}
+
+bool is_right_locally(const Graph& graph, double slack) {
+  if (has_large_tie(graph)) return false;
+  const Elements& elements = graph.elements();
+  // By how far a disk misses what a node touches; negative where it reaches over.
+  const auto reach = [&](std::uint32_t node, const Disk& disk, double& least, double& most) {
+    for (const std::uint32_t i : graph.touched(node)) {
+      const double gap =
+          std::sqrt(site::squared_distance(elements.sites[i], disk.center)) - disk.radius;
+      least = std::min(least, gap);
+      most = std::max(most, gap);
+    }
+  };
+  double least = 0, most = 0, any = 0;
+  for (const Elements::ChainLoop& loop : elements.loops)
+    graph.for_edges(loop, [&](std::uint32_t edge) {
+      const bool from_node = graph.disk(edge).radius > 0 && !graph.begins_at_bridge(edge);
+      if (from_node) reach(edge, graph.disk(edge), least, most);
+      const std::uint32_t end = graph.to(edge);
+      if (!from_node || !(graph.disk(end).radius > 0)) return;
+      reach(edge, graph.disk(end), least, any);
+      reach(end, graph.disk(edge), least, any);
+      if (graph.runs_backward(edge, slack)) most = std::numeric_limits<double>::infinity();
+    });
+  return least >= -slack && most <= slack;
 }
 
 }  // namespace medial::lee

@@ -20,4 +20,10 @@ void join_ties(Graph& graph, double tolerance);
 /// O(doubtful edges), and O(log N) for each such disk.
 std::optional<Disk> find_overreach(const Graph& graph, double slack);
 
+/// Whether the disk of every node touches its three elements, and reaches over none that the next
+/// nodes' disks touch, nor a foot moves backward, all by `slack` at most. A diagram of which that
+/// holds everywhere is right, as a triangulation is Delaunay's where each two triangles beside each
+/// other are. False, too, where many points are close together. O(N).
+bool is_right_locally(const Graph& graph, double slack);
+
 }  // namespace medial::lee
