@@ -4,6 +4,8 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -86,7 +88,7 @@ std::vector<TilePart> parts_of(const Tiles& tiles, const TileGrid& grid, const O
   if (static_cast<int>(tiles.edges.size()) >= 4 * effective_threads(options.threads))
     own.threads = 1;
   std::vector<TilePart> parts(tiles.edges.size());
-  std::vector<std::optional<Error>> errors(tiles.edges.size());
+  std::vector<std::unique_ptr<Error>> errors(tiles.edges.size());
   const auto work = [&](std::size_t i) {
     auto part = axis_of_tile(tiles.edges[i], grid, tiles.level,
                              static_cast<std::uint32_t>(i % tiles.side()),
@@ -94,15 +96,15 @@ std::vector<TilePart> parts_of(const Tiles& tiles, const TileGrid& grid, const O
     if (part)
       parts[i] = std::move(part).value();
     else
-      errors[i] = std::move(part).error();
+      errors[i] = std::make_unique<Error>(std::move(part).error());
     done();
   };
   if (own.threads == 1)
     on_threads(options.threads, [&] { parallel_for(parts.size(), work); });
   else
     for (std::size_t i = 0; i < parts.size(); ++i) work(i);
-  const auto first = ranges::find_if(errors, [](const auto& one) { return one.has_value(); });
-  if (first != errors.end()) error = std::move(*first);
+  const auto first = ranges::find_if(errors, [](const auto& one) { return one != nullptr; });
+  if (first != errors.end()) error = std::move(**first);
   return parts;
 }
 
@@ -290,9 +292,8 @@ Result<MedialAxis> compute_in_tiles(const Shape& shape, int levels, const Option
     Stopwatch all;
     std::vector<TileLevel> rows(static_cast<std::size_t>(levels) + 1);
     std::vector<TileAxisEdge> axis_edges;
-    // Each level costs about as much as the leaves below it have edges.
     std::atomic<std::size_t> finished = 0;
-    const double count = (std::ldexp(4, 2 * levels) - 1) / 3;
+    const double count = (std::ldexp(4, 2 * levels) - 1) / 3;  // of the tiles of all levels
     const auto done = [&] {
       if (options.progress)
         options.progress(std::min(1.0, static_cast<double>(++finished) / count));
