@@ -19,7 +19,7 @@ LAYERS = {
     "site": [],
     "axis": ["statistics", "axis", "query"],
     "verify": ["verify"],
-    "methods": ["compute", "methods", "raster"],
+    "methods": ["compute", "editor", "methods", "raster"],
     "voronoi": ["voronoi"],
     "ops": ["carve", "centreline", "features", "measure", "offset", "pack", "prune", "sides", "tiles"],
     "volume": ["volume"],

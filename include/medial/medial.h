@@ -2,6 +2,7 @@
 
 // The whole core library in one include. What is missing here, these headers include.
 #include "medial/carve.h"
+#include "medial/editor.h"
 #include "medial/features.h"
 #include "medial/load.h"
 #include "medial/measure.h"

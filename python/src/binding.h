@@ -237,6 +237,7 @@ void bind_well_known_binary(nb::module_& module);
 void bind_batches(nb::module_& module);
 void bind_paths(nb::module_& module);
 void bind_derived(nb::module_& module);
+void bind_editing(nb::module_& module);
 void bind_carving(nb::module_& module);
 void bind_text(nb::module_& module);
 void bind_features(nb::module_& module);

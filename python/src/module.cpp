@@ -62,6 +62,7 @@ NB_MODULE(_core, module) {
   bind_batches(module);
   bind_paths(module);
   bind_derived(module);
+  bind_editing(module);
   bind_carving(module);
   bind_text(module);
   bind_features(module);

@@ -462,7 +462,7 @@ Result<CurveAxis> follow(const Loops& loops, const method::CurveAxis& options,
   // What has gone astray does so at some steps only, and from some tips.
   method::CurveAxis again = options;
   std::uint64_t spent = 0;
-  bool failed = false;
+  std::uint64_t failures = 0;
   for (int round = 0; round <= most_attempts; ++round) {
     std::vector<Piece> pieces = bridged(loops, direction_of(round));
     if (pieces.empty()) continue;
@@ -470,9 +470,11 @@ Result<CurveAxis> follow(const Loops& loops, const method::CurveAxis& options,
     Result<CurveAxis> next = attempt(boundary, again, cancel);
     spent = boundary.evaluations();
     // The first error is the most useful one.
-    if (!failed || next.ok() || next.error().code == ErrorCode::cancelled) result = std::move(next);
-    failed = true;
+    if (next.ok()) next->rules.restarts = failures;
+    if (failures == 0 || next.ok() || next.error().code == ErrorCode::cancelled)
+      result = std::move(next);
     if (result.ok() || result.error().code != ErrorCode::unsupported) break;
+    ++failures;
     again.step /= 2;
     ++again.first_maximum;
   }
@@ -598,6 +600,7 @@ CurveAxisRules& CurveAxisRules::operator+=(const CurveAxisRules& other) {
   resumed += other.resumed;
   ends += other.ends;
   meetings += other.meetings;
+  restarts += other.restarts;
   return *this;
 }
 

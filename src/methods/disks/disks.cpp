@@ -27,7 +27,7 @@ namespace {
 /// gaps may leave only some tolerances between two contacts, and so does the whole axis where arcs
 /// are within so many tolerances of one circle. What remains of a tie is merged at the end. Among
 /// other arcs ties are known to the tolerance only, since their bulges round, too.
-constexpr double fine_share = 0.25, in_centers_share = 0.125, near_circle = 1 << 12;
+constexpr double in_centers_share = 0.125, near_circle = 1 << 12;
 
 /// Reports the share of the walk that is done, if the caller wants it.
 std::function<void(std::uint64_t)> reporter(const Options& options, const Boundary& boundary,

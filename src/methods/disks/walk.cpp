@@ -46,6 +46,13 @@ class Walker {
     if (starts_blunt_ && chunk_.nodes.size() == 1) add_node(disk_between(run));
   }
 
+  /// Walks all of a run from a disk that touches its ends.
+  void walk_from(const Boundary::SiteRange& run, const Disk& start, double error) {
+    chunk_.nodes.push_back({start.center, 0});  // stands for no parent
+    const std::uint32_t node = add_node(start);
+    walk_span({run.first, run.last, node, Hit::none, error});
+  }
+
   /// Walks one span and all that branches off it.
   void walk_span(const Span& span) {
     stack_.push_back(span);
@@ -426,6 +433,14 @@ std::vector<std::unique_ptr<Chunk>> walk(const WalkContext& context) {
   }
   tasks.wait();
   return chunks;
+}
+
+std::unique_ptr<Chunk> walk_part(const WalkContext& context, const Disk& start, double error) {
+  auto chunk = std::make_unique<Chunk>();
+  TaskGroup tasks;
+  Walker(context, Hit::none, tasks, *chunk).walk_from(context.boundary.runs[0], start, error);
+  tasks.wait();
+  return chunk;
 }
 
 }  // namespace medial::disks
