@@ -70,7 +70,7 @@ python-leaks: python    ## a million calls of the Python package, which may not 
 spark: python   ## test the Python package on Spark, Sedona, Dask and DuckDB (PyPI, Maven, Java 17)
 	@tools/python.sh spark build/python/engines $(RELEASE)
 
-bench-spark: python     ## GSHHG and footprints by Spark, from Parquet to GeoParquet (an hour on two cores)
+bench-spark: python     ## GSHHG and footprints by Spark, from Parquet to GeoParquet (20 minutes on two cores)
 	@tools/python.sh bench-spark build/python/engines $(RELEASE)
 
 wheels: setup   ## build the wheels of the Python package, checked by auditwheel: out/wheels
