@@ -25,7 +25,7 @@ PORT ?= 8000
 BENCH_BOOST := build/boost-1.81
 SOURCES = $(shell git ls-files '*.h' '*.cpp')
 
-.PHONY: help setup build demo check test papers bench bench-scale bench-flo-mat bench-images fuzz fuzz-coverage certain silhouettes corpus offsets tsan serial portable python python-leaks spark wheels web docs format lint clean install
+.PHONY: help setup build demo check test papers bench bench-scale bench-spark bench-flo-mat bench-images fuzz fuzz-coverage certain silhouettes corpus offsets tsan serial portable python python-leaks spark wheels web docs format lint clean install
 .DEFAULT_GOAL := help
 
 help:     ## list the targets
@@ -69,6 +69,9 @@ python-leaks: python    ## a million calls of the Python package, which may not 
 
 spark: python   ## test the Python package on Spark, Sedona, Dask and DuckDB (PyPI, Maven, Java 17)
 	@tools/python.sh spark build/python/engines $(RELEASE)
+
+bench-spark: python     ## GSHHG and footprints by Spark, from Parquet to GeoParquet (20 minutes on two cores)
+	@tools/python.sh bench-spark build/python/engines $(RELEASE)
 
 wheels: setup   ## build the wheels of the Python package, checked by auditwheel: out/wheels
 	@tools/wheels.sh out/wheels $(JOBS)

