@@ -21,7 +21,7 @@ LAYERS = {
     "verify": ["verify"],
     "methods": ["compute", "editor", "methods", "raster"],
     "voronoi": ["voronoi"],
-    "ops": ["carve", "centreline", "features", "measure", "offset", "pack", "prune", "sides"],
+    "ops": ["carve", "centreline", "features", "measure", "offset", "pack", "prune", "sides", "tiles"],
     "volume": ["volume"],
     "load": ["document", "load"],
     "text": ["io/*"],

@@ -11,6 +11,7 @@
 #include "medial/prune.h"
 #include "medial/sides.h"
 #include "medial/threads.h"
+#include "medial/tiles.h"
 #include "medial/verify.h"
 #include "medial/volume.h"
 #include "medial/voronoi.h"

@@ -242,6 +242,7 @@ void bind_carving(nb::module_& module);
 void bind_text(nb::module_& module);
 void bind_features(nb::module_& module);
 void bind_voronoi(nb::module_& module);
+void bind_tiles(nb::module_& module);
 void bind_images(nb::module_& module);
 void bind_solids(nb::module_& module);
 

@@ -67,6 +67,7 @@ NB_MODULE(_core, module) {
   bind_text(module);
   bind_features(module);
   bind_voronoi(module);
+  bind_tiles(module);
   bind_images(module);
   bind_solids(module);
 }
