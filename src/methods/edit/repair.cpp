@@ -158,7 +158,7 @@ class Repairer {
     for (const std::uint32_t node : link.node)
       for (const std::uint32_t i : link.site) {
         const Disk& disk = part.nodes[node].disk;
-        const double away = std::sqrt(site::squared_distance(boundary_.sites[i], disk.center));
+        const double away = std::sqrt(site::squared_distance(rings_.site(name_of(i)), disk.center));
         if (!(std::abs(away - disk.radius) <= loose)) return false;
       }
     return true;
