@@ -214,7 +214,8 @@ TEST(Editor, FollowsVerticesIntoALineAndOutOfIt) {
   Editor editor = editor_of(rectangle(4, 2));
   const auto inserted = editor.insert(0, {2, 0});
   ASSERT_TRUE(inserted.ok());
-  EXPECT_TRUE(inserted->everything);
+  EXPECT_FALSE(inserted->everything);
+  EXPECT_TRUE(inserted->added_edges.empty());
   EXPECT_EQ(editor.shape().points.size(), 4U);
   EXPECT_EQ(fault_of(editor), "");
   ASSERT_TRUE(editor.move(inserted->vertex, {2, 0.5}).ok());
@@ -223,6 +224,41 @@ TEST(Editor, FollowsVerticesIntoALineAndOutOfIt) {
   ASSERT_TRUE(editor.undo().ok());
   ASSERT_TRUE(editor.undo().ok());
   EXPECT_FALSE(editor.vertex(inserted->vertex));
+  EXPECT_EQ(fault_of(editor), "");
+}
+
+TEST(Editor, RepairsTheAxisBesideVerticesInALine) {
+  Editor editor = editor_of(comb(40));
+  const MedialAxis axis = editor.axis();
+  std::size_t whole = 0;
+  const std::size_t vertices = editor.shape().points.size();
+  for (std::uint32_t i = 0; i < vertices; i += 8) {
+    const Vec2 a = *editor.vertex(i), b = *editor.vertex(i + 1);
+    const auto inserted = editor.insert(i, midpoint(a, b));
+    ASSERT_TRUE(inserted.ok()) << to_string(inserted.error());
+    for (const Vec2 way : {Vec2{0.125, 0.0625}, Vec2{}}) {
+      const auto moved = editor.move(inserted->vertex, midpoint(a, b) + way);
+      ASSERT_TRUE(moved.ok()) << to_string(moved.error());
+      whole += moved->everything ? 1 : 0;
+      ASSERT_EQ(fault_of(editor), "");
+    }
+  }
+  EXPECT_EQ(whole, 0U);
+  EXPECT_EQ(editor.shape().points.size(), vertices);
+  EXPECT_EQ(editor.axis().edges.size(), axis.edges.size());
+}
+
+TEST(Editor, ComputesAllWhereEdgesTouch) {
+  Editor editor = editor_of(hole_grid(3));
+  std::uint32_t corner = 0;
+  while (!(editor.vertex(corner) == Vec2{2, 1})) ++corner;
+  const auto touches = editor.move(corner, {2.5, 0});
+  ASSERT_TRUE(touches.ok()) << to_string(touches.error());
+  EXPECT_TRUE(touches->everything);
+  EXPECT_EQ(fault_of(editor), "");
+  ASSERT_TRUE(editor.move(corner, {2.5, 0.5}).ok());
+  EXPECT_EQ(fault_of(editor), "");
+  EXPECT_FALSE(editor.move(corner, {2.25, 0.5})->everything);
   EXPECT_EQ(fault_of(editor), "");
 }
 

@@ -37,15 +37,14 @@ struct Editor::Parts {
   Shape apart_shape;
   std::vector<std::uint32_t> apart_components;  ///< of nodes
 
-  Status start(const Shape& shape, const std::vector<std::uint32_t>& numbers);
+  Status start(const Shape& shape, bool is_first);
   Result<AxisChange> change(const edit::Edit& edit);
   Result<AxisChange> undo();
 
   std::optional<Error> refuse(const edit::Edit& edit) const;
   Result<AxisChange> rebuild(const edit::Edit& edit);
   bool fits_frame(Vec2 place) const;
-  bool repair(const edit::Edit& edit, const std::vector<std::uint32_t>& changed,
-              AxisChange& change);
+  bool repair(const edit::Edit& edit, const std::vector<Rings::Extent>& before, AxisChange& change);
   bool replace(const edit::Affected& affected, const edit::Repair& repair, AxisChange& change);
   void list_all(std::vector<std::uint32_t>& nodes, std::vector<std::uint32_t>& edges) const;
   Node node(std::uint32_t number) const;
@@ -69,19 +68,21 @@ double relative_tolerance(const Box& box, const Box& local, double scale, double
   return std::min(largest, tolerance / diagonal(local));
 }
 
-/// For each site of an axis its number, where `numbers` are those of the shape's points.
-std::vector<std::uint32_t> site_numbers(const MedialAxis& axis,
-                                        const std::vector<std::uint32_t>& numbers) {
+/// For each site of an axis of the shape's image in the local frame its number.
+std::vector<std::uint32_t> site_numbers(const MedialAxis& axis, const Shape& shape, bool is_first) {
   std::vector<std::uint32_t> sites;
   sites.reserve(axis.sites.size());
   for (const Site& site : axis.sites)
-    sites.push_back(2 * numbers[site.vertex] + (site.kind == SiteKind::vertex ? 0 : 1));
+    sites.push_back(2 * (is_first ? site.vertex : shape.sources[site.vertex].vertex) +
+                    (site.kind == SiteKind::vertex ? 0 : 1));
   return sites;
 }
 
 }  // namespace
 
-Status Editor::Parts::start(const Shape& shape, const std::vector<std::uint32_t>& numbers) {
+/// Computes the axis of a shape: the first one, or one built from the rings, whose sources name
+/// vertices.
+Status Editor::Parts::start(const Shape& shape, bool is_first) {
   if (auto error = medial::refuse(shape, options)) return std::move(*error);
   box = bounding_box(shape);
   const LocalFrame frame = frame_of(box);
@@ -96,9 +97,13 @@ Status Editor::Parts::start(const Shape& shape, const std::vector<std::uint32_t>
   tolerance = tolerance_for(box, options.tolerance);
   measures = {frame.scale * tolerance, tolerance_for(local_box, options.tolerance),
               radius_limit(box, frame)};
-  const bool is_apart = numbers.empty();
+  apart.clear();
+  apart_shape = {};
   apart_components.clear();
-  if (is_apart) {
+  if (is_first) rings = Rings(shape, frame);
+  if (is_first || rings.adopt(shape, frame)) {
+    graph = AxisGraph(*axis, site_numbers(*axis, shape, is_first));
+  } else {
     std::vector<std::uint32_t> counted(axis->sites.size());
     for (std::uint32_t i = 0; i < counted.size(); ++i) counted[i] = i;
     apart = axis->sites;
@@ -115,11 +120,6 @@ Status Editor::Parts::start(const Shape& shape, const std::vector<std::uint32_t>
     for (const Node& node : axis->nodes) apart_components.push_back(node.component);
     rings.set_frame(frame);
     graph = AxisGraph(*axis, counted);
-  } else {
-    apart.clear();
-    apart_shape = {};
-    rings = Rings(shape, frame, numbers, std::max(rings.size(), numbers.size()));
-    graph = AxisGraph(*axis, site_numbers(*axis, numbers));
   }
   marks.assign(graph.node_slots() + graph.node_slots() / spare_share, 0);
   mark = 0;
@@ -164,12 +164,12 @@ Result<AxisChange> Editor::Parts::change(const edit::Edit& edit) {
     return error;
   }
   if (judgement.verdict == Rings::Verdict::unclear) return rebuild(edit);
-  const std::vector<std::uint32_t> changed = rings.changed_sites(edit);
+  const std::vector<Rings::Extent> before = rings.sites_around(edit);
   const edit::Edit back = rings.inverse(edit);
   rings.apply(edit);
   if (edit.fresh != none) box.add(edit.place);
   measures.radius_limit = radius_limit(box, rings.frame());
-  if (repair(edit, changed, change)) {
+  if (repair(edit, before, change)) {
     inverse.push_back(back);
     return change;
   }
@@ -178,14 +178,29 @@ Result<AxisChange> Editor::Parts::change(const edit::Edit& edit) {
 }
 
 /// Finds what changes, and the new part of the axis. False where all has to be computed again.
-bool Editor::Parts::repair(const edit::Edit& edit, const std::vector<std::uint32_t>& changed,
+bool Editor::Parts::repair(const edit::Edit& edit, const std::vector<Rings::Extent>& before,
                            AxisChange& change) {
   constexpr double margin = 64;  // tolerances
   constexpr int most_rounds = 16;
   edit::Spread spread(graph, marks, ++mark);
-  for (const std::uint32_t site : changed) spread.add_site(site);
-  std::vector<site::Site> fresh{rings.site(2 * edit.before + 1)};
-  if (edit.fresh != none) fresh.push_back(rings.site(2 * edit.fresh + 1));
+  const std::vector<Rings::Extent> after = rings.sites_around(edit);
+  const auto stays_in = [&](const Rings::Extent& one, const std::vector<Rings::Extent>& others) {
+    const bool moves =
+        edit.old == edit.fresh && (one.site / 2 == edit.fresh || one.end == edit.fresh);
+    return !moves && std::any_of(others.begin(), others.end(), [&](const Rings::Extent& other) {
+      return other.site == one.site && other.end == one.end;
+    });
+  };
+  bool changes = false;
+  for (const Rings::Extent& one : before) {
+    if (stays_in(one, after)) continue;
+    spread.add_site(one.site);
+    changes = true;
+  }
+  if (!changes) return true;
+  std::vector<site::Site> fresh;
+  for (const Rings::Extent& one : after)
+    if (!stays_in(one, before)) fresh.push_back(rings.site(one.site));
   for (int round = 0; round < most_rounds; ++round) {
     spread.spread(fresh, margin * measures.tolerance);
     const edit::Affected affected = spread.result();
@@ -243,7 +258,7 @@ Result<AxisChange> Editor::Parts::rebuild(const edit::Edit& edit) {
   Status started = success();
   if (shape) {
     for (VertexSource& source : shape->sources) source.vertex = numbers[source.ring][source.vertex];
-    started = start(*shape, rings.numbers_in(*shape));
+    started = start(*shape, false);
   }
   if (!shape || !started) {
     Error error = !shape ? std::move(shape).error() : std::move(started).error();
@@ -298,8 +313,8 @@ Site Editor::Parts::site(std::uint32_t number) const {
   if (!apart.empty()) return apart[number];
   const Rings::Vertex& vertex = rings[number / 2];
   const bool is_edge = Rings::is_edge(number);
-  return {vertex.point, is_edge ? rings[vertex.next].point : vertex.point, vertex.loop, number / 2,
-          is_edge ? SiteKind::segment : SiteKind::vertex};
+  return {vertex.point, is_edge ? rings[rings.corner_after(number / 2)].point : vertex.point,
+          vertex.loop, number / 2, is_edge ? SiteKind::segment : SiteKind::vertex};
 }
 
 Editor::Editor(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -334,9 +349,7 @@ Result<Editor> Editor::make(const Shape& shape, const Options& options) {
                    {}};
     auto parts = std::make_unique<Parts>();
     parts->options = options;
-    std::vector<std::uint32_t> numbers(shape.points.size());
-    for (std::uint32_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
-    if (auto started = parts->start(shape, numbers); !started) return std::move(started).error();
+    if (auto started = parts->start(shape, true); !started) return std::move(started).error();
     return Editor(std::move(parts));
   });
 }

@@ -31,7 +31,7 @@ exact::SiteLoops outline_of(const Rings& rings, const Window& window) {
     const std::uint32_t vertex = names[i] / 2, after = rings.next_site(names[i]);
     const bool is_edge = Rings::is_edge(names[i]);
     outline.sites.push_back(
-        {rings.local(vertex), rings.local(is_edge ? rings[vertex].next : vertex), 0});
+        {rings.local(vertex), rings.local(is_edge ? rings.corner_after(vertex) : vertex), 0});
     const auto place = std::lower_bound(names.begin(), names.end(), after);
     const bool is_inside = place != names.end() && *place == after;
     outline.next.push_back(is_inside ? static_cast<std::uint32_t>(place - names.begin()) : i);
@@ -158,7 +158,7 @@ class Repairer {
     for (const std::uint32_t node : link.node)
       for (const std::uint32_t i : link.site) {
         const Disk& disk = part.nodes[node].disk;
-        const double away = std::sqrt(site::squared_distance(boundary_.sites[i], disk.center));
+        const double away = std::sqrt(site::squared_distance(rings_.site(name_of(i)), disk.center));
         if (!(std::abs(away - disk.radius) <= loose)) return false;
       }
     return true;

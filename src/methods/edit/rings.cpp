@@ -60,23 +60,60 @@ Meeting meeting(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
 
 }  // namespace
 
-Rings::Rings(const Shape& shape, const LocalFrame& frame, const std::vector<std::uint32_t>& numbers,
-             std::size_t size)
-    : frame_(frame), vertices_(size) {
+Rings::Rings(const Shape& shape, const LocalFrame& frame)
+    : frame_(frame), vertices_(shape.points.size()) {
   for (std::uint32_t l = 0; l < shape.loop_count(); ++l) {
     const std::uint32_t begin = shape.loop_begin[l], end = shape.loop_begin[l + 1];
-    loops_.push_back({numbers[begin], end - begin, shape.component[l], shape.hole[l]});
+    loops_.push_back({begin, end - begin, shape.component[l], shape.hole[l]});
     for (std::uint32_t i = begin; i < end; ++i)
-      vertices_[numbers[i]] = {shape.points[i], numbers[i + 1 < end ? i + 1 : begin],
-                               numbers[i > begin ? i - 1 : end - 1], l};
+      vertices_[i] = {shape.points[i], i + 1 < end ? i + 1 : begin, i > begin ? i - 1 : end - 1, l};
   }
   for (std::uint32_t v = 0; v < vertices_.size(); ++v) {
-    if (has(v)) vertices_[v].reflex = is_reflex(v);
-    if (has(v))
-      set_box(v);
-    else
-      boxes_.set(v, Box::nothing());
+    vertices_[v].reflex = is_reflex(v);
+    set_box(v);
   }
+}
+
+bool Rings::adopt(const Shape& shape, const LocalFrame& frame) {
+  std::vector<Vertex> vertices = vertices_;
+  std::vector<Loop> loops;
+  std::size_t left = 0;
+  for (const Loop& loop : loops_) left += loop.size;
+  for (std::uint32_t l = 0; l < shape.loop_count(); ++l) {
+    const std::uint32_t begin = shape.loop_begin[l], end = shape.loop_begin[l + 1];
+    const std::uint32_t first = shape.sources[begin].vertex;
+    if (vertices_[first].flat) return false;
+    const bool forward = corner_after(first) == shape.sources[begin + 1].vertex;
+    std::uint32_t point = begin, size = 0, v = first;
+    do {
+      const Vertex& old = vertices_[v];
+      if (!old.flat && (point == end || shape.sources[point++].vertex != v)) return false;
+      vertices[v].next = forward ? old.next : old.before;
+      vertices[v].before = forward ? old.before : old.next;
+      vertices[v].loop = l;
+      ++size;
+      v = vertices[v].next;
+    } while (v != first);
+    if (point != end || size > left) return false;
+    left -= size;
+    loops.push_back({first, size, shape.component[l], shape.hole[l]});
+  }
+  if (left > 0) return false;
+  vertices_ = std::move(vertices);
+  loops_ = std::move(loops);
+  frame_ = frame;
+  for (std::uint32_t v = 0; v < vertices_.size(); ++v) {
+    if (!has(v)) continue;
+    vertices_[v].reflex = is_reflex(v);
+    set_box(v);
+  }
+  return true;
+}
+
+bool Rings::is_flat(std::uint32_t v) const {
+  const Vec2 before = vertices_[vertices_[v].before].point, here = vertices_[v].point,
+             after = vertices_[vertices_[v].next].point;
+  return orientation(before, here, after) == 0 && strictly_between(before, here, after);
 }
 
 bool Rings::is_reflex(std::uint32_t v) const {
@@ -93,12 +130,14 @@ Rings::Judgement Rings::judge(const Edit& edit) const {
   const Vec2 p = vertices_[edit.before].point, n = vertices_[edit.after].point, x = edit.place;
   const bool has_old = edit.old != none, has_fresh = edit.fresh != none;
   const Vec2 v = has_old ? vertices_[edit.old].point : p;
-  const auto is_straight = [](Vec2 a, Vec2 b, Vec2 c) { return orientation(a, b, c) == 0; };
+  const auto turns_back = [](Vec2 a, Vec2 b, Vec2 c) {
+    return orientation(a, b, c) == 0 && !strictly_between(a, b, c);
+  };
   const Judgement unclear{Verdict::unclear, none, {}};
   const Vec2 outer[2] = {vertices_[vertices_[edit.before].before].point,
                          vertices_[vertices_[edit.after].next].point};
-  if (edit.before == edit.after || (has_fresh && is_straight(p, x, n)) ||
-      is_straight(outer[0], p, has_fresh ? x : n) || is_straight(has_fresh ? x : p, n, outer[1]))
+  if (edit.before == edit.after || (has_fresh && turns_back(p, x, n)) ||
+      turns_back(outer[0], p, has_fresh ? x : n) || turns_back(has_fresh ? x : p, n, outer[1]))
     return unclear;
 
   // What the edges sweep while the vertex moves straight to its place, from or to an edge's inside.
@@ -130,7 +169,7 @@ Rings::Judgement Rings::judge(const Edit& edit) const {
     const bool is_own = s == edit.before || (has_old && s == edit.old);
     if (is_own) return;
     for (const NewEdge& edge : edges) {
-      if (s == edge.end || t == edge.start) continue;  // they meet there, and not in one line
+      if (s == edge.end || t == edge.start) continue;  // they meet there only
       const Meeting how = meeting(edge.from, edge.to, a, b);
       if (how == Meeting::cross)
         result = {Verdict::crosses, s, crossing_of(edge.from, edge.to, a, b)};
@@ -146,18 +185,17 @@ Rings::Judgement Rings::judge(const Edit& edit) const {
   return result;
 }
 
-std::vector<std::uint32_t> Rings::changed_sites(const Edit& edit) const {
-  std::vector<std::uint32_t> sites{2 * edit.before + 1};
-  const bool has_old = edit.old != none, has_fresh = edit.fresh != none;
-  if (has_old) sites.push_back(2 * edit.old + 1);
-  if (has_old && vertices_[edit.old].reflex) sites.push_back(2 * edit.old);
-  const Vec2 p = vertices_[edit.before].point, n = vertices_[edit.after].point;
-  const auto changes = [&](std::uint32_t v, Vec2 before, Vec2 after) {
-    const bool reflex = orientation(before, vertices_[v].point, after) <= 0;
-    if (vertices_[v].reflex && !reflex) sites.push_back(2 * v);
-  };
-  changes(edit.before, vertices_[vertices_[edit.before].before].point, has_fresh ? edit.place : n);
-  changes(edit.after, has_fresh ? edit.place : p, vertices_[vertices_[edit.after].next].point);
+std::vector<Rings::Extent> Rings::sites_around(const Edit& edit) const {
+  std::vector<Extent> sites;
+  std::uint32_t v = vertices_[edit.before].before;
+  const std::size_t count =
+      (edit.old != none && has(edit.old)) || (edit.fresh != none && has(edit.fresh)) ? 4 : 3;
+  for (std::size_t i = 0; i < count; ++i, v = vertices_[v].next) {
+    const std::uint32_t corner = corner_to(v);
+    if (sites.empty() || sites.back().site != 2 * corner + 1)
+      sites.push_back({2 * corner + 1, corner_after(corner)});
+    if (!vertices_[v].flat && vertices_[v].reflex) sites.push_back({2 * v, v});
+  }
   return sites;
 }
 
@@ -178,6 +216,7 @@ void Rings::apply(const Edit& edit) {
   loops_[loop].first = edit.before;
   for (const std::uint32_t v : {edit.before, edit.fresh, edit.after}) {
     if (v == none) continue;
+    vertices_[v].flat = is_flat(v);
     vertices_[v].reflex = is_reflex(v);
     set_box(v);
   }
@@ -192,36 +231,17 @@ Shape Rings::shape() const {
   Shape shape;
   shape.loop_begin.push_back(0);
   for (std::uint32_t l = 0; l < loops_.size(); ++l) {
-    std::uint32_t v = loops_[l].first;
+    std::uint32_t v = first_of(l);
     do {
       shape.points.push_back(vertices_[v].point);
       shape.sources.push_back({l, v});
-      v = vertices_[v].next;
-    } while (v != loops_[l].first);
+      v = corner_after(v);
+    } while (v != first_of(l));
     shape.loop_begin.push_back(static_cast<std::uint32_t>(shape.points.size()));
     shape.component.push_back(loops_[l].component);
     shape.hole.push_back(loops_[l].hole);
   }
   return shape;
-}
-
-std::vector<std::uint32_t> Rings::numbers_in(const Shape& shape) const {
-  std::vector<std::uint32_t> numbers;
-  for (const VertexSource& source : shape.sources) numbers.push_back(source.vertex);
-  std::size_t count = 0;
-  for (const Loop& loop : loops_) count += loop.size;
-  if (numbers.size() != count) return {};
-  for (std::size_t l = 0; l < shape.loop_count(); ++l) {
-    const std::uint32_t begin = shape.loop_begin[l], end = shape.loop_begin[l + 1];
-    const bool forward = vertices_[numbers[begin]].next == numbers[begin + 1];
-    if (loops_[vertices_[numbers[begin]].loop].size != end - begin) return {};
-    for (std::uint32_t i = begin; i < end; ++i) {
-      const Vertex& vertex = vertices_[numbers[i]];
-      if ((forward ? vertex.next : vertex.before) != numbers[i + 1 < end ? i + 1 : begin])
-        return {};
-    }
-  }
-  return numbers;
 }
 
 std::vector<Ring> Rings::rings(std::vector<std::vector<std::uint32_t>>& numbers) const {

@@ -24,49 +24,59 @@ struct Edit {
 };
 
 /// The loops of a shape of straight edges as linked lists of vertices, whose numbers stay while
-/// others come and go. A vertex's number is also that of the edge that begins there. Sites have
-/// numbers too: 2 v is the vertex v, which is a site where it is reflex, and 2 v + 1 its edge.
+/// others come and go. A vertex's number is also that of the edge that begins there. A vertex is
+/// flat where its edges go on straight: the shape has no vertex there. Sites have numbers too: 2 v
+/// is the vertex v, which is a site where it is reflex, and 2 v + 1 the site that begins there and
+/// ends at the next vertex that is not flat.
 class Rings {
  public:
   struct Vertex {
     Vec2 point;  ///< in units of the input
     std::uint32_t next = none, before = none;
     std::uint32_t loop = none;  ///< none: there is no such vertex
-    bool reflex = false;
+    bool reflex = false, flat = false;
   };
 
   Rings() = default;
-  /// `numbers`: those of the shape's points, of `size` that have been in use.
-  Rings(const Shape& shape, const LocalFrame& frame, const std::vector<std::uint32_t>& numbers,
-        std::size_t size);
+  /// The vertices have the numbers of the shape's points.
+  Rings(const Shape& shape, const LocalFrame& frame);
+  /// Takes over the order, directions and nesting of a shape that was built from rings(), whose
+  /// sources name vertices by their numbers. False, and nothing happens, where its loops are
+  /// others.
+  bool adopt(const Shape& shape, const LocalFrame& frame);
 
   std::size_t size() const { return vertices_.size(); }
   const Vertex& operator[](std::uint32_t v) const { return vertices_[v]; }
   bool has(std::uint32_t v) const { return v < vertices_.size() && vertices_[v].loop != none; }
   std::uint32_t loop_size(std::uint32_t loop) const { return loops_[loop].size; }
-  bool is_hole(std::uint32_t loop) const { return loops_[loop].hole; }
   std::uint32_t component(std::uint32_t loop) const { return loops_[loop].component; }
-  /// A vertex of a loop.
-  std::uint32_t first_of(std::uint32_t loop) const { return loops_[loop].first; }
-  std::size_t loop_count() const { return loops_.size(); }
+  /// A vertex of a loop that is not flat.
+  std::uint32_t first_of(std::uint32_t loop) const { return corner_to(loops_[loop].first); }
   const LocalFrame& frame() const { return frame_; }
-  /// Leaves all else as it is.
   void set_frame(const LocalFrame& frame) { frame_ = frame; }
+  /// The next vertex, and the one before, that is not flat.
+  std::uint32_t corner_after(std::uint32_t v) const {
+    do v = vertices_[v].next;
+    while (vertices_[v].flat);
+    return v;
+  }
+  std::uint32_t corner_before(std::uint32_t v) const { return corner_to(vertices_[v].before); }
 
   static std::uint32_t vertex_of(std::uint32_t site) { return site / 2; }
   static bool is_edge(std::uint32_t site) { return site % 2 == 1; }
   bool is_site(std::uint32_t site) const {
-    return has(site / 2) && (is_edge(site) || vertices_[site / 2].reflex);
+    return has(site / 2) && !vertices_[site / 2].flat &&
+           (is_edge(site) || vertices_[site / 2].reflex);
   }
   std::uint32_t next_site(std::uint32_t site) const {
     if (!is_edge(site)) return site + 1;
-    const std::uint32_t after = vertices_[site / 2].next;
+    const std::uint32_t after = corner_after(site / 2);
     return 2 * after + (vertices_[after].reflex ? 0 : 1);
   }
   Vec2 local(std::uint32_t v) const { return frame_.to_local(vertices_[v].point); }
   site::Site site(std::uint32_t site) const {
     if (!is_edge(site)) return site::make_vertex(local(site / 2));
-    return site::make_segment(local(site / 2), local(vertices_[site / 2].next));
+    return site::make_segment(local(site / 2), local(corner_after(site / 2)));
   }
 
   enum class Verdict : std::uint8_t {
@@ -81,9 +91,12 @@ class Rings {
   };
   Judgement judge(const Edit& edit) const;
 
-  /// Sites that an edit takes away, or gives other neighbours to so that they change. Before
-  /// apply().
-  std::vector<std::uint32_t> changed_sites(const Edit& edit) const;
+  /// A site and where it ends.
+  struct Extent {
+    std::uint32_t site, end;
+  };
+  /// The sites that an edit can change, before or after apply().
+  std::vector<Extent> sites_around(const Edit& edit) const;
   void apply(const Edit& edit);
   /// The edit that takes this one back. Before apply().
   Edit inverse(const Edit& edit) const;
@@ -94,7 +107,8 @@ class Rings {
   template <class Visit>
   void for_sites(const Visit& visit) const {
     for (const Loop& loop : loops_) {
-      const std::uint32_t first = 2 * loop.first + (vertices_[loop.first].reflex ? 0 : 1);
+      const std::uint32_t corner = corner_to(loop.first);
+      const std::uint32_t first = 2 * corner + (vertices_[corner].reflex ? 0 : 1);
       std::uint32_t site = first;
       do {
         visit(site);
@@ -103,9 +117,6 @@ class Rings {
     }
   }
   Shape shape() const;
-  /// The numbers of the points of a shape whose sources name them; empty where its loops are not
-  /// these, but for their directions.
-  std::vector<std::uint32_t> numbers_in(const Shape& shape) const;
   /// The loops as rings, in their order, and the numbers of their vertices.
   std::vector<Ring> rings(std::vector<std::vector<std::uint32_t>>& numbers) const;
 
@@ -114,9 +125,11 @@ class Rings {
     std::uint32_t first = 0, size = 0, component = 0;
     bool hole = false;
   };
-  Vec2 place_of(const Edit& edit, std::uint32_t v) const {
-    return v == edit.fresh ? edit.place : vertices_[v].point;
+  std::uint32_t corner_to(std::uint32_t v) const {
+    while (vertices_[v].flat) v = vertices_[v].before;
+    return v;
   }
+  bool is_flat(std::uint32_t v) const;
   bool is_reflex(std::uint32_t v) const;
   void set_box(std::uint32_t v);
 

@@ -51,7 +51,7 @@ class Assembly {
   double place_on(std::uint32_t number, Vec2 center) const {
     const site::Site site = rings_.site(number);
     if (Rings::is_edge(number)) return site::foot_parameter(site, center);
-    const Vec2 from = rings_.site(2 * rings_[number / 2].before + 1).normal();
+    const Vec2 from = rings_.site(2 * rings_.corner_before(number / 2) + 1).normal();
     const Vec2 to = center - site.point;
     const double angle = std::atan2(-cross(from, to), dot(from, to));
     return angle < -0.5 * std::numbers::pi ? angle + 2 * std::numbers::pi : angle;
@@ -185,7 +185,7 @@ class Assembly {
     if (!Rings::is_edge(number)) return number;
     const site::Site edge = rings_.site(number);
     const double s = site::foot_parameter(edge, center);
-    const std::uint32_t after = rings_[number / 2].next;
+    const std::uint32_t after = rings_.corner_after(number / 2);
     if (s <= 0 && rings_[number / 2].reflex) return number - 1;
     if (s >= edge.length && rings_[after].reflex) return 2 * after;
     return number;
