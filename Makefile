@@ -11,7 +11,6 @@ SECONDS ?= 60
 COUNT ?= 200
 FROM ?= $(shell date +%s)000000
 RELEASE := build/release
-DEBUG := build/debug
 ASAN := build/asan
 TSAN := build/tsan
 COVERAGE := build/coverage
@@ -26,7 +25,7 @@ PORT ?= 8000
 BENCH_BOOST := build/boost-1.81
 SOURCES = $(shell git ls-files '*.h' '*.cpp')
 
-.PHONY: help setup build demo check test papers bench bench-flo-mat bench-images fuzz fuzz-coverage certain silhouettes corpus offsets tsan serial portable python python-leaks spark wheels web docs format lint clean install
+.PHONY: help setup build demo check test papers bench bench-scale bench-flo-mat bench-images fuzz fuzz-coverage certain silhouettes corpus offsets tsan serial portable python python-leaks spark wheels web docs format lint clean install
 .DEFAULT_GOAL := help
 
 help:     ## list the targets
@@ -94,6 +93,9 @@ bench: setup    ## compare with Boost.Polygon and CGAL
 	@cmake --preset release -DMEDIAL_UNITY=$(UNITY) -DMEDIAL_BENCH=ON -DMEDIAL_BENCH_BOOST=$(CURDIR)/$(BENCH_BOOST)/usr/include
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial_bench
 	@$(RELEASE)/bench/medial_bench
+
+bench-scale: build      ## time and memory against size, and tiles: make bench-scale TILES="FILE..." [MOST=10000000]
+	@python3 bench/scale.py $(RELEASE)/cli/medial --most $(or $(MOST),10000000) --tiles $(TILES)
 
 bench-flo-mat: build    ## compare with flo-mat (npm): see bench/flo_mat/README.md
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial_papers
@@ -163,8 +165,7 @@ lint: setup     ## check layers, sizes and words, run clang-tidy
 	@tools/check_layers.py
 	@tools/check_sizes.py
 	@tools/check_words.py
-	@cmake --preset debug > /dev/null
-	@tools/lint.sh $(DEBUG) $(JOBS)
+	@mkdir -p build && tools/lint.sh build/lint $(JOBS)
 
 install: build  ## install below PREFIX (/usr/local)
 	@cmake --install $(RELEASE) --prefix $(PREFIX)

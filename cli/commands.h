@@ -36,6 +36,6 @@ MakeCommand make_axis_command, make_verify_command, make_info_command, make_lega
     make_unpack_command, make_voronoi_command, make_distance_command, make_voxels_command,
     make_methods_command, make_field_command, make_compare_command, make_offset_command,
     make_centreline_command, make_measure_command, make_carve_command, make_doctor_command,
-    make_help_command, make_completion_command;
+    make_tiles_command, make_help_command, make_completion_command;
 
 }  // namespace medial::cli

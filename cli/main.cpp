@@ -24,13 +24,13 @@ int requested_threads(const CLI::App& command) {
 
 /// In the order of the help.
 constexpr MakeCommand* makers[] = {
-    make_axis_command,       make_verify_command,    make_info_command,     make_legal_command,
-    make_draw_command,       make_prune_command,     make_smooth_command,   make_rebuild_command,
-    make_features_command,   make_match_command,     make_nest_command,     make_pack_command,
-    make_unpack_command,     make_voronoi_command,   make_distance_command, make_voxels_command,
-    make_field_command,      make_compare_command,   make_methods_command,  make_offset_command,
-    make_centreline_command, make_measure_command,   make_carve_command,    make_doctor_command,
-    make_help_command,       make_completion_command};
+    make_axis_command,       make_verify_command,  make_info_command,      make_legal_command,
+    make_draw_command,       make_prune_command,   make_smooth_command,    make_rebuild_command,
+    make_features_command,   make_match_command,   make_nest_command,      make_pack_command,
+    make_unpack_command,     make_voronoi_command, make_distance_command,  make_voxels_command,
+    make_field_command,      make_compare_command, make_methods_command,   make_offset_command,
+    make_centreline_command, make_measure_command, make_carve_command,     make_tiles_command,
+    make_doctor_command,     make_help_command,    make_completion_command};
 
 /// Prints the help or the version, or what is wrong with the command line.
 int explain_and_exit(const CLI::App& program, const CLI::ParseError& parse_error, bool json) {

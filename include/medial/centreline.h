@@ -1,7 +1,6 @@
 #pragma once
 
-// Ways along an axis: main paths, routes, centre lines, wide and narrow parts. The reach of a path
-// is its length plus the radii at its two ends.
+// Ways along an axis. The reach of a path is its length plus the radii at its two ends.
 
 #include "medial/axis.h"
 #include "medial/shape.h"
@@ -65,8 +64,7 @@ struct MainPathOptions {
 /// search of O(n log n) for each of at most 100 ends: see AxisPath::gap.
 std::vector<AxisPath> main_paths(const MedialAxis& axis, const MainPathOptions& options = {});
 
-/// What a path leaves out of the ways around holes that leave it and come back, as whole edges: the
-/// side channels of a river, without its tributaries. O(n).
+/// The ways around holes that leave a path and come back, as whole edges, as of a river. O(n).
 std::vector<PathPiece> side_channels(const MedialAxis& axis, const AxisPath& path);
 
 struct CentreLineOptions {

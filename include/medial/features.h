@@ -114,9 +114,8 @@ struct AxisFeatures {
   std::array<std::array<double, variation_count>, primitive_count> share{};
 };
 
-/// Describes an axis: cuts exact branches where the signs of dR/ds, its derivative, the curvature
-/// and its derivative change, sampled ones at every node; then merges runs by FeatureOptions.
-/// Reflection swaps left and right. O(n log n).
+/// Cuts exact branches where signs of dR/ds, the curvature and their derivatives change, sampled
+/// ones at every node; then merges runs. Reflection swaps left and right. O(n log n).
 AxisFeatures describe(const MedialAxis& axis, const FeatureOptions& options = {});
 
 /// A shape in a few numbers without units, the same for rotated, scaled and mirrored images. Pieces

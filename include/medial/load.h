@@ -40,8 +40,7 @@ enum class RepairRule : std::uint8_t {
 };
 
 struct LoadOptions {
-  /// Splits edges that cross (ShapeOptions::node_crossings); the rule decides what is inside. Rings
-  /// of straight edges alone are first tried unsplit.
+  /// Splits edges that cross, and decides what is inside; straight rings are first tried unsplit.
   RepairRule repair = RepairRule::none;
   ArcOptions arcs;            ///< how free-form curves become arcs
   bool skip_invalid = false;  ///< leaves features out that make no shape, with a note each
@@ -62,9 +61,8 @@ struct LoadReport {
 };
 
 /// The shape of each feature, in order: fill rules, curves to arcs, repair. Notes say what a repair
-/// changed, and which features `skip_invalid` left out and why. Errors: those of
-/// approximate_by_arcs(), build_shape() and fit_smooth_contour(), with feature, ring and vertex;
-/// empty; cancelled.
+/// changed, and what `skip_invalid` left out and why. Errors: empty; cancelled; with place those
+/// of approximate_by_arcs(), build_shape() and fit_smooth_contour().
 Result<Document<ShapeItem>> load_shapes(Document<Feature> features, const LoadOptions& options = {},
                                         LoadReport* report = nullptr);
 

@@ -20,9 +20,8 @@ struct LocalWidth {
 std::vector<LocalWidth> widths_along(const MedialAxis& axis, const AxisPath& path,
                                      std::span<const double> lengths);
 
-/// The same with transects across the path's course over a disk's diameter, from boundary to
-/// boundary: their ends in place of the feet, which swing to and fro where single vertices stick
-/// in. O(path + lengths * boundary).
+/// The same with the ends of transects across the path's course over a disk's diameter in place of
+/// feet, which swing to and fro where single vertices stick in. O(path + lengths * boundary).
 std::vector<LocalWidth> transects_along(const Shape& shape, const MedialAxis& axis,
                                         const AxisPath& path, std::span<const double> lengths);
 
@@ -39,9 +38,8 @@ struct Neck {
   double prominence() const { return 2 * (opens_to - width.disk.radius); }
 };
 
-/// The necks that open to at least `widening` > 1 times their width: those that separate the shape
-/// by decreasing prominence, then those around holes. They are the saddles of the radius; along
-/// parallel walls the middle. O(edges log edges).
+/// The saddles of the radius, or middles of parallel walls, that open to at least `widening` > 1
+/// times their width: by prominence those that separate, then around holes. O(edges log edges).
 std::vector<Neck> necks(const MedialAxis& axis, double widening = 1.1);
 
 struct MeanWidth {

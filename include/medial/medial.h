@@ -2,6 +2,7 @@
 
 // The whole core library in one include. What is missing here, these headers include.
 #include "medial/carve.h"
+#include "medial/editor.h"
 #include "medial/features.h"
 #include "medial/load.h"
 #include "medial/measure.h"
@@ -10,6 +11,7 @@
 #include "medial/prune.h"
 #include "medial/sides.h"
 #include "medial/threads.h"
+#include "medial/tiles.h"
 #include "medial/verify.h"
 #include "medial/volume.h"
 #include "medial/voronoi.h"

@@ -30,8 +30,7 @@ struct Offsets {
 /// count once; values of at least the largest radius have no region; a corridor exactly 2 c wide
 /// belongs to none. Rings are within a few tolerances of the distance c from the boundary; edges
 /// turn by at most a half circle. O(n log m + size of the result) for n sites and m clearances.
-/// Errors: invalid_option (a clearance that is not positive and finite), unsupported (an axis that
-/// is sampled or of the exterior).
+/// Errors: invalid_option (a clearance not positive and finite), unsupported (sampled; exterior).
 Result<Offsets> inward_offsets(const MedialAxis& axis, std::span<const double> clearances);
 
 /// The same of a shape; a negative clearance c gives the shape grown by -c. Errors: those of

@@ -22,10 +22,8 @@ struct PackOptions {
 };
 
 struct PackReport {
-  std::uint64_t disks = 0;     ///< coded
-  std::uint64_t lines = 0;     ///< polylines of disks: branches that were kept
-  std::uint64_t branches = 0;  ///< of the axes
-  double quantum = 0;          ///< step of the numbers, in units of the input
+  std::uint64_t disks = 0, lines = 0, branches = 0;  ///< coded; branches kept; of the axes
+  double quantum = 0;                                ///< step of the numbers, in units of the input
 };
 
 /// Drops branches that the disk at their base, grown by a part of the error, covers (erosion
@@ -42,8 +40,7 @@ Result<std::vector<MedialAxis>> decode_axes(const ShapeCode& code);
 Result<ShapeCode> encode_boundary(std::span<const Shape> shapes, double error);
 
 struct SquareReport {
-  std::uint64_t squares = 0;
-  std::uint64_t missing = 0;  ///< foreground pixels that no square covers
+  std::uint64_t squares = 0, missing = 0;  ///< foreground pixels that no square covers
 };
 
 /// Codes an image as maximal squares of foreground pixels: first those mostly not covered by

@@ -74,8 +74,7 @@ class PruneOrder {
   std::shared_ptr<const Parts> parts_;
 };
 
-/// PruneOrder::at() the threshold. Errors: invalid_option (a threshold that is negative or no
-/// number, or both a threshold and a number of branches).
+/// PruneOrder::at() the threshold. Errors: invalid_option (it is negative, NaN, or with branches).
 Result<MedialAxis> prune(const MedialAxis& axis, const PruneOptions& options = {},
                          PruneReport* report = nullptr);
 

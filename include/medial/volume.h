@@ -90,8 +90,7 @@ struct VoxelAxis {
   Vec3 origin;                              ///< low corner of the cell (0, 0, 0)
   std::array<std::uint32_t, 3> cells = {};  ///< of the grid
   std::vector<Voxel> voxels;                ///< by increasing x within y within z
-  /// Pairs of voxels that share a face, an edge or a corner, lower index first, increasing; without
-  /// pairs that a third voxel between the two connects.
+  /// Pairs that share a corner, lower first, increasing; none that a third in between connects.
   std::vector<std::array<std::uint32_t, 2>> links;
   AxisSurface surface;
   VoxelTopology topology;  ///< of the voxels as cubes that share faces, edges and corners
@@ -99,10 +98,9 @@ struct VoxelAxis {
   VoxelStatistics statistics;
 };
 
-/// The medial axis of a solid by ridge following (docs/voxels.md): interior voxels, which have the
-/// topology of all of them. Memory: O(voxels of surface and axis + volume / 512). Errors:
-/// invalid_option, cancelled, empty, too_large, malformed (not by build_solid()), out_of_memory,
-/// unsupported (no convex edge).
+/// The medial axis of a solid by ridge following (docs/voxels.md): voxels with the topology of all
+/// the interior. Memory: O(voxels of surface and axis + volume / 512). Errors: cancelled, empty,
+/// invalid_option, too_large, malformed, out_of_memory, unsupported (no convex edge).
 Result<VoxelAxis> compute_voxels(const Solid& solid, const VoxelOptions& options = {});
 
 }  // namespace medial

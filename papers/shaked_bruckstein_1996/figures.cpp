@@ -11,6 +11,7 @@
 #include "methods/curve_axis/control.h"
 #include "papers/experiment.h"
 #include "papers/figure.h"
+#include "papers/shaked_bruckstein_1996/experiment.h"
 #include "papers/shaked_bruckstein_1996/spline.h"
 
 namespace medial::papers {
@@ -479,9 +480,9 @@ Status result(const std::filesystem::path& path, const Contour& contour) {
 
 }  // namespace
 
-Result<bool> run_shaked_bruckstein_1996(const Request& request) {
+Status draw_figures(const Request& request) {
   const auto at = [&](const char* name) { return request.to / name; };
-  const Status drawn = in_order(
+  return in_order(
       [&] { return azimuth(at("fig1.svg")); }, [&] { return beginning(at("fig2.svg")); },
       [&] { return junction(at("fig3.svg"), false); }, [&] { return intermediate(at("fig4.svg")); },
       [&] { return decision(at("fig5a.svg"), Rule::larger); },
@@ -491,8 +492,6 @@ Result<bool> run_shaked_bruckstein_1996(const Request& request) {
       [&] { return decision(at("fig7b.svg"), Rule::outside_box); },
       [&] { return ending(at("fig8.svg")); }, [&] { return result(at("fig9a.svg"), animal()); },
       [&] { return result(at("fig9b.svg"), bean()); });
-  if (!drawn) return drawn.error();
-  return true;
 }
 
 }  // namespace medial::papers

@@ -18,7 +18,7 @@ import show_pictures
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^)\s]+)\)")
-REFERENCE = "axes arrays parts lines offsets features voronoi images files geopandas spark errors".split()
+REFERENCE = "axes editor arrays parts lines offsets features voronoi images files geopandas spark errors".split()
 MADE = {"medial.1": "manual.md", "../include/medial/": "headers.md"}  # by write_reference()
 PROJECT = ["docs/*.md", "bench/RESULTS.md", "CHANGELOG.md", "KNOWN_ISSUES.md", "ARCHITECTURE.md"]
 

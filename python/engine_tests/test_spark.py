@@ -165,3 +165,77 @@ def test_geometries_of_sedona(session, frame):
         assert (lines[i] is None) == (line is None)
         assert line is None or shapely.from_wkb(bytes(lines[i])).equals_exact(line)
     assert [row.missing for row in sorted(rows)] == [g is None for g in GEOMETRIES]
+
+
+def star_with_lake():
+    angle = np.linspace(0, 2 * np.pi, 600, endpoint=False)
+    radius = 10 + np.sin(5 * angle) + 0.05 * np.cos(131 * angle) + np.random.default_rng(1).random(600) / 10
+    ring = np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1)
+    return medial.Shape(shapely.Polygon(ring, [[(-2, -1), (3, -1.5), (2, 2), (-1.5, 1)]]))
+
+
+def tiled(session, shape, levels):
+    """Of the axis by tiles the pairs of sites, and the disks of its nodes by their names."""
+    table = medial.spark.boundary(shape)
+    edges = session.createDataFrame(table.to_pandas()).repartition(3)
+    rows = medial.spark.axis_of_tiles(edges, levels).collect()
+    pairs = sorted(tuple(sorted((row.site0, row.site1))) for row in rows)
+    nodes = {}
+    for row in rows:
+        nodes[row.node0] = (row.node0_x, row.node0_y, row.node0_radius)
+        nodes[row.node1] = (row.node1_x, row.node1_y, row.node1_radius)
+    return pairs, np.array(sorted(nodes.values()))
+
+
+@pytest.mark.parametrize("levels", [0, 1, 3])
+def test_axis_of_tiles(session, levels):
+    shape = star_with_lake()
+    axis = medial.axis(shape)
+    pairs, nodes = tiled(session, shape, levels)
+    number, numbers = 0, []
+    for kind in axis.sites["kind"]:
+        numbers.append(2 * number + int(kind == 1))
+        number += int(kind != 1)
+    assert pairs == sorted(tuple(sorted(numbers[site] for site in edge)) for edge in axis.edges["site"])
+    whole = np.stack([axis.nodes[name] for name in ("x", "y", "radius")], axis=1)
+    assert len(nodes) == len(whole)
+    distances = np.abs(nodes[:, None] - whole[None]).max(axis=2)
+    assert distances.min(axis=0).max() < 1e-12 and distances.min(axis=1).max() < 1e-12
+
+
+@pytest.mark.parametrize("how", ["exception", "kill"])
+def test_tiles_that_fail_are_repeated(session, tmp_path, monkeypatch, how):
+    from types import SimpleNamespace
+
+    shape = star_with_lake()
+    expected = tiled(session, shape, 2)
+    marks = str(tmp_path)
+
+    def leaves(*given):
+        from medial import _core
+
+        return _core.tile_leaves(*given)
+
+    def fail_once(ends, numbers, box, levels, level, column, row, tolerance):
+        from medial import _core
+        from pyspark import TaskContext
+
+        mark = os.path.join(marks, f"{level} {TaskContext.get().partitionId()}")
+        if not os.path.exists(mark):
+            open(mark, "w").close()
+            if how == "kill":
+                os.kill(os.getpid(), signal.SIGKILL)
+            raise RuntimeError("lost")
+        return _core.tile(ends, numbers, box, levels, level, column, row, tolerance)
+
+    monkeypatch.setattr(medial.spark, "_core", SimpleNamespace(tile=fail_once, tile_leaves=leaves))
+    found = tiled(session, shape, 2)
+    assert found[0] == expected[0] and (found[1] == expected[1]).all()
+    assert len(os.listdir(marks)) >= 3  # a task of each level has failed
+
+
+def test_tiles_refuse_what_is_empty(session):
+    nothing = session.createDataFrame([], "number long, x0 double, y0 double, x1 double, y1 double")
+    with pytest.raises(medial.MedialError) as raised:
+        medial.spark.axis_of_tiles(nothing, 1)
+    assert raised.value.code == "empty"

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
         legality,
         verify,
     )
+    from ._editor import Change, Editor
     from ._features import Match, Placement, features, match, nest
     from ._files import columns, load, loads, read, text
     from ._lines import (
@@ -59,7 +60,7 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 __all__ = [
-    "Axes", "Carving", "Certificate", "Circle", "Contour", "Curvatures", "Field", "Line",
+    "Axes", "Carving", "Certificate", "Change", "Circle", "Contour", "Curvatures", "Editor", "Field", "Line",
     "Match", "MedialAxis", "MedialError", "MissingPackage", "NODE_KINDS", "NO_SITE", "Neck",
     "Pack", "Placement", "Region", "SITE_KINDS", "Shape", "Voronoi", "VoxelAxis", "Widths",
     "arrays", "axes", "axis", "boundary_curvature", "buffer", "carve", "centerline",
@@ -76,6 +77,7 @@ __all__ = [
 _WHERE = {
     "_carving": "Carving carve",
     "_checks": "Certificate Curvatures boundary_curvature compare distance legality verify",
+    "_editor": "Change Editor",
     "_features": "Match Placement features match nest",
     "_files": "columns load loads read text",
     "_lines": "Circle Line Neck Widths centerline centerlines inscribed_circles maximum_inscribed_circle mean_width necks network transects widest_path width_profile",

@@ -16,9 +16,10 @@ from typing import Any
 
 import numpy as np
 
-from . import arrays
+from . import _core, arrays
 from ._axes import axes, ragged
 from ._errors import MedialError, need
+from ._shape import Shape
 
 pyarrow = need("pyarrow", "spark")
 need("pyspark", "spark")
@@ -30,13 +31,14 @@ from pyspark.sql.types import (  # noqa: E402
     DataType,
     DoubleType,
     IntegerType,
+    LongType,
     StringType,
     StructField,
     StructType,
     UserDefinedType,
 )
 
-__all__ = ["axis", "balanced", "centerline", "inscribed_circles", "offset", "prune", "width"]
+__all__ = ["axis", "axis_of_tiles", "balanced", "boundary", "centerline", "inscribed_circles", "offset", "prune", "width"]
 
 
 def _doubles(*names: str) -> list[StructField]:
@@ -251,3 +253,105 @@ def balanced(df: DataFrame, column: str = "geometry", partitions: int | None = N
         .repartition(count, functions.col("`medial to`"))
         .drop("medial key", "medial to")
     )
+
+
+_TILE_EDGE = [StructField("number", LongType()), *_doubles("x0", "y0", "x1", "y1")]
+_NAMES = ["node0", "node1", "site0", "site1", "degree0", "degree1"]
+_CURVES = [*(f"{disk}_{name}" for disk in ("node0", "node1", "control") for name in ("x", "y", "radius")), "weight"]
+_TILE_AXIS = [*(StructField(name, LongType()) for name in _NAMES), *_doubles(*_CURVES)]
+_TILE = [StructField("column", IntegerType()), StructField("row", IntegerType())]
+
+
+def boundary(shape: Shape) -> Any:
+    """The edges of a shape as rows for `axis_of_tiles`: a table of Arrow."""
+    ends = np.empty((shape.points.shape[0], 4))
+    ends[:, :2] = shape.points
+    begins = shape._core.loop_begin().astype(int)
+    for begin, end in zip(begins[:-1], begins[1:], strict=True):
+        ends[begin:end, 2:] = np.roll(shape.points[begin:end], -1, axis=0)
+    columns = [pyarrow.array(np.arange(len(ends))), *(pyarrow.array(np.ascontiguousarray(column)) for column in ends.T)]
+    return pyarrow.table(columns, ["number", "x0", "y0", "x1", "y1"])
+
+
+def _rows(table: Any) -> tuple[Any, Any]:
+    """Of a table of edges the numbers, and rows of coordinates."""
+    columns = [table.column(name).to_numpy() for name in ("x0", "y0", "x1", "y1")]
+    return np.ascontiguousarray(table.column("number").to_numpy(), np.int64), np.ascontiguousarray(np.stack(columns, axis=1))
+
+
+def _tile_table(numbers: Any, ends: Any, names: Any, curves: Any) -> Any:
+    """Open edges, then final edges of the axis, in one table: of each row the other columns are null."""
+    opened, final = len(numbers), len(names)
+
+    def padded(values: Any, before: int, after: int) -> Any:
+        filled = np.concatenate([np.zeros(before, values.dtype), values, np.zeros(after, values.dtype)])
+        mask = np.concatenate([np.ones(before, bool), np.zeros(len(values), bool), np.ones(after, bool)])
+        return pyarrow.array(filled, mask=mask)
+
+    columns = [padded(numbers, 0, final), *(padded(column, 0, final) for column in ends.T)]
+    columns += [padded(column, opened, 0) for rows in (names, curves) for column in rows.T]
+    return pyarrow.table(columns, [field.name for field in (*_TILE_EDGE, *_TILE_AXIS)])
+
+
+def axis_of_tiles(edges: DataFrame, levels: int, *, tolerance: float = 0) -> DataFrame:
+    """The axis of one shape that no machine holds.
+
+    Each tile of a quadtree is a group of rows, computed by itself; what it cannot finish is a row of
+    the tile around it (docs/tiles.md). Of straight edges only.
+
+    Parameters
+    ----------
+    edges : DataFrame
+        The boundary with the interior on its left: `number`, along each loop, and the ends `x0`, `y0`,
+        `x1`, `y1`. See `boundary`.
+    levels : int
+        Of the quadtree: 4 ** levels tiles, at most 10.
+    tolerance : float
+        See `medial.axis`.
+
+    Returns
+    -------
+    DataFrame
+        An edge a row: `node0` and `node1`, the same numbers in all rows of a node; `site0` and `site1`,
+        twice the number of an edge, and one more for the vertex where it begins; the number of edges of
+        each node; both disks, control point and weight of the curve.
+    """
+    extremes = edges.selectExpr("min(least(x0, x1))", "min(least(y0, y1))", "max(greatest(x0, x1))", "max(greatest(y0, y1))")
+    box = list(extremes.first() or [])
+    if None in box:
+        raise MedialError("there is no edge", "empty")
+    edges = edges.select("number", "x0", "y0", "x1", "y1")
+
+    def to_leaves(batches: Iterator[Any]) -> Iterator[Any]:
+        for batch in batches:
+            places = _core.tile_leaves(_rows(pyarrow.Table.from_batches([batch]))[1], box, levels)
+            taken = batch.take(pyarrow.array(places[:, 0]))
+            at = [pyarrow.array(places[:, i].astype(np.int32)) for i in (1, 2)]
+            yield pyarrow.RecordBatch.from_arrays([*at, *taken.columns], ["column", "row", *taken.schema.names])
+
+    def work(level: int) -> Callable[[Any, Any], Any]:
+        def tile(key: Any, table: Any) -> Any:
+            numbers, ends = _rows(table)
+            order = np.argsort(numbers, kind="stable")
+            numbers, ends = numbers[order], ends[order]
+            column, row = (value.as_py() for value in key)
+            names, curves, opened = _core.tile(ends, numbers, box, levels, level, column, row, tolerance)
+            at = np.searchsorted(numbers, opened)
+            table = _tile_table(numbers[at], ends[at], names, curves)
+            places = [pyarrow.array(np.full(len(table), place // 2, np.int32)) for place in (column, row)]
+            return table.add_column(0, "row", places[1]).add_column(0, "column", places[0])
+
+        return tile
+
+    tiles = edges.mapInArrow(to_leaves, StructType([*_TILE, *_TILE_EDGE]))
+    final: DataFrame | None = None
+    for level in range(levels, -1, -1):
+        # Each row has the place of the tile around it, which the next level groups by.
+        rows = StructType([*_TILE, *_TILE_EDGE, *_TILE_AXIS])
+        done = tiles.groupBy("column", "row").applyInArrow(work(level), rows).persist()
+        own = done.where("site0 is not null").select([field.name for field in _TILE_AXIS])
+        final = own if final is None else final.union(own)
+        opened = done.where("number is not null").select([field.name for field in (*_TILE, *_TILE_EDGE)])
+        tiles = opened.dropDuplicates(["column", "row", "number"])
+    assert final is not None
+    return final.dropDuplicates(_NAMES[:4])

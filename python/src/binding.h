@@ -237,10 +237,12 @@ void bind_well_known_binary(nb::module_& module);
 void bind_batches(nb::module_& module);
 void bind_paths(nb::module_& module);
 void bind_derived(nb::module_& module);
+void bind_editing(nb::module_& module);
 void bind_carving(nb::module_& module);
 void bind_text(nb::module_& module);
 void bind_features(nb::module_& module);
 void bind_voronoi(nb::module_& module);
+void bind_tiles(nb::module_& module);
 void bind_images(nb::module_& module);
 void bind_solids(nb::module_& module);
 

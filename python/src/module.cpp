@@ -62,10 +62,12 @@ NB_MODULE(_core, module) {
   bind_batches(module);
   bind_paths(module);
   bind_derived(module);
+  bind_editing(module);
   bind_carving(module);
   bind_text(module);
   bind_features(module);
   bind_voronoi(module);
+  bind_tiles(module);
   bind_images(module);
   bind_solids(module);
 }

@@ -206,7 +206,7 @@ Error explained(Error error, const PlanarGraph& planar_graph, double tolerance) 
 }  // namespace
 
 Result<MedialAxis> axis_around(const PlanarGraph& planar_graph, const Shape& surroundings,
-                               const Options& options) {
+                               const Options& options, bool divided) {
   try {
     if (auto error = refuse(planar_graph, options)) return std::move(*error);
     if (auto error = beyond_limits(surroundings)) return std::move(*error);
@@ -217,8 +217,9 @@ Result<MedialAxis> axis_around(const PlanarGraph& planar_graph, const Shape& sur
     auto axis = on_threads(options.threads, [&] { return run_around(problem, edges); });
     if (!axis) return explained(std::move(axis).error(), planar_graph, tolerance);
     axis->sites = problem.result_sites();
-    if (Status split = voronoi::split_long_edges(*axis, edges, true); !split)
-      return std::move(split).error();
+    if (divided)
+      if (Status split = voronoi::split_long_edges(*axis, edges, true); !split)
+        return std::move(split).error();
     axis->edges = std::move(edges);
     return axis;
   } catch (...) {

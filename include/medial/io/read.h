@@ -36,9 +36,8 @@ struct ReadOptions {
   /// what stays open; infinity closes all. Nothing: 1e-6 of the bounding box's diagonal.
   std::optional<double> close;
   ImageOptions image;  ///< of images: what is foreground
-  /// For planar graphs: keeps points and lines as chains, and open curves as open contours; of a
-  /// drawing (SVG) also shapes that are not filled. A plain text of one block is a list of points,
-  /// one of several has a chain or a point in each.
+  /// For planar graphs: keeps points, lines, open curves and, of SVG, shapes that are not filled. A
+  /// plain text of one block is a list of points, one of several a chain or a point each.
   bool loose = false;
   bool smooth_contour = false;  ///< of images: smooth_outline() instead of pixel_outline()
 };
@@ -75,8 +74,7 @@ struct SourceOptions {
 /// sources. Errors: theirs, with the file; invalid_option (an option that does not apply).
 Result<Document<Feature>> read_features(const std::string& path, const SourceOptions& options = {});
 
-/// The features of a file by medial::load_shapes(), as one shape each, or by medial::load_loose(),
-/// without repair. Errors: theirs, with the file.
+/// The features of a file by medial::load_shapes() or, unrepaired, load_loose(). Errors: theirs.
 Result<Document<ShapeItem>> load_shapes(const std::string& path, const SourceOptions& options = {},
                                         LoadReport* report = nullptr);
 Result<LoosePieces> load_loose(const std::string& path, const SourceOptions& options = {});

@@ -68,8 +68,7 @@ Status write_axes(const Destination& target, const std::string& format,
 Status write_shapes(const Destination& target, const std::string& format,
                     const Document<ShapeItem>& file, const WriteOptions& options = {});
 
-/// Voronoi diagrams: .json is lossless (docs/format.md), .geojson and .wkt have the faces as
-/// polygons, .geojson and .csv the edges.
+/// Diagrams: .json is lossless; .geojson and .wkt have the faces, .geojson and .csv the edges.
 Status write_voronoi(const Destination& target, const std::string& format,
                      const Document<VoronoiItem>& file, const WriteOptions& options = {});
 
@@ -87,9 +86,8 @@ struct OffsetItem {
   std::vector<BufferSource> sources = {};  ///< of each region of a buffer; or empty
 };
 
-/// Offset curves: .json is lossless; .wkt has a multi-surface with exact circular strings for each
-/// clearance of a feature; .geojson a polygon of chords for each region; .dxf closed polylines with
-/// bulges, a layer for each clearance.
+/// Offset curves: .json is lossless; for each clearance .wkt has a surface of exact arcs, .dxf a
+/// layer of polylines with bulges; .geojson has a polygon of chords for each region.
 Status write_offsets(const Destination& target, const std::string& format,
                      const Document<OffsetItem>& file, const WriteOptions& options = {});
 
@@ -153,8 +151,7 @@ struct FeatureWriteOptions {
   bool names = true;   ///< pictures: write the names beside the longest runs
 };
 
-/// One of `features` for each item of `axes`; docs/features.md has the columns. Tables of GIS and
-/// .json have the attributes of the items, too.
+/// One of `features` for each of `axes`, with attributes in tables and .json: docs/features.md.
 Status write_features(const Destination& target, const std::string& format,
                       const Document<AxisItem>& axes, std::span<const AxisFeatures> features,
                       const FeatureWriteOptions& options = {});
@@ -247,9 +244,8 @@ struct DistanceFormat {
   double scale = 1;      ///< what is written is this times the value
 };
 
-/// Distances: in 32 bits in .tif (real numbers, or squared whole ones), placed as `source`; in .png
-/// and .pgm as the nearest whole numbers of 16 bits. Errors: also invalid_option (16 bits do not
-/// hold the largest value, or there is no background).
+/// Distances: in 32 bits in .tif (real, or squared whole numbers), placed as `source`; in 16
+/// bits in .png and .pgm. Errors: also invalid_option (more than 16 bits hold; no background).
 Status write_distances(const std::string& path, const DistanceMap& distances,
                        const ImageFile& source, const DistanceFormat& format = {});
 

@@ -26,6 +26,7 @@ struct CurveAxisRules {
   std::uint64_t resumed = 0;      ///< generations resumed where boundary was left
   std::uint64_t ends = 0;         ///< the end in the last maximum (Fig 8)
   std::uint64_t meetings = 0;     ///< the end where two branches meet head-on
+  std::uint64_t restarts = 0;     ///< attempts after the first, which the paper does not have
   CurveAxisRules& operator+=(const CurveAxisRules& other);
 };
 

@@ -42,7 +42,8 @@ struct Boundary {
   std::vector<std::uint32_t>
       originals;                ///< index among the result's sites; of a bridge: its number
   std::vector<SiteRange> runs;  ///< of each component
-  /// Of each bridge, its two places in the order: before and after the hole.
+  /// Of each bridge, its two places in the order: before and after the hole. Of a disk at which a
+  /// part of a boundary ends, its one place twice.
   std::vector<std::array<std::uint32_t, 2>> bridge_places;
   bool has_arcs = false;
   /// Whether edges may stand there twice, once for each side: that of a planar graph. Then a disk

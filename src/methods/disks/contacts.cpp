@@ -73,6 +73,7 @@ Vec2 Contacts::bridge_direction(std::uint32_t vertex, std::uint32_t bridge) cons
 /// The copy of a vertex on the other side of the bridge at place `bridge`, next to which it stands.
 std::uint32_t Contacts::other_copy(std::uint32_t bridge, std::uint32_t vertex) const {
   const auto [first, second] = boundary_.bridge_places[boundary_.originals[bridge]];
+  if (first == second) return vertex;  // the boundary ends there
   const bool on_hole = vertex > first && vertex < second;
   if (bridge == first) return on_hole ? second - 1 : second + 1;
   return on_hole ? first + 1 : first - 1;

@@ -27,7 +27,7 @@ namespace {
 /// arcs are within some tolerances of one circle, that it asks for rounding only. What remains of
 /// a tie is merged at the end. Among other arcs ties are known to the tolerance only, since their
 /// bulges round, too; in planar graphs double decides.
-constexpr double fine_share = 0.125, planar_share = 0.25, near_circle = 1 << 12;
+constexpr double planar_share = 0.25, near_circle = 1 << 12;
 
 double walk_share(const Boundary& boundary, bool in_centers) {
   if (in_centers) return fine_share;
@@ -278,7 +278,7 @@ Result<MedialAxis> run(const Problem& problem) {
                               (is_first || (!way->in_double && !has_arcs(problem.shape)));
       if (is_certain || problem.is_cancelled()) return axis;
     }
-    auto refused = axis ? error_if_refused(problem, *axis) : std::move(axis).error();
+    auto refused = axis ? error_if_refused(problem, *axis) : axis.error();
     if (!refused) return axis;
     if (!error || axis) error = std::move(refused);
     way = next_way(problem, *way, findings.lost, attempts);

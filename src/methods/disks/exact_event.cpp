@@ -18,7 +18,7 @@ using Hit = Contacts::Hit;
 
 const exact::SiteLoops& ExactSites::outline() const {
   std::call_once(once_, [&] {
-    outline_ = exact::outline_of(problem_, numbers_);
+    outline_ = make_();
     before_.resize(outline_.sites.size());
     for (std::uint32_t i = 0; i < before_.size(); ++i) before_[outline_.next[i]] = i;
     if (boundary_.has_arcs) choose_normals();
@@ -138,9 +138,9 @@ class ExactEvents::Search {
   bool is_behind(const PreciseDisk& disk) const {
     if (node_) return comes_before(disk, *node_);
     constexpr double clear = 0x1p-8;  // of the radius: more than any node is off
-    const double slack =
-        std::min(span_.error, clear * from_.radius) +
-        std::min(8 * events_.sites_.problem_.fine_tolerance, clear * from_.radius) + 0x1p-50;
+    const double slack = std::min(span_.error, clear * from_.radius) +
+                         std::min(8 * events_.sites_.fine_tolerance_, clear * from_.radius) +
+                         0x1p-50;
     const PreciseDisk from{exact::exact_vector<Number>(from_.center), Number(from_.radius)};
     const auto away = disk.center - from.center;
     return (dot(away, away) - Number(slack) * Number(slack)).positive() && comes_before(disk, from);
@@ -154,7 +154,7 @@ class ExactEvents::Search {
     if (third == right || third == left) return;
     const auto disk = exact::disk_bounds<Precise>(outline_, {right, third, left}, Disk{});
     if (!disk) return;
-    if ((Number(events_.sites_.problem_.radius_limit) - disk->radius).sign() == -1) return;
+    if ((Number(events_.sites_.radius_limit_) - disk->radius).sign() == -1) return;
     if (is_behind(*disk) || (best_ && !comes_before(*disk, *best_))) return;
     // At a joint of two of them the disk touches both, whichever normal it is on.
     const bool joins_right = outline_.joined(right, third),
@@ -260,6 +260,7 @@ class ExactEvents::Search {
   }
 
   std::optional<PreciseDisk> bridge_disk(std::uint32_t bridge) const {
+    if (!events_.sites_.reach_out_) return std::nullopt;
     const auto [first, second] = events_.boundary_.bridge_places[bridge];
     // The hole begins after the first place, where the bridge's disk touches it.
     return exact::disk_from(events_.boundary_.sites[first + 1].point, outreach,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -19,7 +20,23 @@ class ExactSites {
  public:
   /// `boundary`: with holes connected or not, by whose normals joints are decided.
   ExactSites(const Problem& problem, const SiteNumbers& numbers, const Boundary& boundary)
-      : problem_(problem), numbers_(numbers), boundary_(boundary) {}
+      : fine_tolerance_(problem.fine_tolerance),
+        radius_limit_(problem.radius_limit),
+        boundary_(boundary) {
+#ifdef MEDIAL_HAS_EXACT
+    make_ = [&problem, &numbers] { return exact::outline_of(problem, numbers); };
+#endif
+  }
+#ifdef MEDIAL_HAS_EXACT
+  /// Those of a part of a boundary, whose bridges are any disks.
+  ExactSites(std::function<exact::SiteLoops()> make, double fine_tolerance, double radius_limit,
+             const Boundary& part)
+      : make_(std::move(make)),
+        fine_tolerance_(fine_tolerance),
+        radius_limit_(radius_limit),
+        reach_out_(false),
+        boundary_(part) {}
+#endif
 
   /// Of the sites of a boundary, the one that a disk touches first that grows at a point in the
   /// direction `outreach`, and the disk. None where it touches none.
@@ -38,8 +55,11 @@ class ExactSites {
 
  private:
   friend class ExactEvents;
-  const Problem& problem_;
-  const SiteNumbers& numbers_;
+#ifdef MEDIAL_HAS_EXACT
+  std::function<exact::SiteLoops()> make_;
+#endif
+  double fine_tolerance_, radius_limit_;
+  bool reach_out_ = true;  ///< whether bridges are those of connecting_disks()
   const Boundary& boundary_;
 #ifdef MEDIAL_HAS_EXACT
   const exact::SiteLoops& outline() const;

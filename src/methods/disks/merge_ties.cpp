@@ -217,10 +217,7 @@ class Merger {
   /// A contact's equation where the residual is small against the radius, without roots.
   ContactOf<double> near_contact(std::uint32_t i, const Disk& disk) const {
     const Site& site = boundary_.sites[i];
-    if (!site.is_vertex()) {
-      const Vec2 toward = site::outward(site, disk.center);
-      return {toward.x, toward.y, site::carrier_distance(site, disk.center) - disk.radius};
-    }
+    if (!site.is_vertex()) return contact_of(site, disk);
     const Vec2 to = (1 / disk.radius) * (disk.center - site.point);
     return {to.x, to.y, 0.5 * disk.radius * (squared_norm(to) - 1)};
   }

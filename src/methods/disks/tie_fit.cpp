@@ -20,10 +20,7 @@ ContactOf<Real> contact_with_point(const Real& x, const Real& y, const DiskOf<Re
 
 ContactOf<double> contact_of(const TieSites& sites, const Touch& i, const DiskOf<double>& disk) {
   const Vec2 center{disk.x, disk.y};
-  const site::Site seen = i.seen_from(sites.sites, center);
-  if (seen.is_vertex()) return contact_with_point(seen.point.x, seen.point.y, disk);
-  const Vec2 toward = site::outward(seen, center);
-  return {toward.x, toward.y, site::carrier_distance(seen, center) - disk.radius};
+  return disks::contact_of(i.seen_from(sites.sites, center), Disk{center, disk.radius});
 }
 
 /// By how much the nearest point of what is to be touched is nearer or further than the radius.
@@ -218,6 +215,11 @@ class Exchange {
 };
 
 }  // namespace
+
+ContactOf<double> contact_of(const site::Site& site, const Disk& disk) {
+  const Vec2 toward = site::outward(site, disk.center);
+  return {toward.x, toward.y, site::carrier_distance(site, disk.center) - disk.radius};
+}
 
 site::Site Touch::seen_from(std::span<const site::Site> sites, Vec2 center) const {
   const site::Site& whole = sites[site];

@@ -18,6 +18,9 @@ struct ContactOf {
   Real x, y;  ///< the outward unit normal: from the foot to the centre
   Real residual;
 };
+/// The contact of a disk with a site's carrier.
+ContactOf<double> contact_of(const site::Site& site, const Disk& disk);
+
 template <class Real>
 struct DiskOf {
   Real x, y, radius;

@@ -57,6 +57,13 @@ class Walker {
     bool is_tie = false;  ///< the event's disk touches several sites
   };
 
+  /// Walks all of a run from a disk that touches its ends.
+  void walk_from(const Boundary::SiteRange& run, const Disk& start, double error) {
+    chunk_.nodes.push_back({start.center, 0});  // stands for no parent
+    const std::uint32_t node = add_node(start);
+    walk_step({{run.first, run.last, node, Hit::none, error}});
+  }
+
   /// Walks one step and all that branches off it.
   void walk_step(const Step& step) {
     stack_.push_back(step);
@@ -526,6 +533,14 @@ std::vector<std::unique_ptr<Chunk>> walk(const WalkContext& context) {
   }
   tasks.wait();
   return chunks;
+}
+
+std::unique_ptr<Chunk> walk_part(const WalkContext& context, const Disk& start, double error) {
+  auto chunk = std::make_unique<Chunk>();
+  TaskGroup tasks;
+  Walker(context, Hit::none, tasks, *chunk).walk_from(context.boundary.runs[0], start, error);
+  tasks.wait();
+  return chunk;
 }
 
 }  // namespace medial::disks

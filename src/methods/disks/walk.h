@@ -97,4 +97,8 @@ struct Chunk {
 /// on the boundary only, never on the number of threads. O(n log n) expected.
 std::vector<std::unique_ptr<Chunk>> walk(const WalkContext& context);
 
+/// Walks a part of a boundary, its one run, from a disk that touches the run's first and last site
+/// and is at most `error` off. The disk is node 1 of the chunk, which has no children.
+std::unique_ptr<Chunk> walk_part(const WalkContext& context, const Disk& start, double error);
+
 }  // namespace medial::disks

@@ -1,0 +1,130 @@
+// medial tiles: the axis of a large shape, tile by tile.
+
+#include "medial/tiles.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/common.h"
+#include "cli/pipeline.h"
+#include "cli/terminal.h"
+
+namespace medial::cli {
+namespace {
+
+struct TilesArguments : FileArguments {
+  std::uint64_t tiles = 0;
+};
+
+/// The levels of a quadtree with that many leaves; of none asked for, with some 2^16 edges in each.
+int levels_for(std::uint64_t tiles, std::size_t edges) {
+  constexpr std::uint64_t in_leaf = 1 << 16;
+  const std::uint64_t wanted = tiles > 0 ? tiles : std::max<std::uint64_t>(edges / in_leaf, 4);
+  int levels = 0;
+  while (levels < 10 && (std::uint64_t{1} << (2 * levels)) < wanted) ++levels;
+  return levels;
+}
+
+/// Adds the rows of one shape to those of the shapes before, level by level from the root.
+void add_to(std::vector<TileLevel>& sum, const std::vector<TileLevel>& rows) {
+  if (sum.size() < rows.size()) sum.resize(rows.size());
+  for (std::size_t level = 0; level < rows.size(); ++level) {
+    sum[level].tiles += rows[level].tiles;
+    sum[level].edges += rows[level].edges;
+    sum[level].most = std::max(sum[level].most, rows[level].most);
+    sum[level].axis += rows[level].axis;
+  }
+}
+
+/// From the leaves to the root, for --json and as a table.
+std::pair<Json, std::string> report_of(const std::vector<TileLevel>& levels) {
+  Json list = Json::array();
+  std::string text =
+      fmt::format("{:>7} {:>10} {:>12} {:>12} {:>12}\n", "level", "tiles", "edges", "most", "axis");
+  for (std::size_t level = levels.size(); level-- > 0;) {
+    const TileLevel& row = levels[level];
+    list.push_back({{"level", level},
+                    {"tiles", row.tiles},
+                    {"edges", row.edges},
+                    {"most", row.most},
+                    {"axis", row.axis}});
+    text += fmt::format("{:>7} {:>10} {:>12} {:>12} {:>12}\n", level, row.tiles, row.edges,
+                        row.most, row.axis);
+  }
+  return {std::move(list), std::move(text)};
+}
+
+Result<int> run_tiles(const TilesArguments& arguments) {
+  Status writable = check_output(arguments, io::formats_of(io::DocumentKind::axes));
+  if (!writable) return std::move(writable).error();
+  const CommonOptions& common = arguments.common;
+  auto shapes = load_shapes(arguments.input, common);
+  if (!shapes) return std::move(shapes).error();
+  LoadedAxes axes{{shapes->file, {}}, {}, shapes->report, std::move(shapes->phases)};
+  std::vector<TileLevel> levels;
+  for (std::size_t i = 0; i < shapes->file.items.size(); ++i) {
+    ShapeItem& item = shapes->file.items[i];
+    Progress progress("tiles", error_is_terminal() && !common.quiet);
+    Options options = engine_options(common, common.threads, shapes->file.corner_angle);
+    options.progress = progress.callback();
+    std::vector<TileLevel> rows;
+    auto axis = compute_in_tiles(item.shape, levels_for(arguments.tiles, item.shape.points.size()),
+                                 options, &rows);
+    if (!axis) {
+      axis.error().place.file = arguments.input.path;
+      axis.error().place.feature = i;
+      return in_feature_of(shapes->file, std::move(axis).error());
+    }
+    add_to(levels, rows);
+    axes.file.items.push_back(
+        {std::move(item.shape), std::move(axis).value(), std::move(item.attributes)});
+  }
+  axes.phases.end("tiles");
+  Status written =
+      write_output(arguments, axes.phases, [&](const std::string& path, const std::string& format) {
+        return io::write_axes(path, format, axes.file, write_options(arguments));
+      });
+  if (!written) return std::move(written).error();
+  auto [list, text] = report_of(levels);
+  Json object = to_json(summarize(axes.file));
+  object["input"] = arguments.input.path;
+  object["levels"] = std::move(list);
+  const bool silent = common.quiet || !arguments.output.empty();
+  return finish(common, std::move(object), axes.phases, silent ? std::string() : text,
+                {{"processor", axes.phases.by_processor()}});
+}
+
+}  // namespace
+
+Command make_tiles_command(CLI::App& program) {
+  auto arguments = std::make_shared<TilesArguments>();
+  CLI::App* command = program.add_subcommand(
+      "tiles", "Compute medial axes in tiles that know nothing of each other.");
+  add_input_options(*command, arguments->input);
+  add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::axes));
+  command
+      ->add_option("--tiles", arguments->tiles,
+                   "How many tiles, from 1 to 1048576: the next power of four (default: some\n"
+                   "65,536 edges in each, but at least 4).")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 20))
+      ->option_text("N");
+  add_picture_options(*command, arguments->write);
+  add_common_options(*command, arguments->common);
+  command->footer(
+      "Each tile loads the edges in its window and keeps the part of the axis whose disks\n"
+      "lie inside. Only the edges that other disks can still touch move on to the tile\n"
+      "around it, up to the root. The axis is that of `medial axis`, but for rounding and\n"
+      "the order of nodes and edges. For shapes of straight edges.\n"
+      "\n"
+      "Without -o it prints a row for each level: tiles with edges, edges in all of them\n"
+      "and in the largest one, and edges of the axis that were finished there.\n"
+      "\n"
+      "Examples:\n"
+      "  medial tiles coast.wkt.gz -o coast.json\n"
+      "  medial tiles coast.wkt.gz --tiles 1024 --json | jq '.levels[]'");
+  return command_of(command, arguments, run_tiles);
+}
+
+}  // namespace medial::cli

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "medial/axis.h"
+#include "methods/edit/rings.h"
+
+namespace medial::edit {
+
+/// Lists have room for so much more, that seldom an edit has to move them: one in so many.
+constexpr std::size_t spare_share = 8;
+
+/// Lists of numbers, each number in one list, in which they can be added and removed in O(1).
+class NumberLists {
+ public:
+  std::uint32_t first(std::uint32_t list) const {
+    return list < first_.size() ? first_[list] : none;
+  }
+  std::uint32_t next(std::uint32_t number) const { return links_[number][0]; }
+  void reserve(std::size_t lists, std::size_t numbers) {
+    first_.reserve(lists + lists / spare_share);
+    links_.reserve(numbers + numbers / spare_share);
+  }
+  void add(std::uint32_t list, std::uint32_t number);
+  void remove(std::uint32_t list, std::uint32_t number);
+
+ private:
+  std::vector<std::uint32_t> first_;
+  std::vector<std::array<std::uint32_t, 2>> links_;  ///< next, before
+};
+
+/// An axis in the local frame that can change. Nodes and edges keep their numbers; those of removed
+/// ones are given to new ones.
+class AxisGraph {
+ public:
+  struct Edge {
+    std::array<std::uint32_t, 2> node{none, none};  ///< from, to; none: there is no such edge
+    std::array<std::uint32_t, 2> site{none,
+                                      none};  ///< on the left and on the right, as Rings has them
+    Disk control;
+    double weight = 1;
+  };
+
+  AxisGraph() = default;
+  /// An axis in the local frame; `sites`: the numbers of its sites in Rings.
+  AxisGraph(const MedialAxis& axis, const std::vector<std::uint32_t>& sites);
+
+  std::size_t node_slots() const { return nodes_.size(); }
+  std::size_t edge_slots() const { return edges_.size(); }
+  bool has_node(std::uint32_t i) const { return i < nodes_.size() && nodes_[i].radius >= 0; }
+  bool has_edge(std::uint32_t i) const { return i < edges_.size() && edges_[i].node[0] != none; }
+  const Disk& disk(std::uint32_t node) const { return nodes_[node]; }
+  const Edge& edge(std::uint32_t i) const { return edges_[i]; }
+  std::size_t degree(std::uint32_t node) const;
+
+  /// Calls visit(edge, k) for each edge whose node k the node is; twice for a loop.
+  template <class Visit>
+  void for_edges_at(std::uint32_t node, const Visit& visit) const {
+    for (std::uint32_t end = at_node_.first(node); end != none; end = at_node_.next(end))
+      visit(end / 2, end % 2);
+  }
+  template <class Visit>
+  void for_edges_of_site(std::uint32_t site, const Visit& visit) const {
+    for (std::uint32_t end = at_site_.first(site); end != none; end = at_site_.next(end))
+      visit(end / 2, end % 2);
+  }
+
+  std::uint32_t add_node(const Disk& disk);
+  std::uint32_t add_edge(const Edge& edge);
+  void remove_node(std::uint32_t node);
+  void remove_edge(std::uint32_t edge);
+
+ private:
+  std::vector<Disk> nodes_;  ///< a radius below 0: there is no such node
+  std::vector<Edge> edges_;
+  std::vector<std::uint32_t> unused_nodes_, unused_edges_;
+  NumberLists at_node_, at_site_;  ///< of ends: 2 edge + k
+};
+
+}  // namespace medial::edit

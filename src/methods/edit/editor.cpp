@@ -1,0 +1,437 @@
+#include "medial/editor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "axis/node_kinds.h"
+#include "base/in_flight.h"
+#include "base/threads.h"
+#include "base/tolerance.h"
+#include "methods/checks.h"
+#include "methods/edit/repair.h"
+#include "methods/edit/rings.h"
+#include "methods/edit/window.h"
+#include "site/bisector.h"
+
+namespace medial {
+
+using edit::AxisGraph;
+using edit::none;
+using edit::Rings;
+using edit::spare_share;
+
+struct Editor::Parts {
+  Options options;
+  Box box;  ///< of the shape, and of places where it was
+  Rings rings;
+  AxisGraph graph;
+  edit::Measures measures;
+  double tolerance = 0;  ///< in units of the input
+  std::vector<edit::Edit> inverse;
+  std::vector<std::uint32_t> marks;  ///< see Spread
+  std::uint32_t mark = 0;
+  /// The shape's sites where its edges are not those of the rings, since some touch or vertices lie
+  /// in a straight line; empty: they are.
+  std::vector<Site> apart;
+  Shape apart_shape;
+  std::vector<std::uint32_t> apart_components;  ///< of nodes
+
+  Status start(const Shape& shape, const std::vector<std::uint32_t>& numbers);
+  Result<AxisChange> change(const edit::Edit& edit);
+  Result<AxisChange> undo();
+
+  std::optional<Error> refuse(const edit::Edit& edit) const;
+  Result<AxisChange> rebuild(const edit::Edit& edit);
+  bool fits_frame(Vec2 place) const;
+  bool repair(const edit::Edit& edit, const std::vector<std::uint32_t>& changed,
+              AxisChange& change);
+  bool replace(const edit::Affected& affected, const edit::Repair& repair, AxisChange& change);
+  void list_all(std::vector<std::uint32_t>& nodes, std::vector<std::uint32_t>& edges) const;
+  Node node(std::uint32_t number) const;
+  Edge edge(std::uint32_t number) const;
+  Site site(std::uint32_t number) const;
+};
+
+namespace {
+
+Error error_of(ErrorCode code, const char* text, std::uint32_t vertex) {
+  Error error{code, text, {}};
+  error.place.vertex = vertex;
+  return error;
+}
+
+/// The tolerance to compute with in the local frame.
+double relative_tolerance(const Box& box, const Box& local, double scale, double relative) {
+  const double tolerance = scale * tolerance_for(box, relative);
+  if (tolerance <= tolerance_for(local, relative)) return relative;
+  constexpr double largest = 1e-3;
+  return std::min(largest, tolerance / diagonal(local));
+}
+
+/// For each site of an axis its number, where `numbers` are those of the shape's points.
+std::vector<std::uint32_t> site_numbers(const MedialAxis& axis,
+                                        const std::vector<std::uint32_t>& numbers) {
+  std::vector<std::uint32_t> sites;
+  sites.reserve(axis.sites.size());
+  for (const Site& site : axis.sites)
+    sites.push_back(2 * numbers[site.vertex] + (site.kind == SiteKind::vertex ? 0 : 1));
+  return sites;
+}
+
+}  // namespace
+
+Status Editor::Parts::start(const Shape& shape, const std::vector<std::uint32_t>& numbers) {
+  if (auto error = medial::refuse(shape, options)) return std::move(*error);
+  box = bounding_box(shape);
+  const LocalFrame frame = frame_of(box);
+  Shape local = shape;
+  for (Vec2& p : local.points) p = frame.to_local(p);
+  for (std::uint32_t i = 0; i < local.sources.size(); ++i) local.sources[i] = {0, i};
+  const Box local_box = bounding_box(local);
+  Options local_options = options;
+  local_options.tolerance = relative_tolerance(box, local_box, frame.scale, options.tolerance);
+  const auto axis = compute(local, local_options);
+  if (!axis) return axis.error();
+  tolerance = tolerance_for(box, options.tolerance);
+  measures = {frame.scale * tolerance, tolerance_for(local_box, options.tolerance),
+              radius_limit(box, frame)};
+  const bool is_apart = numbers.empty();
+  apart_components.clear();
+  if (is_apart) {
+    std::vector<std::uint32_t> counted(axis->sites.size());
+    for (std::uint32_t i = 0; i < counted.size(); ++i) counted[i] = i;
+    apart = axis->sites;
+    for (Site& site : apart) {
+      const VertexSource source = shape.sources[site.vertex];
+      site = {frame.to_input(site.start),
+              frame.to_input(site.end),
+              source.ring,
+              source.vertex,
+              site.kind,
+              site.bulge};
+    }
+    apart_shape = shape;
+    for (const Node& node : axis->nodes) apart_components.push_back(node.component);
+    rings.set_frame(frame);
+    graph = AxisGraph(*axis, counted);
+  } else {
+    apart.clear();
+    apart_shape = {};
+    rings = Rings(shape, frame, numbers, std::max(rings.size(), numbers.size()));
+    graph = AxisGraph(*axis, site_numbers(*axis, numbers));
+  }
+  marks.assign(graph.node_slots() + graph.node_slots() / spare_share, 0);
+  mark = 0;
+  return success();
+}
+
+/// Whether all local coordinates of a place are exact.
+bool Editor::Parts::fits_frame(Vec2 place) const {
+  const Vec2 local = rings.frame().to_local(place);
+  constexpr double largest = 2;
+  return std::abs(local.x) < largest && std::abs(local.y) < largest &&
+         rings.frame().to_input(local) == place;
+}
+
+void Editor::Parts::list_all(std::vector<std::uint32_t>& nodes,
+                             std::vector<std::uint32_t>& edges) const {
+  for (std::uint32_t i = 0; i < graph.node_slots(); ++i)
+    if (graph.has_node(i)) nodes.push_back(i);
+  for (std::uint32_t i = 0; i < graph.edge_slots(); ++i)
+    if (graph.has_edge(i)) edges.push_back(i);
+}
+
+std::optional<Error> Editor::Parts::refuse(const edit::Edit& edit) const {
+  const std::uint32_t shown = edit.fresh != none ? edit.fresh : edit.old;
+  if (edit.fresh != none && !(std::isfinite(edit.place.x) && std::isfinite(edit.place.y)))
+    return error_of(ErrorCode::not_finite, "a coordinate is not finite", shown);
+  constexpr std::uint32_t fewest = 3;
+  if (edit.fresh == none && rings.loop_size(rings[edit.before].loop) <= fewest)
+    return error_of(ErrorCode::too_few_points, "a loop keeps three vertices", shown);
+  return std::nullopt;
+}
+
+Result<AxisChange> Editor::Parts::change(const edit::Edit& edit) {
+  if (auto error = refuse(edit)) return std::move(*error);
+  AxisChange change;
+  change.vertex = edit.fresh != none ? edit.fresh : edit.old;
+  if (!apart.empty() || (edit.fresh != none && !fits_frame(edit.place))) return rebuild(edit);
+  const Rings::Judgement judgement = rings.judge(edit);
+  if (judgement.verdict == Rings::Verdict::crosses) {
+    Error error = error_of(ErrorCode::crossing, "edges would cross", judgement.edge);
+    error.place.point = judgement.point;
+    return error;
+  }
+  if (judgement.verdict == Rings::Verdict::unclear) return rebuild(edit);
+  const std::vector<std::uint32_t> changed = rings.changed_sites(edit);
+  const edit::Edit back = rings.inverse(edit);
+  rings.apply(edit);
+  if (edit.fresh != none) box.add(edit.place);
+  measures.radius_limit = radius_limit(box, rings.frame());
+  if (repair(edit, changed, change)) {
+    inverse.push_back(back);
+    return change;
+  }
+  rings.apply(back);
+  return rebuild(edit);
+}
+
+/// Finds what changes, and the new part of the axis. False where all has to be computed again.
+bool Editor::Parts::repair(const edit::Edit& edit, const std::vector<std::uint32_t>& changed,
+                           AxisChange& change) {
+  constexpr double margin = 64;  // tolerances
+  constexpr int most_rounds = 16;
+  edit::Spread spread(graph, marks, ++mark);
+  for (const std::uint32_t site : changed) spread.add_site(site);
+  std::vector<site::Site> fresh{rings.site(2 * edit.before + 1)};
+  if (edit.fresh != none) fresh.push_back(rings.site(2 * edit.fresh + 1));
+  for (int round = 0; round < most_rounds; ++round) {
+    spread.spread(fresh, margin * measures.tolerance);
+    const edit::Affected affected = spread.result();
+    const auto window =
+        edit::window_of(rings, graph, affected, rings[edit.before].loop, measures.radius_limit);
+    if (!window) return false;
+    std::vector<std::uint32_t> doubtful;
+    const auto found = edit::repair(rings, graph, affected, *window, measures, doubtful);
+    if (found) return replace(affected, *found, change);
+    if (doubtful.empty()) return false;
+    for (const std::uint32_t node : doubtful) spread.add_around(node, std::size_t{1} << round);
+  }
+  return false;
+}
+
+/// Puts the new part in the place of the old one; false, and nothing happens, where that would
+/// change how many cycles there are.
+bool Editor::Parts::replace(const edit::Affected& affected, const edit::Repair& repair,
+                            AxisChange& change) {
+  const auto fresh =
+      static_cast<std::size_t>(std::count(repair.old_nodes.begin(), repair.old_nodes.end(), none));
+  if (fresh + affected.edges.size() != affected.nodes.size() + repair.links.size()) return false;
+  for (const std::uint32_t edge : affected.edges) graph.remove_edge(edge);
+  for (const std::uint32_t node : affected.nodes) graph.remove_node(node);
+  std::vector<std::uint32_t> number = repair.old_nodes;
+  for (std::size_t i = 0; i < number.size(); ++i)
+    if (number[i] == none)
+      change.added_nodes.push_back(number[i] = graph.add_node(repair.disks[i]));
+  for (const disks::Link& link : repair.links) {
+    AxisGraph::Edge edge{{number[link.node[0]], number[link.node[1]]}, link.site, {}, 1};
+    const site::Control control =
+        site::control_of(rings.site(edge.site[0]), rings.site(edge.site[1]),
+                         graph.disk(edge.node[0]), graph.disk(edge.node[1]));
+    edge.control = control.point;
+    edge.weight = control.weight;
+    change.added_edges.push_back(graph.add_edge(edge));
+  }
+  change.removed_nodes = affected.nodes;
+  change.removed_edges = affected.edges;
+  return true;
+}
+
+/// Computes all again after an edit; undoes it where that fails.
+Result<AxisChange> Editor::Parts::rebuild(const edit::Edit& edit) {
+  AxisChange change;
+  change.vertex = edit.fresh != none ? edit.fresh : edit.old;
+  change.everything = true;
+  list_all(change.removed_nodes, change.removed_edges);
+  Parts before = *this;
+  const edit::Edit back = rings.inverse(edit);
+  rings.apply(edit);
+  std::vector<std::vector<std::uint32_t>> numbers;
+  const std::vector<Ring> all = rings.rings(numbers);
+  auto shape = build_shape(all);
+  Status started = success();
+  if (shape) {
+    for (VertexSource& source : shape->sources) source.vertex = numbers[source.ring][source.vertex];
+    started = start(*shape, rings.numbers_in(*shape));
+  }
+  if (!shape || !started) {
+    Error error = !shape ? std::move(shape).error() : std::move(started).error();
+    if (error.place.ring && error.place.vertex && *error.place.ring < numbers.size() &&
+        *error.place.vertex < numbers[*error.place.ring].size())
+      error.place.vertex = numbers[*error.place.ring][*error.place.vertex];
+    error.place.ring.reset();
+    *this = std::move(before);
+    return error;
+  }
+  list_all(change.added_nodes, change.added_edges);
+  inverse.push_back(back);
+  return change;
+}
+
+Result<AxisChange> Editor::Parts::undo() {
+  if (inverse.empty()) return AxisChange{};
+  edit::Edit last = inverse.back();
+  // build_shape() may have turned the loop round since.
+  if (rings[last.before].next != (last.old != none ? last.old : last.after))
+    std::swap(last.before, last.after);
+  auto result = change(last);
+  if (!result) return result;
+  inverse.pop_back();  // of this edit
+  inverse.pop_back();
+  return result;
+}
+
+Node Editor::Parts::node(std::uint32_t number) const {
+  const LocalFrame& frame = rings.frame();
+  const Disk& disk = graph.disk(number);
+  std::uint32_t component = apart.empty() ? 0 : apart_components[number];
+  if (apart.empty())
+    graph.for_edges_at(number, [&](std::uint32_t edge, std::size_t) {
+      component = rings.component(rings[graph.edge(edge).site[0] / 2].loop);
+    });
+  return {{frame.to_input(disk.center), frame.inverse * disk.radius},
+          component,
+          kind_of_degree(graph.degree(number))};
+}
+
+Edge Editor::Parts::edge(std::uint32_t number) const {
+  const LocalFrame& frame = rings.frame();
+  const AxisGraph::Edge& own = graph.edge(number);
+  return {own.node,
+          own.site,
+          {frame.to_input(own.control.center), frame.inverse * own.control.radius},
+          own.weight};
+}
+
+Site Editor::Parts::site(std::uint32_t number) const {
+  if (!apart.empty()) return apart[number];
+  const Rings::Vertex& vertex = rings[number / 2];
+  const bool is_edge = Rings::is_edge(number);
+  return {vertex.point, is_edge ? rings[vertex.next].point : vertex.point, vertex.loop, number / 2,
+          is_edge ? SiteKind::segment : SiteKind::vertex};
+}
+
+Editor::Editor(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+Editor::Editor(const Editor& other) : parts_(std::make_unique<Parts>(*other.parts_)) {}
+Editor::Editor(Editor&&) noexcept = default;
+Editor& Editor::operator=(Editor other) noexcept {
+  std::swap(parts_, other.parts_);
+  return *this;
+}
+Editor::~Editor() = default;
+
+namespace {
+
+/// Calls work() on this thread alone and turns what it throws into an error.
+template <class T, class Work>
+Result<T> guarded(int threads, const Work& work) {
+  try {
+    return on_threads(threads, work);
+  } catch (...) {
+    return error_in_flight();
+  }
+}
+
+}  // namespace
+
+Result<Editor> Editor::make(const Shape& shape, const Options& options) {
+  return guarded<Editor>(options.threads, [&]() -> Result<Editor> {
+    if (has_arcs(shape)) return Error{ErrorCode::unsupported, "an editor takes no arcs yet", {}};
+    if (options.exact || options.exterior || !std::holds_alternative<method::Disks>(options.method))
+      return Error{ErrorCode::unsupported,
+                   "an editor takes the method disks, without `exact` and `exterior`",
+                   {}};
+    auto parts = std::make_unique<Parts>();
+    parts->options = options;
+    std::vector<std::uint32_t> numbers(shape.points.size());
+    for (std::uint32_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
+    if (auto started = parts->start(shape, numbers); !started) return std::move(started).error();
+    return Editor(std::move(parts));
+  });
+}
+
+Result<AxisChange> Editor::move(std::uint32_t vertex, Vec2 to) {
+  const Rings& rings = parts_->rings;
+  if (!rings.has(vertex))
+    return error_of(ErrorCode::invalid_option, "there is no such vertex", vertex);
+  if (rings[vertex].point == to) {
+    AxisChange nothing;
+    nothing.vertex = vertex;
+    return nothing;
+  }
+  return guarded<AxisChange>(1, [&] {
+    return parts_->change({rings[vertex].before, rings[vertex].next, vertex, vertex, to});
+  });
+}
+
+Result<AxisChange> Editor::insert(std::uint32_t before, Vec2 point) {
+  const Rings& rings = parts_->rings;
+  if (!rings.has(before))
+    return error_of(ErrorCode::invalid_option, "there is no such vertex", before);
+  return guarded<AxisChange>(1, [&] {
+    return parts_->change({before, rings[before].next, none, rings.unused(), point});
+  });
+}
+
+Result<AxisChange> Editor::remove(std::uint32_t vertex) {
+  const Rings& rings = parts_->rings;
+  if (!rings.has(vertex))
+    return error_of(ErrorCode::invalid_option, "there is no such vertex", vertex);
+  return guarded<AxisChange>(1, [&] {
+    return parts_->change({rings[vertex].before, rings[vertex].next, vertex, none, {}});
+  });
+}
+
+Result<AxisChange> Editor::undo() {
+  return guarded<AxisChange>(1, [&] { return parts_->undo(); });
+}
+
+std::optional<Vec2> Editor::vertex(std::uint32_t number) const {
+  if (!parts_->rings.has(number)) return std::nullopt;
+  return parts_->rings[number].point;
+}
+std::optional<Node> Editor::node(std::uint32_t number) const {
+  if (!parts_->graph.has_node(number)) return std::nullopt;
+  return parts_->node(number);
+}
+std::optional<Edge> Editor::edge(std::uint32_t number) const {
+  if (!parts_->graph.has_edge(number)) return std::nullopt;
+  return parts_->edge(number);
+}
+std::optional<Site> Editor::site(std::uint32_t number) const {
+  const bool is_there =
+      parts_->apart.empty() ? parts_->rings.is_site(number) : number < parts_->apart.size();
+  if (!is_there) return std::nullopt;
+  return parts_->site(number);
+}
+
+Shape Editor::shape() const {
+  if (!parts_->apart.empty()) return parts_->apart_shape;
+  return parts_->rings.shape();
+}
+
+MedialAxis Editor::axis() const {
+  const Parts& parts = *parts_;
+  MedialAxis axis;
+  axis.method = "disks";
+  axis.tolerance = parts.tolerance;
+  std::vector<std::uint32_t> nodes, edges, site_numbers;
+  parts.list_all(nodes, edges);
+  std::vector<std::uint32_t> number(parts.graph.node_slots());
+  for (const std::uint32_t node : nodes) {
+    number[node] = static_cast<std::uint32_t>(axis.nodes.size());
+    axis.nodes.push_back(parts.node(node));
+  }
+  if (!parts.apart.empty()) {
+    axis.sites = parts.apart;
+    for (std::uint32_t i = 0; i < axis.sites.size(); ++i) site_numbers.push_back(i);
+  } else {
+    site_numbers.resize(2 * parts.rings.size(), none);
+    parts.rings.for_sites([&](std::uint32_t site) {
+      site_numbers[site] = static_cast<std::uint32_t>(axis.sites.size());
+      axis.sites.push_back(parts.site(site));
+    });
+  }
+  for (const std::uint32_t i : edges) {
+    Edge edge = parts.edge(i);
+    for (std::size_t k = 0; k < 2; ++k) {
+      edge.node[k] = number[edge.node[k]];
+      edge.site[k] = site_numbers[edge.site[k]];
+    }
+    axis.edges.push_back(edge);
+  }
+  return axis;
+}
+
+}  // namespace medial

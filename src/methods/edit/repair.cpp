@@ -1,0 +1,237 @@
+#include "methods/edit/repair.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "methods/disks/disks.h"
+#include "methods/disks/exact_event.h"
+#include "methods/disks/merge_ties.h"
+#include "methods/disks/tie_fit.h"
+#include "site/boundary_tree.h"
+
+namespace medial::edit {
+namespace {
+
+using disks::BridgeEnd;
+using disks::Element;
+
+/// How far a border's disk may be off, in tolerances: as the node of a tie.
+constexpr double border_error = 16;
+/// What no disk is off by, in the local frame.
+constexpr double loose = 0x1p-20;
+
+#ifdef MEDIAL_HAS_EXACT
+/// The window's sites for exact decisions. A site whose neighbour lies outside has none.
+exact::SiteLoops outline_of(const Rings& rings, const Window& window) {
+  const std::vector<std::uint32_t>& names = window.names;
+  exact::SiteLoops outline;
+  outline.passes.assign(names.size(), false);
+  outline.blunt.assign(names.size(), false);
+  for (std::uint32_t i = 0; i < names.size(); ++i) {
+    const std::uint32_t vertex = names[i] / 2, after = rings.next_site(names[i]);
+    const bool is_edge = Rings::is_edge(names[i]);
+    outline.sites.push_back(
+        {rings.local(vertex), rings.local(is_edge ? rings[vertex].next : vertex), 0});
+    const auto place = std::lower_bound(names.begin(), names.end(), after);
+    const bool is_inside = place != names.end() && *place == after;
+    outline.next.push_back(is_inside ? static_cast<std::uint32_t>(place - names.begin()) : i);
+    outline.passes[i] = is_inside && (!is_edge || !Rings::is_edge(after));
+  }
+  outline.loop_begin = {0, static_cast<std::uint32_t>(names.size())};
+  outline.component = {0};
+  return outline;
+}
+#endif
+
+class Repairer {
+ public:
+  Repairer(const Rings& rings, const AxisGraph& graph, const Affected& affected,
+           const Window& window, const Measures& measures)
+      : rings_(rings),
+        graph_(graph),
+        borders_(affected.borders),
+        window_(window),
+        boundary_(window.boundary),
+        measures_(measures)
+#ifdef MEDIAL_HAS_EXACT
+        ,
+        sites_([this] { return outline_of(rings_, window_); }, measures.fine_tolerance,
+               measures.radius_limit, window.boundary)
+#endif
+  {
+  }
+
+  std::optional<Repair> run(std::vector<std::uint32_t>& doubtful) {
+    const site::BoundaryTree tree(boundary_.sites);
+    std::vector<std::unique_ptr<disks::Chunk>> chunks;
+    chunks.push_back(walk(tree));
+    if (!chunks[0]->lost.empty() || !ends_well(*chunks[0], doubtful)) return std::nullopt;
+    disks::Graph part = disks::collect(chunks, window_.bridges.size(), 0);
+    if (degree_of_first(part) != 1) {
+      doubtful.push_back(borders_[0].node);
+      return std::nullopt;
+    }
+    const disks::ExactSites* sites = nullptr;
+#ifdef MEDIAL_HAS_EXACT
+    sites = &sites_;
+#endif
+    disks::merge_ties(boundary_, tree, sites, measures_.tolerance, part);
+    return result(part, doubtful);
+  }
+
+ private:
+  std::unique_ptr<disks::Chunk> walk(const site::BoundaryTree& tree) const {
+    const std::vector<bool> never;
+    const disks::ExactEvents* decide = nullptr;
+#ifdef MEDIAL_HAS_EXACT
+    const disks::ExactEvents events(sites_, boundary_, tree, never);
+    decide = &events;
+#endif
+    const disks::WalkContext context{boundary_,
+                                     window_.bridges,
+                                     tree,
+                                     disks::fine_share * measures_.fine_tolerance,
+                                     measures_.radius_limit,
+                                     decide,
+                                     nullptr,
+                                     nullptr,
+                                     0,
+                                     {}};
+    return disks::walk_part(context, window_.bridges[0].disk,
+                            border_error * measures_.fine_tolerance);
+  }
+
+  /// Whether the walk came to all bridges, and to each border by an edge.
+  bool ends_well(const disks::Chunk& chunk, std::vector<std::uint32_t>& doubtful) const {
+    std::vector<std::uint32_t> count(window_.bridges.size(), 0);
+    count[0] = 1;
+    for (const BridgeEnd& end : chunk.bridge_ends) {
+      ++count[end.bridge];
+      if (end.bridge < borders_.size() && end.edge == BridgeEnd::no_edge)
+        doubtful.push_back(borders_[end.bridge].node);
+    }
+    for (std::size_t i = 0; i < count.size(); ++i)
+      if (count[i] != (i < borders_.size() ? 1 : 2)) return false;
+    return doubtful.empty();
+  }
+
+  static std::size_t degree_of_first(const disks::Graph& part) {
+    std::size_t degree = 0;
+    for (const disks::Link& link : part.links)
+      for (const std::uint32_t node : link.node) degree += node == 0 ? 1 : 0;
+    return degree;
+  }
+
+  /// The border that a link leads to between these sites of the boundary; none where there is none.
+  std::uint32_t border_between(std::uint32_t right, std::uint32_t left) const {
+    if (right == boundary_.runs[0].last && left == 0) return 0;
+    if (right + 2 != left || boundary_.elements[right + 1] != Element::bridge) return none;
+    const std::uint32_t bridge = boundary_.originals[right + 1];
+    return bridge < borders_.size() ? bridge : none;
+  }
+
+  std::optional<Repair> result(const disks::Graph& part,
+                               std::vector<std::uint32_t>& doubtful) const {
+    Repair repair;
+    std::vector<std::uint32_t> degree(part.nodes.size(), 0);
+    for (const disks::Link& link : part.links)
+      for (const std::uint32_t node : link.node) ++degree[node];
+    for (const Node& node : part.nodes) repair.disks.push_back(node.disk);
+    repair.old_nodes.assign(part.nodes.size(), none);
+    repair.old_nodes[0] = borders_[0].node;
+    std::size_t found = 1;
+    for (const disks::Link& link : part.links) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        if (degree[link.node[k]] != 1) continue;
+        // On the way to the node.
+        const std::uint32_t right = link.site[k], left = link.site[1 - k];
+        const std::uint32_t border = border_between(right, left);
+        if (border == none || border == 0) continue;
+        repair.old_nodes[link.node[k]] = borders_[border].node;
+        ++found;
+      }
+      if (!touches(part, link)) return std::nullopt;
+      repair.links.push_back({link.node, {name_of(link.site[0]), name_of(link.site[1])}});
+    }
+    if (degree[0] != 1 || found != borders_.size()) return std::nullopt;
+    find_doubtful(repair, doubtful);
+    if (!doubtful.empty()) return std::nullopt;
+    return repair;
+  }
+
+  std::uint32_t name_of(std::uint32_t site) const {
+    return window_.names[boundary_.originals[site]];
+  }
+
+  bool touches(const disks::Graph& part, const disks::Link& link) const {
+    for (const std::uint32_t node : link.node)
+      for (const std::uint32_t i : link.site) {
+        const Disk& disk = part.nodes[node].disk;
+        const double away = std::sqrt(site::squared_distance(boundary_.sites[i], disk.center));
+        if (!(std::abs(away - disk.radius) <= loose)) return false;
+      }
+    return true;
+  }
+
+  /// Adds the nodes of borders that merge_ties() might make one with their new neighbours, were the
+  /// edges between them in the window's inside.
+  void find_doubtful(const Repair& repair, std::vector<std::uint32_t>& doubtful) const {
+    constexpr std::size_t enough = 3;  // links: one of them has a third site
+    std::vector<std::vector<std::uint32_t>> links(repair.disks.size());
+    for (std::uint32_t i = 0; i < repair.links.size(); ++i)
+      for (const std::uint32_t node : repair.links[i].node)
+        if (links[node].size() < enough) links[node].push_back(i);
+    for (const disks::Link& link : repair.links)
+      for (std::size_t k = 0; k < 2; ++k) {
+        const std::uint32_t border = repair.old_nodes[link.node[k]], inner = link.node[1 - k];
+        if (border == none || graph_.degree(border) < enough || links[inner].size() < enough)
+          continue;
+        std::uint32_t before = none, after = none;
+        const auto take = [&](const std::array<std::uint32_t, 2>& sites, std::uint32_t& third) {
+          for (const std::uint32_t site : sites)
+            if (site != link.site[0] && site != link.site[1]) third = site;
+        };
+        for (const std::uint32_t i : links[inner]) take(repair.links[i].site, before);
+        graph_.for_edges_at(
+            border, [&](std::uint32_t edge, std::size_t) { take(graph_.edge(edge).site, after); });
+        if (may_be_one(repair.disks[inner], graph_.disk(border),
+                       {link.site[0], link.site[1], before, after}))
+          doubtful.push_back(border);
+      }
+  }
+
+  /// Whether one disk may touch four sites within the tolerance, of which each of two touches
+  /// three, as merge_ties() has it.
+  bool may_be_one(const Disk& from, const Disk& to,
+                  const std::array<std::uint32_t, 4>& sites) const {
+    if (std::count(sites.begin(), sites.end(), none) > 0) return true;
+    for (const Disk& disk : {from, to}) {
+      std::array<disks::ContactOf<double>, 4> contacts;
+      for (std::size_t i = 0; i < sites.size(); ++i)
+        contacts[i] = disks::contact_of(rings_.site(sites[i]), disk);
+      if (!(std::abs(disks::Dependency<double>(contacts).level) > 2 * measures_.tolerance))
+        return true;
+    }
+    return false;
+  }
+
+  const Rings& rings_;
+  const AxisGraph& graph_;
+  const std::vector<Border>& borders_;
+  const Window& window_;
+  const disks::Boundary& boundary_;
+  const Measures& measures_;
+#ifdef MEDIAL_HAS_EXACT
+  const disks::ExactSites sites_;
+#endif
+};
+
+}  // namespace
+
+std::optional<Repair> repair(const Rings& rings, const AxisGraph& graph, const Affected& affected,
+                             const Window& window, const Measures& measures,
+                             std::vector<std::uint32_t>& doubtful) {
+  return Repairer(rings, graph, affected, window, measures).run(doubtful);
+}
+
+}  // namespace medial::edit

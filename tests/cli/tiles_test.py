@@ -1,0 +1,53 @@
+"""`medial tiles`: axes in tiles."""
+
+import json
+
+from support import FRAME, SQUARES, CommandLine, comb, star
+
+
+class Tiles(CommandLine):
+    def graph(self, name):
+        """Of each feature the edges by their sites, and nodes that are the same to ten digits."""
+        graphs = []
+        for item in json.loads(self.read(name))["items"]:
+            axis = item["axis"]
+            nodes = sorted(tuple(round(value, 10) + 0.0 for value in node[:3]) for node in axis["nodes"])
+            graphs.append((sorted(tuple(sorted(edge[2:4])) for edge in axis["edges"]), nodes, axis["sites"]))
+        return graphs
+
+    def test_axis(self):
+        """The graph of the whole, for any number of tiles; holes; several features; a certificate."""
+        for name, text in (("star", star(300)), ("comb", comb(30)), ("frame", FRAME), ("squares", SQUARES)):
+            self.write(f"{name}.wkt", text)
+            self.succeed("axis", f"{name}.wkt", "-o", "whole.json")
+            for tiles in ("1", "4", "60", "1024"):
+                self.succeed("tiles", f"{name}.wkt", "--tiles", tiles, "-o", "tiles.json")
+                self.assertEqual(self.graph("tiles.json"), self.graph("whole.json"), (name, tiles))
+                self.succeed("verify", f"{name}.wkt", "tiles.json")
+
+    def test_report(self):
+        """A row a level, the leaves first; all edges of the axis are finished somewhere."""
+        self.write("star.wkt", star(300))
+        report = json.loads(self.succeed("tiles", "star.wkt", "--tiles", "17", "--json").stdout)
+        self.assertEqual([row["level"] for row in report["levels"]], [3, 2, 1, 0])
+        self.assertEqual(sum(row["axis"] for row in report["levels"]), report["edges"])
+        self.assertGreaterEqual(report["levels"][0]["edges"], 300)
+        self.assertEqual(report["levels"][-1]["tiles"], 1)
+        table = self.succeed("tiles", "star.wkt").stdout.decode().splitlines()
+        self.assertEqual(table[0].split(), ["level", "tiles", "edges", "most", "axis"])
+        self.assertEqual([line.split()[0] for line in table[1:]], ["1", "0"])
+        one = json.loads(self.succeed("tiles", "star.wkt", "--threads", "1", "-o", "-").stdout)["items"]
+        two = json.loads(self.succeed("tiles", "star.wkt", "--threads", "2", "-o", "-").stdout)["items"]
+        for items in (one, two):
+            del items[0]["axis"]["statistics"]
+        self.assertEqual(one, two)
+
+    def test_errors(self):
+        """Arcs, gaps that rounding does not separate, and numbers of tiles out of range."""
+        self.write("half.svg", '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0H20A10 10 0 0 1 0 0Z"/></svg>')
+        self.refuse("unsupported", "tiles", "half.svg", "-o", "x.json")
+        self.write("narrow.wkt", "POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0), (1e-14 1, 1 8, 1 1, 1e-14 1))")
+        self.refuse("unsupported", "tiles", "narrow.wkt", "-o", "x.json")
+        self.write("star.wkt", star(10))
+        self.refuse("[a-z_]+", "tiles", "star.wkt", "--tiles", "0")
+        self.refuse("[a-z_]+", "tiles", "star.wkt", "--tiles", "1048577")

@@ -1,0 +1,253 @@
+// Axes that follow edits of their shapes: after every edit the axis is that of compute().
+
+#include "medial/editor.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "medial/verify.h"
+#include "support/computed.h"
+#include "support/environment.h"
+#include "support/generate.h"
+#include "support/same_graph.h"
+
+namespace medial::test {
+namespace {
+
+Editor editor_of(const Rings& rings) {
+  auto editor = Editor::make(shape_of(rings));
+  EXPECT_TRUE(editor.ok()) << to_string(editor.error());
+  return std::move(editor).value();
+}
+
+/// How the editor's axis differs from the one that is computed; empty where it does not.
+std::string fault_of(const Editor& editor) {
+  const Shape shape = editor.shape();
+  const auto expected = compute(shape, {.threads = 1});
+  if (!expected) return to_string(expected.error());
+  const MedialAxis axis = editor.axis();
+  const std::string different = difference(shape, axis, *expected, expected->tolerance);
+  if (!different.empty()) return different;
+  const Certificate certificate = verify(shape, axis);
+  return certificate.passed ? "" : "verify() refuses it";
+}
+
+/// The numbers of the nodes and edges that an editor has, as its changes tell.
+struct Mirror {
+  std::set<std::uint32_t> nodes, edges;
+
+  explicit Mirror(const Editor& editor) {
+    for (std::uint32_t i = 0; i < 4 * editor.axis().edges.size() + 64; ++i) {
+      if (editor.node(i)) nodes.insert(i);
+      if (editor.edge(i)) edges.insert(i);
+    }
+  }
+  void follow(const AxisChange& change) {
+    const auto apply = [](const auto& removed, const auto& added, auto& all) {
+      for (const std::uint32_t i : removed) EXPECT_EQ(all.erase(i), 1U);
+      for (const std::uint32_t i : added) EXPECT_TRUE(all.insert(i).second);
+    };
+    apply(change.removed_nodes, change.added_nodes, nodes);
+    apply(change.removed_edges, change.added_edges, edges);
+  }
+  void expect(const Editor& editor) const {
+    const MedialAxis axis = editor.axis();
+    EXPECT_EQ(nodes.size(), axis.nodes.size());
+    EXPECT_EQ(edges.size(), axis.edges.size());
+    for (const std::uint32_t i : edges) {
+      const auto edge = editor.edge(i);
+      ASSERT_TRUE(edge);
+      for (const std::uint32_t node : edge->node) EXPECT_EQ(nodes.count(node), 1U);
+      for (const std::uint32_t site : edge->site) EXPECT_TRUE(editor.site(site));
+    }
+  }
+};
+
+Rings shape_to_edit(std::uint64_t seed) {
+  switch (seed % 8) {
+    case 0:
+      return hole_grid(2 + seed % 4);
+    case 1:
+      return maze(60 + seed % 90, seed);
+    case 2:
+      return comb(3 + seed % 15);
+    case 3:
+      return blob(20 + seed % 50);
+    default:
+      return random_shape(seed).rings;
+  }
+}
+
+/// Random edits of one shape, some of them on the grid of the integers, where vertices come to lie
+/// in a line with others and edges come to touch.
+class Edits {
+ public:
+  explicit Edits(std::uint64_t seed) : random_(seed), on_grid_(seed % 3 == 0) {}
+
+  Result<AxisChange> next(Editor& editor) {
+    const Shape shape = editor.shape();
+    const auto point = static_cast<std::size_t>(
+        random_.integer(0, static_cast<std::int64_t>(shape.points.size()) - 1));
+    const std::uint32_t vertex = shape.sources[point].vertex;
+    const Vec2 place = shape.points[point];
+    const Vec2 other = shape.points[(point + 1) % shape.points.size()];
+    const double way = distance(place, other) * random_.power_of_ten(-2, 0.5);
+    const double angle = 2 * std::numbers::pi * random_.unit();
+    Vec2 to = place + way * Vec2{std::cos(angle), std::sin(angle)};
+    if (on_grid_) to = {std::round(to.x), std::round(to.y)};
+    switch (random_.integer(0, 9)) {
+      case 0:
+        return editor.insert(vertex, to);
+      case 1:
+        return editor.remove(vertex);
+      case 2:
+        return editor.undo();
+      default:
+        return editor.move(vertex, to);
+    }
+  }
+
+ private:
+  Random random_;
+  bool on_grid_;
+};
+
+TEST(Editor, HasTheAxisOfComputeAfterEveryEdit) {
+  constexpr std::size_t largest = 200;
+  std::size_t repaired = 0, all = 0;
+  for (std::uint64_t seed = 0; seed < shape_count(100, 20); ++seed) {
+    const auto shape = build_shape(shape_to_edit(seed));
+    if (!shape || shape->points.size() > largest) continue;
+    auto editor = Editor::make(*shape);
+    ASSERT_TRUE(editor.ok()) << to_string(editor.error());
+    Mirror mirror(*editor);
+    Edits edits(seed);
+    for (int edit = 0; edit < 16; ++edit) {
+      const auto change = edits.next(*editor);
+      ++all;
+      if (!change) continue;
+      if (!change->everything) ++repaired;
+      mirror.follow(*change);
+      ASSERT_EQ(fault_of(*editor), "") << "seed " << seed << ", edit " << edit;
+    }
+    mirror.expect(*editor);
+  }
+  EXPECT_GT(4 * repaired, all);
+}
+
+TEST(Editor, ChangesLittleOfALargeAxis) {
+  Editor editor = editor_of(maze(4000));
+  std::size_t changed = 0;
+  constexpr std::uint32_t edits = 100;
+  for (std::uint32_t i = 0; i < edits; ++i) {
+    const std::uint32_t vertex = 37 * i;
+    const auto change = editor.move(vertex, *editor.vertex(vertex) + Vec2{0.25, 0.125});
+    ASSERT_TRUE(change.ok()) << to_string(change.error());
+    EXPECT_FALSE(change->everything);
+    changed += change->added_edges.size();
+  }
+  EXPECT_LT(changed, 40 * edits);
+  EXPECT_EQ(fault_of(editor), "");
+}
+
+TEST(Editor, RefusesEdgesThatCrossWithThePlace) {
+  Editor editor = editor_of(l_shape(2));
+  const MedialAxis before = editor.axis();
+  std::uint32_t origin = 0;
+  while (!(editor.vertex(origin) == Vec2{0, 0})) ++origin;
+  const auto change = editor.move(origin, {3, 3});
+  ASSERT_FALSE(change.ok());
+  EXPECT_EQ(change.error().code, ErrorCode::crossing);
+  ASSERT_TRUE(change.error().place.point);
+  EXPECT_TRUE(change.error().place.vertex);
+  EXPECT_EQ(editor.vertex(origin), (Vec2{0, 0}));
+  EXPECT_EQ(editor.axis().edges.size(), before.edges.size());
+  EXPECT_EQ(fault_of(editor), "");
+}
+
+TEST(Editor, RefusesWhatIsNoEdit) {
+  Editor editor = editor_of(triangle({0, 0}, {4, 0}, {0, 3}));
+  EXPECT_EQ(editor.remove(0).error().code, ErrorCode::too_few_points);
+  EXPECT_EQ(editor.move(7, {1, 1}).error().code, ErrorCode::invalid_option);
+  EXPECT_EQ(editor.move(0, {std::nan(""), 1}).error().code, ErrorCode::not_finite);
+  EXPECT_FALSE(editor.vertex(3));
+  EXPECT_TRUE(editor.undo()->added_edges.empty());
+  Options options;
+  options.exact = true;
+  EXPECT_EQ(Editor::make(shape_of(l_shape(1)), options).error().code, ErrorCode::unsupported);
+  const Ring circle{{{0, 0}, {1, 0}}, RingRole::any, {1, 1}};
+  EXPECT_EQ(Editor::make(shape_of({circle})).error().code, ErrorCode::unsupported);
+}
+
+TEST(Editor, TakesEditsBack) {
+  Editor editor = editor_of(star_with_holes(*std::make_unique<Random>(5), 40, 3));
+  const Shape shape = editor.shape();
+  const MedialAxis axis = editor.axis();
+  Edits edits(1);
+  std::size_t done = 0;
+  for (int i = 0; i < 40; ++i) {
+    const std::uint32_t vertex = shape.sources[static_cast<std::size_t>(i)].vertex;
+    const Vec2 place = shape.points[static_cast<std::size_t>(i)];
+    done += editor.move(vertex, place + Vec2{0.004, 0.003}) ? 1 : 0;
+    done += editor.insert(vertex, place + Vec2{0.002, -0.001}) ? 1 : 0;
+  }
+  EXPECT_GT(done, 40U);
+  const Editor copy = editor;
+  for (std::size_t i = 0; i < done; ++i) ASSERT_TRUE(editor.undo().ok());
+  EXPECT_TRUE(editor.undo()->removed_nodes.empty());
+  for (std::size_t i = 0; i < shape.points.size(); ++i)
+    EXPECT_EQ(editor.vertex(shape.sources[i].vertex), shape.points[i]);
+  EXPECT_EQ(editor.axis().edges.size(), axis.edges.size());
+  EXPECT_EQ(fault_of(editor), "");
+  EXPECT_GT(copy.shape().points.size(), shape.points.size());
+  EXPECT_EQ(fault_of(copy), "");
+}
+
+TEST(Editor, FollowsVerticesIntoALineAndOutOfIt) {
+  Editor editor = editor_of(rectangle(4, 2));
+  const auto inserted = editor.insert(0, {2, 0});
+  ASSERT_TRUE(inserted.ok());
+  EXPECT_TRUE(inserted->everything);
+  EXPECT_EQ(editor.shape().points.size(), 4U);
+  EXPECT_EQ(fault_of(editor), "");
+  ASSERT_TRUE(editor.move(inserted->vertex, {2, 0.5}).ok());
+  EXPECT_EQ(editor.shape().points.size(), 5U);
+  EXPECT_EQ(fault_of(editor), "");
+  ASSERT_TRUE(editor.undo().ok());
+  ASSERT_TRUE(editor.undo().ok());
+  EXPECT_FALSE(editor.vertex(inserted->vertex));
+  EXPECT_EQ(fault_of(editor), "");
+}
+
+TEST(Editor, TurnsALoopInsideOut) {
+  Editor editor = editor_of(triangle({0, 0}, {4, 0}, {1, 3}));
+  ASSERT_TRUE(editor.move(2, {1, -3}).ok());
+  EXPECT_EQ(fault_of(editor), "");
+  ASSERT_TRUE(editor.move(2, {1, -2.5}).ok());
+  EXPECT_EQ(fault_of(editor), "");
+  ASSERT_TRUE(editor.undo().ok());
+  ASSERT_TRUE(editor.undo().ok());
+  EXPECT_EQ(editor.vertex(2), (Vec2{1, 3}));
+  EXPECT_EQ(fault_of(editor), "");
+}
+
+TEST(Editor, KeepsFarShapesExact) {
+  Rings rings = l_shape(3);
+  for (Ring& ring : rings)
+    for (Vec2& p : ring.points) p = p + Vec2{5e6, -3e6};
+  Editor editor = editor_of(rings);
+  for (std::uint32_t i = 0; i < 6; ++i) {
+    ASSERT_TRUE(editor.move(i, *editor.vertex(i) + Vec2{0.125, 0.25}).ok());
+    EXPECT_EQ(fault_of(editor), "");
+  }
+}
+
+}  // namespace
+}  // namespace medial::test
