@@ -237,6 +237,7 @@ TEST(Gear, IsMeasuredInsteadOfDecided) {
 struct Mended {
   std::string_view name;
   std::uint64_t most = 0;
+  std::uint64_t loose = 1000;  ///< where ties are contracted elsewhere
 };
 void PrintTo(const Mended& mended, std::ostream* out) { *out << mended.name; }
 
@@ -270,18 +271,21 @@ class NastyShapes : public testing::TestWithParam<Mended> {
 };
 
 TEST_P(NastyShapes, HaveTheTrueGraphUnderAllSymmetries) {
-  expect_at_most(GetParam(), faults(false));
+  const Faults found = faults(false);
+  expect_at_most(GetParam(), found);
+  EXPECT_LE(found.count(Fault::loose) * 1000, GetParam().loose * count)
+      << found.first.find(Fault::loose)->second;
 }
 
-constexpr std::array<Mended, 12> shapes{{{"strips"},
-                                         {"slits"},
-                                         {"stretched"},
-                                         {"needles"},
-                                         {"polygons"},
-                                         {"rings"},
-                                         {"grids"},
-                                         {"splinters"},
-                                         {"rounds", 5},
+constexpr std::array<Mended, 12> shapes{{{"strips", 0, 0},
+                                         {"slits", 0, 0},
+                                         {"stretched", 0, 0},
+                                         {"needles", 0, 0},
+                                         {"polygons", 0, 0},
+                                         {"rings", 0, 5},
+                                         {"grids", 0, 0},
+                                         {"splinters", 0, 0},
+                                         {"rounds", 0, 0},
                                          {"circles", 5},
                                          {"bars"},
                                          {"tangents"}}};

@@ -29,12 +29,15 @@ Certainty::Certainty(const Boundary& boundary, double tolerance, const Span& spa
   const bool ties = tolerance <= small_tolerance * to_.radius;
   if (event.kind == Kind::at_node) {
     error_ = span.error;
+    tie_ = true;
+    fourth_ = event.site;
     certain_ = ties && is_near(span.right, tolerance) && is_near(span.left, tolerance);
     return;
   }
   const std::uint32_t fourth = event.kind == Kind::pass_right  ? span.right + 1
                                : event.kind == Kind::pass_left ? span.left - 1
                                                                : event.site;
+  fourth_ = fourth;
   const bool joins_right = fourth == span.right + 1 && boundary.is_smooth(span.right),
              joins_left = fourth + 1 == span.left && boundary.is_smooth(fourth);
   error_ = joins_right  ? error_at_joint(boundary, span.right, fourth, span.left, to_)
@@ -43,14 +46,17 @@ Certainty::Certainty(const Boundary& boundary, double tolerance, const Span& spa
   const bool stays = squared_norm(to_.center - from_.center) <= tolerance * tolerance &&
                      std::abs(to_.radius - from_.radius) <= tolerance;
   if (stays) {
+    tie_ = true;
     certain_ = touches(fourth, tolerance);
     return;
   }
   if (boundary.has_arcs)
     for (const std::uint32_t i : {span.right, fourth, span.left})
       if (!fits(i, tolerance)) return;
-  certain_ = (error_ <= well_known * to_.radius || touches(fourth, tolerance)) &&
-             (moves_forward() || comes_before(fourth) || (ties && is_one_tie(0.5 * tolerance)));
+  certain_ = error_ <= well_known * to_.radius || touches(fourth, tolerance);
+  if (!certain_ || moves_forward() || comes_before(fourth)) return;
+  tie_ = true;
+  certain_ = boundary.has_arcs && ties && is_one_tie(0.5 * tolerance);
 }
 
 Certainty::Contact Certainty::contact_of(const site::Site& s, const Disk& disk) {

@@ -13,6 +13,10 @@ class Certainty {
   /// How far the exact disk of the event may be: infinite where it may not exist.
   double error() const { return error_; }
   bool is_certain() const { return certain_; }
+  /// Whether it is so only if what touches one disk within the tolerance is one.
+  bool is_tie() const { return tie_; }
+  /// What the event's disk touches beside the two sites of the span.
+  std::uint32_t fourth() const { return fourth_; }
 
   /// Whether the walk certainly ends at the disk of the span's node, with nothing in between.
   static bool ends(const Boundary& boundary, double tolerance, const Span& span, const Disk& disk);
@@ -56,8 +60,9 @@ class Certainty {
   const Span& span_;
   const Disk& from_;
   const Disk& to_;
+  std::uint32_t fourth_ = 0;
   double error_ = 0;
-  bool certain_ = false;
+  bool certain_ = false, tie_ = false;
 };
 
 }  // namespace medial::disks

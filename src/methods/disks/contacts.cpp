@@ -1,7 +1,11 @@
 #include "methods/disks/contacts.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
+
+#include "base/compat.h"
+#include "methods/disks/tie_fit.h"
 
 namespace medial::disks {
 namespace {
@@ -126,7 +130,7 @@ bool Contacts::are_distinct(std::uint32_t first, std::uint32_t second, double an
 const std::vector<std::uint32_t>& Contacts::touched_between(const Span& span, const Disk& disk,
                                                             bool all_around) {
   ++statistics_.queries;
-  context_.tree.within(disk.center, disk.radius + context_.tolerance, span.right + 1, span.left - 1,
+  context_.tree.within(disk.center, disk.radius + touching_, span.right + 1, span.left - 1,
                        touched_);
   if (touched_.empty()) return touched_;
   // Along the boundary the contacts go around the disk counter-clockwise. What comes out of order
@@ -149,7 +153,7 @@ const std::vector<std::uint32_t>& Contacts::touched_between(const Span& span, co
   for (const std::uint32_t hit : touched_) {
     if (boundary_.two_sided && !faces(hit, disk.center)) continue;
     const std::uint32_t i = boundary_.two_sided ? hit : owner(hit, disk.center, span);
-    if (i <= before || i >= span.left || !touches(i, disk, context_.tolerance)) continue;
+    if (i <= before || i >= span.left || !touches(i, disk, touching_)) continue;
     const double angle = angle_of(i, 0.5);
     if (!are_distinct(before, i, angle - angle_before, disk) ||
         !are_distinct(i, span.left, end_angle - angle, disk))
@@ -159,6 +163,123 @@ const std::vector<std::uint32_t>& Contacts::touched_between(const Span& span, co
   }
   touched_.resize(kept);
   return touched_;
+}
+
+double Contacts::beyond_end(std::uint32_t i, bool at_end, Vec2 center) const {
+  const site::Site& own = site(i);
+  if (!own.is_vertex()) {
+    const double s = site::carrier_parameter(own, center);
+    return at_end ? s - own.length : -s;
+  }
+  if (at_end ? i + 1 >= boundary_.sites.size() : i == 0) return 0;  // where a run begins
+  const std::uint32_t beside = at_end ? i + 1 : i - 1;
+  const Vec2 to = center - own.point;
+  if (element(beside) != Element::bridge) return -beyond_end(beside, !at_end, center);
+  const Vec2 bound = bridge_direction(i, beside);
+  return (at_end ? cross(to, bound) : cross(bound, to)) / norm(bound);
+}
+
+double Contacts::beyond_ends(std::uint32_t i, Vec2 center) const {
+  return std::max(beyond_end(i, false, center), beyond_end(i, true, center));
+}
+
+const std::vector<std::uint32_t>& Contacts::around(const Span& span, const Disk& disk) {
+  ++statistics_.queries;
+  const Boundary::SiteRange& run =
+      *ranges::lower_bound(boundary_.runs, span.left, {}, &Boundary::SiteRange::last);
+  context_.tree.within(disk.center, disk.radius + clearance(), run.first, run.last, touched_);
+  std::erase_if(touched_, [&](std::uint32_t i) {
+    if (element(i) == Element::bridge) return true;
+    const double at_start = beyond_end(i, false, disk.center),
+                 at_end = beyond_end(i, true, disk.center);
+    if (!(std::max(at_start, at_end) > clearance())) return false;
+    if (site(i).is_vertex()) return true;
+    return at_end > at_start ? i < run.last && boundary_.is_smooth(i)
+                             : i > run.first && boundary_.is_smooth(i - 1);
+  });
+  return touched_;
+}
+
+double Contacts::spread_of(const std::vector<std::uint32_t>& sites, const Span& span,
+                           Vec2 center) const {
+  // Feet that only pass on are where they pass.
+  const std::array<Vec2, 2> own{site::foot(site(span.right), center),
+                                site::foot(site(span.left), center)};
+  if (ranges::all_of(sites, [&](std::uint32_t i) {
+        const Vec2 foot = site::foot(site(i), center);
+        return std::min(distance(foot, own[0]), distance(foot, own[1])) <= 4 * context_.tolerance;
+      }))
+    return 1;
+  const Vec2 first = site::outward(site(sites[0]), center);
+  const auto turned = [&](std::uint32_t i) { return site::outward(site(i), center) - first; };
+  Vec2 ab, ac;
+  for (const std::uint32_t i : sites)
+    if (const Vec2 to = turned(i); squared_norm(to) > squared_norm(ab)) ab = to;
+  for (const std::uint32_t i : sites)
+    if (const Vec2 to = turned(i); std::abs(cross(ab, to)) > std::abs(cross(ab, ac))) ac = to;
+  return 1 + 2 * (norm(ab) + norm(ac)) / std::abs(cross(ab, ac));
+}
+
+bool Contacts::may_touch_more(const Span& span, const Disk& disk, std::uint32_t next) {
+  return ranges::any_of(around(span, disk), [&](std::uint32_t i) {
+    return i > span.right && i < span.left && i != next &&
+           std::sqrt(site::squared_distance(site(i), disk.center)) <= disk.radius + touching_;
+  });
+}
+
+bool Contacts::passes_at(const Span& span, const Disk& disk, std::uint32_t next) const {
+  constexpr double well_known = 32;  // tolerances
+  const bool of_right = next == span.right + 1 && boundary_.is_smooth(span.right);
+  if (!of_right && (next + 1 != span.left || !boundary_.is_smooth(next))) return false;
+  const std::uint32_t own = of_right ? span.right : span.left;
+  return span.error <= well_known * context_.tolerance &&
+         std::abs(beyond_end(own, of_right, disk.center)) <= context_.tolerance &&
+         touches_carrier(next, disk, context_.tolerance) &&
+         touches_carrier(own, disk, context_.tolerance);
+}
+
+bool Contacts::is_clean_tie(const Span& span, const Disk& disk, std::uint32_t sure) {
+  constexpr double well_placed = 16, furthest = 0x1p-12;
+  const std::vector<std::uint32_t>& sites = around(span, disk);
+  const auto has = [&](std::uint32_t i) { return ranges::binary_search(sites, i); };
+  if (!has(span.right) || !has(span.left) || !has(sure)) return false;
+  const double spread = spread_of(sites, span, disk.center);
+  // Where the tie may be, and not only its disk, decides whether a foot has come to a joint.
+  if (!(touching_ * spread <= furthest * disk.radius)) return false;
+  std::uint32_t before = sites.back();
+  Vec2 foot_before = site::foot(site(before), disk.center);
+  for (const std::uint32_t i : sites) {
+    const double away = std::sqrt(site::squared_distance(site(i), disk.center)) - disk.radius;
+    const double beyond = beyond_ends(i, disk.center);
+    const bool at_joint = beyond > -clearance() * spread;
+    if (std::abs(away) > touching_ || beyond > context_.tolerance ||
+        (at_joint && (spread > well_placed || beyond < -context_.tolerance)))
+      return false;
+    const Vec2 foot = site::foot(site(i), disk.center);
+    // A disk that touches one place all but touches what is beside it.
+    if ((before + 1 != i || !boundary_.is_smooth(before)) &&
+        squared_norm(foot - foot_before) <= 2 * disk.radius * clearance())
+      return false;
+    before = i;
+    foot_before = foot;
+  }
+  return true;
+}
+
+std::optional<Disk> Contacts::clean_tie(const Span& span, const Disk& near, std::uint32_t sure) {
+  const TieSites sites{boundary_.sites};
+  Disk disk = near;
+  // What touches a disk places it better, so that it touches more.
+  for (std::size_t before = 3;;) {
+    std::vector<Touch> contacts;
+    for (const std::uint32_t i : around(span, disk)) contacts.push_back({i});
+    if (contacts.size() <= before) return std::nullopt;
+    before = 2 * contacts.size();
+    TieFit fit(sites, disk);
+    if (!fit.fits(contacts, context_.tolerance)) return std::nullopt;
+    disk = fit.disk;
+    if (is_clean_tie(span, disk, sure)) return disk;
+  }
 }
 
 void Contacts::split(const Span& span, const Disk& disk, std::uint32_t sure, bool all_around,

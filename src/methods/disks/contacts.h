@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "medial/axis.h"
@@ -38,6 +39,7 @@ struct Span {
   std::uint32_t node;
   std::uint32_t third = ~std::uint32_t{0};  ///< another site that the node's disk touches, if known
   double error = 0;                         ///< how far the exact disk is from the node's, at most
+  bool is_exact = false;  ///< the node is the one that the shape has for the three sites
 };
 
 /// Which sites of a span a disk touches: searches, and what is left to decide when the tree has
@@ -47,7 +49,13 @@ class Contacts {
   using Hit = site::BoundaryTree::Hit;
 
   Contacts(const WalkContext& context, Statistics& statistics)
-      : context_(context), boundary_(context.boundary), statistics_(statistics) {}
+      : context_(context),
+        boundary_(context.boundary),
+        statistics_(statistics),
+        touching_((is_certain() ? 2 : 1) * context.tolerance) {}
+
+  /// Whether what the walk finds in double is taken only where it is certain.
+  bool is_certain() const { return context_.exact != nullptr && !boundary_.has_arcs; }
 
   const site::Site& site(std::uint32_t i) const { return boundary_.sites[i]; }
   Element element(std::uint32_t i) const { return boundary_.elements[i]; }
@@ -114,6 +122,17 @@ class Contacts {
   void split(const Span& span, const Disk& disk, std::uint32_t sure, bool all_around,
              std::vector<Span>& parts);
 
+  /// Whether what a disk touches in the span, within the tolerance, `sure` among it, is a tie
+  /// beside which nothing else is: no other site is near, and no foot is near to a joint without
+  /// being in it. Such contacts become one node in whichever order they are found.
+  bool is_clean_tie(const Span& span, const Disk& disk, std::uint32_t sure);
+  /// Whether a disk may touch a site inside the span beside `next`.
+  bool may_touch_more(const Span& span, const Disk& disk, std::uint32_t next);
+  /// Whether a foot of a disk, which is known well, is where it passes on to the next site.
+  bool passes_at(const Span& span, const Disk& disk, std::uint32_t next) const;
+  /// The disk of such a tie near to a given one.
+  std::optional<Disk> clean_tie(const Span& span, const Disk& near, std::uint32_t sure);
+
   /// Contacts of one disk at a smaller angle count as one at a node.
   static constexpr double distinct_contacts = 1e-6;
   /// Whether a disk can touch both sites in one place only, as they are nearer to each other than
@@ -131,6 +150,20 @@ class Contacts {
   /// around it: narrow slots have walls that a large disk touches next to each other.
   bool are_distinct(std::uint32_t first, std::uint32_t second, double angle,
                     const Disk& disk) const;
+  /// How far a disk's centre lies beyond the normal at one end of a site, where another site or a
+  /// bridge takes over: negative within.
+  double beyond_end(std::uint32_t i, bool at_end, Vec2 center) const;
+  double beyond_ends(std::uint32_t i, Vec2 center) const;
+  /// What a disk touches or is near to on all of a span's boundary, in order; until the next call.
+  const std::vector<std::uint32_t>& around(const Span& span, const Disk& disk);
+  /// How far a disk may be from the one that it should be, at most, against the residuals of its
+  /// contacts with some of these sites (docs/exact.md).
+  double spread_of(const std::vector<std::uint32_t>& sites, const Span& span, Vec2 center) const;
+  /// How far away a site is that has nothing to do with a tie.
+  double clearance() const {
+    constexpr double tolerances = 64;
+    return tolerances * context_.tolerance;
+  }
   std::uint32_t facing(std::uint32_t i, Vec2 center, const Span& span) const;
   Vec2 bridge_direction(std::uint32_t vertex, std::uint32_t bridge) const;
   std::uint32_t other_copy(std::uint32_t bridge, std::uint32_t vertex) const;
@@ -143,6 +176,9 @@ class Contacts {
   const WalkContext& context_;
   const Boundary& boundary_;
   Statistics& statistics_;
+  /// How near a disk has to be to what it touches in a tie: what double leaves open of the disk,
+  /// and of the site.
+  const double touching_;
   std::vector<std::uint32_t> touched_;
   mutable std::vector<std::uint32_t> together_;  ///< sites in one place
 };

@@ -23,11 +23,17 @@ namespace medial::disks {
 
 namespace {
 
-/// The walk separates contacts to a share of the tolerance, which is still some roundings: narrow
-/// gaps may leave only some tolerances between two contacts, and so does the whole axis where arcs
-/// are within so many tolerances of one circle. What remains of a tie is merged at the end. Among
-/// other arcs ties are known to the tolerance only, since their bulges round, too.
-constexpr double in_centers_share = 0.125, near_circle = 1 << 12;
+/// The walk separates contacts to a share of the tolerance, so fine between segments, and where
+/// arcs are within some tolerances of one circle, that it asks for rounding only. What remains of
+/// a tie is merged at the end. Among other arcs ties are known to the tolerance only, since their
+/// bulges round, too; in planar graphs double decides.
+constexpr double planar_share = 0.25, near_circle = 1 << 12;
+
+double walk_share(const Boundary& boundary, bool in_centers) {
+  if (in_centers) return fine_share;
+  if (boundary.has_arcs) return 1;
+  return boundary.two_sided ? planar_share : fine_share;
+}
 
 /// Reports the share of the walk that is done, if the caller wants it.
 std::function<void(std::uint64_t)> reporter(const Options& options, const Boundary& boundary,
@@ -101,7 +107,7 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   // A diagram has nodes for a planar graph's points, and edges that lead there, as well.
   const std::size_t spare_nodes = boundary.two_sided ? problem.shape.points.size() : 0;
   Graph graph = collect(chunks, bridges.size(), spare_nodes);
-  merge_ties(boundary, tree, problem.local_tolerance(), graph);
+  merge_ties(boundary, tree, takes_exact ? &sites : nullptr, problem.local_tolerance(), graph);
   statistics.seconds_collect = watch.lap();
   return graph;
 }
@@ -139,7 +145,7 @@ Result<MedialAxis> attempt(const Problem& problem, bool two_sided, const Way& wa
   axis.statistics.seconds_sites = watch.lap();
   if (findings.too_coarse) return axis;
 
-  const double share = findings.in_centers ? in_centers_share : boundary.has_arcs ? 1 : fine_share;
+  const double share = walk_share(boundary, findings.in_centers);
   auto graph = graph_of(problem, *numbers, share * problem.fine_tolerance, way, boundary,
                         axis.statistics, findings);
 #ifdef MEDIAL_HAS_EXACT

@@ -8,7 +8,7 @@
 namespace medial::disks {
 
 /// The share of the tolerance to which the walk separates contacts between segments.
-constexpr double fine_share = 0.25;
+constexpr double fine_share = 0.125;
 
 /// The method `disks` (docs/disks.md). Requires what compute() has checked. Cut short, with any
 /// content, where the caller cancels. Errors: error_of_wrong_axis() where a disk misses one of its

@@ -46,6 +46,12 @@ class ExactSites {
   };
   std::optional<Touch> first_touch(Vec2 foot, const Boundary& boundary,
                                    std::span<const std::uint32_t> sites) const;
+#ifdef MEDIAL_HAS_EXACT
+  /// A site of the boundary as the shape has it.
+  const exact::ExactSite& site(std::uint32_t i) const {
+    return outline().sites[boundary_.originals[i]];
+  }
+#endif
 
  private:
   friend class ExactEvents;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/compat.h"
+#include "base/disjoint_sets.h"
 #include "base/fill_gaps.h"
 #include "base/memory.h"
 #include "base/numbers.h"
@@ -33,64 +34,47 @@ constexpr double steepest = 0x1p24;
 /// right.
 constexpr double hub_reach = 4;
 
-/// Nodes that have become one.
-struct Cluster {
-  Fit fit;
-  std::uint32_t node = none;  ///< the node that stands for it
-  std::vector<Touch> contacts;
-  std::vector<std::uint32_t> ends;  ///< of edges, at all its nodes
-  bool branching = false;           ///< one of its nodes is
-  std::uint64_t spent = 0;          ///< contacts looked at to fit it together with others
-  bool merged = false;              ///< it has more than one node
-  bool dissolved = false;           ///< its nodes are left as they were
+/// How near to each other, in tolerances, what becomes one node has to be: the sites of the two
+/// ends of an edge to one disk, or, where one of them only passes on, its ends to each other. Where
+/// all that is connected by such edges cannot be one node, or does not leave the rest of the graph
+/// as it is, it is divided by the next pair; the last one is for what is equal.
+struct Nearness {
+  double level, length;
+};
+constexpr std::array<Nearness, 3> nearnesses{{{0.5, 0.25}, {0.25, 0.0625}, {0x1p-20, 0x1p-20}}};
+
+/// Nodes that may become one.
+struct Group {
+  std::vector<std::uint32_t> nodes;
+  Disk disk;  ///< the one that touches all that they touch
+  double worst = 0;
+  bool contracts = false;
 };
 
 class Merger {
  public:
-  Merger(const Boundary& boundary, const site::BoundaryTree& tree, double tolerance, Graph& graph)
-      : boundary_(boundary), tree_(tree), tolerance_(tolerance), graph_(graph) {}
+  Merger(const Boundary& boundary, const site::BoundaryTree& tree, const ExactSites* exact,
+         double tolerance, Graph& graph)
+      : boundary_(boundary),
+        tree_(tree),
+        tie_sites_{boundary.sites, exact},
+        tolerance_(tolerance),
+        graph_(graph) {}
 
   void merge() {
-    std::vector<std::uint32_t> edges = candidates();
-    // Nearest nodes first: what belongs together comes together before anything else is tried.
-    const auto length = [&](std::uint32_t e) {
-      const auto [from, to] = graph_.links[e].node;
-      return squared_norm(graph_.nodes[to].disk.center - graph_.nodes[from].disk.center);
-    };
-    std::sort(edges.begin(), edges.end(), [&](std::uint32_t a, std::uint32_t b) {
-      const double la = length(a), lb = length(b);
-      return la != lb ? la < lb : a < b;
-    });
-    make_clusters(edges);
-    std::vector<std::uint32_t> contracted;
-    candidates_ = edges;
-    std::sort(candidates_.begin(), candidates_.end());
-    // Where one edge was refused, others may have been contracted since.
-    bool any = true;
-    for (int round = 0; round < most_passes && any; ++round) {
-      any = false;
-      std::vector<std::uint32_t> refused;
-      for (const std::uint32_t edge : edges) {
-        if (contract(edge)) {
-          contracted.push_back(edge);
-          any = true;
-        } else {
-          refused.push_back(edge);
-        }
-      }
-      edges = std::move(refused);
+    std::vector<std::uint32_t> open = candidates();
+    if (open.empty()) return;
+    collect_nodes(open);
+    for (const Nearness& nearness : nearnesses) {
+      if (open.empty()) break;
+      contract(open, nearness);
     }
-    dissolve_backward();
-    std::erase_if(contracted, [&](std::uint32_t e) {
-      return clusters_[cluster_of(graph_.links[e].node[0])].dissolved;
-    });
-    if (!contracted.empty()) remove(contracted);
+    if (!contracted_.empty()) remove();
   }
 
  private:
-  static constexpr int most_passes = 4;
-
-  double bound() const { return 0.5 * tolerance_; }
+  /// What double may leave open when it looks for candidates.
+  double bound() const { return 1.25 * nearnesses[0].level * tolerance_; }
 
   /// The numbers below `count` for which `holds` is true, increasing.
   template <class Holds>
@@ -111,13 +95,16 @@ class Merger {
     return all;
   }
 
-  /// The edges that are short against both of their disks: none that leads to a leaf.
+  /// Whether two nodes are near to each other against both of their disks: no leaf is.
+  static bool is_short(const Disk& a, const Disk& b) {
+    const double furthest = short_edge * std::min(a.radius, b.radius);
+    return squared_norm(b.center - a.center) < furthest * furthest;
+  }
+  /// The edges that are short.
   std::vector<std::uint32_t> short_edges() const {
     return filter(graph_.links.size(), [&](std::size_t e) {
       const auto [from, to] = graph_.links[e].node;
-      const Disk &a = graph_.nodes[from].disk, &b = graph_.nodes[to].disk;
-      const double furthest = short_edge * std::min(a.radius, b.radius);
-      return squared_norm(b.center - a.center) < furthest * furthest;
+      return is_short(graph_.nodes[from].disk, graph_.nodes[to].disk);
     });
   }
 
@@ -155,6 +142,8 @@ class Merger {
 
   bool could_be_contracted(const Link& edge) const {
     const Disk &from = graph_.nodes[edge.node[0]].disk, &to = graph_.nodes[edge.node[1]].disk;
+    if (!boundary_.has_arcs && squared_norm(to.center - from.center) <= tolerance_ * tolerance_)
+      return true;
     if (!is_branching(edge.node[0]) || !is_branching(edge.node[1]))
       return boundary_.has_arcs && could_be_at_hub(edge);
     const std::uint32_t after = other_contact(edge, edge.node[1]);
@@ -163,7 +152,7 @@ class Merger {
     const std::uint32_t before = other_contact(edge, edge.node[0]);
     if (before == none) return false;
     const Disk middle{midpoint(from.center, to.center), 0.5 * (from.radius + to.radius)};
-    std::array<ContactEquation, 4> contacts;
+    std::array<ContactOf<double>, 4> contacts;
     bool curved = false;
     for (std::size_t i = 0; const std::uint32_t k : {edge.site[0], edge.site[1], before, after}) {
       contacts[i++] = near_contact(k, middle);
@@ -171,7 +160,7 @@ class Merger {
     }
     // From the middle on, distances to vertices deviate from their tangents by so much.
     const double bend = curved ? 0.125 * squared_norm(to.center - from.center) / middle.radius : 0;
-    return std::abs(Dependency(contacts).level) <= bound() + bend;
+    return std::abs(Dependency<double>(contacts).level) <= bound() + bend;
   }
 
   /// Whether an edge of which not both ends are branching nodes may be due to rounding: it is not
@@ -225,12 +214,12 @@ class Merger {
     }
   }
 
-  /// contact_of() where the residual is small against the radius, without roots.
-  ContactEquation near_contact(std::uint32_t i, const Disk& disk) const {
+  /// A contact's equation where the residual is small against the radius, without roots.
+  ContactOf<double> near_contact(std::uint32_t i, const Disk& disk) const {
     const Site& site = boundary_.sites[i];
     if (!site.is_vertex()) return contact_of(site, disk);
     const Vec2 to = (1 / disk.radius) * (disk.center - site.point);
-    return {to, 0.5 * disk.radius * (squared_norm(to) - 1)};
+    return {to.x, to.y, 0.5 * disk.radius * (squared_norm(to) - 1)};
   }
 
   /// A site that is touched in a node of the edge, but is not the edge's own.
@@ -241,27 +230,31 @@ class Merger {
     return none;
   }
 
-  /// A cluster for every node of the edges, in the nodes' order.
-  void make_clusters(const std::vector<std::uint32_t>& edges) {
+  /// The nodes of the edges, increasing, and what each of them touches.
+  void collect_nodes(const std::vector<std::uint32_t>& edges) {
     for (const std::uint32_t e : edges)
       for (const std::uint32_t node : graph_.links[e].node) nodes_.push_back(node);
     std::sort(nodes_.begin(), nodes_.end());
     nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
+    group_.assign(nodes_.size(), none);
     for (const std::uint32_t node : nodes_) {
-      parent_.push_back(static_cast<std::uint32_t>(clusters_.size()));
-      Cluster& cluster = clusters_.emplace_back(
-          Cluster{Fit(boundary_.sites, bound()), node, {}, {}, is_branching(node)});
-      cluster.fit.disk = graph_.nodes[node].disk;
-      for (std::uint32_t end = first_end_[node]; end != none; end = next_end_[end])
-        cluster.ends.push_back(end);
+      std::vector<Touch>& contacts = contacts_.emplace_back();
       all_contacts(node, [&](std::uint32_t site) {
-        add_contact(site, cluster.fit.disk, cluster.contacts);
+        add_contact(site, graph_.nodes[node].disk, contacts);
         return true;
       });
-      auto& contacts = cluster.contacts;
-      std::sort(contacts.begin(), contacts.end());
-      contacts.erase(std::unique(contacts.begin(), contacts.end()), contacts.end());
+      sort_unique(contacts);
     }
+  }
+  static void sort_unique(std::vector<Touch>& contacts) {
+    std::sort(contacts.begin(), contacts.end());
+    contacts.erase(std::unique(contacts.begin(), contacts.end()), contacts.end());
+  }
+  /// The place of a node in `nodes_`; none where it is in no candidate.
+  std::uint32_t place_of(std::uint32_t node) const {
+    const auto place = std::lower_bound(nodes_.begin(), nodes_.end(), node);
+    if (place == nodes_.end() || *place != node) return none;
+    return static_cast<std::uint32_t>(place - nodes_.begin());
   }
 
   /// What a disk near to a given one has to do in order to touch a site.
@@ -283,93 +276,96 @@ class Merger {
     return true;
   }
 
-  /// The cluster of a node; none where it is not in any.
-  std::uint32_t cluster_of(std::uint32_t node) {
-    const auto place = std::lower_bound(nodes_.begin(), nodes_.end(), node);
-    if (place == nodes_.end() || *place != node) return none;
-    auto cluster = static_cast<std::uint32_t>(place - nodes_.begin());
-    while (parent_[cluster] != cluster) cluster = parent_[cluster] = parent_[parent_[cluster]];
-    return cluster;
+  /// Contracts what is so near to each other, and leaves the other edges in `open`.
+  void contract(std::vector<std::uint32_t>& open, const Nearness& nearness) {
+    const std::size_t first = groups_.size();
+    find_groups(open, nearness);
+    for (std::size_t i = first; i < groups_.size(); ++i) groups_[i].contracts = fits(groups_[i]);
+    // What would turn an edge around is left for the next pair, and so may others be then.
+    std::vector<std::uint32_t> backward;
+    do {
+      backward.clear();
+      for (std::size_t i = first; i < groups_.size(); ++i)
+        if (groups_[i].contracts) find_backward(groups_[i], backward);
+      for (const std::uint32_t i : backward) groups_[i].contracts = false;
+    } while (!backward.empty());
+    std::erase_if(open, [&](std::uint32_t e) {
+      const Group* group = group_of(graph_.links[e].node[0]);
+      if (group == nullptr || group != group_of(graph_.links[e].node[1])) return false;
+      contracted_.push_back(e);
+      return true;
+    });
   }
 
-  /// Makes one cluster of an edge's two, if they can be. Every edge is tried once: sites that no
-  /// disk touches are not touched by one after others have joined them.
-  bool contract(std::uint32_t edge) {
-    std::uint32_t a = cluster_of(graph_.links[edge].node[0]);
-    std::uint32_t b = cluster_of(graph_.links[edge].node[1]);
-    if (a == b || !(clusters_[a].branching || clusters_[b].branching)) return false;
-    if (clusters_[a].contacts.size() < clusters_[b].contacts.size()) std::swap(a, b);
-    Cluster &large = clusters_[a], &small = clusters_[b];
-    Fit fit = large.fit;
-    // Mostly the larger cluster's disk will do: the smaller one's contacts are all to look at.
-    const bool moved = !fit.touches({small.contacts});
-    if (moved && !refit(fit, large, small)) return false;
-    if (!keeps_directions(edge, small, a, b, fit.disk)) return false;
-    if (moved && !keeps_directions(edge, large, a, b, fit.disk)) return false;
-    if (moved && !is_empty(fit.disk, graph_.nodes[small.node].component)) return false;
-
-    double& residual = graph_.statistics.largest_residual;
-    residual = std::max(residual, fit.worst);
-    large.fit = fit;
-    large.contacts.insert(large.contacts.end(), small.contacts.begin(), small.contacts.end());
-    large.ends.insert(large.ends.end(), small.ends.begin(), small.ends.end());
-    large.branching = true;
-    large.merged = true;
-    large.spent += small.spent;
-    small.contacts = {};
-    small.ends = {};
-    parent_[b] = a;
-    return true;
-  }
-
-  /// Finds a disk for both clusters. A large cluster may be looked at all through only so often for
-  /// every contact that it has, which keeps the work linear however large it grows; where its
-  /// contacts come in no particular order, each new one needs that with a probability of some
-  /// 4 / size only.
-  bool refit(Fit& fit, Cluster& large, const Cluster& small) const {
-    constexpr int most_rounds = 32;
-    constexpr std::uint64_t budget = 64;
-    const Disk start = fit.disk;
-    if (!fit.has_begun()) fit.begin(large.contacts);
-    const auto settles = [&](std::initializer_list<std::span<const Touch>> lists,
-                             std::uint64_t& spent) {
-      for (int round = 0; round < most_rounds; ++round) {
-        for (const auto& list : lists) spent += list.size();
-        if (fit.touches(lists)) return true;
-        if (!fit.improve()) return false;
-        if (!(distance(fit.disk.center, start.center) <= short_edge * start.radius)) return false;
-      }
-      return false;
-    };
-    // First the smaller cluster against those contacts that hold the larger one's disk.
-    std::uint64_t spent = 0;
-    if (!settles({small.contacts}, spent)) return false;
-    return large.spent <= budget * large.contacts.size() &&
-           settles({large.contacts, small.contacts}, large.spent);
-  }
-
-  /// Whether the edges of one of the clusters a and b that lead elsewhere still lead there when the
-  /// disk of both is `disk`, and no edge but `contracted` joins the two.
-  bool keeps_directions(std::uint32_t contracted, const Cluster& cluster, std::uint32_t a,
-                        std::uint32_t b, const Disk& disk) {
-    for (const std::uint32_t end : cluster.ends) {
-      if (end / 2 == contracted) continue;
-      const Link& edge = graph_.links[end / 2];
-      const std::array<std::uint32_t, 2> there{cluster_of(edge.node[0]), cluster_of(edge.node[1])};
-      if (there[0] == there[1]) continue;  // contracted before
-      // It may be contracted as well; where it is not, see dissolve_backward().
-      if (std::binary_search(candidates_.begin(), candidates_.end(), end / 2)) continue;
-      std::array<Vec2, 2> center;
-      for (std::size_t k = 0; k < 2; ++k) {
-        const bool here = there[k] == a || there[k] == b;
-        center[k] = here               ? disk.center
-                    : there[k] == none ? graph_.nodes[edge.node[k]].disk.center
-                                       : clusters_[there[k]].fit.disk.center;
-      }
-      const site::Bisector bisector(boundary_.sites[edge.site[1]], boundary_.sites[edge.site[0]]);
-      if (!(bisector.position(center[0]) < bisector.position(center[1]))) return false;
+  /// What edges that are near enough connect, as new groups.
+  void find_groups(const std::vector<std::uint32_t>& open, const Nearness& nearness) {
+    DisjointSets sets(nodes_.size());
+    std::vector<std::uint32_t> places;
+    for (const std::uint32_t e : open) {
+      if (!is_near(graph_.links[e], nearness)) continue;
+      const auto [from, to] = graph_.links[e].node;
+      places.insert(places.end(), {place_of(from), place_of(to)});
+      sets.join(places.back(), places[places.size() - 2]);
     }
-    return true;
+    std::sort(places.begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    for (const std::uint32_t place : places) {
+      const std::uint32_t lowest = sets.find(place);
+      if (lowest == place) groups_.emplace_back();
+      group_[place] =
+          lowest == place ? static_cast<std::uint32_t>(groups_.size() - 1) : group_[lowest];
+      groups_[group_[place]].nodes.push_back(nodes_[place]);
+    }
+  }
+
+  bool is_near(const Link& edge, const Nearness& nearness) const {
+    const auto [from, to] = edge.node;
+    const Disk &a = graph_.nodes[from].disk, &b = graph_.nodes[to].disk;
+    const double length = std::min(nearness.length * tolerance_, is_short(a, b) ? tolerance_ : 0);
+    if (!boundary_.has_arcs && squared_norm(b.center - a.center) <= length * length) return true;
+    if (!is_branching(from) || !is_branching(to))
+      return nearness.level == nearnesses[0].level && boundary_.has_arcs && could_be_at_hub(edge);
+    const std::vector<Touch>&at_from = contacts_[place_of(from)], &at_to = contacts_[place_of(to)];
+    std::vector<Touch> both = at_from;
+    both.insert(both.end(), at_to.begin(), at_to.end());
+    sort_unique(both);
+    TieFit fit(tie_sites_, at_from.size() >= at_to.size() ? a : b);
+    return fit.fits(both, nearness.level * tolerance_);
+  }
+
+  /// Whether one disk touches all that a group's nodes touch, and nothing reaches into it. Around a
+  /// hole a group is no tree, and the hole stays; among arcs one of the nodes branches.
+  bool fits(Group& group) const {
+    std::vector<Touch> contacts;
+    std::size_t ends = 0;
+    Disk mean;  // wherever the walk began
+    for (const std::uint32_t node : group.nodes) {
+      const std::vector<Touch>& own = contacts_[place_of(node)];
+      contacts.insert(contacts.end(), own.begin(), own.end());
+      const Disk& disk = graph_.nodes[node].disk;
+      mean = {mean.center + disk.center, mean.radius + disk.radius};
+      for (std::uint32_t end = first_end_[node]; end != none; end = next_end_[end])
+        ends += group_of(graph_.links[end / 2].node[1 - end % 2], false) == &group ? 1 : 0;
+    }
+    if (ends != 2 * (group.nodes.size() - 1)) return false;
+    if (boundary_.has_arcs &&
+        ranges::none_of(group.nodes, [&](std::uint32_t node) { return is_branching(node); }))
+      return false;
+    sort_unique(contacts);
+    const double share = 1 / static_cast<double>(group.nodes.size());
+    TieFit fit(tie_sites_, {share * mean.center, share * mean.radius});
+    if (!fit.fits(contacts, nearnesses[0].level * tolerance_)) return false;
+    group.disk = fit.disk;
+    group.worst = fit.worst;
+    return is_empty(fit.disk, graph_.nodes[group.nodes[0]].component);
+  }
+
+  /// The group that a node is contracted with, or, if asked so, may be.
+  const Group* group_of(std::uint32_t node, bool contracts = true) const {
+    const std::uint32_t place = place_of(node);
+    if (place == none || group_[place] == none) return nullptr;
+    const Group& group = groups_[group_[place]];
+    return group.contracts || !contracts ? &group : nullptr;
   }
 
   bool is_empty(const Disk& disk, std::uint32_t component) const {
@@ -377,39 +373,37 @@ class Merger {
     return !tree_.nearest(disk.center, disk.radius - tolerance_, run.first, run.last);
   }
 
-  /// While clusters grow, feet may have to run backward on an edge between two of them, as long as
-  /// it is to be contracted later. Where such an edge stayed, its clusters are given up.
-  void dissolve_backward() {
-    std::vector<std::uint32_t> backward;
-    const auto check = [&](std::uint32_t end) {
-      const Link& edge = graph_.links[end / 2];
-      const std::array<std::uint32_t, 2> there{cluster_of(edge.node[0]), cluster_of(edge.node[1])};
-      if (there[0] == there[1] || advances(edge)) return;
-      for (const std::uint32_t cluster : there)
-        if (cluster != none) backward.push_back(cluster);
-    };
-    for (const Cluster& cluster : clusters_) {
-      if (!cluster.merged) continue;
-      for (const std::uint32_t end : cluster.ends) check(end);
-    }
-    while (!backward.empty()) {
-      Cluster& cluster = clusters_[backward.back()];
-      backward.pop_back();
-      if (cluster.dissolved) continue;
-      cluster.dissolved = true;
-      for (const std::uint32_t end : cluster.ends) check(end);
+  /// Adds the groups at both ends of edges that lead elsewhere and no longer lead forward when the
+  /// group's nodes have its disk.
+  void find_backward(const Group& group, std::vector<std::uint32_t>& backward) const {
+    for (const std::uint32_t node : group.nodes) {
+      for (std::uint32_t end = first_end_[node]; end != none; end = next_end_[end]) {
+        const Link& edge = graph_.links[end / 2];
+        const Group* there = group_of(edge.node[1 - end % 2]);
+        if (there == &group || leads_forward(end / 2)) continue;
+        backward.push_back(group_[place_of(node)]);
+        if (there != nullptr)
+          backward.push_back(static_cast<std::uint32_t>(there - groups_.data()));
+      }
     }
   }
 
-  const Disk& disk_of(std::uint32_t node) {
-    const std::uint32_t cluster = cluster_of(node);
-    return cluster == none || clusters_[cluster].dissolved ? graph_.nodes[node].disk
-                                                           : clusters_[cluster].fit.disk;
+  bool leads_forward(std::uint32_t e) const {
+    const Link& edge = graph_.links[e];
+    const site::Bisector bisector(boundary_.sites[edge.site[1]], boundary_.sites[edge.site[0]]);
+    return bisector.position(disk_of(edge.node[0]).center) <
+               bisector.position(disk_of(edge.node[1]).center) &&
+           advances(edge);
+  }
+
+  const Disk& disk_of(std::uint32_t node) const {
+    const Group* group = group_of(node);
+    return group != nullptr ? group->disk : graph_.nodes[node].disk;
   }
 
   /// Whether the feet move forward on the right site and backward on the left one, but for what
   /// the tolerance leaves open, and the disk halfway along the edge still touches both and no more.
-  bool advances(const Link& edge) {
+  bool advances(const Link& edge) const {
     const double slack = 4 * tolerance_;
     const Site &left = boundary_.sites[edge.site[0]], &right = boundary_.sites[edge.site[1]];
     const Disk &start = disk_of(edge.node[0]), &end = disk_of(edge.node[1]);
@@ -425,27 +419,29 @@ class Merger {
       if (!(std::abs(site::carrier_distance(site, halfway) - radius) <= tolerance_)) return false;
     if (!is_empty({halfway, radius}, graph_.nodes[edge.node[0]].component)) return false;
     const auto step = [](const Site& site, Vec2 a, Vec2 b) {
-      return site::carrier_parameter(site, b) - site::carrier_parameter(site, a);
+      if (!site.is_vertex())
+        return site::carrier_parameter(site, b) - site::carrier_parameter(site, a);
+      // Round a vertex, normals turn to the right.
+      return cross(b - site.point, a - site.point) / distance(site.point, a);
     };
-    return (right.is_vertex() || step(right, from, to) >= -slack) &&
-           (left.is_vertex() || step(left, to, from) >= -slack);
+    return step(right, from, to) >= -slack && step(left, to, from) >= -slack;
   }
 
   /// Takes the contracted edges and the nodes that became others out of the graph; the last ones
   /// take their places.
-  void remove(std::vector<std::uint32_t>& contracted) {
+  void remove() {
     std::vector<std::uint32_t> gone;
-    for (std::uint32_t i = 0; i < clusters_.size(); ++i) {
-      const Cluster& cluster = clusters_[i];
-      if (clusters_[cluster_of(cluster.node)].dissolved) continue;
-      if (parent_[i] != i) {
-        gone.push_back(cluster.node);
-        continue;
-      }
-      graph_.nodes[cluster.node].disk = cluster.fit.disk;
-      for (const std::uint32_t end : cluster.ends)
-        graph_.links[end / 2].node[end % 2] = cluster.node;
+    for (const Group& group : groups_) {
+      if (!group.contracts) continue;
+      double& residual = graph_.statistics.largest_residual;
+      residual = std::max(residual, group.worst);
+      graph_.nodes[group.nodes[0]].disk = group.disk;
+      gone.insert(gone.end(), group.nodes.begin() + 1, group.nodes.end());
+      for (const std::uint32_t node : group.nodes)
+        for (std::uint32_t end = first_end_[node]; end != none; end = next_end_[end])
+          graph_.links[end / 2].node[end % 2] = group.nodes[0];
     }
+    std::sort(gone.begin(), gone.end());
     const std::size_t kept = graph_.nodes.size() - gone.size();
     std::vector<std::uint32_t> place(gone.size());
     fill_gaps(graph_.nodes, gone,
@@ -453,29 +449,31 @@ class Merger {
     for (Link& edge : graph_.links)
       for (std::uint32_t& node : edge.node)
         if (node >= kept) node = place[node - kept];
-    std::sort(contracted.begin(), contracted.end());
-    fill_gaps(graph_.links, contracted, [](std::uint32_t, std::uint32_t) {});
+    std::sort(contracted_.begin(), contracted_.end());
+    fill_gaps(graph_.links, contracted_, [](std::uint32_t, std::uint32_t) {});
   }
 
   const Boundary& boundary_;
   const site::BoundaryTree& tree_;
+  TieSites tie_sites_;
   double tolerance_;
   Graph& graph_;
   /// The edges at the nodes of short edges, as linked lists of their ends: end 2 e + k is node[k]
   /// of edge e.
   std::vector<std::uint32_t> first_end_;
   std::unique_ptr<std::uint32_t[]> next_end_;
-  std::vector<std::uint32_t> nodes_;       ///< that are in a cluster, increasing
-  std::vector<std::uint32_t> parent_;      ///< of each cluster: the one that it has become part of
-  std::vector<Cluster> clusters_;          ///< of each of nodes_
-  std::vector<std::uint32_t> candidates_;  ///< edges, increasing
+  std::vector<std::uint32_t> nodes_;          ///< of candidates, increasing
+  std::vector<std::vector<Touch>> contacts_;  ///< of each of nodes_
+  std::vector<std::uint32_t> group_;          ///< of each of nodes_
+  std::vector<Group> groups_;
+  std::vector<std::uint32_t> contracted_;  ///< edges
 };
 
 }  // namespace
 
-void merge_ties(const Boundary& boundary, const site::BoundaryTree& tree, double tolerance,
-                Graph& graph) {
-  Merger(boundary, tree, tolerance, graph).merge();
+void merge_ties(const Boundary& boundary, const site::BoundaryTree& tree, const ExactSites* exact,
+                double tolerance, Graph& graph) {
+  Merger(boundary, tree, exact, tolerance, graph).merge();
 }
 
 }  // namespace medial::disks

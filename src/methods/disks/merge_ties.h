@@ -2,31 +2,36 @@
 
 #include "methods/disks/boundary.h"
 #include "methods/disks/collect.h"
+#include "methods/disks/exact_event.h"
 #include "site/boundary_tree.h"
 
 namespace medial::disks {
 
-/// Merges nodes that are one within the tolerance where one of them is a branching node.
+/// Merges nodes that are one within the tolerance.
 ///
 /// The walk follows exact bisectors. Where many sites touch one disk but for the rounding of their
 /// coordinates, the bisector of two that enclose a small angle passes beside that disk's centre by
 /// the rounding over the angle, so no disk on it touches all others: the node falls apart into a
-/// few, joined by short edges. Such an edge is contracted where one disk touches the sites of both
-/// ends within half of the tolerance, no site reaches into it, and all other edges of the two nodes
-/// keep their directions. Half, because coordinates rounded to doubles move a tie's contacts by at
-/// most the square root of 1/2 of a spacing, and the tolerance is at least two spacings.
+/// few, joined by short edges. Such an edge is near if one disk touches the sites of both ends
+/// within half of the tolerance, or if a foot only passes on at one of them and they are a quarter
+/// of the tolerance apart. What near edges connect becomes one node if one disk touches all its
+/// sites within half of the tolerance, no site reaches into it, and all edges that leave keep their
+/// directions. Where that is not so, the same is tried with edges that are nearer. Half, because
+/// coordinates rounded to doubles move a tie's contacts by at most the square root of 1/2 of a
+/// spacing, and the tolerance is at least two spacings.
+///
+/// So the result depends on the graph only, and not on the order in which it was found; whether a
+/// disk touches to a bound is decided in 256 bits where double leaves it open.
 ///
 /// With arcs, nodes that branch no further fall off in the same way: places where a foot passes
 /// from one site to the next, and the centres of arcs that the disk touches all along. Their edges
-/// are contracted into a branching node where they are no longer than such a disk's play: the
-/// rounding over the sine of half of the angle between the edge's contacts, or over 1 - cos of half
-/// of the arc's angle.
+/// are near where they are no longer than such a disk's play: the rounding over the sine of half of
+/// the angle between the edge's contacts, or over 1 - cos of half of the arc's angle.
 ///
 /// Every contraction takes one edge and one node, and none closes a cycle: the graph keeps its
-/// Euler number and its cycles. The result depends on the graph only. O(n),
-/// and O(m log m) for the m edges that four of their ends' contacts do not rule out, with the edges
-/// of their nodes.
-void merge_ties(const Boundary& boundary, const site::BoundaryTree& tree, double tolerance,
-                Graph& graph);
+/// Euler number and its cycles. O(n), and O(m log m) for the m edges that four of their ends'
+/// contacts do not rule out, with the edges of their nodes.
+void merge_ties(const Boundary& boundary, const site::BoundaryTree& tree, const ExactSites* exact,
+                double tolerance, Graph& graph);
 
 }  // namespace medial::disks

@@ -3,106 +3,252 @@
 #include <algorithm>
 
 namespace medial::disks {
+namespace {
 
-void Fit::begin(std::span<const Touch> contacts) {
-  std::array<Vec2, 2> spread{normal(contacts[0]), {}};
-  reference_[0] = contacts[0];
-  double largest = -1;
-  for (const Touch& i : contacts) {
-    const double size = squared_norm(normal(i) - spread[0]);
-    if (!(size > largest)) continue;
-    largest = size;
-    reference_[1] = i;
-  }
-  spread[1] = normal(reference_[1]) - spread[0];
-  largest = -1;
-  for (const Touch& i : contacts) {
-    const double size = std::abs(cross(spread[1], normal(i) - spread[0]));
-    if (!(size > largest)) continue;
-    largest = size;
-    reference_[2] = i;
-  }
-  count_ = 3;
+template <class Real>
+Real size_of(const Real& x) {
+  return x < 0 ? Real(-x) : x;
 }
 
-bool Fit::touches(std::initializer_list<std::span<const Touch>> lists) {
-  worst = 0;
-  furthest_ = {};
-  for (const auto contacts : lists) {
+template <class Real>
+ContactOf<Real> contact_with_point(const Real& x, const Real& y, const DiskOf<Real>& disk) {
+  using std::sqrt;
+  const Real dx = disk.x - x, dy = disk.y - y;
+  const Real away = sqrt(Real(dx * dx + dy * dy));
+  return {Real(dx / away), Real(dy / away), Real(away - disk.radius)};
+}
+
+ContactOf<double> contact_of(const TieSites& sites, const Touch& i, const DiskOf<double>& disk) {
+  const Vec2 center{disk.x, disk.y};
+  return disks::contact_of(i.seen_from(sites.sites, center), Disk{center, disk.radius});
+}
+
+/// By how much the nearest point of what is to be touched is nearer or further than the radius.
+double residual_of(const TieSites& sites, const Touch& i, const DiskOf<double>& disk) {
+  const Vec2 center{disk.x, disk.y};
+  const site::Site seen =
+      i.part == Touch::Part::site ? sites.sites[i.site] : i.seen_from(sites.sites, center);
+  return std::abs(std::sqrt(site::squared_distance(seen, center)) - disk.radius);
+}
+
+#ifdef MEDIAL_HAS_EXACT
+using exact::Precise;
+
+ContactOf<Precise> contact_of(const TieSites& sites, const Touch& i, const DiskOf<Precise>& disk) {
+  const exact::ExactSite& site = sites.exact->site(i.site);
+  const Vec2 center{static_cast<double>(disk.x), static_cast<double>(disk.y)};
+  const site::Site seen = i.seen_from(sites.sites, center);
+  if (seen.is_vertex() && site.is_arc())
+    return contact_with_point(Precise(seen.point.x), Precise(seen.point.y), disk);
+  const Precise x(site.start.x), y(site.start.y);
+  if (site.is_vertex()) return contact_with_point(x, y, disk);
+  const Precise along_x = Precise(site.end.x) - x, along_y = Precise(site.end.y) - y;
+  const Precise length = sqrt(Precise(along_x * along_x + along_y * along_y));
+  if (!site.is_arc()) {
+    const Precise nx = -along_y / length, ny = along_x / length;
+    return {nx, ny, Precise(nx * (disk.x - x) + ny * (disk.y - y) - disk.radius)};
+  }
+  const Precise bulge(site.bulge), squared = bulge * bulge;
+  const Precise height = (1 - squared) / (4 * bulge);
+  const Precise to_x = disk.x - (x + along_x / 2 - height * along_y),
+                to_y = disk.y - (y + along_y / 2 + height * along_x);
+  const Precise away = sqrt(Precise(to_x * to_x + to_y * to_y));
+  const Precise radius = length * (1 + squared) / (4 * bulge);  // signed
+  const int sense = bulge > 0 ? -1 : 1;
+  return {Precise(sense * to_x / away), Precise(sense * to_y / away),
+          Precise(radius + sense * away - disk.radius)};
+}
+
+Precise residual_of(const TieSites& sites, const Touch& i, const DiskOf<Precise>& disk) {
+  return size_of(contact_of(sites, i, disk).residual);
+}
+#endif
+
+enum class Verdict : std::uint8_t { yes, no, open };
+
+/// A bound, and what the numbers in use leave open.
+struct Bound {
+  double value, noise;
+};
+
+template <class Real>
+class Exchange {
+ public:
+  Exchange(const TieSites& sites, DiskOf<Real> start) : disk(start), sites_(sites), start_(start) {}
+
+  DiskOf<Real> disk;
+  Real worst{0};  ///< the largest residual at the last contacts asked for
+
+  Verdict judge(std::span<const Touch> contacts, const Bound& bound) {
+    constexpr int most_rounds = 48;
+    const Real low(bound.value - bound.noise), high(bound.value + bound.noise);
+    Real before(-1);
+    for (int round = 0; round < most_rounds; ++round) {
+      measure(contacts);
+      if (worst <= low) return Verdict::yes;
+      if (count_ == 0) begin(contacts);
+      if (!improve()) return Verdict::open;
+      const bool is_settled = level_ > high && size_of(Real(level_ - before)) <= level_ / 64;
+      if (is_settled || has_strayed()) return Verdict::no;
+      before = level_;
+    }
+    return Verdict::open;
+  }
+
+ private:
+  /// No disk is that far from the first one, against its radius.
+  static constexpr double furthest = 0x1p-7;
+
+  ContactOf<Real> contact(const Touch& i) const { return contact_of(sites_, i, disk); }
+
+  void measure(std::span<const Touch> contacts) {
+    worst = 0;
+    furthest_ = contacts[0];
     for (const Touch& i : contacts) {
-      const double distance = distance_to(i);
-      const double residual = std::abs(distance - disk.radius);
-      if (residual <= worst) continue;
+      const Real residual = residual_of(sites_, i, disk);
+      if (!(residual > worst)) continue;
       worst = residual;
       furthest_ = i;
     }
   }
-  return worst <= bound_;
-}
 
-bool Fit::improve() {
-  const auto end = reference_.begin() + static_cast<std::ptrdiff_t>(count_);
-  if (std::find(reference_.begin(), end, furthest_) == end) exchange();
-  if (count_ < 4)
-    return move({contact(reference_[0]), contact(reference_[1]), contact(reference_[2])}, {});
-  const std::array<ContactEquation, 4> contact = contacts(reference_);
-  const Dependency dependency(contact);
-  if (!(std::abs(dependency.level) <= bound_)) return false;
-  // The contact with the largest factor follows from the others, which are far from singular.
-  std::size_t last = 0;
-  for (std::size_t i = 1; i < 4; ++i)
-    if (std::abs(dependency.factor[i]) > std::abs(dependency.factor[last])) last = i;
-  std::array<ContactEquation, 3> others;
-  std::array<double, 3> goal{};
-  for (std::size_t i = 0, k = 0; i < 4; ++i) {
-    if (i == last) continue;
-    others[k] = contact[i];
-    goal[k++] = std::copysign(1.0, dependency.factor[i]) * dependency.level;
+  /// Begins with three of the contacts, as far apart as they can be found at once.
+  void begin(std::span<const Touch> contacts) {
+    const ContactOf<Real> first = contact(contacts[0]);
+    reference_[0] = contacts[0];
+    Real largest(-1), x(0), y(0);
+    for (const Touch& i : contacts) {
+      const ContactOf<Real> other = contact(i);
+      const Real dx = other.x - first.x, dy = other.y - first.y, size = dx * dx + dy * dy;
+      if (!(size > largest)) continue;
+      largest = size;
+      reference_[1] = i;
+      x = dx;
+      y = dy;
+    }
+    largest = -1;
+    for (const Touch& i : contacts) {
+      const ContactOf<Real> other = contact(i);
+      const Real size = size_of(Real(x * (other.y - first.y) - y * (other.x - first.x)));
+      if (!(size > largest)) continue;
+      largest = size;
+      reference_[2] = i;
+    }
+    count_ = 3;
   }
-  return move(others, goal);
-}
 
-double Fit::distance_to(const Touch& i) const {
-  if (i.part == Touch::Part::site)
-    return std::sqrt(site::squared_distance(sites_[i.site], disk.center));
-  return distance(i.seen_from(sites_, disk.center).point, disk.center);
-}
-
-std::array<ContactEquation, 4> Fit::contacts(const std::array<Touch, 4>& reference) const {
-  std::array<ContactEquation, 4> result;
-  for (std::size_t i = 0; i < 4; ++i) result[i] = contact(reference[i]);
-  return result;
-}
-
-void Fit::exchange() {
-  if (count_ < 4) {
-    reference_[count_++] = furthest_;
-    return;
+  bool has_strayed() const {
+    const Real dx = disk.x - start_.x, dy = disk.y - start_.y;
+    return !(dx * dx + dy * dy <= Real(furthest * furthest) * start_.radius * start_.radius);
   }
-  std::array<Touch, 4> best = reference_;
-  double highest = -1;
-  for (std::size_t i = 0; i < 4; ++i) {
-    std::array<Touch, 4> next = reference_;
-    next[i] = furthest_;
-    const double level = std::abs(Dependency(contacts(next)).level);
-    if (!(level > highest)) continue;
-    highest = level;
-    best = next;
+
+  /// Takes the contact with the largest residual into account. False where no next disk is known.
+  bool improve() {
+    const auto end = reference_.begin() + static_cast<std::ptrdiff_t>(count_);
+    if (std::find(reference_.begin(), end, furthest_) == end) exchange();
+    if (count_ < 4)
+      return move({contact(reference_[0]), contact(reference_[1]), contact(reference_[2])}, {});
+    const std::array<ContactOf<Real>, 4> contact = contacts(reference_);
+    const Dependency<Real> dependency(contact);
+    level_ = size_of(dependency.level);
+    // The contact with the largest factor follows from the others, which are far from singular.
+    std::size_t last = 0;
+    for (std::size_t i = 1; i < 4; ++i)
+      if (size_of(dependency.factor[i]) > size_of(dependency.factor[last])) last = i;
+    std::array<ContactOf<Real>, 3> others;
+    std::array<Real, 3> goal{};
+    for (std::size_t i = 0, k = 0; i < 4; ++i) {
+      if (i == last) continue;
+      others[k] = contact[i];
+      goal[k++] = dependency.factor[i] < 0 ? Real(-dependency.level) : dependency.level;
+    }
+    return move(others, goal);
   }
-  reference_ = best;
+
+  std::array<ContactOf<Real>, 4> contacts(const std::array<Touch, 4>& reference) const {
+    return {contact(reference[0]), contact(reference[1]), contact(reference[2]),
+            contact(reference[3])};
+  }
+
+  /// The best disk for five contacts is the one for those four of them that ask for the largest
+  /// residual.
+  void exchange() {
+    if (count_ < 4) {
+      reference_[count_++] = furthest_;
+      return;
+    }
+    std::array<Touch, 4> best = reference_;
+    Real highest(-1);
+    for (std::size_t i = 0; i < 4; ++i) {
+      std::array<Touch, 4> next = reference_;
+      next[i] = furthest_;
+      const Real level = size_of(Dependency<Real>(contacts(next)).level);
+      if (!(level > highest)) continue;
+      highest = level;
+      best = next;
+    }
+    reference_ = best;
+  }
+
+  /// Moves to where three residuals have the given values.
+  bool move(const std::array<ContactOf<Real>, 3>& contact, const std::array<Real, 3>& goal) {
+    const Real bx = contact[1].x - contact[0].x, by = contact[1].y - contact[0].y;
+    const Real cx = contact[2].x - contact[0].x, cy = contact[2].y - contact[0].y;
+    const Real a_change = goal[0] - contact[0].residual;
+    const Real db = goal[1] - contact[1].residual - a_change;
+    const Real dc = goal[2] - contact[2].residual - a_change;
+    const Real area = bx * cy - by * cx;
+    if (area == 0) return false;
+    const Real dx = (db * cy - dc * by) / area, dy = (bx * dc - cx * db) / area;
+    disk.x += dx;
+    disk.y += dy;
+    disk.radius += contact[0].x * dx + contact[0].y * dy - a_change;
+    return disk.radius > 0;
+  }
+
+  const TieSites& sites_;
+  const DiskOf<Real> start_;
+  std::array<Touch, 4> reference_{};
+  std::size_t count_ = 0;  ///< of the reference
+  Real level_{0};
+  Touch furthest_;
+};
+
+}  // namespace
+
+ContactOf<double> contact_of(const site::Site& site, const Disk& disk) {
+  const Vec2 toward = site::outward(site, disk.center);
+  return {toward.x, toward.y, site::carrier_distance(site, disk.center) - disk.radius};
 }
 
-bool Fit::move(const std::array<ContactEquation, 3>& contact, const std::array<double, 3>& goal) {
-  const Vec2 b = contact[1].outward - contact[0].outward;
-  const Vec2 c = contact[2].outward - contact[0].outward;
-  const double a_change = goal[0] - contact[0].residual;
-  const double db = goal[1] - contact[1].residual - a_change;
-  const double dc = goal[2] - contact[2].residual - a_change;
-  const double inverse = 1 / cross(b, c);
-  const Vec2 step = inverse * Vec2{db * c.y - dc * b.y, b.x * dc - c.x * db};
-  disk.center = disk.center + step;
-  disk.radius += dot(contact[0].outward, step) - a_change;
-  return std::isfinite(disk.center.x) && std::isfinite(disk.center.y) && disk.radius > 0;
+site::Site Touch::seen_from(std::span<const site::Site> sites, Vec2 center) const {
+  const site::Site& whole = sites[site];
+  if (!whole.is_arc()) return whole;
+  double s = part == Part::middle ? 0.5 * whole.length : part == Part::end ? whole.length : 0;
+  if (part == Part::site) {
+    s = site::foot_parameter(whole, center);
+    if (s > 0 && s < whole.length) return whole;
+  }
+  return site::make_vertex(whole.at(s));
+}
+
+bool TieFit::fits(std::span<const Touch> contacts, double bound) {
+  constexpr double noise = 0x1p-51;  // of a distance in double
+  Exchange<double> exchange(*sites_, {disk.center.x, disk.center.y, disk.radius});
+  Verdict verdict = exchange.judge(contacts, {bound, noise});
+  disk = {{exchange.disk.x, exchange.disk.y}, exchange.disk.radius};
+  worst = exchange.worst;
+#ifdef MEDIAL_HAS_EXACT
+  if (verdict == Verdict::open && sites_->exact != nullptr) {
+    Exchange<Precise> precise(
+        *sites_, {Precise(disk.center.x), Precise(disk.center.y), Precise(disk.radius)});
+    verdict = precise.judge(contacts, {bound, 0x1p-200});
+    disk = {{static_cast<double>(precise.disk.x), static_cast<double>(precise.disk.y)},
+            static_cast<double>(precise.disk.radius)};
+    worst = static_cast<double>(precise.worst);
+  }
+#endif
+  return verdict == Verdict::yes || (verdict == Verdict::open && worst <= bound);
 }
 
 }  // namespace medial::disks

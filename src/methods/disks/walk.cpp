@@ -35,10 +35,10 @@ class Walker {
     chunk_.nodes.push_back({site(run.first).point, 0});  // stands for no parent
     if (run.at_corner && boundary_.joint(run.last) == site::Joint::blunt) {
       starts_blunt_ = true;
-      stack_.push_back({run.first, run.last, 0});
+      stack_.push_back({{run.first, run.last, 0}});
     } else if (run.at_corner) {
       const std::uint32_t corner = add_node({site(run.first).point, 0});
-      stack_.push_back({run.first, run.last, corner});
+      stack_.push_back({{run.first, run.last, corner}});
     } else {
       start_at_smooth_place(run);
     }
@@ -46,23 +46,34 @@ class Walker {
     if (starts_blunt_ && chunk_.nodes.size() == 1) add_node(disk_between(run));
   }
 
+  /// A span with what ends its edge, as far as that is known.
+  struct Step {
+    Span span;
+    Event event{};
+    double error = 0;     ///< how far the exact disk of the event may be
+    bool is_open = true;  ///< a walk is needed there
+    bool is_proposed = false;
+    bool is_certain = false;
+    bool is_tie = false;  ///< the event's disk touches several sites
+  };
+
   /// Walks all of a run from a disk that touches its ends.
   void walk_from(const Boundary::SiteRange& run, const Disk& start, double error) {
     chunk_.nodes.push_back({start.center, 0});  // stands for no parent
     const std::uint32_t node = add_node(start);
-    walk_span({run.first, run.last, node, Hit::none, error});
+    walk_step({{run.first, run.last, node, Hit::none, error}});
   }
 
-  /// Walks one span and all that branches off it.
-  void walk_span(const Span& span) {
-    stack_.push_back(span);
+  /// Walks one step and all that branches off it.
+  void walk_step(const Step& step) {
+    stack_.push_back(step);
     walk_stack();
   }
 
  private:
   void walk_stack() {
     while (!stack_.empty()) {
-      const Span next = stack_.back();
+      const Step next = stack_.back();
       stack_.pop_back();
       if (is_set(context_.cancel) || is_set(context_.in_centers)) break;
       follow(next);
@@ -74,37 +85,106 @@ class Walker {
   Element element(std::uint32_t i) const { return boundary_.elements[i]; }
 
   /// Follows the bisectors from one node until the axis branches or ends.
-  void follow(Span span) {
-    if (!is_open(span)) return;
-    for (;;) {
-      if (is_exact() && joins_pieces(span) && !is_open(span)) return;
-      const Disk from = chunk_.nodes[span.node];
-      double error = 0;
-      const Event event = next_event(span, from, error);
-      switch (event.kind) {
-        case Event::Kind::none:
-          return;
-        case Event::Kind::pass_right:
-        case Event::Kind::pass_left: {
-          span.node = arrive(span, from, event.disk);
-          span.error = error;
-          span.third = event.kind == Event::Kind::pass_right ? span.right++ : span.left--;
-          if (!is_open(span)) return;
-          break;
-        }
-        case Event::Kind::at_node:
-          split(span, from, event.site, false);
-          return;
-        default: {
-          // On a shape that crosses itself nothing may be left to touch.
-          if (event.site <= span.right || event.site >= span.left) return;
-          const std::uint32_t node = arrive(span, from, event.disk);
-          push({event.site, span.left, node, span.right, error},
-               {span.right, event.site, node, span.left, error});
-          return;
-        }
+  void follow(Step step) {
+    if (!is_open(step.span)) return;
+    while (step.is_open) {
+      if (is_exact() && joins_pieces(step.span) && !is_open(step.span)) return;
+      const Disk from = chunk_.nodes[step.span.node];
+      if (!step.is_proposed) propose(step, from);
+      const bool in_double = step.is_certain;
+      if (!in_double) decide(step, from);
+      find_parts(step, from);
+      // What double leaves open next to its disk may have come before it.
+      if (in_double && contacts_.is_certain() && !are_certain(parts_) && decide(step, from))
+        find_parts(step, from);
+      step.is_open = false;
+      if (parts_.empty()) return;
+      const bool stays = step.event.kind == Event::Kind::at_node;
+      const std::uint32_t node = stays ? step.span.node : arrive(step.span, from, step.event.disk);
+      for (Step& part : parts_) part.span.node = node;
+      if (parts_.size() == 1) {
+        step = parts_[0];
+        step.is_open = is_open(step.span);
+      } else if (parts_.size() == 2 && !stays) {
+        push(parts_[0], parts_[1]);
+      } else {
+        stack_.insert(stack_.end(), parts_.begin(), parts_.end());
       }
     }
+  }
+
+  static bool are_certain(const std::vector<Step>& steps) {
+    return ranges::all_of(steps, [](const Step& s) { return !s.is_open || s.is_certain; });
+  }
+
+  /// The spans into which an event divides its own, in `parts_`; looked ahead at, if asked for.
+  void find_parts(const Step& step, const Disk& from) {
+    using Kind = Event::Kind;
+    const Span& span = step.span;
+    const Event& event = step.event;
+    parts_.clear();
+    if (step.is_tie) {
+      split(span, event.disk, event.site, false);
+      look_ahead(event.disk);
+      return;
+    }
+    const bool moves = event.disk.center != from.center || event.disk.radius != from.radius;
+    Span next{span.right, span.left, span.node, 0, step.error, moves};
+    switch (event.kind) {
+      case Kind::none:
+        return;
+      case Kind::pass_right:
+      case Kind::pass_left:
+        next.third = event.kind == Kind::pass_right ? next.right++ : next.left--;
+        parts_.push_back({next});
+        break;
+      case Kind::at_node:
+        split(span, from, event.site, false);
+        break;
+      default:
+        // On a shape that crosses itself nothing may be left to touch.
+        if (event.site <= span.right || event.site >= span.left) return;
+        parts_.push_back({{event.site, span.left, span.node, span.right, step.error, moves}});
+        parts_.push_back({{span.right, event.site, span.node, span.left, step.error, moves}});
+    }
+    look_ahead(event.disk);
+  }
+
+  /// What double takes for the events after the parts' node.
+  void look_ahead(const Disk& disk) {
+    if (!contacts_.is_certain() || is_exact()) return;
+    for (Step& part : parts_) {
+      part.is_open = needs_walk(part.span);
+      if (part.is_open) propose(part, disk);
+    }
+  }
+
+  /// Whether nothing within the tolerance may come before an event on a polygon.
+  bool is_settled(const Step& step, const Disk& from, const Certainty& certainty) {
+    const Span& span = step.span;
+    if (certainty.is_tie())
+      return contacts_.passes_at(span, from, certainty.fourth()) ||
+             contacts_.is_clean_tie(span, from, certainty.fourth());
+    // On a short way a disk may reach over a site all along by less than double sees.
+    constexpr double many = 1 << 10;
+    const double short_way = many * context_.tolerance * from.radius;
+    return squared_norm(step.event.disk.center - from.center) > short_way ||
+           !contacts_.may_touch_more(span, from, certainty.fourth());
+  }
+
+  /// What ends the edge of a step's span where that is not certain in double: a tie, or what 256
+  /// bits tell. Whether anything has changed.
+  bool decide(Step& step, const Disk& from) {
+    using Kind = Event::Kind;
+    Event& event = step.event;
+    if (contacts_.is_certain() && !is_exact() && event.kind == Kind::contact) {
+      const auto disk = contacts_.clean_tie(step.span, event.disk, event.site);
+      if (disk && distance(disk->center, from.center) > spread * context_.tolerance) {
+        event.disk = *disk;
+        return step.is_tie = true;
+      }
+    }
+    return decide_exactly(step, from);
   }
 
   /// The disk between two arcs that are the whole boundary and join bluntly: the largest one.
@@ -177,48 +257,54 @@ class Walker {
     return element(i) == element(i + 1) && boundary_.originals[i] == boundary_.originals[i + 1];
   }
 
-  /// What ends the edge of a span: decided in double where that is certain, otherwise in 256 bits.
-  /// Where these find nothing, double's event stays and is noted. `error` gets how far the exact
-  /// disk may be.
-  Event next_event(Span& span, const Disk& from, double& error) {
-    Event event;
-    if (!is_exact()) {
-      event = EventSearch(context_, contacts_, chunk_.statistics, span, from).next();
-      if (context_.exact == nullptr) return event;
-      const Certainty certainty(boundary_, context_.tolerance, span, from, event);
-      error = certainty.error();
-      if (certainty.is_certain()) {
-        ++chunk_.statistics.exact_filtered;
-        return event;
-      }
-    }
+  /// What ends the edge of a step's span, in double, and whether that is certain.
+  void propose(Step& step, const Disk& from) {
+    step.is_proposed = true;
+    if (is_exact()) return;
+    const Span& span = step.span;
+    step.event = EventSearch(context_, contacts_, chunk_.statistics, span, from).next();
+    step.is_certain = context_.exact == nullptr;
+    if (step.is_certain) return;
+    const Certainty certainty(boundary_, context_.tolerance, span, from, step.event);
+    step.error = certainty.error();
+    step.is_certain =
+        certainty.is_certain() && (boundary_.has_arcs || is_settled(step, from, certainty));
+    if (step.is_certain) ++chunk_.statistics.exact_filtered;
+  }
+
+  /// The same in 256 bits. Where these find nothing, double's event stays and is noted. Whether
+  /// anything has changed.
+  bool decide_exactly(Step& step, const Disk& from) {
+    Event& event = step.event;
+    Span& span = step.span;
     if (needs_separation(span, from, event.disk)) {
       context_.in_centers->store(true, std::memory_order_relaxed);
-      return event;
+      return false;
     }
     ++chunk_.statistics.exact_precise;
     Span asked = span;
     joins_pieces(asked);
-    const auto found = context_.exact->next(asked, from, event.site, is_exact());
+    const bool from_exact = is_exact() || (span.is_exact && !boundary_.has_arcs);
+    const auto found = context_.exact->next(asked, from, event.site, from_exact);
     if (!found) {
       lose(span, event.site);
-      return event;
+      return false;
     }
     // Between sites that are all but parallel, double's disk is as good as any.
-    if (!found->well_known && event.site == found->site) return event;
+    if (!found->well_known && event.site == found->site) return false;
     Span ahead = span;
     stay_on_pieces(asked, found->disk.center, ahead);
     const bool passes = ahead.right != span.right || ahead.left != span.left;
-    if (passes && !is_exact() && stays_on_arc(span, event)) return event;
+    if (passes && !is_exact() && stays_on_arc(span, event)) return false;
     span = ahead;
-    error = Certainty::rounding;
+    step.error = Certainty::rounding;
     event.disk = found->disk;
     event.site = found->site;
     event.kind =
         found->site == span.right + 1 && boundary_.is_smooth(span.right)   ? Event::Kind::pass_right
         : found->site + 1 == span.left && boundary_.is_smooth(found->site) ? Event::Kind::pass_left
                                                                            : Event::Kind::contact;
-    return event;
+    return true;
   }
 
   /// The disk that grows at the smooth place where a run begins and ends, until it touches
@@ -251,6 +337,7 @@ class Walker {
     const std::uint32_t node = add_node(disk);
     if (touched != Hit::none) touched = contacts_.owner(touched, disk.center, whole);
     split({run.first, run.last, node}, disk, touched, true);
+    stack_.insert(stack_.end(), parts_.begin(), parts_.end());
   }
 
   /// Whether double leaves open what the disk touches that grows where a run begins.
@@ -271,16 +358,23 @@ class Walker {
       return is_exact();
     }
     const std::uint32_t node = add_node(found->disk);
-    push({whole.right, found->site, node, whole.left, Certainty::rounding},
-         {found->site, whole.left, node, whole.right, Certainty::rounding});
+    push({{whole.right, found->site, node, whole.left, Certainty::rounding, true}},
+         {{found->site, whole.left, node, whole.right, Certainty::rounding, true}});
     return true;
   }
 
-  /// Whether a walk is needed between the two sites; where they are neighbours, ends the axis
-  /// there.
+  bool is_at_bridge(const Span& span) const {
+    return span.left - span.right == 2 && element(span.right + 1) == Element::bridge;
+  }
+  /// Whether a walk is needed between the two sites.
+  bool needs_walk(const Span& span) const {
+    return span.left - span.right > 1 && !is_at_bridge(span) && !contacts_.is_reflex_chain(span);
+  }
+
+  /// needs_walk(); where the two sites are neighbours, ends the axis there.
   bool is_open(const Span& span) {
     const std::uint32_t between = span.left - span.right;
-    const bool at_bridge = between == 2 && element(span.right + 1) == Element::bridge;
+    const bool at_bridge = is_at_bridge(span);
     const bool ends = between == 1 || (!at_bridge && contacts_.is_reflex_chain(span));
     if (ends && boundary_.has_arcs && context_.exact != nullptr && !is_exact() &&
         !Certainty::ends(boundary_, context_.tolerance, span, chunk_.nodes[span.node]))
@@ -317,6 +411,7 @@ class Walker {
   bool coincide(const Disk& a, const Disk& b) const {
     // Where a shape is hardly wider than the tolerance, that is no tie.
     constexpr double of_radius = 0x1p-10;
+    if (contacts_.is_certain()) return a.center == b.center && a.radius == b.radius;
     const double slack = std::min(context_.tolerance, of_radius * std::max(a.radius, b.radius));
     return squared_norm(a.center - b.center) <= slack * slack &&
            std::abs(a.radius - b.radius) <= slack;
@@ -348,36 +443,40 @@ class Walker {
 
   /// Queues two spans, the larger to be walked later, so that the stack stays as shallow as log n;
   /// large ones apart, as tasks of their own.
-  void push(const Span& a, const Span& b) {
-    const bool a_larger = a.left - a.right > b.left - b.right;
-    const Span& larger = a_larger ? a : b;
-    const Span& smaller = a_larger ? b : a;
-    if (smaller.left - smaller.right >= fork_size_)
+  void push(const Step& a, const Step& b) {
+    const auto size = [](const Step& step) { return step.span.left - step.span.right; };
+    const bool a_larger = size(a) > size(b);
+    const Step& larger = a_larger ? a : b;
+    const Step& smaller = a_larger ? b : a;
+    if (size(smaller) >= fork_size_)
       fork(larger);
     else
       stack_.push_back(larger);
     stack_.push_back(smaller);
   }
 
-  void fork(const Span& span) {
+  void fork(const Step& step) {
     chunk_.children.push_back(std::make_unique<Chunk>());
     Chunk& child = *chunk_.children.back();
     child.component = chunk_.component;
-    child.parent_node = span.node;
-    child.nodes.push_back(chunk_.nodes[span.node]);
-    tasks_.run([&context = context_, fork_size = fork_size_, &tasks = tasks_, &child, span] {
-      Walker(context, fork_size, tasks, child)
-          .walk_span({span.right, span.left, 0, span.third, span.error});
+    child.parent_node = step.span.node;
+    child.nodes.push_back(chunk_.nodes[step.span.node]);
+    tasks_.run([&context = context_, fork_size = fork_size_, &tasks = tasks_, &child, step] {
+      Step first = step;
+      first.span.node = 0;
+      Walker(context, fork_size, tasks, child).walk_step(first);
     });
   }
 
+  /// The parts of a span whose node touches more sites, in `parts_`.
   void split(const Span& span, const Disk& disk, std::uint32_t sure, bool all_around) {
-    contacts_.split(span, disk, sure, all_around, parts_);
-    for (Span& part : parts_) {
+    contacts_.split(span, disk, sure, all_around, spans_);
+    parts_.clear();
+    for (Span& part : spans_) {
       part.error = span.error + spread * context_.tolerance;
       part.third = part.right != span.right ? span.right : span.left;
+      parts_.push_back({part});
     }
-    stack_.insert(stack_.end(), parts_.begin(), parts_.end());
   }
 
   void finished(std::uint32_t sites) {
@@ -401,8 +500,9 @@ class Walker {
   Chunk& chunk_;
   Contacts contacts_;
   bool starts_blunt_ = false;  ///< the run begins at a blunt joint, node 0
-  std::vector<Span> stack_;
-  std::vector<Span> parts_;
+  std::vector<Step> stack_;
+  std::vector<Step> parts_;
+  std::vector<Span> spans_;
   std::uint64_t finished_ = 0;
 };
 

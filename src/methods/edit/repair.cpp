@@ -52,7 +52,14 @@ class Repairer {
         borders_(affected.borders),
         window_(window),
         boundary_(window.boundary),
-        measures_(measures) {}
+        measures_(measures)
+#ifdef MEDIAL_HAS_EXACT
+        ,
+        sites_([this] { return outline_of(rings_, window_); }, measures.fine_tolerance,
+               measures.radius_limit, window.boundary)
+#endif
+  {
+  }
 
   std::optional<Repair> run(std::vector<std::uint32_t>& doubtful) {
     const site::BoundaryTree tree(boundary_.sites);
@@ -64,7 +71,11 @@ class Repairer {
       doubtful.push_back(borders_[0].node);
       return std::nullopt;
     }
-    disks::merge_ties(boundary_, tree, measures_.tolerance, part);
+    const disks::ExactSites* sites = nullptr;
+#ifdef MEDIAL_HAS_EXACT
+    sites = &sites_;
+#endif
+    disks::merge_ties(boundary_, tree, sites, measures_.tolerance, part);
     return result(part, doubtful);
   }
 
@@ -73,9 +84,7 @@ class Repairer {
     const std::vector<bool> never;
     const disks::ExactEvents* decide = nullptr;
 #ifdef MEDIAL_HAS_EXACT
-    const disks::ExactSites sites([this] { return outline_of(rings_, window_); },
-                                  measures_.fine_tolerance, measures_.radius_limit, boundary_);
-    const disks::ExactEvents events(sites, boundary_, tree, never);
+    const disks::ExactEvents events(sites_, boundary_, tree, never);
     decide = &events;
 #endif
     const disks::WalkContext context{boundary_,
@@ -197,10 +206,11 @@ class Repairer {
                   const std::array<std::uint32_t, 4>& sites) const {
     if (std::count(sites.begin(), sites.end(), none) > 0) return true;
     for (const Disk& disk : {from, to}) {
-      std::array<disks::ContactEquation, 4> contacts;
+      std::array<disks::ContactOf<double>, 4> contacts;
       for (std::size_t i = 0; i < sites.size(); ++i)
         contacts[i] = disks::contact_of(rings_.site(sites[i]), disk);
-      if (!(std::abs(disks::Dependency(contacts).level) > 2 * measures_.tolerance)) return true;
+      if (!(std::abs(disks::Dependency<double>(contacts).level) > 2 * measures_.tolerance))
+        return true;
     }
     return false;
   }
@@ -211,6 +221,9 @@ class Repairer {
   const Window& window_;
   const disks::Boundary& boundary_;
   const Measures& measures_;
+#ifdef MEDIAL_HAS_EXACT
+  const disks::ExactSites sites_;
+#endif
 };
 
 }  // namespace
