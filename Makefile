@@ -11,7 +11,6 @@ SECONDS ?= 60
 COUNT ?= 200
 FROM ?= $(shell date +%s)000000
 RELEASE := build/release
-DEBUG := build/debug
 ASAN := build/asan
 TSAN := build/tsan
 COVERAGE := build/coverage
@@ -163,8 +162,7 @@ lint: setup     ## check layers, sizes and words, run clang-tidy
 	@tools/check_layers.py
 	@tools/check_sizes.py
 	@tools/check_words.py
-	@cmake --preset debug > /dev/null
-	@tools/lint.sh $(DEBUG) $(JOBS)
+	@mkdir -p build && tools/lint.sh build/lint $(JOBS)
 
 install: build  ## install below PREFIX (/usr/local)
 	@cmake --install $(RELEASE) --prefix $(PREFIX)

@@ -98,6 +98,7 @@ Result<int> run_axis(const AxisArguments& arguments) {
   if (is_of_pixels(name_of(options.method))) input.source.read.smooth_contour = input.whole_smooth;
   input.source.load.keep_contours = info_of(options.method).contours;
   input.source.load.fit = arguments.fit;
+  if (auto* own = std::get_if<method::CurveAxis>(&options.method)) own->fit = arguments.fit;
   if (!arguments.mask) {
     const auto streamed = stream_axes(arguments, input, options);
     if (!streamed) return streamed.error();

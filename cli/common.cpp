@@ -160,12 +160,11 @@ void add_outline_options(CLI::App& command, InputOptions& input) {
 }  // namespace
 
 OptionGroup::OptionGroup(CLI::App& command, std::string_view name)
-    : command_(command), before_(command.option_defaults()->get_group()) {
+    : command_(command), before_(*command.option_defaults()) {
   command.option_defaults()->group(std::string(name));
 }
 
-// NOLINTNEXTLINE(bugprone-exception-escape): only a new name may be refused.
-OptionGroup::~OptionGroup() { command_.option_defaults()->group(before_); }
+OptionGroup::~OptionGroup() { *command_.option_defaults() = std::move(before_); }
 
 void add_input_options(CLI::App& command, InputOptions& input, const std::string& second_name,
                        const std::string& second_help, std::string& second) {

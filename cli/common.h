@@ -139,7 +139,7 @@ class OptionGroup {
 
  private:
   CLI::App& command_;
-  std::string before_;
+  CLI::OptionDefaults before_;
 };
 
 /// Checks that `path` can be written later, before any long work: a known format, a directory that

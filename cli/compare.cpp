@@ -187,6 +187,8 @@ Result<int> run_compare(const CompareArguments& arguments) {
   input.source.load.keep_contours = std::any_of(
       methods->begin(), methods->end(), [](const Method& one) { return info_of(one).contours; });
   input.source.load.fit = arguments.fit;
+  for (Method& one : *methods)
+    if (auto* own = std::get_if<method::CurveAxis>(&one)) own->fit = arguments.fit;
   auto loaded = load_shapes(input, common);
   if (!loaded) return std::move(loaded).error();
   const Document<ShapeItem>& file = loaded->file;

@@ -73,7 +73,7 @@ Status take_own(Named& named, method::Potential& own) {
 }
 template <class Named>
 Status take_own(Named& named, method::CurveAxis& own) {
-  named.take("step", own.step).take("first_maximum", own.first_maximum);
+  named.take("step", own.step).take("first_maximum", own.first_maximum).take("fit", own.fit);
   return success();
 }
 /// The same for a method that is chosen already.

@@ -437,6 +437,23 @@ TEST(CurveAxis, RefusalsNameAFitThatWouldDo) {
   EXPECT_TRUE(followed.ok()) << followed.error().text;
 }
 
+/// A fit that goes astray names another fit of what was there before, not of itself.
+TEST(CurveAxis, RefusedFitsNameAFitOfTheSameOutline) {
+  const std::vector<Vec2> outer{{0, 0}, {10, 0}, {10, 8}, {0, 8}};
+  const std::vector<Vec2> hole{{3, 3}, {6, 3.5}, {5, 6}, {3.2, 5}};
+  const std::vector<Contour> frame{contour_of(outer, {}, true), contour_of(hole, {}, true)};
+  const auto refused = compute_curve_axis(frame, {.fit = 0.01});
+  ASSERT_FALSE(refused.ok());
+  const std::string& text = refused.error().text;
+  const auto at = text.find("--fit ");
+  ASSERT_NE(at, std::string::npos) << text;
+  const double fit = std::stod(text.substr(at + 6));
+  EXPECT_GT(fit, 0.01);
+  EXPECT_LE(fit, 0.06);
+  const auto followed = compute_curve_axis(frame, {.fit = fit});
+  EXPECT_TRUE(followed.ok()) << text;
+}
+
 /// The axis of contours is verified, and has the branches of the exact one within the tolerance.
 void expect_the_exact_axis(const std::vector<Contour>& contours, double tolerance) {
   const auto rings = approximate_by_arcs(contours, {.tolerance = 1e-10});

@@ -28,6 +28,8 @@ namespace {
 
 struct Tally {
   int axes = 0, refused = 0, failed = 0;
+  int named = 0;     ///< refusals that name a fit that would do
+  int misnamed = 0;  ///< of these, fits that are refused as well
   double slowest = 0;
   std::map<std::string, int> reasons;  ///< of refusals
 
@@ -73,28 +75,49 @@ bool try_shape(const std::string& outline, std::uint64_t seed, const Shape& shap
   return good;
 }
 
-/// Outlines, with their holes, as splines within a share of their size.
-bool try_fit(std::uint64_t seed, const std::vector<Ring>& rings, double share) {
-  const Shape outline = *build_shape(rings);
-  const Box box = bounding_box(outline);
+/// The shape within splines that outlines become. Nothing where one has too few points, or where
+/// too coarse a fit crosses itself.
+Result<Shape> shape_within(const std::vector<Contour>& contours, double within) {
   std::vector<Contour> curves;
-  for (const Ring& ring : rings) {
-    auto curve = fit_smooth_contour(ring.points, share * distance(box.low, box.high));
-    if (!curve) return true;  // a hole of a few pixels
+  for (const Contour& contour : contours) {
+    auto curve = fit_smooth_contour(contour.points, within);
+    if (!curve) return std::move(curve).error();
     curves.push_back(std::move(curve).value());
   }
   const auto arcs = approximate_by_arcs(curves, {.tolerance = 1e-6});
-  const auto shape = arcs ? build_shape(*arcs) : Result<Shape>(arcs.error());
-  if (!shape) return true;  // too coarse a fit may cross itself
+  return arcs ? build_shape(*arcs) : Result<Shape>(arcs.error());
+}
+
+/// Whether a refusal names a fit, and whether that one is followed and verified.
+void count_named_fit(Tally& tally, const std::string& text, const std::vector<Contour>& contours) {
+  const std::string option = "(--fit ";
+  const auto at = text.find(option);
+  if (at == std::string::npos) return;
+  ++tally.named;
+  const double within = std::strtod(text.c_str() + at + option.size(), nullptr);
+  const auto shape = shape_within(contours, within);
+  const auto found = compute_curve_axis(contours, {.fit = within});
+  if (!shape || !found || !verify(*shape, found->axis).passed) ++tally.misnamed;
+}
+
+/// Outlines, with their holes, as splines within a share of their size.
+bool try_fit(std::uint64_t seed, const std::vector<Ring>& rings, double share) {
+  const Box box = bounding_box(*build_shape(rings));
+  const double within = share * distance(box.low, box.high);
+  std::vector<Contour> contours;
+  for (const Ring& ring : rings) contours.push_back(contour_of(ring.points, {}, true));
+  const auto shape = shape_within(contours, within);
+  if (!shape) return true;
   char name[40];
   std::snprintf(name, sizeof name, "curve-axis, fit %.3f", share);
   const auto began = std::chrono::steady_clock::now();
-  const auto found = compute_curve_axis(curves);
+  const auto found = compute_curve_axis(contours, {.fit = within});
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
   Tally& tally = tallies[name];
   tally.slowest = std::max(tally.slowest, took.count());
   std::string reason;
   if (!found) {
+    count_named_fit(tally, found.error().text, contours);
     if (tally.refuse(found.error())) return true;
     reason = found.error().text;
   } else {
@@ -155,6 +178,9 @@ int run(std::uint64_t from, std::uint64_t count, std::uint32_t most, const std::
                 tally.axes, tally.refused, tally.failed, tally.slowest);
     for (const auto& [reason, times] : tally.reasons)
       std::printf("  %5d: %s\n", times, reason.c_str());
+    if (name.starts_with("curve-axis") && tally.refused > 0)
+      std::printf("  %5d name a fit, of which %d are not followed either\n", tally.named,
+                  tally.misnamed);
   }
   return good ? 0 : 1;
 }

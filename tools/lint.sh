@@ -1,10 +1,20 @@
 #!/usr/bin/env bash
-# clang-tidy over every source that a build tree compiles; a finding fails.
+# clang-tidy over all sources of the libraries, the command line and papers/; a finding fails.
 #
 #   tools/lint.sh TREE JOBS
+#
+# It reads the sources of a unity build, so that each folder's headers are read a few times only:
+# minutes instead of hours.
 set -euo pipefail
 tree=$1
 jobs=$2
 cd "$(dirname "$0")/.."
-git ls-files 'src/*.cpp' 'cli/*.cpp' |
-  xargs --max-args 1 --max-procs "$jobs" clang-tidy --quiet -p "$tree"
+cmake --preset debug -B "$tree" -DMEDIAL_UNITY=ON > "$tree.log" || { cat "$tree.log"; exit 1; }
+python3 -c '
+import json, sys
+for file in sorted({entry["file"] for entry in json.load(open(sys.argv[1]))}): print(file)
+' "$tree/compile_commands.json" | grep -v /tests/ |
+  xargs --max-args 1 --max-procs "$jobs" \
+    clang-tidy --quiet --checks=-bugprone-suspicious-include -p "$tree" \
+      --extra-arg=-Wno-unknown-warning-option \
+    2> >(grep --invert-match 'warnings generated' >&2)

@@ -82,10 +82,10 @@ struct Potential {
 
 /// Follows the axis from maxima of curvature and corners: see compute_curve_axis().
 struct CurveAxis {
-  /// From point to point, relative to the diagonal, in [1e-6, 0.1]; halved where it strays.
-  double step = 1e-3;
+  double step = 1e-3;  ///< between points, a share of the diagonal in [1e-6, 0.1]; at most that
   /// Which maximum of curvature is followed first; the axis is the same for each, to the steps.
   std::size_t first_maximum = 0;
+  double fit = 0;  ///< of contours: splines within this distance are followed instead; 0: no
 };
 
 }  // namespace method

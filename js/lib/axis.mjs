@@ -276,6 +276,7 @@ export function axis(x, given = {}) {
   const keepContours = given.method === "curve-axis" || undefined;
   const plain = x instanceof Shape && !repair && !fit;
   const shape = plain ? x : new Shape(x, { bulges, repair, arcTolerance, fit, keepContours });
+  if (keepContours && fit) others.fit = fit; // the contours are those before the fit
   return new MedialAxis(call("axis", shape.address, options(others)), shape);
 }
 

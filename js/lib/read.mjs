@@ -134,7 +134,7 @@ export class Contour {
 
   constructor([x, y], role = "any") {
     const index = Contour.roles.indexOf(role);
-    if (index < 0) throw new MedialError(`role is one of ${Contour.roles.join(", ")}`);
+    if (index < 0) throw new MedialError(`role must be one of ${Contour.roles.join(", ")}`);
     this.numbers = [0, index, x, y];
   }
 

@@ -317,7 +317,7 @@ def _from_geoarrow(pyarrow: Any, array: Any) -> Ragged:
         flat = array.flatten().to_numpy(False).reshape(-1, array.type.list_size)[:, :2]
     else:
         raise MedialError(f"the points of the Arrow array are {array.type}, not x and y", "unsupported")
-    flat = numbers_of(flat, "coordinates are rows of x and y")
+    flat = numbers_of(flat, "coordinates must be rows of x and y")
     ring = offsets_list[-1]
     return Ragged(np.ascontiguousarray(flat, np.float64), ring, offsets_list[-2],
                   offsets_list[0] if len(offsets_list) == 3 else None)  # fmt: skip
@@ -326,7 +326,7 @@ def _from_geoarrow(pyarrow: Any, array: Any) -> Ragged:
 def _offsets(part: Any) -> Indices:
     numbers = numbers_of(part, "offsets are whole numbers")
     if numbers.ndim != 1 or not len(numbers) or not (numbers == np.floor(numbers)).all():
-        raise MedialError("offsets are whole numbers, from 0 on", "malformed")
+        raise MedialError("offsets must be whole numbers, from 0 on", "malformed")
     return np.ascontiguousarray(part, np.int64)
 
 
@@ -337,7 +337,7 @@ def ragged(x: Any) -> Ragged:
     if isinstance(x, tuple) and len(x) in (2, 3) and isinstance(x[-2], np.ndarray) and isinstance(x[-1], tuple):
         coordinates, offsets = x[-2:]
         if len(offsets) not in (2, 3):
-            raise MedialError("offsets are (ring, polygon) or (ring, polygon, feature)", "malformed")
+            raise MedialError("offsets must be (ring, polygon) or (ring, polygon, feature)", "malformed")
         ring, polygon, *feature = (_offsets(part) for part in offsets)
         return Ragged(rows(coordinates), ring, polygon, feature[0] if feature else None)
     if hasattr(x, "__arrow_c_stream__") and not hasattr(x, "geometry"):

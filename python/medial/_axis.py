@@ -505,7 +505,7 @@ class MedialAxis:
         '# from_node to_node length'
         """
         if format == "safetensors":
-            raise MedialError("columns are not text: use save()", "unsupported")
+            raise MedialError("columns are binary, not text: use save()", "unsupported")
         return _core.write_axis(self._core, None, format, chord, simplify) or ""
 
     def save(self, path: str | PathLike[str], *, chord: float = 1e-3, simplify: float = 0) -> None:
@@ -696,6 +696,8 @@ def axis(
                 return MedialAxis._of(_core.axis_of_ring(x, _plain(name, some)))
     follows = (method or options.method) == "curve-axis"
     shape, contours = load(x, bulges, repair, arc_tolerance, fit, follows)
+    if follows:
+        own["fit"] = fit  # the contours are those before the fit
     computed = computing(method, tolerance=tolerance, corner_angle=corner_angle, exact=exact,
                          threads=threads, exterior=exterior, margin=margin, own=own)  # fmt: skip
     return MedialAxis._of(_core.compute(shape, computed, contours))

@@ -35,7 +35,7 @@ class Contour:
         self._core = _core.Contour()
         self._core.start_at(start)
         if role not in _ROLES:
-            raise ValueError(f"role is one of {', '.join(_ROLES)}")
+            raise ValueError(f"role must be one of {', '.join(_ROLES)}")
         self._core.set_role(_ROLES[role])
 
     def line_to(self, end: Point) -> Contour:

@@ -104,7 +104,7 @@ class Line:
         """
         if isinstance(samples, (int, np.integer)):
             if not 0 < samples < 2**31:
-                raise MedialError("samples is a number of places")
+                raise MedialError("samples must be a whole number of places")
             at = np.linspace(0, self.length, int(samples))
         else:
             at = np.ascontiguousarray(numbers_of(samples, "samples are lengths along the line"))
@@ -127,11 +127,11 @@ class Line:
         """
         if spacing is None:
             if not 0 <= operator.index(count) < 2**31:
-                raise MedialError("count is a number of places")
+                raise MedialError("count must be a whole number of places")
             places = self.length * ((np.arange(count) + 0.5) / count)
             return self._widths(np.asarray(places, np.float64), across=True)
         if not 0 < spacing < np.inf:
-            raise MedialError("spacing is positive")
+            raise MedialError("spacing must be positive")
         steps = int(self.length / spacing)
         at: Floats = (self.length - steps * spacing) / 2 + spacing * np.arange(steps + 1, dtype=np.float64)
         return self._widths(at, across=True)
@@ -188,7 +188,7 @@ class Widths(NamedTuple):
 
 def _line(of: MedialAxis, path: _core.Path, extend: bool, smooth: float) -> Line:
     if not smooth >= 0:
-        raise MedialError("smooth is a length, or 0")
+        raise MedialError("smooth must be a length, or 0")
     made = MedialAxis._of(_core.centre_line(of._core, path, extend, smooth))
     return Line(made, path.length, path.narrowest, path.closed, path, of)
 
@@ -199,7 +199,7 @@ def _place(of: MedialAxis, point: Sequence[float] | str) -> tuple[int, float]:
     else:
         ((x, y),) = points_of(point).tolist()
     if not (np.isfinite(x) and np.isfinite(y)):
-        raise MedialError("a place is two finite numbers", "not_finite")
+        raise MedialError("a place must be two finite numbers", "not_finite")
     place = _core.place_at(of._core, (x, y))
     if place is None:
         raise MedialError("the shape's axis is a single point", "invalid_option")

@@ -135,7 +135,7 @@ def offset(x: Any, distances: float | Sequence[float] | Floats, *, threads: int 
     >>> [region.area for region in medial.offset([(0, 0), (4, 0), (4, 4), (0, 4)], 1)]
     [4.0]
     """
-    values = np.atleast_1d(numbers_of(distances, "distances are numbers"))
+    values = np.atleast_1d(numbers_of(distances, "distances must be numbers"))
     if isinstance(x, MedialAxis) and (values > 0).all() and not x.exterior and not x.resolution:
         return _regions(_core.inward_offsets(x._core, values))
     shape = x.shape._core if isinstance(x, MedialAxis) else load(x)[0]
@@ -187,8 +187,8 @@ def buffer(x: Any, distances: float | Sequence[float] | Floats, *, bulges: npt.A
     [3.141592654]
     """
     coordinates, begin, closed = chains_of(x)
-    values = np.atleast_1d(numbers_of(distances, "distances are numbers"))
-    own = None if bulges is None else np.ascontiguousarray(numbers_of(bulges, "bulges are numbers"))
+    values = np.atleast_1d(numbers_of(distances, "distances must be numbers"))
+    own = None if bulges is None else np.ascontiguousarray(numbers_of(bulges, "bulges must be numbers"))
     rows = _core.buffers(coordinates, begin, closed, own, node_crossings, values,
                          options.threads if threads is None else threads)  # fmt: skip
     regions = []

@@ -65,9 +65,9 @@ class Ragged:
 
 def rows(points: Any) -> Floats:
     """Coordinates as rows of x and y; more columns are dropped."""
-    array = numbers_of(points, "coordinates are rows of x and y")
+    array = numbers_of(points, "coordinates must be rows of x and y")
     if array.ndim != 2 or (array.shape[1] < 2 and array.size):
-        raise MedialError("coordinates are rows of x and y", "malformed")
+        raise MedialError("coordinates must be rows of x and y", "malformed")
     return np.ascontiguousarray(array[:, :2])
 
 

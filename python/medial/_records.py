@@ -83,11 +83,11 @@ def numbers_of(values: Any, what: str) -> Floats:
 
 def points_of(points: Any) -> Floats:
     """Points as rows of x and y."""
-    array = numbers_of(points, "points are rows of x and y")
+    array = numbers_of(points, "points must be rows of x and y")
     if array.shape == (2,) or array.size == 0:
         array = array.reshape(-1, 2)
     if array.ndim != 2 or array.shape[1] < 2:
-        raise MedialError("points are rows of x and y", "malformed")
+        raise MedialError("points must be rows of x and y", "malformed")
     return np.ascontiguousarray(array[:, :2])
 
 

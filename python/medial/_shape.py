@@ -208,7 +208,7 @@ class Shape:
         points, *others = self._state()
         moved = np.ascontiguousarray(points * factor + numbers_of(move, "move is x and y"))
         if not factor > 0 or not np.isfinite(moved).all():
-            raise MedialError("factor is positive, and the result within the range of numbers")
+            raise MedialError("factor must be positive, and the result within the range of numbers")
         return restored(moved, *others)
 
     def to_text(self, format: str = "wkt", *, chord: float = 1e-3) -> str:
@@ -295,11 +295,11 @@ def load(
 ) -> tuple[_core.Shape, list[_core.Contour]]:
     """The shape of a geometry, and its contours for methods that follow them."""
     if not fit >= 0:
-        raise MedialError("fit is a distance")
+        raise MedialError("fit must be a distance, or 0")
     if isinstance(x, Shape) and not (repair or fit or keep_contours):
         return x._core, []
     rings = x if isinstance(x, Rings) else read(x)
-    own = rings.bulges if bulges is None else np.ascontiguousarray(numbers_of(bulges, "bulges are numbers"))
+    own = rings.bulges if bulges is None else np.ascontiguousarray(numbers_of(bulges, "bulges must be numbers"))
     if not (rings.contours or repair or fit or keep_contours):
         if rings.coordinates is None:
             rings.coordinates = np.empty((0, 2))

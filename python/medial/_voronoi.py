@@ -206,9 +206,9 @@ def voronoi(
         raise ValueError("method is 'disks' or 'lee'")
     frame = enclosure if frame is None else frame
     coordinates, begin, closed = chains_of(x)
-    own = None if bulges is None else np.ascontiguousarray(numbers_of(bulges, "bulges are numbers"))
-    box = None if frame is None else numbers_of(frame, "an enclosure is four numbers").tolist()
+    own = None if bulges is None else np.ascontiguousarray(numbers_of(bulges, "bulges must be numbers"))
+    box = None if frame is None else numbers_of(frame, "an enclosure must be four numbers").tolist()
     if box is not None and np.shape(box) != (4,):
-        raise MedialError("an enclosure is four numbers: low x, low y, high x, high y")
+        raise MedialError("an enclosure must be four numbers: low x, low y, high x, high y")
     computed = computing("disks", threads=threads, margin=margin)
     return Voronoi(_core.voronoi_of(coordinates, begin, closed, own, node_crossings, box, computed))

@@ -72,7 +72,7 @@ class VoxelAxis:
 def _surface(volume: npt.NDArray[Any], spacing: tuple[float, float, float]) -> tuple[Floats, npt.NDArray[np.uint32]]:
     """The surface of the voxels that are set, as triangles."""
     if np.shape(spacing) != (3,) or not ((np.asarray(spacing) > 0) & np.isfinite(spacing)).all():
-        raise MedialError("spacing is three positive numbers")
+        raise MedialError("spacing must be three positive numbers")
     grid = np.pad(np.asarray(volume) != 0, 1)
     quads = []
     for direction in range(3):
@@ -149,7 +149,7 @@ def voxels(
     (1, 0, 0)
     """
     if method not in ("ridge", "potential"):
-        raise MedialError("method is 'ridge' or 'potential'", "invalid_option")
+        raise MedialError("method must be 'ridge' or 'potential'", "invalid_option")
     if faces is not None:
         vertices, triangles = x, faces
     elif hasattr(x, "vertices") and hasattr(x, "faces"):
@@ -161,9 +161,9 @@ def voxels(
     else:
         raise MedialError(f"a {type(x).__name__} is neither a mesh nor a volume", "unsupported")
     points = np.ascontiguousarray(numbers_of(vertices, "vertices are rows of x, y and z"))
-    whole = numbers_of(triangles, "faces are rows of three vertices")
+    whole = numbers_of(triangles, "faces must be rows of three vertices")
     if not ((whole >= 0) & (whole < max(len(points), 1)) & (whole == np.floor(whole))).all():
-        raise MedialError("faces are rows of three vertices, by their numbers", "malformed")
+        raise MedialError("faces must be rows of three vertices, by their numbers", "malformed")
     corners = np.ascontiguousarray(triangles, np.uint32)
     some = options.threads if threads is None else threads
     made = _core.voxels_of(points, corners, resolution, count, angle, thinning, surface,

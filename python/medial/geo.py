@@ -53,7 +53,7 @@ class MedialAccessor:
             return self._series
         west, south, east, north = self._series.total_bounds
         if west < -540 or east > 540 or south < -90 or north > 90:
-            raise MedialError("the coordinates are no longitudes and latitudes, as the reference system says", "invalid_option")
+            raise MedialError("the coordinates are not longitudes and latitudes, though the reference system says so", "invalid_option")
         self._local = _local_crs(self._series)
         return self._series.to_crs(self._local)
 

@@ -183,7 +183,7 @@ def distance_transform(image: npt.ArrayLike, *, spacing: float = 1, to: str = "p
     if to not in ("pixels", "cracks"):
         raise ValueError("to is 'pixels' or 'cracks'")
     if not 0 < spacing < np.inf:
-        raise MedialError("spacing is positive")
+        raise MedialError("spacing must be positive")
     result = _core.distances(_pixels(image), to == "cracks", frame, squared, options.threads)
     return result if spacing == 1 else result * (spacing * spacing if squared else spacing)
 
@@ -307,7 +307,7 @@ def pack(image: npt.ArrayLike, error: int = 0) -> Squares:
     (1, True)
     """
     if not 0 <= error <= 0xFFFF:
-        raise MedialError("error is a number of pixels, from 0 to 65535", "invalid_option")
+        raise MedialError("error must be a number of pixels, from 0 to 65535", "invalid_option")
     streams, count, missing = _core.packed_image(_pixels(image), int(error))
     return Squares(tuple(streams), count, missing)
 
@@ -367,10 +367,10 @@ def axis(
         raise ValueError("label images have two dimensions")
     if labels.dtype.kind not in "biu" and not (labels.dtype.kind == "f" and (labels == np.floor(labels)).all()
                                                and np.isfinite(labels).all()):  # fmt: skip
-        raise MedialError("labels are whole numbers")
+        raise MedialError("labels must be whole numbers")
     sides, corners = np.ravel(spacing), np.ravel(origin)
     if len(sides) > 2 or len(corners) != 2 or not ((sides > 0) & (sides < np.inf)).all() or not np.isfinite(corners).all():
-        raise MedialError("spacing is a positive number or two, origin is x and y")
+        raise MedialError("spacing must be a positive number or two, origin must be x and y")
     dx, dy = float(sides[0]), float(sides[-1])
     result = {}
     for label, (rows, columns) in _boxes(labels).items():

@@ -74,7 +74,7 @@ std::unique_ptr<AxisOf> restored(const ShapeOf& of, const std::string& method, d
 std::pair<Array<double, 2>, Array<std::int64_t>> lines(const AxisOf& self, double chord,
                                                        double step) {
   positive_chord(chord);
-  if (!(step >= 0)) refuse(ErrorCode::invalid_option, "step is positive");
+  if (!(step >= 0)) refuse(ErrorCode::invalid_option, "step must be at least 0");
   std::vector<Disk> disks;
   std::vector<std::int64_t> begin{0};
   without_lock([&] {

@@ -63,7 +63,7 @@ struct Chord {
   explicit Chord(const Given& given)
       : share(given.get<double>("share")),
         absolute(given.get<std::optional<double>>("chord").value_or(0)) {
-    if (!(absolute >= 0)) refuse(ErrorCode::invalid_option, "chord is positive");
+    if (!(absolute >= 0)) refuse(ErrorCode::invalid_option, "chord must be at least 0");
   }
   double of(const Shape& shape) const {
     const double chord = absolute > 0 ? absolute : share * diagonal(bounding_box(shape));
@@ -104,7 +104,7 @@ Operation centerlines(const Given& given) {
 /// A row each: the mean, the least and the largest width along the centre line, and its length.
 Operation widths(const Given& given) {
   const auto samples = given.get<std::size_t>("samples");
-  if (samples == 0) refuse(ErrorCode::invalid_option, "samples is at least 1");
+  if (samples == 0) refuse(ErrorCode::invalid_option, "samples must be at least 1");
   const auto work = [samples, path_options = main_path_options(given)](
                         const Shape& shape, const Options& options, Table& table) -> Status {
     const auto axis = compute(shape, options);

@@ -101,7 +101,7 @@ Array<double, 2> widths(const AxisOf& self, const PathOf& path, const Values<dou
 
 /// Rows of a width's, then opens_to, around_hole, edge, t.
 Array<double, 2> neck_rows(const AxisOf& self, double widening) {
-  if (!(widening > 1)) refuse(ErrorCode::invalid_option, "widening is above 1");
+  if (!(widening > 1)) refuse(ErrorCode::invalid_option, "widening must be above 1");
   std::vector<std::array<double, 12>> rows;
   for (const Neck& neck : without_lock([&] { return necks(self.axis, widening); })) {
     const WidthRow w = row_of(neck.width);

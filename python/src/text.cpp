@@ -45,7 +45,7 @@ nb::tuple rings_of_text(const std::string& text) {
 io::SourceOptions reading(const std::optional<std::string>& repair, double arc_tolerance,
                           double fit, const std::string& layer, std::optional<double> close,
                           const std::string& unit, int threads) {
-  if (close && !(*close >= 0)) refuse(ErrorCode::invalid_option, "close is a distance");
+  if (close && !(*close >= 0)) refuse(ErrorCode::invalid_option, "close must be a distance, or 0");
   io::SourceOptions options;
   options.read.repair = options.load.repair = repair_from(repair);
   options.read.layer = layer;
@@ -55,7 +55,7 @@ io::SourceOptions reading(const std::optional<std::string>& repair, double arc_t
   options.load.threads = threads;
   const auto wanted = unit_of(unit);
   if (!unit.empty() && !wanted)
-    throw Failure({ErrorCode::invalid_option, "unit is one of " + unit_names(), {}});
+    throw Failure({ErrorCode::invalid_option, "unit must be one of " + unit_names(), {}});
   if (wanted) options.units.wanted = *wanted;
   return options;
 }

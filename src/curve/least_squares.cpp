@@ -54,7 +54,7 @@ class Spline {
   /// The four Bezier points of a span, each as shares of the four control points (Boehm).
   std::array<Row, 4> shares(std::size_t i) const {
     std::array<double, 5> h{};
-    for (int k = -2; k <= 2; ++k) h[static_cast<std::size_t>(k + 2)] = span(index(i, k));
+    for (int k = 0; k < 5; ++k) h[static_cast<std::size_t>(k)] = span(index(i, k - 2));
     const auto leg = [&](std::size_t k, double left) {
       // At `left` beyond the first of three spans from h[k] on.
       const double t = left / (h[k] + h[k + 1] + h[k + 2]);

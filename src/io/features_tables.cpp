@@ -206,7 +206,7 @@ TableSource tables_of(const FeaturesOutput& output, const Target& target) {
       const std::vector<Value> values = attributes.values_of(item.attributes);
       const double chord = chord_of(item, output.options);
       for (std::size_t table = 0; table < wanted.size(); ++table) {
-        const Status written =
+        Status written =
             for_each_row(wanted[table], output.document.index_of(i), item.axis, output.features[i],
                          chord, [&](TableRow& row) {
                            return sink.add(table, row.values, values, {&row.points, 1});

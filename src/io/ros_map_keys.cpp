@@ -10,7 +10,7 @@ namespace medial::io {
 
 namespace {
 
-std::string trimmed(std::string text) {
+std::string trimmed(const std::string& text) {
   const auto begin = text.find_first_not_of(" \t\r'\"");
   if (begin == std::string::npos) return {};
   return text.substr(begin, text.find_last_not_of(" \t\r'\"") + 1 - begin);

@@ -93,8 +93,8 @@ void keep_sources(Shape& shape, const Feature& feature,
       source = feature.sources[ring_begin[source.ring] + source.vertex];
 }
 
-/// The shape within smooth curves instead, which the contours become.
-Result<Shape> smooth_shape(std::vector<Contour>& contours, const LoadOptions& options) {
+/// The shape within smooth curves instead.
+Result<Shape> smooth_shape(std::vector<Contour> contours, const LoadOptions& options) {
   for (Contour& contour : contours) {
     auto curve = fit_smooth_contour(curve::polygon_of(contour), options.fit);
     if (!curve) return std::move(curve).error();

@@ -85,7 +85,7 @@ std::vector<TabPlace> places_of(const Shape& shape, const MedialAxis& axis,
     if (sites.loop(edge.site[0]) == sites.loop(edge.site[1])) continue;
     for (int k = 1; k < pieces; ++k) {
       const Disk disk = disk_at(axis, edge, static_cast<double>(k) / pieces);
-      for (const int side : {0, 1}) {
+      for (const std::size_t side : {0U, 1U}) {
         const std::uint32_t here = edge.site[side], there = edge.site[1 - side];
         if (!shape.hole[sites.loop(here)]) continue;
         const Vec2 from = foot(axis.sites[here], disk.center);

@@ -73,6 +73,8 @@ struct Column {
   Rows rows;
   Numbers numbers;
 };
+template <class Rows, class Numbers>
+Column(const char*, Tables::Begins Tables::*, Rows, Numbers) -> Column<Rows, Numbers>;
 
 /// All columns of 8-byte numbers, so that all are aligned.
 template <class Visit>

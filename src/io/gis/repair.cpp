@@ -205,7 +205,7 @@ Status make_valid(Feature& feature, std::size_t index, std::vector<std::string>&
   if (!of_polygons || feature.rings.empty()) return success();
   const Repairer repairer(feature.rings);
   if (repairer.valid()) return success();
-  const Result<std::vector<Ring>> rings = repairer.repaired();
+  Result<std::vector<Ring>> rings = repairer.repaired();
   if (!rings) {
     notes.push_back(fmt::format("feature {}: {}; its edges are split where they cross", index,
                                 rings.error().text));

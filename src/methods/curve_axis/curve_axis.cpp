@@ -506,34 +506,64 @@ Result<CurveAxis> follow_all(std::span<const Contour> contours, const method::Cu
   return all;
 }
 
-/// The error of contours that the method does not follow, with the closest of some fits that it
-/// does follow.
-Error with_fit(Error error, std::span<const Contour> contours, const method::CurveAxis& options,
-               const std::atomic<bool>* cancel) {
-  std::vector<std::vector<Vec2>> polygons;
-  for (const Contour& contour : contours) polygons.push_back(curve::polygon_of(contour));
+/// Smooth curves within a distance of polygons. Errors: those of fit_smooth_contour().
+Result<std::vector<Contour>> fitted(std::span<const std::vector<Vec2>> polygons, double within) {
+  std::vector<Contour> curves;
+  for (const auto& polygon : polygons) {
+    auto curve = fit_smooth_contour(polygon, within);
+    if (!curve) return std::move(curve).error();
+    curves.push_back(std::move(curve).value());
+  }
+  return curves;
+}
+
+/// Of some fits of polygons the closest one that the method follows, with two digits; next to
+/// `options.fit`, if there is one, coarser before closer. Nothing where it follows none.
+std::string fit_that_does(std::span<const std::vector<Vec2>> polygons,
+                          const method::CurveAxis& options, const std::atomic<bool>* cancel) {
+  constexpr std::array<double, 6> shares = {0.05, 0.025, 0.012, 0.006, 0.003, 0.0015};
+  constexpr std::array<double, 10> factors = {1.25, 1.6, 2, 2.5, 3.2, 4, 6, 0.8, 0.6, 0.4};
   Box box = Box::nothing();
   for (const auto& polygon : polygons)
     for (const Vec2 p : polygon) box.add(p);
-  constexpr std::array<double, 6> shares = {0.05, 0.025, 0.012, 0.006, 0.003, 0.0015};
+  const bool is_next = options.fit > 0;
+  const double unit = is_next ? options.fit : distance(box.low, box.high);
   std::string found;
-  for (const double share : shares) {
+  for (const double share : is_next ? std::span<const double>(factors) : shares) {
     std::array<char, 16> text{};
-    std::snprintf(text.data(), text.size(), "%.2g", share * distance(box.low, box.high));
-    std::vector<Contour> curves;
-    for (const auto& polygon : polygons) {
-      auto curve = fit_smooth_contour(polygon, std::strtod(text.data(), nullptr));
-      if (curve) curves.push_back(std::move(curve).value());
-    }
-    if (curves.size() != polygons.size() || !follow_all(curves, options, cancel).ok()) {
-      if (!found.empty()) break;
-      continue;
-    }
-    found = text.data();
+    std::snprintf(text.data(), text.size(), "%.2g", share * unit);
+    const auto curves = fitted(polygons, std::strtod(text.data(), nullptr));
+    const bool is_followed = curves && follow_all(*curves, options, cancel).ok();
+    if (!is_followed && !found.empty()) break;
+    if (is_followed) found = text.data();
+    if (is_followed && is_next) break;
   }
-  if (!found.empty())
-    error.text += "; it follows a spline within " + found + " (--fit " + found + ")";
-  return error;
+  return found;
+}
+
+/// The method on the contours or, if asked for, on their fit.
+Result<CurveAxis> follow_fit(std::span<const Contour> contours, const method::CurveAxis& options,
+                             const std::atomic<bool>* cancel) {
+  std::vector<std::vector<Vec2>> polygons;
+  const auto make_polygons = [&] {
+    for (const Contour& contour : contours) polygons.push_back(curve::polygon_of(contour));
+  };
+  Result<std::vector<Contour>> curves = std::vector<Contour>{};
+  if (options.fit > 0) {
+    make_polygons();
+    curves = fitted(polygons, options.fit);
+    if (!curves) return std::move(curves).error();
+  }
+  Result<CurveAxis> result = follow_all(options.fit > 0 ? *curves : contours, options, cancel);
+  if (result) return result;
+  const ErrorCode code = result.error().code;
+  if (code != ErrorCode::unsupported && code != ErrorCode::too_large) return result;
+  if (polygons.empty()) make_polygons();
+  const std::string fit = fit_that_does(polygons, options, cancel);
+  if (fit.empty()) return result;
+  return Error{code,
+               result.error().text + "; it follows a spline within " + fit + " (--fit " + fit + ")",
+               result.error().place};
 }
 
 }  // namespace
@@ -576,12 +606,7 @@ Result<CurveAxis> compute_curve_axis(std::span<const Contour> contours,
                                      const std::atomic<bool>* cancel) {
   using namespace curve_axis;
   try {
-    Result<CurveAxis> result = follow_all(contours, options, cancel);
-    if (result) return result;
-    const ErrorCode code = result.error().code;
-    const bool may_fit = code == ErrorCode::unsupported || code == ErrorCode::too_large;
-    if (!may_fit) return result;
-    return with_fit(result.error(), contours, options, cancel);
+    return follow_fit(contours, options, cancel);
   } catch (...) {
     return error_in_flight();
   }

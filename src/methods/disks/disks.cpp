@@ -272,7 +272,7 @@ Result<MedialAxis> run(const Problem& problem) {
                               (is_first || (!way->in_double && !has_arcs(problem.shape)));
       if (is_certain || problem.is_cancelled()) return axis;
     }
-    auto refused = axis ? error_if_refused(problem, *axis) : std::move(axis).error();
+    auto refused = axis ? error_if_refused(problem, *axis) : axis.error();
     if (!refused) return axis;
     if (!error || axis) error = std::move(refused);
     way = next_way(problem, *way, findings.lost, attempts);

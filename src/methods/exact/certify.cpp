@@ -392,7 +392,7 @@ class Certifier {
       for (const std::uint32_t place : places) contacts.push_back({outer[place].site, no_half});
       auto one = place(contacts, local(old));
       if (!one) return false;
-      placed.push_back(std::move(*one));
+      placed.push_back(*one);
     }
     ++changes_;
     for (const std::uint32_t node : nodes) {
@@ -430,7 +430,7 @@ class Certifier {
         contacts.push_back(contact);
       }
       graph_.append(contacts);
-      states_.push_back({std::move(placed[k].bounds), {}, false, false, true});
+      states_.push_back({placed[k].bounds, {}, false, false, true});
       changed.push_back(node);
     }
     return true;

@@ -90,7 +90,7 @@ Vector direction_along(const PreciseSite& right, const PreciseSite& left) {
     const Vector chord = left.point - right.point;
     return {chord.y, -chord.x};
   }
-  const Vector difference = right.direction - left.direction;
+  Vector difference = right.direction - left.direction;
   if (dot(difference, difference) > 0) return difference;
   // Pieces of one segment, around what a bridge led to.
   return dot(right.direction, right.point - left.point) > 0 ? right.normal() : -right.normal();
