@@ -90,6 +90,18 @@ class Numbers {
   void join(std::uint32_t edge) { number_[edge] = joined; }
   bool is_joined(std::uint32_t edge) const { return number_[edge] == joined; }
 
+  /// Where an edge ends, if those without length are left out; found again at once next time.
+  std::uint32_t end_past_joined(Graph& graph, std::uint32_t edge) const {
+    std::uint32_t end = graph.to(edge);
+    while (is_joined(end)) end = graph.to(end);
+    for (std::uint32_t at = edge; graph.to(at) != end;) {
+      const std::uint32_t next = graph.to(at);
+      graph.set_to(at, end);
+      at = next;
+    }
+    return end;
+  }
+
  private:
   static constexpr std::uint32_t joined = none - 1;
   const Graph& graph_;
@@ -302,42 +314,45 @@ void complete(const Graph& graph, const LocalFrame& frame, VoronoiDiagram& diagr
   if (!bridged.empty()) faces.join_pieces();
 }
 
-double complete(Graph& graph, const LocalFrame& frame, double tolerance, MedialAxis& axis) {
-  const Elements& elements = graph.elements();
-  Numbers numbers(graph, frame, axis.nodes);
-  // Where an edge ends, if those without length are left out; found again at once next time.
-  const auto end_of = [&](std::uint32_t edge) {
-    std::uint32_t end = graph.to(edge);
-    while (numbers.is_joined(end)) end = graph.to(end);
-    for (std::uint32_t at = edge; graph.to(at) != end;) {
-      const std::uint32_t next = graph.to(at);
-      graph.set_to(at, end);
-      at = next;
-    }
-    return end;
-  };
+namespace {
+
+/// Two nodes within the tolerance.
+bool is_one(const Disk& a, const Disk& b, double tolerance) {
+  return squared_norm(a.center - b.center) <= tolerance * tolerance &&
+         std::abs(a.radius - b.radius) <= tolerance;
+}
+
+/// How many edges the axis has if none is without length, for memory.
+std::size_t most_edges(const Elements& elements) {
   std::size_t kept = 0;
   for (const Elements::ChainLoop& loop : elements.loops) kept += 2 * std::size_t{loop.size} - 3;
   if (elements.have_arcs()) {
     for (const Beside joint : elements.joints) kept -= joint != Beside::no ? 1 : 0;
-    kept -= elements.loops.size();  // at most so many lists close smoothly
+    for (const Elements::ChainLoop& loop : elements.loops)
+      kept -= elements.around[elements.chains[loop.first_chain]] != Beside::no ? 1 : 0;
   } else {
     for (const site::Site& site : elements.sites) kept -= site.is_vertex() ? 2 : 0;
     kept += elements.passages.size();  // at each, a vertex has one spoke
   }
-  const auto is_one = [&](const Disk& a, const Disk& b) {
-    return squared_norm(a.center - b.center) <= tolerance * tolerance &&
-           std::abs(a.radius - b.radius) <= tolerance;
-  };
+  return kept;
+}
+
+}  // namespace
+
+double complete(Graph& graph, const LocalFrame& frame, double tolerance, MedialAxis& axis) {
+  const Elements& elements = graph.elements();
+  Numbers numbers(graph, frame, axis.nodes);
+  const auto end_of = [&](std::uint32_t edge) { return numbers.end_past_joined(graph, edge); };
+  std::size_t kept = most_edges(elements);
   for (const std::uint32_t edge : graph.doubtful_edges()) {
-    if (!is_one(graph.disk(edge), graph.disk(end_of(edge)))) continue;
+    if (!is_one(graph.disk(edge), graph.disk(end_of(edge)), tolerance)) continue;
     numbers.join(edge);
     --kept;
   }
   std::vector<Bridged> bridged = bridged_edges(graph);
   const auto has_no_length = [&](const Bridged& one) {
     const std::uint32_t from = end_of(one.other), to = end_of(one.edge);
-    return from != to && is_one(graph.disk(from), graph.disk(to)) &&
+    return from != to && is_one(graph.disk(from), graph.disk(to), tolerance) &&
            numbers.unite(from, to, one.component);
   };
   bridged.erase(std::remove_if(bridged.begin(), bridged.end(), has_no_length), bridged.end());

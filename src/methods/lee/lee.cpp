@@ -58,7 +58,8 @@ class Solution {
     statistics.seconds_walk = watch.lap();
     join_ties(*graph, problem_.local_tolerance());
     constexpr double slack = 2;
-    if (elements_.have_arcs()) is_doubtful_ = !is_right_locally(*graph, problem_.local_tolerance());
+    if (elements_.have_arcs())
+      is_doubtful_ = !is_right_locally(*graph, slack * problem_.local_tolerance());
     // The certificate, too, would refuse such an axis.
     else if (const auto disk = find_overreach(*graph, slack * problem_.local_tolerance()))
       return too_nearly_round(disk->center);

@@ -209,19 +209,25 @@ std::optional<Disk> find_overreach(const Graph& graph, double slack) {
   return std::nullopt;
 }
 
-/// Whether so many Voronoi points are close together that what each may be off adds up.
-bool has_large_tie(const Graph& graph) {
+/// Whether so many Voronoi points are next to each other that what each may be off adds up.
+bool has_large_tie(const Graph& graph, double slack) {
   constexpr std::uint32_t large = 8;
+  constexpr double next_to = 16;
   if (graph.doubtful_edges().size() < large) return false;
   DisjointSets ties(graph.places());
-  for (const std::uint32_t edge : graph.doubtful_edges()) ties.join(edge, graph.to(edge));
   std::vector<std::uint32_t> size(graph.places());
-  return std::any_of(graph.doubtful_edges().begin(), graph.doubtful_edges().end(),
-                     [&](std::uint32_t edge) { return ++size[ties.find(edge)] >= large; });
+  const auto is_short = [&](std::uint32_t edge) {
+    return distance(graph.disk(edge).center, graph.disk(graph.to(edge)).center) <= next_to * slack;
+  };
+  for (const std::uint32_t edge : graph.doubtful_edges())
+    if (is_short(edge)) ties.join(edge, graph.to(edge));
+  return std::any_of(
+      graph.doubtful_edges().begin(), graph.doubtful_edges().end(),
+      [&](std::uint32_t edge) { return is_short(edge) && ++size[ties.find(edge)] >= large; });
 }
 
 bool is_right_locally(const Graph& graph, double slack) {
-  if (has_large_tie(graph)) return false;
+  if (has_large_tie(graph, slack)) return false;
   const Elements& elements = graph.elements();
   // By how far a disk misses what a node touches; negative where it reaches over.
   const auto reach = [&](std::uint32_t node, const Disk& disk, double& least, double& most) {
