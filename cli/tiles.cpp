@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <string>
+#include <string_view>
 
 #include "cli/commands.h"
 #include "cli/common.h"
@@ -36,6 +38,14 @@ void add_to(std::vector<TileLevel>& sum, const std::vector<TileLevel>& rows) {
     sum[level].most = std::max(sum[level].most, rows[level].most);
     sum[level].axis += rows[level].axis;
   }
+}
+
+/// What the library says of levels, for those who ask for tiles.
+std::string in_words_of_the_command(std::string text) {
+  constexpr std::string_view levels = "take fewer levels";
+  if (const std::size_t at = text.find(levels); at != std::string::npos)
+    text.replace(at, levels.size(), "take fewer tiles");
+  return text;
 }
 
 /// From the leaves to the root, for --json and as a table.
@@ -73,6 +83,7 @@ Result<int> run_tiles(const TilesArguments& arguments) {
     auto axis = compute_in_tiles(item.shape, levels_for(arguments.tiles, item.shape.points.size()),
                                  options, &rows);
     if (!axis) {
+      axis.error().text = in_words_of_the_command(std::move(axis.error().text));
       axis.error().place.file = arguments.input.path;
       axis.error().place.feature = i;
       return in_feature_of(shapes->file, std::move(axis).error());

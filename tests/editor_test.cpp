@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -184,6 +185,33 @@ TEST(Editor, RefusesWhatIsNoEdit) {
   EXPECT_EQ(Editor::make(shape_of(l_shape(1)), options).error().code, ErrorCode::unsupported);
   const Ring circle{{{0, 0}, {1, 0}}, RingRole::any, {1, 1}};
   EXPECT_EQ(Editor::make(shape_of({circle})).error().code, ErrorCode::unsupported);
+}
+
+TEST(Editor, StaysAsItWasWhereComputingAllAgainFails) {
+  Editor editor = editor_of(triangle({0, 0}, {4, 0}, {1, 3}));
+  ASSERT_TRUE(editor.move(2, {1, 2.5}).ok());
+  EXPECT_FALSE(editor.move(2, {2, 0}).ok());  // no area
+  EXPECT_EQ(editor.vertex(2), (Vec2{1, 2.5}));
+  EXPECT_EQ(fault_of(editor), "");
+  ASSERT_TRUE(editor.undo().ok());
+  EXPECT_EQ(editor.vertex(2), (Vec2{1, 3}));
+  EXPECT_EQ(fault_of(editor), "");
+}
+
+TEST(Editor, HasDoneWithProgressAndCancelOnceMade) {
+  std::atomic<bool> cancel = false;
+  std::atomic<int> calls = 0;
+  Options options;
+  options.cancel = &cancel;
+  options.progress = [&](double) { ++calls; };
+  auto editor = Editor::make(shape_of(triangle({0, 0}, {4, 0}, {1, 3})), options);
+  ASSERT_TRUE(editor.ok()) << to_string(editor.error());
+  const int before = calls;
+  cancel = true;
+  const auto change = editor->move(2, {1, -3});
+  ASSERT_TRUE(change.ok()) << to_string(change.error());
+  EXPECT_TRUE(change->everything);
+  EXPECT_EQ(calls, before);
 }
 
 TEST(Editor, TakesEditsBack) {

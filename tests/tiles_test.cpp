@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -136,8 +137,34 @@ TEST(Tiles, RefuseWhatTheyDoNotTake) {
   Ring lens = test::ring_of({{0, 0}, {1, 0}});
   lens.bulges = {0.5, 0.5};
   EXPECT_EQ(code(compute_in_tiles(shape_of({lens}), 1)), "unsupported");
+  const Shape wide = shape_of(test::comb(2000, 1, 4000));  // 4000 edges through 1024 rows
+  const auto too_many = compute_in_tiles(wide, TileGrid::most_levels);
+  EXPECT_EQ(code(too_many), "invalid_option");
+  EXPECT_EQ(too_many.error().text, "edges meet too many tiles: take fewer levels");
   std::atomic<bool> stop = true;
   EXPECT_EQ(code(compute_in_tiles(square, 1, {.cancel = &stop})), "cancelled");
+}
+
+TEST(Tiles, RefuseWhatOneTileDoesNotTake) {
+  const std::vector<TileEdge> edges = {
+      {{0, 0}, {1, 0}, 0}, {{1, 0}, {1, 1}, 1}, {{1, 1}, {0, 1}, 2}, {{0, 1}, {0, 0}, 3}};
+  const auto code = [&](int levels, double tolerance) {
+    const auto part =
+        axis_of_tile(edges, {{{0, 0}, {1, 1}}, levels}, 0, 0, 0, {.tolerance = tolerance});
+    return part ? std::string("none") : name_of(part.error().code);
+  };
+  EXPECT_EQ(code(0, 0), "none");
+  for (const int levels : {-1, 11}) EXPECT_EQ(code(levels, 0), "invalid_option") << levels;
+  for (const double tolerance : {-1.0, 5.0, 1e-4, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_EQ(code(1, tolerance), "invalid_option") << tolerance;
+}
+
+// The rings and vertices that a planar graph names would be a tile's own.
+TEST(Tiles, NameNoRingOfTheirOwn) {
+  const std::vector<TileEdge> crossing = {{{0, 0}, {1, 1}, 4}, {{1, 0}, {0, 1}, 7}};
+  const auto part = axis_of_tile(crossing, {{{0, 0}, {1, 1}}, 0}, 0, 0, 0);
+  ASSERT_FALSE(part.ok());
+  EXPECT_FALSE(part.error().place.ring || part.error().place.vertex);
 }
 
 // A task that is repeated, or whose result comes twice and in another order, changes nothing.
@@ -149,6 +176,7 @@ TEST(Tiles, AreJoinedInAnyOrder) {
     edges.push_back({shape.points[k], shape.points[(k + 1) % shape.points.size()], k});
   const auto part = axis_of_tile(edges, grid, 0, 0, 0);
   ASSERT_TRUE(part.ok());
+  for (const TileAxisEdge& edge : part->axis) EXPECT_LT(edge.site[0], edge.site[1]);
   const auto once = join_tiles(shape, part->axis);
   std::vector<TileAxisEdge> twice(part->axis.rbegin(), part->axis.rend());
   twice.insert(twice.end(), part->axis.begin(), part->axis.end());

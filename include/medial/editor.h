@@ -14,8 +14,8 @@ struct AxisChange {
 
 /// A shape of straight edges with its medial axis, which follows when vertices are moved, inserted
 /// or removed: the graph of compute(), repaired where an edit changes it, in O(k log n) for k
-/// changed edges. Vertices, sites, nodes and edges keep their numbers; a new editor counts vertices
-/// as the shape does.
+/// changed edges. Vertices keep their numbers; so do sites, nodes and edges, except where
+/// AxisChange::everything is set. A new editor counts vertices as the shape does.
 ///
 /// An edit that is an error changes nothing. Errors: crossing (with the place, and an edge's first
 /// vertex), not_finite, too_few_points (a loop of three vertices), invalid_option (no such vertex),
@@ -24,7 +24,7 @@ struct AxisChange {
 class Editor {
  public:
   /// Errors: unsupported (arcs, other methods, Options::exact and Options::exterior), and those of
-  /// compute().
+  /// compute(). `progress` and `cancel` are for make() alone.
   static Result<Editor> make(const Shape& shape, const Options& options = {});
   Editor(const Editor& other);
   Editor(Editor&&) noexcept;

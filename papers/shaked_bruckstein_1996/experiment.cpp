@@ -8,10 +8,10 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <random>
 #include <string>
 #include <vector>
 
+#include "base/random.h"
 #include "medial/medial.h"
 #include "methods/curve_axis/curve_axis.h"
 #include "papers/shaked_bruckstein_1996/spline.h"
@@ -21,24 +21,17 @@ namespace medial::papers {
 
 namespace {
 
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double between(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11U) * 0x1p-53;
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
+double between(Random& random, double low, double high) {
+  return low + (high - low) * random.share();
+}
 
 /// A spline through points around the origin, at random distances.
 Contour star(std::uint64_t seed) {
   Random random(seed);
   std::vector<Vec2> corners;
-  const int count = static_cast<int>(random.between(8, 25));
+  const int count = static_cast<int>(between(random, 8, 25));
   for (int i = 0; i < count; ++i) {
-    const double angle = 2 * std::numbers::pi * i / count, radius = random.between(1, 3);
+    const double angle = 2 * std::numbers::pi * i / count, radius = between(random, 1, 3);
     corners.push_back({radius * std::cos(angle), radius * std::sin(angle)});
   }
   return spline_through(corners, 1e3);
@@ -48,7 +41,7 @@ Contour star(std::uint64_t seed) {
 Contour waves(std::uint64_t seed) {
   Random random(seed);
   std::vector<double> phases;
-  for (int k = 0; k < 6; ++k) phases.push_back(random.between(0, 2 * std::numbers::pi));
+  for (int k = 0; k < 6; ++k) phases.push_back(between(random, 0, 2 * std::numbers::pi));
   std::vector<Vec2> corners;
   constexpr int count = 26;
   for (int i = 0; i < count; ++i) {
@@ -64,15 +57,15 @@ Contour waves(std::uint64_t seed) {
 /// A spline through a few points anywhere in a square; many cross themselves.
 Contour scribble(std::uint64_t seed) {
   Random random(seed);
-  std::vector<Vec2> corners(static_cast<std::size_t>(random.between(4, 9)));
-  for (Vec2& corner : corners) corner = {random.between(0, 10), random.between(0, 10)};
+  std::vector<Vec2> corners(static_cast<std::size_t>(between(random, 4, 9)));
+  for (Vec2& corner : corners) corner = {between(random, 0, 10), between(random, 0, 10)};
   return spline_through(corners, 1e3);
 }
 
 struct Tally {
   std::uint64_t curves = 0, first = 0, later = 0, refused = 0, wrong = 0;
   std::uint64_t missing = 0;  ///< leaves and junctions of the exact axis without one here
-  double distance = 0;        ///< of a point from the exact axis, a share of the size
+  double distance = 0;        ///< of a node from the exact axis, a share of the size
 };
 
 /// The leaves and junctions of an axis that another one does not have within a distance.

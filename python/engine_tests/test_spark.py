@@ -216,6 +216,11 @@ def test_tiles_that_fail_are_repeated(session, tmp_path, monkeypatch, how):
 
         return _core.tile_leaves(*given)
 
+    def check(*given):
+        from medial import _core
+
+        return _core.check_tiles(*given)
+
     def fail_once(ends, numbers, box, levels, level, column, row, tolerance):
         from medial import _core
         from pyspark import TaskContext
@@ -228,7 +233,7 @@ def test_tiles_that_fail_are_repeated(session, tmp_path, monkeypatch, how):
             raise RuntimeError("lost")
         return _core.tile(ends, numbers, box, levels, level, column, row, tolerance)
 
-    monkeypatch.setattr(medial.spark, "_core", SimpleNamespace(tile=fail_once, tile_leaves=leaves))
+    monkeypatch.setattr(medial.spark, "_core", SimpleNamespace(tile=fail_once, tile_leaves=leaves, check_tiles=check))
     found = tiled(session, shape, 2)
     assert found[0] == expected[0] and (found[1] == expected[1]).all()
     assert len(os.listdir(marks)) >= 3  # a task of each level has failed
@@ -239,3 +244,30 @@ def test_tiles_refuse_what_is_empty(session):
     with pytest.raises(medial.MedialError) as raised:
         medial.spark.axis_of_tiles(nothing, 1)
     assert raised.value.code == "empty"
+
+
+def test_tiles_refuse_options_at_once(session):
+    square = medial.Shape(shapely.box(0, 0, 1, 1))
+    edges = session.createDataFrame(medial.spark.boundary(square).to_pandas())
+    for levels, tolerance in ((-1, 0), (11, 0), (1, -1), (1, float("nan")), (1, 5)):
+        with pytest.raises(medial.MedialError) as raised:
+            medial.spark.axis_of_tiles(edges, levels, tolerance=tolerance)
+        assert raised.value.code == "invalid_option"
+
+
+def test_tiles_refuse_what_is_no_tile():
+    from medial import _core
+
+    ends = np.array([(0, 0, 1, 0), (1, 0, 1, 1), (1, 1, 0, 1), (0, 1, 0, 0)], float)
+    numbers = np.arange(4)
+    for box in ([0, 0, 0, 0], [1, 1, 0, 0], [0, 2, 1, 1], [0, 0, np.inf, 1], [np.nan, 0, 1, 1], [-1e308, 0, 1e308, 1]):
+        with pytest.raises(medial.MedialError) as raised:
+            _core.tile_leaves(ends, box, 1)
+        assert raised.value.code == "malformed"
+    for level in (-1, 2):
+        with pytest.raises(medial.MedialError) as raised:
+            _core.tile(ends, numbers, [0, 0, 1, 1], 1, level, 0, 0, 0)
+        assert raised.value.code == "invalid_option"
+    with pytest.raises(medial.MedialError) as raised:
+        _core.tile(ends, numbers - 1, [0, 0, 1, 1], 1, 0, 0, 0, 0)
+    assert raised.value.code == "malformed"

@@ -33,9 +33,10 @@ class Change(NamedTuple):
 class Editor:
     """A shape of straight edges with its axis, which follows when vertices move, come and go.
 
-    The axis is that of `axis`, repaired where an edit changes it. Vertices, sites, nodes and edges
-    keep their numbers; a new editor counts vertices as ``Shape.points`` does. An edit that makes
-    edges cross raises `MedialError` with the place, and changes nothing.
+    The axis is that of `axis`, repaired where an edit changes it. Vertices keep their numbers;
+    so do sites, nodes and edges, except where ``Change.everything`` is set. A new editor counts
+    vertices as ``Shape.points`` does. An edit that makes edges cross raises `MedialError` with the
+    place, and changes nothing.
 
     Parameters
     ----------
@@ -231,4 +232,7 @@ def _place(point: Sequence[float]) -> tuple[float, float]:
 
 
 def _numbers(numbers: npt.ArrayLike) -> npt.NDArray[np.int64]:
-    return np.ascontiguousarray(np.asarray(numbers).reshape(-1), np.int64)
+    values = np.asarray(numbers).reshape(-1)
+    if len(values) and not np.issubdtype(values.dtype, np.integer):
+        raise MedialError("numbers must be integers", "malformed")
+    return np.ascontiguousarray(values, np.int64)

@@ -297,7 +297,8 @@ def axis_of_tiles(edges: DataFrame, levels: int, *, tolerance: float = 0) -> Dat
     """The axis of one shape that no machine holds.
 
     Each tile of a quadtree is a group of rows, computed by itself; what it cannot finish is a row of
-    the tile around it (docs/tiles.md). Of straight edges only.
+    the tile around it (docs/tiles.md). Of straight edges only. Keeps what each level found in
+    the cluster's memory or on disk until the session ends, or ``spark.catalog.clearCache()``.
 
     Parameters
     ----------
@@ -312,14 +313,16 @@ def axis_of_tiles(edges: DataFrame, levels: int, *, tolerance: float = 0) -> Dat
     Returns
     -------
     DataFrame
-        An edge a row: `node0` and `node1`, the same numbers in all rows of a node; `site0` and `site1`,
-        twice the number of an edge, and one more for the vertex where it begins; the number of edges of
-        each node; both disks, control point and weight of the curve.
+        An edge a row: `node0` and `node1`, the same numbers in all rows of a node but in ties within the
+        tolerance; `site0` and `site1`, twice the number of an edge, and one more for the vertex where it
+        begins, the lower one first; the number of edges of each node; both disks, control point and
+        weight of the curve.
     """
     extremes = edges.selectExpr("min(least(x0, x1))", "min(least(y0, y1))", "max(greatest(x0, x1))", "max(greatest(y0, y1))")
     box = list(extremes.first() or [])
     if None in box:
         raise MedialError("there is no edge", "empty")
+    _core.check_tiles(box, levels, tolerance)
     edges = edges.select("number", "x0", "y0", "x1", "y1")
 
     def to_leaves(batches: Iterator[Any]) -> Iterator[Any]:

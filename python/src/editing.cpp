@@ -45,31 +45,27 @@ std::unique_ptr<AxisOf> axis_of(const Editor& self) {
 }  // namespace
 
 void bind_editing(nb::module_& module) {
-  const nb::lock_self lock;  // without the interpreter's lock two threads may edit
+  // One thread at a time: edits keep the interpreter's lock, since to let it go would let another
+  // thread in; in builds that have none, this one takes its place.
+  const nb::lock_self lock;
   nb::class_<Editor>(module, "Editor")
       .def(
           "move",
           [](Editor& self, std::uint32_t vertex, std::array<double, 2> to) {
-            return change_of(without_lock([&] { return self.move(vertex, {to[0], to[1]}); }));
+            return change_of(self.move(vertex, {to[0], to[1]}));
           },
           lock)
       .def(
           "insert",
           [](Editor& self, std::uint32_t before, std::array<double, 2> point) {
-            return change_of(without_lock([&] {
-              return self.insert(before, {point[0], point[1]});
-            }));
+            return change_of(self.insert(before, {point[0], point[1]}));
           },
           lock)
       .def(
           "remove",
-          [](Editor& self, std::uint32_t vertex) {
-            return change_of(without_lock([&] { return self.remove(vertex); }));
-          },
-          lock)
+          [](Editor& self, std::uint32_t vertex) { return change_of(self.remove(vertex)); }, lock)
       .def(
-          "undo", [](Editor& self) { return change_of(without_lock([&] { return self.undo(); })); },
-          lock)
+          "undo", [](Editor& self) { return change_of(self.undo()); }, lock)
       .def(
           "copy", [](const Editor& self) { return Editor(self); }, lock)
       .def(

@@ -2,6 +2,9 @@
 
 #include "ops/tiles.h"
 
+#include <cmath>
+#include <utility>
+
 #include "binding.h"
 
 namespace medial::python {
@@ -12,7 +15,19 @@ using EdgeRows = nb::ndarray<const double, nb::shape<-1, 4>, nb::c_contig, nb::d
 TileGrid grid_of(const std::array<double, 4>& box, int levels) {
   if (levels < 0 || levels > TileGrid::most_levels)
     refuse(ErrorCode::invalid_option, "levels are from 0 to 10");
-  return {{{box[0], box[1]}, {box[2], box[3]}}, levels};
+  const TileGrid grid{{{box[0], box[1]}, {box[2], box[3]}}, levels};
+  for (const double value : box)
+    if (!std::isfinite(value)) refuse(ErrorCode::malformed, "the box is empty");
+  if (!(box[0] <= box[2] && box[1] <= box[3] && grid.side() > 0 && std::isfinite(grid.side())))
+    refuse(ErrorCode::malformed, "the box is empty");
+  return grid;
+}
+
+/// Errors: what no tile of the grid would take.
+void check(const std::array<double, 4>& box, int levels, double tolerance) {
+  Options options;
+  options.tolerance = tolerance;
+  if (auto error = refuse_grid(grid_of(box, levels), options)) throw Failure(std::move(*error));
 }
 
 /// Rows of an edge's index, and the column and row of a leaf that it meets.
@@ -34,12 +49,15 @@ nb::tuple tile(const EdgeRows& edges, const Values<std::int64_t>& numbers,
                const std::array<double, 4>& box, int levels, int level, std::uint32_t column,
                std::uint32_t row, double tolerance) {
   if (numbers.shape(0) != edges.shape(0)) refuse(ErrorCode::malformed, "each edge has one number");
+  const TileGrid grid = grid_of(box, levels);
+  if (level < 0 || level > levels)
+    refuse(ErrorCode::invalid_option, "the level of a tile is from 0 to levels");
   std::vector<TileEdge> given(edges.shape(0));
   for (std::size_t i = 0; i < given.size(); ++i) {
+    if (numbers.data()[i] < 0) refuse(ErrorCode::malformed, "numbers of edges are at least 0");
     const double* const at = edges.data() + 4 * i;
     given[i] = {{at[0], at[1]}, {at[2], at[3]}, static_cast<std::uint64_t>(numbers.data()[i])};
   }
-  const TileGrid grid = grid_of(box, levels);
   const TilePart part = value_of(run(given.size(), [&](const std::atomic<bool>* cancel) {
     Options options;
     options.tolerance = tolerance;
@@ -67,6 +85,7 @@ nb::tuple tile(const EdgeRows& edges, const Values<std::int64_t>& numbers,
 }  // namespace
 
 void bind_tiles(nb::module_& module) {
+  module.def("check_tiles", &check, nb::arg("box"), nb::arg("levels"), nb::arg("tolerance"));
   module.def("tile_leaves", &leaves, nb::arg("edges"), nb::arg("box"), nb::arg("levels"));
   module.def("tile", &tile, nb::arg("edges"), nb::arg("numbers"), nb::arg("box"), nb::arg("levels"),
              nb::arg("level"), nb::arg("column"), nb::arg("row"), nb::arg("tolerance"));

@@ -44,6 +44,9 @@ def test_edits_that_are_refused_change_nothing():
         editor.remove(77)
     with pytest.raises(IndexError):
         editor.nodes([999])
+    with pytest.raises(medial.MedialError, match="integers"):
+        editor.nodes([0.5])
+    assert len(editor.nodes([])) == 0
     with pytest.raises(medial.MedialError):
         editor.move(1, "no")
     other = editor.copy()

@@ -111,7 +111,7 @@ def test_verify_and_compare(plan):
     assert rows[0]["length"] == pytest.approx(rows[1]["length"], rel=1e-12)
     assert rows[0]["length"] == pytest.approx(rows[2]["length"], rel=0.02)
     assert rows[3]["length"] == pytest.approx(rows[0]["length"], rel=1e-4)
-    assert medial.compare("M0 0A2 2 0 0 1 4 0Z", ("disks", "lee"))[1]["error"].code == "unsupported"
+    assert medial.compare("M0 0C4 0 4 3 2 3C0 3 2 0 0 0Z", ("disks", "curve-axis"))[1]["error"].code == "unsupported"
     assert (medial.legality(a) <= 1e-9).all()
 
 

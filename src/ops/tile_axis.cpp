@@ -7,6 +7,7 @@
 #include "base/compat.h"
 #include "base/in_flight.h"
 #include "base/random.h"
+#include "base/tolerance.h"
 #include "medial/planar_graph.h"
 #include "ops/tiles.h"
 #include "shape/around.h"
@@ -68,7 +69,10 @@ Result<TileGraph> graph_of(std::span<const TileEdge> edges) {
     chains.back().points.push_back(edges[i].to);
   }
   auto graph = build_planar_graph(chains);
-  if (!graph) return std::move(graph).error();
+  if (!graph) {
+    graph.error().place.ring = graph.error().place.vertex = std::nullopt;  // of the tile's chains
+    return std::move(graph).error();
+  }
   if (graph->edges.size() != edges.size())
     return Error{ErrorCode::malformed, "the edges of a tile repeat or touch each other", {}};
   tile.graph = std::move(graph).value();
@@ -128,9 +132,10 @@ class TileAxis {
     for (std::size_t i = 0; i < axis_.edges.size(); ++i) {
       const Edge& edge = axis_.edges[i];
       if (!is_interior(edge.site[0]) || !is_interior(edge.site[1]) || !is_new(boxes_[i])) continue;
-      const auto [from, to] = edge.node;
+      const std::size_t low = numbers_[edge.site[0]] <= numbers_[edge.site[1]] ? 0 : 1;
+      const std::uint32_t from = edge.node[low], to = edge.node[1 - low];
       result.push_back({{names_[from], names_[to]},
-                        {numbers_[edge.site[0]], numbers_[edge.site[1]]},
+                        {numbers_[edge.site[low]], numbers_[edge.site[1 - low]]},
                         {disk(from), disk(to)},
                         {degrees_[from], degrees_[to]},
                         edge.control,
@@ -186,16 +191,17 @@ class TileAxis {
 /// window comes near to.
 Result<MedialAxis> axis_of(const TileGraph& tile, const TileGrid& grid, const Box& window,
                            const Options& options) {
-  constexpr double default_relative = 4e-15, most_relative = 1e-3;
+  constexpr double most_relative = 1e-3;
   const auto& [low, high] = grid.box;
   Box box = bounding_box(tile.graph);
   box.add(Box{{std::max(low.x, window.low.x), std::max(low.y, window.low.y)},
               {std::min(high.x, window.high.x), std::min(high.y, window.high.y)}});
   const double away = 0.5 * diagonal(box);
   box = {box.low - Vec2{away, away}, box.high + Vec2{away, away}};
-  const double relative = options.tolerance > 0 ? options.tolerance : default_relative;
+  // Of the grid's size alone: axis_around() adds what coordinates far from the origin ask for.
+  const double tolerance = tolerance_for({{0, 0}, high - low}, options.tolerance);
   Options own;
-  own.tolerance = std::min(most_relative, relative * diagonal(grid.box) / diagonal(box));
+  own.tolerance = std::min(most_relative, tolerance / diagonal(box));
   own.threads = options.threads;
   own.cancel = options.cancel;
   auto axis = axis_around(tile.graph, around(tile.graph, box), own, false);
@@ -208,6 +214,7 @@ Result<MedialAxis> axis_of(const TileGraph& tile, const TileGrid& grid, const Bo
 Result<TilePart> axis_of_tile(std::span<const TileEdge> edges, const TileGrid& grid, int level,
                               std::uint32_t column, std::uint32_t row, const Options& options) {
   try {
+    if (auto error = refuse_grid(grid, options)) return std::move(*error);
     if (edges.empty()) return TilePart{};
     auto tile = graph_of(edges);
     if (!tile) return std::move(tile).error();

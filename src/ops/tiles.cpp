@@ -1,6 +1,7 @@
 #include "ops/tiles.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -50,16 +51,39 @@ struct Tiles {
   }
 };
 
-Tiles leaves_with_edges(const Shape& shape, const TileGrid& grid) {
-  Tiles leaves(grid.levels);
+/// Calls take(edge, edges of the leaf) for each edge and each leaf that it meets, until one returns
+/// false. Whether none did.
+template <class Take>
+bool for_leaves(const Shape& shape, const TileGrid& grid, Tiles& leaves, const Take& take) {
   for (std::size_t loop = 0; loop < shape.loop_count(); ++loop) {
     const std::uint32_t begin = shape.loop_begin[loop], end = shape.loop_begin[loop + 1];
     for (std::uint32_t k = begin; k < end; ++k) {
       const TileEdge edge{shape.points[k], shape.points[k + 1 == end ? begin : k + 1], k};
       for (const auto& [column, row] : leaves_of(grid, edge))
-        leaves.at(column, row).push_back(edge);
+        if (!take(edge, leaves.at(column, row))) return false;
     }
   }
+  return true;
+}
+
+/// The leaves with their edges. Errors: invalid_option, where they would take far more memory than
+/// the edges alone.
+Result<Tiles> leaves_with_edges(const Shape& shape, const TileGrid& grid) {
+  const std::uint64_t most = 64 * std::uint64_t{shape.points.size()} + (1 << 20);
+  Tiles leaves(grid.levels);
+  std::vector<std::uint32_t> counts(leaves.edges.size());
+  std::uint64_t sum = 0;
+  const auto count = [&](const TileEdge&, const std::vector<TileEdge>& leaf) {
+    ++counts[static_cast<std::size_t>(&leaf - leaves.edges.data())];
+    return ++sum <= most;
+  };
+  if (!for_leaves(shape, grid, leaves, count))
+    return Error{ErrorCode::invalid_option, "edges meet too many tiles: take fewer levels", {}};
+  for (std::size_t i = 0; i < counts.size(); ++i) leaves.edges[i].reserve(counts[i]);
+  for_leaves(shape, grid, leaves, [](const TileEdge& edge, std::vector<TileEdge>& leaf) {
+    leaf.push_back(edge);
+    return true;
+  });
   return leaves;
 }
 
@@ -123,31 +147,15 @@ TileLevel row_of(const Tiles& tiles, const std::vector<TilePart>& parts) {
 std::optional<Error> refuse_tiles(const Shape& shape, const TileGrid& grid,
                                   const Options& options) {
   if (auto error = refuse(shape, options)) return error;
-  const auto refused = [](ErrorCode code, const char* text) { return Error{code, text, {}}; };
   if (has_arcs(shape))
-    return refused(ErrorCode::unsupported, "tiles take straight edges only: sample the arcs first");
-  if (options.exterior || options.exact || !std::holds_alternative<method::Disks>(options.method))
-    return refused(ErrorCode::invalid_option,
-                   "tiles take the method disks, of the interior, without --exact");
-  if (grid.levels < 0 || grid.levels > TileGrid::most_levels)
-    return refused(ErrorCode::invalid_option, "the number of levels must be in [0, 10]");
-  constexpr double far_above = 16;  // a disk may be off by some tolerances
-  if (!(grid.slack() > far_above * tolerance_for(grid.box, options.tolerance)))
-    return refused(ErrorCode::invalid_option,
-                   "the tiles are too small for the tolerance: take fewer levels");
-  return std::nullopt;
+    return Error{
+        ErrorCode::unsupported, "tiles take straight edges only: sample the arcs first", {}};
+  return refuse_grid(grid, options);
 }
 
-/// Sorts edges by their sites and nodes, each from its lower site to its higher one, and drops
-/// those that are there twice: what follows does not depend on how the shape was divided.
+/// Sorts edges by their sites and nodes, and drops those that are there twice: what follows does
+/// not depend on how the shape was divided.
 void put_in_order(std::vector<TileAxisEdge>& edges) {
-  for (TileAxisEdge& edge : edges) {
-    if (edge.site[0] <= edge.site[1]) continue;
-    std::swap(edge.site[0], edge.site[1]);
-    std::swap(edge.node[0], edge.node[1]);
-    std::swap(edge.disk[0], edge.disk[1]);
-    std::swap(edge.degree[0], edge.degree[1]);
-  }
   const auto key = [](const TileAxisEdge& edge) { return std::tie(edge.site, edge.node); };
   std::stable_sort(edges.begin(), edges.end(),
                    [&](const TileAxisEdge& a, const TileAxisEdge& b) { return key(a) < key(b); });
@@ -198,25 +206,31 @@ std::vector<std::uint32_t> add_edges(const Shape& shape, const site::SiteNumbers
 /// Joins what lies together of the nodes that lack edges. Whether one lies alone.
 bool join_close(const std::vector<std::uint32_t>& lacking, const MedialAxis& axis,
                 DisjointSets& sets) {
-  std::vector<std::uint32_t> open;
-  for (std::uint32_t node = 0; node < axis.nodes.size(); ++node)
-    if (lacking[node] != 0) open.push_back(node);
-  const auto place = [&](std::uint32_t node) { return axis.nodes[node].disk.center; };
-  ranges::sort(open, {}, [&](std::uint32_t node) { return place(node).x; });
   const double close = 0x1p10 * axis.tolerance;  // where sites hardly differ, a tie is long
+  using Cell = std::array<double, 2>;            // column and row of a square of that side
+  const auto place = [&](std::uint32_t node) { return axis.nodes[node].disk.center; };
+  std::vector<std::pair<Cell, std::uint32_t>> open;
+  for (std::uint32_t node = 0; node < axis.nodes.size(); ++node)
+    if (lacking[node] != 0)
+      open.push_back(
+          {{std::floor(place(node).x / close), std::floor(place(node).y / close)}, node});
+  std::sort(open.begin(), open.end());
   std::vector<bool> alone(axis.nodes.size(), true);
-  for (std::size_t i = 0; i < open.size(); ++i) {
-    const std::uint32_t a = open[i];
-    for (std::size_t j = i + 1; j < open.size() && place(open[j]).x <= place(a).x + close; ++j) {
-      const std::uint32_t b = open[j];
-      if (axis.nodes[a].component != axis.nodes[b].component ||
-          distance(place(a), place(b)) > close)
-        continue;
-      sets.join(a, b);
-      alone[a] = alone[b] = false;
+  for (const auto& [cell, a] : open)
+    for (const double column : {cell[0] - 1, cell[0], cell[0] + 1}) {
+      const std::pair<Cell, std::uint32_t> below{{column, cell[1] - 1}, 0};
+      const Cell above{column, cell[1] + 1};
+      for (auto other = std::lower_bound(open.begin(), open.end(), below);
+           other != open.end() && other->first <= above; ++other) {
+        const std::uint32_t b = other->second;
+        if (b <= a || axis.nodes[a].component != axis.nodes[b].component ||
+            distance(place(a), place(b)) > close)
+          continue;
+        sets.join(a, b);
+        alone[a] = alone[b] = false;
+      }
     }
-  }
-  return ranges::any_of(open, [&](std::uint32_t node) { return alone[node]; });
+  return ranges::any_of(open, [&](const auto& one) { return alone[one.second]; });
 }
 
 /// Sites that touch a disk to within the tolerance only may be one node in one tile and several in
@@ -251,6 +265,19 @@ Box TileGrid::window(int level, std::uint32_t column, std::uint32_t row) const {
   const double x = box.low.x, y = box.low.y;
   return {{line_of(x, side(), level, column), line_of(y, side(), level, row)},
           {line_of(x, side(), level, column + 1), line_of(y, side(), level, row + 1)}};
+}
+
+std::optional<Error> refuse_grid(const TileGrid& grid, const Options& options) {
+  if (auto error = refuse(options)) return error;
+  const auto refused = [](const char* text) { return Error{ErrorCode::invalid_option, text, {}}; };
+  if (options.exterior || options.exact || !std::holds_alternative<method::Disks>(options.method))
+    return refused("tiles take the method disks, of the interior, without --exact");
+  if (grid.levels < 0 || grid.levels > TileGrid::most_levels)
+    return refused("the number of levels must be in [0, 10]");
+  constexpr double far_above = 16;  // a disk may be off by some tolerances
+  if (!(grid.slack() > far_above * tolerance_for(grid.box, options.tolerance)))
+    return refused("the tiles are too small for the tolerance: take fewer levels");
+  return std::nullopt;
 }
 
 std::vector<std::array<std::uint32_t, 2>> leaves_of(const TileGrid& grid, const TileEdge& edge) {
@@ -312,7 +339,9 @@ Result<MedialAxis> compute_in_tiles(const Shape& shape, int levels, const Option
       if (options.progress)
         options.progress(std::min(1.0, static_cast<double>(++finished) / count));
     };
-    Tiles tiles = leaves_with_edges(shape, grid);
+    auto leaves = leaves_with_edges(shape, grid);
+    if (!leaves) return std::move(leaves).error();
+    Tiles tiles = std::move(leaves).value();
     for (;;) {
       std::optional<Error> error;
       std::vector<TilePart> parts = parts_of(tiles, grid, options, done, error);

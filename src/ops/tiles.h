@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,8 +32,8 @@ struct TileEdge {
   std::uint64_t number = 0;
 };
 
-/// An edge of the axis. Tiles have the same numbers for the same node, and for the same site: 2 k
-/// for edge k, 2 k + 1 for the vertex where it begins.
+/// An edge of the axis, from its lower site to its higher one. Tiles have the same numbers for the
+/// same node, and for the same site: 2 k for edge k, 2 k + 1 for the vertex where it begins.
 struct TileAxisEdge {
   std::array<std::uint64_t, 2> node, site;  ///< see Edge
   std::array<Disk, 2> disk;                 ///< of the nodes
@@ -40,6 +41,9 @@ struct TileAxisEdge {
   Disk control;
   double weight = 1;
 };
+
+/// What tiles cannot take, if anything: options out of their range, and too many levels for them.
+std::optional<Error> refuse_grid(const TileGrid& grid, const Options& options);
 
 /// The leaves that an edge meets, or comes near to: column and row of each.
 std::vector<std::array<std::uint32_t, 2>> leaves_of(const TileGrid& grid, const TileEdge& edge);
@@ -51,7 +55,8 @@ struct TilePart {
 
 /// One tile: a leaf has all edges that its window meets, other tiles the open ones of their four
 /// children, by number and each once. Uses of the options the tolerance, relative to the grid's
-/// box, threads and cancel. O(n log n) expected. Errors: those of voronoi_diagram().
+/// box, threads and cancel. O(n log n) expected. Errors: those of refuse_grid() and of
+/// voronoi_diagram().
 Result<TilePart> axis_of_tile(std::span<const TileEdge> edges, const TileGrid& grid, int level,
                               std::uint32_t column, std::uint32_t row, const Options& options = {});
 

@@ -90,7 +90,12 @@ class Papers(CommandLine):
         self.assertEqual(self.quick("shaked_bruckstein_1996"), 0)
         names = [f"fig{i}" for i in "1 2 3 4 5a 5b 6 7a 7b 8 9a 9b".split()]
         self.assertEqual(set(os.listdir(self.path("out/shaked_bruckstein_1996"))),
-                         {f"{name}.svg" for name in names})
+                         {f"{name}.svg" for name in names} | {"tables.md", "curves.csv"})
+        for row in self.rows_of("out/shaked_bruckstein_1996/curves.csv"):
+            self.assertEqual(int(row["first attempt"]) + int(row["with smaller steps"]) + int(row["refused"]),
+                             int(row["simple"]), row)
+            self.assertEqual(int(row["not verified"]), 0, row)
+            self.assertLess(float(row["largest distance"]), 1e-6)
         self.check_figures("shaked_bruckstein_1996", names)
 
     def test_ahuja_chuang(self):

@@ -534,6 +534,7 @@ std::string fit_that_does(std::span<const std::vector<Vec2>> polygons,
   for (const double share : is_next ? std::span<const double>(factors) : shares) {
     std::array<char, 16> text{};
     std::snprintf(text.data(), text.size(), "%.2g", share * unit);
+    if (cancel != nullptr && *cancel) return {};
     const auto curves = fitted(polygons, std::strtod(text.data(), nullptr));
     const bool is_followed = curves && follow_all(*curves, options, cancel).ok();
     if (!is_followed && !found.empty()) break;
@@ -562,6 +563,7 @@ Result<CurveAxis> follow_fit(std::span<const Contour> contours, const method::Cu
   if (code != ErrorCode::unsupported && code != ErrorCode::too_large) return result;
   if (polygons.empty()) make_polygons();
   const std::string fit = fit_that_does(polygons, options, cancel);
+  if (cancel != nullptr && *cancel) return Error{ErrorCode::cancelled, "cancelled", {}};
   if (fit.empty()) return result;
   return Error{code,
                result.error().text + "; it follows a spline within " + fit + " (--fit " + fit + ")",

@@ -87,12 +87,17 @@ class Exchange {
       measure(contacts);
       if (worst <= low) return Verdict::yes;
       if (count_ == 0) begin(contacts);
-      if (!improve()) return Verdict::open;
+      const DiskOf<Real> measured = disk;
+      if (!improve()) {
+        disk = measured;
+        return Verdict::open;
+      }
       const bool is_settled = level_ > high && size_of(Real(level_ - before)) <= level_ / 64;
       if (is_settled || has_strayed()) return Verdict::no;
       before = level_;
     }
-    return Verdict::open;
+    measure(contacts);
+    return worst <= low ? Verdict::yes : Verdict::open;
   }
 
  private:
@@ -106,7 +111,7 @@ class Exchange {
     furthest_ = contacts[0];
     for (const Touch& i : contacts) {
       const Real residual = residual_of(sites_, i, disk);
-      if (!(residual > worst)) continue;
+      if (residual <= worst) continue;  // one that is no number is the worst
       worst = residual;
       furthest_ = i;
     }

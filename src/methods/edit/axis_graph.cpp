@@ -53,6 +53,16 @@ std::size_t AxisGraph::degree(std::uint32_t node) const {
   return count;
 }
 
+void AxisGraph::make_room(std::size_t nodes, std::size_t edges, std::size_t sites) {
+  const std::size_t most_nodes = nodes_.size() + nodes, most_edges = edges_.size() + edges;
+  edit::make_room(nodes_, most_nodes);
+  edit::make_room(unused_nodes_, most_nodes);
+  edit::make_room(edges_, most_edges);
+  edit::make_room(unused_edges_, most_edges);
+  at_node_.make_room(most_nodes, 2 * most_edges);
+  at_site_.make_room(sites, 2 * most_edges);
+}
+
 std::uint32_t AxisGraph::add_node(const Disk& disk) {
   const std::uint32_t node = take(unused_nodes_, nodes_);
   nodes_[node] = {disk.center, std::max(0.0, disk.radius)};

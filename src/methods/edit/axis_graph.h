@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -13,6 +14,13 @@ namespace medial::edit {
 /// Lists have room for so much more, that seldom an edit has to move them: one in so many.
 constexpr std::size_t spare_share = 8;
 
+/// Makes room for so many in all; where there was too little, at least twice as much as before, so
+/// that growth costs O(1) for each.
+template <class T>
+void make_room(std::vector<T>& all, std::size_t count) {
+  if (count > all.capacity()) all.reserve(std::max(count, 2 * all.capacity()));
+}
+
 /// Lists of numbers, each number in one list, in which they can be added and removed in O(1).
 class NumberLists {
  public:
@@ -23,6 +31,10 @@ class NumberLists {
   void reserve(std::size_t lists, std::size_t numbers) {
     first_.reserve(lists + lists / spare_share);
     links_.reserve(numbers + numbers / spare_share);
+  }
+  void make_room(std::size_t lists, std::size_t numbers) {
+    edit::make_room(first_, lists);
+    edit::make_room(links_, numbers);
   }
   void add(std::uint32_t list, std::uint32_t number);
   void remove(std::uint32_t list, std::uint32_t number);
@@ -68,6 +80,9 @@ class AxisGraph {
       visit(end / 2, end % 2);
   }
 
+  /// Makes room, so that no change throws before so many nodes and edges are added; `sites`: so
+  /// many numbers of sites there are.
+  void make_room(std::size_t nodes, std::size_t edges, std::size_t sites);
   std::uint32_t add_node(const Disk& disk);
   std::uint32_t add_edge(const Edge& edge);
   void remove_node(std::uint32_t node);

@@ -48,7 +48,7 @@ class BoxLevels {
   static bool is_same(const Box& a, const Box& b) { return a.low == b.low && a.high == b.high; }
 
   void put(std::size_t level, std::size_t i, const Box& box) {
-    if (level == levels_.size()) levels_.emplace_back();
+    if (level == levels_.size()) levels_.emplace_back(1, box);
     if (i == levels_[level].size()) levels_[level].push_back(box);
     levels_[level][i] = box;
   }

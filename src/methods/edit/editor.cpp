@@ -78,6 +78,17 @@ std::vector<std::uint32_t> site_numbers(const MedialAxis& axis, const Shape& sha
   return sites;
 }
 
+/// An error of a shape's image in the local frame, as one of the shape.
+Error from_local(Error error, const Shape& shape, const LocalFrame& frame) {
+  if (error.place.point) error.place.point = frame.to_input(*error.place.point);
+  if (error.place.vertex && *error.place.vertex < shape.sources.size()) {
+    const VertexSource source = shape.sources[*error.place.vertex];
+    error.place.ring = source.ring;
+    error.place.vertex = source.vertex;
+  }
+  return error;
+}
+
 }  // namespace
 
 /// Computes the axis of a shape: the first one, or one built from the rings, whose sources name
@@ -93,7 +104,7 @@ Status Editor::Parts::start(const Shape& shape, bool is_first) {
   Options local_options = options;
   local_options.tolerance = relative_tolerance(box, local_box, frame.scale, options.tolerance);
   const auto axis = compute(local, local_options);
-  if (!axis) return axis.error();
+  if (!axis) return from_local(axis.error(), shape, frame);
   tolerance = tolerance_for(box, options.tolerance);
   measures = {frame.scale * tolerance, tolerance_for(local_box, options.tolerance),
               radius_limit(box, frame)};
@@ -166,10 +177,18 @@ Result<AxisChange> Editor::Parts::change(const edit::Edit& edit) {
   if (judgement.verdict == Rings::Verdict::unclear) return rebuild(edit);
   const std::vector<Rings::Extent> before = rings.sites_around(edit);
   const edit::Edit back = rings.inverse(edit);
+  edit::make_room(inverse, inverse.size() + 1);
   rings.apply(edit);
   if (edit.fresh != none) box.add(edit.place);
   measures.radius_limit = radius_limit(box, rings.frame());
-  if (repair(edit, before, change)) {
+  bool is_repaired = false;
+  try {
+    is_repaired = repair(edit, before, change);
+  } catch (...) {
+    rings.apply(back);
+    throw;
+  }
+  if (is_repaired) {
     inverse.push_back(back);
     return change;
   }
@@ -223,9 +242,15 @@ bool Editor::Parts::replace(const edit::Affected& affected, const edit::Repair& 
   const auto fresh =
       static_cast<std::size_t>(std::count(repair.old_nodes.begin(), repair.old_nodes.end(), none));
   if (fresh + affected.edges.size() != affected.nodes.size() + repair.links.size()) return false;
+  // Memory may run out here, and nowhere below.
+  std::vector<std::uint32_t> number = repair.old_nodes;
+  change.removed_nodes = affected.nodes;
+  change.removed_edges = affected.edges;
+  change.added_nodes.reserve(fresh);
+  change.added_edges.reserve(repair.links.size());
+  graph.make_room(fresh, repair.links.size(), 2 * rings.size());
   for (const std::uint32_t edge : affected.edges) graph.remove_edge(edge);
   for (const std::uint32_t node : affected.nodes) graph.remove_node(node);
-  std::vector<std::uint32_t> number = repair.old_nodes;
   for (std::size_t i = 0; i < number.size(); ++i)
     if (number[i] == none)
       change.added_nodes.push_back(number[i] = graph.add_node(repair.disks[i]));
@@ -238,39 +263,37 @@ bool Editor::Parts::replace(const edit::Affected& affected, const edit::Repair& 
     edge.weight = control.weight;
     change.added_edges.push_back(graph.add_edge(edge));
   }
-  change.removed_nodes = affected.nodes;
-  change.removed_edges = affected.edges;
   return true;
 }
 
-/// Computes all again after an edit; undoes it where that fails.
+/// Computes all again after an edit; nothing happens where that fails.
 Result<AxisChange> Editor::Parts::rebuild(const edit::Edit& edit) {
   AxisChange change;
   change.vertex = edit.fresh != none ? edit.fresh : edit.old;
   change.everything = true;
   list_all(change.removed_nodes, change.removed_edges);
-  Parts before = *this;
-  const edit::Edit back = rings.inverse(edit);
-  rings.apply(edit);
+  Parts next = *this;
+  next.rings.apply(edit);
   std::vector<std::vector<std::uint32_t>> numbers;
-  const std::vector<Ring> all = rings.rings(numbers);
+  const std::vector<Ring> all = next.rings.rings(numbers);
   auto shape = build_shape(all);
-  Status started = success();
-  if (shape) {
-    for (VertexSource& source : shape->sources) source.vertex = numbers[source.ring][source.vertex];
-    started = start(*shape, false);
-  }
-  if (!shape || !started) {
-    Error error = !shape ? std::move(shape).error() : std::move(started).error();
+  if (!shape) {
+    Error error = std::move(shape).error();
     if (error.place.ring && error.place.vertex && *error.place.ring < numbers.size() &&
         *error.place.vertex < numbers[*error.place.ring].size())
       error.place.vertex = numbers[*error.place.ring][*error.place.vertex];
     error.place.ring.reset();
-    *this = std::move(before);
     return error;
   }
-  list_all(change.added_nodes, change.added_edges);
-  inverse.push_back(back);
+  for (VertexSource& source : shape->sources) source.vertex = numbers[source.ring][source.vertex];
+  if (auto started = next.start(*shape, false); !started) {
+    Error error = std::move(started).error();
+    error.place.ring.reset();  // the vertex has its number
+    return error;
+  }
+  next.list_all(change.added_nodes, change.added_edges);
+  next.inverse.push_back(rings.inverse(edit));
+  *this = std::move(next);
   return change;
 }
 
@@ -328,7 +351,7 @@ Editor::~Editor() = default;
 
 namespace {
 
-/// Calls work() on this thread alone and turns what it throws into an error.
+/// Calls work() on so many threads and turns what it throws into an error.
 template <class T, class Work>
 Result<T> guarded(int threads, const Work& work) {
   try {
@@ -350,6 +373,8 @@ Result<Editor> Editor::make(const Shape& shape, const Options& options) {
     auto parts = std::make_unique<Parts>();
     parts->options = options;
     if (auto started = parts->start(shape, true); !started) return std::move(started).error();
+    parts->options.progress = {};
+    parts->options.cancel = nullptr;
     return Editor(std::move(parts));
   });
 }

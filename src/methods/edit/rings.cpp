@@ -200,6 +200,10 @@ std::vector<Rings::Extent> Rings::sites_around(const Edit& edit) const {
 }
 
 void Rings::apply(const Edit& edit) {
+  if (edit.fresh == vertices_.size()) {  // first, as memory may run out
+    boxes_.set(edit.fresh, Box::nothing());
+    vertices_.emplace_back();
+  }
   const std::uint32_t loop = vertices_[edit.before].loop;
   if (edit.old != none && edit.old != edit.fresh) {
     vertices_[edit.old] = {};
@@ -207,7 +211,6 @@ void Rings::apply(const Edit& edit) {
     --loops_[loop].size;
   }
   if (edit.fresh != none) {
-    if (edit.fresh == vertices_.size()) vertices_.emplace_back();
     if (edit.fresh != edit.old) ++loops_[loop].size;
     vertices_[edit.fresh] = {edit.place, edit.after, edit.before, loop};
   }

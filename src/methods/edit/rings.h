@@ -97,7 +97,7 @@ class Rings {
   };
   /// The sites that an edit can change, before or after apply().
   std::vector<Extent> sites_around(const Edit& edit) const;
-  void apply(const Edit& edit);
+  void apply(const Edit& edit);  ///< nothing happens where it throws
   /// The edit that takes this one back. Before apply().
   Edit inverse(const Edit& edit) const;
   /// A number for a new vertex.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
 
 #include "site/tangent_disk.h"
 
@@ -101,11 +102,7 @@ class Assembly {
     return none;
   }
 
-  bool add_loop(std::uint32_t loop) {
-    if (std::find(loops_.begin(), loops_.end(), loop) != loops_.end()) return false;
-    loops_.push_back(loop);
-    return true;
-  }
+  bool add_loop(std::uint32_t loop) { return loops_.insert(loop).second; }
 
   /// The loops that no border touches.
   void add_whole_loops(std::uint32_t loop) {
@@ -134,11 +131,17 @@ class Assembly {
     Disk disk;
   };
 
-  /// Connects the last cycle with another one. False where no disk is found that does.
+  /// Connects the last cycle with another one. False where no disk is found that does, and where
+  /// to look for one takes longer than it may.
   bool connect_last() {
+    constexpr std::size_t most_looks = 256;  // at each piece
     const Cycle& last = cycles_.back();
+    std::size_t pieces = 0;
+    for (const Cycle& cycle : cycles_) pieces += cycle.size();
     for (std::size_t i = 0; i < last.size(); ++i) {
       if (last[i].site == none || !Rings::is_edge(last[i].site)) continue;
+      looks_ += pieces;
+      if (looks_ > most_looks * most_pieces_) return false;
       if (const auto found = connection(i)) {
         splice(*found);
         return true;
@@ -267,9 +270,10 @@ class Assembly {
   const double radius_limit_;
   std::vector<End> ends_;
   std::vector<Cycle> cycles_;  ///< the first one has border 0
-  std::vector<std::uint32_t> loops_;
+  std::set<std::uint32_t> loops_;
   std::vector<Disk> connections_;
   std::size_t pieces_ = 0, most_pieces_ = 0;
+  std::size_t looks_ = 0;  ///< at pieces, to connect cycles
 };
 
 }  // namespace

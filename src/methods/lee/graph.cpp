@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "axis/node_kinds.h"
 #include "base/memory.h"
@@ -30,6 +31,8 @@ Edge result_edge(const Graph& graph, const LocalFrame& frame, std::uint32_t edge
           control.weight};
 }
 
+constexpr double endless = std::numeric_limits<double>::infinity();
+
 /// By how far the disk in the middle of an edge misses its elements or reaches over them; or their
 /// carriers, where a bridge has divided the elements but not the edge.
 double residual_in_middle(const Graph& graph, std::uint32_t edge, const Disk& from,
@@ -43,7 +46,8 @@ double residual_in_middle(const Graph& graph, std::uint32_t edge, const Disk& fr
     const double away = graph.begins_at_bridge(edge)
                             ? site::carrier_distance(site, center)
                             : std::sqrt(site::squared_distance(site, center));
-    residual = std::max(residual, std::abs(away - radius));
+    const double off = std::abs(away - radius);
+    if (!(off <= residual)) residual = std::isnan(off) ? endless : off;
   }
   return residual;
 }
@@ -259,6 +263,7 @@ bool Graph::close(const Elements::ChainLoop& loop, std::uint32_t last_edge) {
       edge = next;
     }
   }
+  broken_at_.reset();
   return count == 2 * std::size_t{loop.size} - 3;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/local_frame.h"
@@ -23,7 +24,8 @@ class Graph {
   /// (Lemma 3), of which only the terminating bisector ends in a corner. Nothing else may be asked
   /// of a graph that is not.
   bool is_whole() const { return is_whole_; }
-  std::uint32_t broken_at() const { return broken_at_; }  ///< an element of one that is not
+  /// Where one that is not is broken: an element, if any is known.
+  std::optional<std::uint32_t> broken_at() const { return broken_at_; }
 
   const Elements& elements() const { return diagram_.elements; }
   const ListEdge& operator[](std::uint32_t edge) const { return diagram_.edges[edge]; }
@@ -86,7 +88,7 @@ class Graph {
   Diagram& diagram_;
   double tolerance_;
   bool is_whole_ = true;
-  std::uint32_t broken_at_ = 0;
+  std::optional<std::uint32_t> broken_at_;
   std::vector<std::uint32_t> doubtful_edges_;
 };
 

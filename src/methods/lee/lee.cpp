@@ -134,9 +134,11 @@ class Solution {
         "disks");
   }
   Error undecided() const {
-    return unsupported(
-        elements_.sites[broken_at_].point,
-        "rounding alone decides what a disk touches next to arcs here: use the method disks");
+    const Vec2 place = broken_at_ ? elements_.sites[*broken_at_].point : Vec2{};
+    Error error = unsupported(
+        place, "rounding alone decides what a disk touches next to arcs: use the method disks");
+    if (!broken_at_) error.place = {};
+    return error;
   }
   Error unsupported(Vec2 place, const char* text) const {
     Error error{ErrorCode::unsupported, text, {}};
@@ -147,7 +149,7 @@ class Solution {
   const Problem& problem_;
   Elements elements_;
   std::optional<Diagram> diagram_;
-  std::uint32_t broken_at_ = 0;
+  std::optional<std::uint32_t> broken_at_;
   bool is_doubtful_ = false;
 
  public:

@@ -311,7 +311,8 @@ class MergeCurve {
   /// Whether a disk that touches an edge's elements lies outward of its inner end, but for
   /// rounding.
   bool is_outward(const ListEdge& edge, const Disk& disk) const {
-    if (with_arcs && edge.inner.radius == 0) return true;
+    if constexpr (with_arcs)
+      if (edge.inner.radius == 0) return true;
     const Along bisector = along(edge.element[0], edge.element[1]);
     return bisector.position(disk.center) >= bisector.position(edge.inner.center) ||
            distance(disk.center, edge.inner.center) <= vagueness();

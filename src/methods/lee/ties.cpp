@@ -209,7 +209,9 @@ std::optional<Disk> find_overreach(const Graph& graph, double slack) {
   return std::nullopt;
 }
 
-/// Whether so many Voronoi points are next to each other that what each may be off adds up.
+namespace {
+
+/// Whether so many Voronoi edges next to each other are short that what each may be off adds up.
 bool has_large_tie(const Graph& graph, double slack) {
   constexpr std::uint32_t large = 8;
   constexpr double next_to = 16;
@@ -226,6 +228,8 @@ bool has_large_tie(const Graph& graph, double slack) {
       [&](std::uint32_t edge) { return is_short(edge) && ++size[ties.find(edge)] >= large; });
 }
 
+}  // namespace
+
 bool is_right_locally(const Graph& graph, double slack) {
   if (has_large_tie(graph, slack)) return false;
   const Elements& elements = graph.elements();
@@ -235,7 +239,7 @@ bool is_right_locally(const Graph& graph, double slack) {
       const double gap =
           std::sqrt(site::squared_distance(elements.sites[i], disk.center)) - disk.radius;
       least = std::min(least, gap);
-      most = std::max(most, gap);
+      most = std::isnan(gap) ? std::numeric_limits<double>::infinity() : std::max(most, gap);
     }
   };
   double least = 0, most = 0, any = 0;
