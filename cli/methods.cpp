@@ -13,22 +13,21 @@ namespace medial::cli {
 namespace {
 
 Json json_of(const MethodInfo& info) {
-  return {{"name", info.name},   {"summary", info.summary},   {"exact", info.exact()},
-          {"holes", info.holes}, {"arcs", info.arcs},         {"exterior", info.exterior},
-          {"part", info.part},   {"contours", info.contours}, {"threads", info.threads}};
+  return {{"name", info.name},         {"summary", info.summary}, {"exact", info.exact()},
+          {"exterior", info.exterior}, {"part", info.part},       {"contours", info.contours},
+          {"threads", info.threads}};
 }
 
 std::string table_of_methods() {
   std::string text =
-      "| method | how | axes | holes | arcs | exterior | a part | threads |\n"
-      "| --- | --- | --- | --- | --- | --- | --- | --- |\n";
+      "| method | how | axes | exterior | a part | threads |\n"
+      "| --- | --- | --- | --- | --- | --- |\n";
   const auto mark = [](bool yes) { return yes ? "yes" : "-"; };
   for (const MethodInfo& info : methods()) {
     const char* axes = info.exact() ? "exact" : "sampled";
     if (info.sampling == Sampling::pixels) axes = "pixels";
-    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", info.name, info.summary,
-                        axes, mark(info.holes), mark(info.arcs), mark(info.exterior),
-                        mark(info.part), mark(info.threads));
+    text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", info.name, info.summary, axes,
+                        mark(info.exterior), mark(info.part), mark(info.threads));
   }
   return text;
 }

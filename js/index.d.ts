@@ -260,7 +260,7 @@ export interface Voronoi {
   enclosure: number[];
 }
 export interface MethodInfo {
-  name: Method; summary: string; exact: boolean; holes: boolean; arcs: boolean; exterior: boolean;
+  name: Method; summary: string; exact: boolean; exterior: boolean;
 }
 
 export function axis(x: Geometry, options?: AxisOptions): MedialAxis;

@@ -18,7 +18,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 LINES = 60_000          # of src, cli and include: a goal
-HEADER_LINES = 2_657    # of include
+HEADER_LINES = 2_600    # of include
 FUNCTION_LINES = 60     # of every function
 MEDIAN_LINES = 8        # of functions
 

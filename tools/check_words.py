@@ -34,7 +34,7 @@ INSTEAD = {
 }
 
 DOCUMENTS = {".md", ".1", ".txt"}
-C_LIKE = {".h", ".cpp", ".in"}
+C_LIKE = {".h", ".cpp", ".in", ".mjs", ".ts"}
 SCRIPTS = {".py", ".sh", ".cmake"}
 
 C_PROSE = re.compile(

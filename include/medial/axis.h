@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,10 +19,8 @@ enum class SiteKind : std::uint8_t {
 
 /// What a maximal disk can touch.
 struct Site {
-  Vec2 start;                ///< of a vertex: == end
-  Vec2 end;                  ///< the interior lies on the left of start -> end
-  std::uint32_t ring = 0;    ///< ring of the input (for a segment: of its start)
-  std::uint32_t vertex = 0;  ///< vertex in that ring
+  Vec2 start, end;                     ///< the interior is on their left; of a vertex equal
+  std::uint32_t ring = 0, vertex = 0;  ///< of the input, of `start`
   SiteKind kind = SiteKind::segment;
   double bulge = 0;  ///< of an arc, see Ring
 };
@@ -61,8 +58,7 @@ struct Edge {
 /// nearest site on each side. Of pixels it is a pixel's side: nodes, ordered by y, then x, are
 /// centres of medial pixels (of `ridge` also points between pixels), with radii within half a
 /// pixel's diagonal of the distance to the boundary; edges lead straight to one of eight
-/// neighbours; their sites are two that the disk of the first node touches within a few pixels, or
-/// both no_site.
+/// neighbours; their sites are two that the first node's disk touches within pixels, or no_site.
 struct MedialAxis {
   std::string method;     ///< the engine's name: see name_of(Method)
   double tolerance = 0;   ///< bound of |distance - radius|, in units of the input
@@ -78,8 +74,7 @@ struct MedialAxis {
 
 /// From node[0] to node[1], the part of the boundary that the edge's disks cut off grows.
 struct VoronoiEdge : Edge {
-  /// Straight, from the common point of its two sites, perpendicular to an edge. All other edges
-  /// are the medial axis (Lee, Corollary 3).
+  /// Straight, from its sites' common point. All others are the medial axis (Lee, Corollary 3).
   bool spoke = false;
   /// On the enclosure, counter-clockwise; site[1] is no_site, radii are distances from site[0].
   bool on_enclosure = false;

@@ -67,13 +67,12 @@ struct Carving {
   std::vector<ToolPath> paths;  ///< in the order of cutting
   double deepest = 0;           ///< depth, positive
   double flat_from = 0;         ///< the bottom is flat from this clearance on; infinite: nowhere
-  double tip_radius = 0;        ///< of the tool
-  double slope = 0;             ///< tangent of half of the angle
-  double step = 0;              ///< between clearing passes
-  std::uint32_t passes = 0;     ///< in depth
-  double own_length = 0;        ///< of all passes, in the plane, without ramps and ways between
-  double cut_length = 0;        ///< in the plane
-  double travel_length = 0;     ///< in the plane, of lifted moves from path to path
+  double tip_radius = 0, slope = 0;  ///< of the tool; the slope: tangent of half of the angle
+  double step = 0;                   ///< between clearing passes
+  std::uint32_t passes = 0;          ///< in depth
+  // Lengths in the plane.
+  double own_length = 0, cut_length = 0;  ///< of all passes, without ramps and ways between; with
+  double travel_length = 0;               ///< of lifted moves from path to path
   double travel_unordered = 0;  ///< the same if branches and rings came as the axis numbers them
   Tabs tabs;                    ///< as in the options
 };

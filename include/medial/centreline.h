@@ -2,21 +2,14 @@
 
 // Ways along an axis. The reach of a path is its length plus the radii at its two ends.
 
-#include "medial/axis.h"
-#include "medial/shape.h"
+#include "medial/query.h"
 
 namespace medial {
-
-struct EdgePlace {
-  std::uint32_t edge = 0;
-  double t = 0;  ///< parameter on the edge, in [0, 1]
-};
 
 /// A part of an edge, between two of its parameters; against the edge where from > to.
 struct PathPiece {
   std::uint32_t edge = 0;
-  double from = 0;
-  double to = 1;
+  double from = 0, to = 1;
 };
 
 /// A way along the axis; each piece begins where the one before it ends.

@@ -11,9 +11,8 @@ struct Options {
   double tolerance = 0;
   /// A convex joint with an arc is no corner if it turns by less than this; in degrees, in [0, 10].
   double corner_angle = 0.01;
-  /// Makes every decision of the combinatorics exact (docs/exact.md). Sites that touch one disk
-  /// within the tolerance, but not exactly, have nodes of their own, joined by edges shorter than
-  /// the tolerance. Slower. Not for sampled methods.
+  /// Makes every decision about the graph exact (docs/exact.md): sites that touch one disk only
+  /// within the tolerance have nodes of their own, at short edges. Slower; not of sampled methods.
   bool exact = false;
   /// Threads to use, at most 1024; 0: all of the machine. The result is the same, byte for byte.
   int threads = 0;
@@ -23,11 +22,9 @@ struct Options {
   /// Distance from the shape's bounding box to the enclosure, in units of the input, within [1e-6,
   /// 1e6] of the diagonal; 0: half of the longer side.
   double margin = 0;
-  /// Called now and then, from any thread and out of order, with the share of the walk that is
-  /// done, in [0, 1], at last with 1. Must not throw.
+  /// Gets the share that is done, from any thread and out of order, at last 1. Must not throw.
   std::function<void(double)> progress = {};
-  /// Once the caller sets it to true, compute() returns ErrorCode::cancelled: from the walk at
-  /// once, from other phases when they end.
+  /// Once it is true, compute() returns ErrorCode::cancelled: from the walk at once.
   const std::atomic<bool>* cancel = nullptr;
 };
 

@@ -39,8 +39,7 @@ struct Contour {
 
 /// The edges of a closed ring or an open chain, without those of zero length; `bulges` as in Ring.
 Contour contour_of(std::span<const Vec2> points, std::span<const double> bulges, bool closed);
-/// The same curve from its end to its start, with its role.
-Contour reversed(const Contour& contour);
+Contour reversed(const Contour& contour);  ///< with its role
 
 struct ArcOptions {
   double tolerance = 1e-6;  ///< largest distance between a contour and its arcs, above 0
@@ -49,18 +48,18 @@ struct ArcOptions {
 };
 
 struct ArcReport {
-  std::uint64_t pieces = 0;    ///< of the contours
-  std::uint64_t spirals = 0;   ///< pieces of monotone curvature without inflection
-  std::uint64_t arcs = 0;      ///< of the result
-  std::uint64_t segments = 0;  ///< straight edges of the result
-  double tolerance = 0;        ///< in units of the input; not below the coordinates' rounding
-  double largest_error = 0;    ///< certified Hausdorff distance, in units of the input
+  std::uint64_t pieces = 0;              ///< of the contours
+  std::uint64_t spirals = 0;             ///< pieces of monotone curvature without inflection
+  std::uint64_t arcs = 0, segments = 0;  ///< edges of the result
+  // In units of the input.
+  double tolerance = 0;      ///< not below the coordinates' rounding
+  double largest_error = 0;  ///< certified Hausdorff distance
 };
 
 /// Contours as rings of arcs and segments within the tolerance, by spiral biarcs (Aichholzer et
-/// al., Algorithms 1 and 2): tangent continuous inside pieces and at smooth joints. Straight pieces
-/// and arcs stay as they are. Errors: not_finite, invalid_option, malformed, unsupported (a weight
-/// that is not positive, a degree above 32), no_area.
+/// al., Algorithms 1 and 2), tangent continuous but in corners; straight pieces and arcs stay.
+/// Errors: not_finite, invalid_option, malformed, no_area, unsupported (weights <= 0, degrees >
+/// 32).
 Result<std::vector<Ring>> approximate_by_arcs(std::span<const Contour> contours,
                                               const ArcOptions& options = {},
                                               ArcReport* report = nullptr);

@@ -24,16 +24,11 @@ enum class Unit : std::uint8_t {
   pixel,      ///< of an image
   degree,
 };
-/// "mm", "in", "px" ...; empty: unknown. Of an image's pixels "pixel".
-const char* name_of(Unit unit);
-/// A unit of length by its name; nothing for other words.
-std::optional<Unit> unit_of(std::string_view name);
-/// "um, mm, ...": the names that unit_of() takes.
-std::string unit_names();
-/// Of one unit; of pixels of drawings 25.4 / 96; 0: it has no length.
-double millimetres(Unit unit);
-/// The unit of this length in millimetres; unknown if there is none.
-Unit unit_of_length(double millimetres);
+const char* name_of(Unit unit);  ///< "mm", "in", "px" ...; "pixel" of images; empty: unknown
+std::optional<Unit> unit_of(std::string_view name);  ///< of length; nothing for other words
+std::string unit_names();                            ///< "um, mm, ...": those that unit_of() takes
+double millimetres(Unit unit);            ///< of pixels of drawings 25.4 / 96; 0: it has no length
+Unit unit_of_length(double millimetres);  ///< unknown if none has this length
 
 /// What holds for all items of a file.
 struct DocumentInfo {

@@ -38,13 +38,12 @@ const char* name_of(ErrorCode code);  ///< as it is spelled above
 /// Where it went wrong; every part is optional. Indices count from 0.
 struct Place {
   std::string file;
-  std::optional<std::uint64_t> feature;  ///< index in the file
-  std::optional<std::uint64_t> ring;     ///< index in the feature, or in what was given
-  std::optional<std::uint64_t> vertex;   ///< index in the ring
-  std::optional<std::uint64_t> face;     ///< index in the mesh
-  std::optional<Vec2> point;             ///< coordinates, in units of the input
-  std::optional<double> z;               ///< the third coordinate of the point, in space
-  std::optional<std::uint64_t> line;     ///< line of a text file, from 1
+  std::optional<std::uint64_t> feature;       ///< index in the file
+  std::optional<std::uint64_t> ring, vertex;  ///< in the feature, or what was given; in the ring
+  std::optional<std::uint64_t> face;          ///< index in the mesh
+  std::optional<Vec2> point;                  ///< coordinates, in units of the input
+  std::optional<double> z;                    ///< the third coordinate of the point, in space
+  std::optional<std::uint64_t> line;          ///< line of a text file, from 1
 };
 
 /// An error as a value. The library never prints, never throws across its surface, never exits.
@@ -54,8 +53,7 @@ struct Error {
   Place place;
 };
 
-/// "FILE: feature 3, ring 1, vertex 7 at (x, y): text [code]".
-std::string to_string(const Error& error);
+std::string to_string(const Error& error);  ///< "FILE: feature 3, vertex 7 at (x, y): text [code]"
 
 /// Either a value or an error; asking for the one it has not throws std::bad_variant_access.
 template <class T>

@@ -3,8 +3,7 @@
 // The features of a shape by its axis, after Blum and Nagel (1978) and Volkmann and St. Clair
 // (Section II.A.1, Figs 4 to 7); how alike two shapes are, and how they interlock.
 
-#include "medial/axis.h"
-#include "medial/shape.h"
+#include "medial/query.h"
 
 namespace medial {
 
@@ -54,12 +53,6 @@ struct FeatureOptions {
   double shortest = 0.25;  ///< shorter runs, by their mean radius, join a neighbour
 };
 
-struct AxisPlace {
-  std::uint32_t edge = 0;
-  double t = 0;  ///< parameter on that edge
-  Disk disk;
-};
-
 /// A part of a branch that is one primitive in one variation, in the branch's direction.
 struct PrimitiveRun {
   Primitive primitive = Primitive::worm;
@@ -96,9 +89,8 @@ struct BranchFeatures {
   /// When a fire leaves its two ends: from the axis's ends at the time of their radius, from a
   /// branching point once all other branches have burnt. Infinite where it never does.
   std::array<double, 2> burn{};
-  std::array<BoundarySection, 2> side;  ///< left, right
-  std::uint32_t first_run = 0;          ///< its runs are runs[first_run .. first_run + run_count)
-  std::uint32_t run_count = 0;
+  std::array<BoundarySection, 2> side;         ///< left, right
+  std::uint32_t first_run = 0, run_count = 0;  ///< runs[first_run .. first_run + run_count)
 };
 
 struct AxisFeatures {

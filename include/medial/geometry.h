@@ -8,8 +8,7 @@
 namespace medial {
 
 struct Vec2 {
-  double x = 0;
-  double y = 0;
+  double x = 0, y = 0;
 
   friend constexpr Vec2 operator+(Vec2 a, Vec2 b) { return {a.x + b.x, a.y + b.y}; }
   friend constexpr Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
@@ -26,9 +25,7 @@ constexpr Vec2 left_of(Vec2 a) { return {-a.y, a.x}; }
 constexpr double squared_norm(Vec2 a) { return dot(a, a); }
 inline double norm(Vec2 a) { return std::sqrt(dot(a, a)); }
 inline double distance(Vec2 a, Vec2 b) { return norm(a - b); }
-constexpr Vec2 midpoint(Vec2 a, Vec2 b) {
-  return {a.x + 0.5 * (b.x - a.x), a.y + 0.5 * (b.y - a.y)};
-}
+constexpr Vec2 midpoint(Vec2 a, Vec2 b) { return a + 0.5 * (b - a); }
 
 struct Disk {
   Vec2 center;
@@ -37,8 +34,7 @@ struct Disk {
 
 /// A rectangle along the axes.
 struct Box {
-  Vec2 low;
-  Vec2 high;
+  Vec2 low, high;
 
   /// The empty box, to add to.
   static constexpr Box nothing() {
@@ -58,9 +54,7 @@ inline double diagonal(const Box& box) {
 }
 
 struct Vec3 {
-  double x = 0;
-  double y = 0;
-  double z = 0;
+  double x = 0, y = 0, z = 0;
 
   constexpr double operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
   constexpr double& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }

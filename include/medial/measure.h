@@ -53,11 +53,10 @@ struct MeanWidth {
 /// The means along a path and over the shape, of an exact axis. Relative error below 1e-10.
 MeanWidth mean_width(const MedialAxis& axis, const AxisPath& path);
 
-/// At most `count` disks without overlap, by decreasing radius, none smaller than `smallest`: each
+/// At most `count` disks without overlap, by decreasing radius, none smaller than `least`: each
 /// is the deepest disk of the shape less the disks before it, to the rounding of the coordinates.
 /// By branch and bound over squares, without an axis: O(n), then O(log n + k) for each square
 /// examined and k disks before; real outlines need tens to hundreds of squares for each disk.
-std::vector<Disk> largest_disjoint_disks(const Shape& shape, std::size_t count,
-                                         double smallest = 0);
+std::vector<Disk> largest_disjoint_disks(const Shape& shape, std::size_t count, double least = 0);
 
 }  // namespace medial

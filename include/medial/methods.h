@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <variant>
 
 #include "medial/axis.h"
 #include "medial/raster.h"
@@ -59,8 +58,7 @@ struct Brushfire {
   medial::Brushfire family = medial::Brushfire::simultaneous;
 };
 
-/// Valleys of a potential after Ahuja and Chuang (docs/potential.md). The size is the longer side
-/// of the bounding box.
+/// Valleys of Ahuja and Chuang's potential (docs/potential.md). The size: the box's longer side.
 struct Potential {
   /// n of the force that finds the points, in [1, 4096], any real number; 0: chosen for each point.
   double order = 0;
@@ -68,8 +66,8 @@ struct Potential {
   /// `order`, 24 at most; for higher orders on the exact axis above 2,000 edges.
   double base_order = 0;
   double step = 0.01;  ///< the longest step, as a share of the size, in [1e-4, 0.1]
-  /// Above 0, from coarse to fine: the skeleton of a polygon that is this close to the border (a
-  /// share of the size, at most 0.2), refined on polygons ever closer to it. Of whole axes only.
+  /// Above 0, from coarse to fine, of whole axes: the skeleton of a polygon within this share (at
+  /// most 0.2) of the size of the border, refined on ever closer ones.
   double coarse = 0;
   /// theta_min in degrees: how much the force may still turn with the order. In (0, 90].
   double angle = 2.56;
@@ -100,12 +98,10 @@ enum class Sampling : std::uint8_t {
   pixels,  ///< pixels of a grid
 };
 
-/// What a method is and what it takes. compute() refuses the rest.
+/// What a method is, and what it takes besides holes and arcs. compute() refuses the rest.
 struct MethodInfo {
   const char *name, *summary;  ///< on the command line and in MedialAxis::method; a few words
   Sampling sampling = Sampling::curves;
-  bool holes = false;     ///< shapes with holes
-  bool arcs = false;      ///< boundaries with arcs
   bool exterior = false;  ///< Options::exterior
   bool part = false;      ///< computes a part of an axis
   bool contours = false;  ///< follows smooth contours in place of a shape
@@ -113,15 +109,12 @@ struct MethodInfo {
   bool exact() const { return sampling == Sampling::curves; }  ///< takes Options::exact
 };
 
-/// All methods, in the order of Method's alternatives.
-std::span<const MethodInfo> methods();
+std::span<const MethodInfo> methods();  ///< in the order of Method's alternatives
 const MethodInfo& info_of(const Method& method);
 inline const char* name_of(const Method& method) { return info_of(method).name; }
 
-/// The method of that name with its default options, if there is one.
-std::optional<Method> method_from(std::string_view name);
-/// Whether axes with this MedialAxis::method are made of pixels.
-bool is_of_pixels(std::string_view method);
+std::optional<Method> method_from(std::string_view name);  ///< with its default options
+bool is_of_pixels(std::string_view method);                ///< of an axis, see MedialAxis::method
 
 /// The generalised potential of a charged border (docs/potential.md): every component of a shape
 /// has the potential of its own border, the integral of 1 / r^order along it.

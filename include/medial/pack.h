@@ -48,7 +48,6 @@ struct SquareReport {
 /// of a covered one; 0 keeps the image. O(pixels log(pixels)) at most.
 ShapeCode encode_squares(const Image& image, std::uint32_t error = 0,
                          SquareReport* report = nullptr);
-/// Errors: malformed, too_large.
-Result<Image> decode_squares(const ShapeCode& code);
+Result<Image> decode_squares(const ShapeCode& code);  ///< errors: malformed, too_large
 
 }  // namespace medial

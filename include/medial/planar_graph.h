@@ -57,7 +57,6 @@ Result<PlanarGraph> build_planar_graph(std::span<const Chain> chains,
                                        const PlanarGraphOptions& options = {},
                                        ShapeReport* report = nullptr);
 
-/// The bounding box, arcs included. Requires a point.
-Box bounding_box(const PlanarGraph& planar_graph);
+Box bounding_box(const PlanarGraph& planar_graph);  ///< arcs included; requires a point
 
 }  // namespace medial

@@ -3,7 +3,6 @@
 // Pruning: the part of an axis that matters, by measures from the literature without a unit
 // (docs/prune.md). For axes of any method; edges of exact ones are cut exactly.
 
-#include <memory>
 #include <string_view>
 
 #include "medial/centreline.h"
@@ -33,8 +32,7 @@ enum class PruneMeasure : std::uint8_t {
 const std::vector<PruneMeasure>& prune_measures();
 const char* name_of(PruneMeasure measure);
 std::optional<PruneMeasure> prune_measure_from(std::string_view name);
-/// A threshold under which noise goes and what a person would draw stays.
-double default_threshold(PruneMeasure measure);
+double default_threshold(PruneMeasure measure);  ///< drops noise, keeps what a person would draw
 
 struct PruneOptions {
   PruneMeasure measure = PruneMeasure::prominence;

@@ -13,8 +13,7 @@ Disk disk_at(const MedialAxis& axis, const Edge& edge, double t);
 /// An edge of an exact axis with the conic that its sites and nodes determine. O(1).
 Edge conic_of(const MedialAxis& axis, const Edge& edge);
 
-/// The point of a site nearest to p: where a disk around p touches it.
-Vec2 foot(const Site& site, Vec2 p);
+Vec2 foot(const Site& site, Vec2 p);  ///< nearest to p: where a disk around p touches the site
 
 /// Length of an edge in the plane, and of all edges. Closed forms; relative error < 1e-12.
 double length(const MedialAxis& axis, const Edge& edge);
@@ -41,10 +40,15 @@ struct Branch {
 std::vector<Branch> branches(const MedialAxis& axis);
 std::uint64_t branch_count(const MedialAxis& axis);
 
-struct AxisPoint {
+/// A place on the axis: a parameter in [0, 1] of an edge; with its disk; with its distance.
+struct EdgePlace {
   std::uint32_t edge = 0;
-  double t = 0;  ///< parameter on that edge
+  double t = 0;
+};
+struct AxisPlace : EdgePlace {
   Disk disk;
+};
+struct AxisPoint : AxisPlace {
   double distance = 0;
 };
 
@@ -60,7 +64,6 @@ class AxisLocator {
   std::shared_ptr<const Index> index_;
 };
 
-/// The distance from p to the boundary of the shape, negative outside. O(n).
-double clearance(const Shape& shape, Vec2 p);
+double clearance(const Shape& shape, Vec2 p);  ///< from p to the boundary, negative outside; O(n)
 
 }  // namespace medial

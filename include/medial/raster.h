@@ -3,7 +3,6 @@
 #include <array>
 #include <atomic>
 #include <functional>
-#include <limits>
 #include <string_view>
 
 #include "medial/contour.h"
@@ -19,11 +18,7 @@ bool fits_image(std::uint64_t width, std::uint64_t height);
 class Image {
  public:
   Image() = default;
-  Image(std::uint32_t width, std::uint32_t height)
-      : width_(width),
-        height_(height),
-        stride_((std::size_t{width} + 63) / 64),
-        words_(stride_ * height, 0) {}
+  Image(std::uint32_t width, std::uint32_t height) : width_(width), height_(height) {}
 
   std::uint32_t width() const { return width_; }
   std::uint32_t height() const { return height_; }
@@ -52,10 +47,9 @@ class Image {
   friend bool operator==(const Image&, const Image&) = default;
 
  private:
-  std::uint32_t width_ = 0;
-  std::uint32_t height_ = 0;
-  std::size_t stride_ = 0;
-  std::vector<std::uint64_t> words_;
+  std::uint32_t width_ = 0, height_ = 0;
+  std::size_t stride_ = (std::size_t{width_} + 63) / 64;
+  std::vector<std::uint64_t> words_ = std::vector<std::uint64_t>(stride_ * height_);
 };
 
 /// The upper left corner of pixel (c, r): (t[0] + c t[1] + r t[2], t[3] + c t[4] + r t[5]).
@@ -69,12 +63,11 @@ struct PlacedImage {
 };
 
 struct Topology {
-  std::uint64_t components = 0;  ///< of the foreground, by eight neighbours
-  std::uint64_t holes = 0;       ///< of the background, by four neighbours, without the outside
+  std::uint64_t components = 0, holes = 0;  ///< of foreground, by 8 neighbours; background, by 4
   friend bool operator==(const Topology&, const Topology&) = default;
 };
 
-/// Counts components and holes. O(runs of pixels in the rows), nearly.
+/// Counts components, and holes without the outside. O(runs of pixels in the rows), nearly.
 Topology topology(const Image& image);
 
 /// How a fire keeps components, holes and end points (Volkmann and St. Clair 1987, Section II.B.1).

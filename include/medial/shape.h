@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "medial/error.h"
-#include "medial/geometry.h"
 
 namespace medial {
 
@@ -34,8 +33,8 @@ struct VertexSource {
 /// What building a shape, or a planar graph of chains, counted.
 struct ShapeReport {
   std::uint64_t input_rings = 0, input_points = 0;
-  std::uint64_t closing_points = 0;     ///< last points equal to the first, dropped
-  std::uint64_t unclosed_rings = 0;     ///< rings without a closing point
+  /// Last points equal to the first, dropped; rings without one.
+  std::uint64_t closing_points = 0, unclosed_rings = 0;
   std::uint64_t repeated_points = 0;    ///< zero-length edges, dropped; points on other pieces
   std::uint64_t repeated_edges = 0;     ///< of a planar graph: edges that repeat another, dropped
   std::uint64_t collinear_points = 0;   ///< vertices inside a straight run or arc, dropped
@@ -93,10 +92,9 @@ double area(const Shape& shape);
 ///
 /// Without arcs, every decision is exact for the given coordinates. With arcs, edges and vertices
 /// within the tolerance (4e-15 of the diagonal, or two spacings of the largest coordinate) touch:
-/// vertices become one, and edges are split there, also where tangent circles touch inside both.
-/// Errors: not_finite, too_few_points, no_area, crossing, overlap, unsupported (outlines with arcs
-/// below 1,024 tolerances in size) with ring, vertex and point; hole_outside, nested_outer, empty,
-/// too_large (2^30 points), out_of_memory.
+/// vertices become one, edges are split there, and where tangent circles touch inside both. Errors
+/// with ring, vertex and point: not_finite, too_few_points, no_area, crossing, overlap, unsupported
+/// (arcs below 1,024 tolerances); hole_outside, nested_outer, empty, too_large, out_of_memory.
 Result<Shape> build_shape(std::span<const Ring> rings, const ShapeOptions& options = {},
                           ShapeReport* report = nullptr);
 

@@ -1,8 +1,7 @@
 #pragma once
 
-// From an axis back to its boundary, as a shape, as pixels, and on the two sides: Shaked and
-// Bruckstein, "The Curve Axis", 1996, Sections 2 and 3, with their equations in brackets; `a` is
-// the length along the axis, subscripts are derivatives by it.
+// From an axis back to its boundary, as a shape, as pixels, and on both sides (Shaked, Bruckstein
+// 1996, Sections 2 and 3: their equations in brackets; subscripts a are derivatives by length).
 
 #include "medial/query.h"
 #include "medial/raster.h"
@@ -53,10 +52,9 @@ struct FootCurvature {
 /// by polynomials through five feet of a side, the left one first.
 std::vector<FootCurvature> curvatures_along(const MedialAxis& axis, const Branch& branch);
 
-/// The jets along a branch in its direction: of an exact axis `samples_per_edge` inside of every
+/// The jets along a branch in its direction: of an exact axis `samples` inside of every
 /// edge with a length, of a sampled one at every inner node from its neighbours.
-std::vector<AxisJet> jets_along(const MedialAxis& axis, const Branch& branch,
-                                int samples_per_edge = 8);
+std::vector<AxisJet> jets_along(const MedialAxis& axis, const Branch& branch, int samples = 8);
 
 /// How far a branch is from breaking the two conditions that every medial axis meets: no unit,
 /// positive where it breaks them. Jets whose errors leave the answer open do not count.

@@ -2,8 +2,7 @@
 
 namespace medial {
 
-/// The largest number of threads that options accept.
-constexpr int most_threads = 1024;
+constexpr int most_threads = 1024;  ///< that options accept
 
 /// The number of threads for a request: 0 means all of the machine. 1 in a build without threads.
 int effective_threads(int requested);

@@ -21,8 +21,7 @@ struct Certificate : DiskCertificate {
   double resolution = 0;         ///< of a sampled axis: MedialAxis::resolution
   double largest_intrusion = 0;  ///< max (r - distance to the nearest boundary point), >= 0
   double largest_uncovered = 0;  ///< max distance from a boundary sample to the union of disks
-  double shape_area = 0;
-  double disks_area = 0;      ///< of the union of the disks
+  double shape_area = 0, disks_area = 0;  ///< the latter of the union of the disks
   double worst_legality = 0;  ///< max excess over Shaked and Bruckstein's (9), (10); no unit
   std::uint64_t components = 0, holes = 0;    ///< of the shape
   std::uint64_t graph_parts = 0, cycles = 0;  ///< of the graph: connected parts, independent cycles
@@ -47,9 +46,8 @@ struct VerifyOptions {
 };
 
 /// Checks an axis against its shape. Shares no code with the engines: it has its own distance
-/// search, area and count of cycles. O(n log n) expected. A shape that compute() refuses as
-/// unsupported does not pass. At a blunt joint the boundary may be uncovered by the radius times
-/// the joint's angle.
+/// search, area and count of cycles. O(n log n) expected. What compute() refuses as unsupported
+/// does not pass. At a blunt joint the boundary may be uncovered by the radius times its angle.
 ///
 /// Of a sampled axis it checks indices, kinds, connected parts and cycles, and each radius within
 /// half a pixel's diagonal; contacts, corners, coverage and area stay 0. Of an axis of the exterior
@@ -57,11 +55,9 @@ struct VerifyOptions {
 Certificate verify(const Shape& shape, const MedialAxis& axis, const VerifyOptions& options = {});
 
 struct VoronoiCertificate : DiskCertificate {
-  std::uint64_t sites = 0;
-  std::uint64_t faces = 0;         ///< that are not empty
+  std::uint64_t sites = 0, faces = 0;  ///< faces that are not empty
   std::uint64_t broken_faces = 0;  ///< not closed, not counter-clockwise, or of other sites' edges
-  double enclosure_area = 0;
-  double faces_area = 0;  ///< the sum of all
+  double enclosure_area = 0, faces_area = 0;  ///< the latter the sum of all
 };
 
 /// Checks the diagram of a planar graph: every sample of an edge is at its radius from the edge's

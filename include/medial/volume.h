@@ -3,7 +3,6 @@
 #include <array>
 #include <atomic>
 #include <functional>
-#include <limits>
 #include <vector>
 
 #include "medial/error.h"

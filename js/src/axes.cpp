@@ -182,8 +182,6 @@ MEDIAL_JS int medial_methods() {
                            .add("name", method.name)
                            .add("summary", method.summary)
                            .add("exact", method.exact())
-                           .add("holes", method.holes)
-                           .add("arcs", method.arcs)
                            .add("exterior", method.exterior)
                            .text() +
                        "\n";

@@ -32,7 +32,7 @@ options = Settings()
 
 
 def methods() -> list[dict[str, Any]]:
-    """The methods of `axis`, and what each takes: holes, arcs, the exterior, several threads.
+    """The methods of `axis`, and what each takes besides holes and arcs: the exterior, several threads.
 
     Examples
     --------

@@ -47,8 +47,6 @@ NB_MODULE(_core, module) {
       row["name"] = info.name;
       row["summary"] = info.summary;
       row["exact"] = info.exact();
-      row["holes"] = info.holes;
-      row["arcs"] = info.arcs;
       row["exterior"] = info.exterior;
       row["threads"] = info.threads;
       list.append(row);

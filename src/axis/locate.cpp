@@ -54,7 +54,7 @@ struct AxisLocator::Index {
         // From the curve's own origin, where the point is not yet rounded.
         const double d = norm(curve.offset(t) - (p - curve.origin));
         if (d < best.distance || (d == best.distance && order[i] < best.edge))
-          best = {order[i], t, curve.at(t), d};
+          best = {{{order[i], t}, curve.at(t)}, d};
       }
       return;
     }

@@ -28,4 +28,10 @@ inline double tolerance_for(const Box& box, double relative) {
   return std::max(judged * diagonal(box), 2 * spacing_in(box));
 }
 
+/// A tolerance as Options::tolerance of what lies in this box.
+constexpr double largest_relative_tolerance = 1e-3;
+inline double relative_tolerance(double tolerance, const Box& box) {
+  return std::min(largest_relative_tolerance, tolerance / diagonal(box));
+}
+
 }  // namespace medial

@@ -9,6 +9,7 @@
 #include "base/arc.h"
 #include "base/disjoint_sets.h"
 #include "base/threads.h"
+#include "base/tolerance.h"
 #include "shape/limits.h"
 
 namespace medial {
@@ -63,26 +64,20 @@ bool is_consistent(const Shape& shape) {
 }
 
 /// What the method does not take, by the table.
-std::optional<Error> refuse_untaken(const Shape& shape, const Options& options) {
+std::optional<Error> refuse_untaken(const Options& options) {
   const MethodInfo& takes = info_of(options.method);
   if (options.exact && !takes.exact())
     return Error{ErrorCode::invalid_option, "exact decisions are for exact methods only", {}};
-  const auto refused = [&](const char* what) {
-    return Error{
-        ErrorCode::unsupported,
-        std::string("the method ") + takes.name + " takes no " + what + ": use the method disks",
-        {}};
-  };
-  if (!takes.holes && shape.hole_count() > 0) return refused("holes");
-  if (!takes.arcs && has_arcs(shape)) return refused("arcs");
-  if (!takes.exterior && options.exterior) return refused("exterior");
-  return std::nullopt;
+  if (takes.exterior || !options.exterior) return std::nullopt;
+  return Error{ErrorCode::unsupported,
+               std::string("the method ") + takes.name + " takes no exterior: use the method disks",
+               {}};
 }
 
 }  // namespace
 
 std::optional<Error> refuse(const Options& options) {
-  if (!(options.tolerance >= 0 && options.tolerance <= 1e-3))
+  if (!(options.tolerance >= 0 && options.tolerance <= largest_relative_tolerance))
     return Error{ErrorCode::invalid_option, "the tolerance must be in [0, 1e-3]", {}};
   if (options.threads < 0 || options.threads > most_threads)
     return Error{ErrorCode::invalid_option, "the number of threads must be in [0, 1024]", {}};
@@ -103,7 +98,7 @@ std::optional<Error> refuse(const Shape& shape, const Options& options) {
 #ifndef MEDIAL_HAS_EXACT
   if (options.exact) return Error{ErrorCode::unsupported, "this build has no exact decisions", {}};
 #endif
-  return refuse_untaken(shape, options);
+  return refuse_untaken(options);
 }
 
 bool has_arcs(const Shape& shape) {

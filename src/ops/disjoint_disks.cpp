@@ -339,14 +339,13 @@ class Search {
 
 }  // namespace
 
-std::vector<Disk> largest_disjoint_disks(const Shape& shape, std::size_t count, double smallest) {
+std::vector<Disk> largest_disjoint_disks(const Shape& shape, std::size_t count, double least) {
   std::vector<Disk> disks;
   if (shape.points.empty()) return disks;
   const Box box = bounding_box(shape);
   const LocalFrame frame = frame_of(box);
   Region region(shape, frame);
-  Search search(region, {frame.to_local(box.low), frame.to_local(box.high)},
-                frame.scale * smallest);
+  Search search(region, {frame.to_local(box.low), frame.to_local(box.high)}, frame.scale * least);
   while (disks.size() < count) {
     const std::optional<Disk> disk = search.next();
     if (!disk) break;

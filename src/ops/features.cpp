@@ -150,7 +150,7 @@ class Describer {
   }
 
   AxisPlace place_of(const EdgePlace& place) const {
-    return {place.edge, place.t, disk_at(axis_, axis_.edges[place.edge], place.t)};
+    return {place, disk_at(axis_, axis_.edges[place.edge], place.t)};
   }
 
   void add_run(const Run& run) {

@@ -230,8 +230,7 @@ std::vector<double> boundary_curvatures(const MedialAxis& axis, const Edge& edge
   return out;
 }
 
-std::vector<AxisJet> jets_along(const MedialAxis& axis, const Branch& branch,
-                                int samples_per_edge) {
+std::vector<AxisJet> jets_along(const MedialAxis& axis, const Branch& branch, int samples) {
   std::vector<AxisJet> jets;
   if (axis.resolution > 0 && axis.method == "curve-axis") return jets_of_exact_nodes(axis, branch);
   if (axis.resolution > 0) {
@@ -254,8 +253,8 @@ std::vector<AxisJet> jets_along(const MedialAxis& axis, const Branch& branch,
   }
   for (const Step& step : branch.steps) {
     const Edge& edge = axis.edges[step.edge];
-    for (int i = 1; i <= samples_per_edge; ++i) {
-      const double t = static_cast<double>(i) / (samples_per_edge + 1);
+    for (int i = 1; i <= samples; ++i) {
+      const double t = static_cast<double>(i) / (samples + 1);
       const AxisJet jet = jet_at(axis, edge, step.forward ? t : 1 - t);
       if (!(jet.tangent == Vec2{0, 0})) jets.push_back(step.forward ? jet : ops::reversed(jet));
     }

@@ -191,7 +191,6 @@ class TileAxis {
 /// window comes near to.
 Result<MedialAxis> axis_of(const TileGraph& tile, const TileGrid& grid, const Box& window,
                            const Options& options) {
-  constexpr double most_relative = 1e-3;
   const auto& [low, high] = grid.box;
   Box box = bounding_box(tile.graph);
   box.add(Box{{std::max(low.x, window.low.x), std::max(low.y, window.low.y)},
@@ -201,7 +200,7 @@ Result<MedialAxis> axis_of(const TileGraph& tile, const TileGrid& grid, const Bo
   // Of the grid's size alone: axis_around() adds what coordinates far from the origin ask for.
   const double tolerance = tolerance_for({{0, 0}, high - low}, options.tolerance);
   Options own;
-  own.tolerance = std::min(most_relative, tolerance / diagonal(box));
+  own.tolerance = relative_tolerance(tolerance, box);
   own.threads = options.threads;
   own.cancel = options.cancel;
   auto axis = axis_around(tile.graph, around(tile.graph, box), own, false);

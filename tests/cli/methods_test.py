@@ -18,10 +18,9 @@ class Methods(CommandLine):
         self.write("plain.wkt", "POLYGON((0 0,10 0,14 5,10 9,4 8,0 6,0 0))")
         for method in json.loads(self.succeed("methods", "--json").stdout)["methods"]:
             self.assertIn(f"| {method['name']} |", table)
-            takes = {"ring.wkt": method["holes"], "plain.wkt --exterior": method["exterior"]}
-            for arguments in [case for case, taken in takes.items() if not taken]:
-                text = self.refuse("unsupported", "axis", *arguments.split(), "--method", method["name"])
-                self.assertIn(f"the method {method['name']} takes no", text)
+            if not method["exterior"]:
+                text = self.refuse("unsupported", "axis", "plain.wkt", "--exterior", "--method", method["name"])
+                self.assertIn(f"the method {method['name']} takes no exterior", text)
             if not method["exact"]:
                 self.refuse("invalid_option", "axis", "plain.wkt", "--exact", "--method", method["name"])
 

@@ -1,4 +1,4 @@
-// What of the plane the canvas shows. y points up in the plane and down on the screen. The center is
+// The part of the plane that the canvas shows. y points up in the plane and down on the screen. The center is
 // kept as a sum of two doubles: of one alone, a step across the screen at a zoom of 1e12 would be lost.
 
 export class Camera {

@@ -22,7 +22,7 @@ const tools = new Tools(studio, say);
 const player = new Player(studio);
 globalThis.studio = studio; // for the console, and for tests
 
-/** Tells screen readers. */
+/** For screen readers. */
 function say(text) {
   $("live").textContent = text;
 }

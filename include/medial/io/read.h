@@ -1,8 +1,7 @@
 #pragma once
 
-// Files as documents, images, meshes and packs. `-` is standard input to read_document(),
-// read_image() and read_pack(). Errors of all: unreadable, malformed, unsupported, empty,
-// not_finite, too_large, out_of_memory.
+// Files as documents, images, packs (of which `-` is standard input) and meshes.
+// Errors of all: unreadable, malformed, unsupported, empty, not_finite, too_large, out_of_memory.
 
 #include "medial/load.h"
 #include "medial/pack.h"
@@ -95,8 +94,7 @@ struct VoronoiItem {
 bool is_voronoi(const std::string& path);
 Result<Document<VoronoiItem>> read_voronoi(const std::string& path);
 struct ImageFile : PlacedImage, DocumentInfo {};
-/// Whether a file is one for read_image() by its beginning; false if it cannot be opened.
-bool is_image(const std::string& path);
+bool is_image(const std::string& path);  ///< for read_image(), by its beginning; or false
 /// The image that a ROS map names, which is read with it; empty for all other files.
 std::string image_of_map(const std::string& path);
 

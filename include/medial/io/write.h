@@ -37,8 +37,7 @@ enum class DocumentKind : std::uint8_t {
   mesh,  ///< which is read
 };
 
-/// The extensions of the formats that hold a kind of document, as ".json .svg".
-std::string formats_of(DocumentKind kind);
+std::string formats_of(DocumentKind kind);  ///< their extensions, as ".json .svg"
 
 struct WriteOptions {
   double chord = 1e-3;       ///< chords stay within this share (> 0) of the bounding box diagonal
@@ -112,8 +111,7 @@ struct MachineOptions {
   std::string post;     ///< "linuxcnc", "grbl", "mach3", or a template's text; empty: plain G-code
   bool shaded = false;  ///< pictures: the surface after the cut, simulated, without the paths
 };
-/// The names of the templates that are built in.
-std::string post_names();
+std::string post_names();  ///< of the templates that are built in
 
 /// What a program does, as it is written.
 struct CutReport {

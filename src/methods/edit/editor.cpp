@@ -60,14 +60,6 @@ Error error_of(ErrorCode code, const char* text, std::uint32_t vertex) {
   return error;
 }
 
-/// The tolerance to compute with in the local frame.
-double relative_tolerance(const Box& box, const Box& local, double scale, double relative) {
-  const double tolerance = scale * tolerance_for(box, relative);
-  if (tolerance <= tolerance_for(local, relative)) return relative;
-  constexpr double largest = 1e-3;
-  return std::min(largest, tolerance / diagonal(local));
-}
-
 /// For each site of an axis of the shape's image in the local frame its number.
 std::vector<std::uint32_t> site_numbers(const MedialAxis& axis, const Shape& shape, bool is_first) {
   std::vector<std::uint32_t> sites;
@@ -102,7 +94,9 @@ Status Editor::Parts::start(const Shape& shape, bool is_first) {
   for (std::uint32_t i = 0; i < local.sources.size(); ++i) local.sources[i] = {0, i};
   const Box local_box = bounding_box(local);
   Options local_options = options;
-  local_options.tolerance = relative_tolerance(box, local_box, frame.scale, options.tolerance);
+  const double scaled = frame.scale * tolerance_for(box, options.tolerance);
+  if (scaled > tolerance_for(local_box, options.tolerance))
+    local_options.tolerance = relative_tolerance(scaled, local_box);
   const auto axis = compute(local, local_options);
   if (!axis) return from_local(axis.error(), shape, frame);
   tolerance = tolerance_for(box, options.tolerance);
