@@ -58,7 +58,8 @@ struct Edge {
 /// nearest site on each side. Of pixels it is a pixel's side: nodes, ordered by y, then x, are
 /// centres of medial pixels (of `ridge` also points between pixels), with radii within half a
 /// pixel's diagonal of the distance to the boundary; edges lead straight to one of eight
-/// neighbours; their sites are two that the first node's disk touches within pixels, or no_site.
+/// neighbours; their sites are two that the first node's disk touches within a few pixels, or
+/// both no_site.
 struct MedialAxis {
   std::string method;     ///< the engine's name: see name_of(Method)
   double tolerance = 0;   ///< bound of |distance - radius|, in units of the input

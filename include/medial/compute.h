@@ -22,9 +22,11 @@ struct Options {
   /// Distance from the shape's bounding box to the enclosure, in units of the input, within [1e-6,
   /// 1e6] of the diagonal; 0: half of the longer side.
   double margin = 0;
-  /// Gets the share that is done, from any thread and out of order, at last 1. Must not throw.
+  /// Called with the share that is done, in [0, 1], from any thread and out of order, at last with
+  /// 1. Must not throw.
   std::function<void(double)> progress = {};
-  /// Once it is true, compute() returns ErrorCode::cancelled: from the walk at once.
+  /// Once it is true, compute() returns ErrorCode::cancelled: from the walk at once, from other
+  /// phases when they end.
   const std::atomic<bool>* cancel = nullptr;
 };
 
