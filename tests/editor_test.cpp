@@ -159,8 +159,10 @@ TEST(Editor, ChangesLittleOfALargeAxis) {
 }
 
 TEST(Editor, FollowsAVertexThatJumpsAcrossOthers) {
-  const Ring bar{
-      {{0, 0}, {60, 0}, {60, 10}, {5.5, 10}, {1, 20}, {4.5, 10}, {0, 10}}, RingRole::any, {}};
+  Ring bar;
+  for (int i = 0; i <= 12; ++i) bar.points.push_back({5.0 * i, 0.25 * (i % 2)});
+  for (int i = 12; i > 1; --i) bar.points.push_back({5.0 * i, 10.25 - 0.25 * (i % 2)});
+  for (const Vec2 p : {Vec2{5.5, 10}, {1, 20}, {4.5, 10}, {0, 10}}) bar.points.push_back(p);
   const Ring island{{{5, 16}, {6, 17}, {4, 17}}, RingRole::any, {}};
   Editor editor = editor_of({bar, island});
   std::uint32_t tip = 0;

@@ -16,7 +16,7 @@ import { start_tour } from "./tour.mjs";
 const $ = (id) => document.getElementById(id);
 
 const begun = performance.now();
-await medial.init(globalThis.MEDIAL_WASM?.());
+await medial.init(await globalThis.MEDIAL_WASM);
 const studio = new Studio($("plane"), medial);
 const tools = new Tools(studio, say);
 const player = new Player(studio);
