@@ -25,7 +25,7 @@ PORT ?= 8000
 BENCH_BOOST := build/boost-1.81
 SOURCES = $(shell git ls-files '*.h' '*.cpp')
 
-.PHONY: help setup build demo check test papers bench bench-scale bench-spark bench-flo-mat bench-images fuzz fuzz-coverage certain silhouettes corpus offsets tsan serial portable python python-leaks spark wheels web docs format lint clean install
+.PHONY: help setup build demo check test papers bench bench-scale bench-spark bench-flo-mat bench-images fuzz fuzz-coverage certain silhouettes corpus offsets tsan serial portable python python-leaks spark wheels web frames docs format lint clean install
 .DEFAULT_GOAL := help
 
 help:     ## list the targets
@@ -81,6 +81,11 @@ web: setup      ## build the package for JavaScript and the studio, and serve it
 	@UNITY=$(UNITY) JOBS=$(JOBS) tools/wasm.sh build $(WASM)
 	@echo "the studio: http://127.0.0.1:$(PORT)/"
 	@tools/wasm.sh serve $(WASM) $(PORT)
+
+frames: setup   ## count the studio's frames while a vertex among 1e4 to 1e6 is dragged, in Chromium
+	@tools/setup.sh web
+	@UNITY=$(UNITY) JOBS=$(JOBS) tools/wasm.sh build $(WASM)
+	@tools/wasm.sh frames $(WASM)
 
 docs: python    ## the documentation as a static site: out/docs
 	@tools/docs.sh site $(VENV)

@@ -296,6 +296,41 @@ export class Field extends Handle {
 }
 export function field(x: MedialAxis | Geometry, order?: number): Field;
 export function curveAxis(x: Geometry, options?: AxisOptions): MedialAxis;
+/** What an edit has changed. Take out what is removed first: new numbers may be those of removed ones. */
+export interface Change {
+  removedNodes: Uint32Array;
+  removedEdges: Uint32Array;
+  addedNodes: Uint32Array;
+  addedEdges: Uint32Array;
+  /** That was moved, inserted or removed. */
+  vertex: number;
+  /** Computed again as a whole: all nodes and edges before are removed. */
+  everything: boolean;
+}
+/**
+ * A shape of straight edges with its axis, which follows when vertices move, come and go. Vertices keep
+ * their numbers; so do sites, nodes and edges, except where `Change.everything` is set. A new editor
+ * counts vertices, nodes and edges as its shape and its axis do. An edit that makes edges cross throws a
+ * MedialError with the place, and changes nothing.
+ */
+export class Editor extends Handle {
+  constructor(x: Geometry, options?: { tolerance?: number });
+  move(vertex: number, to: Position): Change;
+  /** A vertex on the edge that begins at the vertex `before`. */
+  insert(before: number, point: Position): Change;
+  remove(vertex: number): Change;
+  /** Takes the last edit back, and those before, one by one; nothing where there is none. */
+  undo(): Change;
+  /** An editor of its own in the same state. */
+  copy(): Editor;
+  vertex(number: number): [number, number] | null;
+  nodes(numbers: ArrayLike<number>): Nodes;
+  edges(numbers: ArrayLike<number>): Edges;
+  sites(numbers: ArrayLike<number>): Sites;
+  /** All of the axis as it is now, with its shape; nodes and edges count from 0 without gaps. */
+  readonly axis: MedialAxis;
+}
+
 /** An axis with its shape, as the text of a native file; and the items of such a text. */
 export function dumps(axis: MedialAxis): string;
 export function loads(text: string): { shape: Shape; axis?: MedialAxis }[];

@@ -10,4 +10,5 @@ export {
   necks, offset, prune, pruneMeasures, rebuild, smooth, transects, verify, voronoi, widestPath,
   widthProfile,
 } from "./lib/operations.mjs";
+export { Editor } from "./lib/editor.mjs";
 export { dumps, loads } from "./lib/native.mjs";

@@ -24,6 +24,16 @@ type Plain<T> = T extends medial.MedialAxis ? PlainAxis
 type Functions = { [K in keyof typeof medial as (typeof medial)[K] extends (...given: never[]) => unknown ? K : never]:
   (typeof medial)[K] extends (...given: infer A) => infer R ? (...given: A) => Promise<Plain<R>> : never };
 
-export type WorkerModule = Functions & { terminate(): void };
+type Columns<T> = T extends medial.Records ? Omit<T, keyof medial.Records> : T;
+type Methods = "move" | "insert" | "remove" | "undo" | "vertex" | "nodes" | "edges" | "sites";
+/** An editor that stays in the worker. */
+export type RemoteEditor = {
+  [K in Methods]: (...given: Parameters<medial.Editor[K]>) => Promise<Columns<ReturnType<medial.Editor[K]>>>;
+} & { readonly axis: Promise<PlainAxis>; copy(): Promise<RemoteEditor>; free(): Promise<void> };
+
+export type WorkerModule = Functions & {
+  Editor(...given: ConstructorParameters<typeof medial.Editor>): Promise<RemoteEditor>;
+  terminate(): void;
+};
 /** Starts a worker whose methods are the functions of the package, each giving a promise. */
 export function inWorker(): Promise<WorkerModule>;

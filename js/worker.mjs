@@ -2,10 +2,12 @@
 //
 //   const medial = await inWorker();
 //   const { nodes, edges, lines } = await medial.axis(shape, { method: "lee" });
+//   const editor = await medial.Editor(shape);
+//   const { addedEdges } = await editor.move(17, [2, 3]);
 //   medial.terminate();
 //
 // Arguments and results are plain data. In place of an axis, a line or a shape comes a copy of what it
-// holds; give the shape again for the next operation.
+// holds; give the shape again for the next operation. Editors stay in the worker until they are freed.
 
 import { MedialError } from "./lib/core.mjs";
 
@@ -21,15 +23,34 @@ export async function inWorker() {
     const { resolve, reject } = waiting.get(id);
     waiting.delete(id);
     if (error) reject(error.code ? new MedialError(error.text, error.code, error) : new Error(error.text));
-    else resolve(result);
+    else resolve(result?.editor ? remote_editor(result.editor, call) : result);
   });
-  const call = (name, given) =>
+  const call = (name, given, editor) =>
     new Promise((resolve, reject) => {
       waiting.set(++last, { resolve, reject });
-      worker.post({ id: last, name, given });
+      worker.post({ id: last, name, given, editor });
     });
   const own = { terminate: worker.terminate, then: undefined };
   return new Proxy(own, { get: (_, name) => (name in own ? own[name] : (...given) => call(name, given)) });
+}
+
+const left = new FinalizationRegistry(({ editor, call }) => call("free", [], editor).catch(() => {}));
+
+/** What stands for an editor of the worker: the same methods, each giving a promise. */
+function remote_editor(editor, call) {
+  const methods = ["move", "insert", "remove", "undo", "copy", "vertex", "nodes", "edges", "sites"];
+  const remote = {
+    get axis() {
+      return call("axis", [], editor);
+    },
+    free() {
+      left.unregister(remote);
+      return call("free", [], editor);
+    },
+  };
+  for (const name of methods) remote[name] = (...given) => call(name, given, editor);
+  left.register(remote, { editor, call }, remote);
+  return remote;
 }
 
 async function start() {
@@ -75,18 +96,35 @@ function plain(value, medial) {
     const { length, narrowest, closed } = value;
     return { length, narrowest, closed, coordinates: value.coordinates() };
   }
+  if (value instanceof medial.Records) return columns(value);
   if (value === null || typeof value !== "object" || ArrayBuffer.isView(value)) return value;
   const entries = Object.entries(value).filter(([, part]) => typeof part !== "function");
   return Object.fromEntries(entries.map(([key, part]) => [key, plain(part, medial)]));
 }
 
+/** Calls a function of the package, or of one of the editors. */
+function answer(medial, editors, { id, name, given, editor }) {
+  if (name === "free") {
+    editors.get(editor)?.free();
+    return void editors.delete(editor);
+  }
+  const of = editor ? editors.get(editor) : medial;
+  if (!of) throw new medial.MedialError("the object is freed", "invalid_option");
+  if (editor && name === "axis") return plain(of.axis, medial);
+  if (!(name in of) || typeof of[name] !== "function") throw new Error(`medial-axis has no function '${name}'`);
+  const value = name === "Editor" ? new medial.Editor(...given) : of[name](...given);
+  if (!(value instanceof medial.Editor)) return plain(value, medial);
+  editors.set(id, value);
+  return { editor: id };
+}
+
 async function serve(listen, post) {
   const queue = import("./index.mjs");
-  listen(async ({ id, name, given }) => {
+  const editors = new Map();
+  listen(async (message) => {
+    const { id } = message;
     try {
-      const medial = await queue;
-      if (typeof medial[name] !== "function") throw new Error(`medial-axis has no function '${name}'`);
-      post({ id, result: plain(medial[name](...given), medial) });
+      post({ id, result: answer(await queue, editors, message) });
     } catch (error) {
       const { text, message, code, feature, ring, vertex, point } = error;
       post({ id, error: { text: text ?? message, code, feature, ring, vertex, point } });

@@ -158,6 +158,33 @@ TEST(Editor, ChangesLittleOfALargeAxis) {
   EXPECT_EQ(fault_of(editor), "");
 }
 
+TEST(Editor, FollowsAVertexThatJumpsAcrossOthers) {
+  Ring bar;
+  for (int i = 0; i <= 12; ++i) bar.points.push_back({5.0 * i, 0.25 * (i % 2)});
+  for (int i = 12; i > 1; --i) bar.points.push_back({5.0 * i, 10.25 - 0.25 * (i % 2)});
+  for (const Vec2 p : {Vec2{5.5, 10}, {1, 20}, {4.5, 10}, {0, 10}}) bar.points.push_back(p);
+  const Ring island{{{5, 16}, {6, 17}, {4, 17}}, RingRole::any, {}};
+  Editor editor = editor_of({bar, island});
+  std::uint32_t tip = 0;
+  while (!(editor.vertex(tip) == Vec2{1, 20})) ++tip;
+  Mirror mirror(editor);
+  for (const Vec2 to : {Vec2{9, 20}, Vec2{5, 14}, Vec2{1, 20}}) {
+    const auto change = editor.move(tip, to);
+    ASSERT_TRUE(change.ok()) << to_string(change.error());
+    EXPECT_FALSE(change->everything);
+    EXPECT_EQ(change->vertex, tip);
+    mirror.follow(*change);
+    mirror.expect(editor);
+    ASSERT_EQ(fault_of(editor), "");
+  }
+  const auto refused = editor.move(tip, {5, 20});  // through the island
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().code, ErrorCode::crossing);
+  ASSERT_TRUE(editor.undo().ok());
+  EXPECT_EQ(editor.vertex(tip), (Vec2{5, 14}));
+  EXPECT_EQ(fault_of(editor), "");
+}
+
 TEST(Editor, RefusesEdgesThatCrossWithThePlace) {
   Editor editor = editor_of(l_shape(2));
   const MedialAxis before = editor.axis();

@@ -4,6 +4,7 @@
 #   tools/wasm.sh build TREE         compile the module; TREE/package is the package, TREE/studio the page
 #   tools/wasm.sh serve TREE [PORT]  serve the page on 127.0.0.1
 #   tools/wasm.sh test TREE          run the tests in Node and, where it is installed, in Chromium
+#   tools/wasm.sh frames TREE        count frames while a vertex is dragged, in Chromium
 #
 # Both end with status 77, which counts as skipped, where emscripten is missing.
 set -euo pipefail
@@ -80,4 +81,5 @@ case $task in
   build) build ;;
   serve) exec python3 -m http.server --bind 127.0.0.1 --directory "$tree/studio" "${3:-8000}" ;;
   test) run_tests ;;
+  frames) exec node web/bench/frames.mjs "$tree" ;;
 esac

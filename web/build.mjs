@@ -6,6 +6,7 @@
 import { copyFile, mkdir, readFile, readdir, writeFile } from "node:fs/promises";
 import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
+import { gzipSync } from "node:zlib";
 
 const tree = resolve(process.argv[2]);
 const web = import.meta.dirname;
@@ -57,12 +58,15 @@ const bundle = await build({
 });
 const style = await build({ entryPoints: [join(web, "style.css")], minify: true, write: false });
 
-const module = (await readFile(join(tree, "package/lib/medial.wasm"))).toString("base64");
+// Packed, as the page has to be read before anything of it runs; it compiles while the rest is read.
+const module = gzipSync(await readFile(join(tree, "package/lib/medial.wasm")), { level: 9 }).toString("base64");
+const compiling = `fetch("data:;base64,${module}").then(({ body }) => WebAssembly.compileStreaming(
+  new Response(body.pipeThrough(new DecompressionStream("gzip")), { headers: { "Content-Type": "application/wasm" } })))`;
 const script = bundle.outputFiles[0].text.replaceAll("</script", "<\\/script");
 const page = (await text(join(web, "index.html")))
   .replace('<link rel="stylesheet" href="style.css">', () => `<style>${style.outputFiles[0].text}</style>`)
   .replace('<script type="module" src="src/main.mjs"></script>', () => [
-    `<script>globalThis.MEDIAL_WASM = () => Uint8Array.from(atob("${module}"), (c) => c.charCodeAt(0));</script>`,
+    `<script>globalThis.MEDIAL_WASM = ${compiling};</script>`,
     `<script type="module">${script}</script>`,
   ].join("\n"));
 

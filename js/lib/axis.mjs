@@ -1,6 +1,6 @@
 // Shapes and their medial axes.
 
-import { Handle, answer_json, answer_text, call, number_of, options, table } from "./core.mjs";
+import { Handle, answer_json, answer_text, call, memory, number_of, options, table } from "./core.mjs";
 import { NO_SITE, Records } from "./records.mjs";
 import { read, rings_of_lists } from "./read.mjs";
 
@@ -170,7 +170,11 @@ export class MedialAxis extends Handle {
     return this.#numbers[i];
   }
   #records(kind, i) {
-    return (this.#tables[kind] ??= new Records(this, kind, this.#number(i), this.#number(i + 1)));
+    const [address, length] = [this.#number(i), this.#number(i + 1)];
+    return (this.#tables[kind] ??= new Records(kind, length, (Type) => {
+      void this.address; // an error once it is freed
+      return new Type(memory(), address);
+    }));
   }
 
   get nodes() {

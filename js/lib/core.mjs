@@ -16,7 +16,7 @@ export class MedialError extends Error {
 let module; // what the WebAssembly module exports
 let starting;
 
-/** Compiles the module, once; from another place if `source` gives its bytes or its URL. */
+/** Compiles the module, once; from another place if `source` gives its bytes, its URL, or it compiled. */
 export function init(source) {
   starting ??= start(source).catch((error) => {
     starting = undefined;
@@ -33,6 +33,7 @@ async function start(source = new URL("./medial.wasm", import.meta.url)) {
 }
 
 async function compile(source) {
+  if (source instanceof WebAssembly.Module) return source;
   if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return WebAssembly.compile(source);
   if (String(source).startsWith("file:") && typeof process !== "undefined") {
     const { readFile } = await import(/* @vite-ignore */ "node:fs/promises");

@@ -1,6 +1,4 @@
-// Nodes, edges and sites of an axis: arrays of records in the module's memory.
-
-import { memory } from "./core.mjs";
+// Nodes, edges and sites of an axis: arrays of records.
 
 export const NODE_KINDS = ["leaf", "site_change", "branching"];
 export const SITE_KINDS = ["segment", "vertex", "arc"];
@@ -27,14 +25,13 @@ const TYPES = { f64: [Float64Array, 8], u32: [Uint32Array, 4], u8: [Uint8Array, 
 
 /** A table whose columns are typed arrays; each is copied when it is first asked for. */
 export class Records {
-  #owner;
-  #address;
+  #bytes;
   #layout;
   #columns = {};
 
-  constructor(owner, kind, address, length) {
-    this.#owner = owner;
-    this.#address = address;
+  /** `bytes(Type)` gives all that lies in memory from the first record on. */
+  constructor(kind, length, bytes) {
+    this.#bytes = bytes;
     this.#layout = LAYOUT[kind];
     this.length = length;
     for (const type of Object.keys(TYPES))
@@ -47,9 +44,7 @@ export class Records {
 
   /** The records as they lie in the module's memory, until the memory next grows or is freed. */
   view(Type = Float64Array) {
-    void this.#owner.address;
-    const count = (this.length * this.#layout.size) / Type.BYTES_PER_ELEMENT;
-    return new Type(memory(), this.#address, count);
+    return this.#bytes(Type).subarray(0, (this.length * this.#layout.size) / Type.BYTES_PER_ELEMENT);
   }
 
   #column(type, name) {

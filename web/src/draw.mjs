@@ -1,7 +1,7 @@
 // Draws the scene: the shape, what is switched on, the axis, and what the pointer is over.
 
 import { arc_of, next_of, point_of, size_of } from "./model.mjs";
-import { SHADES, clipped } from "./pieces.mjs";
+import { SHADES, add_part, clipped, conic } from "./pieces.mjs";
 
 const FAR = 2e4; // pixels beyond which a canvas loses digits
 
@@ -215,17 +215,30 @@ function dot(c, x, y, r, fill, ring) {
   c.stroke();
 }
 
-function draw_vertices(c, rings, camera, theme, hot) {
-  const [x0, y0, x1, y1] = camera.view;
+const MOST_DOTS = 750;
+
+/** Vertices in view; none where there are too many. */
+function vertices_in_view({ rings, live, stale }, camera) {
   const seen = [];
-  for (const ring of rings)
-    for (let k = 0; k < ring.xy.length && seen.length <= 1500; k += 2)
-      if (ring.xy[k] >= x0 && ring.xy[k] <= x1 && ring.xy[k + 1] >= y0 && ring.xy[k + 1] <= y1) seen.push(ring, k);
-  if (seen.length <= 1500) {
+  const [x0, y0, x1, y1] = camera.view;
+  const add = (x, y) => x >= x0 && x <= x1 && y >= y0 && y <= y1 && seen.push(x, y);
+  if (live && !stale && live.boundary.share([x0, y0, x1, y1]) < 1 / 16) {
+    live.boundary.find([x0, y0, x1, y1], (v) => seen.length <= 2 * MOST_DOTS && add(live.x[v], live.y[v]));
+    return seen;
+  }
+  for (const { xy } of rings)
+    for (let k = 0; k < xy.length && seen.length <= 2 * MOST_DOTS; k += 2) add(xy[k], xy[k + 1]);
+  return seen;
+}
+
+function draw_vertices(c, scene, camera, theme) {
+  const { rings, hot } = scene;
+  const seen = vertices_in_view(scene, camera);
+  if (seen.length <= 2 * MOST_DOTS) {
     const size = seen.length > 500 ? 1.6 : 2.6;
     let last = [-99, -99];
     for (let i = 0; i < seen.length; i += 2) {
-      const [x, y] = camera.toScreen(seen[i].xy[seen[i + 1]], seen[i].xy[seen[i + 1] + 1]);
+      const [x, y] = camera.toScreen(seen[i], seen[i + 1]);
       if (Math.hypot(x - last[0], y - last[1]) < 3 * size) continue; // dots would cover the line
       last = [x, y];
       dot(c, x, y, size, theme.paper, theme.ink);
@@ -292,9 +305,8 @@ function draw_fire(c, scene, camera, theme, shape) {
   c.restore();
 }
 
-export function draw(c, scene, camera, theme) {
-  const ratio = scene.ratio ?? 1;
-  c.setTransform(ratio, 0, 0, ratio, 0, 0);
+/** All that stays while the pointer moves: the shape, its axis, and what is shown with them. */
+export function draw_base(c, scene, camera, theme) {
   c.fillStyle = theme.paper;
   c.fillRect(0, 0, camera.width, camera.height);
   if (scene.show.grid) draw_grid(c, camera, theme, scene.grid_step);
@@ -309,15 +321,205 @@ export function draw(c, scene, camera, theme) {
   if (scene.carving) draw_carving(c, scene.carving, camera, theme);
   if (scene.whole) draw_pieces(c, scene.whole, camera, theme, 1, 0.28);
   if (scene.pieces && scene.show.axis) draw_pieces(c, scene.pieces, camera, theme, scene.pieces.numbers.length > 7e5 ? 1 : 2.25, scene.stale ? 0.25 : 1);
+  if (scene.live && !scene.pieces && scene.show.axis) draw_axis(c, scene.live, camera, theme, [0, 0, camera.width, camera.height], scene.stale ? 0.25 : 1);
   for (const { pieces, alpha } of scene.others ?? []) draw_pieces(c, pieces, camera, theme, 1.25, alpha);
+  outline_style(c, theme, scene.live);
+  c.stroke(shape);
+}
+function outline_style(c, theme, live) {
   c.strokeStyle = theme.ink;
   c.lineWidth = 1.5;
-  c.lineJoin = "round";
-  c.stroke(shape);
+  c.lineJoin = live?.count > 12_000 ? "bevel" : "round";
+  c.lineCap = "butt";
+}
+
+/** A part of the screen where the axis follows edits and nothing else is shown. */
+export function draw_part(c, scene, camera, theme, part) {
+  const [left, top, right, bottom] = part;
+  c.fillStyle = theme.paper;
+  c.fillRect(left, top, right - left, bottom - top);
+  if (scene.show.grid) draw_grid(c, camera, theme, scene.grid_step);
+  const { fill, line } = trace_part(scene.live, camera, part);
+  c.fillStyle = theme.fill;
+  c.fill(fill, "evenodd");
+  if (scene.show.axis) draw_axis(c, scene.live, camera, theme, part, 1);
+  outline_style(c, theme, scene.live);
+  c.stroke(line);
+}
+
+/** What the pointer is over, and what is being drawn. */
+export function draw_over(c, scene, camera, theme) {
   for (const disk of scene.disks ?? []) draw_disk(c, disk, camera, theme);
-  if (scene.show.vertices) draw_vertices(c, scene.rings, camera, theme, scene.hot);
+  if (scene.show.vertices) draw_vertices(c, scene, camera, theme);
   draw_draft(c, scene.draft, camera, theme);
+  if (scene.refused) draw_refused(c, scene.refused, camera, theme);
   if (scene.error?.point) draw_error(c, scene.error.point, camera, theme);
+}
+
+/** The edges that an edit would have made. */
+function draw_refused(c, points, camera, theme) {
+  c.strokeStyle = theme.error;
+  c.lineWidth = 1.5;
+  c.setLineDash([4, 4]);
+  c.beginPath();
+  points.forEach((p, i) => (i ? c.lineTo(...camera.toScreen(...p)) : c.moveTo(...camera.toScreen(...p))));
+  c.stroke();
+  c.setLineDash([]);
+}
+
+// The axis that follows edits.
+
+/** Lines of an axis with so many edges: their width, and whether their ends are round. */
+const lines_of = (count) => [count > 100_000 ? 1 : count > 12_000 ? 1.5 : 2.25, count > 12_000 ? "butt" : "round"];
+let covered = new Uint8Array(0); // half pixels that have a short piece
+
+/**
+ * The edges in a part of the screen by their shades, as numbers of conics on the screen. Of pieces
+ * shorter than half a pixel one is drawn in each half pixel.
+ */
+function conics_in(live, camera, part) {
+  const [left, top, right, bottom] = part;
+  const { rows, radii } = live;
+  const { cx, cy, dx, dy, scale } = camera.transform;
+  const factor = (SHADES - 1) / (live.largest || 1);
+  const shades = Array.from({ length: SHADES }, () => []);
+  const wide = 2 * Math.ceil(right - left + 10);
+  const tall = 2 * Math.ceil(bottom - top + 10);
+  if (covered.length < wide * tall) covered = new Uint8Array(wide * tall);
+  covered.fill(0, 0, wide * tall);
+  const parts_of = [];
+  const shades_of = [];
+  const add = (e) => {
+    const k = 7 * e;
+    const x0 = (rows[k] - cx) * scale + dx;
+    const y0 = (cy - rows[k + 1]) * scale + dy;
+    const x = (rows[k + 2] - cx) * scale + dx;
+    const y = (cy - rows[k + 3]) * scale + dy;
+    const x1 = (rows[k + 4] - cx) * scale + dx;
+    const y1 = (cy - rows[k + 5]) * scale + dy;
+    if (Math.max(x0, x1, x) < left - 4 || Math.min(x0, x1, x) > right + 4) return;
+    if (Math.max(y0, y1, y) < top - 4 || Math.min(y0, y1, y) > bottom + 4) return;
+    const r0 = radii[3 * e];
+    const r1 = radii[3 * e + 2];
+    const size = Math.max(Math.abs(x1 - x0), Math.abs(y1 - y0), Math.abs(x - x0), Math.abs(y - y0));
+    const into = shades[Math.min(SHADES - 1, Math.round(((r0 + r1) / 2) * factor))];
+    if (size < 0.5) {
+      const at = Math.floor(2 * (y0 - top + 5)) * wide + Math.floor(2 * (x0 - left + 5));
+      if (covered[at]) return;
+      covered[at] = 1;
+      const reach = 0.3 / (size || 1);
+      const [mx, my, ux, uy] = [(x0 + x1) / 2, (y0 + y1) / 2, size ? (x1 - x0) * reach : 0.3, (y1 - y0) * reach];
+      into.push(mx - ux, my - uy, mx, my, mx + ux, my + uy, 1);
+      return;
+    }
+    const parts = Math.min(24, size / 4, (Math.abs(r0 - r1) * factor) / 1.5);
+    if (!(parts > 1)) {
+      into.push(x0, y0, x, y, x1, y1, rows[k + 6]);
+      return;
+    }
+    const count = Math.ceil(parts);
+    const curve = [x0, y0, r0, x, y, radii[3 * e + 1], x1, y1, r1, rows[k + 6]];
+    parts_of.length = shades_of.length = 0;
+    for (let i = 0; i < count; ++i) add_part(parts_of, shades_of, curve, i / count, (i + 1) / count, factor);
+    shades_of.forEach((shade, i) => shades[Math.min(SHADES - 1, Math.max(0, Math.round(shade)))].push(...parts_of.slice(7 * i, 7 * i + 7)));
+  };
+  const box = box_of(camera, part, 4);
+  if (live.edges.share(box) < 1 / 16) live.edges.find(box, add);
+  else for (let e = 0; e < live.edges.room; ++e) if (live.edges.has(e)) add(e);
+  return shades;
+}
+/** A part of the screen in the plane, with a margin of so many pixels. */
+function box_of(camera, [left, top, right, bottom], margin) {
+  const [x0, y1] = camera.toPlane(left - margin, top - margin);
+  const [x1, y0] = camera.toPlane(right + margin, bottom + margin);
+  return [x0, y0, x1, y1];
+}
+
+function draw_axis(c, live, camera, theme, part, alpha) {
+  c.globalAlpha = alpha;
+  [c.lineWidth, c.lineCap] = lines_of(live.count);
+  conics_in(live, camera, part).forEach((numbers, shade) => {
+    if (!numbers.length) return;
+    c.strokeStyle = theme.ramp[shade];
+    c.beginPath();
+    for (let k = 0; k < numbers.length; k += 7)
+      conic(c, numbers[k], numbers[k + 1], numbers[k + 2], numbers[k + 3], numbers[k + 4], numbers[k + 5], numbers[k + 6], camera.width + 4, camera.height + 4);
+    c.stroke();
+  });
+  c.globalAlpha = 1;
+}
+
+/**
+ * The inside of the shape in a part of the screen, by the even-odd rule, and the boundary there. Each chain
+ * of edges bounds an area that reaches far to the left, which counts where an edge lies on the right of a
+ * point; where the boundary leaves the part on its right side, the rest of that side changes sides as well.
+ */
+function trace_part(live, camera, part) {
+  const [left, top, right, bottom] = part.map((side, i) => side + (i < 2 ? -4 : 4));
+  const far = left - 10;
+  const tracer = new Tracer(far);
+  const { x, y, next, before } = live;
+  const { cx, cy, dx, dy, scale } = camera.transform;
+  const { fill } = tracer;
+  if (live.inside(...camera.toPlane(right, top))) fill.rect(far, top, right - far, bottom - top);
+  const add = (v) => {
+    const w = next[v];
+    const ax = (x[v] - cx) * scale + dx;
+    const ay = (cy - y[v]) * scale + dy;
+    const bx = (x[w] - cx) * scale + dx;
+    const by = (cy - y[w]) * scale + dy;
+    const is_far = Math.max(Math.abs(ax), Math.abs(ay), Math.abs(bx), Math.abs(by)) > FAR;
+    if (!is_far && ax <= right && bx <= right) return tracer.edge(ax, ay, bx, by);
+    const inner = clipped(ax, ay, bx, by, far, top, right, bottom);
+    tracer.end();
+    if (inner) tracer.edge(...inner);
+    tracer.end();
+    if (ax > right === bx > right) return;
+    const at = ay + ((right - ax) / (bx - ax)) * (by - ay);
+    if (at > top && at < bottom) fill.rect(far, at, right - far, bottom - at);
+  };
+  const found = live.in_box(box_of(camera, part, 4));
+  const walk = (first) => {
+    for (let v = first; live.take(v); v = next[v]) add(v);
+    tracer.end();
+  };
+  for (const v of found) if (!live.is_found(before[v])) walk(v);
+  for (const v of found) walk(v); // loops that lie inside as a whole
+  return tracer;
+}
+
+/** Chains of edges as paths; of many points in one pixel only the first is drawn. */
+class Tracer {
+  fill = new Path2D();
+  line = new Path2D();
+  #open = false;
+
+  constructor(far) {
+    this.far = far;
+  }
+  edge(ax, ay, bx, by) {
+    if (!this.#open) {
+      this.#open = true;
+      this.#put(ax, ay, true);
+    }
+    [this.x, this.y] = [bx, by];
+    if (Math.abs(bx - this.px) + Math.abs(by - this.py) >= 0.4) this.#put(bx, by, false);
+  }
+  #put(x, y, is_first) {
+    if (is_first) {
+      this.fill.moveTo(this.far, y);
+      this.line.moveTo(x, y);
+    } else this.line.lineTo(x, y);
+    this.fill.lineTo(x, y);
+    [this.px, this.py] = [x, y];
+  }
+  end() {
+    if (!this.#open) return;
+    this.#put(this.x, this.y, false);
+    this.fill.lineTo(this.far, this.y);
+    this.fill.closePath();
+    this.#open = false;
+  }
 }
 
 function draw_field(c, field, camera, shape) {

@@ -1,6 +1,7 @@
 // Files and texts as rings, and the drawing as files.
 
 import { arc_of, bounds_of, next_of, outline, point_of, ring_of, size_of } from "./model.mjs";
+import { Pieces } from "./pieces.mjs";
 import { flat_path } from "./svg.mjs";
 
 const points_of = (list) => {
@@ -220,7 +221,7 @@ export function path_data(ring) {
   return `${d}Z`;
 }
 
-export function svg_of({ rings, scene, deepest }, ramp) {
+export function svg_of({ rings, scene, axis, deepest }, ramp) {
   const [x0, y0, x1, y1] = bounds_of(rings);
   const margin = 0.03 * Math.hypot(x1 - x0, y1 - y0);
   const box = [x0 - margin, -y1 - margin, x1 - x0 + 2 * margin, y1 - y0 + 2 * margin].map(number).join(" ");
@@ -232,7 +233,7 @@ export function svg_of({ rings, scene, deepest }, ramp) {
   if (scene.regions)
     rows.push(`<path d="${scene.regions.map(path_data).join("")}" fill="none" stroke="#c2571a" stroke-width="${number(width / 3)}"/>`);
   rows.push(`<g fill="none" stroke-linecap="round" stroke-width="${number(width)}"><desc>medial axis; largest radius ${number(deepest)}</desc>`);
-  const { begin, numbers } = scene.pieces;
+  const { begin, numbers } = scene.pieces ?? new Pieces(axis);
   for (let shade = 0; shade + 1 < begin.length; ++shade) {
     if (begin[shade] === begin[shade + 1]) continue;
     let d = "";

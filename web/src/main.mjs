@@ -16,7 +16,7 @@ import { start_tour } from "./tour.mjs";
 const $ = (id) => document.getElementById(id);
 
 const begun = performance.now();
-await medial.init(globalThis.MEDIAL_WASM?.());
+await medial.init(await globalThis.MEDIAL_WASM);
 const studio = new Studio($("plane"), medial);
 const tools = new Tools(studio, say);
 const player = new Player(studio);
@@ -271,17 +271,19 @@ addEventListener("drop", (event) => {
 
 const short = (x) => (Math.abs(x) >= 1e5 || (Math.abs(x) < 1e-3 && x !== 0) ? x.toExponential(3) : String(+x.toPrecision(5)));
 studio.addEventListener("computed", () => {
-  const { axis, scene } = studio;
+  const { scene } = studio;
   const counts = [`${count_of(studio.rings).toLocaleString("en")} vertices`];
-  if (axis && !scene.error) counts.push(`${axis.edges.length.toLocaleString("en")} edges`);
+  const edges = edge_count();
+  if (edges !== undefined && !scene.error) counts.push(`${edges.toLocaleString("en")} edges`);
   if (scene.error) counts.push(scene.error.text);
   $("counts").textContent = counts.join(" · ");
   $("counts").className = scene.error ? "failed" : "";
   $("speed").textContent = `${studio.times.axis.toFixed(1)} ms`;
 });
+const edge_count = () => studio.live?.count ?? studio.axis?.edges.length;
 studio.addEventListener("derived", () => {
-  if (studio.branches !== undefined && studio.axis)
-    $("counts").textContent = `${count_of(studio.rings).toLocaleString("en")} vertices · ${studio.axis.edges.length.toLocaleString("en")} edges · ${studio.branches.toLocaleString("en")} branches`;
+  if (studio.branches !== undefined && !studio.scene.error && edge_count() !== undefined)
+    $("counts").textContent = `${count_of(studio.rings).toLocaleString("en")} vertices · ${edge_count().toLocaleString("en")} edges · ${studio.branches.toLocaleString("en")} branches`;
 });
 studio.addEventListener("drawn", () => {
   const zoom = studio.camera.magnification;

@@ -1,8 +1,9 @@
 // The drawing: rings of vertices whose edges are straight, arcs or cubic Bézier curves, and its history.
 //
 // A ring is { xy: Float64Array, edges: Map }. Edge i leads from vertex i to the next one; in `edges` it
-// is a number, the bulge of an arc, or an array [x1, y1, x2, y2], the control points of a curve. Rings do
-// not change: an edit makes a new ring, so that history shares all others.
+// is a number, the bulge of an arc, or an array [x1, y1, x2, y2], the control points of a curve. A change
+// makes a new ring, so that history shares all others; but where the axis follows edits of single vertices,
+// a ring itself changes, and history has the edits.
 
 export const size_of = (ring) => ring.xy.length / 2;
 export const point_of = (ring, i) => [ring.xy[2 * i], ring.xy[2 * i + 1]];
@@ -156,28 +157,44 @@ function contour_of(ring, medial) {
   return contour;
 }
 
-/** States of the drawing, to go back and forth without limit. */
-export class History {
-  #states = [];
-  #at = -1;
-
-  get rings() {
-    return this.#states[this.#at] ?? [];
+/**
+ * Moves, inserts or removes a vertex of a ring: { kind, ring, index, point }; an inserted one comes before
+ * the vertex `index`. Gives the edit that takes it back.
+ */
+export function apply_edit(rings, { kind, ring: r, index, point }) {
+  const ring = rings[r];
+  if (kind === "insert") {
+    Object.assign(ring, with_vertex(ring, index - 1, point));
+    return { kind: "remove", ring: r, index };
   }
+  const old = point_of(ring, index);
+  if (kind === "remove") {
+    Object.assign(ring, without_vertex(ring, index));
+    return { kind: "insert", ring: r, index, point: old };
+  }
+  ring.xy.set(point, 2 * index);
+  return { kind, ring: r, index, point: old };
+}
+
+/** Steps of the drawing, to go back and forth without limit: each two states, or edits and their inverses. */
+export class History {
+  #steps = [];
+  #at = 0;
+
   get canUndo() {
     return this.#at > 0;
   }
   get canRedo() {
-    return this.#at < this.#states.length - 1;
+    return this.#at < this.#steps.length;
   }
-  add(rings) {
-    this.#states.length = ++this.#at;
-    this.#states.push(rings);
+  add(step) {
+    this.#steps.length = this.#at++;
+    this.#steps.push(step);
   }
   undo() {
-    if (this.canUndo) --this.#at;
+    return this.canUndo ? this.#steps[--this.#at] : null;
   }
   redo() {
-    if (this.canRedo) ++this.#at;
+    return this.canRedo ? this.#steps[this.#at++] : null;
   }
 }

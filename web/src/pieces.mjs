@@ -65,7 +65,7 @@ export class Pieces {
 }
 
 /** The part of a rational quadratic between two parameters, in the form with weights 1, w, 1. */
-function add_part(rows, shades, curve, s, t, factor) {
+export function add_part(rows, shades, curve, s, t, factor) {
   const [x0, y0, r0, cx, cy, cr, x1, y1, r1, w] = curve;
   const blend = (a, b) => {
     const [f, g, h] = [(1 - a) * (1 - b), a * (1 - b) + b * (1 - a), a * b];

@@ -1,13 +1,18 @@
 // The studio's state: the drawing, its axis, and what is shown. Every change asks for a frame; a frame
-// computes what is out of date and draws.
+// computes what is out of date and draws. Where the axis follows edits (Live), an edit changes the drawing
+// and the axis at once.
 
 import { Camera } from "./camera.mjs";
-import { draw, nice_step, read_theme, ring_from } from "./draw.mjs";
-import { History, bounds_of, count_of, input_of, outline } from "./model.mjs";
+import { nice_step, read_theme, ring_from } from "./draw.mjs";
+import { Live } from "./live.mjs";
+import { History, apply_edit, bounds_of, count_of, input_of, outline } from "./model.mjs";
+import { Painter } from "./painter.mjs";
 import { Pieces } from "./pieces.mjs";
 
-/** Above this many vertices the axis waits until the pointer rests. */
-const LIVE = 30_000;
+/** Above this many vertices an axis that does not follow edits waits until the pointer rests. */
+const LARGE = 30_000;
+/** Above this many edges what needs the whole axis is not asked for on the way. */
+const MANY = 60_000;
 const REST = 160; // milliseconds
 
 export class Studio extends EventTarget {
@@ -21,11 +26,16 @@ export class Studio extends EventTarget {
   times = { axis: 0, frame: 0 };
   #dirty = new Set(["theme"]);
   #asked = false;
-  #kept = []; // what the module holds for this drawing
+  #kept = null; // the axis and the shape of a drawing that does not follow edits
+  #settled = null; // the rings after the last step of the history
+  #edits = []; // since then, each with its inverse
+  /** The axis that follows edits of the drawing as it is; null where none does. */
+  live = null;
 
   constructor(canvas, medial) {
     super();
     this.canvas = canvas;
+    this.painter = new Painter(() => this.ask());
     this.context = canvas.getContext("2d", { alpha: false });
     this.medial = medial;
     new ResizeObserver(() => this.resize()).observe(canvas);
@@ -36,22 +46,113 @@ export class Studio extends EventTarget {
     return this.scene.rings;
   }
 
+  get axis() {
+    return this.#kept ? this.#kept.axis : (this.scene.live?.axis ?? null);
+  }
+  get shape() {
+    return this.#kept ? this.#kept.shape : (this.scene.live?.axis.shape ?? null);
+  }
+
   /** Shows rings; `done` makes it a step of the history. */
   change(rings, done = true) {
+    this.#keep_edits();
     this.scene.rings = rings;
-    if (done) this.history.add(rings);
+    this.#drop_live();
     this.ask("axis");
-    if (done) this.emit("changed");
+    if (done && this.#settled && rings !== this.#settled) this.history.add({ before: this.#settled, after: rings });
+    if (done) this.#settle();
+  }
+  /** What was changed since the last step becomes one. */
+  done() {
+    if (this.scene.rings !== this.#settled) return this.change(this.scene.rings);
+    this.#keep_edits();
+    this.#settle();
+    this.ask("counts");
+  }
+  #settle() {
+    this.#settled = this.scene.rings;
+    this.emit("changed");
+  }
+  #keep_edits() {
+    if (this.#edits.length) this.history.add({ edits: this.#edits });
+    this.#edits = [];
+  }
+  /** Goes back to the last step. */
+  cancel() {
+    if (this.scene.rings !== this.#settled) return this.change(this.#settled, false);
+    this.#replay(this.#edits.splice(0).reverse().map(({ inverse }) => inverse));
+  }
+
+  /**
+   * Edits vertices, one after the other, where the axis can follow. False where it cannot, and nothing
+   * happens. What makes edges cross is shown and not done: then no edit is.
+   */
+  edit(edits) {
+    if (!this.live || !edits.every((edit) => this.live.knows(edit))) return false;
+    const begin = performance.now();
+    const made = [];
+    this.scene.error = this.scene.refused = null;
+    try {
+      for (const edit of edits) made.push(this.#follow(edit));
+      this.#edits.push(...made);
+    } catch (error) {
+      if (!(error instanceof this.medial.MedialError)) throw error;
+      for (const { inverse } of made.reverse()) this.#follow(inverse);
+      if (edits.length > 1) return false;
+      this.scene.error = error;
+      this.scene.refused = this.#around(edits[0]);
+    }
+    this.times.axis = performance.now() - begin;
+    this.ask("edit");
+    return true;
+  }
+  #follow(edit) {
+    this.live.follow(edit);
+    return { edit, inverse: apply_edit(this.scene.rings, edit) };
+  }
+  #around({ kind, ring, index, point }) {
+    const { xy } = this.scene.rings[ring];
+    const at = (i) => [xy.at((2 * i) % xy.length), xy.at((2 * i + 1) % xy.length)];
+    const [before, after] = [at(index - 1), at(kind === "insert" ? index : index + 1)];
+    return kind === "remove" ? [before, after] : [before, point, after];
+  }
+
+  #replay(edits) {
+    for (const edit of edits) {
+      this.#try_to_follow(edit);
+      apply_edit(this.scene.rings, edit);
+    }
+    this.ask(this.live ? "edit" : "axis");
+    this.ask("counts");
+  }
+  #try_to_follow(edit) {
+    if (!this.live?.knows(edit)) return this.#drop_live();
+    try {
+      this.live.follow(edit);
+    } catch (error) {
+      if (!(error instanceof this.medial.MedialError)) throw error;
+      this.#drop_live();
+    }
+  }
+  #drop_live() {
+    this.live = null;
+    this.scene.refused = null;
   }
   undo() {
-    this.history.undo();
-    this.change(this.history.rings, false);
-    this.emit("changed");
+    this.cancel();
+    this.#go(this.history.undo(), true);
   }
   redo() {
-    this.history.redo();
-    this.change(this.history.rings, false);
-    this.emit("changed");
+    this.cancel();
+    this.#go(this.history.redo(), false);
+  }
+  #go(step, back) {
+    if (!step) return;
+    this.scene.error = this.scene.refused = null;
+    if (!step.edits) this.change(back ? step.before : step.after, false);
+    else if (back) this.#replay(step.edits.map(({ inverse }) => inverse).reverse());
+    else this.#replay(step.edits.map(({ edit }) => edit));
+    this.#settle();
   }
   set(name, value) {
     this.settings[name] = value;
@@ -99,15 +200,17 @@ export class Studio extends EventTarget {
     if (dirty.has("theme")) this.theme = read_theme();
     if (dirty.has("axis")) this.#axis_or_wait();
     else if (dirty.has("derived")) this.#derive();
+    else if (dirty.has("edit") || dirty.has("counts")) this.#edited();
     this.scene.grid_step = nice_step(this.camera);
-    draw(this.context, this.scene, this.camera, this.theme);
+    const whole = ["theme", "axis", "derived"].some((what) => dirty.has(what)) || (dirty.has("edit") && Boolean(this.scene.pieces));
+    this.painter.paint(this.context, this.scene, this.camera, this.theme, whole);
     this.times.frame = performance.now() - begin;
     this.emit("drawn", dirty);
   }
 
   #axis_or_wait() {
     clearTimeout(this.waiting);
-    if (!this.dragging || count_of(this.rings) <= LIVE) return this.compute();
+    if (!this.dragging || count_of(this.rings) <= LARGE) return this.compute();
     this.scene.stale = true;
     this.waiting = setTimeout(() => {
       this.compute();
@@ -120,7 +223,7 @@ export class Studio extends EventTarget {
     const begin = performance.now();
     try {
       this.#replace(this.rings.length ? this.#axis_of(this.rings) : null);
-      this.scene.error = null;
+      this.scene.error = this.scene.refused = null;
       this.scene.stale = false;
     } catch (error) {
       if (!(error instanceof this.medial.MedialError)) throw error;
@@ -132,8 +235,14 @@ export class Studio extends EventTarget {
     this.emit("computed");
   }
 
+  /** Whether the axis can follow edits. */
+  get #follows() {
+    const { method, exact, exterior } = this.settings;
+    return method === "disks" && !exact && !exterior && this.rings.every(({ edges }) => !edges.size);
+  }
   #axis_of(rings) {
     const { medial, settings } = this;
+    if (this.#follows) return { live: new Live(medial, rings) };
     const { method, exact, exterior } = settings;
     const shape = method === "curve-axis" ? this.#smooth_shape(rings) : this.#shape_of(rings);
     try {
@@ -157,18 +266,42 @@ export class Studio extends EventTarget {
   }
 
   #replace(next) {
-    this.#kept.forEach((object) => object.free());
-    this.#kept = next ? [next.axis, next.shape] : [];
-    this.axis = next?.axis ?? null;
-    this.shape = next?.shape ?? null;
-    this.deepest = 0;
-    for (const r of this.axis?.nodes.radius ?? []) if (r > this.deepest) this.deepest = r;
+    this.#kept?.axis.free();
+    this.#kept?.shape.free();
+    this.scene.live?.free();
+    this.live = this.scene.live = next?.live ?? null;
+    this.#kept = next?.axis ? next : null;
+    this.deepest = this.live?.largest ?? 0;
+    for (const r of this.#kept?.axis.nodes.radius ?? []) if (r > this.deepest) this.deepest = r;
+  }
+
+  /** After an edit that the axis has followed. */
+  #edited() {
+    if (!this.live) return;
+    this.deepest = this.live.largest;
+    if (this.#shows_more) return this.#derive();
+    this.#count();
+    this.emit("computed");
+    this.emit("derived");
+  }
+  #count() {
+    this.branches = this.dragging || this.live.count > MANY ? undefined : this.live.axis.branchCount;
+  }
+  /** Whether something is shown that needs the whole axis. */
+  get #shows_more() {
+    const { threshold, offset, carve, center, cells, field, disks, compare } = this.settings;
+    return threshold > 0 || offset > 0 || carve > 0 || center || cells || field || disks || Boolean(compare);
   }
 
   /** What follows from the axis: the pruned part, offsets, cells and so on. */
   #derive() {
-    const { scene, settings, axis } = this;
+    const { scene, settings } = this;
     for (const name of ["whole", "pieces", "regions", "cells", "others", "carving", "field", "disks"]) scene[name] = null;
+    if (this.live && !this.#shows_more) {
+      this.#count();
+      return this.emit("derived");
+    }
+    const { axis } = this;
     if (!axis) return;
     this.#attempt(() => this.#prune());
     if (scene.error) return;
@@ -252,8 +385,9 @@ export class Studio extends EventTarget {
 
   /** The maximal disk that touches the boundary nearest to a place of the plane. */
   disk_at(point) {
+    if (this.live?.count > MANY) return this.live.nearest_disk(point, 12 / this.camera.scale);
     if (!this.axis || this.scene.stale || this.settings.exterior || this.axis.resolution) return null;
-    const [clearance] = this.axis.edges.length < 60_000 ? this.axis.clearance([point]) : [1];
+    const [clearance] = this.axis.edges.length < MANY ? this.axis.clearance([point]) : [1];
     if (!(clearance > 0)) return null;
     const place = this.axis.placeAt(point);
     return place && { ...this.axis.diskAt(place.edge, place.t), edge: place.edge };

@@ -15,6 +15,7 @@ const HINTS = {
   freehand: "Draw a closed line; it becomes a smooth curve",
   hand: "Drag the plane",
 };
+const MOST_AT_ONCE = 64; // vertices that move one after the other
 const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1]);
 
 export class Tools {
@@ -73,6 +74,11 @@ export class Tools {
   }
 
   #nearest_vertex([px, py], reach, except) {
+    const { live } = this.studio;
+    if (live) {
+      const place = this.camera.toPlane(px, py);
+      return live.nearest_vertex(place, reach / this.camera.scale, (ring, index) => !except || ring !== except.ring || index !== except.index);
+    }
     const { cx, cy, dx, dy, scale } = this.camera.transform;
     let best = null;
     let least = reach * reach;
@@ -161,12 +167,18 @@ export class Tools {
     this.chosen = hot?.kind === "vertex" ? hot : null;
     this.scene.hot = hot;
     if (hot) {
-      this.#drag = { ...hot, at, point, ring_before: this.scene.rings[hot.ring] };
+      this.#drag = { ...hot, at, point, ring_before: this.#as_it_is(hot.ring) };
     } else {
       const hole = this.#ring_around(point);
-      this.#drag = hole >= 0 ? { kind: "ring", ring: hole, at, point, ring_before: this.scene.rings[hole] } : { kind: "pan", at };
+      this.#drag = hole >= 0 ? { kind: "ring", ring: hole, at, point, ring_before: this.#as_it_is(hole) } : { kind: "pan", at };
     }
     this.studio.ask();
+  }
+
+  /** A ring that stays while edits change the one of the drawing. */
+  #as_it_is(ring) {
+    const { xy, edges } = this.scene.rings[ring];
+    return { xy: xy.slice(), edges };
   }
 
   /** The hole, or island in a hole, at a place; -1 elsewhere: there the plane is dragged. */
@@ -211,6 +223,7 @@ export class Tools {
     const before = drag.ring_before;
     const to = this.#plane(at, drag);
     const [dx, dy] = [to[0] - drag.point[0], to[1] - drag.point[1]];
+    if (this.#follow(drag, to, dx, dy)) return;
     let ring;
     if (drag.handle) ring = bent(before, drag, this.#plane(at));
     else if (drag.kind === "vertex") ring = moved_vertex(before, drag.index, to);
@@ -219,6 +232,24 @@ export class Tools {
     this.studio.change(this.scene.rings.with(drag.ring, ring), false);
     if (this.scene.hot?.kind === "edge") this.scene.hot = { ...this.scene.hot, handles: this.#handles(this.scene.hot) };
     this.studio.emit("dragged", at);
+  }
+  /** Lets the axis follow a vertex, the two of an edge, or those of a small ring. False where it cannot. */
+  #follow(drag, to, dx, dy) {
+    const { ring, ring_before: before } = drag;
+    const count = size_of(before);
+    if (drag.handle || (drag.kind === "ring" && count > MOST_AT_ONCE)) return false;
+    const moved = (index) => {
+      const [x, y] = point_of(before, index);
+      return { kind: "move", ring, index, point: [x + dx, y + dy] };
+    };
+    if (drag.kind === "vertex") return this.studio.edit([{ kind: "move", ring, index: drag.index, point: to }]);
+    const all = drag.kind === "edge" ? [moved(drag.index), moved((drag.index + 1) % count)] : Array.from({ length: count }, (_, i) => moved(i));
+    // What is ahead goes first, so as not to be run over.
+    const now = this.scene.rings[ring];
+    const ahead = ({ index, point }) => (point[0] - now.xy[2 * index]) * point[0] + (point[1] - now.xy[2 * index + 1]) * point[1];
+    const is_done = this.studio.edit(all.sort((a, b) => ahead(b) - ahead(a)));
+    if (is_done && drag.kind === "edge" && this.scene.hot) this.scene.hot = { ...this.scene.hot, handles: this.#handles(this.scene.hot) };
+    return is_done;
   }
 
   #draft(drag, at) {
@@ -241,7 +272,7 @@ export class Tools {
     this.pinched = null;
     if (!drag) return;
     if (["vertex", "edge", "ring"].includes(drag.kind)) {
-      if (drag.moved) this.studio.change(this.scene.rings);
+      if (drag.moved) this.studio.done();
     } else if (drag.kind === "freehand") {
       this.#add(smooth_ring(drag.points, 3 / this.camera.scale));
     } else if (drag.ring) this.#add(drag.ring);
@@ -291,13 +322,19 @@ export class Tools {
     if (hot?.kind === "edge") this.#insert(hot, this.#plane(at));
   }
   #insert({ ring, index }, point) {
-    this.studio.change(this.scene.rings.with(ring, with_vertex(this.scene.rings[ring], index, point)));
+    if (this.studio.edit([{ kind: "insert", ring, index: index + 1, point }])) {
+      this.studio.done();
+      if (this.scene.error) return;
+    } else this.studio.change(this.scene.rings.with(ring, with_vertex(this.scene.rings[ring], index, point)));
     this.chosen = { kind: "vertex", ring, index: index + 1 };
     this.scene.hot = this.chosen;
   }
   #remove({ ring, index }) {
-    const left = without_vertex(this.scene.rings[ring], index);
-    this.studio.change(left ? this.scene.rings.with(ring, left) : this.scene.rings.toSpliced(ring, 1));
+    if (this.studio.edit([{ kind: "remove", ring, index }])) this.studio.done();
+    else {
+      const left = without_vertex(this.scene.rings[ring], index);
+      this.studio.change(left ? this.scene.rings.with(ring, left) : this.scene.rings.toSpliced(ring, 1));
+    }
     this.scene.hot = null;
     this.chosen = null;
   }
@@ -313,7 +350,7 @@ export class Tools {
     this.studio.ask();
   }
   #pinch_begins() {
-    if (this.#drag?.ring_before) this.studio.change(this.studio.history.rings, false);
+    if (this.#drag?.ring_before) this.studio.cancel();
     this.#drag = null;
     this.scene.draft = null;
     this.#pinch();
@@ -384,8 +421,9 @@ export class Tools {
     const step = (this.snap ? nice_step(this.camera) : 1 / this.camera.scale) * factor;
     const { ring, index } = this.chosen;
     const [x, y] = point_of(this.scene.rings[ring], index);
-    const moved = moved_vertex(this.scene.rings[ring], index, [x + dx * step, y + dy * step]);
-    this.studio.change(this.scene.rings.with(ring, moved));
+    const point = [x + dx * step, y + dy * step];
+    if (this.studio.edit([{ kind: "move", ring, index, point }])) this.studio.done();
+    else this.studio.change(this.scene.rings.with(ring, moved_vertex(this.scene.rings[ring], index, point)));
     this.#show_chosen(this.chosen);
   }
   #insert_after() {

@@ -150,15 +150,104 @@ test("circle, polygon and freehand", async () => {
   assert.ok((await edges()) > 0);
 });
 
-test("edges that cross are shown, and the last axis stays", async () => {
+/** Whether the axis is that of the drawing, computed again. */
+const is_up_to_date = () =>
+  page.evaluate(() => {
+    const again = studio.medial.axis(studio.rings.map(({ xy }) => xy));
+    const names = ({ edges, sites }) => Array.from(edges.left, (left, e) => [left, edges.right[e]].map((i) => `${sites.kind[i]} ${sites.startX[i]} ${sites.startY[i]}`).sort().join()).sort().join("; ");
+    const is_same = names(again) === names(studio.axis);
+    again.free();
+    return is_same;
+  });
+
+test("edges that cross are shown, and the edit is undone", async () => {
   await paste(BOX);
   await drag(await screen(40, 20), await screen(-20, 8));
   assert.equal(await page.evaluate(() => studio.scene.error.code), "crossing");
   assert.match(await page.textContent("#counts"), /cross/);
-  assert.equal(await edges(), 5);
+  const [{ xy }] = await rings();
+  assert.ok(xy[4] > 0, String(xy)); // the last place at which no edges crossed
+  assert.ok(await is_up_to_date());
   await page.keyboard.press("Control+z");
   await settled();
   assert.equal(await page.evaluate(() => studio.scene.error), null);
+});
+
+/** A star of many vertices, so that an edit changes a small part of the axis. */
+const many = (count) =>
+  page.evaluate((n) => {
+    const xy = new Float64Array(2 * n);
+    let state = 7;
+    for (let i = 0; i < n; ++i) {
+      state = (48271 * state) % 0x7fffffff;
+      const [angle, radius] = [(2 * Math.PI * i) / n, 100 + 10 * (state / 0x7fffffff)];
+      xy.set([radius * Math.cos(angle), radius * Math.sin(angle)], 2 * i);
+    }
+    studio.change([{ xy, edges: new Map() }]);
+    studio.fit();
+    studio.frame();
+  }, count);
+
+test("an edit draws what has changed, and nothing else", async () => {
+  await many(2000);
+  const before = await rings();
+  const place = await page.evaluate(() => studio.camera.toScreen(...studio.rings[0].xy.slice(600, 602)));
+  await page.evaluate(([x, y]) => {
+    studio.camera.zoom(40, x, y);
+    studio.frame();
+  }, place);
+  const counts = () => page.evaluate(() => ({ ...studio.painter.counts }));
+  const [first, wide] = [await counts(), await page.evaluate(() => studio.canvas.width * studio.canvas.height)];
+  await page.mouse.move(...place);
+  await page.mouse.down();
+  for (let k = 1; k <= 10; ++k) await page.mouse.move(place[0] + k, place[1] - k);
+  await page.mouse.up();
+  await settled();
+  const last = await counts();
+  assert.equal(last.wholes, first.wholes);
+  assert.ok(last.parts > first.parts && last.pixels - first.pixels < 10 * 0.5 * wide, JSON.stringify([first, last]));
+  assert.notDeepEqual(await rings(), before);
+  assert.ok(await is_up_to_date());
+  // A pan, too, draws what comes into view only.
+  await page.evaluate(() => {
+    studio.camera.pan(-37, 25);
+    studio.frame();
+  });
+  assert.equal((await counts()).wholes, first.wholes);
+  const different = await page.evaluate(() => {
+    studio.scene.hot = studio.scene.disks = null;
+    const pixels = () => studio.context.getImageData(0, 0, studio.canvas.width, studio.canvas.height).data.slice();
+    studio.frame();
+    const parts = pixels();
+    studio.ask("theme");
+    studio.frame();
+    const whole = pixels();
+    return whole.filter((value, k) => Math.abs(value - parts[k]) > 40).length / whole.length;
+  });
+  assert.ok(different < 1e-4, `${different} of all pixels differ`);
+  await page.keyboard.press("Control+z");
+  await settled();
+  assert.deepEqual(await rings(), before);
+  assert.ok(await is_up_to_date());
+  await page.keyboard.press("Control+Shift+z");
+  await settled();
+  assert.notDeepEqual(await rings(), before);
+  await page.keyboard.press("0");
+});
+
+test("a thousand repairs keep the memory flat", async () => {
+  await many(500);
+  const [before, after, repaired] = await page.evaluate(() => {
+    const memory = () => studio.axis.nodes.view(Uint8Array).buffer.byteLength;
+    const [x, y] = studio.rings[0].xy;
+    const edit = (k) => studio.edit([{ kind: "move", ring: 0, index: 0, point: [x + 0.01 * (k % 9), y] }]) && studio.frame();
+    for (let k = 0; k < 50; ++k) edit(k);
+    const [first, { live }] = [memory(), studio];
+    for (let k = 0; k < 1000; ++k) edit(k);
+    return [first, memory(), live === studio.live && !studio.scene.error];
+  });
+  assert.equal(before, after);
+  assert.ok(repaired);
 });
 
 test("the disk under the pointer touches the boundary", async () => {

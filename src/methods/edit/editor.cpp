@@ -21,6 +21,17 @@ using edit::none;
 using edit::Rings;
 using edit::spare_share;
 
+namespace {
+
+/// What an edit has changed, and what was there in the order of `change`.
+struct Step {
+  AxisChange change;
+  std::vector<Disk> nodes;
+  std::vector<AxisGraph::Edge> edges;
+};
+
+}  // namespace
+
 struct Editor::Parts {
   Options options;
   Box box;  ///< of the shape, and of places where it was
@@ -42,10 +53,13 @@ struct Editor::Parts {
   Result<AxisChange> undo();
 
   std::optional<Error> refuse(const edit::Edit& edit) const;
+  std::optional<Step> follow(const edit::Edit& edit);
+  std::optional<Step> follow_in_two(const edit::Edit& edit);
   Result<AxisChange> rebuild(const edit::Edit& edit);
   bool fits_frame(Vec2 place) const;
-  bool repair(const edit::Edit& edit, const std::vector<Rings::Extent>& before, AxisChange& change);
-  bool replace(const edit::Affected& affected, const edit::Repair& repair, AxisChange& change);
+  std::optional<Step> repair(const edit::Edit& edit, const std::vector<Rings::Extent>& before);
+  std::optional<Step> replace(const edit::Affected& affected, const edit::Repair& repair);
+  void put_back(const Step& step);
   void list_all(std::vector<std::uint32_t>& nodes, std::vector<std::uint32_t>& edges) const;
   Node node(std::uint32_t number) const;
   Edge edge(std::uint32_t number) const;
@@ -68,6 +82,27 @@ std::vector<std::uint32_t> site_numbers(const MedialAxis& axis, const Shape& sha
     sites.push_back(2 * (is_first ? site.vertex : shape.sources[site.vertex].vertex) +
                     (site.kind == SiteKind::vertex ? 0 : 1));
   return sites;
+}
+
+/// Adds what a second change removes and adds to lists of a first one.
+void join(std::vector<std::uint32_t>& removed, std::vector<std::uint32_t>& added,
+          const std::vector<std::uint32_t>& then_removed,
+          const std::vector<std::uint32_t>& then_added) {
+  std::sort(added.begin(), added.end());
+  std::vector<std::uint32_t> gone;
+  for (const std::uint32_t number : then_removed)
+    (std::binary_search(added.begin(), added.end(), number) ? gone : removed).push_back(number);
+  std::sort(gone.begin(), gone.end());
+  added.erase(std::remove_if(added.begin(), added.end(),
+                             [&](std::uint32_t number) {
+                               return std::binary_search(gone.begin(), gone.end(), number);
+                             }),
+              added.end());
+  added.insert(added.end(), then_added.begin(), then_added.end());
+}
+void join(AxisChange& first, const AxisChange& second) {
+  join(first.removed_nodes, first.added_nodes, second.removed_nodes, second.added_nodes);
+  join(first.removed_edges, first.added_edges, second.removed_edges, second.added_edges);
 }
 
 /// An error of a shape's image in the local frame, as one of the shape.
@@ -159,8 +194,6 @@ std::optional<Error> Editor::Parts::refuse(const edit::Edit& edit) const {
 
 Result<AxisChange> Editor::Parts::change(const edit::Edit& edit) {
   if (auto error = refuse(edit)) return std::move(*error);
-  AxisChange change;
-  change.vertex = edit.fresh != none ? edit.fresh : edit.old;
   if (!apart.empty() || (edit.fresh != none && !fits_frame(edit.place))) return rebuild(edit);
   const Rings::Judgement judgement = rings.judge(edit);
   if (judgement.verdict == Rings::Verdict::crosses) {
@@ -168,31 +201,69 @@ Result<AxisChange> Editor::Parts::change(const edit::Edit& edit) {
     error.place.point = judgement.point;
     return error;
   }
-  if (judgement.verdict == Rings::Verdict::unclear) return rebuild(edit);
-  const std::vector<Rings::Extent> before = rings.sites_around(edit);
   const edit::Edit back = rings.inverse(edit);
   edit::make_room(inverse, inverse.size() + 1);
-  rings.apply(edit);
   if (edit.fresh != none) box.add(edit.place);
   measures.radius_limit = radius_limit(box, rings.frame());
-  bool is_repaired = false;
+  auto step = judgement.verdict == Rings::Verdict::unclear ? follow_in_two(edit) : follow(edit);
+  if (!step) return rebuild(edit);
+  inverse.push_back(back);
+  step->change.vertex = edit.fresh != none ? edit.fresh : edit.old;
+  return std::move(step->change);
+}
+
+/// Makes an edit by which no loop changes its form, and repairs the axis. None, and nothing has
+/// happened, where all has to be computed again.
+std::optional<Step> Editor::Parts::follow(const edit::Edit& edit) {
+  const std::vector<Rings::Extent> before = rings.sites_around(edit);
+  const edit::Edit back = rings.inverse(edit);
+  rings.apply(edit);
+  std::optional<Step> step;
   try {
-    is_repaired = repair(edit, before, change);
+    step = repair(edit, before);
   } catch (...) {
     rings.apply(back);
     throw;
   }
-  if (is_repaired) {
-    inverse.push_back(back);
-    return change;
-  }
-  rings.apply(back);
-  return rebuild(edit);
+  if (!step) rings.apply(back);
+  return step;
 }
 
-/// Finds what changes, and the new part of the axis. False where all has to be computed again.
-bool Editor::Parts::repair(const edit::Edit& edit, const std::vector<Rings::Extent>& before,
-                           AxisChange& change) {
+/// Takes a vertex that jumps across others out, and puts it in again where it shall be. None, and
+/// nothing has happened, where one of the two changes the form of a loop.
+std::optional<Step> Editor::Parts::follow_in_two(const edit::Edit& edit) {
+  const edit::Edit out{edit.before, edit.after, edit.old, none, {}};
+  const edit::Edit in{edit.before, edit.after, none, edit.fresh, edit.place};
+  const auto keeps_form = [&](const edit::Edit& one) {
+    return rings.judge(one).verdict == Rings::Verdict::keeps_form;
+  };
+  if (edit.old != edit.fresh || refuse(out) || !keeps_form(out)) return std::nullopt;
+  const edit::Edit back = rings.inverse(out);
+  std::optional<Step> first = follow(out), second;
+  if (!first) return std::nullopt;
+  const auto take_back = [&] {
+    put_back(*first);
+    rings.apply(back);
+  };
+  try {
+    if (keeps_form(in)) second = follow(in);
+    if (second) join(first->change, second->change);
+  } catch (...) {
+    if (second) {
+      put_back(*second);
+      rings.apply(out);
+    }
+    take_back();
+    throw;
+  }
+  if (second) return first;
+  take_back();
+  return std::nullopt;
+}
+
+/// Finds what changes, and the new part of the axis. None where all has to be computed again.
+std::optional<Step> Editor::Parts::repair(const edit::Edit& edit,
+                                          const std::vector<Rings::Extent>& before) {
   constexpr double margin = 64;  // tolerances
   constexpr int most_rounds = 16;
   edit::Spread spread(graph, marks, ++mark);
@@ -210,7 +281,7 @@ bool Editor::Parts::repair(const edit::Edit& edit, const std::vector<Rings::Exte
     spread.add_site(one.site);
     changes = true;
   }
-  if (!changes) return true;
+  if (!changes) return Step{};
   std::vector<site::Site> fresh;
   for (const Rings::Extent& one : after)
     if (!stays_in(one, before)) fresh.push_back(rings.site(one.site));
@@ -219,25 +290,30 @@ bool Editor::Parts::repair(const edit::Edit& edit, const std::vector<Rings::Exte
     const edit::Affected affected = spread.result();
     const auto window =
         edit::window_of(rings, graph, affected, rings[edit.before].loop, measures.radius_limit);
-    if (!window) return false;
+    if (!window) return std::nullopt;
     std::vector<std::uint32_t> doubtful;
     const auto found = edit::repair(rings, graph, affected, *window, measures, doubtful);
-    if (found) return replace(affected, *found, change);
-    if (doubtful.empty()) return false;
+    if (found) return replace(affected, *found);
+    if (doubtful.empty()) return std::nullopt;
     for (const std::uint32_t node : doubtful) spread.add_around(node, std::size_t{1} << round);
   }
-  return false;
+  return std::nullopt;
 }
 
-/// Puts the new part in the place of the old one; false, and nothing happens, where that would
+/// Puts the new part in the place of the old one; none, and nothing happens, where that would
 /// change how many cycles there are.
-bool Editor::Parts::replace(const edit::Affected& affected, const edit::Repair& repair,
-                            AxisChange& change) {
+std::optional<Step> Editor::Parts::replace(const edit::Affected& affected,
+                                           const edit::Repair& repair) {
   const auto fresh =
       static_cast<std::size_t>(std::count(repair.old_nodes.begin(), repair.old_nodes.end(), none));
-  if (fresh + affected.edges.size() != affected.nodes.size() + repair.links.size()) return false;
+  if (fresh + affected.edges.size() != affected.nodes.size() + repair.links.size())
+    return std::nullopt;
   // Memory may run out here, and nowhere below.
   std::vector<std::uint32_t> number = repair.old_nodes;
+  Step step;
+  AxisChange& change = step.change;
+  for (const std::uint32_t node : affected.nodes) step.nodes.push_back(graph.disk(node));
+  for (const std::uint32_t edge : affected.edges) step.edges.push_back(graph.edge(edge));
   change.removed_nodes = affected.nodes;
   change.removed_edges = affected.edges;
   change.added_nodes.reserve(fresh);
@@ -257,7 +333,18 @@ bool Editor::Parts::replace(const edit::Affected& affected, const edit::Repair& 
     edge.weight = control.weight;
     change.added_edges.push_back(graph.add_edge(edge));
   }
-  return true;
+  return step;
+}
+
+/// Undoes the last replace(): in the opposite order all numbers come back as they were.
+void Editor::Parts::put_back(const Step& step) {
+  const AxisChange& change = step.change;
+  for (auto i = change.added_edges.rbegin(); i != change.added_edges.rend(); ++i)
+    graph.remove_edge(*i);
+  for (auto i = change.added_nodes.rbegin(); i != change.added_nodes.rend(); ++i)
+    graph.remove_node(*i);
+  for (auto i = step.nodes.rbegin(); i != step.nodes.rend(); ++i) graph.add_node(*i);
+  for (auto i = step.edges.rbegin(); i != step.edges.rend(); ++i) graph.add_edge(*i);
 }
 
 /// Computes all again after an edit; nothing happens where that fails.

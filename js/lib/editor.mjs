@@ -1,0 +1,95 @@
+// Axes that follow edits of their shapes.
+
+import { Handle, MedialError, call, table } from "./core.mjs";
+import { MedialAxis, Shape } from "./axis.mjs";
+import { Records } from "./records.mjs";
+
+/** A number of a vertex, a node or an edge, as the module takes it. */
+function whole(number) {
+  if (Number.isInteger(number) && number >= 0 && number < 0xffffffff) return number;
+  throw new MedialError("numbers are whole and not negative", "malformed");
+}
+function place(point) {
+  if (point?.length === 2 && Array.from(point).every((x) => typeof x === "number")) return point;
+  throw new MedialError("a place is a pair of x and y", "malformed");
+}
+
+/** A shape of straight edges with its axis, which follows when vertices move, come and go. */
+export class Editor extends Handle {
+  constructor(x, { tolerance = 0 } = {}) {
+    super(x instanceof Copied ? x.address : made(x, tolerance), "editor");
+  }
+
+  #change(name, ...given) {
+    call(`editor_${name}`, this.address, ...given);
+    const [vertex, everything] = table();
+    const numbers = (i) => Uint32Array.from(table(i));
+    return {
+      removedNodes: numbers(1), removedEdges: numbers(2), addedNodes: numbers(3), addedEdges: numbers(4),
+      vertex, everything: Boolean(everything),
+    };
+  }
+  move(vertex, to) {
+    return this.#change("move", whole(vertex), ...place(to));
+  }
+  /** A vertex on the edge that begins at the vertex `before`. */
+  insert(before, point) {
+    return this.#change("insert", whole(before), ...place(point));
+  }
+  remove(vertex) {
+    return this.#change("remove", whole(vertex));
+  }
+  /** Takes the last edit back, and those before, one by one; nothing where there is none. */
+  undo() {
+    return this.#change("undo");
+  }
+  /** An editor of its own in the same state. */
+  copy() {
+    return new Editor(new Copied(call("editor_copy", this.address)));
+  }
+
+  /** The place of a vertex; null where there is no such vertex. */
+  vertex(number) {
+    call("editor_vertex", this.address, whole(number));
+    const [x, y] = table();
+    return x === undefined ? null : [x, y];
+  }
+  #records(kind, numbers) {
+    const wanted = Uint32Array.from(numbers, whole);
+    call(`editor_${kind}s`, this.address, wanted, wanted.length);
+    const { buffer } = table();
+    return new Records(kind, wanted.length, (Type) => new Type(buffer));
+  }
+  /** Nodes, edges and sites by their numbers; edges name nodes and sites by numbers. */
+  nodes(numbers) {
+    return this.#records("node", numbers);
+  }
+  edges(numbers) {
+    return this.#records("edge", numbers);
+  }
+  sites(numbers) {
+    return this.#records("site", numbers);
+  }
+
+  /** All of the axis as it is now, with its shape; nodes and edges count from 0 without gaps. */
+  get axis() {
+    return new MedialAxis(call("editor_axis", this.address));
+  }
+}
+
+/** A new object of the module, not yet owned. */
+class Copied {
+  constructor(address) {
+    this.address = address;
+  }
+}
+
+function made(x, tolerance) {
+  if (x instanceof Shape) return call("editor", x.address, tolerance);
+  const shape = new Shape(x);
+  try {
+    return call("editor", shape.address, tolerance);
+  } finally {
+    shape.free();
+  }
+}
