@@ -123,11 +123,12 @@ fuzz: setup     ## test random polygons and mutated files, new ones each time: m
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial_fuzz
 	@$(RELEASE)/tests/medial_fuzz --from $(FROM) --seconds $(SECONDS)
 
-silhouettes: setup  ## verify the sampled axes of new silhouettes and of images below DATA: make silhouettes COUNT=200 [FROM=seed] [METHOD=curve-axis]
+silhouettes: setup  ## verify the axes of new silhouettes and of images below DATA by every method: make silhouettes COUNT=200 [FROM=seed] [METHOD=NAME]
 	@cmake --preset release
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial_silhouettes
+	@mkdir -p out
 	@$(RELEASE)/tests/medial_silhouettes --from $(FROM) --count $(COUNT) $(if $(METHOD),--method $(METHOD)) \
-	  $(wildcard $(DATA)/packaged/C_images/opencv_[01]*.png)
+	  --table out/silhouettes$(addprefix -,$(METHOD)).md $(wildcard $(DATA)/packaged/C_images/opencv_[01]*.png)
 
 fuzz-coverage: setup  ## test shapes and files guided by coverage (clang 14, libFuzzer): make fuzz-coverage SECONDS=60 (each of two)
 	@tools/setup.sh fuzz

@@ -54,7 +54,7 @@ int run(int argc, char** argv) {
   program.add_option("-o,--output", request.to, "The directory to write to.")->required();
   program.add_option("--files", request.files,
                      "Further shapes for ahuja_chuang_1997 (of each file the largest), further\n"
-                     "images for volkmann_stclair_1987.");
+                     "images, or drawings (.svg) of the parts to pack, for volkmann_stclair_1987.");
   program
       .add_option("--rounds", request.rounds,
                   "How often to time; the least time counts (default: 3).")

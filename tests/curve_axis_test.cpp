@@ -454,6 +454,24 @@ TEST(CurveAxis, RefusedFitsNameAFitOfTheSameOutline) {
   EXPECT_TRUE(followed.ok()) << text;
 }
 
+/// Far from the origin no digit is lost: the axis of a speck is the same wherever it lies.
+TEST(CurveAxis, FollowsSpecksFarFromTheOrigin) {
+  for (const Vec2 corner : {Vec2{0, 0}, Vec2{435, 648}, Vec2{1e6, 3e6}}) {
+    std::vector<Vec2> box{{1, 0}, {1, 2}, {0, 2}, {0, 0}};
+    for (Vec2& p : box) p = p + corner;
+    for (const double fit : {0.05, 0.1, 2.0}) {
+      const auto curve = fit_smooth_contour(box, fit);
+      ASSERT_TRUE(curve.ok());
+      const auto found = compute_curve_axis({&*curve, 1});
+      ASSERT_TRUE(found.ok()) << corner.x << ", fit " << fit << ": " << found.error().text;
+      for (const Node& node : found->axis.nodes)
+        EXPECT_LT(distance(node.disk.center, corner + Vec2{0.5, 1}), 1.1);
+      for (const auto& branch : found->branches)
+        EXPECT_LT(distance(branch.front().disk.center, corner + Vec2{0.5, 1}), 1.1);
+    }
+  }
+}
+
 /// The axis of contours is verified, and has the branches of the exact one within the tolerance.
 void expect_the_exact_axis(const std::vector<Contour>& contours, double tolerance) {
   const auto rings = approximate_by_arcs(contours, {.tolerance = 1e-10});

@@ -1,21 +1,25 @@
-// Silhouettes through the sampled methods and verify, as long as one likes.
+// Silhouettes through every method and verify, as long as one likes.
 //
-//   medial_silhouettes [--from SEED] [--count N] [--pixels MOST] [--method NAME] [IMAGE ...]
+//   medial_silhouettes [--from SEED] [--count N] [--pixels MOST] [--method NAME] [--table FILE]
+//                      [IMAGE ...]
 //
 // Each seed is one silhouette(), or one of the images redrawn(), as the pixels' outline and as a
-// smooth one. By `potential` at three orders each must be verified. By `curve-axis`, the fit of its
-// outline must be verified, or refused as unsupported or too large. One line for each failure, then
-// the share of axes for each method, the slowest one, and how often each reason was given for a
-// refusal. --method: potential or curve-axis alone. Exit status: 0; 1 where something failed; 2 for
-// a wrong call.
+// smooth one. Each axis must be verified; by `potential` at three orders. By `curve-axis`, the fit
+// of the outline is followed. `lee`, `biarc-dc` and `curve-axis` may refuse a shape as unsupported
+// or too large; a fit that a refusal names must be followed. One line for each failure, then a
+// table of methods, also to a file, and how often each reason was given for a refusal. --method:
+// one method alone. Exit status: 0; 1 where something failed; 2 for a wrong call.
 
 #include "support/silhouettes.h"
 
-#include <chrono>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
+#include <fstream>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -28,9 +32,9 @@ namespace {
 
 struct Tally {
   int axes = 0, refused = 0, failed = 0;
-  int named = 0;     ///< refusals that name a fit that would do
-  int misnamed = 0;  ///< of these, fits that are refused as well
-  double slowest = 0;
+  int named = 0;                       ///< refusals that name a fit that would do
+  int misnamed = 0;                    ///< of these, fits that are refused as well
+  double all = 0, slowest = 0;         ///< seconds
   std::map<std::string, int> reasons;  ///< of refusals
 
   /// Whether this is how a method may refuse a shape that it does not take.
@@ -39,25 +43,28 @@ struct Tally {
     ++reasons[error.text.substr(0, error.text.find(';'))];  // before the fit that would do
     return error.code == ErrorCode::unsupported || error.code == ErrorCode::too_large;
   }
+  void took(double seconds) { all += seconds, slowest = std::max(slowest, seconds); }
 };
 std::map<std::string, Tally> tallies;
 
+double seconds_since(std::clock_t begin) {
+  return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+}
+
 /// Counts and reports one axis; whether it is as it must be.
-bool judge(const std::string& name, std::uint64_t seed, const Shape& shape, const Options& options,
-           bool may_refuse) {
-  const auto began = std::chrono::steady_clock::now();
-  const auto axis = compute(shape, options);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
+bool judge(const std::string& name, std::uint64_t seed, const Shape& shape, const Method& method) {
+  const auto began = std::clock();
+  const auto axis = compute(shape, {.method = method});
   Tally& tally = tallies[name];
-  tally.slowest = std::max(tally.slowest, took.count());
+  tally.took(seconds_since(began));
+  const std::string_view plain = name_of(method);
   std::string reason;
   if (!axis) {
-    if (tally.refuse(axis.error()) && may_refuse) return true;
+    if (tally.refuse(axis.error()) && (plain == "lee" || plain == "biarc-dc")) return true;
     reason = axis.error().text;
   } else {
     const Certificate certificate = verify(shape, *axis);
-    ++tally.axes;
-    if (certificate.passed) return true;
+    if (certificate.passed) return ++tally.axes, true;
     reason = certificate.failures.front();
   }
   ++tally.failed;
@@ -66,12 +73,22 @@ bool judge(const std::string& name, std::uint64_t seed, const Shape& shape, cons
   return false;
 }
 
-bool try_shape(const std::string& outline, std::uint64_t seed, const Shape& shape) {
+/// By every method that takes shapes, or by the one of this name.
+bool try_shape(const std::string& outline, std::uint64_t seed, const Shape& shape,
+               const std::string& only) {
   bool good = true;
-  for (const double order : {0.0, 1.0, 8.0})
-    good = judge("potential, order " + std::to_string(static_cast<int>(order)) + ", " + outline,
-                 seed, shape, {.method = method::Potential{.order = order}}, false) &&
-           good;
+  for (const MethodInfo& info : methods()) {
+    const std::string name = info.name;
+    if (name == "curve-axis" || (!only.empty() && name != only)) continue;
+    if (name != "potential") {
+      good = judge(name + ", " + outline, seed, shape, *method_from(name)) && good;
+      continue;
+    }
+    for (const int order : {0, 1, 8})
+      good = judge(name + (order == 0 ? "" : ", order " + std::to_string(order)) + ", " + outline,
+                   seed, shape, method::Potential{.order = static_cast<double>(order)}) &&
+             good;
+  }
   return good;
 }
 
@@ -88,16 +105,19 @@ Result<Shape> shape_within(const std::vector<Contour>& contours, double within) 
   return arcs ? build_shape(*arcs) : Result<Shape>(arcs.error());
 }
 
-/// Whether a refusal names a fit, and whether that one is followed and verified.
-void count_named_fit(Tally& tally, const std::string& text, const std::vector<Contour>& contours) {
+/// Counts whether a refusal names a fit, and whether that one is followed and verified. False where
+/// it is not.
+bool count_named_fit(Tally& tally, const std::string& text, const std::vector<Contour>& contours) {
   const std::string option = "(--fit ";
   const auto at = text.find(option);
-  if (at == std::string::npos) return;
+  if (at == std::string::npos) return true;
   ++tally.named;
   const double within = std::strtod(text.c_str() + at + option.size(), nullptr);
   const auto shape = shape_within(contours, within);
   const auto found = compute_curve_axis(contours, {.fit = within});
-  if (!shape || !found || !verify(*shape, found->axis).passed) ++tally.misnamed;
+  if (shape && found && verify(*shape, found->axis).passed) return true;
+  ++tally.misnamed;
+  return false;
 }
 
 /// Outlines, with their holes, as splines within a share of their size.
@@ -110,15 +130,14 @@ bool try_fit(std::uint64_t seed, const std::vector<Ring>& rings, double share) {
   if (!shape) return true;
   char name[40];
   std::snprintf(name, sizeof name, "curve-axis, fit %.3f", share);
-  const auto began = std::chrono::steady_clock::now();
+  const auto began = std::clock();
   const auto found = compute_curve_axis(contours, {.fit = within});
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
   Tally& tally = tallies[name];
-  tally.slowest = std::max(tally.slowest, took.count());
+  tally.took(seconds_since(began));
   std::string reason;
   if (!found) {
-    count_named_fit(tally, found.error().text, contours);
-    if (tally.refuse(found.error())) return true;
+    const bool may = tally.refuse(found.error());
+    if (count_named_fit(tally, found.error().text, contours) && may) return true;
     reason = found.error().text;
   } else {
     const Certificate certificate = verify(*shape, found->axis);
@@ -135,27 +154,44 @@ bool try_fit(std::uint64_t seed, const std::vector<Ring>& rings, double share) {
 }
 
 /// By all methods, or by the one of this name.
-bool try_image(std::uint64_t seed, const Image& image, const std::string& method) {
+bool try_image(std::uint64_t seed, const Image& image, const std::string& only) {
   bool good = true;
   if (image.count() == 0) return true;
-  const bool by_potential = method != "curve-axis", by_curve_axis = method != "potential";
   const auto rings = pixel_outline(image);
   const auto contours = smooth_outline(image);
   if (!rings || !contours) return false;
-  const auto shape_of_pixels = build_shape(*rings);
-  if (shape_of_pixels && by_potential) good = try_shape("pixels", seed, *shape_of_pixels);
-  if (by_curve_axis)
+  if (only.empty() || only == "curve-axis")
     for (const double share : {0.003, 0.006, 0.012, 0.025})
       good = try_fit(seed, *rings, share) && good;
-  if (!by_potential) return good;
+  if (only == "curve-axis") return good;
+  if (const auto shape = build_shape(*rings))
+    good = try_shape("pixels", seed, *shape, only) && good;
   const auto arcs = approximate_by_arcs(*contours, {.tolerance = 1e-4});
   if (!arcs) return false;
-  if (const auto shape = build_shape(*arcs)) good = try_shape("smooth", seed, *shape) && good;
+  if (const auto shape = build_shape(*arcs)) good = try_shape("smooth", seed, *shape, only) && good;
   return good;
 }
 
+std::string table() {
+  std::string text =
+      "| method | verified | refused | wrong | fits named, and followed | s in all | the slowest "
+      "|\n"
+      "| --- | ---: | ---: | ---: | ---: | ---: | ---: |\n";
+  for (const auto& [name, tally] : tallies) {
+    std::array<char, 40> fits{};
+    std::array<char, 400> line{};
+    if (name.starts_with("curve-axis") && tally.refused > 0)
+      std::snprintf(fits.data(), fits.size(), "%d, %d", tally.named, tally.named - tally.misnamed);
+    std::snprintf(line.data(), line.size(), "| %s | %d | %d | %d | %s | %.1f | %.2f |\n",
+                  name.c_str(), tally.axes, tally.refused, tally.failed, fits.data(), tally.all,
+                  tally.slowest);
+    text += line.data();
+  }
+  return text;
+}
+
 int run(std::uint64_t from, std::uint64_t count, std::uint32_t most, const std::string& method,
-        const std::vector<std::string>& files) {
+        const std::string& table_file, const std::vector<std::string>& files) {
   std::vector<Image> images;
   for (const std::string& file : files) {
     auto read = io::read_image(file);
@@ -173,15 +209,14 @@ int run(std::uint64_t from, std::uint64_t count, std::uint32_t most, const std::
                             : redrawn(images[seed / 2 % images.size()], seed, pixels);
     good = try_image(seed, image, method) && good;
   }
-  for (const auto& [name, tally] : tallies) {
-    std::printf("%-32s %5d axes %5d refused %5d failed, the slowest took %.2f s\n", name.c_str(),
-                tally.axes, tally.refused, tally.failed, tally.slowest);
+  std::fputs(table().c_str(), stdout);
+  for (const auto& [name, tally] : tallies)
     for (const auto& [reason, times] : tally.reasons)
-      std::printf("  %5d: %s\n", times, reason.c_str());
-    if (name.starts_with("curve-axis") && tally.refused > 0)
-      std::printf("  %5d name a fit, of which %d are not followed either\n", tally.named,
-                  tally.misnamed);
-  }
+      std::printf("%s: %d times: %s\n", name.c_str(), times, reason.c_str());
+  if (!table_file.empty())
+    std::ofstream(table_file) << count << " silhouettes from seed " << from << " on, 50 to " << most
+                              << " pixels; seconds of processor time.\n\n"
+                              << table();
   return good ? 0 : 1;
 }
 
@@ -190,7 +225,7 @@ int run(std::uint64_t from, std::uint64_t count, std::uint32_t most, const std::
 
 int main(int argc, char** argv) {
   std::uint64_t from = 0, count = 200, most = 2000;
-  std::string method;
+  std::string method, table_file;
   std::vector<std::string> files;
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
@@ -202,6 +237,10 @@ int main(int argc, char** argv) {
       method = argv[++i];
       continue;
     }
+    if (argument == "--table" && i + 1 < argc) {
+      table_file = argv[++i];
+      continue;
+    }
     if (number == nullptr && argument.starts_with("--")) return 2;
     if (number == nullptr) {
       files.push_back(argument);
@@ -209,5 +248,6 @@ int main(int argc, char** argv) {
       *number = std::strtoull(argv[i], nullptr, 10);
     }
   }
-  return medial::test::run(from, count, static_cast<std::uint32_t>(most), method, files);
+  return medial::test::run(from, count, static_cast<std::uint32_t>(most), method, table_file,
+                           files);
 }

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "axis/curve.h"
+#include "axis/inside.h"
 #include "base/arc.h"
 #include "base/box_tree.h"
 #include "base/predicates.h"
@@ -79,6 +80,59 @@ AxisPoint AxisLocator::nearest(Vec2 p) const {
   return best;
 }
 
+namespace {
+
+/// Whether p changes sides at an edge: a ray to the right crosses it, or p lies between an arc and
+/// its chord.
+bool is_crossed(Vec2 a, Vec2 b, double bulge, Vec2 p) {
+  // By the half-open rule the ray crosses upward edges that have p on the left.
+  bool crossed = (a.y <= p.y) != (b.y <= p.y) && (orientation(a, b, p) > 0) == (a.y <= p.y);
+  if (bulge != 0) {
+    // On the chord itself, that counts p to the right of it; to the left only where it runs in the
+    // ray's direction.
+    const Vec2 half = half_angle(bulge), d = b - a;
+    const double power = half.y * dot(p - a, p - b) - half.x * cross(d, p - a);  // to the circle
+    const int turn = orientation(a, b, p);
+    const bool left = turn > 0 || (turn == 0 && d.y == 0 && d.x > 0);
+    if (left == (bulge < 0) && power * bulge < 0) crossed = !crossed;
+  }
+  return crossed;
+}
+
+}  // namespace
+
+std::vector<Inside::BoundaryEdge> Inside::edges_of(const Shape& shape) {
+  std::vector<BoundaryEdge> edges;
+  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+    const auto loop = shape.loop(i);
+    for (std::size_t j = 0; j < loop.size(); ++j)
+      edges.push_back(
+          {loop[j], loop[j + 1 < loop.size() ? j + 1 : 0], shape.bulge(shape.loop_begin[i] + j)});
+  }
+  return edges;
+}
+
+std::vector<Box> Inside::boxes_of(const std::vector<BoundaryEdge>& edges) {
+  std::vector<Box> boxes;
+  for (const auto& [a, b, bulge] : edges) {
+    const double out = std::abs(bulge) * distance(a, b);  // twice the arc's height
+    boxes.push_back({{std::min(a.x, b.x) - out, std::min(a.y, b.y) - out},
+                     {std::max(a.x, b.x) + out, std::max(a.y, b.y) + out}});
+  }
+  return boxes;
+}
+
+Inside::Inside(const Shape& shape) : edges_(edges_of(shape)), tree_(boxes_of(edges_)) {}
+
+bool Inside::holds(Vec2 p) const {
+  bool inside = false;
+  tree_.find({p, {std::numeric_limits<double>::infinity(), p.y}}, [&](std::uint32_t i) {
+    const auto& [a, b, bulge] = edges_[i];
+    if (is_crossed(a, b, bulge, p)) inside = !inside;
+  });
+  return inside;
+}
+
 double clearance(const Shape& shape, Vec2 p) {
   double best = std::numeric_limits<double>::infinity();
   bool inside = false;
@@ -93,21 +147,9 @@ double clearance(const Shape& shape, Vec2 p) {
       if (along <= 0) distance_to_edge = norm(q);
       if (along >= size * size) distance_to_edge = norm(p - b);
       const double bulge = shape.bulge(shape.loop_begin[i] + j);
-      if (bulge != 0) {
-        const Site arc{a, b, 0, 0, SiteKind::arc, bulge};
-        distance_to_edge = distance(foot(arc, p), p);
-        // What lies between the arc and its chord changes sides. On the chord itself, the rule
-        // below counts p to the right of it; to the left only where it runs in the ray's direction.
-        const Vec2 half = half_angle(bulge);
-        const double power = half.y * dot(q, p - b) - half.x * cross(d, q);  // of p to the circle
-        const int turn = orientation(a, b, p);
-        const bool left = turn > 0 || (turn == 0 && d.y == 0 && d.x > 0);
-        if (left == (bulge < 0) && power * bulge < 0) inside = !inside;
-      }
+      if (bulge != 0) distance_to_edge = distance(foot({a, b, 0, 0, SiteKind::arc, bulge}, p), p);
       best = std::min(best, distance_to_edge);
-      // A ray to the right, by the half-open rule: it crosses upward edges that have p on the left.
-      if ((a.y <= p.y) != (b.y <= p.y) && (orientation(a, b, p) > 0) == (a.y <= p.y))
-        inside = !inside;
+      if (is_crossed(a, b, bulge, p)) inside = !inside;
     }
   }
   return inside ? best : -best;

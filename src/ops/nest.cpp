@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "axis/inside.h"
 #include "axis/sites.h"
 #include "base/local_frame.h"
 #include "medial/compute.h"
@@ -146,23 +147,23 @@ class Motion {
 class Border {
  public:
   explicit Border(const Shape& shape)
-      : shape_(shape),
-        frame_(frame_of(bounding_box(shape))),
+      : frame_(frame_of(bounding_box(shape))),
         edges_(site::edge_sites(shape, frame_)),
-        tree_(edges_) {}
+        tree_(edges_),
+        inside_(shape) {}
 
   /// Whether it comes nearer to a place than `reach`. O(log n).
   bool is_within(double reach, Vec2 p) const {
     const auto last = static_cast<std::uint32_t>(edges_.size() - 1);
     return static_cast<bool>(tree_.nearest(frame_.to_local(p), frame_.scale * reach, 0, last));
   }
-  bool encloses(Vec2 p) const { return clearance(shape_, p) > 0; }
+  bool encloses(Vec2 p) const { return inside_.holds(p); }
 
  private:
-  const Shape& shape_;
   LocalFrame frame_;
   std::vector<site::Site> edges_;
   site::BoundaryTree tree_;
+  Inside inside_;
 };
 
 class Nesting {

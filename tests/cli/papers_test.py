@@ -61,7 +61,10 @@ class Papers(CommandLine):
     def test_volkmann_stclair(self):
         picture = ("11000000", "11000000", "11000000", "11111100", "11111100", "00000010")
         self.write("l.pbm", "P1\n8 6\n" + "".join(picture))  # two strokes, a pixel over a corner
-        self.assertEqual(self.quick("volkmann_stclair_1987", "--files", "l.pbm"), 0)
+        block, tee = "M0 0H60V40H42L38 12H22L18 40H0z", "M0 0H14L17 30L45 33V47H-28V33L-3 30z"
+        for name, path in ("block", block), ("tee", tee):
+            self.write(name + ".svg", f'<svg xmlns="http://www.w3.org/2000/svg"><path d="{path}"/></svg>')
+        self.assertEqual(self.quick("volkmann_stclair_1987", "--files", "l.pbm", "block.svg", "tee.svg"), 0)
         folder = "out/volkmann_stclair_1987/"
         table = self.read(folder + "tables.md").decode()
         self.assertIn("| 10/5 | | | | | | | | | | | | | | | | refused: crossing |", table)
@@ -74,7 +77,11 @@ class Papers(CommandLine):
         self.assertEqual(len(accuracy.splitlines()), 4)
         self.assertRegex(accuracy, r"\| l \| 19 \|.* 0 \(0 %\) \|$")  # the exact axis loses nothing
         self.assertEqual(len(self.rows_of(folder + "accuracy.csv")), 2 * 6)
-        self.check_figures("volkmann_stclair_1987", ("fig14", "plots"))
+        plain, paired = self.rows_of(folder + "packing.csv")
+        self.assertEqual((plain["parts"], plain["taken"], paired["pairs tried"]), ("2", "0", "1"))
+        self.assertEqual(paired["that save"], "1")  # the stem in the slot
+        self.assertLessEqual(float(paired["height"]), float(plain["height"]))
+        self.check_figures("volkmann_stclair_1987", ("fig14", "plots", "packing"))
 
     def test_lee(self):
         self.assertEqual(self.quick("lee_1982"), 0)

@@ -12,6 +12,7 @@
 #include "axis/node_kinds.h"
 #include "base/box_tree.h"
 #include "base/in_flight.h"
+#include "base/local_frame.h"
 #include "medial/shape.h"
 #include "methods/curve_axis/bridges.h"
 #include "methods/curve_axis/control.h"
@@ -481,8 +482,13 @@ Result<CurveAxis> follow(const Loops& loops, const method::CurveAxis& options,
   return result;
 }
 
-void append(CurveAxis& all, std::uint32_t component, CurveAxis part) {
-  for (Node& node : part.axis.nodes) node.component = component;
+/// Adds a component's axis, found with `origin` at (0, 0).
+void append(CurveAxis& all, std::uint32_t component, Vec2 origin, CurveAxis part) {
+  const auto bring_back = [&](Disk& disk) { disk.center = disk.center + origin; };
+  for (Node& node : part.axis.nodes) node.component = component, bring_back(node.disk);
+  for (Edge& edge : part.axis.edges) bring_back(edge.control);
+  for (auto& branch : part.branches)
+    for (CurveAxisPoint& point : branch) bring_back(point.disk);
   const auto first = static_cast<std::uint32_t>(all.axis.nodes.size());
   for (Edge& edge : part.axis.edges)
     for (std::uint32_t& node : edge.node) node += first;
@@ -494,16 +500,33 @@ void append(CurveAxis& all, std::uint32_t component, CurveAxis part) {
   all.rules += part.rules;
 }
 
+/// Moves loops near the origin, where fewer digits are lost; no point is rounded. The place that
+/// is at the origin then.
+Vec2 take_home(Loops& loops) {
+  Box box = Box::nothing();
+  for (const Contour& loop : loops)
+    for (const Vec2 p : loop.points) box.add(p);
+  const Vec2 origin = frame_of(box).origin;
+  for (Contour& loop : loops)
+    for (Vec2& p : loop.points) p = p - origin;
+  return origin;
+}
+
 Result<CurveAxis> follow_all(std::span<const Contour> contours, const method::CurveAxis& options,
                              const std::atomic<bool>* cancel) {
-  const auto components = loops_of(contours, options);
+  auto components = loops_of(contours, options);
   if (!components) return components.error();
   CurveAxis all;
   all.axis.method = "curve-axis";
   for (std::uint32_t i = 0; i < components->size(); ++i) {
+    const Vec2 origin = take_home((*components)[i]);
     Result<CurveAxis> part = follow((*components)[i], options, cancel);
-    if (!part) return part;
-    append(all, i, std::move(part).value());
+    if (!part) {
+      Error error = part.error();
+      if (error.place.point) error.place.point = *error.place.point + origin;
+      return error;
+    }
+    append(all, i, origin, std::move(part).value());
   }
   return all;
 }

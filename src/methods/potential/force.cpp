@@ -112,12 +112,15 @@ struct Block {
       const double square = y[k] * y[k];
       const double square1 = x1[k] * x1[k] + square, square2 = x2[k] * x2[k] + square;
       const double size = std::abs(y[k]), scalar = square + x1[k] * x2[k];
-      const double u = (x2[k] - x1[k]) * size / (std::sqrt(square1 * square2) + std::abs(scalar));
-      const double v = u / (1 + std::sqrt(1 + u * u)), z = v * v;
+      // The tangent of half the angle is area / whole; that of a quarter needs no division more.
+      const double area = (x2[k] - x1[k]) * size, product = square1 * square2;
+      const double root = std::sqrt(product), whole = root + std::abs(scalar);
+      const double v = area / (whole + std::sqrt(2 * root * whole)), z = v * v;
       double sum = arctangent.back();
       for (std::size_t i = arctangent.size() - 1; i-- > 0;) sum = sum * z + arctangent[i];
       const double angle = 4 * v * sum, other = std::numbers::pi - angle;
-      const double inverse = 1 / std::max(size, 1e-150), both = 1 / (square1 * square2);
+      const double bounded = std::max(size, 1e-150), shared = 1 / (product * bounded);
+      const double inverse = shared * product, both = shared * bounded;
       j[k] = (scalar >= 0 ? angle : other) * inverse;
       p1[k] = p2[k] = 1;
       q1[k] = both * square2;
@@ -188,6 +191,12 @@ void Evaluator::gather(double low, double high) {
   // The logarithm of what a unit of charge may be off.
   const double logarithm_share = std::log(far_field / (charges_.length() * inverse_));
   const double unit = std::log(inverse_);
+  // From this distance on a charge adds less than that to any of the orders.
+  const double reach = std::exp(-logarithm_share / (low + 1));
+  const auto cubic = [](double order) {
+    return std::log((order + 1) * (order + 2) * (order + 3) / 6);
+  };
+  const double lowest = cubic(low);
   std::array<std::uint32_t, 64> stack{};
   std::size_t depth = 1;
   while (depth > 0) {
@@ -198,12 +207,12 @@ void Evaluator::gather(double low, double high) {
     // No charge of the node is nearer than this.
     const double gap = distance - radius;
     if (gap > 1) {
+      if (gap > reach) continue;
       const double logarithm = std::log(gap);
-      if (-(low + 1) * logarithm < logarithm_share) continue;
       // The remainder of Taylor's expansion to the second order, where it is largest.
       const double order = std::clamp(3 / logarithm - 2, low, high);
-      const double remainder = std::log((order + 1) * (order + 2) * (order + 3) / 6) +
-                               3 * (node.logarithm + unit) - (order + 4) * logarithm;
+      const double remainder = (order > low ? cubic(order) : lowest) + 3 * (node.logarithm + unit) -
+                               (order + 4) * logarithm;
       if (remainder < logarithm_share) {
         far_.push_back(index);
         continue;

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "base/box_tree.h"
+#include "medial/shape.h"
+
+namespace medial {
+
+/// Whether places lie inside of a shape, which must outlive this.
+class Inside {
+ public:
+  /// O(n log n).
+  explicit Inside(const Shape& shape);
+  /// The sign of clearance(). O(log n) for each edge on the way to the right.
+  bool holds(Vec2 p) const;
+
+ private:
+  struct BoundaryEdge {
+    Vec2 a, b;
+    double bulge;
+  };
+  static std::vector<BoundaryEdge> edges_of(const Shape& shape);
+  static std::vector<Box> boxes_of(const std::vector<BoundaryEdge>& edges);
+
+  std::vector<BoundaryEdge> edges_;
+  BoxTree tree_;
+};
+
+}  // namespace medial
