@@ -9,4 +9,14 @@ namespace medial {
 /// }.
 Error error_in_flight();
 
+/// What work() returns, or the error that it throws.
+template <class Work>
+auto guarded(const Work& work) -> decltype(work()) {
+  try {
+    return work();
+  } catch (...) {
+    return error_in_flight();
+  }
+}
+
 }  // namespace medial

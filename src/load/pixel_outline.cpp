@@ -80,11 +80,7 @@ Result<std::vector<Ring>> pixel_outline(const Image& image, double neck) {
     return Error{ErrorCode::invalid_option, "the neck must be in [0, 1/2) pixels", {}};
   if (!fits_image(image.width(), image.height()))
     return Error{ErrorCode::too_large, "the diagonal of the image is above 2^16 pixels", {}};
-  try {
-    return Tracer(image, neck).trace();
-  } catch (...) {
-    return error_in_flight();
-  }
+  return guarded([&]() -> Result<std::vector<Ring>> { return Tracer(image, neck).trace(); });
 }
 
 }  // namespace medial

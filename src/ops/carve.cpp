@@ -494,11 +494,7 @@ Result<Carving> carve(const MedialAxis& axis, const CarveOptions& options) {
   constexpr double smallest_chord = 1e-8;  // the moves grow as the root of one over it
   if (options.chord > 0 && options.chord < smallest_chord * diagonal(box_of(axis)))
     return invalid_carving("the chord must be at least 1e-8 of the diagonal of the axis's sites");
-  try {
-    return plan(axis, options);
-  } catch (...) {
-    return error_in_flight();
-  }
+  return guarded([&] { return plan(axis, options); });
 }
 
 CarveOptions clearing_before(const CarveOptions& v, double diameter, double pass_depth) {

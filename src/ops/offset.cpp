@@ -345,15 +345,6 @@ Result<Offsets> buffers_of(const PlanarGraph& planar_graph, std::span<const doub
   return making.done();
 }
 
-template <class Work>
-auto guarded(const Work& work) -> decltype(work()) {
-  try {
-    return work();
-  } catch (...) {
-    return error_in_flight();
-  }
-}
-
 }  // namespace
 
 Result<Offsets> inward_offsets(const MedialAxis& axis, std::span<const double> clearances) {

@@ -391,11 +391,7 @@ Result<Solid> make_solid(TriangleMesh mesh) {
 }  // namespace
 
 Result<Solid> build_solid(TriangleMesh mesh) {
-  try {
-    return make_solid(std::move(mesh));
-  } catch (...) {
-    return error_in_flight();
-  }
+  return guarded([&] { return make_solid(std::move(mesh)); });
 }
 
 }  // namespace medial

@@ -201,11 +201,9 @@ Result<DistanceMap> distance_transform(const Image& image, const DistanceOptions
     return Error{ErrorCode::invalid_option, "the number of threads must be in [0, 1024]", {}};
   if (!fits_image(image.width(), image.height()))
     return Error{ErrorCode::too_large, "the diagonal of the image is above 2^16 pixels", {}};
-  try {
+  return guarded([&]() -> Result<DistanceMap> {
     return on_threads(options.threads, [&] { return transform(image, options); });
-  } catch (...) {
-    return error_in_flight();
-  }
+  });
 }
 
 }  // namespace medial
