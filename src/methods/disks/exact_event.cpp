@@ -130,7 +130,7 @@ class ExactEvents::Search {
 
   /// The disk of the bisector at which the first of the two feet comes to the end of its site: no
   /// event is later, and, by the lemma, what keeps clear of it and of the node's disk is none. None
-  /// where both feet go on for ever.
+  /// where that disk would be larger than the shape.
   std::optional<PreciseDisk> end_of_feet() const {
     const std::uint32_t right = name(span_.right), left = name(span_.left);
     std::optional<PreciseDisk> first;
@@ -138,8 +138,8 @@ class ExactEvents::Search {
       const auto spoke = end_of(on_right ? right : left, on_right);
       if (!spoke) continue;
       const auto disk = exact::disk_along(*spoke, outline_.sites[on_right ? left : right]);
-      if (disk && has_foot(span_.right, *disk) && has_foot(span_.left, *disk) &&
-          (!first || comes_before(*disk, *first)))
+      if (disk && !is_too_large(*disk) && has_foot(span_.right, *disk) &&
+          has_foot(span_.left, *disk) && (!first || comes_before(*disk, *first)))
         first = disk;
     }
     return first;
@@ -199,6 +199,10 @@ class ExactEvents::Search {
            comes_before(disk, from);
   }
 
+  bool is_too_large(const PreciseDisk& disk) const {
+    return (Number(events_.sites_.radius_limit_) - disk.radius).sign() == -1;
+  }
+
   /// How far the node's disk may be off.
   double slack() const {
     constexpr double clear = 0x1p-8;  // of the radius: more than any node is off
@@ -214,7 +218,7 @@ class ExactEvents::Search {
     if (third == right || third == left) return;
     const auto disk = exact::disk_bounds<Precise>(outline_, {right, third, left}, Disk{});
     if (!disk) return;
-    if ((Number(events_.sites_.radius_limit_) - disk->radius).sign() == -1) return;
+    if (is_too_large(*disk)) return;
     if (is_behind(*disk) || (best_ && !comes_before(*disk, *best_))) return;
     // At a joint of two of them the disk touches both, whichever normal it is on.
     const bool joins_right = outline_.joined(right, third),
