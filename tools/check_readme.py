@@ -5,9 +5,9 @@
 
 Runs the `medial` commands of every page's sh blocks, and those of the manual's examples, in a scratch folder
 with data/, page by page in their order. Looks for what the pages link to and cite, for the paths that they
-name, for the `make` targets, and for the functions and options that the pages in docs name; compares the
-manual with `--help-all`, and README.md's C++ with the example that the install test builds; counts the words of
-the pages in docs.
+name, for the `make` targets, and for the functions and options that ARCHITECTURE.md and the pages in docs name;
+compares the manual with `--help-all`, and README.md's C++ with the example that the install test builds; counts
+the words of the pages in docs.
 """
 
 import concurrent.futures
@@ -83,8 +83,10 @@ def faults_of_citations(page):
 
 def identifiers():
     """Every name in the sources."""
-    sources = [path for folder in ("include", "src", "cli", "papers", "tests") for path in (ROOT / folder).rglob("*")
-               if path.suffix in (".h", ".cpp")]
+    folders = ("include", "src", "cli", "faces", "papers", "tests", "python/medial", "python/src", "js/lib", "js/src",
+               "web/src")
+    sources = [path for folder in folders for path in (ROOT / folder).rglob("*")
+               if path.suffix in (".h", ".cpp", ".py", ".mjs")]
     return set(re.findall(r"\w+", " ".join(path.read_text(errors="replace") for path in sources)))
 
 
@@ -159,7 +161,8 @@ def faults_of(page, program, names, listed, options):
     if page == ROOT / "README.md":
         checks.append(faults_of_example)
     faults = faults_of_commands(page, program) + [fault for check in checks for fault in check(page)]
-    return faults + (faults_of_names(page, names, options) if page.parent.name == "docs" else [])
+    named = page.parent.name == "docs" or page == ROOT / "ARCHITECTURE.md"
+    return faults + (faults_of_names(page, names, options) if named else [])
 
 
 def main():
