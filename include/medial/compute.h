@@ -46,4 +46,22 @@ struct Options {
 Result<MedialAxis> compute(const Shape& shape, const Options& options = {},
                            std::span<const Contour> contours = {});
 
+/// A part of an axis: some of its edges, with the nodes and sites that they name.
+struct AxisPart {
+  MedialAxis axis;
+  std::vector<std::uint32_t> nodes, sites;  ///< of each of the part's: its number in the whole axis
+  std::size_t known = 0;  ///< so many nodes, the first ones, were in parts before; others are new
+  bool begins = true;     ///< what came before is void
+};
+using AxisSink = std::function<Status(AxisPart&& part)>;
+
+/// compute() that hands the axis out as it grows, and returns it without sites, nodes and edges.
+/// New nodes are numbered on from part to part. By `disks` of straight edges, without `exact` and
+/// `exterior`, memory holds the boundary, its tree and what the walk has left open; otherwise all
+/// is one part. Nodes and edges are those of compute() in another order, the same for any number of
+/// threads; some may run the other way, and merged nodes differ in their last bits. The sink is
+/// called from one thread at a time; its error ends the work.
+Result<MedialAxis> compute_in_parts(const Shape& shape, const Options& options,
+                                    const AxisSink& sink);
+
 }  // namespace medial

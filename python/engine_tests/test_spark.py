@@ -255,6 +255,16 @@ def test_tiles_refuse_options_at_once(session):
         assert raised.value.code == "invalid_option"
 
 
+def test_tiles_refuse_more_leaves_than_pay(session):
+    x = np.arange(2001) / 2000
+    zigzag = np.stack([x, np.arange(2001) % 2.0], axis=1)
+    rows = [(i, *start, *end) for i, (start, end) in enumerate(zip(zigzag[:-1].tolist(), zigzag[1:].tolist(), strict=True))]
+    edges = session.createDataFrame(rows, "number long, x0 double, y0 double, x1 double, y1 double")
+    with pytest.raises(medial.MedialError, match="fewer levels") as raised:
+        medial.spark.axis_of_tiles(edges, 10)
+    assert raised.value.code == "invalid_option"
+
+
 def test_tiles_refuse_what_is_no_tile():
     from medial import _core
 

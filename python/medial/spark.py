@@ -306,7 +306,8 @@ def axis_of_tiles(edges: DataFrame, levels: int, *, tolerance: float = 0) -> Dat
         The boundary with the interior on its left: `number`, along each loop, and the ends `x0`, `y0`,
         `x1`, `y1`. See `boundary`.
     levels : int
-        Of the quadtree: 4 ** levels tiles, at most 10.
+        Of the quadtree: 4 ** levels tiles, at most 10. Where all leaves together would load more than 64
+        times the number of edges, and 2 ** 20 more, it is an ``invalid_option``.
     tolerance : float
         See `medial.axis`.
 
@@ -318,11 +319,16 @@ def axis_of_tiles(edges: DataFrame, levels: int, *, tolerance: float = 0) -> Dat
         begins, the lower one first; the number of edges of each node; both disks, control point and
         weight of the curve.
     """
-    extremes = edges.selectExpr("min(least(x0, x1))", "min(least(y0, y1))", "max(greatest(x0, x1))", "max(greatest(y0, y1))")
-    box = list(extremes.first() or [])
+    extremes = ["min(least(x0, x1))", "min(least(y0, y1))", "max(greatest(x0, x1))", "max(greatest(y0, y1))"]
+    summary = edges.selectExpr(*extremes, "sum(abs(x1 - x0) + abs(y1 - y0))", "count(*)").first()
+    *box, length, count = summary or [None, 0, 0]
     if None in box:
         raise MedialError("there is no edge", "empty")
     _core.check_tiles(box, levels, tolerance)
+    # An edge crosses that many borders between leaves, and each of them loads it.
+    crossed = length * 2**levels / max(box[2] - box[0], box[3] - box[1])
+    if crossed > 64 * count + 2**20:
+        raise MedialError("edges meet too many tiles: take fewer levels", "invalid_option")
     edges = edges.select("number", "x0", "y0", "x1", "y1")
 
     def to_leaves(batches: Iterator[Any]) -> Iterator[Any]:

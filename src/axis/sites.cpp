@@ -78,6 +78,29 @@ void count_sites(const Shape& shape, SiteNumbers& numbers) {
   }
 }
 
+std::size_t point_of(const SiteNumbers& numbers, std::uint32_t site, std::size_t near) {
+  const std::vector<std::uint32_t>& edge = numbers.edge;
+  std::size_t low = near, high = near;
+  for (std::size_t step = 1; low > 0 && edge[low - 1] >= site; step *= 2)
+    low -= std::min(low, step);
+  for (std::size_t step = 1; high < edge.size() && edge[high] < site; step *= 2)
+    high = std::min(edge.size(), high + step);
+  const auto at = [&](std::size_t i) { return edge.begin() + static_cast<std::ptrdiff_t>(i); };
+  return static_cast<std::size_t>(std::lower_bound(at(low), at(high), site) - edge.begin());
+}
+
+medial::Site result_site(const Shape& shape, const SiteNumbers& numbers, std::uint32_t site,
+                         std::size_t point) {
+  const auto [ring, vertex] = shape.sources[point];
+  const Vec2 p = shape.points[point];
+  if (site < numbers.edge[point]) return {p, p, ring, vertex, SiteKind::vertex};
+  const auto& begin = shape.loop_begin;
+  const auto loop = std::upper_bound(begin.begin(), begin.end(), point);
+  const Vec2 q = shape.points[point + 1 == *loop ? *(loop - 1) : point + 1];
+  const double bulge = shape.bulge(point);
+  return {p, q, ring, vertex, bulge == 0 ? SiteKind::segment : SiteKind::arc, bulge};
+}
+
 std::vector<medial::Site> result_sites(const Shape& shape, const SiteNumbers& numbers) {
   std::vector<medial::Site> sites;
   reserve_large(sites, numbers.count);

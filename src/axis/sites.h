@@ -71,6 +71,13 @@ SiteNumbers number_sites(const Shape& shape, const LocalFrame& frame, double tol
 /// Numbers the sites again, by other joints.
 void count_sites(const Shape& shape, SiteNumbers& numbers);
 
+/// The point at which a site of the result begins, which is found fast near to another point.
+std::size_t point_of(const SiteNumbers& numbers, std::uint32_t site, std::size_t near);
+
+/// The result's site of that number, which begins at that point, in units of the input.
+medial::Site result_site(const Shape& shape, const SiteNumbers& numbers, std::uint32_t site,
+                         std::size_t point);
+
 /// The result's sites, in units of the input.
 std::vector<medial::Site> result_sites(const Shape& shape, const SiteNumbers& numbers);
 

@@ -1,6 +1,7 @@
 #include "medial/compute.h"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "base/in_flight.h"
 #include "base/threads.h"
 #include "methods/checks.h"
+#include "methods/disks/disks.h"
 #include "methods/drop_enclosure.h"
 #include "methods/problem.h"
 #include "methods/refusal.h"
@@ -109,6 +111,51 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options,
 #endif
     if (options.progress) options.progress(1);
     return std::move(axis);
+  } catch (...) {
+    return error_in_flight();
+  }
+}
+
+namespace {
+
+/// The whole axis as one part; the rest of it stays.
+Status hand_out_whole(MedialAxis& axis, const AxisSink& sink) {
+  AxisPart part;
+  part.axis = std::move(axis);
+  axis = {};
+  axis.method = part.axis.method;
+  axis.tolerance = part.axis.tolerance;
+  axis.resolution = part.axis.resolution;
+  axis.exterior = part.axis.exterior;
+  axis.statistics = part.axis.statistics;
+  part.nodes.resize(part.axis.nodes.size());
+  part.sites.resize(part.axis.sites.size());
+  for (auto* numbers : {&part.nodes, &part.sites}) std::iota(numbers->begin(), numbers->end(), 0U);
+  return sink(std::move(part));
+}
+
+}  // namespace
+
+Result<MedialAxis> compute_in_parts(const Shape& shape, const Options& options,
+                                    const AxisSink& sink) {
+  try {
+    if (auto error = refuse(shape, options)) return std::move(*error);
+    if (std::holds_alternative<method::Disks>(options.method) && !options.exact &&
+        !options.exterior && !has_arcs(shape)) {
+      const Problem problem(shape, options);
+      auto axis = on_threads(options.threads, [&] { return disks::run_in_parts(problem, sink); });
+      if (!axis) return std::move(axis).error();
+      if (problem.is_cancelled()) return Error{ErrorCode::cancelled, "cancelled", {}};
+      if (*axis) {
+        (*axis)->statistics.threads = effective_threads(options.threads);
+        if (options.progress) options.progress(1);
+        return std::move(**axis);
+      }
+    }
+    auto axis = compute(shape, options);
+    if (!axis) return axis;
+    if (Status handed = hand_out_whole(*axis, sink); !handed) return std::move(handed).error();
+    return axis;
   } catch (...) {
     return error_in_flight();
   }

@@ -29,6 +29,8 @@ struct WalkContext {
   std::atomic<bool>* in_centers = nullptr;
   double near = 0;
   std::function<void(std::uint64_t)> finished_sites;  ///< gets the number of further finished sites
+  /// Above 0, tasks are put off, and so is what is left of one that has found so many nodes.
+  std::uint32_t most_nodes = 0;
 };
 
 /// A part of the boundary still to be walked: the sites between `right`, whose foot moves forward,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "medial/axis.h"
@@ -15,6 +16,12 @@ constexpr double fine_share = 0.125;
 /// sites by far more than rounding explains; unsupported, with the place, where no way to decide
 /// finds an axis that verify() passes.
 Result<MedialAxis> run(const Problem& problem);
+
+/// run() in parts of about so many nodes, see compute_in_parts(), of straight edges. Returns the
+/// axis without sites, nodes and edges; nothing where the first way to decide does not do, and
+/// run() has to look for another one.
+Result<std::optional<MedialAxis>> run_in_parts(const Problem& problem, const AxisSink& sink,
+                                               std::size_t part_nodes = 1 << 16);
 
 /// run() for what lies around a planar graph (shape/around.h): a shape whose edges may stand there
 /// twice, once for each side, and with loops of one point. The axis' edges, Edge or VoronoiEdge,

@@ -50,7 +50,7 @@ std::optional<ExactSites::Touch> ExactSites::first_touch(
   std::optional<PreciseDisk> best;
   std::uint32_t touched = 0;
   for (const std::uint32_t site : sites) {
-    const exact::ExactSite& exact_site = outline().sites[boundary.originals[site]];
+    const exact::ExactSite exact_site = outline().sites[boundary.originals[site]];
     const auto disk = exact::disk_from(foot, outreach, exact_site);
     if (!disk || !exact::may_have_foot(exact_site, *disk)) continue;
     const int smaller = best ? (best->radius - disk->radius).sign().value_or(0) : 1;
@@ -116,7 +116,7 @@ class ExactEvents::Search {
   /// In the centre of more arcs of one circle but for rounding, 256 bits take too long.
   static constexpr std::size_t most_around = 1024;
 
-  const exact::ExactSite& exact_site(std::uint32_t i) const { return outline_.sites[name(i)]; }
+  exact::ExactSite exact_site(std::uint32_t i) const { return outline_.sites[name(i)]; }
   std::uint32_t name(std::uint32_t i) const { return events_.boundary_.originals[i]; }
   bool is_bridge(std::uint32_t i) const { return events_.boundary_.elements[i] == Element::bridge; }
   bool is_inside(std::uint32_t i) const { return i > span_.right && i < span_.left; }

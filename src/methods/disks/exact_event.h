@@ -24,7 +24,7 @@ class ExactSites {
         radius_limit_(problem.radius_limit),
         boundary_(boundary) {
 #ifdef MEDIAL_HAS_EXACT
-    make_ = [&problem, &numbers] { return exact::outline_of(problem, numbers); };
+    make_ = [&problem, &numbers] { return exact::outline_of(problem, numbers, false); };
 #endif
   }
 #ifdef MEDIAL_HAS_EXACT
@@ -48,9 +48,7 @@ class ExactSites {
                                    std::span<const std::uint32_t> sites) const;
 #ifdef MEDIAL_HAS_EXACT
   /// A site of the boundary as the shape has it.
-  const exact::ExactSite& site(std::uint32_t i) const {
-    return outline().sites[boundary_.originals[i]];
-  }
+  exact::ExactSite site(std::uint32_t i) const { return outline().sites[boundary_.originals[i]]; }
 #endif
 
  private:

@@ -72,6 +72,18 @@ class Merger {
     if (!contracted_.empty()) remove();
   }
 
+  /// Short edges between branching nodes whose two sites and one more contact of each end could be
+  /// touched by one disk. A necessary condition for contraction, and nearly always false.
+  std::vector<std::uint32_t> candidates() {
+    std::vector<std::uint32_t> edges = short_edges();
+    if (edges.empty()) return edges;
+    link_ends(edges);
+    std::vector<std::uint32_t> kept = filter(
+        edges.size(), [&](std::size_t i) { return could_be_contracted(graph_.links[edges[i]]); });
+    for (std::uint32_t& i : kept) i = edges[i];
+    return kept;
+  }
+
  private:
   /// What double may leave open when it looks for candidates.
   double bound() const { return 1.25 * nearnesses[0].level * tolerance_; }
@@ -126,18 +138,6 @@ class Merger {
   bool is_branching(std::uint32_t node) const {
     const std::uint32_t second = next_end_[first_end_[node]];
     return second != none && next_end_[second] != none;
-  }
-
-  /// Short edges between branching nodes whose two sites and one more contact of each end could be
-  /// touched by one disk. A necessary condition for contraction, and nearly always false.
-  std::vector<std::uint32_t> candidates() {
-    std::vector<std::uint32_t> edges = short_edges();
-    if (edges.empty()) return edges;
-    link_ends(edges);
-    std::vector<std::uint32_t> kept = filter(
-        edges.size(), [&](std::size_t i) { return could_be_contracted(graph_.links[edges[i]]); });
-    for (std::uint32_t& i : kept) i = edges[i];
-    return kept;
   }
 
   bool could_be_contracted(const Link& edge) const {
@@ -474,6 +474,11 @@ class Merger {
 void merge_ties(const Boundary& boundary, const site::BoundaryTree& tree, const ExactSites* exact,
                 double tolerance, Graph& graph) {
   Merger(boundary, tree, exact, tolerance, graph).merge();
+}
+
+std::vector<std::uint32_t> tie_candidates(const Boundary& boundary, const site::BoundaryTree& tree,
+                                          const ExactSites* exact, double tolerance, Graph& graph) {
+  return Merger(boundary, tree, exact, tolerance, graph).candidates();
 }
 
 }  // namespace medial::disks

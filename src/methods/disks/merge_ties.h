@@ -34,4 +34,8 @@ namespace medial::disks {
 void merge_ties(const Boundary& boundary, const site::BoundaryTree& tree, const ExactSites* exact,
                 double tolerance, Graph& graph);
 
+/// The edges of which merge_ties() may take some out of a graph.
+std::vector<std::uint32_t> tie_candidates(const Boundary& boundary, const site::BoundaryTree& tree,
+                                          const ExactSites* exact, double tolerance, Graph& graph);
+
 }  // namespace medial::disks

@@ -77,8 +77,17 @@ class Walker {
       stack_.pop_back();
       if (is_set(context_.cancel) || is_set(context_.in_centers)) break;
       follow(next);
+      if (is_full()) put_off_rest();
     }
     report_progress(true);
+  }
+
+  bool is_full() const {
+    return context_.most_nodes > 0 && chunk_.nodes.size() > context_.most_nodes;
+  }
+  void put_off_rest() {
+    for (const Step& step : stack_) fork(step);
+    stack_.clear();
   }
 
   const Site& site(std::uint32_t i) const { return boundary_.sites[i]; }
@@ -105,6 +114,7 @@ class Walker {
       if (parts_.size() == 1) {
         step = parts_[0];
         step.is_open = is_open(step.span);
+        if (step.is_open && is_full()) return stack_.push_back(step);
       } else if (parts_.size() == 2 && !stays) {
         push(parts_[0], parts_[1]);
       } else {
@@ -464,11 +474,16 @@ class Walker {
     child.component = chunk_.component;
     child.parent_node = step.span.node;
     child.nodes.push_back(chunk_.nodes[step.span.node]);
-    tasks_.run([&context = context_, fork_size = fork_size_, &tasks = tasks_, &child, step] {
+    child.span = step.span.left - step.span.right;
+    auto walk = [&context = context_, fork_size = fork_size_, &tasks = tasks_, &child, step] {
       Step first = step;
       first.span.node = 0;
       Walker(context, fork_size, tasks, child).walk_step(first);
-    });
+    };
+    if (context_.most_nodes > 0)
+      child.walk = std::move(walk);
+    else
+      tasks_.run(std::move(walk));
   }
 
   /// The parts of a span whose node touches more sites, in `parts_`.
@@ -535,6 +550,19 @@ std::vector<std::unique_ptr<Chunk>> walk(const WalkContext& context) {
     });
   }
   tasks.wait();
+  return chunks;
+}
+
+std::vector<std::unique_ptr<Chunk>> put_off_walk(const WalkContext& context, TaskGroup& none) {
+  std::vector<std::unique_ptr<Chunk>> chunks;
+  for (const Boundary::SiteRange& run : context.boundary.runs) {
+    Chunk& chunk = *chunks.emplace_back(std::make_unique<Chunk>());
+    chunk.component = static_cast<std::uint32_t>(chunks.size() - 1);
+    chunk.span = run.last - run.first;
+    chunk.walk = [&context, &none, &chunk, &run] {
+      Walker(context, fork_size_of(context.boundary), none, chunk).walk_run(run);
+    };
+  }
   return chunks;
 }
 

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include "base/compat.h"
 #include "base/memory.h"
+#include "base/threads.h"
 #include "medial/axis.h"
 #include "methods/disks/contacts.h"
 
@@ -88,6 +90,8 @@ struct Chunk {
   std::vector<BridgeEnd> bridge_ends;
   std::vector<std::uint32_t> lost;  ///< sites at which a step before has turned out to be wrong
   std::vector<std::unique_ptr<Chunk>> children;  ///< in the order in which they were forked
+  std::uint32_t span = 0;                        ///< how many sites were to be walked
+  std::function<void()> walk;                    ///< where tasks are put off: what walks it
   Statistics statistics;
 };
 
@@ -96,6 +100,10 @@ struct Chunk {
 /// whose children were forked at branching nodes. The chunks, their order and their content depend
 /// on the boundary only, never on the number of threads. O(n log n) expected.
 std::vector<std::unique_ptr<Chunk>> walk(const WalkContext& context);
+
+/// The same put off, with WalkContext::most_nodes: chunks that Chunk::walk walks, once and on any
+/// thread, and whose children are put off in their turn. Both arguments must outlive them.
+std::vector<std::unique_ptr<Chunk>> put_off_walk(const WalkContext& context, TaskGroup& none);
 
 /// Walks a part of a boundary, its one run, from a disk that touches the run's first and last site
 /// and is at most `error` off. The disk is node 1 of the chunk, which has no children.

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "methods/exact/site_form.h"
@@ -8,9 +10,29 @@
 
 namespace medial::exact {
 
+/// Sites by their numbers: stored, or, of straight edges, worked out at each question, which takes
+/// no memory. Few of them are ever asked for.
+class SiteList {
+ public:
+  explicit SiteList(std::uint32_t count = 0) : stored_(count) {}
+  SiteList(std::uint32_t count, std::function<ExactSite(std::uint32_t)> work_out)
+      : count_(count), work_out_(std::move(work_out)) {}
+
+  ExactSite operator[](std::uint32_t i) const { return work_out_ ? work_out_(i) : stored_[i]; }
+  std::size_t size() const { return work_out_ ? count_ : stored_.size(); }
+  /// Of stored ones only.
+  void set(std::uint32_t i, const ExactSite& site) { stored_[i] = site; }
+  void push_back(const ExactSite& site) { stored_.push_back(site); }
+
+ private:
+  std::vector<ExactSite> stored_;
+  std::size_t count_ = 0;
+  std::function<ExactSite(std::uint32_t)> work_out_;
+};
+
 /// The boundary as loops of sites, numbered as in MedialAxis::sites.
 struct SiteLoops {
-  std::vector<ExactSite> sites;
+  SiteList sites;
   std::vector<std::uint32_t> next;  ///< the site that follows on the loop
   /// Whether a foot can pass on from the site to the next one: at a reflex vertex's ends and at a
   /// smooth joint, but not at a corner.
@@ -48,8 +70,10 @@ struct SiteLoops {
   }
 };
 
-/// `numbers`: the problem's, or those of parted_numbers().
-SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers);
+/// `numbers`: the problem's, or those of parted_numbers(). With `stores_sites` or arcs the sites
+/// are stored; otherwise the problem and the numbers must outlive them.
+SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers,
+                     bool stores_sites = true);
 
 /// Sites that are numbered by joints as they stand: what counts as smooth is blunt where the
 /// boundary turns to the left, and where it turns to the right the vertex is a site.
