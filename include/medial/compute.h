@@ -19,11 +19,9 @@ struct Options {
   /// Computes the axis of the exterior: of an enclosure less the shape, without edges whose disks
   /// touch the enclosure. Every concavity and every hole has its axis.
   bool exterior = false;
-  /// Distance from the shape's bounding box to the enclosure, in units of the input, within [1e-6,
-  /// 1e6] of the diagonal; 0: half of the longer side.
+  /// From the shape's box to the enclosure, in [1e-6, 1e6] diagonals; 0: half of the longer side.
   double margin = 0;
-  /// Called with the share that is done, in [0, 1], from any thread and out of order, at last with
-  /// 1. Must not throw.
+  /// Called from any thread with the share that is done, in any order, at last 1; must not throw.
   std::function<void(double)> progress = {};
   /// Once it is true, compute() returns ErrorCode::cancelled: from the walk at once, from other
   /// phases when they end.
@@ -46,21 +44,19 @@ struct Options {
 Result<MedialAxis> compute(const Shape& shape, const Options& options = {},
                            std::span<const Contour> contours = {});
 
-/// A part of an axis: some of its edges, with the nodes and sites that they name.
+/// Some edges of an axis, with the nodes and sites that they name.
 struct AxisPart {
   MedialAxis axis;
-  std::vector<std::uint32_t> nodes, sites;  ///< of each of the part's: its number in the whole axis
-  std::size_t known = 0;  ///< so many nodes, the first ones, were in parts before; others are new
-  bool begins = true;     ///< what came before is void
+  std::vector<std::uint32_t> nodes, sites;  ///< their numbers in the whole axis
+  std::size_t known = 0;                    ///< the first nodes, which were in parts before
+  bool begins = true;                       ///< what came before is void
 };
 using AxisSink = std::function<Status(AxisPart&& part)>;
 
-/// compute() that hands the axis out as it grows, and returns it without sites, nodes and edges.
-/// New nodes are numbered on from part to part. By `disks` of straight edges, without `exact` and
-/// `exterior`, memory holds the boundary, its tree and what the walk has left open; otherwise all
-/// is one part. Nodes and edges are those of compute() in another order, the same for any number of
-/// threads; some may run the other way, and merged nodes differ in their last bits. The sink is
-/// called from one thread at a time; its error ends the work.
+/// compute() that hands the axis out as it grows, and returns what else it has. By `disks` of
+/// straight edges, without `exact` and `exterior`, memory holds the boundary, its tree and what the
+/// walk has left open (docs/parts.md); otherwise all is one part. The sink is called from one
+/// thread at a time; its error ends the work.
 Result<MedialAxis> compute_in_parts(const Shape& shape, const Options& options,
                                     const AxisSink& sink);
 

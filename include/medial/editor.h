@@ -19,8 +19,8 @@ struct AxisChange {
 ///
 /// An edit that is an error changes nothing. Errors: crossing (with the place, and an edge's first
 /// vertex), not_finite, too_few_points (a loop of three vertices), invalid_option (no such vertex),
-/// those of build_shape() and compute(). Where edges come to touch, where a loop turns inside out, and
-/// where the whole axis changes, all is computed again.
+/// those of build_shape() and compute(). Where edges come to touch, where a loop turns
+/// inside out, and where the whole axis changes, all is computed again.
 class Editor {
  public:
   /// Errors: unsupported (arcs, other methods, Options::exact and Options::exterior), and those of

@@ -82,8 +82,7 @@ class [[nodiscard]] Result {
   std::variant<T, Error> content_;
 };
 
-/// The result of an action without a value.
-using Status = Result<std::monostate>;
+using Status = Result<std::monostate>;  ///< the result of an action without a value
 inline Status success() { return std::monostate{}; }
 
 }  // namespace medial

@@ -25,8 +25,7 @@ struct PixelGrid {
 /// sampled ones come near to it and set MedialAxis::resolution.
 namespace method {
 
-/// Walks along the axis and searches a tree over the boundary: the fastest.
-struct Disks {};
+struct Disks {};  ///< walks along the axis and searches a tree over the boundary: the fastest
 
 /// The randomised divide and conquer of Aichholzer et al., with balanced cuts: O(n log n) expected.
 struct BiarcDc {

@@ -28,8 +28,7 @@ enum class PruneMeasure : std::uint8_t {
   scale,      ///< points: grown by this factor >= 1, another grown disk covers it (Giesen et al.)
 };
 
-/// All measures; their names as spelled above.
-const std::vector<PruneMeasure>& prune_measures();
+const std::vector<PruneMeasure>& prune_measures();  ///< all measures; their names as spelled above
 const char* name_of(PruneMeasure measure);
 std::optional<PruneMeasure> prune_measure_from(std::string_view name);
 double default_threshold(PruneMeasure measure);  ///< drops noise, keeps what a person would draw

@@ -13,15 +13,13 @@ struct Statistics {
   std::uint64_t brackets = 0;           ///< nodes found by bracketing, where the closed form failed
   std::uint64_t precision_retries = 0;  ///< nodes recomputed in higher precision
   std::uint64_t bridges = 0;            ///< disks that connected a hole
-  std::uint64_t exact_filtered = 0;     ///< Options::exact: decided in double with error bounds,
-  std::uint64_t exact_precise = 0;      ///< in 256 bits with error bounds,
-  std::uint64_t exact_rational = 0;     ///< in rational arithmetic with square roots
-  std::uint64_t exact_ties = 0;         ///< sites beyond three that a node's disk touches exactly
-  std::uint64_t exact_changes = 0;      ///< decisions in double precision that were wrong
-  double largest_residual = 0;          ///< largest |distance - radius| over the nodes' contacts
+  /// Options::exact: decided in double and in 256 bits with error bounds, in rational arithmetic.
+  std::uint64_t exact_filtered = 0, exact_precise = 0, exact_rational = 0;
+  std::uint64_t exact_ties = 0;     ///< sites beyond three that a node's disk touches exactly
+  std::uint64_t exact_changes = 0;  ///< decisions in double precision that were wrong
+  double largest_residual = 0;      ///< largest |distance - radius| over the nodes' contacts
   double seconds_sites = 0, seconds_tree = 0, seconds_connect = 0;
-  double seconds_walk = 0, seconds_collect = 0, seconds_exact = 0;
-  double seconds = 0;  ///< all of compute()
+  double seconds_walk = 0, seconds_collect = 0, seconds_exact = 0, seconds = 0;  ///< the last: all
   int threads = 1;
 };
 
@@ -33,8 +31,7 @@ struct VoxelStatistics {
   std::uint64_t medial_voxels = 0;  ///< below the tolerance, before thinning
   std::uint64_t bridge_voxels = 0;  ///< added to keep the topology
   double seconds_tree = 0, seconds_digitize = 0, seconds_first = 0;
-  double seconds_follow = 0, seconds_bridge = 0, seconds_thin = 0;
-  double seconds = 0;  ///< all of compute_voxels()
+  double seconds_follow = 0, seconds_bridge = 0, seconds_thin = 0, seconds = 0;  ///< the last: all
   int threads = 1;
 };
 
