@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "methods/exact/disk_bounds.h"
@@ -76,17 +77,30 @@ class ExactEvents::Search {
                                                span_.left - 2};
     std::vector<std::uint32_t> candidates{hint};
     double reach = std::max(from_.radius, 0.0) + rounding;
+    bool node_asked = false;
     for (;;) {
       for (const std::uint32_t site : candidates)
         if (all_around)
           consider_at_joint(site);
         else
           consider(site);
-      candidates = best_ ? intruders() : neighbors;
+      candidates = best_ ? intruders(*best_) : neighbors;
       if (is_hopeless_) return std::nullopt;
-      if (best_ && candidates.empty()) return Found{site_, rounded(), is_well_known()};
-      std::erase_if(candidates, [&](std::uint32_t site) { return is_seen(site); });
+      if (best_ && candidates.empty()) return Found{site_, rounded(*best_), is_well_known()};
+      erase_seen(candidates);
+      if (candidates.empty() && !std::exchange(node_asked, true)) {
+        candidates = touched_by_node();
+        erase_seen(candidates);
+      }
       if (!candidates.empty()) continue;
+      // By the lemma nothing else comes before the best, which is none itself.
+      if (best_) return std::nullopt;
+      if (!all_around && (limit_ || (limit_ = end_of_feet()))) {
+        candidates = intruders(*limit_);
+        erase_seen(candidates);
+        if (candidates.empty()) return std::nullopt;
+        continue;
+      }
       // Only carriers were touched, beside their sites: look further around.
       if (!(reach <= furthest)) return std::nullopt;
       reach *= 4;
@@ -108,6 +122,48 @@ class ExactEvents::Search {
   bool is_inside(std::uint32_t i) const { return i > span_.right && i < span_.left; }
   bool is_seen(std::uint32_t i) const {
     return !is_inside(i) || is_bridge(i) || seen_.count(i) > 0;
+  }
+
+  void erase_seen(std::vector<std::uint32_t>& sites) const {
+    std::erase_if(sites, [&](std::uint32_t site) { return is_seen(site); });
+  }
+
+  /// The disk of the bisector at which the first of the two feet comes to the end of its site: no
+  /// event is later, and, by the lemma, what keeps clear of it and of the node's disk is none. None
+  /// where that disk would be larger than the shape.
+  std::optional<PreciseDisk> end_of_feet() const {
+    const std::uint32_t right = name(span_.right), left = name(span_.left);
+    std::optional<PreciseDisk> first;
+    for (const bool on_right : {true, false}) {
+      const auto spoke = end_of(on_right ? right : left, on_right);
+      if (!spoke) continue;
+      const auto disk = exact::disk_along(*spoke, outline_.sites[on_right ? left : right]);
+      if (disk && !is_too_large(*disk) && has_foot(span_.right, *disk) &&
+          has_foot(span_.left, *disk) && (!first || comes_before(*disk, *first)))
+        first = disk;
+    }
+    return first;
+  }
+
+  /// The disks whose feet are where those on a site begin, or end; none on a vertex at which the
+  /// boundary does not go on.
+  std::optional<exact::Spoke<Number>> end_of(std::uint32_t own, bool at_end) const {
+    exact::ApproximateRoots<Precise> roots;
+    const exact::ExactSite& site = outline_.sites[own];
+    const auto before = events_.sites_.joined_before(own);
+    if (at_end && outline_.joined(own, outline_.next[own]))
+      return outline_.spoke_after<Number>(own, roots);
+    if (!at_end && before) return outline_.spoke_after<Number>(*before, roots);
+    if (site.is_vertex()) return std::nullopt;
+    return exact::spoke_of<Number>(site, at_end, roots);
+  }
+
+  /// Sites that the node's disk touches, as far as it is known.
+  std::vector<std::uint32_t> touched_by_node() const {
+    std::vector<std::uint32_t> found;
+    events_.tree_.within(from_.center, from_.radius + 2 * slack() + rounding, span_.right + 1,
+                         span_.left - 1, found);
+    return found;
   }
 
   /// Whether one disk of the bisector comes before another one: by the foot on an edge, or between
@@ -137,13 +193,21 @@ class ExactEvents::Search {
   /// Whether a disk lies behind that of the node, by more than that is off.
   bool is_behind(const PreciseDisk& disk) const {
     if (node_) return comes_before(disk, *node_);
-    constexpr double clear = 0x1p-8;  // of the radius: more than any node is off
-    const double slack = std::min(span_.error, clear * from_.radius) +
-                         std::min(8 * events_.sites_.fine_tolerance_, clear * from_.radius) +
-                         0x1p-50;
     const PreciseDisk from{exact::exact_vector<Number>(from_.center), Number(from_.radius)};
     const auto away = disk.center - from.center;
-    return (dot(away, away) - Number(slack) * Number(slack)).positive() && comes_before(disk, from);
+    return (dot(away, away) - Number(slack()) * Number(slack())).positive() &&
+           comes_before(disk, from);
+  }
+
+  bool is_too_large(const PreciseDisk& disk) const {
+    return (Number(events_.sites_.radius_limit_) - disk.radius).sign() == -1;
+  }
+
+  /// How far the node's disk may be off.
+  double slack() const {
+    constexpr double clear = 0x1p-8;  // of the radius: more than any node is off
+    return std::min(span_.error, clear * from_.radius) +
+           std::min(8 * events_.sites_.fine_tolerance_, clear * from_.radius) + 0x1p-50;
   }
 
   /// Makes a site the best if it is touched before the best so far.
@@ -154,7 +218,7 @@ class ExactEvents::Search {
     if (third == right || third == left) return;
     const auto disk = exact::disk_bounds<Precise>(outline_, {right, third, left}, Disk{});
     if (!disk) return;
-    if ((Number(events_.sites_.radius_limit_) - disk->radius).sign() == -1) return;
+    if (is_too_large(*disk)) return;
     if (is_behind(*disk) || (best_ && !comes_before(*disk, *best_))) return;
     // At a joint of two of them the disk touches both, whichever normal it is on.
     const bool joins_right = outline_.joined(right, third),
@@ -166,10 +230,9 @@ class ExactEvents::Search {
     site_ = site;
   }
 
-  Disk rounded() const {
-    return {
-        {static_cast<double>(best_->center.x.value), static_cast<double>(best_->center.y.value)},
-        static_cast<double>(best_->radius.value)};
+  static Disk rounded(const PreciseDisk& disk) {
+    return {{static_cast<double>(disk.center.x.value), static_cast<double>(disk.center.y.value)},
+            static_cast<double>(disk.radius.value)};
   }
 
   /// Makes a site the best if the disk that grows where the span's ends join touches it before the
@@ -192,9 +255,9 @@ class ExactEvents::Search {
     return x.error + y.error + best_->radius.error <= 0x1p-60L * best_->radius.largest;
   }
 
-  /// Sites that the best disk reaches over, with their neighbours; none if there are none.
-  std::vector<std::uint32_t> intruders() {
-    const Disk disk = rounded();
+  /// Sites that a disk reaches over, with their neighbours; none if there are none.
+  std::vector<std::uint32_t> intruders(const PreciseDisk& exact_disk) {
+    const Disk disk = rounded(exact_disk);
     std::vector<std::uint32_t> found;
     const auto add = [&](std::uint32_t site) {
       for (const std::uint32_t i : {site, site - 1, site + 1}) found.push_back(i);
@@ -211,7 +274,7 @@ class ExactEvents::Search {
     is_hopeless_ = events_.boundary_.has_arcs && near.size() > most_around;
     if (is_hopeless_) return found;
     std::erase_if(near, [&](std::uint32_t site) {
-      return is_bridge(site) || exact::clearance(exact_site(site), *best_) >= 0;
+      return is_bridge(site) || exact::clearance(exact_site(site), exact_disk) >= 0;
     });
     // Of many that are new, a few take the place of most others.
     std::vector<std::uint32_t> fresh = near;
@@ -242,12 +305,7 @@ class ExactEvents::Search {
     const bool is_joined = before || outline_.joined(own, outline_.next[own]);
     if (!is_joined || exact_site(site).is_vertex())
       return exact::may_have_foot(exact_site(site), disk);
-    exact::ApproximateRoots<Precise> roots;
-    const auto begin = before ? outline_.spoke_after<Number>(*before, roots)
-                              : exact::spoke_of<Number>(exact_site(site), false, roots);
-    const auto end = outline_.joined(own, outline_.next[own])
-                         ? outline_.spoke_after<Number>(own, roots)
-                         : exact::spoke_of<Number>(exact_site(site), true, roots);
+    const auto begin = *end_of(own, false), end = *end_of(own, true);
     return cross(disk.center - begin.foot, begin.normal).sign() != -1 &&
            cross(disk.center - end.foot, end.normal).sign() != 1;
   }
@@ -275,6 +333,7 @@ class ExactEvents::Search {
   std::unordered_set<std::uint32_t> seen_;
   bool is_hopeless_ = false;
   std::optional<PreciseDisk> best_;
+  std::optional<PreciseDisk> limit_;  ///< no event is later; asked for where none is near
   std::uint32_t site_ = 0;
 };
 

@@ -285,7 +285,10 @@ class Walker {
     Span asked = span;
     joins_pieces(asked);
     const bool from_exact = is_exact() || (span.is_exact && !boundary_.has_arcs);
-    const auto found = context_.exact->next(asked, from, event.site, from_exact);
+    const std::uint32_t hint = event.kind == Event::Kind::pass_right  ? span.right + 1
+                               : event.kind == Event::Kind::pass_left ? span.left - 1
+                                                                      : event.site;
+    const auto found = context_.exact->next(asked, from, hint, from_exact);
     if (!found) {
       lose(span, event.site);
       return false;

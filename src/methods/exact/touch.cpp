@@ -48,15 +48,19 @@ int clearance(const ExactSite& site, const DiskBounds<Precise>& disk) {
   return std::min(clearance_of_point(site.start, disk), clearance_of_point(site.end, disk));
 }
 
-std::optional<DiskBounds<Precise>> disk_from(Vec2 foot, Vec2 direction, const ExactSite& site) {
+std::optional<DiskBounds<Precise>> disk_along(const Spoke<Number>& spoke, const ExactSite& site) {
   Roots roots;
-  const auto at = exact_vector<Number>(foot), normal = exact_vector<Number>(direction);
-  const Number size = roots.root(dot(normal, normal));
-  const auto form = form_of<Number>(site, at, roots);
-  const Number closing = form.size * size - dot(form.slope, normal);
+  const auto form = form_of<Number>(site, spoke.foot, roots);
+  const Number closing = form.size * spoke.size - dot(form.slope, spoke.normal);
   if (!closing.positive() || !form.height.positive()) return std::nullopt;
   const Number times = form.height / closing;
-  return DiskBounds<Precise>{at + times * normal, times * size};
+  return DiskBounds<Precise>{spoke.foot + times * spoke.normal, times * spoke.size};
+}
+
+std::optional<DiskBounds<Precise>> disk_from(Vec2 foot, Vec2 direction, const ExactSite& site) {
+  Roots roots;
+  const auto normal = exact_vector<Number>(direction);
+  return disk_along({exact_vector<Number>(foot), normal, roots.root(dot(normal, normal))}, site);
 }
 
 }  // namespace medial::exact

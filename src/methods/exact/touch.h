@@ -14,7 +14,10 @@ bool may_have_foot(const ExactSite& site, const DiskBounds<Precise>& disk);
 /// -1, or touches it, as far as 256 bits can tell: 0.
 int clearance(const ExactSite& site, const DiskBounds<Precise>& disk);
 
-/// The disk that grows at `foot` in a direction until it touches a site; none where it never does.
+/// The disk that grows along a spoke until it touches a site's carrier; none where it never does.
+std::optional<DiskBounds<Precise>> disk_along(const Spoke<Bounded<Precise>>& spoke,
+                                              const ExactSite& site);
+/// The same from `foot` in a direction.
 std::optional<DiskBounds<Precise>> disk_from(Vec2 foot, Vec2 direction, const ExactSite& site);
 
 }  // namespace medial::exact
