@@ -222,14 +222,27 @@ void join_ties(const Context& context, Skeleton& skeleton) {
     };
     return std::max(gap(edge.right), gap(edge.left)) > context.tolerance;
   };
+  // Most edges are long and miss nothing: what is left is few.
+  constexpr std::size_t grain = 4096;
+  std::vector<std::uint8_t> is_suspect(skeleton.edges.size());
+  parallel_ranges(skeleton.edges.size(), grain, [&](std::size_t i, std::size_t end) {
+    for (; i < end; ++i) {
+      const Bone& edge = skeleton.edges[i];
+      is_suspect[i] = is_short(edge) || misses_site(edge, skeleton.nodes[edge.from]) ||
+                      misses_site(edge, skeleton.nodes[edge.to]);
+    }
+  });
+  std::vector<Bone> suspects;
+  for (std::size_t i = 0; i < skeleton.edges.size(); ++i)
+    if (is_suspect[i] != 0) suspects.push_back(skeleton.edges[i]);
+  if (suspects.empty()) return;
   Nodes nodes(skeleton.nodes.size());
   std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> sites_of;
-  for (const Bone& edge : skeleton.edges)
+  for (const Bone& edge : suspects)
     if (is_short(edge)) nodes.join(edge.from, edge.to);
-  for (const Bone& edge : skeleton.edges)
+  for (const Bone& edge : suspects)
     for (const std::uint32_t node : {edge.from, edge.to})
       if (is_short(edge) || misses_site(edge, skeleton.nodes[node])) sites_of[nodes.find(node)];
-  if (sites_of.empty()) return;
   for (const Bone& edge : skeleton.edges)
     for (const std::uint32_t node : {edge.from, edge.to}) {
       const auto tie = sites_of.find(nodes.find(node));

@@ -453,6 +453,17 @@ Vec2 direction_of(int round) {
   return {std::cos(angle), std::sin(angle)};
 }
 
+/// Whether an axis goes once around each hole: success for a connected one.
+Status check_cycles(const MedialAxis& axis, std::size_t holes) {
+  if (axis.edges.size() + 1 == axis.nodes.size() + holes) return success();
+  Error error{ErrorCode::unsupported,
+              "the curve axis has gone astray: it does not go once around each hole; use the "
+              "method disks",
+              {}};
+  if (!axis.nodes.empty()) error.place.point = axis.nodes.front().disk.center;
+  return error;
+}
+
 /// The method on one component, again with shorter steps and other bridges where it goes astray.
 Result<CurveAxis> follow(const Loops& loops, const method::CurveAxis& options,
                          const std::atomic<bool>* cancel) {
@@ -469,6 +480,8 @@ Result<CurveAxis> follow(const Loops& loops, const method::CurveAxis& options,
     if (pieces.empty()) continue;
     const Boundary boundary(std::move(pieces), spent);
     Result<CurveAxis> next = attempt(boundary, again, cancel);
+    if (next.ok())
+      if (Status right = check_cycles(next->axis, loops.size() - 1); !right) next = right.error();
     spent = boundary.evaluations();
     // The first error is the most useful one.
     if (next.ok()) next->rules.restarts = failures;
