@@ -25,7 +25,7 @@ PORT ?= 8000
 BENCH_BOOST := build/boost-1.81
 SOURCES = $(shell git ls-files '*.h' '*.cpp')
 
-.PHONY: help setup build demo check test papers bench bench-scale bench-spark bench-flo-mat bench-images fuzz fuzz-coverage certain silhouettes corpus offsets tsan serial portable python python-leaks spark wheels web frames docs format lint clean install
+.PHONY: help setup build demo check test papers bench bench-scale bench-spark bench-flo-mat bench-images fuzz edits fuzz-coverage certain silhouettes corpus offsets tsan serial portable python python-leaks spark wheels web frames docs format lint clean install
 .DEFAULT_GOAL := help
 
 help:     ## list the targets
@@ -118,7 +118,7 @@ bench-images: setup    ## compare brushfire with scikit-image and OpenCV (PyPI)
 	@$(RELEASE)/python/bin/pip install --quiet scikit-image opencv-contrib-python-headless
 	@$(RELEASE)/python/bin/python bench/images/compare.py $(RELEASE)/bench/medial_bench_images out/images
 
-fuzz: setup     ## test random polygons and mutated files, new ones each time: make fuzz SECONDS=60 [FROM=seed]
+fuzz: setup     ## test random polygons, edits and mutated files, new ones each time: make fuzz SECONDS=60 [FROM=seed]
 	@cmake --preset release
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial_fuzz
 	@$(RELEASE)/tests/medial_fuzz --from $(FROM) --seconds $(SECONDS)
@@ -129,6 +129,11 @@ silhouettes: setup  ## verify the axes of new silhouettes and of images below DA
 	@mkdir -p out
 	@$(RELEASE)/tests/medial_silhouettes --from $(FROM) --count $(COUNT) $(if $(METHOD),--method $(METHOD)) \
 	  --table out/silhouettes$(addprefix -,$(METHOD)).md $(wildcard $(DATA)/packaged/C_images/opencv_[01]*.png)
+
+edits: setup    ## 100,000 random edits of each of 20 shapes, compared with computing: make edits EDITS=1000
+	@cmake --preset release
+	@cmake --build $(RELEASE) -j $(JOBS) --target medial_edits
+	@$(RELEASE)/tests/medial_edits $(EDITS)
 
 fuzz-coverage: setup  ## test shapes and files guided by coverage (clang 14, libFuzzer): make fuzz-coverage SECONDS=60 (each of two)
 	@tools/setup.sh fuzz

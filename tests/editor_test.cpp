@@ -13,11 +13,10 @@
 #include <string>
 #include <vector>
 
-#include "medial/verify.h"
 #include "support/computed.h"
+#include "support/edits.h"
 #include "support/environment.h"
 #include "support/generate.h"
-#include "support/same_graph.h"
 
 namespace medial::test {
 namespace {
@@ -26,18 +25,6 @@ Editor editor_of(const Rings& rings) {
   auto editor = Editor::make(shape_of(rings));
   EXPECT_TRUE(editor.ok()) << to_string(editor.error());
   return std::move(editor).value();
-}
-
-/// How the editor's axis differs from the one that is computed; empty where it does not.
-std::string fault_of(const Editor& editor) {
-  const Shape shape = editor.shape();
-  const auto expected = compute(shape, {.threads = 1});
-  if (!expected) return to_string(expected.error());
-  const MedialAxis axis = editor.axis();
-  const std::string different = difference(shape, axis, *expected, expected->tolerance);
-  if (!different.empty()) return different;
-  const Certificate certificate = verify(shape, axis);
-  return certificate.passed ? "" : "verify() refuses it";
 }
 
 /// The numbers of the nodes and edges that an editor has, as its changes tell.
@@ -71,55 +58,6 @@ struct Mirror {
   }
 };
 
-Rings shape_to_edit(std::uint64_t seed) {
-  switch (seed % 8) {
-    case 0:
-      return hole_grid(2 + seed % 4);
-    case 1:
-      return maze(60 + seed % 90, seed);
-    case 2:
-      return comb(3 + seed % 15);
-    case 3:
-      return blob(20 + seed % 50);
-    default:
-      return random_shape(seed).rings;
-  }
-}
-
-/// Random edits of one shape, some of them on the grid of the integers, where vertices come to lie
-/// in a line with others and edges come to touch.
-class Edits {
- public:
-  explicit Edits(std::uint64_t seed) : random_(seed), on_grid_(seed % 3 == 0) {}
-
-  Result<AxisChange> next(Editor& editor) {
-    const Shape shape = editor.shape();
-    const auto point = static_cast<std::size_t>(
-        random_.integer(0, static_cast<std::int64_t>(shape.points.size()) - 1));
-    const std::uint32_t vertex = shape.sources[point].vertex;
-    const Vec2 place = shape.points[point];
-    const Vec2 other = shape.points[(point + 1) % shape.points.size()];
-    const double way = distance(place, other) * random_.power_of_ten(-2, 0.5);
-    const double angle = 2 * std::numbers::pi * random_.unit();
-    Vec2 to = place + way * Vec2{std::cos(angle), std::sin(angle)};
-    if (on_grid_) to = {std::round(to.x), std::round(to.y)};
-    switch (random_.integer(0, 9)) {
-      case 0:
-        return editor.insert(vertex, to);
-      case 1:
-        return editor.remove(vertex);
-      case 2:
-        return editor.undo();
-      default:
-        return editor.move(vertex, to);
-    }
-  }
-
- private:
-  Random random_;
-  bool on_grid_;
-};
-
 TEST(Editor, HasTheAxisOfComputeAfterEveryEdit) {
   constexpr std::size_t largest = 200;
   std::size_t repaired = 0, all = 0;
@@ -130,8 +68,9 @@ TEST(Editor, HasTheAxisOfComputeAfterEveryEdit) {
     ASSERT_TRUE(editor.ok()) << to_string(editor.error());
     Mirror mirror(*editor);
     Edits edits(seed);
+    auto vertices = static_cast<std::uint32_t>(shape->points.size());
     for (int edit = 0; edit < 16; ++edit) {
-      const auto change = edits.next(*editor);
+      const auto change = edits.next(*editor, vertices);
       ++all;
       if (!change) continue;
       if (!change->everything) ++repaired;
@@ -245,7 +184,6 @@ TEST(Editor, TakesEditsBack) {
   Editor editor = editor_of(star_with_holes(*std::make_unique<Random>(5), 40, 3));
   const Shape shape = editor.shape();
   const MedialAxis axis = editor.axis();
-  Edits edits(1);
   std::size_t done = 0;
   for (int i = 0; i < 40; ++i) {
     const std::uint32_t vertex = shape.sources[static_cast<std::size_t>(i)].vertex;

@@ -1,14 +1,15 @@
-// Random polygons through build_shape, compute and verify, and mutated files through the readers,
-// on all threads, for as long as one likes.
+// Random polygons through build_shape, compute and verify, random edits of shapes, and mutated
+// files through the readers, on all threads, for as long as one likes.
 //
 //   medial_fuzz [--from SEED] [--count N] [--seconds N] [--threads N]
 //
-// Each seed is one random_shape(seed), which must be verified, and one small file with random
-// mutations, which must be read or refused; what is read must be verified or refused, and packs
-// must unpack or be refused, their shapes be built or have a note. One line for
-// each failure: `shape SEED KIND: reason: WKT`, where the WKT is a small part of the shape that
-// still fails, or `file SEED NAME: reason: "bytes"`. --from SEED --count 1 repeats one. Exit
-// status: 0; 1 where something failed, crashed or hung; 2 for a wrong call.
+// Each seed is one random_shape(seed), which must be verified, a few edits of one small shape,
+// after each of which the axis must be that of compute(), and one small file with random mutations,
+// which must be read or refused; what is read must be verified or refused, and packs must unpack or
+// be refused, their shapes be built or have a note. One line for each failure: `shape SEED KIND:
+// reason: WKT`, where the WKT is a small part of the shape that still fails, `edits SEED: reason`,
+// or `file SEED NAME: reason: "bytes"`. --from SEED --count 1 repeats one. Exit status: 0; 1 where
+// something failed, crashed or hung; 2 for a wrong call.
 
 #include <unistd.h>
 
@@ -33,6 +34,7 @@
 #include "medial/io/read.h"
 #include "medial/io/write.h"
 #include "medial/medial.h"
+#include "support/edits.h"
 #include "support/examine.h"
 #include "support/generate.h"
 
@@ -107,6 +109,14 @@ bool try_shape(std::uint64_t seed) {
   print_line("shape " + std::to_string(seed) + " " + shape.kind + ": " + outcome.reasons[0] + ": " +
              to_wkt(smallest));
   return false;
+}
+
+/// Returns whether the axis follows the seed's edits.
+bool try_edits(std::uint64_t seed) {
+  constexpr int edits = 4;
+  const std::optional<std::string> fault = fault_of_edits(seed, edits);
+  if (fault) print_line("edits " + std::to_string(seed) + ": " + *fault);
+  return !fault;
 }
 
 // ---- Mutated files.
@@ -382,6 +392,7 @@ int run(const Switches& switches) {
         work.file = false;
         work.began = Clock::now().time_since_epoch().count();
         if (!try_shape(switches.from + i)) ++failures;
+        if (!try_edits(switches.from + i)) ++failures;
         work.file = true;
         if (!try_file(switches.from + i, all, folder)) ++failures;
       }

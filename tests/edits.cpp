@@ -1,0 +1,120 @@
+// medial_edits: many random edits of 20 shapes by medial::Editor, compared with what compute()
+// makes of the edited shape: of small shapes after every edit, of large ones after every
+// thousandth.
+//
+//   medial_edits [EDITS] [FIRST] [COUNT]     (default: 100000 edits of each of the 20 shapes)
+//
+// Prints Markdown. Exit status 1 where an axis differs, or where an edit fails by a fault of ours.
+
+#include "support/edits.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "medial/editor.h"
+#include "support/generate.h"
+
+namespace {
+
+using namespace medial;
+
+struct Case {
+  const char* name;
+  test::Rings rings;
+};
+
+Case shape_of_case(std::uint64_t i) {
+  test::Random random(i);
+  switch (i) {
+    case 0:
+      return {"triangle", test::triangle({0, 0}, {40, 0}, {10, 30})};
+    case 1:
+      return {"rectangle", test::rectangle(40, 20)};
+    case 2:
+      return {"cross", test::cross_shape(10)};
+    case 3:
+      return {"comb", test::comb(12)};
+    case 4:
+      return {"blob", test::blob(40)};
+    case 5:
+      return {"jagged star", test::jagged_star(40)};
+    case 6:
+      return {"maze", test::maze(60)};
+    case 7:
+      return {"square holes", test::hole_grid(3)};
+    case 8:
+      return {"nested squares", test::nested_squares(4)};
+    case 9:
+      return {"spiral", test::spiral(60)};
+    case 10:
+      return {"star with holes", test::star_with_holes(random, 30, 2)};
+    case 11:
+      return {"regular polygon", test::regular_polygon(30, 10)};
+    case 12:
+      return {"comb", test::comb(2500)};
+    case 13:
+      return {"blob", test::blob(10000)};
+    case 14:
+      return {"jagged star", test::jagged_star(10000)};
+    case 15:
+      return {"maze", test::maze(10000)};
+    case 16:
+      return {"square holes", test::hole_grid(50)};
+    case 17:
+      return {"spiral", test::spiral(10000)};
+    case 18:
+      return {"star with holes", test::star_with_holes(random, 10000, 10)};
+    default:
+      return {"maze", test::maze(100000)};
+  }
+}
+
+/// Whether all went well.
+bool run(std::uint64_t number, int count) {
+  const Case one = shape_of_case(number);
+  const auto shape = build_shape(one.rings);
+  auto editor = shape ? Editor::make(*shape) : Result<Editor>(shape.error());
+  if (!editor) {
+    std::printf("%s: %s\n", one.name, to_string(editor.error()).c_str());
+    return false;
+  }
+  constexpr std::size_t small = 200;
+  constexpr int seldom = 1000;
+  const int interval = shape->points.size() <= small ? 1 : seldom;
+  test::Edits edits(number + 1);
+  auto vertices = static_cast<std::uint32_t>(shape->points.size());
+  int repaired = 0, whole = 0, refused = 0, compared = 0;
+  std::string fault;
+  for (int i = 1; i <= count && fault.empty(); ++i) {
+    const auto change = edits.next(*editor, vertices);
+    if (!change && change.error().code == ErrorCode::internal) fault = to_string(change.error());
+    ++(!change ? refused : change->everything ? whole : repaired);
+    if ((change || interval > 1) && i % interval == 0 && fault.empty()) {
+      fault = test::fault_of(*editor);
+      ++compared;
+    }
+    if (!fault.empty()) fault = "edit " + std::to_string(i) + ": " + fault;
+  }
+  std::printf("| %s | %zu | %d | %d | %d | %d | %s |\n", one.name, shape->points.size(), repaired,
+              whole, refused, compared, fault.empty() ? "none" : fault.c_str());
+  std::fflush(stdout);
+  return fault.empty();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  constexpr int shapes = 20;
+  const auto number = [&](int i, int otherwise) {
+    return argc > i ? std::atoi(argv[i]) : otherwise;
+  };
+  const int count = number(1, 100000), first = number(2, 0), last = first + number(3, shapes);
+  std::printf(
+      "| shape | vertices | repaired | all computed | refused | compared | differences |\n"
+      "|---|--:|--:|--:|--:|--:|---|\n");
+  bool is_right = true;
+  for (int i = first; i < last && i < shapes; ++i)
+    is_right = run(static_cast<std::uint64_t>(i), count) && is_right;
+  return is_right ? 0 : 1;
+}

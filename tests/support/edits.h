@@ -1,0 +1,36 @@
+#pragma once
+
+// Random edits of shapes, and what is wrong with an axis that follows them.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "medial/editor.h"
+#include "support/generate.h"
+
+namespace medial::test {
+
+/// How the editor's axis differs from the one that is computed; empty where it does not.
+std::string fault_of(const Editor& editor);
+
+/// A small shape, with holes or without; not of every seed a valid one.
+Rings shape_to_edit(std::uint64_t seed);
+
+/// Random edits of one shape, some of them on the grid of the integers, where vertices come to lie
+/// in a line with others and edges come to touch.
+class Edits {
+ public:
+  explicit Edits(std::uint64_t seed) : random_(seed), on_grid_(seed % 3 == 0) {}
+  /// Vertices have numbers below `vertices`, which grows where one is inserted.
+  Result<AxisChange> next(Editor& editor, std::uint32_t& vertices);
+
+ private:
+  Random random_;
+  bool on_grid_;
+};
+
+/// What is wrong first while a seed's shape is edited so often, if anything.
+std::optional<std::string> fault_of_edits(std::uint64_t seed, int count);
+
+}  // namespace medial::test
