@@ -93,7 +93,7 @@ std::vector<TileEdge> joined(const std::vector<TilePart>& parts, int level, std:
   std::vector<TileEdge> edges;
   for (std::uint32_t i = 0; i < 4; ++i) {
     const auto& open =
-        parts[(std::size_t{2 * row + i / 2} << (level + 1)) + 2 * column + i % 2].open;
+        parts[(std::size_t{2 * row + i / 2} << (level + 1)) + (2 * column + i % 2)].open;
     edges.insert(edges.end(), open.begin(), open.end());
   }
   const auto number = [](const TileEdge& edge) { return edge.number; };
