@@ -41,7 +41,7 @@ std::string fault_at(const Delaunay& d, std::uint32_t h) {
   return "";
 }
 
-std::string fault_of(const std::vector<Vec2>& points) {
+std::string fault_of_triangles(const std::vector<Vec2>& points) {
   const Delaunay d = voronoi::triangulate(points);
   if (d.triangles.size() != 2 * points.size() - 2) return "not all triangles";
   for (std::uint32_t t = 0; t < d.triangles.size(); ++t)
@@ -70,18 +70,18 @@ TEST(Delaunay, HoldsForPointsOfAllSizes) {
   for (int i = 0; i < 40; ++i) {
     const double far = random.power_of_ten(-300, 0), flat = random.power_of_ten(-18, 0);
     const double large = i % 4 == 0 ? random.power_of_ten(-120, 120) : 1;
-    EXPECT_EQ(fault_of(some_points(500, [&] { return Vec2{unit(), unit()}; })), "");
+    EXPECT_EQ(fault_of_triangles(some_points(500, [&] { return Vec2{unit(), unit()}; })), "");
     // Smaller and smaller towards the origin, down to where squares underflow.
-    EXPECT_EQ(fault_of(some_points(500,
+    EXPECT_EQ(fault_of_triangles(some_points(500,
                                    [&] {
                                      const double size = std::pow(far, random.between(0, 1));
                                      return Vec2{size * unit(), size * unit()};
                                    })),
               "");
-    EXPECT_EQ(fault_of(some_points(500, [&] { return Vec2{unit(), flat * unit()}; })), "");
-    EXPECT_EQ(fault_of(some_points(500, [&] { return Vec2{large * unit(), large * unit()}; })), "");
+    EXPECT_EQ(fault_of_triangles(some_points(500, [&] { return Vec2{unit(), flat * unit()}; })), "");
+    EXPECT_EQ(fault_of_triangles(some_points(500, [&] { return Vec2{large * unit(), large * unit()}; })), "");
     EXPECT_EQ(
-        fault_of(some_points(500,
+        fault_of_triangles(some_points(500,
                              [&] {
                                const Vec2 middle{std::round(2 * unit()), std::round(2 * unit())};
                                return middle + flat * Vec2{unit(), unit()};
@@ -96,20 +96,20 @@ TEST(Delaunay, HoldsForPointsOnCirclesLinesAndGrids) {
   for (int i = 0; i < 20; ++i) {
     const double off = random.power_of_ten(-17, -10);
     EXPECT_EQ(
-        fault_of(some_points(300,
+        fault_of_triangles(some_points(300,
                              [&] {
                                const double angle = std::numbers::pi * unit();
                                const double radius = 1 + off * unit();
                                return Vec2{radius * std::cos(angle), radius * std::sin(angle)};
                              })),
         "");
-    EXPECT_EQ(fault_of(some_points(400,
+    EXPECT_EQ(fault_of_triangles(some_points(400,
                                    [&] {
                                      return Vec2{std::round(9 * unit()), std::round(9 * unit())};
                                    })),
               "");
-    EXPECT_EQ(fault_of(some_points(300, [&] { return Vec2{unit(), std::round(3 * unit())}; })), "");
-    EXPECT_EQ(fault_of(some_points(300,
+    EXPECT_EQ(fault_of_triangles(some_points(300, [&] { return Vec2{unit(), std::round(3 * unit())}; })), "");
+    EXPECT_EQ(fault_of_triangles(some_points(300,
                                    [&] {
                                      const double x = unit();
                                      return Vec2{x, x * x};
