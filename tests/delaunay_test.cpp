@@ -73,20 +73,29 @@ TEST(Delaunay, HoldsForPointsOfAllSizes) {
     EXPECT_EQ(fault_of_triangles(some_points(500, [&] { return Vec2{unit(), unit()}; })), "");
     // Smaller and smaller towards the origin, down to where squares underflow.
     EXPECT_EQ(fault_of_triangles(some_points(500,
-                                   [&] {
-                                     const double size = std::pow(far, random.between(0, 1));
-                                     return Vec2{size * unit(), size * unit()};
-                                   })),
+                                             [&] {
+                                               const double size =
+                                                   std::pow(far, random.between(0, 1));
+                                               return Vec2{size * unit(), size * unit()};
+                                             })),
               "");
-    EXPECT_EQ(fault_of_triangles(some_points(500, [&] { return Vec2{unit(), flat * unit()}; })), "");
-    EXPECT_EQ(fault_of_triangles(some_points(500, [&] { return Vec2{large * unit(), large * unit()}; })), "");
-    EXPECT_EQ(
-        fault_of_triangles(some_points(500,
-                             [&] {
-                               const Vec2 middle{std::round(2 * unit()), std::round(2 * unit())};
-                               return middle + flat * Vec2{unit(), unit()};
-                             })),
-        "");
+    EXPECT_EQ(fault_of_triangles(some_points(500,
+                                             [&] {
+                                               return Vec2{unit(), flat * unit()};
+                                             })),
+              "");
+    EXPECT_EQ(fault_of_triangles(some_points(500,
+                                             [&] {
+                                               return Vec2{large * unit(), large * unit()};
+                                             })),
+              "");
+    EXPECT_EQ(fault_of_triangles(
+                  some_points(500,
+                              [&] {
+                                const Vec2 middle{std::round(2 * unit()), std::round(2 * unit())};
+                                return middle + flat * Vec2{unit(), unit()};
+                              })),
+              "");
   }
 }
 
@@ -95,25 +104,30 @@ TEST(Delaunay, HoldsForPointsOnCirclesLinesAndGrids) {
   const auto unit = [&] { return random.between(-1, 1); };
   for (int i = 0; i < 20; ++i) {
     const double off = random.power_of_ten(-17, -10);
-    EXPECT_EQ(
-        fault_of_triangles(some_points(300,
-                             [&] {
-                               const double angle = std::numbers::pi * unit();
-                               const double radius = 1 + off * unit();
-                               return Vec2{radius * std::cos(angle), radius * std::sin(angle)};
-                             })),
-        "");
-    EXPECT_EQ(fault_of_triangles(some_points(400,
-                                   [&] {
-                                     return Vec2{std::round(9 * unit()), std::round(9 * unit())};
-                                   })),
+    EXPECT_EQ(fault_of_triangles(
+                  some_points(300,
+                              [&] {
+                                const double angle = std::numbers::pi * unit();
+                                const double radius = 1 + off * unit();
+                                return Vec2{radius * std::cos(angle), radius * std::sin(angle)};
+                              })),
               "");
-    EXPECT_EQ(fault_of_triangles(some_points(300, [&] { return Vec2{unit(), std::round(3 * unit())}; })), "");
+    EXPECT_EQ(fault_of_triangles(
+                  some_points(400,
+                              [&] {
+                                return Vec2{std::round(9 * unit()), std::round(9 * unit())};
+                              })),
+              "");
     EXPECT_EQ(fault_of_triangles(some_points(300,
-                                   [&] {
-                                     const double x = unit();
-                                     return Vec2{x, x * x};
-                                   })),
+                                             [&] {
+                                               return Vec2{unit(), std::round(3 * unit())};
+                                             })),
+              "");
+    EXPECT_EQ(fault_of_triangles(some_points(300,
+                                             [&] {
+                                               const double x = unit();
+                                               return Vec2{x, x * x};
+                                             })),
               "");
   }
   EXPECT_TRUE(voronoi::triangulate(std::vector<Vec2>{{0, 0}, {2, 2}, {1, 1}}).triangles.empty());
