@@ -48,7 +48,7 @@ async function compile(source) {
 function imports(compiled) {
   const clock_time_get = (_id, _precision, at) => {
     const now = BigInt(Math.round(performance.now() * 1e6));
-    new DataView(module.memory.buffer).setBigUint64(at, now, true);
+    new DataView(module.memory.buffer).setBigUint64(at >>> 0, now, true);
     return 0;
   };
   const given = {};
@@ -74,15 +74,17 @@ function text_at(address) {
   return text.decode(all.subarray(address, all.indexOf(0, address)));
 }
 
+// Addresses come as signed numbers: beyond 2 GB they are negative.
+
 /** The text that goes with the last answer, as JSON. */
-export const answer_text = () => text_at(module.medial_text());
+export const answer_text = () => text_at(module.medial_text() >>> 0);
 export const answer_json = () => camel(JSON.parse(answer_text()));
 
 /** A copy of table i of the last answer. */
 export function table(i = 0) {
   const size = module.medial_table_size(i);
   if (size === 0) return new Float64Array(0);
-  return new Float64Array(memory(), module.medial_table(i), size).slice();
+  return new Float64Array(memory(), module.medial_table(i) >>> 0, size).slice();
 }
 
 /** Keys in JavaScript's spelling. */
@@ -108,7 +110,7 @@ function place(value) {
     typeof value === "string"
       ? bytes.encode(`${value}\0`)
       : new Uint8Array(value.buffer, value.byteOffset, value.byteLength);
-  const address = module.malloc(Math.max(from.length, 1));
+  const address = module.malloc(Math.max(from.length, 1)) >>> 0;
   if (address === 0) throw new MedialError("memory ran out", "out_of_memory");
   new Uint8Array(memory()).set(from, address);
   return address;

@@ -16,7 +16,8 @@ function place(point) {
 
 /** A shape of straight edges with its axis, which follows when vertices move, come and go. */
 export class Editor extends Handle {
-  constructor(x, { tolerance = 0 } = {}) {
+  constructor(x, { tolerance = 0, ...others } = {}) {
+    for (const name of Object.keys(others)) throw new MedialError(`there is no option '${name}'`, "invalid_option");
     super(x instanceof Copied ? x.address : made(x, tolerance), "editor");
   }
 

@@ -103,6 +103,7 @@ test("refusals have a place and change nothing; objects are freed", () => {
   assert.throws(() => editor.move(0, [1]), { code: "malformed" });
   assert.throws(() => editor.edges([12345]), { code: "invalid_option" });
   assert.throws(() => new medial.Editor("M 0 0 h 4 a 1 1 0 0 1 0 2 h -4 a 1 1 0 0 1 0 -2 z"), { code: "unsupported" });
+  assert.throws(() => new medial.Editor(box, { exact: true }), { code: "invalid_option" });
   const other = editor.copy();
   other.move(3, [2, 2]);
   assert.deepEqual(editor.vertex(3), [2, 1]);
