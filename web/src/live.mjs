@@ -21,6 +21,8 @@ export class Live {
   index = new Int32Array(0);
   /** What was changed since it was last drawn: boxes; null where it is all. */
   changed = null;
+  /** False where an edit of the editor has failed to come through to here. */
+  is_in_step = true;
 
   constructor(medial, rings) {
     const shape = new medial.Shape(rings.map((ring) => ring.xy));
@@ -127,7 +129,7 @@ export class Live {
   /** Whether the editor knows the vertices that an edit is about. */
   knows({ kind, ring, index }) {
     const numbers = this.numbers[ring];
-    if (kind !== "insert") return numbers[index] >= 0 && this.next[numbers[index]] >= 0 && numbers.length > 3;
+    if (kind !== "insert") return numbers[index] >= 0 && this.next[numbers[index]] >= 0 && (kind === "move" || numbers.length > 3);
     return this.#edge_at(ring, index) >= 0;
   }
   /** The vertex at which the edge begins that a vertex is inserted into, as the editor has it. */
@@ -147,6 +149,7 @@ export class Live {
     if (kind === "move") change = editor.move(v, point);
     else if (kind === "insert") change = editor.insert(v, point);
     else change = editor.remove(v);
+    this.is_in_step = false;
     this.#forget_axis();
     if (kind === "move") this.#moved(v, point);
     else if (kind === "insert") this.#inserted(v, change.vertex, ring, index, point);
@@ -156,6 +159,17 @@ export class Live {
       const { sources } = shape;
       this.#read(shape, (k) => sources[2 * k + 1]);
     } else this.#take(change);
+    this.is_in_step = true;
+  }
+
+  /** Lets `largest` follow where the largest disk has become smaller, in O(n). */
+  find_largest() {
+    let largest = 0;
+    for (let e = 0; e < this.edges.room; ++e)
+      if (this.edges.has(e)) largest = Math.max(largest, this.radii[3 * e], this.radii[3 * e + 2]);
+    if (largest === Math.fround(this.largest)) return;
+    this.largest = largest;
+    this.changed = null; // all colours change
   }
 
   #take({ removedEdges, addedEdges }) {

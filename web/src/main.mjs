@@ -273,9 +273,12 @@ const short = (x) => (Math.abs(x) >= 1e5 || (Math.abs(x) < 1e-3 && x !== 0) ? x.
 studio.addEventListener("computed", () => {
   const { scene } = studio;
   const counts = [`${count_of(studio.rings).toLocaleString("en")} vertices`];
-  const edges = edge_count();
-  if (edges !== undefined && !scene.error) counts.push(`${edges.toLocaleString("en")} edges`);
-  if (scene.error) counts.push(scene.error.text);
+  const edges = scene.error ? undefined : edge_count();
+  if (edges !== undefined) counts.push(`${edges.toLocaleString("en")} edges`);
+  if (scene.error) {
+    counts.push(scene.error.text);
+    if ($("live").textContent !== scene.error.text) say(scene.error.text);
+  }
   $("counts").textContent = counts.join(" · ");
   $("counts").className = scene.error ? "failed" : "";
   $("speed").textContent = `${studio.times.axis.toFixed(1)} ms`;

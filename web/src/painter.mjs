@@ -27,7 +27,7 @@ export class Painter {
     const key = JSON.stringify([c.canvas.width, c.canvas.height, camera.width, show, fire, stale, show.grid && grid_step]);
     const ratio = scene.ratio ?? 1;
     const changes = scene.live && !scene.stale ? scene.live.changed : [];
-    whole ||= !this.#drawn || this.#drawn.key !== key || !changes;
+    whole ||= !this.#drawn || this.#drawn.key !== key || !changes || (changes.length > 0 && !can_part(scene));
     const move = whole ? null : move_of(this.#drawn.transform, camera.transform);
     if (whole) this.#draw_all(c, scene, camera, theme, ratio, key);
     else if (move.scale !== 1 || move.x || move.y) this.#draw_moved(c, scene, camera, theme, ratio, key, move, changes.length > 0);

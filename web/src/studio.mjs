@@ -55,7 +55,8 @@ export class Studio extends EventTarget {
 
   /** Shows rings; `done` makes it a step of the history. */
   change(rings, done = true) {
-    this.#keep_edits();
+    if (done) this.#keep_edits();
+    else for (const { inverse } of this.#edits.splice(0).reverse()) apply_edit(this.scene.rings, inverse);
     this.scene.rings = rings;
     this.#drop_live();
     this.ask("axis");
@@ -88,17 +89,19 @@ export class Studio extends EventTarget {
    * happens. What makes edges cross is shown and not done: then no edit is.
    */
   edit(edits) {
-    if (!this.live || !edits.every((edit) => this.live.knows(edit))) return false;
+    const { live } = this;
+    if (!live || !edits.every((edit) => live.knows(edit))) return false;
     const begin = performance.now();
     const made = [];
     this.scene.error = this.scene.refused = null;
     try {
       for (const edit of edits) made.push(this.#follow(edit));
-      this.#edits.push(...made);
+      this.#note(made);
     } catch (error) {
+      if (!live.is_in_step) this.#drop_live();
+      this.#replay(made.reverse().map(({ inverse }) => inverse));
       if (!(error instanceof this.medial.MedialError)) throw error;
-      for (const { inverse } of made.reverse()) this.#follow(inverse);
-      if (edits.length > 1) return false;
+      if (edits.length > 1 || !this.live) return false;
       this.scene.error = error;
       this.scene.refused = this.#around(edits[0]);
     }
@@ -109,6 +112,18 @@ export class Studio extends EventTarget {
   #follow(edit) {
     this.live.follow(edit);
     return { edit, inverse: apply_edit(this.scene.rings, edit) };
+  }
+  /**
+   * Notes edits as made since the last step; of a vertex that moves on, where it began and where it is.
+   * Rings that differ from those of the last step are a step as a whole.
+   */
+  #note(made) {
+    if (this.scene.rings !== this.#settled) return;
+    for (const one of made) {
+      const last = this.#edits.at(-1);
+      if (last && ["kind", "ring", "index"].every((name) => last.edit[name] === one.edit[name]) && one.edit.kind === "move") last.edit = one.edit;
+      else this.#edits.push(one);
+    }
   }
   #around({ kind, ring, index, point }) {
     const { xy } = this.scene.rings[ring];
@@ -139,10 +154,12 @@ export class Studio extends EventTarget {
     this.scene.refused = null;
   }
   undo() {
+    if (this.dragging) return;
     this.cancel();
     this.#go(this.history.undo(), true);
   }
   redo() {
+    if (this.dragging) return;
     this.cancel();
     this.#go(this.history.redo(), false);
   }
@@ -227,12 +244,13 @@ export class Studio extends EventTarget {
       this.scene.stale = false;
     } catch (error) {
       if (!(error instanceof this.medial.MedialError)) throw error;
+      this.#drop_live();
       this.scene.error = error;
       this.scene.stale = true;
     }
     this.times.axis = performance.now() - begin;
-    this.#derive();
     this.emit("computed");
+    this.#derive();
   }
 
   /** Whether the axis can follow edits. */
@@ -278,10 +296,11 @@ export class Studio extends EventTarget {
   /** After an edit that the axis has followed. */
   #edited() {
     if (!this.live) return;
+    if (!this.dragging || this.#shows_more) this.live.find_largest();
     this.deepest = this.live.largest;
-    if (this.#shows_more) return this.#derive();
-    this.#count();
     this.emit("computed");
+    if (this.#shows_more && !this.scene.error) return this.#derive();
+    this.#count();
     this.emit("derived");
   }
   #count() {
@@ -304,7 +323,7 @@ export class Studio extends EventTarget {
     const { axis } = this;
     if (!axis) return;
     this.#attempt(() => this.#prune());
-    if (scene.error) return;
+    if (scene.stale) return;
     if (settings.offset > 0) this.#attempt(() => this.#offsets());
     if (settings.carve > 0) this.#attempt(() => (scene.carving = this.medial.carve(axis, { angle: settings.carve })));
     if (settings.center) this.#attempt(() => this.#center_line());

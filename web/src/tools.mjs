@@ -220,6 +220,7 @@ export class Tools {
   }
 
   #reshape(drag, at) {
+    if (!this.scene.rings[drag.ring]) return; // another drawing since
     const before = drag.ring_before;
     const to = this.#plane(at, drag);
     const [dx, dy] = [to[0] - drag.point[0], to[1] - drag.point[1]];

@@ -235,6 +235,40 @@ test("an edit draws what has changed, and nothing else", async () => {
   await page.keyboard.press("0");
 });
 
+test("a drag is one step, however the axis followed it; a refused edit leaves what is shown", async () => {
+  await many(200);
+  const before = await rings();
+  const after = await page.evaluate(() => {
+    const [x, y] = studio.rings[0].xy;
+    const move = (dx) => studio.edit([{ kind: "move", ring: 0, index: 0, point: [x + dx, y] }]);
+    const followed = move(0.1);
+    const ring = { xy: studio.rings[0].xy.slice(), edges: new Map() };
+    ring.xy[0] = x + 0.2;
+    studio.change([ring], false); // as where the edits of a drag were refused
+    studio.frame();
+    const followed_again = move(0.3);
+    studio.done();
+    studio.frame();
+    return [followed, followed_again, studio.rings[0].xy[0] - x];
+  });
+  assert.deepEqual(after.slice(0, 2), [true, true]);
+  assert.ok(Math.abs(after[2] - 0.3) < 1e-9);
+  await page.evaluate(() => studio.undo());
+  await settled();
+  assert.deepEqual(await rings(), before);
+  assert.ok(await is_up_to_date());
+  const shown = await page.evaluate(() => {
+    studio.set("offset", 0.3);
+    studio.edit([{ kind: "move", ring: 0, index: 0, point: [-500, 3] }]);
+    studio.frame();
+    const [code, count] = [studio.scene.error?.code, studio.scene.regions?.length];
+    studio.set("offset", 0);
+    studio.frame();
+    return [code, count > 0];
+  });
+  assert.deepEqual(shown, ["crossing", true]);
+});
+
 test("a thousand repairs keep the memory flat", async () => {
   await many(500);
   const [before, after, repaired] = await page.evaluate(() => {
