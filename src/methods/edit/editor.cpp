@@ -247,7 +247,12 @@ std::optional<Step> Editor::Parts::follow_in_two(const edit::Edit& edit) {
   };
   try {
     if (keeps_form(in)) second = follow(in);
-    if (second) join(first->change, second->change);
+    if (second) {
+      // In a copy: if memory runs out halfway, put_back() still needs the first change as it was.
+      AxisChange both = first->change;
+      join(both, second->change);
+      first->change = std::move(both);
+    }
   } catch (...) {
     if (second) {
       put_back(*second);
@@ -432,14 +437,10 @@ Editor::~Editor() = default;
 
 namespace {
 
-/// Calls work() on so many threads and turns what it throws into an error.
+/// What work() returns on so many threads, or the error that it throws.
 template <class T, class Work>
 Result<T> guarded(int threads, const Work& work) {
-  try {
-    return on_threads(threads, work);
-  } catch (...) {
-    return error_in_flight();
-  }
+  return medial::guarded([&]() -> Result<T> { return on_threads(threads, work); });
 }
 
 }  // namespace
