@@ -52,8 +52,13 @@ struct Joined {
       const std::uint32_t number = part.nodes[i];
       if (i >= part.known && number != axis.nodes.size()) fault = "a new node has an old number";
       if (i >= part.known) axis.nodes.push_back(nodes[i]);
-      if (axis.nodes[number].disk.center != nodes[i].disk.center) fault = "a node has moved";
+      if (key_of(axis.nodes[number]) != key_of(nodes[i])) fault = "a node has changed";
     }
+    std::vector<bool> is_named(nodes.size());
+    for (const Edge& edge : part.axis.edges)
+      for (const std::uint32_t node : edge.node) is_named[node] = true;
+    for (std::size_t i = 0; i < part.known; ++i)
+      if (!is_named[i]) fault = "no edge names a known node";
     for (std::size_t i = 0; i < part.sites.size(); ++i)
       if (key_of(part.axis.sites[i]) != key_of(axis.sites[part.sites[i]])) fault = "another site";
     for (Edge edge : part.axis.edges) {

@@ -18,8 +18,8 @@ constexpr double fine_share = 0.125;
 Result<MedialAxis> run(const Problem& problem);
 
 /// run() in parts of about so many nodes, see compute_in_parts(), of straight edges. Returns the
-/// axis without sites, nodes and edges; nothing where the first way to decide does not do, and
-/// run() has to look for another one.
+/// axis without sites, nodes and edges; nothing where the first way to decide fails, and run() has
+/// to look for another one.
 Result<std::optional<MedialAxis>> run_in_parts(const Problem& problem, const AxisSink& sink,
                                                std::size_t part_nodes = 1 << 16);
 

@@ -217,15 +217,17 @@ OpenGraph::Cut OpenGraph::cut() {
     take(i);
     cut.rim.push_back(i);
   };
-  for (std::uint32_t i = 0; i < count; ++i)
-    if (is_known(i)) take_first(i);
+  const auto take_ends = [&](const auto& takes) {
+    for (const Link& link : graph_.links)
+      for (const std::size_t k : {0, 1})
+        if (takes(link.node[k], link.node[1 - k])) take_first(link.node[k]);
+  };
+  take_ends(
+      [&](std::uint32_t node, std::uint32_t other) { return is_known(node) && is_ready(other); });
   cut.known = cut.rim.size();
-  for (const Link& link : graph_.links) {
-    for (const std::size_t k : {0, 1}) {
-      const std::uint32_t node = link.node[k], other = link.node[1 - k];
-      if (is_ready(node) && !is_ready(other) && !is_known(other)) take_first(node);
-    }
-  }
+  take_ends([&](std::uint32_t node, std::uint32_t other) {
+    return is_ready(node) && !is_ready(other) && !is_known(other);
+  });
   for (std::uint32_t i = 0; i < count; ++i)
     if (is_ready(i) && cut.place[i] == none) take(i);
   cut.more_ends.resize(cut.rim.size());
@@ -262,6 +264,10 @@ AxisPart OpenGraph::next_part() {
 void OpenGraph::complete_part(Cut& cut, AxisPart& part) {
   Graph& graph = cut.graph;
   if (cut.has_ties) merge_ties(boundary_, tree_, exact_, problem_.local_tolerance(), graph);
+  if (!keeps_rim(cut)) {
+    lost_ = true;
+    return;
+  }
   for (const Link& link : graph.links) --balance_[graph.nodes[link.node[0]].component];
   for (std::size_t i = cut.known; i < graph.nodes.size(); ++i) ++balance_[graph.nodes[i].component];
   statistics_ += std::exchange(graph.statistics, {});
@@ -271,6 +277,18 @@ void OpenGraph::complete_part(Cut& cut, AxisPart& part) {
   name_nodes(cut, part);
   name_sites(part);
   check_edges(doubtful, part);
+}
+
+/// Whether contracting ties has left those nodes as they are that other parts name as well. It has,
+/// unless rounding finds a tie here that it has not found in the open graph.
+bool OpenGraph::keeps_rim(const Cut& cut) const {
+  const auto& nodes = cut.graph.nodes;
+  if (nodes.size() < cut.rim.size()) return false;
+  for (std::size_t i = 0; i < cut.rim.size(); ++i) {
+    const Disk &now = nodes[i].disk, &before = graph_.nodes[cut.rim[i]].disk;
+    if (now.center != before.center || now.radius != before.radius) return false;
+  }
+  return true;
 }
 
 /// Nodes get their numbers, and those on the rim their kinds: they have more edges.
@@ -283,9 +301,13 @@ void OpenGraph::name_nodes(const Cut& cut, AxisPart& part) {
   for (const Edge& edge : part.axis.edges)
     for (const std::uint32_t node : edge.node)
       if (node < ends.size()) ++ends[node];
-  for (std::size_t i = cut.known; i < cut.rim.size(); ++i) {
-    number_[cut.rim[i]] = part.nodes[i];
-    part.axis.nodes[i].kind = kind_of_degree(ends[i]);
+  for (std::size_t i = 0; i < cut.rim.size(); ++i) {
+    Node& open = graph_.nodes[cut.rim[i]];
+    if (i >= cut.known) {
+      number_[cut.rim[i]] = part.nodes[i];
+      open.kind = kind_of_degree(ends[i]);
+    }
+    part.axis.nodes[i].kind = open.kind;
   }
 }
 

@@ -68,6 +68,7 @@ class OpenGraph {
   void hold_ties(const std::vector<std::uint32_t>& ties, std::vector<std::uint8_t>& held) const;
   Cut cut();
   void complete_part(Cut& cut, AxisPart& part);
+  bool keeps_rim(const Cut& cut) const;
   void name_nodes(const Cut& cut, AxisPart& part);
   void name_sites(AxisPart& part);
   void check_edges(const std::vector<std::uint32_t>& doubtful, const AxisPart& part);
