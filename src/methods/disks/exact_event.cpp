@@ -93,12 +93,13 @@ class ExactEvents::Search {
         erase_seen(candidates);
       }
       if (!candidates.empty()) continue;
-      // By the lemma nothing else comes before the best, which is none itself.
+      // All that the best disk reaches over has been considered: by the lemma there is no event.
       if (best_) return std::nullopt;
       if (!all_around && (limit_ || (limit_ = end_of_feet()))) {
         candidates = intruders(*limit_);
         erase_seen(candidates);
         if (candidates.empty()) return std::nullopt;
+        few_ *= 2;  // if none of these is touched, all are asked for in O(log n) rounds
         continue;
       }
       // Only carriers were touched, beside their sites: look further around.
@@ -129,8 +130,8 @@ class ExactEvents::Search {
   }
 
   /// The disk of the bisector at which the first of the two feet comes to the end of its site: no
-  /// event is later, and, by the lemma, what keeps clear of it and of the node's disk is none. None
-  /// where that disk would be larger than the shape.
+  /// event is later, and by the lemma this disk reaches over the site of the event, or touches it.
+  /// None where that disk would be larger than the shape.
   std::optional<PreciseDisk> end_of_feet() const {
     const std::uint32_t right = name(span_.right), left = name(span_.left);
     std::optional<PreciseDisk> first;
@@ -145,8 +146,8 @@ class ExactEvents::Search {
     return first;
   }
 
-  /// The disks whose feet are where those on a site begin, or end; none on a vertex at which the
-  /// boundary does not go on.
+  /// The spoke on which the feet on a site begin, or end; none at a vertex from which no foot
+  /// passes on.
   std::optional<exact::Spoke<Number>> end_of(std::uint32_t own, bool at_end) const {
     exact::ApproximateRoots<Precise> roots;
     const exact::ExactSite& site = outline_.sites[own];
@@ -282,8 +283,7 @@ class ExactEvents::Search {
       return is_seen(site) && is_seen(site - 1) && is_seen(site + 1);
     });
     const std::vector<std::uint32_t>& some = fresh.empty() ? near : fresh;
-    constexpr std::size_t few = 8;
-    for (std::size_t i = 0; i < some.size(); i += some.size() / few + 1) add(some[i]);
+    for (std::size_t i = 0; i < some.size(); i += some.size() / few_ + 1) add(some[i]);
     return found;
   }
 
@@ -331,6 +331,7 @@ class ExactEvents::Search {
   const Disk from_;
   std::optional<PreciseDisk> node_;  ///< of the span, where it is asked for
   std::unordered_set<std::uint32_t> seen_;
+  std::size_t few_ = 8;  ///< intruders that are considered at a time
   bool is_hopeless_ = false;
   std::optional<PreciseDisk> best_;
   std::optional<PreciseDisk> limit_;  ///< no event is later; asked for where none is near
