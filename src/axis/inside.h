@@ -7,12 +7,13 @@
 
 namespace medial {
 
-/// Whether places lie inside of a shape, which must outlive this.
+/// Whether places lie inside of a shape. Keeps its edges, not the shape.
 class Inside {
  public:
   /// O(n log n).
   explicit Inside(const Shape& shape);
-  /// The sign of clearance(). O(log n) for each edge on the way to the right.
+  /// Whether clearance() is above 0; on the boundary itself either answer. O(log n) for each edge
+  /// on the way to the right.
   bool holds(Vec2 p) const;
 
  private:

@@ -498,7 +498,10 @@ Result<CurveAxis> follow(const Loops& loops, const method::CurveAxis& options,
 /// Adds a component's axis, found with `origin` at (0, 0).
 void append(CurveAxis& all, std::uint32_t component, Vec2 origin, CurveAxis part) {
   const auto bring_back = [&](Disk& disk) { disk.center = disk.center + origin; };
-  for (Node& node : part.axis.nodes) node.component = component, bring_back(node.disk);
+  for (Node& node : part.axis.nodes) {
+    node.component = component;
+    bring_back(node.disk);
+  }
   for (Edge& edge : part.axis.edges) bring_back(edge.control);
   for (auto& branch : part.branches)
     for (CurveAxisPoint& point : branch) bring_back(point.disk);
