@@ -6,7 +6,7 @@
 #   tools/wasm.sh test TREE          run the tests in Node and, where it is installed, in Chromium
 #   tools/wasm.sh frames TREE        count frames while a vertex is dragged, in Chromium
 #
-# Both end with status 77, which counts as skipped, where emscripten is missing.
+# `build` and `test` end with status 77, which counts as skipped, where emscripten is missing.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 task=$1 tree=$2
