@@ -16,7 +16,13 @@ import { start_tour } from "./tour.mjs";
 const $ = (id) => document.getElementById(id);
 
 const begun = performance.now();
-await medial.init(await globalThis.MEDIAL_WASM);
+try {
+  await medial.init(await globalThis.MEDIAL_WASM);
+} catch (error) {
+  $("toast").textContent = `The studio cannot start in this browser: ${error.message}`;
+  $("toast").hidden = false;
+  throw error;
+}
 const studio = new Studio($("plane"), medial);
 const tools = new Tools(studio, say);
 const player = new Player(studio);
