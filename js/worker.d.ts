@@ -33,6 +33,7 @@ export type RemoteEditor = {
 
 export type WorkerModule = Functions & {
   Editor(...given: ConstructorParameters<typeof medial.Editor>): Promise<RemoteEditor>;
+  /** Ends the worker; what it has not answered is rejected. */
   terminate(): void;
 };
 /** Starts a worker whose methods are the functions of the package, each giving a promise. */

@@ -19,18 +19,31 @@ export async function inWorker() {
   const worker = await start();
   const waiting = new Map();
   let last = 0;
-  worker.listen(({ id, result, error }) => {
+  let ended; // the error of all calls, once the worker is gone
+  const end = (error) => {
+    ended ??= new Error(`medial-axis: ${error?.message ?? "the worker cannot be loaded"}`);
+    for (const { reject } of waiting.values()) reject(ended);
+    waiting.clear();
+  };
+  const answered = ({ id, result, error }) => {
+    if (!waiting.has(id)) return;
     const { resolve, reject } = waiting.get(id);
     waiting.delete(id);
     if (error) reject(error.code ? new MedialError(error.text, error.code, error) : new Error(error.text));
     else resolve(result?.editor ? remote_editor(result.editor, call) : result);
-  });
+  };
   const call = (name, given, editor) =>
     new Promise((resolve, reject) => {
-      waiting.set(++last, { resolve, reject });
-      worker.post({ id: last, name, given, editor });
+      if (ended) return reject(ended);
+      worker.post({ id: ++last, name, given, editor });
+      waiting.set(last, { resolve, reject });
     });
-  const own = { terminate: worker.terminate, then: undefined };
+  const terminate = () => {
+    end({ message: "the worker is terminated" });
+    return worker.terminate();
+  };
+  worker.listen(answered, end);
+  const own = { terminate, then: undefined };
   return new Proxy(own, { get: (_, name) => (name in own ? own[name] : (...given) => call(name, given)) });
 }
 
@@ -59,14 +72,17 @@ async function start() {
     const { Worker } = await import("node:worker_threads");
     const worker = new Worker(url, { workerData: "medial-axis" });
     return {
-      listen: (use) => worker.on("message", use),
+      listen: (use, fail) => worker.on("message", use).on("error", fail),
       post: (message) => worker.postMessage(message),
       terminate: () => worker.terminate(),
     };
   }
   const worker = new Worker(url, { type: "module" });
   return {
-    listen: (use) => worker.addEventListener("message", ({ data }) => use(data)),
+    listen: (use, fail) => {
+      worker.addEventListener("message", ({ data }) => use(data));
+      worker.addEventListener("error", fail);
+    },
     post: (message) => worker.postMessage(message),
     terminate: () => worker.terminate(),
   };

@@ -126,6 +126,10 @@ test("in a worker", async () => {
     await assert.rejects(editor.move(2, [-1, 1]), { code: "crossing" });
     await editor.free();
     await assert.rejects(editor.undo(), { code: "invalid_option" });
+    const unanswered = assert.rejects(copy.move(2, [6, 2]), /terminated/);
+    worker.terminate();
+    await unanswered;
+    await assert.rejects(copy.undo(), /terminated/);
   } finally {
     worker.terminate();
   }
