@@ -222,7 +222,7 @@ function vertices_in_view({ rings, live, stale }, camera) {
   const seen = [];
   const [x0, y0, x1, y1] = camera.view;
   const add = (x, y) => x >= x0 && x <= x1 && y >= y0 && y <= y1 && seen.push(x, y);
-  if (live && !stale && live.boundary.share([x0, y0, x1, y1]) < 1 / 16) {
+  if (live?.has_all && !stale && live.boundary.share([x0, y0, x1, y1]) < 1 / 16) {
     live.boundary.find([x0, y0, x1, y1], (v) => seen.length <= 2 * MOST_DOTS && add(live.x[v], live.y[v]));
     return seen;
   }

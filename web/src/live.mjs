@@ -21,6 +21,8 @@ export class Live {
   index = new Int32Array(0);
   /** What was changed since it was last drawn: boxes; null where it is all. */
   changed = null;
+  /** False where the shape leaves vertices out, as in the middle of straight lines. */
+  has_all = true;
   /** False where an edit of the editor has failed to come through to here. */
   is_in_step = true;
 
@@ -84,6 +86,7 @@ export class Live {
         this.before[w] = v;
       }
     for (let v = 0; v < this.next.length; ++v) if (this.next[v] >= 0) this.#index_boundary(v);
+    this.has_all = this.numbers.every((ring) => ring.every((v) => v >= 0 && this.next[v] >= 0));
   }
 
   #read_edges({ nodes, edges }, bounds) {

@@ -75,7 +75,7 @@ export class Tools {
 
   #nearest_vertex([px, py], reach, except) {
     const { live } = this.studio;
-    if (live) {
+    if (live?.has_all) {
       const place = this.camera.toPlane(px, py);
       return live.nearest_vertex(place, reach / this.camera.scale, (ring, index) => !except || ring !== except.ring || index !== except.index);
     }
