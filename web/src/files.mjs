@@ -63,14 +63,24 @@ export function rings_of_text(text) {
   return rings_of_rows(text);
 }
 
+const SVG = "http://www.w3.org/2000/svg";
+
+/** Takes away what would run or load something once the drawing is in the page. */
+function make_harmless(element) {
+  const link = element.getAttribute("href") ?? element.getAttribute("xlink:href") ?? "#";
+  const is_foreign = element.namespaceURI !== SVG || element.matches("script, foreignObject, image, feImage, style, animate, set");
+  if (is_foreign || (element.matches("use") && !link.startsWith("#"))) return element.remove();
+  for (const { name } of [...element.attributes]) if (/^on/i.test(name)) element.removeAttribute(name);
+}
+
 /** The filled paths and shapes of a drawing, with its transformations. */
 function rings_of_svg(text) {
   const host = document.createElement("div");
   host.style.cssText = "position:absolute;visibility:hidden;width:1000px;height:1000px";
   const parsed = new DOMParser().parseFromString(text, "image/svg+xml");
   const svg = parsed.documentElement;
-  if (svg.localName !== "svg") throw new Error("this is no SVG");
-  for (const risky of svg.querySelectorAll("script, foreignObject, image, use[href^='http'], style")) risky.remove();
+  if (svg.localName !== "svg" || svg.namespaceURI !== SVG) throw new Error("this is no SVG");
+  for (const element of [svg, ...svg.querySelectorAll("*")]) make_harmless(element);
   svg.removeAttribute("viewBox");
   host.append(document.importNode(svg, true));
   document.body.append(host);

@@ -173,6 +173,15 @@ test("edges that cross are shown, and the edit is undone", async () => {
   assert.equal(await page.evaluate(() => studio.scene.error), null);
 });
 
+test("a vertex in the middle of a straight line can be dragged, and the axis follows", async () => {
+  await paste("POLYGON ((0 0, 20 0, 40 0, 40 20, 0 20, 0 0))");
+  await drag(await screen(20, 0), await screen(20, 4));
+  const [{ xy }] = await rings();
+  assert.equal(xy.length, 10);
+  assert.ok(Math.abs(xy[3] - 4) < 0.5, String(xy));
+  assert.ok(await is_up_to_date());
+});
+
 /** A star of many vertices, so that an edit changes a small part of the axis. */
 const many = (count) =>
   page.evaluate((n) => {
@@ -395,8 +404,9 @@ test("files: saved, read again; links", async () => {
   await give("shape.json", saved.native);
   assert.equal(await page.evaluate(() => studio.shape.area), 800);
   await page.keyboard.press("n");
-  await give("shape.svg", '<svg xmlns="http://www.w3.org/2000/svg"><g transform="scale(2)"><circle cx="5" cy="5" r="3"/><path d="M20 0h10v10h-10z"/></g></svg>');
+  await give("shape.svg", '<svg xmlns="http://www.w3.org/2000/svg" onload="globalThis.ran = true"><g transform="scale(2)"><circle cx="5" cy="5" r="3"/><path d="M20 0h10v10h-10z"/></g></svg>');
   assert.equal((await rings()).length, 2);
+  assert.equal(await page.evaluate(() => globalThis.ran), undefined);
   const area = await page.evaluate(() => studio.shape.area);
   assert.ok(Math.abs(area - (400 + 36 * Math.PI)) < 0.05, String(area));
   await page.keyboard.press("n");
