@@ -143,6 +143,17 @@ class Motion {
   Vec2 move_;
 };
 
+std::vector<Ring> rings_at(const Shape& shape, const Placement& at) {
+  const Motion motion(at);
+  std::vector<Ring> rings = rings_of(shape);
+  for (Ring& ring : rings) {
+    for (Vec2& p : ring.points) p = motion.of(p);
+    if (at.mirrored)
+      for (double& bulge : ring.bulges) bulge = -bulge;
+  }
+  return rings;
+}
+
 /// The boundary of a shape as something to keep away from.
 class Border {
  public:
@@ -215,7 +226,8 @@ class Nesting {
     const auto small = std::partition_point(
         moving_.disks.begin(), moving_.disks.end(),
         [&](const Disk& disk) { return disk.radius > disk_step * moving_.size; });
-    return is_outside(moving_.disks.front()) && std::all_of(small, moving_.disks.end(), is_outside);
+    return is_outside(moving_.disks.front()) &&
+           std::all_of(small, moving_.disks.end(), is_outside) && !crosses(at);
   }
 
   double saved_at(const Placement& at) const {
@@ -261,6 +273,14 @@ class Nesting {
   }
 
  private:
+  /// Whether the borders cross, as those of two tips may between the disks, with no vertex inside
+  /// the other shape. O(n log n), so asked last.
+  bool crosses(const Placement& at) const {
+    std::vector<Ring> rings = rings_of(fixed_.shape);
+    for (Ring& ring : rings_at(moving_.shape, at)) rings.push_back(std::move(ring));
+    return !build_shape(rings);
+  }
+
   std::array<Placement, 6> neighbours(const Placement& at, double share) const {
     std::array<Placement, 6> next;
     next.fill(at);
@@ -291,16 +311,7 @@ bool is_near(const Placement& a, const Placement& b, double size) {
 
 }  // namespace
 
-Shape placed(const Shape& shape, const Placement& at) {
-  const Motion motion(at);
-  std::vector<Ring> rings = rings_of(shape);
-  for (Ring& ring : rings) {
-    for (Vec2& p : ring.points) p = motion.of(p);
-    if (at.mirrored)
-      for (double& bulge : ring.bulges) bulge = -bulge;
-  }
-  return *build_shape(rings);
-}
+Shape placed(const Shape& shape, const Placement& at) { return *build_shape(rings_at(shape, at)); }
 
 Result<std::vector<Placement>> nest(const Shape& fixed, const Shape& moving, double gap,
                                     bool mirror, std::size_t best) {
