@@ -11,6 +11,7 @@
 #include <numbers>
 #include <optional>
 
+#include "base/convex_hull.h"
 #include "io/ring_text.h"
 #include "medial/features.h"
 #include "medial/io/read.h"
@@ -46,32 +47,13 @@ Shape moved(const Shape& shape, double angle, Vec2 by) {
   return placed(shape, at);
 }
 
-/// Counter-clockwise, by Andrew's monotone chain.
-std::vector<Vec2> hull_of(std::vector<Vec2> points) {
-  std::sort(points.begin(), points.end(),
-            [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
-  std::vector<Vec2> hull;
-  for (const bool back : {false, true}) {
-    const std::size_t first = hull.size();
-    for (const Vec2 p : points) {
-      while (hull.size() >= first + 2 &&
-             cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0)
-        hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    if (!back) std::reverse(points.begin(), points.end());
-  }
-  return hull;
-}
-
 /// Turned so that its box is smallest: along an edge of the convex hull, as Freeman and Shapira
 /// have it (1975).
 Body squared(const Body& body) {
   std::vector<Vec2> points;
   for (const Shape& shape : body.shapes)
     points.insert(points.end(), shape.points.begin(), shape.points.end());
-  const std::vector<Vec2> hull = hull_of(std::move(points));
+  const std::vector<Vec2> hull = convex_hull(std::move(points));
   double least = std::numeric_limits<double>::infinity(), best = 0;
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const Vec2 d = hull[(i + 1) % hull.size()] - hull[i];
@@ -312,7 +294,7 @@ struct Pair {
 
 /// By how much a part is smaller than its convex hull.
 double hollow_of(const Shape& part) {
-  const std::vector<Vec2> hull = hull_of({part.points.begin(), part.points.end()});
+  const std::vector<Vec2> hull = convex_hull({part.points.begin(), part.points.end()});
   double twice = 0;
   for (std::size_t i = 2; i < hull.size(); ++i)
     twice += cross(hull[i - 1] - hull[0], hull[i] - hull[0]);

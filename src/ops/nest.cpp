@@ -9,6 +9,7 @@
 
 #include "axis/inside.h"
 #include "axis/sites.h"
+#include "base/convex_hull.h"
 #include "base/local_frame.h"
 #include "medial/compute.h"
 #include "medial/features.h"
@@ -36,25 +37,6 @@ struct Part {
 
 constexpr std::size_t most_tips = 10;
 constexpr double disk_step = 0.02;  ///< from disk to disk along the axis, as a share of the size
-
-/// The convex hull, counter-clockwise (Andrew's monotone chain).
-std::vector<Vec2> hull_of(std::vector<Vec2> points) {
-  const auto less = [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); };
-  std::sort(points.begin(), points.end(), less);
-  std::vector<Vec2> hull;
-  for (const bool back : {false, true}) {
-    const std::size_t first = hull.size();
-    for (const Vec2 p : points) {
-      while (hull.size() >= first + 2 &&
-             cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0)
-        hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    if (!back) std::reverse(points.begin(), points.end());
-  }
-  return hull;
-}
 
 double area_of(const std::vector<Vec2>& polygon) {
   double twice = 0;
@@ -114,7 +96,7 @@ Result<Part> part_of(const Shape& shape) {
       }
   std::stable_sort(part.disks.begin(), part.disks.end(),
                    [](const Disk& a, const Disk& b) { return a.radius > b.radius; });
-  part.hull = hull_of(std::move(points));
+  part.hull = convex_hull(std::move(points));
   part.bays = tips_of(*outer, part.size, true);
   part.peninsulas = tips_of(*inner, part.size, false);
   return part;
@@ -234,7 +216,7 @@ class Nesting {
     const Motion motion(at);
     std::vector<Vec2> points = fixed_.hull;
     for (const Vec2 p : moving_.hull) points.push_back(motion.of(p));
-    return area_of(fixed_.hull) + area_of(moving_.hull) - area_of(hull_of(std::move(points)));
+    return area_of(fixed_.hull) + area_of(moving_.hull) - area_of(convex_hull(std::move(points)));
   }
 
   /// The peninsula laid into the bay, and drawn out until the shapes do not overlap.

@@ -137,7 +137,7 @@ void OpenGraph::meet(std::uint32_t bridge, End b) {
   a = {};
 }
 
-/// Puts what nodes have become at bridges in their places.
+/// Replaces nodes that have become others at bridges.
 void OpenGraph::resolve() {
   std::erase_if(half_met_, [&](std::uint32_t bridge) { return ends_[bridge].node == none; });
   if (!std::exchange(glued_, false)) return;
@@ -331,7 +331,7 @@ void OpenGraph::check_edges(const std::vector<std::uint32_t>& doubtful, const Ax
     lost_ = lost_ || !touches_its_sites(part.axis, part.axis.edges[edge], slack_);
 }
 
-/// Leaves what has not been handed out, and the nodes at which it hangs.
+/// Keeps what has not been handed out, with the nodes that its edges name.
 void OpenGraph::keep(const Cut& cut) {
   std::vector<std::uint8_t> stays(graph_.nodes.size());
   for (std::uint32_t i = 0; i < stays.size(); ++i)

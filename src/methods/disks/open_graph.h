@@ -11,7 +11,7 @@
 
 namespace medial::disks {
 
-/// What a walk that is put off has found and nobody has been given yet (docs/parts.md).
+/// What a deferred walk has found and not yet handed out (docs/parts.md).
 ///
 /// A node is open while a task that begins there waits, or while the other side of its bridge has
 /// not been reached: it may get more edges. It stays, its neighbours stay, and so does what may be
@@ -28,15 +28,15 @@ class OpenGraph {
 
   /// Adds the tasks at which the walk begins.
   void begin(std::vector<std::unique_ptr<Chunk>> roots);
-  /// The last tasks, until together they will find about so many nodes.
+  /// The last tasks, as many as will find about this many nodes together.
   std::vector<Task> take(std::size_t nodes);
   bool has_tasks() const { return !tasks_.empty(); }
-  /// Adds what a task found, and the tasks that it has put off.
+  /// Adds what a task found, and the tasks that it has deferred.
   void add(Task task);
   /// Whether enough is new to look for what is final.
   bool is_full(std::size_t nodes) const;
 
-  /// What is final, and is let go; at the end all.
+  /// Hands out what is final; at the end, all that is left.
   AxisPart next_part();
 
   /// Whether the parts so far have one cycle for each hole of each component: connected they are,
