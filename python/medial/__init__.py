@@ -73,7 +73,7 @@ __all__ = [
 ]  # fmt: skip
 
 
-# Imported when they are asked for, which halves the time of `import medial`.
+# Imported on first use: that halves the time of `import medial`.
 _WHERE = {
     "_carving": "Carving carve",
     "_checks": "Certificate Curvatures boundary_curvature compare distance legality verify",
@@ -109,7 +109,7 @@ def __dir__() -> list[str]:
 
 
 def _register() -> None:
-    """The accessor `.medial`, where GeoPandas is imported already; see medial.geo."""
+    """Registers the accessor `.medial` if GeoPandas has been imported; see medial.geo."""
     import sys
 
     if "geopandas" in sys.modules:

@@ -18,14 +18,14 @@ from ._records import EDGE, NODE, SITE, Floats, Indices, Records, numbers_of, re
 from ._shape import Shape, load
 
 
-_AT_A_TIME = 4096  # features whose coordinates stay in the cache until shapely has read them
+_AT_A_TIME = 4096  # few enough for their coordinates to stay in the cache until shapely reads them
 
 
 class Axes:
     """The axes of many features as one struct of arrays; made by `axes`.
 
-    Feature i has the nodes from ``node_begin[i]`` to ``node_begin[i + 1]``, and edges and sites
-    in the same way. Indices in edges count within the feature.
+    The nodes of feature i are ``nodes[node_begin[i]:node_begin[i + 1]]``; edges and sites work in
+    the same way. Indices in edges count from the first node or site of the feature.
 
     Examples
     --------
@@ -45,42 +45,42 @@ class Axes:
 
     @property
     def nodes(self) -> Records:
-        """As `MedialAxis.nodes`, of all features."""
+        """The nodes of all features; fields as in `MedialAxis.nodes`."""
         return records(self._core.nodes(), NODE)
 
     @property
     def edges(self) -> Records:
-        """As `MedialAxis.edges`, of all features."""
+        """The edges of all features; fields as in `MedialAxis.edges`."""
         return records(self._core.edges(), EDGE)
 
     @property
     def sites(self) -> Records:
-        """As `MedialAxis.sites`, of all features."""
+        """The sites of all features; fields as in `MedialAxis.sites`."""
         return records(self._core.sites(), SITE)
 
     @property
     def node_begin(self) -> Indices:
-        """Where each feature's nodes begin, and the number of all."""
+        """The index of each feature's first node, and the number of all nodes."""
         return self._core.node_begin().view(np.int64)
 
     @property
     def edge_begin(self) -> Indices:
-        """Where each feature's edges begin, and the number of all."""
+        """The index of each feature's first edge, and the number of all edges."""
         return self._core.edge_begin().view(np.int64)
 
     @property
     def site_begin(self) -> Indices:
-        """Where each feature's sites begin, and the number of all."""
+        """The index of each feature's first site, and the number of all sites."""
         return self._core.site_begin().view(np.int64)
 
     @property
     def errors(self) -> dict[int, MedialError]:
-        """What went wrong, by feature; those have no nodes."""
+        """The errors, by feature. A feature with an error has no nodes."""
         return self._input.errors(self._core.errors())
 
     @property
     def error_codes(self) -> npt.NDArray[Any]:
-        """The same as a column: the code of each feature's error, None where there is none."""
+        """The code of each feature's error; None where there is none."""
         return column_of(self.errors, len(self))
 
     @property
@@ -94,7 +94,7 @@ class Axes:
         return np.diff(self.node_begin) > 0
 
     def summary(self) -> dict[str, Floats]:
-        """Of each feature the length of its axis, and its maximum inscribed circle.
+        """The length of each feature's axis, and its maximum inscribed circle.
 
         Examples
         --------
@@ -112,13 +112,13 @@ class Axes:
         Parameters
         ----------
         chord : float, optional
-            How far chords may be from the curves, in units of the input; by default
-            ``medial.options.chord`` of each axis's extent.
+            The largest distance of chords from the curves, in units of the input; by default
+            ``medial.options.chord`` times the diagonal of each axis.
 
         Returns
         -------
         points, line_begin, feature_begin
-            Rows of x, y and radius; where lines begin; where features begin among the lines.
+            Rows of x, y and radius; the first row of each line; the first line of each feature.
 
         Examples
         --------
@@ -136,13 +136,13 @@ class Axes:
         return points, lines, features
 
     def to_shapely(self, chord: float | None = None) -> npt.NDArray[Any]:
-        """An array of MultiLineStrings, one for each feature.
+        """An array of MultiLineStrings, one per feature.
 
         Parameters
         ----------
         chord : float, optional
-            How far chords may be from curves, in units of the input; by default
-            ``medial.options.chord`` of the diagonal.
+            The largest distance of chords from the curves, in units of the input; by default
+            ``medial.options.chord`` times the diagonal.
 
         Examples
         --------
@@ -166,8 +166,8 @@ class Axes:
         Parameters
         ----------
         chord : float, optional
-            How far chords may be from curves, in units of the input; by default
-            ``medial.options.chord`` of the diagonal.
+            The largest distance of chords from the curves, in units of the input; by default
+            ``medial.options.chord`` times the diagonal.
         index : optional
             The index of the series.
         crs : optional
@@ -183,13 +183,13 @@ class Axes:
         return need("geopandas", "geo").GeoSeries(self.to_shapely(chord), index=index, crs=crs)
 
     def to_arrow(self, chord: float | None = None) -> Any:
-        """A GeoArrow array of MultiLineStrings, without any Python object for a feature.
+        """A GeoArrow array of MultiLineStrings; makes no Python object per feature.
 
         Parameters
         ----------
         chord : float, optional
-            How far chords may be from curves, in units of the input; by default
-            ``medial.options.chord`` of the diagonal.
+            The largest distance of chords from the curves, in units of the input; by default
+            ``medial.options.chord`` times the diagonal.
 
         Examples
         --------
@@ -236,7 +236,7 @@ def column_of(errors: dict[int, MedialError], size: int) -> npt.NDArray[Any]:
 
 
 def _loops_of(value: Any) -> tuple[Floats, Indices, npt.NDArray[np.bool_], Floats | None]:
-    """The rings of one feature: coordinates, offsets, which begin a polygon, bulges. Curves become arcs."""
+    """The rings of one feature: coordinates, offsets, flags of outer rings, bulges. Curves become arcs."""
     if value is None:
         raise MedialError("the geometry is missing", "empty")
     rings = read(value)
@@ -254,7 +254,7 @@ def _loops_of(value: Any) -> tuple[Floats, Indices, npt.NDArray[np.bool_], Float
 
 
 def _from_values(values: Iterable[Any]) -> Ragged:
-    """Features of anything, one polygon for each outer ring; what cannot be read is an error of its feature."""
+    """Features of any kind, one polygon per outer ring. A value that cannot be read is an error of its feature."""
     ring, polygon, feature, failed = [0], [0], [0], []
     parts, arcs, curved = [np.empty((0, 2))], [np.empty(0)], False
     for i, value in enumerate(values):
@@ -280,7 +280,7 @@ def _from_values(values: Iterable[Any]) -> Ragged:
 
 
 def _from_arrow(array: Any) -> Ragged:
-    """WKB, GeoArrow polygons or GeoArrow multipolygons, without Python objects."""
+    """Features of an Arrow array (WKB, GeoArrow polygons or multipolygons), without Python objects."""
     pyarrow = need("pyarrow", "all")
     array = pyarrow.chunked_array(array) if not isinstance(array, pyarrow.Array) and not isinstance(array, pyarrow.ChunkedArray) else array
     if isinstance(array, pyarrow.ChunkedArray):
@@ -326,12 +326,12 @@ def _from_geoarrow(pyarrow: Any, array: Any) -> Ragged:
 def _offsets(part: Any) -> Indices:
     numbers = numbers_of(part, "offsets are whole numbers")
     if numbers.ndim != 1 or not len(numbers) or not (numbers == np.floor(numbers)).all():
-        raise MedialError("offsets must be whole numbers, from 0 on", "malformed")
+        raise MedialError("offsets must be whole numbers that start at 0", "malformed")
     return np.ascontiguousarray(part, np.int64)
 
 
 def ragged(x: Any) -> Ragged:
-    """Many features, of any source, as arrays."""
+    """Features of any source as arrays."""
     if isinstance(x, Ragged):
         return x
     if isinstance(x, tuple) and len(x) in (2, 3) and isinstance(x[-2], np.ndarray) and isinstance(x[-1], tuple):
@@ -349,7 +349,7 @@ def ragged(x: Any) -> Ragged:
     if to_wkb := getattr(series, "to_wkb", None):  # a GeoSeries or a GeometryArray
         return from_wkb(np.asarray(to_wkb(), dtype=object))
     if isinstance(x, (str, bytes, bytearray, Mapping)) or not isinstance(x, Iterable):
-        raise MedialError(f"a {type(x).__name__} is no sequence of features: medial.axis() takes one", "unsupported")
+        raise MedialError(f"a {type(x).__name__} is not a sequence of features; for one feature, use medial.axis()", "unsupported")
     values = list(x) if not isinstance(x, np.ndarray) else x
     first = next((value for value in values if value is not None), None)
     if type(first).__module__.startswith("shapely."):
@@ -362,7 +362,7 @@ def ragged(x: Any) -> Ragged:
 
 @contextmanager
 def progress_of(wanted: Any, total: int) -> Iterator[Callable[[int], None] | None]:
-    """A bar of tqdm, or a function that is called with the share done, for counts of what is done."""
+    """Turns counts of features done into a bar of tqdm, or calls of a function with the share done."""
     if not wanted:
         yield None
     elif callable(wanted):
@@ -403,11 +403,11 @@ def axes(
     method : str, optional
         See `axis`.
     on_error : {"raise", "ignore"}
-        Whether the first feature that has no axis raises; otherwise ``Axes.errors`` has it.
+        Raise the first error, or keep all of them in ``Axes.errors``.
     threads : int, optional
         The default is ``medial.options.threads``.
     progress : bool or callable
-        A bar of tqdm, or a function that is called with the share of features done.
+        True shows a bar of tqdm; a function is called with the share of features done.
     **own
         Options of the method.
 

@@ -37,12 +37,12 @@ _CoreAxis = _core.Axis
 class MedialAxis:
     """The medial axis transform of a shape: a graph of exact curves in (x, y, radius).
 
-    Made by `axis`. It cannot change: operations such as `prune` return another one.
+    Made by `axis`. It is immutable: operations such as `prune` return a new axis.
 
     Attributes
     ----------
     nodes, edges, sites : structured arrays
-        Read-only views of the library's memory.
+        Read-only views of memory that the library owns.
 
     Examples
     --------
@@ -67,7 +67,7 @@ class MedialAxis:
         self._core = core
         return self
 
-    # What it holds.
+    # Contents.
 
     @property
     def nodes(self) -> Records:
@@ -78,8 +78,8 @@ class MedialAxis:
     def edges(self) -> Records:
         """Fields: node (from, to), site (left, right), control (x, y, radius), weight.
 
-        An edge is the rational quadratic Bézier curve in (x, y, radius) of its first node,
-        `control` and its last node with the weights 1, `weight`, 1.
+        An edge is a rational quadratic Bézier curve in (x, y, radius). Its control points are its
+        first node, `control` and its last node; their weights are 1, `weight` and 1.
         """
         return records(self._core.edges(), EDGE)
 
@@ -90,7 +90,7 @@ class MedialAxis:
 
     @property
     def shape(self) -> Shape:
-        """What it is the axis of."""
+        """The shape that this is the axis of."""
         return Shape._of(self._core.shape())
 
     @property
@@ -105,12 +105,12 @@ class MedialAxis:
 
     @property
     def resolution(self) -> float:
-        """0 of an exact axis; otherwise the step of a sampled one."""
+        """The step of a sampled axis; 0 for an exact one."""
         return self._core.resolution()
 
     @property
     def exterior(self) -> float:
-        """0 of an interior; otherwise how far the enclosure of the exterior is."""
+        """The margin of the enclosure around an exterior; 0 for an interior."""
         return self._core.exterior()
 
     @property
@@ -133,10 +133,10 @@ class MedialAxis:
         """The number of branches."""
         return self._core.branch_count()
 
-    # Questions.
+    # Queries.
 
     def nearest(self, points: npt.ArrayLike) -> Records:
-        """The place of the axis nearest to each point.
+        """The point of the axis nearest to each point.
 
         Parameters
         ----------
@@ -146,7 +146,7 @@ class MedialAxis:
         Returns
         -------
         structured array
-            Fields: x, y, radius, distance, t (the parameter on the edge), edge (-1: none).
+            Fields: x, y, radius, distance, t (the parameter on the edge), edge (-1 if there is none).
 
         Examples
         --------
@@ -158,7 +158,7 @@ class MedialAxis:
         return records(self._core.nearest(points_of(points)), NEAREST)
 
     def radius_at(self, points: npt.ArrayLike) -> Floats:
-        """The radius at the place of the axis nearest to each point.
+        """The radius at the point of the axis nearest to each point.
 
         Parameters
         ----------
@@ -193,13 +193,13 @@ class MedialAxis:
         return self.shape.clearance(points)
 
     def disk_at(self, edge: int, t: float) -> tuple[float, float, float]:
-        """The disk (x, y, radius) at a parameter in [0, 1] of an edge.
+        """The maximal disk (x, y, radius) at the parameter `t` of an edge.
 
         Parameters
         ----------
         edge : int
         t : float
-            The parameter; 0 and 1 are the edge's nodes.
+            From 0 (the edge's first node) to 1 (its last).
 
         Examples
         --------
@@ -221,15 +221,15 @@ class MedialAxis:
         return float(np.hypot(np.ptp(nodes["x"]), np.ptp(nodes["y"]))) if len(nodes) else 0.0
 
     def lines(self, chord: float | None = None, step: float | None = None) -> tuple[Floats, Indices]:
-        """All branches as polylines: rows of x, y, radius, and where each line begins.
+        """All branches as polylines: rows of x, y and radius, and the first row of each line.
 
         Parameters
         ----------
         chord : float, optional
-            How far chords may be from curves, in units of the input; by default
-            ``medial.options.chord`` of the diagonal.
+            The largest distance of chords from the curves, in units of the input; by default
+            ``medial.options.chord`` times the diagonal.
         step : float, optional
-            The longest way from row to row, in units of the input, instead.
+            Instead: the largest distance from row to row along the line, in units of the input.
 
         Examples
         --------
@@ -242,14 +242,14 @@ class MedialAxis:
         return self._core.lines(self._chord(chord), step or 0.0)
 
     def sample(self, chord: float | None = None, step: float | None = None) -> list[Floats]:
-        """Each branch as rows of x, y and radius.
+        """A list of branches, each as rows of x, y and radius.
 
         Parameters
         ----------
         chord : float, optional
-            How far chords may be from the curves, in units of the input.
+            The largest distance of chords from the curves, in units of the input.
         step : float, optional
-            The longest way from row to row, instead.
+            Instead: the largest distance from row to row along the line.
 
         Examples
         --------
@@ -263,7 +263,7 @@ class MedialAxis:
 
     @property
     def branches(self) -> Any:
-        """A pandas table of the branches: ends, length, radii, width, area, significance."""
+        """A pandas DataFrame of the branches: ends, length, radii, width, area, significance."""
         pandas = need("pandas", "all")
         table = pandas.DataFrame(described(self._core)["branches"])
         table["closed"] = table["closed"].astype(bool)
@@ -273,11 +273,11 @@ class MedialAxis:
         table["component"] = ends[0]["component"]
         return table.set_index("branch")
 
-    # Operations: each is a function of the package as well.
+    # Operations, each of which is also a function of the package.
 
     def prune(self, measure: str = "prominence", threshold: float | None = None, *,
               keep: int | None = None, tips: bool = False) -> MedialAxis:  # fmt: skip
-        """The part that matters: see `medial.prune`.
+        """Removes branches that matter little: see `medial.prune`.
 
         Parameters
         ----------
@@ -295,7 +295,7 @@ class MedialAxis:
         return MedialAxis._of(core)
 
     def clearance_part(self, clearance: float) -> MedialAxis:
-        """The part where a disk of radius `clearance` has room, cut exactly.
+        """The part with a radius of at least `clearance`, cut exactly.
 
         Parameters
         ----------
@@ -338,8 +338,8 @@ class MedialAxis:
         Parameters
         ----------
         chord : float, optional
-            How far chords may be from curves, in units of the input; by default
-            ``medial.options.chord`` of the diagonal.
+            The largest distance of chords from the curves, in units of the input; by default
+            ``medial.options.chord`` times the diagonal.
 
         Examples
         --------
@@ -354,13 +354,13 @@ class MedialAxis:
         return shapely.from_ragged_array(kind, points, (begin, np.array([0, len(begin) - 1])))[0]
 
     def to_geopandas(self, chord: float | None = None, crs: Any = None) -> Any:
-        """A GeoDataFrame with a row for each branch, as `branches` and its line.
+        """A GeoDataFrame with one row per branch: the columns of `branches`, and its line.
 
         Parameters
         ----------
         chord : float, optional
-            How far chords may be from curves, in units of the input; by default
-            ``medial.options.chord`` of the diagonal.
+            The largest distance of chords from the curves, in units of the input; by default
+            ``medial.options.chord`` times the diagonal.
         crs : optional
             The reference system of the coordinates, as GeoPandas takes it.
 
@@ -379,15 +379,15 @@ class MedialAxis:
         return geopandas.GeoDataFrame(table, geometry=lines[table.index.to_numpy()], crs=crs)
 
     def to_networkx(self, branches: bool = False) -> Any:
-        """A networkx MultiGraph of nodes and edges, or with `branches` of ends and branches.
+        """A networkx MultiGraph of the nodes and edges, or of the ends and branches.
 
-        Nodes have x, y, radius, pos and kind; edges length and edge (or branch), the smallest
-        radius of their ends and the sites.
+        Nodes have the attributes x, y, radius, pos, component and kind. Edges have edge, length,
+        weight and site; branches have branch, length, weight, radius_min and mean_width.
 
         Parameters
         ----------
         branches : bool
-            A graph of ends and branches instead of nodes and edges.
+            Return the graph of ends and branches instead of nodes and edges.
 
         Examples
         --------
@@ -416,7 +416,7 @@ class MedialAxis:
         return graph
 
     def to_scipy(self) -> Any:
-        """The lengths of edges from node to node as a symmetric sparse matrix.
+        """A symmetric sparse matrix of the lengths of edges between nodes.
 
         Examples
         --------
@@ -429,14 +429,14 @@ class MedialAxis:
         ends, lengths = self.edges["node"].astype(np.int64), self.edge_lengths
         ends = np.sort(ends, axis=1)
         keys = ends[:, 0] * len(self.nodes) + ends[:, 1]
-        order = np.lexsort((lengths, keys))  # of parallel edges the shortest
+        order = np.lexsort((lengths, keys))  # the shortest of parallel edges
         first = order[np.concatenate(([True], np.diff(keys[order]) != 0))] if len(order) else order
         a, b, lengths = ends[first, 0], ends[first, 1], lengths[first]
         size = (len(self.nodes),) * 2
         return sparse.coo_array((np.r_[lengths, lengths], (np.r_[a, b], np.r_[b, a])), size).tocsr()
 
     def to_igraph(self) -> Any:
-        """An igraph Graph of nodes and edges with their numbers as attributes.
+        """An igraph Graph of the nodes (x, y, radius) and edges (length).
 
         Examples
         --------
@@ -456,7 +456,7 @@ class MedialAxis:
     # Pictures.
 
     def plot(self, ax: Any = None, *, shape: bool = True, disks: int = 0, **given: Any) -> Any:
-        """Draws the axis, coloured by radius, into a matplotlib axes, which is returned.
+        """Draws the axis, coloured by radius, into matplotlib axes and returns them.
 
         Parameters
         ----------
@@ -464,9 +464,9 @@ class MedialAxis:
         shape : bool
             Draw the shape.
         disks : int
-            Draw about so many maximal disks.
+            Draw at most this many maximal disks.
         **given
-            Of matplotlib's LineCollection, such as `cmap` and `linewidth`.
+            Options of matplotlib's LineCollection, such as `cmap` and `linewidth`.
 
         Examples
         --------
@@ -489,7 +489,7 @@ class MedialAxis:
     # Files and copies.
 
     def to_text(self, format: str = "json", *, chord: float = 1e-3, simplify: float = 0) -> str:
-        """The text of a file: see `save`.
+        """The axis as text in a file format: see `save`.
 
         Parameters
         ----------
@@ -505,23 +505,23 @@ class MedialAxis:
         '# from_node to_node length'
         """
         if format == "safetensors":
-            raise MedialError("columns are binary, not text: use save()", "unsupported")
+            raise MedialError("safetensors is a binary format: use save()", "unsupported")
         return _core.write_axis(self._core, None, format, chord, simplify) or ""
 
     def save(self, path: str | PathLike[str], *, chord: float = 1e-3, simplify: float = 0) -> None:
-        """Writes the axis by the extension of the path; there is never a partial file.
+        """Writes the axis in the format of the path's extension, and never leaves a partial file.
 
         Parameters
         ----------
         path : path
-            ``.json`` is the native format, with the shape and without loss, which `medial.load`
-            reads; ``.safetensors`` holds the same as columns, for `medial.columns` as well;
+            ``.json`` is the native format, which holds the shape too, without loss; `medial.load`
+            reads it. ``.safetensors`` holds the same as columns, which `medial.columns` maps.
             ``.geojson``, ``.wkt`` and ``.csv`` hold lines; ``.graphml``, ``.nodelink`` and
-            ``.edgelist`` the graph of branches, as networkx reads it. With ``.gz`` compressed.
+            ``.edgelist`` hold the graph of branches, for networkx. ``.gz`` compresses text.
         chord : float
-            How far chords may be from curves, as a share of the diagonal.
+            The largest distance of chords from the curves, as a share of the diagonal.
         simplify : float
-            Lines have few points within this distance of the axis, in units of the input, instead.
+            Instead: lines have few points, within this distance of the axis in units of the input.
 
         Raises
         ------
@@ -547,7 +547,7 @@ class MedialAxis:
 
     @property
     def part(self) -> bool:
-        """Whether it is a part of the axis of its shape: pruned, cut or smoothed."""
+        """Whether this is only a part of the axis of its shape: pruned, cut or smoothed."""
         return self._core.part()
 
     def _state(self) -> tuple[Any, ...]:
@@ -561,7 +561,7 @@ class MedialAxis:
         return MedialAxis._of(self._core)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> MedialAxis:
-        return MedialAxis._of(self._core)  # nothing in it can change
+        return MedialAxis._of(self._core)  # it is immutable
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, MedialAxis):
@@ -594,7 +594,7 @@ def restored(
     shape: Shape, method: str, tolerance: float, resolution: float, exterior: float, part: bool,
     sites: npt.ArrayLike, nodes: npt.ArrayLike, edges: npt.ArrayLike,
 ) -> MedialAxis:  # fmt: skip
-    """An axis from what pickling, or a file, took of it."""
+    """An axis from its pickled state."""
     return MedialAxis._of(
         _core.restored_axis(
             shape._core, method, tolerance, resolution, exterior, part,
@@ -608,7 +608,7 @@ THRESHOLDS = {"parallel": 0.05, "even": 0.1, "bend": 0.1, "turn": 0.1, "spiral":
 
 
 def described(core: _CoreAxis, **thresholds: float) -> dict[str, Any]:
-    """What an axis is made of; thresholds by the names of THRESHOLDS."""
+    """The features of an axis; thresholds have the names of THRESHOLDS."""
     if unknown := thresholds.keys() - THRESHOLDS:
         raise TypeError(f"features() has no option {min(unknown)!r}")
     return _core.described(core, list({**THRESHOLDS, **thresholds}.values()))
@@ -647,34 +647,35 @@ def axis(
     method : str, optional
         A name of `methods`; the default is ``medial.options.method``.
     bulges : array, optional
-        Of each coordinate's edge: the tangent of a quarter of the angle it spans; 0 straight.
+        The bulge of the edge after each vertex: the tangent of a quarter of its angle; 0: straight.
     repair : str, optional
-        What is inside where rings cross: ``"make_valid"`` (as the input says), ``"even_odd"`` or
-        ``"non_zero"``; without it crossing rings are an error.
+        The rule that decides what is inside where rings cross: ``"make_valid"`` (that of the
+        input), ``"even_odd"`` or ``"non_zero"``. Without it, crossing rings are an error.
     arc_tolerance : float
-        How far arcs may be from free-form curves, as a share of the diagonal.
+        The largest distance of arcs from free-form curves, as a share of the diagonal.
     fit : float
-        Boundaries become smooth curves within this distance.
+        Replaces boundaries by smooth curves within this distance; 0 keeps them.
     tolerance : float
-        Residuals below this share of the diagonal count as touching; 0: by the coordinates.
+        A disk touches a site at a distance below this share of the diagonal; 0: chosen by the
+        rounding of the coordinates.
     corner_angle : float
-        Convex joints with an arc that turn by less, in degrees, are no corner.
+        A convex joint with an arc is a corner if it turns by more than this, in degrees.
     exact : bool
-        Makes every decision about the graph certain, where the build has it.
+        Decides every question about the graph exactly, if the build supports it.
     exterior : bool
-        The axis of what lies around the shape and in its holes.
+        Compute the axis of the exterior: what lies around the shape and in its holes.
     margin : float
-        How far the enclosure of the exterior is; 0: half of the longer side.
+        The distance of the exterior's enclosure from the shape; 0: half of the longer side.
     threads : int, optional
         The default is ``medial.options.threads``. The result is the same, byte for byte.
     **own
-        Options of the method: of ``ridge`` and ``brushfire`` `resolution` or `pixels`, of
-        ``biarc-dc`` `seed`, of ``potential`` `order`, `step`, `coarse` and others.
+        Options of the method: `resolution` or `pixels` for ``ridge`` and ``brushfire``, `seed`
+        for ``biarc-dc``, `order`, `step`, `coarse` and others for ``potential``.
 
     Raises
     ------
     MedialError
-        With a code, and the place in the input.
+        With a code and, where known, the place in the input.
 
     Examples
     --------
@@ -704,7 +705,7 @@ def axis(
 
 
 def axis_of(x: Any, threads: int | None = None) -> MedialAxis:
-    """The axis itself, or the axis of a geometry."""
+    """x itself if it is an axis, else the axis of the geometry x."""
     return x if isinstance(x, MedialAxis) else axis(x, threads=threads)
 
 

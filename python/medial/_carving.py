@@ -20,16 +20,16 @@ class Carving:
     Attributes
     ----------
     paths : list of (kind, rows)
-        Kinds are clearing, wall, groove and ramp; rows x, y, z and the bulge of the move after
-        them, in units of the input; z is 0 on the surface.
+        Kinds are clearing, wall, groove and ramp. Rows hold x, y, z and the bulge of the move to
+        the next row, in units of the input; z is 0 at the surface.
     passes : list of int
         The pass of each path, from the surface down.
     clearing : list of (kind, rows)
-        Of an end mill that goes before (`clear_tool`).
+        The paths of the end mill that cuts first (`clear_tool`), in the same form.
     tabs : array of shape (n, 6)
-        The middles of tabs: from one side, over the middle, to the other, as x, y each.
+        The tabs: x and y of one end, of the middle, and of the other end.
     numbers : dict
-        deepest, flat_from, cut_length, travel_length and others.
+        Measured values: deepest, flat_from, cut_length, travel_length and others.
     """
 
     paths: list[tuple[str, Floats]]
@@ -45,7 +45,7 @@ class Carving:
         return self.numbers["deepest"]
 
     def to_gcode(self, **machine: Any) -> str:
-        """The program of the paths, as the command line writes it; options are those of `save`.
+        """The paths as G-code, as the command line writes it.
 
         Parameters
         ----------
@@ -62,27 +62,27 @@ class Carving:
         return self._write(None, "nc", **machine) or ""
 
     def save(self, path: str | PathLike[str], **machine: Any) -> None:
-        """Writes the paths: G-code as ``.nc``, ``.gcode`` or ``.ngc``, points as ``.csv``.
+        """Writes the paths as G-code (``.nc``, ``.gcode``, ``.ngc``) or as points (``.csv``).
 
         Parameters
         ----------
         path : path
         safe : float
-            The height of moves between paths (5).
+            The height of moves between paths.
         feed, plunge, rapid : float
-            Of cutting moves, straight downwards, and of other moves, in units a minute (1000, 300,
-            3000).
+            The speeds of cutting moves, of moves straight down, and of other moves, in units per
+            minute.
         spindle : float
-            Turns a minute; 0: the program does not start it.
+            Turns per minute; 0: the program does not start the spindle.
         clear_feed, clear_plunge, clear_spindle : float
-            The same of the end mill that goes before; by default those of the V.
+            The same for the end mill that cuts first; by default the speeds of the main tool.
         unit : {"mm", "in"}
         origin : (x, y)
             The point of the drawing that becomes 0, 0.
         y_down : bool
-            The y axis of the drawing points down, as in SVG and images: it is turned round.
+            Whether the y axis of the drawing points down, as in SVG and images; it is then flipped.
         post : str
-            What stands around the moves: ``"linuxcnc"``, ``"grbl"``, ``"mach3"``, or the text of a
+            The dialect of the program: ``"linuxcnc"``, ``"grbl"``, ``"mach3"``, or the text of a
             template; by default plain G-code.
 
         Raises
@@ -129,41 +129,42 @@ def carve(x: Any, *, angle: float = 90, depth: float = 0, tool: float = 0, tip: 
           tab_width: float = 6, tab_height: float = 0) -> Carving:  # fmt: skip
     """Tool paths that carve a shape with a cone, or clear it with an end mill.
 
-    All lengths are in units of the input: of G-code millimetres or inches.
+    All lengths are in units of the input, which G-code reads as millimetres or inches.
 
     Parameters
     ----------
     x : MedialAxis or geometry
     angle : float
-        Between the sides of the cone, in degrees; 0: an end mill.
+        The angle between the sides of the cone, in degrees; 0: an end mill.
     depth : float
-        At most; 0: as deep as the tool reaches.
+        The largest depth; 0: as deep as the tool reaches.
     tool, tip : float
-        The largest diameter, and that of a flat tip.
+        The largest diameter, and the diameter of a flat tip.
     pass_depth : float
-        The depth of one pass; 0: all in one.
+        The depth of one pass; 0: a single pass.
     ramp : float
-        The steepest way into the material, in degrees; 90: straight down.
+        The steepest angle of moves into the material, in degrees; 90: straight down.
     step, chord : float
-        The width between clearing passes, and the largest error of straight moves; 0: by the tool.
+        The distance between clearing passes, and the largest error of straight moves; 0: chosen by
+        the tool.
     exterior : bool
         Cut what lies around the shape and in its holes, up to a rectangle.
     margin : float
-        How far that rectangle is from the shape; 0: half of its longer side.
+        The distance of that rectangle from the shape; 0: half of its longer side.
     clear_tool, clear_pass_depth : float
         The diameter of an end mill that clears flat bottoms first, and the depth of its passes
         (half of the diameter).
     tabs : int
-        Leave this many bars at each part that would come loose; needs a depth.
+        The number of bars that hold each part that would come loose; needs a depth.
     tab_spacing : float
-        The same, one for each so long part of the boundary.
+        Instead: one bar per this length of the boundary.
     tab_width, tab_height : float
-        How wide they are, and how high above the bottom (0: 2, at most half of the depth).
+        The width of tabs, and their height above the bottom (0: 2, at most half of the depth).
 
     Raises
     ------
     MedialError
-        With the code ``"invalid_option"``, ``"unsupported"`` (an axis that is sampled) or
+        With the code ``"invalid_option"``, ``"unsupported"`` (a sampled axis) or
         ``"too_large"`` (more than a million passes).
 
     Examples

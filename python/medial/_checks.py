@@ -37,26 +37,26 @@ class Certificate:
 
 def verify(x: MedialAxis, shape: Any = None, *, tolerance: float = 0, samples: int = 8,
            corner_angle: float = 0.01, threads: int | None = None) -> Certificate:  # fmt: skip
-    """Checks an axis against its shape, or another one, by code that shares nothing with methods.
+    """Measures the errors of an axis against a shape, by code that shares nothing with methods.
 
     Parameters
     ----------
     x : MedialAxis
-        Of one that was pruned, cut or smoothed (`part`) what holds of every part is checked.
+        For an axis that was pruned, cut or smoothed (`part`), checks only what holds for every part.
     shape : geometry, optional
-        Instead of its own.
+        The shape to check against, instead of the axis's own.
     tolerance : float
-        As a share of the diagonal; 0: 1e-14, or that of the axis.
+        As a share of the diagonal; 0: 1e-14, or the tolerance of the axis.
     samples : int
-        Points inside every edge.
+        The number of points inside every edge.
     corner_angle : float
-        That of the computation, in degrees.
+        The value that the axis was computed with, in degrees.
     threads : int, optional
 
     Returns
     -------
     Certificate
-        True if it passed; with `failures` and all measured numbers.
+        True if the axis passed. Has `failures` and all measured numbers.
 
     Examples
     --------
@@ -65,7 +65,7 @@ def verify(x: MedialAxis, shape: Any = None, *, tolerance: float = 0, samples: i
     True
     """
     if not isinstance(x, MedialAxis):
-        raise TypeError(f"a {type(x).__name__} is no axis: medial.axis() makes one")
+        raise TypeError(f"a {type(x).__name__} is not an axis: make one with medial.axis()")
     of = x
     if shape is not None:
         of = MedialAxis._of(_rebound(x, Shape._of(load(shape)[0])))
@@ -81,7 +81,7 @@ def _rebound(x: MedialAxis, shape: Shape) -> _core.Axis:
 
 
 def compare(x: Any, methods: Sequence[str] = ("disks", "lee", "biarc-dc"), **given: Any) -> list[dict[str, Any]]:
-    """The axes of one shape by several methods: counts, lengths, seconds, and what went wrong.
+    """Compares the axes of one shape by several methods: counts, lengths, seconds, errors.
 
     Parameters
     ----------
@@ -94,8 +94,8 @@ def compare(x: Any, methods: Sequence[str] = ("disks", "lee", "biarc-dc"), **giv
     Returns
     -------
     list of dict
-        With `method`, and either `error` or `axis`, `nodes`, `edges`, `length`, `seconds`, and the
-        mean and the Hausdorff distance to the first axis, by samples, in units of the input.
+        Each has `method` and either `error` or `axis`, `nodes`, `edges`, `length`, `seconds`,
+        `mean_distance` and `hausdorff`: sampled distances to the first axis, in units of the input.
 
     Examples
     --------
@@ -123,19 +123,20 @@ def compare(x: Any, methods: Sequence[str] = ("disks", "lee", "biarc-dc"), **giv
 
 
 def _distances(a: MedialAxis, b: MedialAxis) -> Floats:
-    """The distances of even samples of an axis to another one."""
+    """The distances of evenly spaced points of an axis to another one."""
     points, _ = a.lines(step=max(a.length / 1000, 1e-300))
     return np.asarray(b.nearest(points[:, :2] if len(points) else points_of(a.nodes[["x", "y"]].tolist()))["distance"])
 
 
 def distance(a: Any, b: Any, samples: int = 7) -> dict[str, Any]:
-    """The areas of two shapes and the Hausdorff distance of their boundaries, measured.
+    """The areas of two shapes and the Hausdorff distance of their boundaries.
 
     Parameters
     ----------
     a, b : geometry
     samples : int
-        Points inside each edge; the distance is a lower bound, by less than that of two samples.
+        Points inside each edge. The result is a lower bound; its error is less than the distance
+        of two samples.
 
     Examples
     --------
@@ -147,18 +148,18 @@ def distance(a: Any, b: Any, samples: int = 7) -> dict[str, Any]:
 
 
 def legality(x: MedialAxis, samples: int = 8) -> Floats:
-    """Of each branch by how much it misses two conditions that every axis meets; 0 or less: not.
+    """How far each branch violates two conditions that every axis meets; 0 or less: it meets them.
 
     Parameters
     ----------
     x : MedialAxis
     samples : int
-        Inside every edge.
+        The number of points inside every edge.
 
     Returns
     -------
     array of shape (branches, 2)
-        The largest abs(dr/ds) - 1 and the largest excess of the curvature, without a unit.
+        The largest abs(dr/ds) - 1 and the largest excess of the curvature, both dimensionless.
 
     Examples
     --------
@@ -170,7 +171,7 @@ def legality(x: MedialAxis, samples: int = 8) -> Floats:
 
 
 class Curvatures(NamedTuple):
-    """The curvature of the boundary at feet of disks; see `boundary_curvature`."""
+    """The curvature of the boundary at foot points of disks; see `boundary_curvature`."""
 
     branch: npt.NDArray[np.int64]
     left: npt.NDArray[np.bool_]
@@ -180,7 +181,7 @@ class Curvatures(NamedTuple):
     slope: Floats
 
     def to_pandas(self) -> Any:
-        """A table of the same."""
+        """The same as a pandas DataFrame."""
         columns = {"branch": self.branch, "side": np.where(self.left, "left", "right"),
                    "axis_x": self.disk[:, 0], "axis_y": self.disk[:, 1], "r": self.disk[:, 2],
                    "x": self.foot[:, 0], "y": self.foot[:, 1], "curvature": self.curvature,
@@ -189,7 +190,7 @@ class Curvatures(NamedTuple):
 
 
 def boundary_curvature(x: MedialAxis) -> Curvatures:
-    """The curvature of the boundary by the axis alone, at the feet of its disks.
+    """The curvature of the boundary at the foot points of disks, from the axis alone.
 
     Parameters
     ----------

@@ -11,13 +11,14 @@ Point = tuple[float, float]
 
 
 class Contour:
-    """A closed curve: pieces end to end. A straight piece closes it where its ends differ.
+    """A closed curve of pieces end to end. If its ends differ, a straight piece closes it.
 
     Parameters
     ----------
     start : (x, y)
     role : {"any", "outer", "hole", "winding"}
-        What is inside: by the even-odd rule, as said, or by the non-zero rule.
+        What the curve encloses: by the even-odd rule (any), always or never inside (outer, hole),
+        or by the non-zero rule (winding).
 
     Examples
     --------
@@ -55,7 +56,7 @@ class Contour:
         return self
 
     def arc_to(self, end: Point, bulge: float) -> Contour:
-        """Adds a circular arc; `bulge` is the tangent of a quarter of its angle, positive left.
+        """Adds a circular arc; `bulge` is the tangent of a quarter of its angle, positive to the left.
 
         Parameters
         ----------
@@ -73,14 +74,14 @@ class Contour:
         return self
 
     def bezier_to(self, control: Sequence[Point], weights: Sequence[float] | None = None) -> Contour:
-        """Adds a Bézier curve, rational with `weights`, by its control points but the first.
+        """Adds a Bézier curve by its control points except the first; rational with `weights`.
 
         Parameters
         ----------
         control : sequence of (x, y)
-            The last one is the end.
+            The last point is the end of the curve.
         weights : sequence of float, optional
-            One for each, positive.
+            One positive weight per control point.
 
         Examples
         --------
@@ -92,12 +93,12 @@ class Contour:
         return self
 
     def ellipse_to(self, center: Point, u: Point, v: Point, begin: float, end: float) -> Contour:
-        """Adds an elliptical arc with conjugate half axes, from angle to angle in radians.
+        """Adds an elliptical arc with conjugate half axes.
 
         Parameters
         ----------
         center, u, v : (x, y)
-            The centre and the half axes; for a circle at right angles and of equal length.
+            The centre and the half axes; a circle has two of equal length at right angles.
         begin, end : float
             In radians.
 
@@ -118,11 +119,11 @@ class Contour:
         ----------
         degree : int
         knots : sequence of float
-            As many as control points, and the degree and one more.
+            One more than the number of control points plus the degree.
         control : sequence of (x, y)
-            The first is where the contour is.
+            The first must be the current end of the contour.
         weights : sequence of float, optional
-            One for each, positive.
+            One positive weight per control point.
 
         Examples
         --------

@@ -1,4 +1,4 @@
-"""Drawings in DXF: ezdxf reads their tags, and the library makes shapes of the entities."""
+"""DXF drawings: ezdxf reads the tags, and the library turns entities into shapes."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _CURVES = ("POINT", "LINE", "CIRCLE", "ARC", "ELLIPSE", "LWPOLYLINE", "POLYLINE"
 
 
 def _lines(data: bytes, tag: Any) -> Iterator[Any]:
-    """The tags of a text. ezdxf's own loader guesses what a damaged group code may have been."""
+    """The tags of a text. Not by ezdxf's loader, which guesses what a damaged group code was."""
     lines = iter(data.splitlines())
     for at, (code, value) in enumerate(zip(lines, lines, strict=False)):
         try:
@@ -52,8 +52,8 @@ def _kept(tags: Iterator[Any]) -> Iterator[Any]:
 def _groups(data: bytes) -> Iterator[tuple[str, Tags]]:
     """Each entity, and each section, with the tags that follow its name.
 
-    Tags are read, not ezdxf's documents: those lose what entities of later versions have in drawings
-    that do not name their version.
+    Reads tags, not ezdxf's documents: if a drawing does not name its version, those lose tags of
+    later versions.
     """
     faults: list[Any] = []
     types, recover = need("ezdxf.lldxf.types", "cad"), need("ezdxf.recover", "cad")
@@ -76,11 +76,11 @@ def _groups(data: bytes) -> Iterator[tuple[str, Tags]]:
         else:
             group.append((code, value))
     if name != "EOF":
-        raise MedialError("the drawing ends without its end mark", "malformed")
+        raise MedialError("the drawing ends without an end mark", "malformed")
 
 
 def _word(text: Any) -> str:
-    """A name, with bytes that are no text replaced."""
+    """A name with undecodable bytes replaced."""
     return str(text).encode("utf-8", "replace").decode()
 
 
@@ -89,7 +89,7 @@ def _xy(point: Any) -> tuple[float, float]:
 
 
 class _Filling:
-    """A drawing that is filled group by group."""
+    """Fills a drawing entity by entity."""
 
     def __init__(self) -> None:
         self.drawing = _core.Drawing()
@@ -197,10 +197,10 @@ def drawing_of(path: str) -> _core.Drawing:
     except (OSError, EOFError) as error:
         raise MedialError(f"{path}: {getattr(error, 'strerror', None) or error}", "unreadable") from None
     except KeyError as error:
-        raise MedialError(f"{path}: a {name} without its group {error}", "malformed") from None
+        raise MedialError(f"{path}: a {name} lacks group {error}", "malformed") from None
     except (structure_error, TypeError, ValueError, IndexError) as error:
         code = error.code if isinstance(error, MedialError) else "malformed"
-        # ezdxf counts the lines of what is left to read.
+        # ezdxf counts lines within the rest of the file only.
         text = error.text if isinstance(error, MedialError) else str(error).split(" near line")[0]
         raise MedialError(f"{path}: {text}", code) from None
     return filling.drawing

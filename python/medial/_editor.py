@@ -17,9 +17,10 @@ from ._shape import load
 
 
 class Change(NamedTuple):
-    """What an edit has changed: numbers of nodes and edges, those that are removed first.
+    """What an edit has changed: the numbers of nodes and edges that it removed and added.
 
-    New ones may get numbers of removed ones. `everything`: all was computed again.
+    New nodes and edges may get the numbers of removed ones. If `everything` is set, the whole
+    axis was computed again.
     """
 
     removed_nodes: Indices
@@ -31,19 +32,19 @@ class Change(NamedTuple):
 
 
 class Editor:
-    """A shape of straight edges with its axis, which follows when vertices move, come and go.
+    """A polygon and its axis, which follows when vertices are moved, inserted or removed.
 
-    The axis is that of `axis`, repaired where an edit changes it. Vertices keep their numbers;
-    so do sites, nodes and edges, except where ``Change.everything`` is set. A new editor counts
-    vertices as ``Shape.points`` does. An edit that makes edges cross raises `MedialError` with the
-    place, and changes nothing.
+    The axis equals that of `axis`; an edit repairs it only where it changes. Vertices keep their
+    numbers; sites, nodes and edges do, too, unless ``Change.everything`` is set. A new editor
+    numbers vertices as ``Shape.points`` does. An edit that makes edges cross raises `MedialError`
+    with the place, and changes nothing.
 
     Parameters
     ----------
     x
-        A geometry, as `axis` takes it.
+        A geometry without curves; see `axis`.
     tolerance : float, optional
-        As of `axis`.
+        See `axis`.
 
     Examples
     --------
@@ -117,7 +118,7 @@ class Editor:
         return Change(*self._core.remove(vertex))
 
     def undo(self) -> Change:
-        """Takes the last edit back, and those before, one by one; nothing where there is none.
+        """Undoes the last edit that is not undone yet; without one, changes nothing.
 
         Examples
         --------
@@ -131,7 +132,7 @@ class Editor:
         return Change(*self._core.undo())
 
     def copy(self) -> Editor:
-        """An editor of its own in the same state.
+        """An independent editor in the same state.
 
         Examples
         --------
@@ -147,7 +148,7 @@ class Editor:
         return other
 
     def vertex(self, number: int) -> tuple[float, float] | None:
-        """The place of a vertex; None where there is no such vertex.
+        """The place of a vertex; None if it does not exist.
 
         Parameters
         ----------
@@ -163,12 +164,12 @@ class Editor:
         return None if place is None else (place[0], place[1])
 
     def nodes(self, numbers: npt.ArrayLike) -> Records:
-        """The nodes of these numbers, as `MedialAxis.nodes`.
+        """The nodes with these numbers; fields as in `MedialAxis.nodes`.
 
         Parameters
         ----------
         numbers : array of int
-            As a `Change` has them.
+            From a `Change`.
 
         Examples
         --------
@@ -181,12 +182,12 @@ class Editor:
         return records(self._core.nodes(_numbers(numbers)), NODE)
 
     def edges(self, numbers: npt.ArrayLike) -> Records:
-        """The edges of these numbers, as `MedialAxis.edges`; they name nodes and sites by numbers.
+        """The edges with these numbers; fields as in `MedialAxis.edges`, nodes and sites by number.
 
         Parameters
         ----------
         numbers : array of int
-            As a `Change` has them.
+            From a `Change`.
 
         Examples
         --------
@@ -199,12 +200,12 @@ class Editor:
         return records(self._core.edges(_numbers(numbers)), EDGE)
 
     def sites(self, numbers: npt.ArrayLike) -> Records:
-        """The sites of these numbers, as `MedialAxis.sites`.
+        """The sites with these numbers; fields as in `MedialAxis.sites`.
 
         Parameters
         ----------
         numbers : array of int
-            As edges name them.
+            From the field ``site`` of edges.
 
         Examples
         --------
@@ -219,7 +220,7 @@ class Editor:
 
     @property
     def axis(self) -> MedialAxis:
-        """All of the axis, with its shape, as it is now; nodes and edges count from 0 without gaps."""
+        """The current axis with its shape; nodes and edges are numbered from 0 without gaps."""
         return MedialAxis._of(self._core.axis())
 
 

@@ -1,4 +1,4 @@
-"""What went wrong, and where."""
+"""Errors with a code and a place."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ from typing import Any
 
 
 class MedialError(ValueError):
-    """An input or an option that has no answer.
+    """An input or an option that cannot be computed.
 
     Attributes
     ----------
     code : str
         A stable name, such as ``"crossing"`` or ``"invalid_option"``.
     feature, ring, vertex : int or None
-        Where in the input, from 0.
+        The place in the input, counted from 0.
     point : tuple of float or None
         The place, in units of the input.
 
@@ -57,7 +57,7 @@ class MissingPackage(ImportError):
 
 
 def need(package: str, extra: str) -> Any:
-    """Imports a package, or says how to get it."""
+    """Imports a package, or raises with instructions to install it."""
     import importlib
 
     try:

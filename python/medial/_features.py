@@ -1,4 +1,4 @@
-"""What a shape is made of, how alike shapes are, and how they interlock."""
+"""Features of shapes, and shapes compared and nested."""
 
 from __future__ import annotations
 
@@ -13,18 +13,19 @@ from ._shape import Shape, load
 
 
 def features(x: Any, **thresholds: float) -> dict[str, Any]:
-    """What a shape is made of: counts and sums, and tables of branches and of their runs.
+    """The features of a shape: counts, sums, and tables of branches and of their runs.
 
-    Tables are pandas DataFrames where pandas is installed, otherwise dictionaries of columns.
+    Tables are pandas DataFrames if pandas is installed, else dictionaries of columns.
 
     Parameters
     ----------
     x : MedialAxis or geometry
     **thresholds
-        Without a unit: `parallel` (0.05) and `even` (0.1), by how much a worm's radius changes, of
-        its length and of its mean; `bend` (0.1), by how much the rate of a cup's or flare's radius
-        changes; `turn` (0.1), by how many radians a straight run turns; `spiral` (0.5), by how much
-        a spiral's curvature changes; `shortest` (0.25), by their radius, runs join a neighbour.
+        Limits without a unit: `parallel` (0.05) and `even` (0.1), the change of a worm's radius as
+        a share of its length and of its mean; `bend` (0.1), the change of the slope of a cup's or
+        flare's radius; `turn` (0.1), the turning of a straight run in radians; `spiral` (0.5), the
+        change of a spiral's curvature; `shortest` (0.25): runs below this share of their radius
+        join a neighbour.
 
     Examples
     --------
@@ -44,24 +45,24 @@ def features(x: Any, **thresholds: float) -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class Match:
-    """One shape of a collection and how unlike it is."""
+    """One shape of a collection and its dissimilarity."""
 
     index: int
     dissimilarity: float
 
 
 def match(x: Any, others: Sequence[Any], *, best: int | None = None, threads: int | None = None) -> list[Match]:
-    """How unlike other shapes are, the most similar first.
+    """Ranks other shapes by their dissimilarity to x, most similar first.
 
-    The measure is 0 for the same shape, rotated, scaled or mirrored, and about 1 for two shapes
-    at random.
+    The dissimilarity is 0 for the same shape, also if rotated, scaled or mirrored, and about 1
+    for two random shapes.
 
     Parameters
     ----------
     x : geometry
     others : sequence of geometries
     best : int, optional
-        Return so many at most.
+        Return at most this many.
     threads : int, optional
 
     Returns
@@ -86,7 +87,7 @@ def match(x: Any, others: Sequence[Any], *, best: int | None = None, threads: in
 
 @dataclass(frozen=True)
 class Placement:
-    """Where a shape lies: mirrored (x to -x), then turned about the origin, then moved.
+    """A rigid motion: mirrored (x to -x), then rotated about the origin, then moved.
 
     Attributes
     ----------
@@ -94,9 +95,9 @@ class Placement:
         In radians.
     mirrored : bool
     move, bay : (x, y)
-        The way it moves, and the bottom of the bay that a peninsula lies in.
+        The translation, and the bottom of the bay that a peninsula lies in.
     saved : float
-        By how much the convex hull of both is smaller than their own hulls.
+        The area of both convex hulls less that of their common hull.
     gap : float
         The least distance between the shapes.
     """
@@ -109,33 +110,33 @@ class Placement:
     gap: float
 
     def placed(self, x: Any) -> Shape:
-        """The shape in this place."""
+        """The shape x moved to this placement."""
         return Shape._of(_core.placed(load(x)[0], self.angle, self.mirrored, self.move))
 
 
 def nest(fixed: Any, moving: Any, *, gap: float = 0, mirror: bool = True, best: int = 5) -> list[Placement]:
-    """Lays a shape into the bays of another one, and the other way round.
+    """Places a shape so that peninsulas of either lie in bays of the other.
 
     Parameters
     ----------
     fixed, moving : geometry
-        Each of one connected part.
+        Each must be connected.
     gap : float
         The least distance between them, in units of the input.
     mirror : bool
-        Whether the shape may be turned over.
+        Whether the shape may be mirrored.
     best : int
-        At most so many placements.
+        Return at most this many placements.
 
     Returns
     -------
     list of Placement
-        Those that save most area first.
+        Sorted by `saved`, largest first.
 
     Raises
     ------
     MedialError
-        With the code ``"unsupported"``: a shape of several parts.
+        With the code ``"unsupported"`` if a shape has several parts.
 
     Examples
     --------

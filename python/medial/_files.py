@@ -1,4 +1,4 @@
-"""Files: the native format, and shapes of SVG, DXF, WKT, GeoJSON, fonts and plain text."""
+"""Files: the native format, and shapes from SVG, DXF, WKT, GeoJSON, fonts and plain text."""
 
 from __future__ import annotations
 
@@ -22,18 +22,18 @@ from ._shape import Shape
 
 
 def _completed(cores: list[_core.Axis]) -> list[MedialAxis]:
-    """Axes; of shapes without one it is computed."""
+    """Axes; computes those that a file lacks."""
     found = [MedialAxis._of(core) for core in cores]
     return [a if len(a.nodes) or not len(a.shape.points) else axis(a.shape) for a in found]
 
 
 def loads(text: str | bytes) -> list[MedialAxis]:
-    """The axes of a native file's text.
+    """The axes in the text of a native file.
 
     Parameters
     ----------
     text : str or bytes
-        As `MedialAxis.to_text` makes it, or a file holds it; not compressed.
+        From `MedialAxis.to_text`, or the contents of a file; not compressed.
 
     Raises
     ------
@@ -51,9 +51,9 @@ def loads(text: str | bytes) -> list[MedialAxis]:
 
 
 def load(path: str | PathLike[str]) -> list[MedialAxis]:
-    """The axes of a native file, ``.json`` or ``.safetensors``: one for each of its shapes.
+    """The axes of a native file, ``.json`` or ``.safetensors``, one per shape.
 
-    Compressed (``.gz``) as well. `columns` maps a ``.safetensors`` file into memory instead.
+    Reads compressed files (``.gz``), too. `columns` maps a ``.safetensors`` file into memory instead.
 
     Parameters
     ----------
@@ -77,10 +77,10 @@ def load(path: str | PathLike[str]) -> list[MedialAxis]:
 
 
 def columns(path: str | PathLike[str]) -> dict[str, npt.NDArray[Any]]:
-    """The columns of a ``.safetensors`` file, mapped into memory: no byte is read before it is used.
+    """The columns of a ``.safetensors`` file, mapped into memory: bytes are read when they are used.
 
-    What they hold is described in columns.md of the C++ documentation. Checksums are for
-    `medial.load`, which reads all bytes.
+    The C++ documentation describes them (columns.md). Checksums are not verified; `medial.load`
+    verifies them, as it reads all bytes.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ def columns(path: str | PathLike[str]) -> dict[str, npt.NDArray[Any]]:
     Returns
     -------
     dict of str to numpy.ndarray
-        By the name of the column, read-only.
+        Read-only arrays by the name of the column.
 
     Raises
     ------
@@ -121,11 +121,11 @@ def columns(path: str | PathLike[str]) -> dict[str, npt.NDArray[Any]]:
     except OSError as error:
         raise MedialError(f"{name}: {error.strerror or error}", "unreadable") from None
     except (ValueError, KeyError, TypeError, IndexError, AttributeError):
-        raise MedialError(f"{name}: these are not columns of safetensors", "malformed") from None
+        raise MedialError(f"{name}: not a valid safetensors file", "malformed") from None
 
 
 def _taken(found: tuple[list[Any], list[str]]) -> list[Shape]:
-    """Shapes with their attributes; notes become warnings."""
+    """Shapes with their attributes; issues notes as warnings."""
     shapes, notes = found
     for note in notes:
         warnings.warn(note, stacklevel=4)
@@ -133,7 +133,7 @@ def _taken(found: tuple[list[Any], list[str]]) -> list[Shape]:
 
 
 def _in_python(text: str) -> str:
-    """A text that names options of the command line."""
+    """An error text with options of the command line replaced by those of Python."""
     text = text.replace("; --units gives it one", ": leave out `unit`, and scale the shapes")
     return text.replace("--close=GAP", "close=GAP").replace("--close ", "close=math.inf ")
 
@@ -169,7 +169,7 @@ def _of_geojson(path: str, repair: str | None, arc_tolerance: float, fit: float)
     shapes = []
     parts = document.get("features", [document]) if isinstance(document, dict) else None
     if not isinstance(parts, list):
-        raise MedialError(f"{path}: this is no GeoJSON", "malformed")
+        raise MedialError(f"{path}: this is not GeoJSON", "malformed")
     for part in parts:
         shape = Shape(part, repair=repair, arc_tolerance=arc_tolerance, fit=fit)
         properties = part.get("properties")
@@ -183,39 +183,39 @@ def read(path: str | PathLike[str], *, repair: str | None = None, arc_tolerance:
          unit: str | None = None) -> list[Shape]:  # fmt: skip
     """The shapes of a file: SVG, DXF, WKT, GeoJSON, plain `x y` text, or the native format.
 
-    All are read with ``.gz`` as well. DXF needs the package `ezdxf`. GeoPandas reads the formats of
-    GIS.
+    Reads compressed files (``.gz``), too. DXF needs the package `ezdxf`. For GIS formats, use
+    GeoPandas.
 
     Parameters
     ----------
     path : path
     repair : str, optional
-        What is inside where rings cross: ``"make_valid"`` (as the input says), ``"even_odd"`` or
-        ``"non_zero"``; without it crossing rings are an error.
+        The rule that decides what is inside where rings cross: ``"make_valid"`` (that of the
+        input), ``"even_odd"`` or ``"non_zero"``. Without it, crossing rings are an error.
     arc_tolerance : float
-        How far arcs may be from free-form curves, as a share of the diagonal.
+        The largest distance of arcs from free-form curves, as a share of the diagonal.
     fit : float
-        Boundaries become smooth curves within this distance, in the unit of the result; 0: they
-        stay.
+        Replaces boundaries by smooth curves within this distance, in the unit of the result; 0
+        keeps them.
     layer : str, optional
-        Of a drawing in DXF: this layer alone, even if it is hidden.
+        DXF only: read this layer alone, even if it is hidden.
     close : float, optional
-        Of a drawing in DXF: loose curves are joined where their ends are at most this far apart, by
-        default 1e-6 of the diagonal of their layer; ``math.inf`` closes every open chain.
+        DXF only: join loose curves whose ends are at most this far apart, by default 1e-6 times
+        the diagonal of their layer; ``math.inf`` closes every open chain.
     unit : str, optional
-        Converts lengths: ``"mm"``, ``"cm"``, ``"m"``, ``"in"`` ... By default they stay in the unit
-        of the file.
+        Convert lengths to ``"mm"``, ``"cm"``, ``"m"``, ``"in"`` ...; by default they stay in the
+        unit of the file.
 
     Returns
     -------
     list of Shape
-        One for each feature, painted path, polygon, or layer of a drawing, in their order, with
-        `Shape.attributes`. Notes on what was left out or repaired are warnings.
+        One per feature, painted path, polygon, or layer of a drawing, in the order of the file,
+        with `Shape.attributes`. Warnings say what was left out or repaired.
 
     Raises
     ------
     MedialError
-        With the code, and the feature, ring or vertex where it applies.
+        With a code and, where they apply, the feature, ring and vertex.
 
     Examples
     --------
@@ -230,33 +230,33 @@ def read(path: str | PathLike[str], *, repair: str | None = None, arc_tolerance:
     kind = name.lower().removesuffix(".gz")
     if kind.endswith(".geojson"):
         if layer or close is not None or unit:
-            raise MedialError("GeoJSON has no layers, no loose curves, and degrees for a unit")
+            raise MedialError("layer, close and unit do not apply to GeoJSON")
         return _of_geojson(name, repair, arc_tolerance, fit)
     reading = _core.reading(repair, arc_tolerance, fit, layer or "", close, unit or "", options.threads)
     return _of_drawing(name, reading) if kind.endswith(".dxf") else _of_file(name, "", reading)
 
 
 def text(text: str, font: str | PathLike[str], *, arc_tolerance: float = 1e-6) -> list[Shape]:
-    """The outlines of a text in one line, with the advances and kerning of a font.
+    """The outlines of one line of text, with the advances and kerning of a font.
 
     Parameters
     ----------
     text : str
     font : path
-        Of a scalable font: TrueType, OpenType or Type 1.
+        A scalable font: TrueType, OpenType or Type 1.
     arc_tolerance : float
-        How far arcs may be from the font's curves, as a share of the diagonal.
+        The largest distance of arcs from the font's curves, as a share of the diagonal.
 
     Returns
     -------
     list of Shape
-        One for each character with an outline, in units of the font, the baseline at y = 0.
-        ``medial.Shape(medial.text(...))`` is all of them as one.
+        One per character with an outline, in font units, with the baseline at y = 0.
+        ``medial.Shape(medial.text(...))`` joins them.
 
     Raises
     ------
     MedialError
-        With the code ``"unreadable"`` or ``"malformed"``, and ``"empty"`` without an outline.
+        With the code ``"unreadable"``, ``"malformed"``, or ``"empty"`` if nothing has an outline.
 
     Examples
     --------
@@ -270,7 +270,7 @@ def text(text: str, font: str | PathLike[str], *, arc_tolerance: float = 1e-6) -
 
 
 def write_compressed(path: str, text: str) -> None:
-    """A text as a file compressed by gzip; there is never a partial one."""
+    """Writes a text compressed by gzip, and never leaves a partial file."""
     target = Path(path)
     partial = target.with_name(f".{target.name}.{os.getpid()}.tmp")
     try:

@@ -1,4 +1,4 @@
-"""Lines along an axis, and how wide a shape is along them."""
+"""Lines along an axis, and the widths of a shape along them."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Line:
     Attributes
     ----------
     axis : MedialAxis
-        The line as an axis of one chain of exact edges, sampled if it is smoothed.
+        The line as an axis: one chain of exact edges, or a sampled one if it was smoothed.
     length, narrowest : float
         Its length, and the smallest radius along it.
     closed : bool
@@ -43,10 +43,10 @@ class Line:
         Parameters
         ----------
         chord : float, optional
-            How far chords may be from curves, in units of the input; by default
-            ``medial.options.chord`` of the diagonal.
+            The largest distance of chords from the curves, in units of the input; by default
+            ``medial.options.chord`` times the diagonal.
         step : float, optional
-            The longest way from row to row, in units of the input, instead.
+            Instead: the largest distance from row to row along the line, in units of the input.
 
         Examples
         --------
@@ -66,8 +66,8 @@ class Line:
         Parameters
         ----------
         chord : float, optional
-            How far chords may be from curves, in units of the input; by default
-            ``medial.options.chord`` of the diagonal.
+            The largest distance of chords from the curves, in units of the input; by default
+            ``medial.options.chord`` times the diagonal.
 
         Examples
         --------
@@ -88,12 +88,13 @@ class Line:
         Parameters
         ----------
         samples : int or array
-            How many places, evenly; or increasing lengths along the line, in units of the input.
+            The number of evenly spaced places, or increasing lengths along the line, in units of the
+            input.
 
         Raises
         ------
         MedialError
-            With the code ``"invalid_option"``: lengths beyond the line, or not increasing.
+            With the code ``"invalid_option"`` for lengths beyond the line, or not increasing.
 
         Examples
         --------
@@ -104,7 +105,7 @@ class Line:
         """
         if isinstance(samples, (int, np.integer)):
             if not 0 < samples < 2**31:
-                raise MedialError("samples must be a whole number of places")
+                raise MedialError("samples must be a positive integer")
             at = np.linspace(0, self.length, int(samples))
         else:
             at = np.ascontiguousarray(numbers_of(samples, "samples are lengths along the line"))
@@ -127,7 +128,7 @@ class Line:
         """
         if spacing is None:
             if not 0 <= operator.index(count) < 2**31:
-                raise MedialError("count must be a whole number of places")
+                raise MedialError("count must be a positive integer")
             places = self.length * ((np.arange(count) + 0.5) / count)
             return self._widths(np.asarray(places, np.float64), across=True)
         if not 0 < spacing < np.inf:
@@ -141,9 +142,9 @@ class Line:
         return Widths(rows[:, 0], rows[:, 1:3], rows[:, 3], rows[:, 4:6], rows[:, 6:8])
 
     def side_channels(self) -> MedialAxis:
-        """What the line leaves out of the ways around holes that leave it and come back to it.
+        """The paths around holes that leave the line and come back to it.
 
-        Such as the side channels of a river, without its tributaries.
+        For example the side channels of a river, without its tributaries.
 
         Examples
         --------
@@ -156,7 +157,7 @@ class Line:
 
 
 class Widths(NamedTuple):
-    """The width of a shape at places along a line."""
+    """The widths of a shape at places along a line."""
 
     along: Floats
     center: Floats
@@ -171,7 +172,7 @@ class Widths(NamedTuple):
 
     @property
     def span(self) -> Floats:
-        """The length of the transect, from foot to foot."""
+        """The length of the transect from foot point to foot point."""
         span: Floats = np.hypot(*(self.left - self.right).T)
         return span
 
@@ -182,7 +183,7 @@ class Widths(NamedTuple):
         return need("pandas", "all").DataFrame(columns)
 
     def transects(self) -> Any:
-        """A shapely LineString from foot to foot for each place."""
+        """A shapely LineString from foot point to foot point for each place."""
         return need("shapely", "geo").linestrings(np.stack([self.left, self.right], axis=1))
 
 
@@ -207,7 +208,7 @@ def _place(of: MedialAxis, point: Sequence[float] | str) -> tuple[int, float]:
 
 
 def _middle_of_side(of: MedialAxis, name: str) -> tuple[float, float]:
-    """The middle of a side, named RING/VERTEX."""
+    """The middle of the side named RING/VERTEX."""
     ring, _, vertex = name.partition("/")
     found = None
     if ring.isdecimal() and vertex.isdecimal():
@@ -225,14 +226,14 @@ def centerlines(x: Any, *, trim: float = 1, route: str = "roomy", extend: bool =
     ----------
     x : MedialAxis or geometry
     trim : float
-        What protrudes from a disk by less than so many of its radii is cut from the ends; 0:
-        lines run into the corners.
+        Cut ends that protrude from a disk by less than `trim` times its radius; 0: lines run into
+        the corners.
     route : {"roomy", "shortest"}
-        Which way around holes.
+        Which path to take around holes.
     extend : bool
         Extend both ends to the boundary.
     smooth : float
-        Average over so many radii.
+        Average over this many radii; 0: not at all.
 
     Returns
     -------
@@ -250,7 +251,7 @@ def centerlines(x: Any, *, trim: float = 1, route: str = "roomy", extend: bool =
 
 
 def network(x: Any, *, trim: float = 1) -> MedialAxis:
-    """The whole network of ways, those around holes included, without forks in corners.
+    """The network of all paths, those around holes included, without forks in corners.
 
     Parameters
     ----------
@@ -271,14 +272,14 @@ def network(x: Any, *, trim: float = 1) -> MedialAxis:
 def centerline(x: Any, start: Sequence[float] | str | None = None, end: Sequence[float] | str | None = None, *,
                trim: float = 1, route: str = "roomy", extend: bool = False,
                smooth: float = 0) -> Line:  # fmt: skip
-    """The centre line of a shape: of several parts, the longest.
+    """The centre line of a shape; of several parts, the longest one.
 
     Parameters
     ----------
     x : MedialAxis or geometry
     start, end : (x, y) or str, optional
-        Where the line begins and ends, instead of the two ends that are farthest apart: at a
-        point, or in the middle of a side, ``"RING/VERTEX"``, the vertex where it starts.
+        Where the line begins and ends: at a point, or in the middle of the side ``"RING/VERTEX"``
+        that starts at this vertex. By default at the two ends that are farthest apart.
     trim, route, extend, smooth
         See `centerlines`.
 
@@ -289,7 +290,7 @@ def centerline(x: Any, start: Sequence[float] | str | None = None, end: Sequence
     Raises
     ------
     MedialError
-        With the code ``"empty"`` (the axis is a point) or ``"invalid_option"`` (no such place).
+        With the code ``"empty"`` (the axis is a point) or ``"invalid_option"`` (unknown place).
 
     Examples
     --------
@@ -300,7 +301,7 @@ def centerline(x: Any, start: Sequence[float] | str | None = None, end: Sequence
     """
     of = axis_of(x)
     if (start is None) != (end is None):
-        raise ValueError("start and end go together")
+        raise ValueError("start and end must be given together")
     if start is not None and end is not None:
         path = _core.path_between(of._core, _place(of, start), _place(of, end), route)
         return _line(of, path, extend, smooth)
@@ -312,7 +313,7 @@ def centerline(x: Any, start: Sequence[float] | str | None = None, end: Sequence
 
 def widest_path(x: Any, start: Sequence[float] | str, end: Sequence[float] | str, *, extend: bool = False,
                 smooth: float = 0) -> Line:  # fmt: skip
-    """The way between two places along which the largest disk can pass, of those the shortest.
+    """The shortest path between two places among those that let the largest disk pass.
 
     Parameters
     ----------
@@ -334,13 +335,14 @@ def widest_path(x: Any, start: Sequence[float] | str, end: Sequence[float] | str
 
 
 def width_profile(x: Any, samples: int | npt.ArrayLike = 100, **given: Any) -> Widths:
-    """The width along the centre line; further options are those of `centerline`.
+    """The widths along the centre line.
 
     Parameters
     ----------
     x : Line, MedialAxis or geometry
     samples : int or array
-        How many places, evenly; or increasing lengths along the line, in units of the input.
+        The number of evenly spaced places, or increasing lengths along the line, in units of the
+        input.
     **given
         Options of `centerline`.
 
@@ -360,9 +362,9 @@ def transects(x: Any, count: int = 10, *, spacing: float | None = None, **given:
     ----------
     x : Line, MedialAxis or geometry
     count : int
-        In the middles of so many equal parts of the centre line.
+        The number of transects: one in the middle of each of `count` equal parts of the line.
     spacing : float, optional
-        At this distance from each other instead, in units of the input.
+        Instead: the distance between transects, in units of the input.
     **given
         Options of `centerline`.
 
@@ -381,7 +383,7 @@ def transects(x: Any, count: int = 10, *, spacing: float | None = None, **given:
 
 
 def mean_width(x: Any, **given: Any) -> dict[str, float]:
-    """Mean widths: by length, by area, and area by length; options are those of `centerline`.
+    """Mean widths: by length, by area, and area by length. Takes the options of `centerline`.
 
     Parameters
     ----------
@@ -400,7 +402,7 @@ def mean_width(x: Any, **given: Any) -> dict[str, float]:
 
 
 class Neck(NamedTuple):
-    """A place narrower than what lies on both sides of it."""
+    """A place narrower than its surroundings on both sides."""
 
     x: float
     y: float
@@ -417,18 +419,18 @@ class Neck(NamedTuple):
 
     @property
     def prominence(self) -> float:
-        """By how much the width grows on both sides."""
+        """The growth of the width on both sides."""
         return 2 * (self.opens_to - self.radius)
 
 
 def necks(x: Any, widening: float = 1.1) -> list[Neck]:
-    """The necks of a shape: those that separate it by decreasing prominence, then others.
+    """The necks of a shape: first those that separate it, by decreasing prominence, then others.
 
     Parameters
     ----------
     x : MedialAxis or geometry
     widening : float
-        A neck opens on both sides to at least so many times its width; above 1.
+        A neck opens on both sides to at least `widening` times its width; above 1.
 
     Examples
     --------
@@ -449,14 +451,14 @@ class Circle(NamedTuple):
     radius: float
 
     def to_shapely(self, quad_segs: int = 64) -> Any:
-        """A shapely Polygon near to it."""
+        """A shapely Polygon that approximates the circle."""
         return need("shapely", "geo").Point(self.x, self.y).buffer(self.radius, quad_segs)
 
 
 def maximum_inscribed_circle(x: Any) -> Circle:
-    """The largest circle inside of a shape; of several, one.
+    """The largest circle inside a shape; any one of several.
 
-    Of an axis its deepest disk; of anything else found without an axis, which is much sooner for
+    For an axis, its largest disk. For a geometry, found without an axis, which is much faster for
     large shapes.
 
     Parameters
@@ -475,7 +477,7 @@ def maximum_inscribed_circle(x: Any) -> Circle:
 
 
 def inscribed_circles(x: Any, count: int, smallest: float = 0) -> list[Circle]:
-    """The largest circles without overlap, by decreasing radius: each in what the others leave.
+    """The largest circles without overlap: each is the largest in what the ones before leave.
 
     Parameters
     ----------
@@ -483,7 +485,7 @@ def inscribed_circles(x: Any, count: int, smallest: float = 0) -> list[Circle]:
     count : int
         At most.
     smallest : float
-        No radius is below this, in units of the input.
+        The smallest radius, in units of the input.
 
     Examples
     --------

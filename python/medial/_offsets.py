@@ -21,16 +21,16 @@ from ._shape import load
 
 @dataclass(frozen=True, eq=False)
 class Region:
-    """A connected part of what is farther than a distance from the boundary.
+    """A connected set of the points farther than a distance from the boundary.
 
     Attributes
     ----------
     distance : float
-        From the boundary, negative outside of the shape.
+        The distance from the boundary, negative outside the shape.
     rings : list of (points, bulges)
-        The outer ring, then the holes; a bulge is of the edge after a point.
+        The outer ring, then the holes; bulge i is of the edge after point i.
     parent : int
-        The index of the region around it at the next smaller distance; -1: none.
+        The index of the region around this one at the next smaller distance; -1 if there is none.
     """
 
     distance: float
@@ -40,13 +40,13 @@ class Region:
     length: float
 
     def polygon(self, chord: float | None = None) -> list[Floats]:
-        """Closed rings in which arcs are chords at most `chord` away.
+        """Closed rings in which chords replace arcs, within `chord` of them.
 
         Parameters
         ----------
         chord : float, optional
-            How far chords may be from curves, in units of the input; by default
-            ``medial.options.chord`` of the diagonal.
+            The largest distance of chords from the curves, in units of the input; by default
+            ``medial.options.chord`` times the diagonal.
 
         Examples
         --------
@@ -63,8 +63,8 @@ class Region:
         Parameters
         ----------
         chord : float, optional
-            How far chords may be from curves, in units of the input; by default
-            ``medial.options.chord`` of the diagonal.
+            The largest distance of chords from the curves, in units of the input; by default
+            ``medial.options.chord`` times the diagonal.
 
         Examples
         --------
@@ -82,7 +82,7 @@ class Region:
 
 
 def _flattened(points: Floats, bulges: Floats, chord: float | None) -> Floats:
-    """A closed ring with arcs as chords."""
+    """A closed ring with chords for arcs."""
     if chord is None:
         chord = options.chord * (float(np.hypot(*np.ptp(points, axis=0))) or 1.0)
     closed = np.concatenate([points, points[:1]])
@@ -122,12 +122,12 @@ def offset(x: Any, distances: float | Sequence[float] | Floats, *, threads: int 
     ----------
     x : MedialAxis, Shape or geometry
     distances : float or sequence
-        From the boundary: positive inwards, negative outwards.
+        Distances from the boundary: positive inwards, negative outwards.
 
     Returns
     -------
     list of Region
-        By increasing distance. Those of one distance are disjoint.
+        Sorted by increasing distance. Regions of the same distance are disjoint.
 
     Examples
     --------
@@ -143,15 +143,16 @@ def offset(x: Any, distances: float | Sequence[float] | Floats, *, threads: int 
 
 
 def offset_passes(x: Any, step: float, *, first: float | None = None, until: float | None = None) -> list[Region]:
-    """Nested offset curves, one every `step`, until nothing is left inside: passes of a pocket.
+    """Offset curves at every `step` until nothing is left inside, as for clearing a pocket.
 
     Parameters
     ----------
     x : MedialAxis or geometry
     step, first : float
-        Between passes, and of the first one (`step`), in units of the input.
+        The distance between passes, and that of the first pass (by default `step`), in units of the
+        input.
     until : float, optional
-        The largest distance of a pass.
+        The largest distance of any pass.
 
     Raises
     ------
@@ -171,7 +172,7 @@ def offset_passes(x: Any, step: float, *, first: float | None = None, until: flo
 
 def buffer(x: Any, distances: float | Sequence[float] | Floats, *, bulges: npt.ArrayLike | None = None,
            node_crossings: bool = True, threads: int | None = None) -> list[Region]:  # fmt: skip
-    """What is nearer than a distance to points, lines and arcs.
+    """The set of points within a distance of points, lines and arcs.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Options that hold for all calls."""
+"""Options for all calls."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from . import _core
 
 @dataclass
 class Settings:
-    """Defaults of all calls: set the attributes of ``medial.options``.
+    """Defaults for all calls: set the attributes of ``medial.options``.
 
     Attributes
     ----------
     method : str
         The method of `axis` and `axes`; `methods` lists them.
     threads : int
-        Threads to use; 0: all of the machine.
+        The number of threads; 0: all of the machine.
     chord : float
-        How far lines may be from curves, as a share of the diagonal of the axis.
+        The largest distance of lines from curves, as a share of the diagonal of the axis.
     """
 
     method: str = "disks"
@@ -32,7 +32,7 @@ options = Settings()
 
 
 def methods() -> list[dict[str, Any]]:
-    """The methods of `axis`, and what each takes besides holes and arcs: the exterior, several threads.
+    """The methods of `axis`, and what each supports: holes, arcs, the exterior, several threads.
 
     Examples
     --------
@@ -44,7 +44,7 @@ def methods() -> list[dict[str, Any]]:
 
 
 def log(text: str, *values: object) -> None:
-    """A record of the logger "medial", for whoever has imported logging."""
+    """Logs to the logger "medial", if logging has been imported."""
     logging = sys.modules.get("logging")
     if logging is not None:
         logging.getLogger("medial").debug(text, *values)

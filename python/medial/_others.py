@@ -15,7 +15,7 @@ from ._shape import load
 
 
 def compressed_size(streams: Sequence[bytes]) -> int:
-    """The bytes of streams, each compressed by zlib."""
+    """The total size of streams in bytes, each compressed by zlib."""
     import zlib
 
     return sum(len(zlib.compress(stream, 9)) for stream in streams)
@@ -29,11 +29,11 @@ class Pack:
     ----------
     streams : tuple of bytes
     disks : int
-        How many it holds.
+        The number of disks.
     quantum : float
-        The step of its numbers, in units of the input.
+        The quantum of its numbers, in units of the input.
     boundary_nbytes : int
-        What the boundary takes instead: simplified within the same error, coded alike.
+        The size of the boundary for comparison, simplified within the same error and coded alike.
     """
 
     streams: tuple[bytes, ...]
@@ -43,7 +43,7 @@ class Pack:
 
     @property
     def nbytes(self) -> int:
-        """The number of bytes, compressed by zlib."""
+        """The size in bytes, compressed by zlib."""
         return compressed_size(self.streams)
 
     def unpack(self) -> MedialAxis:
@@ -52,9 +52,9 @@ class Pack:
 
 
 def pack(x: Any, error: float) -> Pack:
-    """Codes a shape so that it and the unpacked one lie within `error` of each other.
+    """Codes a shape so that the unpacked one is within the distance `error` of it.
 
-    `medial.image.pack` codes images.
+    For images, use `medial.image.pack`.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ def unpack(code: Pack) -> MedialAxis:
     'pack'
     """
     if not isinstance(code, Pack):
-        raise TypeError(f"a {type(code).__name__} is no code: medial.pack() makes one")
+        raise TypeError(f"a {type(code).__name__} is not a code: make one with medial.pack()")
     return code.unpack()
 
 
@@ -100,7 +100,7 @@ class Field:
         self._core = core
 
     def sample(self, points: npt.ArrayLike) -> dict[str, Floats]:
-        """The logarithm of the potential, the direction of the force, the clearance; NaN outside."""
+        """The logarithm of the potential, the direction of the force and the clearance; NaN outside."""
         rows = self._core.sample(points_of(points))
         return {"log_potential": rows[:, 0], "direction": rows[:, 1:3], "clearance": rows[:, 3]}
 
@@ -117,7 +117,7 @@ def field(x: Any, order: float = 2) -> Field:
     ----------
     x : geometry
     order : float
-        Of the potential 1 / r^order, at least 1.
+        The exponent, at least 1.
 
     Examples
     --------
@@ -130,20 +130,20 @@ def field(x: Any, order: float = 2) -> Field:
 
 
 def curve_axis(x: Any, *, fit: float = 0, **own: Any) -> MedialAxis:
-    """The axis of closed curves, followed from maxima of curvature and corners.
+    """The axis of closed curves, traced from maxima of curvature and corners.
 
     Parameters
     ----------
     x : Contour or geometry
     fit : float
-        Polygons become smooth curves within this distance first.
+        Replace polygons by smooth curves within this distance first.
     **own
         `step` and `first_maximum`.
 
     Raises
     ------
     MedialError
-        With the code ``"unsupported"``: cusps, or loops that touch.
+        With the code ``"unsupported"`` for cusps, or loops that touch.
 
     Examples
     --------

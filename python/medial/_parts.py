@@ -1,4 +1,4 @@
-"""Parts of an axis, and shapes made of them."""
+"""Parts of axes, and shapes made from them."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ._shape import Shape, load
 
 
 def _without_specks(x: Any, share: float) -> MedialAxis:
-    """The axis of x, of a shape without specks where a share is given."""
+    """The axis of x; if a share is given, that of x without specks."""
     if not share:
         return axis_of(x)
     shape = x.shape._core if isinstance(x, MedialAxis) else load(x)[0]
@@ -29,19 +29,19 @@ def prune(x: Any, measure: str = "prominence", threshold: float | None = None, *
     measure : str
         A name of `prune_measures`.
     threshold : float, optional
-        The default is that of the measure.
+        By default that of the measure; see `prune_measures`.
     keep : int, optional
-        Keep at most so many branches instead, but always the cycles.
+        Instead: keep at most this many branches, and always the cycles.
     tips : bool
         Extend each end to a tip.
     specks : float
-        First leave out holes and parts whose bounding box has a diagonal below this share of the
-        square root of the area; 0.1 is usual.
+        First remove holes and parts whose bounding box has a diagonal below this share of the
+        square root of the area; 0.1 is typical.
 
     Raises
     ------
     MedialError
-        With the code ``"invalid_option"``: an unknown measure, or a threshold below 0.
+        With the code ``"invalid_option"`` for an unknown measure, or a threshold below 0.
 
     Examples
     --------
@@ -68,7 +68,7 @@ def prune_measures() -> dict[str, float]:
 def smooth(x: Any, measure: str = "prominence", threshold: float | None = None, *,
            keep: int | None = None, tips: bool = False, specks: float = 0, chord: float = 0,
            exterior: bool = False, margin: float = 0) -> Shape:  # fmt: skip
-    """The shape without what pruning its axis drops: bumps become round, or outside notches.
+    """The shape of the pruned axis: rounds off bumps, or with `exterior` fills notches.
 
     Parameters
     ----------
@@ -76,11 +76,11 @@ def smooth(x: Any, measure: str = "prominence", threshold: float | None = None, 
     measure, threshold, keep, tips, specks
         See `prune`.
     chord : float
-        Arcs become chords within this distance, in units of the input; 0: they stay arcs.
+        Replace arcs by chords within this distance, in units of the input; 0: keep arcs.
     exterior : bool
-        Fill notches instead, by the axis of what lies around the shape.
+        Fill notches instead, by the axis of the exterior.
     margin : float
-        How far the enclosure of that is; 0: half of the longer side.
+        The distance of the exterior's enclosure from the shape; 0: half of the longer side.
 
     Returns
     -------
@@ -103,7 +103,7 @@ def smooth(x: Any, measure: str = "prominence", threshold: float | None = None, 
 
 
 def _inside(around: Shape) -> Shape:
-    """What the loops of surroundings enclose, but for the rectangle: that reaches farthest left."""
+    """The shape enclosed by an exterior: its loops without the rectangle, which is leftmost."""
     points, starts = around.points, around.loop_begin.tolist()
     parts = [slice(a, b) for a, b in zip(starts[:-1], starts[1:], strict=True)]
     parts.remove(min(parts, key=lambda part: float(points[part, 0].min())))
@@ -114,22 +114,23 @@ def _inside(around: Shape) -> Shape:
 
 
 def rebuild(x: MedialAxis, by: str = "outline", *, points: int = 0, chord: float = 0) -> Shape:
-    """The shape of an axis: of an exact one its shape again, of a pruned one its disks' union.
+    """The union of the disks of an axis: the original shape if the axis is exact and complete.
 
     Parameters
     ----------
     x : MedialAxis
     by : {"outline", "tangents", "hulls"}
-        Exactly; as a polygon of tangents of the disks; or around the hulls of neighbouring disks.
+        The exact union; a polygon of tangents of the disks; or the union of the hulls of
+        neighbouring disks.
     points : int
-        Of tangents: about how many points on the axis.
+        For tangents: the approximate number of points on the axis.
     chord : float
-        Arcs become chords within this distance, in units of the input; 0: they stay arcs.
+        Replace arcs by chords within this distance, in units of the input; 0: keep arcs.
 
     Raises
     ------
     MedialError
-        With the code ``"empty"``: an axis without nodes.
+        With the code ``"empty"`` for an axis without nodes.
 
     Examples
     --------
@@ -141,7 +142,7 @@ def rebuild(x: MedialAxis, by: str = "outline", *, points: int = 0, chord: float
 
 
 def collapse(x: Any, width: float, *, trim: float = 1) -> tuple[Shape | None, MedialAxis]:
-    """The parts narrower than `width` become lines, the rest stays polygons.
+    """Collapses parts narrower than `width` to lines, and keeps the rest as polygons.
 
     Parameters
     ----------
@@ -149,7 +150,7 @@ def collapse(x: Any, width: float, *, trim: float = 1) -> tuple[Shape | None, Me
     width : float
         In units of the input.
     trim : float
-        Corners that protrude by at most so many half widths stay with the polygons.
+        Corners that protrude by at most this many half widths stay with the polygons.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Pictures: of matplotlib, and as SVG for notebooks."""
+"""Pictures: by matplotlib, and as SVG for notebooks."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def _path(points: Any, close: bool = False) -> str:
 
 
 def svg_of(axis: MedialAxis, size: float = 360) -> str:
-    """A small picture, y upwards."""
+    """A small picture; y points up."""
     shape = axis.shape
     low_x, low_y, high_x, high_y = shape.bounds if len(shape.points) else (0.0, 0.0, 1.0, 1.0)
     scale = size / max(high_x - low_x, high_y - low_y, 1e-300)

@@ -1,4 +1,4 @@
-"""Whatever has a polygon in it, as rings of coordinates or contours."""
+"""Reads anything with polygons as rings of coordinates, or contours."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Rings:
 
 @dataclass
 class Ragged:
-    """Polygons of many features, with offsets as shapely.to_ragged_array() has them."""
+    """Polygons of many features, with offsets as in shapely.to_ragged_array()."""
 
     coordinates: Floats
     ring: Indices
@@ -44,7 +44,7 @@ class Ragged:
         return len(self.polygon if self.feature is None else self.feature) - 1
 
     def errors(self, computed: list[Any]) -> dict[int, MedialError]:
-        """Errors by feature: of reading, and of what was computed then."""
+        """Errors by feature, of reading and of the computation."""
         return {row[2]: MedialError(*row) for row in (*computed, *self.failed)}
 
     def one(self, i: int) -> Rings:
@@ -90,7 +90,7 @@ def _part(geometry: Mapping[str, Any], name: str, of: type | tuple[type, ...]) -
 def _polygons_of(geometry: Any) -> Iterator[Sequence[Any]]:
     """The polygons, as lists of rings, of a geometry, feature or collection of GeoJSON."""
     if not isinstance(geometry, Mapping):
-        raise MedialError(f"a {type(geometry).__name__} is no geometry of GeoJSON", "malformed")
+        raise MedialError(f"a {type(geometry).__name__} is not a GeoJSON geometry", "malformed")
     kind = geometry.get("type")
     lists = (Sequence, np.ndarray)
     if kind == "Feature":
@@ -110,7 +110,7 @@ def _polygons_of(geometry: Any) -> Iterator[Sequence[Any]]:
 
 
 def _interface_of(x: Any) -> Any:
-    """What an object says of its geometry; None: nothing."""
+    """The ``__geo_interface__`` of an object, or None."""
     if isinstance(x, type):
         return None
     try:
@@ -126,7 +126,7 @@ def _from_polygons(polygons: Sequence[Sequence[Any]]) -> Rings:
 
 
 def from_wkb(values: Sequence[bytes | None] | npt.NDArray[Any]) -> Ragged:
-    """The polygons of well-known binary, one feature for each value; None is an error of its feature."""
+    """The polygons of well-known binary, one feature per value; None is an error of its feature."""
     missing = [i for i, value in enumerate(values) if value is None]
     present: Sequence[bytes] | npt.NDArray[Any] = [value or b"" for value in values] if missing else values  # type: ignore[assignment]
     sizes = np.fromiter((len(value) for value in present), np.int64, len(values))
@@ -143,13 +143,13 @@ def from_wkb_buffer(data: npt.NDArray[np.uint8], offsets: Indices, missing: Iter
 
 
 def parsed(text: str | bytes) -> Any:
-    """JSON, which is GeoJSON."""
+    """GeoJSON, parsed."""
     import json
 
     try:
         return json.loads(text)
     except (ValueError, RecursionError) as error:
-        raise MedialError(f"this is no JSON: {error}", "malformed") from error
+        raise MedialError(f"this is not JSON: {error}", "malformed") from error
 
 
 def _from_text(text: str) -> Rings:
@@ -220,7 +220,7 @@ def _read(x: Any) -> Rings:
 
 
 def chains_of(x: Any) -> tuple[Floats, Indices, npt.NDArray[np.uint8]]:
-    """Points and lines: coordinates, where chains begin, whether they are closed."""
+    """Points and lines as chains: coordinates, the first one of each chain, whether it is closed."""
     try:
         return _chains_of(x)
     except RecursionError:

@@ -1,4 +1,4 @@
-"""The records of the library, as NumPy sees them: no copy is made."""
+"""The records of the library as NumPy arrays, without a copy."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def unpacked(values: npt.ArrayLike, dtype: np.dtype[np.void]) -> npt.NDArray[np.
 
 
 def numbers_of(values: Any, what: str) -> Floats:
-    """Numbers as an array; complex ones, dates and what a mask hides are none."""
+    """Numbers as an array; refuses complex numbers, dates and masked values."""
     if isinstance(values, np.ndarray):
         if values.dtype.kind not in "biufO":
             raise MedialError(f"{what}, not {values.dtype}", "malformed")

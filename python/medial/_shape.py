@@ -22,27 +22,27 @@ _CoreShape = _core.Shape
 class Shape:
     """A bounded region of the plane, of straight and circular edges.
 
-    Made by operations such as `rebuild`, or from anything that `axis` takes.
+    Made from anything that `axis` takes, or by operations such as `rebuild`.
 
     Parameters
     ----------
     x : geometry
         See `axis`.
     bulges : array, optional
-        Of each edge, for one ring: the tangent of a quarter of the angle it spans.
+        For a single ring: the bulge of each edge, the tangent of a quarter of its angle.
     repair : str, optional
-        What is inside where rings cross: ``"make_valid"`` (as the input says), ``"even_odd"`` or
-        ``"non_zero"``; without it crossing rings are an error.
+        The rule that decides what is inside where rings cross: ``"make_valid"`` (that of the
+        input), ``"even_odd"`` or ``"non_zero"``. Without it, crossing rings are an error.
     arc_tolerance : float
-        How far arcs may be from free-form curves, as a share of the diagonal.
+        The largest distance of arcs from free-form curves, as a share of the diagonal.
     fit : float
-        Boundaries become smooth curves within this distance; 0: they stay.
+        Replaces boundaries by smooth curves within this distance; 0 keeps them.
 
     Attributes
     ----------
     attributes : dict
-        What `read` found beside the geometry: the layer of a drawing, the `id` of a path, the
-        properties of GeoJSON. They do not count for ``==``.
+        What `read` found besides the geometry: the layer of a drawing, the `id` of a path, the
+        properties of GeoJSON. Ignored by ``==``.
 
     Examples
     --------
@@ -83,12 +83,12 @@ class Shape:
 
     @property
     def bulges(self) -> Floats:
-        """Of the edge after each vertex; empty where all edges are straight."""
+        """The bulge of the edge after each vertex; empty if all edges are straight."""
         return self._core.bulges()
 
     @property
     def loop_begin(self) -> npt.NDArray[np.uint32]:
-        """Loop i has the vertices from ``loop_begin[i]`` to ``loop_begin[i + 1]``."""
+        """The vertices of loop i are ``points[loop_begin[i]:loop_begin[i + 1]]``."""
         return self._core.loop_begin()
 
     @property
@@ -103,7 +103,7 @@ class Shape:
 
     @property
     def area(self) -> float:
-        """The area without holes."""
+        """The area, without that of holes."""
         return self._core.area()
 
     @property
@@ -137,15 +137,15 @@ class Shape:
         return where_known(places, _core.clearances(self._core, places))
 
     def polygons(self, chord: float | None = None) -> list[list[Floats]]:
-        """The components as lists of closed rings, the outer one first.
+        """The components as lists of closed rings, outer ring first.
 
-        Arcs become chords that are at most `chord` away.
+        Chords replace arcs, within `chord` of them.
 
         Parameters
         ----------
         chord : float, optional
-            How far chords may be from curves, in units of the input; by default
-            ``medial.options.chord`` of the diagonal.
+            The largest distance of chords from the curves, in units of the input; by default
+            ``medial.options.chord`` times the diagonal.
 
         Examples
         --------
@@ -170,13 +170,13 @@ class Shape:
         return {"type": "MultiPolygon", "coordinates": polygons}
 
     def to_shapely(self, chord: float | None = None) -> Any:
-        """A shapely Polygon, or a MultiPolygon of several components.
+        """A shapely Polygon, or a MultiPolygon if there are several components.
 
         Parameters
         ----------
         chord : float, optional
-            How far chords may be from curves, in units of the input; by default
-            ``medial.options.chord`` of the diagonal.
+            The largest distance of chords from the curves, in units of the input; by default
+            ``medial.options.chord`` times the diagonal.
 
         Examples
         --------
@@ -190,14 +190,14 @@ class Shape:
         return parts[0] if len(parts) == 1 else shapely.MultiPolygon(parts)
 
     def scaled(self, factor: float, move: tuple[float, float] = (0, 0)) -> Shape:
-        """The shape with all coordinates times `factor` > 0, then moved.
+        """The shape scaled by `factor`, then moved.
 
         Parameters
         ----------
         factor : float
             Positive.
         move : (x, y)
-            In units of the result.
+            The translation, in units of the result.
 
         Examples
         --------
@@ -208,17 +208,18 @@ class Shape:
         points, *others = self._state()
         moved = np.ascontiguousarray(points * factor + numbers_of(move, "move is x and y"))
         if not factor > 0 or not np.isfinite(moved).all():
-            raise MedialError("factor must be positive, and the result within the range of numbers")
+            raise MedialError("factor must be positive, and the result must not overflow")
         return restored(moved, *others)
 
     def to_text(self, format: str = "wkt", *, chord: float = 1e-3) -> str:
-        """The text of a file: see `save`.
+        """The shape as text in a file format: see `save`.
 
         Parameters
         ----------
         format : {"wkt", "geojson", "svg", "json"}
         chord : float
-            Of formats without arcs: how far chords may be from them, as a share of the diagonal.
+            In formats without arcs: the largest distance of chords from them, as a share of the
+            diagonal.
 
         Examples
         --------
@@ -230,7 +231,7 @@ class Shape:
         return text or ""
 
     def save(self, path: str | PathLike[str], *, chord: float = 1e-3) -> None:
-        """Writes the shape by the extension of the path: .wkt, .geojson, .svg or .json (native).
+        """Writes the shape in the format of the extension: .wkt, .geojson, .svg or .json (native).
 
         Parameters
         ----------
@@ -277,11 +278,11 @@ class Shape:
         return Shape._of(self._core, self.attributes)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Shape:
-        return Shape._of(self._core, deepcopy(self.attributes, memo))  # nothing else can change
+        return Shape._of(self._core, deepcopy(self.attributes, memo))  # the rest is immutable
 
 
 def restored(*state: npt.NDArray[Any]) -> Shape:
-    """A shape from what pickling took of it."""
+    """A shape from its pickled state."""
     return Shape._of(_core.restored_shape(*state))
 
 
@@ -293,7 +294,7 @@ def load(
     fit: float = 0,
     keep_contours: bool = False,
 ) -> tuple[_core.Shape, list[_core.Contour]]:
-    """The shape of a geometry, and its contours for methods that follow them."""
+    """The shape of a geometry, and its contours for methods that trace them."""
     if not fit >= 0:
         raise MedialError("fit must be a distance, or 0")
     if isinstance(x, Shape) and not (repair or fit or keep_contours):

@@ -17,7 +17,7 @@ from ._shape import load
 
 
 class NearestSites(NamedTuple):
-    """The nearest site of each of many points; -1 where there is none."""
+    """The nearest site of each point; -1 if there is none."""
 
     site: Indices
     distance: Floats
@@ -25,10 +25,10 @@ class NearestSites(NamedTuple):
 
 
 class Voronoi:
-    """The Voronoi diagram of points, segments and arcs, within a frame; made by `voronoi`.
+    """The Voronoi diagram of points, segments and arcs, within an enclosure; made by `voronoi`.
 
-    Sites are the points first, then the edges between them, in an order of their own: the fields
-    ``ring`` and ``vertex`` of a site are the line and the vertex of the input, from 0.
+    Sites are first the points, then the edges between them, not in the order of the input: the
+    fields ``ring`` and ``vertex`` of a site give its line and vertex in the input, from 0.
     """
 
     __slots__ = ("_core", "_inside", "_locator")
@@ -40,12 +40,12 @@ class Voronoi:
 
     @property
     def sites(self) -> Records:
-        """As `MedialAxis.sites`; kind vertex: a point."""
+        """Fields as in `MedialAxis.sites`; the kind of a point is vertex."""
         return records(self._core.sites(), SITE)
 
     @property
     def nodes(self) -> Records:
-        """As `MedialAxis.nodes`."""
+        """Fields as in `MedialAxis.nodes`."""
         return records(self._core.nodes(), NODE)
 
     @property
@@ -67,13 +67,13 @@ class Voronoi:
         return options.chord * float(np.hypot(*np.ptp(box, axis=0)))
 
     def cells(self, chord: float | None = None) -> list[Floats]:
-        """The Voronoi cell of each site, as rows of x and y; empty where it is.
+        """The Voronoi cell of each site as rows of x and y; may be empty.
 
         Parameters
         ----------
         chord : float, optional
-            How far chords may be from curves, in units of the input; by default
-            ``medial.options.chord`` of the diagonal.
+            The largest distance of chords from the curves, in units of the input; by default
+            ``medial.options.chord`` times the diagonal.
 
         Examples
         --------
@@ -87,13 +87,13 @@ class Voronoi:
         return [_closed(cell, site) for cell, site in zip(cells, self.sites, strict=True)] if self._inside else cells
 
     def lines(self, chord: float | None = None) -> tuple[Floats, Indices]:
-        """The edges as rows of x, y and radius, and where each begins.
+        """The edges as rows of x, y and radius, and the first row of each.
 
         Parameters
         ----------
         chord : float, optional
-            How far chords may be from curves, in units of the input; by default
-            ``medial.options.chord`` of the diagonal.
+            The largest distance of chords from the curves, in units of the input; by default
+            ``medial.options.chord`` times the diagonal.
 
         Examples
         --------
@@ -112,8 +112,8 @@ class Voronoi:
         Parameters
         ----------
         chord : float, optional
-            How far chords may be from curves, in units of the input; by default
-            ``medial.options.chord`` of the diagonal.
+            The largest distance of chords from the curves, in units of the input; by default
+            ``medial.options.chord`` times the diagonal.
 
         Examples
         --------
@@ -161,7 +161,7 @@ class Voronoi:
 
 
 def _closed(cell: Floats, site: Any) -> Floats:
-    """The cell of a side of a polygon: what leads from edges of the diagram along the side."""
+    """The cell of a side of a polygon, from the edges of the diagram along the side."""
     side = [end for end in (site["start"], site["end"]) if len(cell) and not (cell == end).all(axis=1).any()]
     return np.concatenate([cell, side]) if side else cell
 
@@ -182,17 +182,18 @@ def voronoi(
     Parameters
     ----------
     x : geometry
-        Rows of x and y are points; shapely geometries, GeoJSON or lists of lines are as they are.
+        Rows of x and y (points), shapely geometries, GeoJSON, or a list of lines.
     method : {"disks", "lee"}
-        Of everything together, within an enclosure; or inside of a polygon without holes.
+        ``"disks"``: of all points and lines, within an enclosure; ``"lee"``: inside a polygon
+        without holes.
     enclosure : (low x, low y, high x, high y), optional
-        In units of the input; also as `frame`.
+        The rectangle that bounds the diagram, in units of the input. `frame` is an alias.
     margin : float
-        How far the enclosure is, without one; 0: half of the longer side.
+        Without an enclosure: its distance from the input; 0: half of the longer side.
     node_crossings : bool
         Whether lines may cross.
     bulges : array, optional
-        Of each coordinate's edge.
+        The bulge of the edge after each vertex.
 
     Examples
     --------

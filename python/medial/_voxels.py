@@ -1,4 +1,4 @@
-"""The axis of solids, on voxels."""
+"""The medial axis of solids, on voxels."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Surface(NamedTuple):
     lines: npt.NDArray[np.uint32]
 
     def to_trimesh(self) -> Any:
-        """The sheets as a mesh of trimesh, with the radii as attributes of its vertices."""
+        """The sheets as a mesh of trimesh, with radii as vertex attributes."""
         mesh = need("trimesh", "mesh").Trimesh(self.vertices, self.triangles, process=False)
         mesh.vertex_attributes["radius"] = self.radii
         return mesh
@@ -36,15 +36,16 @@ class VoxelAxis:
     Attributes
     ----------
     cells : array
-        Column, row and layer of each voxel.
+        The column, row and layer of each voxel.
     centers, radii, qualities : array
-        Its centre, the distance to the surface, and by how much the second foot is farther.
+        The centre of each voxel, its distance to the surface, and how much farther its second foot
+        point is.
     links : array
         Pairs of voxels that share a face, an edge or a corner.
     topology, interior : (components, tunnels, cavities)
-        Of the axis, and of all interior voxels.
+        The Betti numbers of the axis, and of all interior voxels.
     surface : Surface
-        Empty but where `voxels` was asked for it.
+        Empty unless requested from `voxels`.
     """
 
     resolution: float
@@ -116,31 +117,31 @@ def voxels(
     Parameters
     ----------
     x : mesh or array
-        A trimesh mesh (anything with `vertices` and `faces`), vertices with `faces`, or a volume:
-        an array with the indices x, y, z, solid where it is not 0.
+        A trimesh mesh (anything with `vertices` and `faces`), an array of vertices if `faces` is
+        given, or a volume: an array with the indices x, y, z, solid where it is not 0.
     resolution : float
-        The edge of a voxel; 0: by `count`.
+        The edge length of a voxel; 0: chosen by `count`.
     count : int
-        Voxels along the longest side.
+        The number of voxels along the longest side.
     angle : float
-        Between the two feet of a voxel at least, in degrees.
+        The least angle between the two foot points of a voxel, in degrees.
     thinning : {"none", "sheets", "curves"}
     surface : bool
-        Also make ``VoxelAxis.surface``.
+        Also compute ``VoxelAxis.surface``.
     method : {"ridge", "potential"}
-        Of ``"potential"``, the force lines of a charged surface, there is only the surface.
+        ``"potential"`` follows the force lines of a charged surface; it yields only the surface.
     order : int
-        Of the potential, 1 / distance to this power; 2 to 64.
+        The exponent n of the potential 1 / distance^n, from 2 to 64.
     spacing : three floats
-        The edges of a volume's voxels.
+        The edge lengths of a volume's voxels.
     memory : float
-        Give up before more than about so many gibibytes are used.
+        Fail with ``"too_large"`` rather than use more than about this many gibibytes.
 
     Raises
     ------
     MedialError
-        With the code ``"open_surface"``, ``"non_manifold"``, ``"crossing"`` or ``"overlap"`` and
-        the place, ``"too_large"``, or ``"empty"``.
+        With the code ``"open_surface"``, ``"non_manifold"``, ``"crossing"`` or ``"overlap"`` (and
+        the place), ``"too_large"``, or ``"empty"``.
 
     Examples
     --------

@@ -1,7 +1,7 @@
 """Operations on many features at once: arrays in, arrays out.
 
 Each function takes what `medial.axes` takes, computes on several threads without the
-interpreter's lock, and makes no Python object for a feature. What fails is raised, or kept by
+interpreter's lock, and makes no Python object per feature. Errors are raised, or kept by
 feature with ``on_error="ignore"``.
 
 >>> import medial.arrays
@@ -32,17 +32,18 @@ __all__ = [
 
 
 class _Result:
-    """Rows of numbers, and offsets that divide them.
+    """Rows of numbers, and offsets that divide them into features.
 
     Attributes
     ----------
     values : array
         Rows of numbers.
     begin : tuple of arrays
-        Where parts begin: the first divides the rows, each further one the parts of the one before
-        it, the last belongs to the features. Empty where each feature has one row.
+        Offsets, innermost first: the first array divides the rows into parts, each further one
+        divides the parts of the one before, and the last yields features. Empty if each feature
+        has one row.
     errors : dict
-        What went wrong, by feature.
+        The errors, by feature.
     """
 
     __slots__ = ("begin", "errors", "values")
@@ -62,7 +63,7 @@ class _Result:
 
     @property
     def error_codes(self) -> npt.NDArray[Any]:
-        """As `medial.Axes.error_codes`."""
+        """The code of each feature's error; None where there is none."""
         return column_of(self.errors, len(self))
 
     def __repr__(self) -> str:
@@ -71,12 +72,12 @@ class _Result:
 
 
 class Geometries(_Result):
-    """A geometry of each feature: rows of x, y, and of lines the radius."""
+    """One geometry per feature: rows of x and y, and for lines the radius."""
 
     __slots__ = ()
 
     def to_wkb(self) -> tuple[npt.NDArray[np.uint8], Indices]:
-        """Well-known binary: bytes, and where those of each feature begin."""
+        """Well-known binary: bytes, and the offset of each feature's."""
         data, offsets = _core.write_wkb(self.values.reshape(-1), self.values.shape[1], list(self.begin))
         return data, offsets
 
@@ -102,7 +103,7 @@ class Geometries(_Result):
 
 
 class Lines(Geometries):
-    """Several lines of each feature, with numbers of each line.
+    """Several lines per feature, with numbers for each line.
 
     Attributes
     ----------
@@ -136,7 +137,7 @@ class Lines(Geometries):
 
 
 class Table(_Result):
-    """Numbers of each feature: one row (of NaN where there is an error), or several.
+    """Numbers per feature: one row (NaN where there is an error), or several.
 
     Attributes
     ----------
@@ -183,7 +184,7 @@ def _each(
     x: Any, operation: str, given: dict[str, Any], method: str | None, on_error: str,
     threads: int | None, progress: Any,
 ) -> tuple[Floats, tuple[Indices, ...], dict[int, MedialError], Floats]:  # fmt: skip
-    """What an operation makes of features: rows, offsets, errors, attributes of parts."""
+    """Applies an operation to features: returns rows, offsets, errors and attributes of parts."""
     if on_error not in ("raise", "ignore"):
         raise ValueError("on_error is 'raise' or 'ignore'")
     features = ragged(x)
@@ -201,7 +202,7 @@ def _each(
 
 def axis(x: Any, method: str | None = None, *, chord: float | None = None, on_error: str = "raise",
          threads: int | None = None, progress: Any = False) -> Geometries:  # fmt: skip
-    """The medial axes as lines: multi line strings. `medial.axes` returns them as graphs.
+    """The medial axes as MultiLineStrings; `medial.axes` returns them as graphs.
 
     Parameters
     ----------
@@ -210,14 +211,14 @@ def axis(x: Any, method: str | None = None, *, chord: float | None = None, on_er
     method : str, optional
         See `medial.axis`.
     chord : float, optional
-        How far chords may be from curves, in units of the input; by default
-        ``medial.options.chord`` of the diagonal.
+        The largest distance of chords from the curves, in units of the input; by default
+        ``medial.options.chord`` times the diagonal.
     on_error : {"raise", "ignore"}
-        Whether the first error is raised, or all are kept in `errors`.
+        Raise the first error, or keep all of them in `errors`.
     threads : int, optional
         The default is ``medial.options.threads``.
     progress : bool or callable
-        A bar of tqdm, or a function that is called with the share of features done.
+        True shows a bar of tqdm; a function is called with the share of features done.
 
     Examples
     --------
@@ -234,7 +235,7 @@ def axis(x: Any, method: str | None = None, *, chord: float | None = None, on_er
 def centerline(x: Any, method: str | None = None, *, trim: float = 1, route: str = "roomy", extend: bool = False,
                smooth: float = 0, chord: float | None = None, on_error: str = "raise",
                threads: int | None = None, progress: Any = False) -> Geometries:  # fmt: skip
-    """The centre lines, as `medial.centerline`: line strings.
+    """The centre lines as LineStrings; see `medial.centerline`.
 
     Parameters
     ----------
@@ -245,14 +246,14 @@ def centerline(x: Any, method: str | None = None, *, trim: float = 1, route: str
     trim, route, extend, smooth
         See `medial.centerlines`.
     chord : float, optional
-        How far chords may be from curves, in units of the input; by default
-        ``medial.options.chord`` of the diagonal.
+        The largest distance of chords from the curves, in units of the input; by default
+        ``medial.options.chord`` times the diagonal.
     on_error : {"raise", "ignore"}
-        Whether the first error is raised, or all are kept in `errors`.
+        Raise the first error, or keep all of them in `errors`.
     threads : int, optional
         The default is ``medial.options.threads``.
     progress : bool or callable
-        A bar of tqdm, or a function that is called with the share of features done.
+        True shows a bar of tqdm; a function is called with the share of features done.
 
     Examples
     --------
@@ -267,24 +268,24 @@ def centerline(x: Any, method: str | None = None, *, trim: float = 1, route: str
 
 def width(x: Any, samples: int = 100, method: str | None = None, *, trim: float = 1, route: str = "roomy",
           on_error: str = "raise", threads: int | None = None, progress: Any = False) -> Table:  # fmt: skip
-    """The mean, least and largest width along the centre lines, and their lengths.
+    """The mean, smallest and largest width along the centre lines, and their lengths.
 
     Parameters
     ----------
     x : features
         What `medial.axes` takes.
     samples : int
-        Places along each line.
+        The number of places along each line.
     method : str, optional
         See `medial.axis`.
     trim, route
         See `medial.centerlines`.
     on_error : {"raise", "ignore"}
-        Whether the first error is raised, or all are kept in `errors`.
+        Raise the first error, or keep all of them in `errors`.
     threads : int, optional
         The default is ``medial.options.threads``.
     progress : bool or callable
-        A bar of tqdm, or a function that is called with the share of features done.
+        True shows a bar of tqdm; a function is called with the share of features done.
 
     Examples
     --------
@@ -299,7 +300,7 @@ def width(x: Any, samples: int = 100, method: str | None = None, *, trim: float 
 
 def inscribed_circles(x: Any, count: int = 1, smallest: float = 0, *, on_error: str = "raise",
                       threads: int | None = None, progress: Any = False) -> Table:  # fmt: skip
-    """The largest circles without overlap, as `medial.inscribed_circles`.
+    """The largest circles without overlap; see `medial.inscribed_circles`.
 
     Parameters
     ----------
@@ -310,11 +311,11 @@ def inscribed_circles(x: Any, count: int = 1, smallest: float = 0, *, on_error: 
     smallest : float
         No radius is below this, in units of the input.
     on_error : {"raise", "ignore"}
-        Whether the first error is raised, or all are kept in `errors`.
+        Raise the first error, or keep all of them in `errors`.
     threads : int, optional
         The default is ``medial.options.threads``.
     progress : bool or callable
-        A bar of tqdm, or a function that is called with the share of features done.
+        True shows a bar of tqdm; a function is called with the share of features done.
 
     Examples
     --------
@@ -329,7 +330,7 @@ def inscribed_circles(x: Any, count: int = 1, smallest: float = 0, *, on_error: 
 
 def offset(x: Any, distance: float, *, chord: float | None = None, on_error: str = "raise",
            threads: int | None = None, progress: Any = False) -> Geometries:  # fmt: skip
-    """What is farther than a distance from the boundary, outwards if negative: multi polygons.
+    """Offset regions as MultiPolygons: the points farther than `distance` from the boundary.
 
     Parameters
     ----------
@@ -338,14 +339,14 @@ def offset(x: Any, distance: float, *, chord: float | None = None, on_error: str
     distance : float
         In units of the input.
     chord : float, optional
-        How far chords may be from curves, in units of the input; by default
-        ``medial.options.chord`` of the diagonal.
+        The largest distance of chords from the curves, in units of the input; by default
+        ``medial.options.chord`` times the diagonal.
     on_error : {"raise", "ignore"}
-        Whether the first error is raised, or all are kept in `errors`.
+        Raise the first error, or keep all of them in `errors`.
     threads : int, optional
         The default is ``medial.options.threads``.
     progress : bool or callable
-        A bar of tqdm, or a function that is called with the share of features done.
+        True shows a bar of tqdm; a function is called with the share of features done.
 
     Examples
     --------
@@ -361,7 +362,7 @@ def offset(x: Any, distance: float, *, chord: float | None = None, on_error: str
 def prune(x: Any, measure: str = "prominence", threshold: float | None = None, method: str | None = None, *,
           keep: int | None = None, tips: bool = False, chord: float | None = None, on_error: str = "raise",
           threads: int | None = None, progress: Any = False) -> Geometries:  # fmt: skip
-    """The pruned axes, as `medial.prune`: multi line strings.
+    """The pruned axes as MultiLineStrings; see `medial.prune`.
 
     Parameters
     ----------
@@ -372,14 +373,14 @@ def prune(x: Any, measure: str = "prominence", threshold: float | None = None, m
     method : str, optional
         See `medial.axis`.
     chord : float, optional
-        How far chords may be from curves, in units of the input; by default
-        ``medial.options.chord`` of the diagonal.
+        The largest distance of chords from the curves, in units of the input; by default
+        ``medial.options.chord`` times the diagonal.
     on_error : {"raise", "ignore"}
-        Whether the first error is raised, or all are kept in `errors`.
+        Raise the first error, or keep all of them in `errors`.
     threads : int, optional
         The default is ``medial.options.threads``.
     progress : bool or callable
-        A bar of tqdm, or a function that is called with the share of features done.
+        True shows a bar of tqdm; a function is called with the share of features done.
 
     Examples
     --------
@@ -412,14 +413,14 @@ def branches(x: Any, method: str | None = None, *, chord: float | None = None, o
     method : str, optional
         See `medial.axis`.
     chord : float, optional
-        How far chords may be from curves, in units of the input; by default
-        ``medial.options.chord`` of the diagonal.
+        The largest distance of chords from the curves, in units of the input; by default
+        ``medial.options.chord`` times the diagonal.
     on_error : {"raise", "ignore"}
-        Whether the first error is raised, or all are kept in `errors`.
+        Raise the first error, or keep all of them in `errors`.
     threads : int, optional
         The default is ``medial.options.threads``.
     progress : bool or callable
-        A bar of tqdm, or a function that is called with the share of features done.
+        True shows a bar of tqdm; a function is called with the share of features done.
 
     Examples
     --------
@@ -438,24 +439,24 @@ def branches(x: Any, method: str | None = None, *, chord: float | None = None, o
 
 def transects(x: Any, count: int = 10, method: str | None = None, *, trim: float = 1, route: str = "roomy",
               on_error: str = "raise", threads: int | None = None, progress: Any = False) -> Lines:  # fmt: skip
-    """Lines across the courses of shapes, as `medial.transects`, with along, width and span.
+    """Lines across the courses of shapes, with along, width and span; see `medial.transects`.
 
     Parameters
     ----------
     x : features
         What `medial.axes` takes.
     count : int
-        In the middles of so many equal parts of each centre line.
+        The number of transects: one in the middle of each of `count` equal parts of a centre line.
     method : str, optional
         See `medial.axis`.
     trim, route
         See `medial.centerlines`.
     on_error : {"raise", "ignore"}
-        Whether the first error is raised, or all are kept in `errors`.
+        Raise the first error, or keep all of them in `errors`.
     threads : int, optional
         The default is ``medial.options.threads``.
     progress : bool or callable
-        A bar of tqdm, or a function that is called with the share of features done.
+        True shows a bar of tqdm; a function is called with the share of features done.
 
     Examples
     --------

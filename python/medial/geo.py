@@ -1,7 +1,7 @@
 """GeoPandas: `import medial.geo` adds the accessor ``.medial`` to GeoDataFrames and GeoSeries.
 
-It keeps index and reference system. Longitudes and latitudes are computed in metres, in a local
-projection of each call, and taken back.
+It keeps the index and the reference system. Each call projects longitudes and latitudes to metres
+locally, and projects results back.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ shapely = need("shapely", "geo")
 
 
 def _local_crs(series: Any) -> Any:
-    """A projection in metres for geometries in degrees: conformal where they are near each other."""
+    """A projection in metres for geometries in degrees: conformal if they are close together."""
     west, south, east, north = series.total_bounds.tolist()
     lon, lat = (west + east) / 2, (south + north) / 2
     wide = (east - west) * np.cos(np.radians(lat)) > 5 or north - south > 5
@@ -53,7 +53,7 @@ class MedialAccessor:
             return self._series
         west, south, east, north = self._series.total_bounds
         if west < -540 or east > 540 or south < -90 or north > 90:
-            raise MedialError("the coordinates are not longitudes and latitudes, though the reference system says so", "invalid_option")
+            raise MedialError("the reference system is geographic, but the coordinates are not longitudes and latitudes", "invalid_option")
         self._local = _local_crs(self._series)
         return self._series.to_crs(self._local)
 
@@ -63,7 +63,7 @@ class MedialAccessor:
         return series.to_crs(self._crs) if self._local else series
 
     def axes(self, method: str | None = None, **given: Any) -> Axes:
-        """The axes as arrays, in metres where the reference system is geographic.
+        """The axes as arrays, in metres if the reference system is geographic.
 
         Parameters
         ----------
@@ -82,15 +82,15 @@ class MedialAccessor:
         return axes(self._metric(), method, **given)
 
     def axis(self, method: str | None = None, *, chord: float | None = None, **given: Any) -> Any:
-        """A GeoSeries of MultiLineStrings: the axes.
+        """The axes as a GeoSeries of MultiLineStrings.
 
         Parameters
         ----------
         method : str, optional
             See `medial.axis`.
         chord : float, optional
-            How far chords may be from curves, in units of the input; by default
-            ``medial.options.chord`` of the diagonal.
+            The largest distance of chords from the curves, in units of the input; by default
+            ``medial.options.chord`` times the diagonal.
         **given
             Options of `medial.axes`.
 
@@ -104,13 +104,13 @@ class MedialAccessor:
         return self._back(axes(self._metric(), method, **given).to_shapely(chord))
 
     def branches(self, chord: float | None = None) -> Any:
-        """A GeoDataFrame with a row for each branch, with the index of its feature.
+        """A GeoDataFrame with one row per branch, indexed by feature and branch.
 
         Parameters
         ----------
         chord : float, optional
-            How far chords may be from curves, in units of the input; by default
-            ``medial.options.chord`` of the diagonal.
+            The largest distance of chords from the curves, in units of the input; by default
+            ``medial.options.chord`` times the diagonal.
 
         Examples
         --------
@@ -126,7 +126,7 @@ class MedialAccessor:
         return self._frame(table.set_axis(index), found.lines(), index)
 
     def centerline(self, **given: Any) -> Any:
-        """A GeoSeries of LineStrings; options as `medial.arrays.centerline`.
+        """The centre lines as a GeoSeries of LineStrings.
 
         Parameters
         ----------
@@ -145,12 +145,12 @@ class MedialAccessor:
     centreline = centerline
 
     def width(self, samples: int = 100, **given: Any) -> Any:
-        """A table of the widths along the centre lines: mean, min, max, length.
+        """A DataFrame of the widths along the centre lines: mean, min, max, length.
 
         Parameters
         ----------
         samples : int
-            Places along each line.
+            The number of places along each line.
         **given
             Options of `medial.arrays.width`.
 
@@ -170,7 +170,7 @@ class MedialAccessor:
         Parameters
         ----------
         count : int
-            In the middles of so many equal parts of each line.
+            The number of transects: one in the middle of each of `count` equal parts of a line.
         **given
             Options of `medial.arrays.transects`.
 
@@ -192,9 +192,9 @@ class MedialAccessor:
         Parameters
         ----------
         k : int
-            At most, of each feature.
+            The largest number of circles per feature.
         smallest : float
-            No radius is below this, in units of the reference system, or metres.
+            The smallest radius, in units of the reference system; metres if it is geographic.
         **given
             Options of `medial.arrays.inscribed_circles`.
 
@@ -210,15 +210,15 @@ class MedialAccessor:
         return self._frame({"radius": found["radius"]}, shapely.points(found.values[:, :2]), index)
 
     def offset(self, distance: float, chord: float | None = None, **given: Any) -> Any:
-        """A GeoSeries of what is farther than a distance from the boundary; outwards if negative.
+        """The points farther than `distance` from the boundary, as a GeoSeries of polygons.
 
         Parameters
         ----------
         distance : float
-            In units of the reference system; metres where it is geographic.
+            In units of the reference system; metres if it is geographic. Negative: outwards.
         chord : float, optional
-            How far chords may be from curves, in units of the input; by default
-            ``medial.options.chord`` of the diagonal.
+            The largest distance of chords from the curves, in units of the input; by default
+            ``medial.options.chord`` times the diagonal.
         **given
             Options of `medial.arrays.offset`.
 
@@ -235,7 +235,7 @@ class MedialAccessor:
         return self._back(parts)
 
     def prune(self, measure: str = "prominence", threshold: float | None = None, **given: Any) -> Any:
-        """A GeoSeries of the pruned axes; options as `medial.arrays.prune`.
+        """The pruned axes as a GeoSeries of MultiLineStrings.
 
         Parameters
         ----------

@@ -1,7 +1,7 @@
 """Skeletons and distances of images, with the signatures of scikit-image.
 
-The functions take what scikit-image's take and return the same types; results differ where
-:doc:`the table </images>` says. `axis` makes exact vector graphs of labelled regions.
+The functions take the arguments of scikit-image's and return the same types; :doc:`a table
+</images>` lists where results differ. `axis` makes exact vector graphs of labelled regions.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from ._read import Rings
 from ._records import Floats
 
 Mask = npt.NDArray[np.bool_]
-_ARC = 0.05  # pixels that arcs may be from the smooth outline
+_ARC = 0.05  # largest distance of arcs from the smooth outline, in pixels
 
 
 def _pixels(image: npt.ArrayLike, mask: npt.ArrayLike | None = None) -> npt.NDArray[np.uint8]:
@@ -42,7 +42,7 @@ def _thinned(pixels: npt.NDArray[np.uint8], family: str) -> Mask:
     return _core.thinned(pixels, family).view(bool)
 
 
-if TYPE_CHECKING:  # typing keeps overloads alive, and with them all of the package, until Python has ended
+if TYPE_CHECKING:  # at run time, overloads would keep the package alive until Python ends
 
     @overload
     def medial_axis(image: npt.ArrayLike, mask: npt.ArrayLike | None = ...,
@@ -61,11 +61,11 @@ def medial_axis(image: npt.ArrayLike, mask: npt.ArrayLike | None = None,
     image : array
         Foreground where it is not 0.
     mask : array, optional
-        Where the image counts; elsewhere the result is the image.
+        Where the image is used; elsewhere the result is a copy of the image.
     return_distance : bool
-        Also the distance transform.
+        Return the distance transform, too.
     rng
-        Ignored: the result does not depend on chance.
+        Ignored: the result is not random.
 
     Examples
     --------
@@ -94,7 +94,7 @@ def skeletonize(image: npt.ArrayLike, *, method: str | None = None) -> npt.NDArr
     ----------
     image : array
     method : {"zhang", "lee"}, optional
-        Accepted as scikit-image's; both are thinned from four subfields in turn.
+        Accepted for compatibility; either way pixels are removed from four subfields in turn.
 
     Examples
     --------
@@ -116,8 +116,8 @@ def thin(image: npt.ArrayLike, max_num_iter: int | None = None) -> Mask:
     ----------
     image : array
     max_num_iter : int, optional
-        So many rounds at most, each pixel by pixel as scikit-image's; by default until nothing
-        changes, which is quicker.
+        The largest number of rounds, which then match scikit-image's pixel by pixel. By default
+        thins until nothing changes, which is faster.
 
     Examples
     --------
@@ -140,7 +140,7 @@ def thin(image: npt.ArrayLike, max_num_iter: int | None = None) -> Mask:
 
 
 def _removable(pixels: Mask, half: int) -> Mask:
-    """What a half round of Guo and Hall (1989) removes; half 0 or 4 turns it by half a turn."""
+    """The pixels that a half round of Guo and Hall (1989) removes; `half` is 0 or 4."""
     padded = np.pad(pixels, 1)
     rows, columns = pixels.shape
     around = [(0, 1), (0, 2), (1, 2), (2, 2), (2, 1), (2, 0), (1, 0), (0, 0)]  # from above, clockwise
@@ -156,23 +156,23 @@ def _removable(pixels: Mask, half: int) -> Mask:
 
 def distance_transform(image: npt.ArrayLike, *, spacing: float = 1, to: str = "pixels",
                        frame: bool = False, squared: bool = False) -> Floats:  # fmt: skip
-    """The exact Euclidean distance of each foreground pixel.
+    """The exact Euclidean distance of each foreground pixel to the background.
 
     Parameters
     ----------
     spacing : float
         The side of a pixel.
     to : {"pixels", "cracks"}
-        To the centre of the nearest background pixel, or to the pixels' boundary.
+        Measure to the centre of the nearest background pixel, or to its boundary.
     frame : bool
-        Whether what lies outside of the image is background.
+        Whether everything outside the image is background.
     squared : bool
-        The squares of the distances instead, which are exact.
+        Return the squares of the distances, which are exact.
 
     Returns
     -------
     array of float
-        In units of `spacing`, of the image's shape; infinite where there is no background.
+        In units of `spacing`, with the image's shape; infinite if there is no background.
 
     Examples
     --------
@@ -189,7 +189,7 @@ def distance_transform(image: npt.ArrayLike, *, spacing: float = 1, to: str = "p
 
 
 def topology(image: npt.ArrayLike) -> tuple[int, int]:
-    """The components of the foreground (by eight neighbours) and its holes.
+    """The numbers of components of the foreground (8-connected) and of its holes.
 
     Parameters
     ----------
@@ -211,14 +211,14 @@ def topology(image: npt.ArrayLike) -> tuple[int, int]:
 def outline(image: npt.ArrayLike, *, neck: float = 1 / 16) -> list[Floats]:
     """The boundary of the foreground pixels, as rings with y downwards.
 
-    Where pixels meet in a corner only, a `neck` so many pixels wide connects them; 0: none.
+    Pixels that meet in a corner only are connected by a neck.
 
     Parameters
     ----------
     image : array of shape (rows, columns)
         Foreground where it is not 0.
     neck : float
-        In pixels, below 1 / 2.
+        The width of these necks in pixels, below 1 / 2; 0: none.
 
     Examples
     --------
@@ -233,13 +233,13 @@ def outline(image: npt.ArrayLike, *, neck: float = 1 / 16) -> list[Floats]:
 
 
 def disks(x: MedialAxis, pixels: int = 512) -> tuple[Mask, float, tuple[float, float]]:
-    """The union of an axis's disks as an image, as `medial rebuild --pixels` draws it.
+    """The union of an axis's disks as an image, like `medial rebuild --pixels`.
 
     Parameters
     ----------
     x : MedialAxis
     pixels : int
-        Along the longer side.
+        The number of pixels along the longer side.
 
     Returns
     -------
@@ -248,7 +248,7 @@ def disks(x: MedialAxis, pixels: int = 512) -> tuple[Mask, float, tuple[float, f
     spacing : float
         The side of a pixel, in units of the input.
     origin : (x, y)
-        The low corner of the first pixel.
+        The corner of the first pixel with the smallest x and y.
 
     Examples
     --------
@@ -269,9 +269,9 @@ class Squares:
     ----------
     streams : tuple of bytes
     count : int
-        How many squares.
+        The number of squares.
     missing : int
-        Foreground pixels that none of them covers.
+        The number of foreground pixels that no square covers.
     """
 
     streams: tuple[bytes, ...]
@@ -280,7 +280,7 @@ class Squares:
 
     @property
     def nbytes(self) -> int:
-        """The number of bytes, compressed by zlib."""
+        """The size in bytes, compressed by zlib."""
         return compressed_size(self.streams)
 
     def unpack(self) -> Mask:
@@ -289,14 +289,14 @@ class Squares:
 
 
 def pack(image: npt.ArrayLike, error: int = 0) -> Squares:
-    """Codes an image as maximal squares of its foreground, as `medial pack --squares`.
+    """Codes an image as maximal squares of its foreground, like `medial pack --squares`.
 
     Parameters
     ----------
     image : array
         Foreground where it is not 0.
     error : int
-        Each foreground pixel is within so many pixels of a covered one; 0: without loss.
+        Each foreground pixel is within this many pixels of a covered one; 0: lossless.
 
     Examples
     --------
@@ -313,7 +313,7 @@ def pack(image: npt.ArrayLike, error: int = 0) -> Squares:
 
 
 def _boxes(labels: npt.NDArray[Any]) -> dict[int, tuple[slice, slice]]:
-    """Where each label but 0 lies."""
+    """The bounding box of each label except 0."""
     rows, columns = np.nonzero(labels)
     values = labels[rows, columns]
     found, index = np.unique(values, return_inverse=True)
@@ -338,20 +338,20 @@ def axis(
     threshold: float | None = None,
     method: str | None = None,
 ) -> dict[int, MedialAxis]:
-    """Exact medial axes of the regions of a label image, by label.
+    """Exact medial axes of the regions of a label image, as a dict by label.
 
     Parameters
     ----------
     label_image : array
-        Regions by number; 0 is background.
+        The number of each pixel's region; 0 is background.
     spacing : float or (x, y)
         The sides of a pixel.
     origin : (x, y)
-        Of the upper left corner. Rows go in the direction of y.
+        The place of the upper left corner. Rows go in the direction of y.
     smooth : bool
-        Whether boundaries become smooth curves within half a pixel of the pixels' edges.
+        Replace boundaries by smooth curves within half a pixel of the pixels' edges.
     measure, threshold : optional
-        How axes are pruned (`medial.prune`); None: not at all.
+        How to prune the axes (`medial.prune`); None: not at all.
 
     Examples
     --------

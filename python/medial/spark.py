@@ -1,8 +1,8 @@
 """Spark: medial axes of the polygons in a column of a DataFrame.
 
-The column holds well-known binary, or geometries of Apache Sedona; results are structs of a fixed
-schema, whose geometries are of the same kind as the column. Rows travel as Arrow batches. A feature
-that has no result has null fields and an ``error``; a null geometry has a null result.
+The column holds well-known binary, or geometries of Apache Sedona. Results are structs of a fixed
+schema with geometries of the same kind. Rows travel as Arrow batches. A feature without a result
+has null fields and an ``error``; a null geometry has a null result.
 
 >>> import medial.spark                                                    # doctest: +SKIP
 >>> lines = medial.spark.centerline(rivers, "geometry", extend=True)       # doctest: +SKIP
@@ -55,12 +55,12 @@ _EDGES = StructType(
     [*(StructField(name, IntegerType()) for name in ("from", "to", "left", "right")), *_doubles("x", "y", "radius", "weight")]
 )
 
-# A feature's part of a result: Arrow arrays by field, and the errors.
+# The results of a batch: Arrow arrays by field, and the errors.
 Fields = tuple[dict[str, Any], dict[int, MedialError]]
 
 
 def _errors(errors: dict[int, MedialError], count: int) -> Any:
-    """The column of errors: null where there is none."""
+    """The column of errors; null where there is none."""
     rows: list[dict[str, Any] | None] = [None] * count
     for i, error in errors.items():
         x, y = (error.point or (None, None))[:2]
@@ -114,7 +114,7 @@ def _struct(batch: Any, at: int, compute: Callable[[Any], Fields]) -> Any:
 
 
 def _over_geometries(df: DataFrame, function: str) -> DataFrame:
-    """All columns of Sedona's geometries changed by a function."""
+    """Applies a function to all columns of Sedona geometries."""
     changed = {f.name: functions.expr(f"{function}(`{f.name}`)") for f in df.schema.fields if _is_sedona(f.dataType)}
     return df.withColumns(changed) if changed else df
 
@@ -124,7 +124,7 @@ def _is_sedona(kind: DataType) -> bool:
 
 
 def _with(df: DataFrame, column: str, into: str, result: list[StructField], compute: Callable[[Any], Fields]) -> DataFrame:
-    """The DataFrame with one more column: what is computed of another."""
+    """The DataFrame with one more column, computed from another."""
     sedona = {field.name for field in df.schema.fields if _is_sedona(field.dataType)}
     plain = _over_geometries(df, "ST_AsBinary")
     kept = StructType([field for field in plain.schema.fields if field.name != into])
@@ -155,16 +155,16 @@ def axis(df: DataFrame, column: str = "geometry", into: str = "axis", *, method:
     ----------
     df : DataFrame
     column : str
-        Polygons as well-known binary or as Sedona's geometries.
+        The column of polygons, as well-known binary or Sedona geometries.
     into : str
         The name of the new column: a struct of `geometry` (multi line strings), `length`, the
         largest disk's `radius`, `x` and `y`, and `error`.
     method : str, optional
         See `medial.axis`.
     chord : float, optional
-        How far lines may be from curves.
+        The largest distance of lines from curves.
     graph : bool
-        Whether arrays of `nodes` and `edges` are in the struct, too.
+        Add arrays of `nodes` and `edges` to the struct.
     """
     result = [_GEOMETRY, *_doubles("length", "radius", "x", "y")]
     if graph:
@@ -181,17 +181,17 @@ def _lines(df: DataFrame, column: str, into: str, make: Callable[[Any], arrays.G
 
 
 def centerline(df: DataFrame, column: str = "geometry", into: str = "centerline", **given: Any) -> DataFrame:
-    """The centre lines as line strings; options as `medial.arrays.centerline`."""
+    """The centre lines as LineStrings; takes the options of `medial.arrays.centerline`."""
     return _lines(df, column, into, lambda x: arrays.centerline(x, on_error="ignore", threads=1, **given))
 
 
 def offset(df: DataFrame, distance: float, column: str = "geometry", into: str = "offset", **given: Any) -> DataFrame:
-    """What is farther than a distance from the boundary, as multi polygons; outwards if negative."""
+    """The points farther than `distance` from the boundary as MultiPolygons; negative: outwards."""
     return _lines(df, column, into, lambda x: arrays.offset(x, distance, on_error="ignore", threads=1, **given))
 
 
 def prune(df: DataFrame, column: str = "geometry", into: str = "pruned", **given: Any) -> DataFrame:
-    """The pruned axes as multi line strings; options as `medial.arrays.prune`."""
+    """The pruned axes as MultiLineStrings; takes the options of `medial.arrays.prune`."""
     return _lines(df, column, into, lambda x: arrays.prune(x, on_error="ignore", threads=1, **given))
 
 
@@ -219,9 +219,9 @@ def inscribed_circles(df: DataFrame, count: int = 1, column: str = "geometry", i
 def balanced(df: DataFrame, column: str = "geometry", partitions: int | None = None) -> DataFrame:
     """The same rows in partitions of about equal numbers of vertices.
 
-    Hashes alone put large features, which take most of the time, together by chance. Here each
-    goes to the partition with the least so far, by decreasing size; small ones by hash. Depends on
-    the geometries alone, so repeated tasks see the same.
+    Hashing alone may put several large features, which take most of the time, into one partition.
+    Here large features go, by decreasing size, to the partition with the least work so far; small
+    ones go by hash. The result depends on the geometries alone, so repeated tasks agree.
 
     Parameters
     ----------
@@ -242,7 +242,7 @@ def balanced(df: DataFrame, column: str = "geometry", partitions: int | None = N
         to = loads.index(min(loads))
         loads[to] += weight
         places.append((key, to))
-    # Rows go where Spark's hash of a number sends them: one number for each partition.
+    # Spark partitions by the hash of a key: find one key for each partition.
     numbers = session.range(64 * count).selectExpr("id", f"pmod(hash(id), {count}) as part")
     number_of = {row.part: row.id for row in numbers.groupBy("part").agg(functions.min("id").alias("id")).collect()}
     table = session.createDataFrame([(key, number_of.get(to, to)) for key, to in places], "`medial key` long, `medial to` long")
@@ -263,7 +263,7 @@ _TILE = [StructField("column", IntegerType()), StructField("row", IntegerType())
 
 
 def boundary(shape: Shape) -> Any:
-    """The edges of a shape as rows for `axis_of_tiles`: a table of Arrow."""
+    """The edges of a shape as an Arrow table for `axis_of_tiles`."""
     ends = np.empty((shape.points.shape[0], 4))
     ends[:, :2] = shape.points
     begins = shape._core.loop_begin().astype(int)
@@ -274,13 +274,13 @@ def boundary(shape: Shape) -> Any:
 
 
 def _rows(table: Any) -> tuple[Any, Any]:
-    """Of a table of edges the numbers, and rows of coordinates."""
+    """The numbers of a table of edges, and their coordinates as rows."""
     columns = [table.column(name).to_numpy() for name in ("x0", "y0", "x1", "y1")]
     return np.ascontiguousarray(table.column("number").to_numpy(), np.int64), np.ascontiguousarray(np.stack(columns, axis=1))
 
 
 def _tile_table(numbers: Any, ends: Any, names: Any, curves: Any) -> Any:
-    """Open edges, then final edges of the axis, in one table: of each row the other columns are null."""
+    """Open edges, then final edges of the axis, in one table; columns of the other kind are null."""
     opened, final = len(numbers), len(names)
 
     def padded(values: Any, before: int, after: int) -> Any:
@@ -294,41 +294,41 @@ def _tile_table(numbers: Any, ends: Any, names: Any, curves: Any) -> Any:
 
 
 def axis_of_tiles(edges: DataFrame, levels: int, *, tolerance: float = 0) -> DataFrame:
-    """The axis of one shape that no machine holds.
+    """The axis of one shape too large for any machine.
 
-    Each tile of a quadtree is a group of rows, computed by itself; what it cannot finish is a row of
-    the tile around it (docs/tiles.md). Of straight edges only. Keeps what each level found in
-    the cluster's memory or on disk until the session ends, or ``spark.catalog.clearCache()``.
+    Each tile of a quadtree is a group of rows, computed by itself; what it cannot finish becomes
+    rows of its parent tile (docs/tiles.md). Straight edges only. Results of each level stay cached
+    in memory or on disk until the session ends or ``spark.catalog.clearCache()`` is called.
 
     Parameters
     ----------
     edges : DataFrame
-        The boundary with the interior on its left: `number`, along each loop, and the ends `x0`, `y0`,
-        `x1`, `y1`. See `boundary`.
+        The boundary with the interior on its left: `number`, increasing along each loop, and the
+        ends `x0`, `y0`, `x1`, `y1`. See `boundary`.
     levels : int
-        Of the quadtree: 4 ** levels tiles, at most 10. Where all leaves together would load more than 64
-        times the number of edges, and 2 ** 20 more, it is an ``invalid_option``.
+        The levels of the quadtree, at most 10: it has 4 ** levels leaves. If all leaves together
+        would load more than 64 times the number of edges plus 2 ** 20, raises ``invalid_option``.
     tolerance : float
         See `medial.axis`.
 
     Returns
     -------
     DataFrame
-        An edge a row: `node0` and `node1`, the same numbers in all rows of a node but in ties within the
-        tolerance; `site0` and `site1`, twice the number of an edge, and one more for the vertex where it
-        begins, the lower one first; the number of edges of each node; both disks, control point and
-        weight of the curve.
+        One row per edge: `node0` and `node1`, numbers that all rows of a node share except for ties
+        within the tolerance; `site0` and `site1`, the lower one first, which are twice the number of an
+        edge, plus one for the vertex where it begins; the number of edges of each node; and both
+        disks, control point and weight of the curve.
     """
     extremes = ["min(least(x0, x1))", "min(least(y0, y1))", "max(greatest(x0, x1))", "max(greatest(y0, y1))"]
     summary = edges.selectExpr(*extremes, "sum(abs(x1 - x0) + abs(y1 - y0))", "count(*)").first()
     *box, length, count = summary or [None, 0, 0]
     if None in box:
-        raise MedialError("there is no edge", "empty")
+        raise MedialError("there are no edges", "empty")
     _core.check_tiles(box, levels, tolerance)
-    # An edge crosses that many borders between leaves, and each of them loads it.
+    # An edge crosses this many borders between leaves, and each leaf loads it.
     crossed = length * 2**levels / max(box[2] - box[0], box[3] - box[1])
     if crossed > 64 * count + 2**20:
-        raise MedialError("edges meet too many tiles: take fewer levels", "invalid_option")
+        raise MedialError("edges meet too many tiles: use fewer levels", "invalid_option")
     edges = edges.select("number", "x0", "y0", "x1", "y1")
 
     def to_leaves(batches: Iterator[Any]) -> Iterator[Any]:
@@ -355,7 +355,7 @@ def axis_of_tiles(edges: DataFrame, levels: int, *, tolerance: float = 0) -> Dat
     tiles = edges.mapInArrow(to_leaves, StructType([*_TILE, *_TILE_EDGE]))
     final: DataFrame | None = None
     for level in range(levels, -1, -1):
-        # Each row has the place of the tile around it, which the next level groups by.
+        # Each row names its parent tile, by which the next level groups.
         rows = StructType([*_TILE, *_TILE_EDGE, *_TILE_AXIS])
         done = tiles.groupBy("column", "row").applyInArrow(work(level), rows).persist()
         own = done.where("site0 is not null").select([field.name for field in _TILE_AXIS])
