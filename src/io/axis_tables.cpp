@@ -122,7 +122,7 @@ std::vector<Column> own_columns(const AxesOutput&) {
 }
 
 TableSource tables_of(const AxesOutput& output, const Target& target) {
-  const bool nodes = target.format != "shp" && target.format != "fgb" && target.format != "geojson";
+  const bool nodes = target.tables == TableRoom::several;
   const auto attributes = target.columns ? target.columns
                                          : std::make_shared<const AttributeColumns>(
                                                output.document, own_columns(output));

@@ -189,7 +189,7 @@ Status for_each_row(FeatureTable table, std::size_t item, const MedialAxis& axis
 
 TableSource tables_of(const FeaturesOutput& output, const Target& target) {
   std::vector<FeatureTable> wanted{output.own.table};
-  if (target.format == "gpkg") wanted.assign(all_tables.begin(), all_tables.end());
+  if (target.tables == TableRoom::several) wanted.assign(all_tables.begin(), all_tables.end());
   std::vector<Column> own;
   for (const FeatureTable table : all_tables)
     for (const Column& column : columns_of(table)) own.push_back(column);

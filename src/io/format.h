@@ -88,6 +88,13 @@ struct Part {
 
 class AttributeColumns;
 
+/// Which tables a file holds.
+enum class TableRoom : std::uint8_t {
+  one,     ///< a single one: of an axis its branches
+  joined,  ///< all in one list, whose rows name their layer; of an axis its branches
+  several  ///< a layer each: of an axis its branches and its nodes
+};
+
 /// Where a document goes: a stream, or the path of a file that the format makes by itself.
 class Target {
  public:
@@ -95,6 +102,7 @@ class Target {
   bool arcs = false;                                ///< whether parts may have arcs
   std::shared_ptr<const AttributeColumns> columns;  ///< of all parts; null: the document is whole
   std::string format;                               ///< the extension without its dot
+  TableRoom tables = TableRoom::one;                ///< of the format
   std::string name;                                 ///< of the file without its extension
   OutputStream* out = nullptr;                      ///< null: the format makes the file `path`
   std::string path;
@@ -157,7 +165,8 @@ struct Format {
   bool gdal_chooses = false;  ///< GDAL reads it instead where layers or attributes choose
 
   // Writing.
-  bool geographic = false;   ///< longitudes and latitudes instead of a local projection
+  bool geographic = false;  ///< longitudes and latitudes instead of a local projection
+  TableRoom tables = TableRoom::one;
   bool own_files = false;    ///< a library makes the file, maybe with companions
   bool adds_layers = false;  ///< to a file that is there; `own_files` then
   std::tuple<Writer<AxesOutput>, Writer<ShapesOutput>, Writer<VoronoiOutput>, Writer<OffsetsOutput>,

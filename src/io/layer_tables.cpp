@@ -19,9 +19,8 @@ std::vector<Column> own_columns(const LayersOutput& output) {
   return own;
 }
 
-/// In the one collection of a GeoJSON file rows name their layer.
 TableSource tables_of(const LayersOutput& output, const Target& target) {
-  const bool named = target.format == "geojson";
+  const bool named = target.tables == TableRoom::joined;
   const std::vector<Column> own = own_columns(output);
   const AttributeColumns attributes =
       target.columns ? *target.columns : AttributeColumns(output.background, own);

@@ -146,6 +146,7 @@ class TextParts final : public PartWriter {
     own.arcs = target_.arcs;
     own.columns = target_.columns;
     own.format = target_.format;
+    own.tables = target_.tables;
     own.name = target_.name;
     own.unit = target_.unit;
     own.crs = target_.crs;

@@ -71,6 +71,7 @@ Status write_target(const Destination& destination, const std::string& asked,
                  fmt::format("'{}' is not a format that can be written here; use one of {}",
                              target.format, formats_of(written.kind)),
                  in_file(path)};
+  target.tables = format->tables;
   const bool stream = is_stream(path);
   target.name = stream ? written.name : std::filesystem::path(path).stem().string();
   const auto fill = [&]() -> Status {

@@ -33,7 +33,7 @@ HalfEdges::HalfEdges(const MedialAxis& axis, Around order)
       for (std::size_t i = 0; i < leaving.size(); ++i)
         next_[twin(leaving[i])] = leaving[leaving.size() - 1 - i];
     } else if (order == Around::sites) {
-      link_by_site(leaving);
+      if (!link_three(leaving)) link_by_site(leaving);
     } else {
       link_by_direction(leaving);
     }
@@ -46,6 +46,26 @@ void HalfEdges::link_by_direction(std::span<const HalfEdge> leaving) {
   std::sort(ends.begin(), ends.end());
   for (std::size_t i = 0; i < ends.size(); ++i)
     next_[twin(ends[i].second)] = ends[(i + 1) % ends.size()].second;
+}
+
+bool HalfEdges::link_three(std::span<const HalfEdge> leaving) {
+  if (leaving.size() != 3) return false;
+  std::uint32_t site[3], arriving[3];
+  for (std::size_t i = 0; i < 3; ++i) {
+    site[i] = right_site(leaving[i]);
+    arriving[i] = right_site(twin(leaving[i]));
+  }
+  const auto differ = [](const std::uint32_t(&s)[3]) {
+    return s[0] != s[1] && s[1] != s[2] && s[2] != s[0];
+  };
+  if (!differ(site) || !differ(arriving)) return false;
+  std::size_t after[3];
+  for (std::size_t i = 0; i < 3; ++i) {
+    after[i] = static_cast<std::size_t>(std::find(site, site + 3, arriving[i]) - site);
+    if (after[i] == 3) return false;
+  }
+  for (std::size_t i = 0; i < 3; ++i) next_[twin(leaving[i])] = leaving[after[i]];
+  return true;
 }
 
 /// The boundary between a half edge that arrives and the one that leaves next has one site as a

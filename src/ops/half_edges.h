@@ -73,6 +73,9 @@ class HalfEdges {
 
  private:
   void link_by_direction(std::span<const HalfEdge> leaving);
+  /// Links three edges where each pair of ends has a site of its own, as a rule; else changes
+  /// nothing.
+  bool link_three(std::span<const HalfEdge> leaving);
   void link_by_site(std::span<const HalfEdge> leaving);
   /// The direction in which a half edge leaves.
   double direction(HalfEdge half) const;

@@ -220,6 +220,7 @@ template <class Tables>
 Format graph_format(std::string_view extension) {
   Format format{extension};
   format.geographic = true;
+  format.tables = TableRoom::several;
   return format.writes<AxesOutput>(write_tables<put_graph<Tables>, AxesOutput>);
 }
 

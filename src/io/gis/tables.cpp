@@ -269,7 +269,7 @@ Result<PendingFile> temporary_file(const Target& target) {
 
 /// Whether the format holds what is to be written.
 Status check_tables(const Target& target, const TableSource& source) {
-  if (source.tables.size() != 1 && target.format != "gpkg")
+  if (source.tables.size() != 1 && target.tables != TableRoom::several)
     return Error{ErrorCode::unsupported,
                  fmt::format(".{} holds one layer only, and there are {}; .gpkg and .geojson hold "
                              "several",
@@ -307,6 +307,7 @@ class GdalParts final : public PartWriter {
     own.part = part;
     own.columns = target_.columns;
     own.format = target_.format;
+    own.tables = target_.tables;
     own.crs = target_.crs;
     std::unique_lock<std::mutex> alone(projecting_, std::defer_lock);
     if (own.crs.changes_points()) alone.lock();
@@ -359,6 +360,7 @@ Status make_file(Target& target, const std::function<Status(const std::string&)>
 
 Format gpkg_format() {
   Format format{".gpkg"};
+  format.tables = TableRoom::several;
   format.own_files = format.adds_layers = true;
   format.write_parts = GdalParts::make;
   return with_tables<put_gdal_tables, OffsetsOutput, ShapesOutput, VoronoiOutput>(format);
