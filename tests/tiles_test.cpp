@@ -140,7 +140,7 @@ TEST(Tiles, RefuseWhatTheyDoNotTake) {
   const Shape wide = shape_of(test::comb(2000, 1, 4000));  // 4000 edges through 1024 rows
   const auto too_many = compute_in_tiles(wide, TileGrid::most_levels);
   EXPECT_EQ(code(too_many), "invalid_option");
-  EXPECT_EQ(too_many.error().text, "edges meet too many tiles: take fewer levels");
+  EXPECT_EQ(too_many.error().text, "edges meet too many tiles: use fewer levels");
   std::atomic<bool> stop = true;
   EXPECT_EQ(code(compute_in_tiles(square, 1, {.cancel = &stop})), "cancelled");
 }

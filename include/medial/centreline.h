@@ -1,85 +1,85 @@
 #pragma once
 
-// Ways along an axis. The reach of a path is its length plus the radii at its two ends.
+// Paths along an axis. The reach of a path is its length plus the radii at its two ends.
 
 #include "medial/query.h"
 
 namespace medial {
 
-/// A part of an edge, between two of its parameters; against the edge where from > to.
+/// A part of an edge between two parameters in [0, 1]; reversed if from > to.
 struct PathPiece {
   std::uint32_t edge = 0;
   double from = 0, to = 1;
 };
 
-/// A way along the axis; each piece begins where the one before it ends.
+/// A path along the axis; each piece begins where the previous one ends.
 struct AxisPath {
   std::vector<PathPiece> pieces;
   bool closed = false;   ///< the last piece ends where the first one begins
   double length = 0;     ///< in the plane
   double narrowest = 0;  ///< the smallest radius along it
-  double gap = 0;        ///< of a main path: how much longer the largest reach may be
+  double gap = 0;        ///< of a main path: bound on how much longer the largest reach is
 };
 
-/// The pieces as an axis, exactly: all sites, edges in the order and direction of the pieces;
-/// pieces that end at one place share a node. O(pieces).
+/// The pieces as an axis, exactly: with all sites, and edges in the order and direction of the
+/// pieces. Pieces that end at the same place share a node. O(pieces).
 MedialAxis part_of(const MedialAxis& axis, std::span<const PathPiece> pieces);
-/// The axis where its radius is at least `clearance`, cut exactly; single nodes stay. O(edges).
+/// The part of radius at least `clearance`, cut exactly; keeps single nodes. O(edges).
 MedialAxis clearance_part(const MedialAxis& axis, double clearance);
 
-/// The centre of the maximal disk that touches the boundary nearest to p, a point of the shape;
-/// without sites, the nearest point of the axis. Nothing without edges. O(sites + edges).
+/// The centre of the maximal disk that touches the boundary nearest to p, a point of the shape; if
+/// the axis has no sites, its point nearest to p. Nothing if it has no edges. O(sites + edges).
 std::optional<EdgePlace> place_on_axis(const MedialAxis& axis, Vec2 p);
 
-/// Which way around holes is the best.
+/// Which path around holes is best.
 enum class Route : std::uint8_t {
   shortest,  ///< the least length
   roomy,     ///< the least integral of ds / r, the quasihyperbolic length (Gehring, Palka 1976)
 };
 
-/// The best way between two places; and the widest one, along which the largest disk can move. O(n
-/// log n). Errors: invalid_option (a place off the axis, or no way between them).
+/// The best path between two places; and the widest one, along which the largest disk can move.
+/// O(n log n). Errors: invalid_option (a place off the axis, or no path between them).
 Result<AxisPath> path_between(const MedialAxis& axis, EdgePlace from, EdgePlace to,
                               Route route = Route::shortest);
 Result<AxisPath> widest_path(const MedialAxis& axis, EdgePlace from, EdgePlace to);
 
 struct MainPathOptions {
-  /// Keeps ends out of corners: cuts them back to a branching node from whose disk the rest
-  /// protrudes by less than `trim` radii, of several in a row to the one with the most to spare. A
-  /// corner of the angle a protrudes by 1 / sin(a / 2) - 1 radii: 1 cuts those above 60 degrees.
+  /// Keeps ends out of corners: cuts an end back to a branching node from whose disk the rest
+  /// protrudes by less than `trim` radii; of several in a row, to the one with the widest margin. A
+  /// corner of angle a protrudes by 1 / sin(a / 2) - 1 radii: 1 cuts corners above 60 degrees.
   double trim = 1;
   Route route = Route::roomy;
 };
 
-/// The main path of each connected part with an edge, by increasing lowest node. It joins the two
-/// ends of the axis whose shortest way has the largest reach, along `route`, and is trimmed unless
-/// nothing would remain. A part that is a cycle only is its own main path. O(n); with holes a
+/// The main path of each connected part with an edge, ordered by lowest node. It follows `route`
+/// between the two ends of the axis whose shortest path has the largest reach, and is trimmed
+/// unless nothing would remain. A part that is a cycle is its own main path. O(n); with holes, a
 /// search of O(n log n) for each of at most 100 ends: see AxisPath::gap.
 std::vector<AxisPath> main_paths(const MedialAxis& axis, const MainPathOptions& options = {});
 
-/// The ways around holes that leave a path and come back, as whole edges, as of a river. O(n).
+/// The paths around holes that leave `path` and return to it, as whole edges. O(n).
 std::vector<PathPiece> side_channels(const MedialAxis& axis, const AxisPath& path);
 
 struct CentreLineOptions {
-  /// Extend both ends to the boundary: straight, or if that is far to the nearest place ahead.
+  /// Extend both ends to the boundary: straight, or, if that is far, to the nearest place ahead.
   bool extend = false;
-  /// Gaussian average over this many radii, which stays inside and keeps the ends; 0: none.
+  /// Gaussian average over this many radii; stays inside and keeps the ends. 0: none.
   double smooth = 0;
 };
 
-/// A path as an axis of one chain of exact edges, with straight extensions. A smoothed line is
+/// A path as an axis: one chain of exact edges, extended by straight ones. A smoothed line is
 /// sampled: straight edges without sites. O(path + sites), smoothed O(samples log n).
 MedialAxis centre_line(const Shape& shape, const MedialAxis& axis, const AxisPath& path,
                        const CentreLineOptions& options = {});
 
 struct CollapsedShape {
-  Shape polygons;  ///< the union of the maximal disks that stay; arcs of half the width face lines
-  MedialAxis lines;  ///< the axis of the narrow parts, from polygon to polygon; without corners
+  Shape polygons;    ///< the union of the disks kept; lines begin at arcs of half the width
+  MedialAxis lines;  ///< the axis of the narrow parts, between polygons; without corners
 };
 
 /// Collapses the parts narrower than `width`. Polygons keep the opening of the shape by a disk of
-/// that width, corners that protrude from it by at most width / 2 (times `trim`) and necks between
-/// two such disks that overlap. Cusps between arcs may be rounded by 2^-20 (at worst 2^-10) of the
+/// that width, corners that protrude from it by at most `trim` * width / 2, and necks between two
+/// such disks that overlap. Cusps between arcs may be rounded by 2^-20 (at worst 2^-10) of the
 /// width. O(n log n). Errors: invalid_option (width <= 0), those of build_shape().
 Result<CollapsedShape> collapse_narrow(const MedialAxis& axis, double width, double trim = 1);
 

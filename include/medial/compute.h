@@ -6,57 +6,57 @@ namespace medial {
 
 struct Options {
   Method method = method::Disks{};
-  /// Disks whose residuals stay below this count as touching. Relative to the bounding box's
-  /// diagonal, in (0, 1e-3]; 0: 4e-15, or what the coordinates allow far from the origin.
+  /// Disks touch sites at a distance below this. Relative to the bounding box's diagonal, in
+  /// (0, 1e-3]; 0: 4e-15, or what the rounding of coordinates far from the origin allows.
   double tolerance = 0;
-  /// A convex joint with an arc is no corner if it turns by less than this; in degrees, in [0, 10].
+  /// A convex joint with an arc is a corner if it turns by more than this; degrees in [0, 10].
   double corner_angle = 0.01;
-  /// Makes every decision about the graph exact (docs/exact.md): sites that touch one disk only
-  /// within the tolerance have nodes of their own, at short edges. Slower; not of sampled methods.
+  /// Decides every question about the graph exactly (docs/exact.md): sites that share a disk only
+  /// within the tolerance get separate nodes, joined by short edges. Slower; not for sampled axes.
   bool exact = false;
-  /// Threads to use, at most 1024; 0: all of the machine. The result is the same, byte for byte.
+  /// Number of threads, at most 1024; 0: all of the machine. Does not change the result's bytes.
   int threads = 0;
-  /// Computes the axis of the exterior: of an enclosure less the shape, without edges whose disks
-  /// touch the enclosure. Every concavity and every hole has its axis.
+  /// Computes the axis of the exterior: of an enclosure minus the shape, without edges whose disks
+  /// touch the enclosure. It covers every concavity and every hole.
   bool exterior = false;
-  /// From the shape's box to the enclosure, in [1e-6, 1e6] diagonals; 0: half of the longer side.
+  /// From the bounding box to the enclosure, in [1e-6, 1e6] diagonals; 0: half of the longer side.
   double margin = 0;
-  /// Called from any thread with the share that is done, in any order, at last 1; must not throw.
+  /// Called from any thread with the share done, in any order, finally with 1; must not throw.
   std::function<void(double)> progress = {};
-  /// Once it is true, compute() returns ErrorCode::cancelled: from the walk at once, from other
-  /// phases when they end.
+  /// Once it is true, compute() returns ErrorCode::cancelled: during the walk at once, otherwise
+  /// when the current phase ends.
   const std::atomic<bool>* cancel = nullptr;
 };
 
-/// The exact medial axis transform of a shape; by the method `disks` O(n log n) expected.
+/// The medial axis transform of a shape. The method `disks` takes O(n log n) expected time.
 ///
 /// The graph has one connected part per component of the shape and exactly one independent cycle
-/// per hole; by `ridge` and `brushfire`, per bounded set of interior pixels and per hole in it,
-/// which are the shape's where nothing is narrower than some pixels. Methods that follow a smooth
-/// boundary take `contours`, which the shape approximates, or without them the shape's edges.
+/// per hole. With `ridge` and `brushfire` this holds for sets of interior pixels and their holes,
+/// which are the shape's unless it is only a few pixels wide. Methods that follow smooth boundaries
+/// use `contours`, which the shape approximates, or, without contours, the shape's edges.
 ///
 /// Errors: invalid_option; cancelled; empty; too_large (2^29 vertices; ridge: 2^31 pixels;
-/// brushfire: a diagonal of 2^16 pixels); unsupported (a coordinate above 1e100, or not 0 but below
-/// 1e-100 in size or as a share of the largest; what the method does not take, see MethodInfo;
-/// pixels as fine as the coordinates; Options::exact, where the build lacks it or arcs are of one
-/// circle but for rounding; a place too narrow to separate its sides from rounding); malformed (not
-/// by build_shape(), as far as arrays show); out_of_memory; internal.
+/// brushfire: a diagonal of 2^16 pixels); unsupported (a coordinate above 1e100, or nonzero but
+/// below 1e-100 in size or as a share of the largest; what the method does not support, see
+/// MethodInfo; pixels as fine as the coordinates; Options::exact, if the build lacks it or arcs are
+/// of one circle up to rounding; a place so narrow that rounding could join its sides); malformed
+/// (arrays that build_shape() cannot have made); out_of_memory; internal.
 Result<MedialAxis> compute(const Shape& shape, const Options& options = {},
                            std::span<const Contour> contours = {});
 
 /// Some edges of an axis, with the nodes and sites that they name.
 struct AxisPart {
   MedialAxis axis;
-  std::vector<std::uint32_t> nodes, sites;  ///< their numbers in the whole axis
-  std::size_t known = 0;                    ///< the first nodes, which were in parts before
-  bool begins = true;                       ///< what came before is void
+  std::vector<std::uint32_t> nodes, sites;  ///< their indices in the whole axis
+  std::size_t known = 0;                    ///< number of first nodes that earlier parts had
+  bool begins = true;                       ///< discard all earlier parts
 };
 using AxisSink = std::function<Status(AxisPart&& part)>;
 
-/// compute() that hands the axis out as it grows, and returns what else it has. By `disks` of
-/// straight edges, without `exact` and `exterior`, memory holds the boundary, its tree and what the
-/// walk has left open (docs/parts.md); otherwise all is one part. The sink is called from one
-/// thread at a time; its error ends the work.
+/// Like compute(), but passes edges to `sink` as they are found; the result holds everything else.
+/// For straight edges and `disks` without `exact` and `exterior`, memory holds only the boundary,
+/// its tree and the open ends of the walk (docs/parts.md); otherwise the axis is one part. The sink
+/// is called from one thread at a time; its error ends the computation.
 Result<MedialAxis> compute_in_parts(const Shape& shape, const Options& options,
                                     const AxisSink& sink);
 

@@ -6,45 +6,45 @@ namespace medial {
 
 /// A piece of a contour: a Bezier curve of any degree, or a circular arc.
 struct CurvePiece {
-  std::uint32_t first = 0;   ///< its first control point; its last one is `first + degree`
+  std::uint32_t first = 0;   ///< its first control point; the last one is `first + degree`
   std::uint32_t degree = 1;  ///< 1: straight, or an arc
   double bulge = 0;          ///< of an arc (degree 1): see Ring
 };
 
-/// A curve of pieces end to end. A straight piece closes a contour whose ends differ.
+/// A curve of pieces end to end. If its ends differ, a straight piece closes it.
 struct Contour {
   std::vector<Vec2> points;     ///< control points; neighbouring pieces share one
   std::vector<double> weights;  ///< of each control point, positive; empty: all 1
   std::vector<CurvePiece> pieces;
   RingRole role = RingRole::any;
-  bool open = false;  ///< a loose curve, which nothing closes (see Feature::chains)
+  bool open = false;  ///< a loose curve, which stays open (see Feature::chains)
 
   /// Starts an empty contour. The functions below append to it, from its last control point.
   void start_at(Vec2 point);
   void line_to(Vec2 end);
   void arc_to(Vec2 end, double bulge);
-  /// `control` without the first point; the weights of the same points, empty: all 1. A rational
-  /// piece is scaled so that its first weight is the last one of the piece before.
+  /// Takes the control points, and their weights (empty: all 1), except the first. A rational piece
+  /// is scaled so that its first weight is the last one of the previous piece.
   void bezier_to(std::span<const Vec2> control, std::span<const double> control_weights = {});
-  /// The weights of a piece as bezier_to() takes them: relative to its first one, without it.
+  /// The weights of a piece in the form of bezier_to(): relative to its first weight, without it.
   std::vector<double> weights_of(const CurvePiece& piece) const;
   /// An elliptical arc around `center` with conjugate half axes `u` and `v`, from the angle `begin`
   /// to `end` (radians, at most a whole turn apart), as rational quadratics of at most a quarter
-  /// turn each. Requires a contour that is empty or ends at the point of angle `begin`.
+  /// turn each. The contour must be empty or end at the point of angle `begin`.
   void ellipse_to(Vec2 center, Vec2 u, Vec2 v, double begin, double end);
-  /// A B-spline or NURBS with degree + 1 more `knots` than `control` points. Errors: malformed.
+  /// A B-spline or NURBS; takes degree + 1 more `knots` than `control` points. Errors: malformed.
   Status spline_to(std::uint32_t degree, std::span<const double> knots,
                    std::span<const Vec2> control, std::span<const double> control_weights = {});
 };
 
-/// The edges of a closed ring or an open chain, without those of zero length; `bulges` as in Ring.
+/// The edges of a closed ring or an open chain, except those of length 0; `bulges` as in Ring.
 Contour contour_of(std::span<const Vec2> points, std::span<const double> bulges, bool closed);
-Contour reversed(const Contour& contour);  ///< with its role
+Contour reversed(const Contour& contour);  ///< keeps the role
 
 struct ArcOptions {
   double tolerance = 1e-6;  ///< largest distance between a contour and its arcs, above 0
-  bool relative = true;  ///< to the diagonal of the bounding box; otherwise in units of the input
-  int threads = 0;       ///< see Options
+  bool relative = true;     ///< to the bounding box's diagonal; else in units of the input
+  int threads = 0;          ///< see Options
 };
 
 struct ArcReport {
@@ -52,21 +52,21 @@ struct ArcReport {
   std::uint64_t spirals = 0;             ///< pieces of monotone curvature without inflection
   std::uint64_t arcs = 0, segments = 0;  ///< edges of the result
   // In units of the input.
-  double tolerance = 0;      ///< not below the coordinates' rounding
+  double tolerance = 0;      ///< at least the rounding of coordinates
   double largest_error = 0;  ///< certified Hausdorff distance
 };
 
-/// Contours as rings of arcs and segments within the tolerance, by spiral biarcs (Aichholzer et
-/// al., Algorithms 1 and 2), tangent continuous but in corners; straight pieces and arcs stay.
-/// Errors: not_finite, invalid_option, malformed, no_area, unsupported (weights <= 0, degrees >
-/// 32).
+/// Approximates contours by arcs and segments within the tolerance, by spiral biarcs (Aichholzer et
+/// al., Algorithms 1 and 2). The result is smooth except at corners; straight pieces and arcs stay
+/// as they are. Errors: not_finite, invalid_option, malformed, no_area, unsupported (a weight <= 0,
+/// a degree > 32).
 Result<std::vector<Ring>> approximate_by_arcs(std::span<const Contour> contours,
                                               const ArcOptions& options = {},
                                               ArcReport* report = nullptr);
 
-/// The periodic cubic spline (of continuous curvature) that least squares fit to a polygon, with
-/// knots added until both are within `tolerance` (units of the input). It passes through no vertex
-/// and rounds what is smaller. Errors: not_finite, too_few_points, invalid_option, unsupported.
+/// The periodic cubic spline of continuous curvature that fits a polygon by least squares; adds
+/// knots until both are within `tolerance` (units of the input) of each other. Misses vertices,
+/// rounds smaller detail. Errors: not_finite, too_few_points, invalid_option, unsupported.
 Result<Contour> fit_smooth_contour(std::span<const Vec2> polygon, double tolerance);
 
 }  // namespace medial

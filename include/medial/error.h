@@ -10,7 +10,7 @@
 
 namespace medial {
 
-/// What went wrong. The names are stable: `--json` prints them.
+/// The kind of an error. The names are stable: `--json` prints them.
 enum class ErrorCode : std::uint8_t {
   not_finite,      ///< a coordinate is NaN or infinite
   too_few_points,  ///< a ring has fewer than three distinct points
@@ -18,35 +18,35 @@ enum class ErrorCode : std::uint8_t {
   crossing,        ///< two edges cross
   overlap,         ///< two edges share more than a point
   hole_outside,    ///< a hole lies outside every outer ring
-  nested_outer,    ///< an outer ring lies in the inside of another outer ring
+  nested_outer,    ///< an outer ring lies inside another outer ring
   open_surface,    ///< an edge of a mesh has one face only
   non_manifold,    ///< an edge of a mesh has more than two faces
-  too_large,       ///< more sites than 32-bit indices can name, or more memory than was allowed
+  too_large,       ///< more sites than 32-bit indices allow, or more memory than permitted
   empty,           ///< no ring, no feature, nothing to do
   unreadable,      ///< a file cannot be opened or read
-  malformed,       ///< a file's content is not what its format says
-  unsupported,     ///< a format, geometry or option that this build or command does not know
+  malformed,       ///< the content of a file violates its format
+  unsupported,     ///< a format, geometry or option that this build or command lacks
   unwritable,      ///< an output cannot be written
   invalid_option,  ///< an option's value is out of its range
   cancelled,       ///< the caller asked to stop
   out_of_memory,   ///< memory ran out
-  internal,        ///< a broken promise of the library itself: please report
+  internal,        ///< a bug of the library: please report it
 };
 
 const char* name_of(ErrorCode code);  ///< as it is spelled above
 
-/// Where it went wrong; every part is optional. Indices count from 0.
+/// The place of an error; every part is optional. Indices count from 0.
 struct Place {
   std::string file;
   std::optional<std::uint64_t> feature;       ///< index in the file
-  std::optional<std::uint64_t> ring, vertex;  ///< in the feature, or what was given; in the ring
+  std::optional<std::uint64_t> ring, vertex;  ///< in the feature or the input; in the ring
   std::optional<std::uint64_t> face;          ///< index in the mesh
   std::optional<Vec2> point;                  ///< coordinates, in units of the input
   std::optional<double> z;                    ///< the third coordinate of the point, in space
   std::optional<std::uint64_t> line;          ///< line of a text file, from 1
 };
 
-/// An error as a value. The library never prints, never throws across its surface, never exits.
+/// An error as a value. The library never prints, exits, or lets an exception out.
 struct Error {
   ErrorCode code = ErrorCode::internal;
   std::string text;  ///< one sentence, no trailing full stop, no place
@@ -55,7 +55,7 @@ struct Error {
 
 std::string to_string(const Error& error);  ///< "FILE: feature 3, vertex 7 at (x, y): text [code]"
 
-/// Either a value or an error; asking for the one it has not throws std::bad_variant_access.
+/// Either a value or an error; access to the other one throws std::bad_variant_access.
 template <class T>
 class [[nodiscard]] Result {
  public:

@@ -20,7 +20,7 @@ struct Vec2 {
 constexpr double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
 /// The z component of the cross product: positive where b lies to the left of a.
 constexpr double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
-/// a turned by a quarter turn to the left.
+/// a rotated by a quarter turn to the left.
 constexpr Vec2 left_of(Vec2 a) { return {-a.y, a.x}; }
 constexpr double squared_norm(Vec2 a) { return dot(a, a); }
 inline double norm(Vec2 a) { return std::sqrt(dot(a, a)); }
@@ -32,7 +32,7 @@ struct Disk {
   double radius = 0;
 };
 
-/// A rectangle along the axes.
+/// An axis-parallel rectangle.
 struct Box {
   Vec2 low, high;
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// The whole core library in one include. What is missing here, these headers include.
+// The whole core library in one include; these headers include the others.
 #include "medial/carve.h"
 #include "medial/editor.h"
 #include "medial/features.h"

@@ -7,10 +7,10 @@
 
 namespace medial {
 
-/// Which pixels `ridge` takes for medial.
+/// Which pixels are medial for `ridge`.
 enum class RidgeRule : std::uint8_t {
-  /// The axis passes between the pixel and one of its four neighbours, and the pixel is the nearer
-  /// to equidistance, within one pixel of the axis. Beside the boundary, as `difference`.
+  /// The axis passes between the pixel and one of its four neighbours; of the two, the pixel is
+  /// nearer to the axis, within one pixel. Next to the boundary: `difference`.
   crossing,
   difference,  ///< the distances to the two nearest edges differ by less than one pixel
 };
@@ -18,35 +18,35 @@ enum class RidgeRule : std::uint8_t {
 /// The size of square pixels, at most 2^31 of them; both 0: 1024 along the longer side.
 struct PixelGrid {
   double resolution = 0;     ///< the side of a pixel, at most the longer side of the bounding box
-  std::uint32_t pixels = 0;  ///< or how many lie along that side
+  std::uint32_t pixels = 0;  ///< or the number of pixels along that side
 };
 
-/// The methods, each with the options that it alone has. Exact methods return the same graph;
-/// sampled ones come near to it and set MedialAxis::resolution.
+/// The methods, each with its own options. Exact methods return the same graph; sampled ones
+/// approximate it and set MedialAxis::resolution.
 namespace method {
 
-struct Disks {};  ///< walks along the axis and searches a tree over the boundary: the fastest
+struct Disks {};  ///< walks along the axis and searches a tree of the boundary: the fastest
 
 /// The randomised divide and conquer of Aichholzer et al., with balanced cuts: O(n log n) expected.
 struct BiarcDc {
   std::uint64_t seed = 1;  ///< the same seed gives the same result, byte for byte
-  bool curves = true;      ///< false: edges stay straight until conic_of() works them out
+  bool curves = true;      ///< false: edges stay straight until conic_of() computes them
 };
 
 /// Lee's divide and conquer: merges Voronoi diagrams of lists of segments and reflex vertices.
 struct Lee {};
 
-/// The one with the least processor time (docs/lee.md): `lee` for nearly convex polygons without
-/// holes and small smooth ones; `disks` for all others, and where `lee` fails.
+/// The method with the least processor time (docs/lee.md): `lee` for nearly convex polygons without
+/// holes and for small smooth ones; `disks` for all others, and if `lee` fails.
 struct Auto {};
 
-/// Ridge following on a grid of pixels, as Volkmann and St. Clair have it.
+/// Ridge following on a grid of pixels (Volkmann and St. Clair).
 struct Ridge {
   PixelGrid grid = {};
   /// Drops vertices between straight edges that turn by less than this, in degrees, in [0, 45],
   /// where the combined edge stays within a quarter of a pixel of them; 0 keeps all.
   double collinear = 5;
-  /// Finds nearest edges by the report's sorted list, not by a tree: slower, the same pixels.
+  /// Finds nearest edges by the report's sorted list, not a tree: slower, but the same pixels.
   bool sorted_list = false;
   RidgeRule rule = RidgeRule::crossing;
 };
@@ -57,32 +57,32 @@ struct Brushfire {
   medial::Brushfire family = medial::Brushfire::simultaneous;
 };
 
-/// Valleys of Ahuja and Chuang's potential (docs/potential.md). The size: the box's longer side.
+/// Valleys of Ahuja and Chuang's potential (docs/potential.md). The size is the box's longer side.
 struct Potential {
-  /// n of the force that finds the points, in [1, 4096], any real number; 0: chosen for each point.
+  /// The order n of the force that finds points, real, in [1, 4096]; 0: chosen for each point.
   double order = 0;
-  /// Of the first force lines, in [1, 4096]; above 24 points of the exact axis instead. 0: that of
-  /// `order`, 24 at most; for higher orders on the exact axis above 2,000 edges.
+  /// The order of the first force lines, in [1, 4096]; above 24, points of the exact axis replace
+  /// them. 0: `order`, at most 24; above 2,000 edges, higher orders start from the exact axis.
   double base_order = 0;
   double step = 0.01;  ///< the longest step, as a share of the size, in [1e-4, 0.1]
-  /// Above 0, from coarse to fine, of whole axes: the skeleton of a polygon within this share (at
-  /// most 0.2) of the size of the border, refined on ever closer ones.
+  /// If positive, computes from coarse to fine: the skeleton of a polygon within this share (at
+  /// most 0.2) of the size of the border, refined on closer and closer ones. Whole axes only.
   double coarse = 0;
-  /// theta_min in degrees: how much the force may still turn with the order. In (0, 90].
+  /// theta_min: how far the force may still turn as the order grows, in degrees in (0, 90].
   double angle = 2.56;
-  /// e_min: how far a point may still move with the order, as a share of the size. In (0, 0.1].
+  /// e_min: how far a point may still move as the order grows, as a share of the size in (0, 0.1].
   double movement = 0.0005;
-  std::optional<Vec2> from = {};   ///< only the branch to which the force leads from this place
-  std::optional<Box> within = {};  ///< only what lies in this box, connected or not
+  std::optional<Vec2> from = {};   ///< only the branch to which the force leads from here
+  std::optional<Box> within = {};  ///< only the part in this box, connected or not
   bool whole() const { return !from && !within; }
 };
 
-/// Follows the axis from maxima of curvature and corners: see compute_curve_axis().
+/// Traces the axis from maxima of curvature and corners: see compute_curve_axis().
 struct CurveAxis {
-  double step = 1e-3;  ///< between points, a share of the diagonal in [1e-6, 0.1]; at most that
-  /// Which maximum of curvature is followed first; the axis is the same for each, to the steps.
+  double step = 1e-3;  ///< largest step between points, a share of the diagonal in [1e-6, 0.1]
+  /// The maximum of curvature to start from; the axis is the same for each, up to its steps.
   std::size_t first_maximum = 0;
-  double fit = 0;  ///< of contours: splines within this distance are followed instead; 0: no
+  double fit = 0;  ///< replaces contours by splines within this distance; 0: no
 };
 
 }  // namespace method
@@ -90,21 +90,21 @@ struct CurveAxis {
 using Method = std::variant<method::Disks, method::BiarcDc, method::Lee, method::Auto,
                             method::Ridge, method::Brushfire, method::Potential, method::CurveAxis>;
 
-/// What a method's axes are made of.
+/// What the axes of a method consist of.
 enum class Sampling : std::uint8_t {
-  curves,  ///< exact ones
-  points,  ///< points in steps along the axis
+  curves,  ///< exact curves
+  points,  ///< points along the axis
   pixels,  ///< pixels of a grid
 };
 
-/// What a method is, and what it takes besides holes and arcs. compute() refuses the rest.
+/// A method, and what it supports besides holes and arcs. compute() refuses the rest.
 struct MethodInfo {
-  const char *name, *summary;  ///< on the command line and in MedialAxis::method; a few words
+  const char *name, *summary;  ///< as on the command line and in MedialAxis::method; a few words
   Sampling sampling = Sampling::curves;
   bool exterior = false;  ///< Options::exterior
-  bool part = false;      ///< computes a part of an axis
-  bool contours = false;  ///< follows smooth contours in place of a shape
-  bool threads = false;   ///< uses several threads
+  bool part = false;      ///< computing a part of an axis
+  bool contours = false;  ///< smooth contours instead of a shape
+  bool threads = false;   ///< several threads
   bool exact() const { return sampling == Sampling::curves; }  ///< takes Options::exact
 };
 
@@ -113,22 +113,22 @@ const MethodInfo& info_of(const Method& method);
 inline const char* name_of(const Method& method) { return info_of(method).name; }
 
 std::optional<Method> method_from(std::string_view name);  ///< with its default options
-bool is_of_pixels(std::string_view method);                ///< of an axis, see MedialAxis::method
+bool is_of_pixels(std::string_view method);                ///< for MedialAxis::method
 
-/// The generalised potential of a charged border (docs/potential.md): every component of a shape
-/// has the potential of its own border, the integral of 1 / r^order along it.
+/// The generalised potential of a charged border (docs/potential.md): in each component of a shape,
+/// the integral of 1 / r^order along the component's border.
 class PotentialField {
  public:
-  /// Errors: invalid_option (order outside of [1, 4096]), empty, unsupported (coordinates beyond
-  /// the limits of compute()). Arcs become chords within 1e-5 of the shape's larger side.
+  /// Replaces arcs by chords within 1e-5 of the shape's larger side. Errors: invalid_option (order
+  /// outside [1, 4096]), empty, unsupported (coordinates beyond the limits of compute()).
   static Result<PotentialField> make(const Shape& shape, double order);
 
   struct Sample {
     double log_potential = 0;
-    Vec2 direction;        ///< of the force: a unit vector, or zero where there is no force
+    Vec2 direction;        ///< of the force: a unit vector, or zero if there is no force
     double clearance = 0;  ///< distance to the border
   };
-  /// Nothing outside of the shape and on its border. Safe to call from several threads.
+  /// Nothing outside the shape or on its border. Safe to call from several threads.
   std::optional<Sample> at(Vec2 p) const;
 
   /// The force line from p, in at most `most_steps` steps of at most `step` (units of the input).

@@ -15,27 +15,27 @@ struct Chain {
 struct PlanarGraphEdge {
   std::uint32_t from = 0, to = 0;  ///< indices of points
   double bulge = 0;
-  VertexSource source;  ///< chain of the input, and the vertex in it before the edge
+  VertexSource source;  ///< chain of the input, and the vertex at which the edge begins
 };
 
-/// A point without any edge.
+/// A point without edges.
 struct LonePoint {
   std::uint32_t point = 0, face = 0;
 };
 
-/// Points, segments and arcs that share ends only: a plane graph.
+/// Points, segments and arcs that meet at ends only: a plane graph.
 ///
-/// Its edges divide the plane into faces; face 0 is the unbounded one. Loops bound each face: walks
-/// along half-edges with the face on their left. Half-edge 2 e is edge e forward, 2 e + 1 the same
-/// backward. An edge with one face on both sides is in its loops twice.
+/// The edges divide the plane into faces; face 0 is unbounded. Each face is bounded by loops of
+/// half-edges with the face on their left. Half-edge 2 e is edge e forward, 2 e + 1 is edge e
+/// backward. An edge with the same face on both sides occurs twice in its loops.
 struct PlanarGraph {
-  std::vector<Vec2> points;                 ///< all different
+  std::vector<Vec2> points;                 ///< distinct
   std::vector<VertexSource> point_sources;  ///< of each: chain and vertex of the input
   std::vector<PlanarGraphEdge> edges;
   std::vector<std::uint32_t> half_edges;  ///< of all loops, loop after loop
   std::vector<std::uint32_t> loop_begin;  ///< loop i is half_edges [loop_begin[i], loop_begin[i+1])
   std::vector<std::uint32_t> face;        ///< of each loop
-  std::vector<bool> hole;                 ///< of each loop: not the outer one of its face
+  std::vector<bool> hole;                 ///< of each loop: whether it is not its face's outer loop
   std::vector<LonePoint> lone_points;
   std::uint32_t face_count = 1;
 
@@ -44,15 +44,15 @@ struct PlanarGraph {
 
 struct PlanarGraphOptions {
   bool node_crossings = false;  ///< splits edges where they cross: see ShapeOptions
-  /// What comes this close touches: points become one, edges pass through them. Not less than the
-  /// tolerance where there are arcs; otherwise 0 stands for exact contact.
+  /// Distance at which things touch: points merge, and edges pass through them. With arcs, at least
+  /// the tolerance; without arcs, 0 stands for exact contact.
   double reach = 0;
 };
 
-/// Makes a planar graph of loose pieces: drops repeated points and edges, and splits an edge where
-/// an end or a point lies inside it. Decisions are exact, or within the tolerance with arcs, and
-/// arcs are split and straightened, as in build_shape(). O(n log n). Errors: not_finite, crossing,
-/// overlap, unsupported (with chain, vertex and point), empty, too_large.
+/// Makes a planar graph from loose pieces: drops repeated points and edges, and splits an edge
+/// where an end or a point lies inside it. As in build_shape(), decisions are exact, or within the
+/// tolerance if there are arcs, and arcs are split and straightened. O(n log n). Errors:
+/// not_finite, crossing, overlap, unsupported (with chain, vertex and point), empty, too_large.
 Result<PlanarGraph> build_planar_graph(std::span<const Chain> chains,
                                        const PlanarGraphOptions& options = {},
                                        ShapeReport* report = nullptr);

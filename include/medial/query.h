@@ -7,20 +7,20 @@
 
 namespace medial {
 
-/// The disk at parameter t in [0, 1] of an edge; exactly the node's disk at 0 and 1.
+/// The disk at parameter t in [0, 1] of an edge; at 0 and 1, exactly the node's disk.
 Disk disk_at(const MedialAxis& axis, const Edge& edge, double t);
 
 /// An edge of an exact axis with the conic that its sites and nodes determine. O(1).
 Edge conic_of(const MedialAxis& axis, const Edge& edge);
 
-Vec2 foot(const Site& site, Vec2 p);  ///< nearest to p: where a disk around p touches the site
+Vec2 foot(const Site& site, Vec2 p);  ///< the point of the site nearest to p
 
-/// Length of an edge in the plane, and of all edges. Closed forms; relative error < 1e-12.
+/// The length of an edge in the plane, and of all edges. Closed forms; relative error < 1e-12.
 double length(const MedialAxis& axis, const Edge& edge);
 double total_length(const MedialAxis& axis);
 
 /// Samples an edge in at most 100,000 pieces, both nodes included: by chords within `chord` of the
-/// curve in (x, y) and in r, or by steps of at most `step` along the curve (units of the input).
+/// curve, in (x, y) and in r; or by steps of at most `step` along the curve. In units of the input.
 std::vector<Disk> sample_by_chord(const MedialAxis& axis, const Edge& edge, double chord);
 std::vector<Disk> sample_by_step(const MedialAxis& axis, const Edge& edge, double step);
 
@@ -33,14 +33,14 @@ struct Step {
 /// Blum's medial branch: a chain of edges between leaves and branchings, or a closed chain.
 struct Branch {
   std::vector<Step> steps;
-  std::uint32_t from = 0, to = 0;  ///< nodes; one and the same for a closed chain
+  std::uint32_t from = 0, to = 0;  ///< nodes; equal for a closed chain
 };
 
-/// All branches, each edge in exactly one, ordered by their lowest edge; or their number. O(edges).
+/// All branches, ordered by lowest edge; each edge is in exactly one. And their number. O(edges).
 std::vector<Branch> branches(const MedialAxis& axis);
 std::uint64_t branch_count(const MedialAxis& axis);
 
-/// A place on the axis: a parameter in [0, 1] of an edge; with its disk; with its distance.
+/// A place on the axis: an edge and a parameter in [0, 1]; also with its disk; and a distance.
 struct EdgePlace {
   std::uint32_t edge = 0;
   double t = 0;
@@ -56,7 +56,7 @@ struct AxisPoint : AxisPlace {
 class AxisLocator {
  public:
   explicit AxisLocator(const MedialAxis& axis);
-  /// Of edges at equal distance, the lowest index. Without edges, only an infinite distance.
+  /// The lowest edge if several are equally near. Without edges, the distance is infinite.
   AxisPoint nearest(Vec2 p) const;
 
  private:
@@ -64,6 +64,6 @@ class AxisLocator {
   std::shared_ptr<const Index> index_;
 };
 
-double clearance(const Shape& shape, Vec2 p);  ///< from p to the boundary, negative outside; O(n)
+double clearance(const Shape& shape, Vec2 p);  ///< distance to the boundary, negative outside; O(n)
 
 }  // namespace medial

@@ -1,12 +1,12 @@
 #pragma once
 
-// Diagnostics: what computations counted, and how many seconds they took. No result depends on it.
+// Diagnostics: counts and times of computations, in seconds. No result depends on them.
 
 #include <cstdint>
 
 namespace medial {
 
-/// Of compute().
+/// Statistics of compute().
 struct Statistics {
   std::uint64_t queries = 0;            ///< nearest-site queries
   std::uint64_t apollonius = 0;         ///< disks computed from three sites
@@ -19,11 +19,11 @@ struct Statistics {
   std::uint64_t exact_changes = 0;  ///< decisions in double precision that were wrong
   double largest_residual = 0;      ///< largest |distance - radius| over the nodes' contacts
   double seconds_sites = 0, seconds_tree = 0, seconds_connect = 0;
-  double seconds_walk = 0, seconds_collect = 0, seconds_exact = 0, seconds = 0;  ///< the last: all
+  double seconds_walk = 0, seconds_collect = 0, seconds_exact = 0, seconds = 0;  ///< last: total
   int threads = 1;
 };
 
-/// Of compute_voxels().
+/// Statistics of compute_voxels().
 struct VoxelStatistics {
   std::uint64_t surface_voxels = 0, interior_voxels = 0;
   std::uint64_t bounded_sets = 0;  ///< of interior voxels
@@ -31,7 +31,7 @@ struct VoxelStatistics {
   std::uint64_t medial_voxels = 0;  ///< below the tolerance, before thinning
   std::uint64_t bridge_voxels = 0;  ///< added to keep the topology
   double seconds_tree = 0, seconds_digitize = 0, seconds_first = 0;
-  double seconds_follow = 0, seconds_bridge = 0, seconds_thin = 0, seconds = 0;  ///< the last: all
+  double seconds_follow = 0, seconds_bridge = 0, seconds_thin = 0, seconds = 0;  ///< last: total
   int threads = 1;
 };
 

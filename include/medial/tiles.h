@@ -4,15 +4,15 @@
 
 namespace medial {
 
-/// Of one level: tiles with edges, edges of the boundary in all and in the largest, final ones.
+/// One level: tiles with edges; boundary edges in all, and in the largest; final axis edges.
 struct TileLevel {
   std::uint64_t tiles = 0, edges = 0, most = 0, axis = 0;
 };
 
-/// compute() of straight edges by 4^levels tiles that know nothing of each other, docs/tiles.md, in
-/// another order of nodes and edges; `report` gets a row a level, the root first. Errors: also
-/// unsupported (arcs; edges within 64 tolerances), invalid_option (levels outside of [0, 10]; tiles
-/// of some tolerances; options but for tolerance, threads, progress and cancel).
+/// Like compute() for straight edges, by 4^levels independent tiles (docs/tiles.md); the order of
+/// nodes and edges differs. `report` gets one row per level, root first. Errors: also unsupported
+/// (arcs; edges within 64 tolerances), invalid_option (levels outside [0, 10]; tiles as small as
+/// some tolerances; options other than tolerance, threads, progress and cancel).
 Result<MedialAxis> compute_in_tiles(const Shape& shape, int levels, const Options& options = {},
                                     std::vector<TileLevel>* report = nullptr);
 

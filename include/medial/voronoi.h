@@ -6,14 +6,14 @@
 namespace medial {
 
 /// The Voronoi diagram of a shape of straight edges, by Lee's divide and conquer. O(n log n).
-/// Errors: as compute() with method::Lee.
+/// Errors: those of compute() with method::Lee.
 Result<VoronoiDiagram> voronoi_diagram(const Shape& shape, const Options& options = {});
 
 /// The Voronoi diagram of a planar graph's points, segments and arcs, by the engine `disks`
-/// (docs/voronoi.md): that of the whole plane, cut off at `enclosure`, or without one at
-/// Options::margin from the bounding box. Also uses tolerance, threads, progress and cancel. O(n
-/// log n) expected. Errors: those of compute(); invalid_option (an enclosure that the graph touches
-/// or leaves), unsupported (points or edges within 64 tolerances: see PlanarGraphOptions::reach).
+/// (docs/voronoi.md): that of the whole plane, clipped to `enclosure`, by default the box
+/// Options::margin around the graph. Also uses tolerance, threads, progress and cancel. O(n log n)
+/// expected. Errors: those of compute(); invalid_option (the graph touches or leaves the
+/// enclosure), unsupported (points or edges within 64 tolerances: see PlanarGraphOptions::reach).
 Result<VoronoiDiagram> voronoi_diagram(const PlanarGraph& planar_graph, const Options& options = {},
                                        const std::optional<Box>& enclosure = {});
 
@@ -22,14 +22,14 @@ std::vector<Site> sites_of(const PlanarGraph& planar_graph);
 
 struct NearestSite {
   std::uint32_t site = no_site;
-  Vec2 foot;  ///< its nearest point
+  Vec2 foot;  ///< the site's nearest point
   double distance = 0;
 };
 /// Finds the nearest site in O(log n) expected, after O(n log n). Keeps a copy of what it needs.
 class SiteLocator {
  public:
   explicit SiteLocator(std::span<const Site> sites);
-  /// Of sites at equal distance the lowest index, so of a planar graph a point rather than an edge.
+  /// The lowest site if several are equally near: in a planar graph, a point rather than its edges.
   /// Without sites: no_site at infinite distance.
   NearestSite nearest(Vec2 p) const;
 

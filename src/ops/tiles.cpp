@@ -78,7 +78,7 @@ Result<Tiles> leaves_with_edges(const Shape& shape, const TileGrid& grid) {
     return ++sum <= most;
   };
   if (!for_leaves(shape, grid, leaves, count))
-    return Error{ErrorCode::invalid_option, "edges meet too many tiles: take fewer levels", {}};
+    return Error{ErrorCode::invalid_option, "edges meet too many tiles: use fewer levels", {}};
   for (std::size_t i = 0; i < counts.size(); ++i) leaves.edges[i].reserve(counts[i]);
   for_leaves(shape, grid, leaves, [](const TileEdge& edge, std::vector<TileEdge>& leaf) {
     leaf.push_back(edge);
