@@ -23,10 +23,10 @@ struct OneOfEach;
 template <class... Own>
 struct OneOfEach<std::variant<Own...>> : std::tuple<Own...> {};
 
-/// The options of all methods; one of them is chosen.
+/// The options of all methods; the chosen method uses its own.
 struct MethodArguments {
   Method chosen;
-  PixelGrid grid;  ///< of the methods that have one
+  PixelGrid grid;  ///< for the methods with a grid
   OneOfEach<Method> own;
 
   template <class Own>
@@ -48,12 +48,12 @@ struct MethodArguments {
 struct AxisArguments : FileArguments {
   Options options;
   MethodArguments methods;
-  double fit = 0;  ///< for curve-axis: polygons become smooth within this distance; 0: they do not
-  bool mask = false;  ///< the axis as an image of the input's size
+  double fit = 0;     ///< for curve-axis: smooths polygons within this distance; 0: no
+  bool mask = false;  ///< write an image of the input's size
   const CLI::App* command = nullptr;
 };
 
-/// Leaves of the axes of an image what a person would draw, and says so.
+/// Prunes the axes of an image to what a person would draw, with a note.
 Status prune_image(LoadedAxes& axes, const AxisArguments& arguments) {
   if (axes.file.items.empty() || is_of_pixels(axes.file.items[0].axis.method)) return success();
   const auto options = image_pruning(axes.file, arguments.input);
@@ -69,7 +69,7 @@ Status prune_image(LoadedAxes& axes, const AxisArguments& arguments) {
   return success();
 }
 
-/// Whether options of methods, which stand in groups "... (--method NAME, NAME)", are for this one.
+/// Refuses options of other methods; their groups are named "... (--method NAME, NAME)".
 Status check_method_options(const CLI::App& command, std::string_view method) {
   constexpr std::string_view before = "(--method ";
   for (const CLI::Option* option : command.get_options()) {
@@ -115,9 +115,9 @@ Result<int> run_axis(const AxisArguments& arguments) {
   return exit_success;
 }
 
-/// Which method, and what decides its random choices.
+/// The method, and the seed of its random choices.
 void add_method_options(CLI::App& command, MethodArguments& arguments) {
-  std::string help = "How the axes are computed; `medial methods` shows what each takes:";
+  std::string help = "The method; `medial methods` shows what each supports:";
   std::vector<std::string> names;
   for (const MethodInfo& info : methods()) {
     help += fmt::format("\n{:<10} {}", info.name, info.summary);
@@ -134,7 +134,7 @@ void add_method_options(CLI::App& command, MethodArguments& arguments) {
             "same result, byte for byte.");
 }
 
-/// The options of the methods that sample.
+/// The options of sampled methods.
 void add_grid_options(CLI::App& command, MethodArguments& arguments) {
   const OptionGroup group(command, "Grids of pixels (--method ridge, brushfire)");
   auto& ridge = arguments.of<method::Ridge>();
@@ -142,8 +142,8 @@ void add_grid_options(CLI::App& command, MethodArguments& arguments) {
       add_value(command, "--resolution", arguments.grid.resolution, "H", a_positive_number(),
                 "The side of a pixel, in units of the input.");
   add_value(command, "--pixels", arguments.grid.pixels, "N", a_positive_number(),
-            "Pixels along the longer side of the bounding box (default: 1024; of an\n"
-            "image its own pixels).")
+            "Pixels along the longer side of the bounding box (default: 1024; for an\n"
+            "image, its own pixels).")
       ->excludes(resolution);
   add_choice<Brushfire>(command, "--brushfire", arguments.of<method::Brushfire>().family,
                         {{"sequential", *brushfire_from("sequential")},
@@ -151,13 +151,13 @@ void add_grid_options(CLI::App& command, MethodArguments& arguments) {
                          {"marking", *brushfire_from("marking")},
                          {"simultaneous", *brushfire_from("simultaneous")}},
                         "How thinning keeps shapes connected: simultaneous (default), from\n"
-                        "all sides at once; marking, of two kinds in turn; sides, in turn; or\n"
-                        "sequential, pixel by pixel.")
+                        "all sides at once; marking, by two rules in turn; sides, one by one;\n"
+                        "or sequential, pixel by pixel.")
       ->option_text("FAMILY");
   command
       .add_option("--ridge-collinear", ridge.collinear,
-                  "Vertices that turn by less than this, in degrees, are dropped where that\n"
-                  "moves the boundary by a quarter of a pixel at most (default: 5; 0 keeps\n"
+                  "Drop vertices that turn by less than this, in degrees, if that moves\n"
+                  "the boundary by at most a quarter of a pixel (default: 5; 0 keeps\n"
                   "every edge).")
       ->option_text("A");
   add_choice<bool>(command, "--ridge-search", ridge.sorted_list,
@@ -172,7 +172,7 @@ void add_grid_options(CLI::App& command, MethodArguments& arguments) {
       "edges differ by less than a pixel.");
 }
 
-/// A base order for which points of the exact axis stand.
+/// The base order that selects points of the exact axis.
 constexpr double exact_start_order = 4096;
 
 /// The options of potential.
@@ -184,8 +184,8 @@ void add_potential_options(CLI::App& command, method::Potential& options) {
       ->option_text("N");
   command
       .add_option("--base-order", options.base_order,
-                  "The order of the force lines that are followed first: 1 is the paper's\n"
-                  "(default: the order, but 24 at most).")
+                  "The order of the first force lines: 1 is the paper's (default: the order,\n"
+                  "at most 24).")
       ->option_text("N");
   command.add_flag(
       "--exact-start",
@@ -199,7 +199,7 @@ void add_potential_options(CLI::App& command, method::Potential& options) {
       [&options](const std::vector<double>& xy) {
         options.from = Vec2{xy[0], xy[1]};
       },
-      "Only the branch that the force leads to from this place, in units of the\n"
+      "Only the branch to which the force leads from this place, in units of the\n"
       "input.")
       ->option_text("X,Y");
   add_list_option(
@@ -207,7 +207,7 @@ void add_potential_options(CLI::App& command, method::Potential& options) {
       [&options](const std::vector<double>& box) {
         options.within = Box{{box[0], box[1]}, {box[2], box[3]}};
       },
-      "Only what lies in this box: low x, low y, high x, high y, in units of the\n"
+      "Only the part in this box: low x, low y, high x, high y, in units of the\n"
       "input.")
       ->option_text("X,Y,X,Y");
   command
@@ -217,8 +217,8 @@ void add_potential_options(CLI::App& command, method::Potential& options) {
       ->option_text("SHARE");
   command
       .add_option("--coarse", options.coarse,
-                  "First the axis of a polygon within this share of the size of the boundary,\n"
-                  "then refined on finer ones: without the branches of small teeth.")
+                  "Start with a polygon within this share of the size of the boundary, and refine\n"
+                  "its axis on finer ones: small teeth then have no branches.")
       ->option_text("SHARE");
 }
 
@@ -229,8 +229,8 @@ void add_curve_options(CLI::App& command, AxisArguments& arguments) {
             in_range(1e-6, 0.1),
             "The step from point to point, as a share of the diagonal (default: 0.001).");
   add_value(command, "--fit", arguments.fit, "D", a_positive_number(),
-            "First replace the boundary by a smooth curve within this distance of it, in units\n"
-            "of the input: a spline of least squares with few knots.");
+            "First replace the boundary by a smooth curve within this distance, in units\n"
+            "of the input: a least-squares spline with few knots.");
 }
 
 }  // namespace
@@ -250,14 +250,14 @@ Command make_axis_command(CLI::App& program) {
   add_method_options(*command, arguments->methods);
   add_exterior_options(
       *command, arguments->options,
-      "The axis of what lies around the shape and in its holes, within a rectangle.");
+      "The axis of the exterior: around the shape, within a rectangle, and in holes.");
   add_grid_options(*command, arguments->methods);
   add_potential_options(*command, arguments->methods.of<method::Potential>());
   add_curve_options(*command, *arguments);
   command->add_flag("--exact", arguments->options.exact,
-                    "Make every combinatorial decision certain: which sites a disk touches, and\n"
-                    "which nodes an edge joins. --stats counts how it was decided. Ties within\n"
-                    "the tolerance that are not exact get nodes of their own.");
+                    "Decide exactly which sites a disk touches, and which nodes an edge joins.\n"
+                    "--stats counts how each was decided. Sites that share a disk only within\n"
+                    "the tolerance get separate nodes.");
   add_simplify_option(*command, arguments->write);
   add_picture_options(*command, arguments->write);
   add_common_options(*command, arguments->common);
@@ -265,12 +265,12 @@ Command make_axis_command(CLI::App& program) {
       "Each feature gets its own axis, with its attributes. Coordinates, radii and\n"
       "lengths are in the units of the input, or in metres with --project.\n"
       "\n"
-      "Formats: .json is medial's own, lossless, and read back by every command, .safetensors\n"
-      "the same in binary columns, smaller and three times as fast; .geojson,\n"
-      ".gpkg, .shp and .fgb hold one line per branch with its nodes and the radius at both\n"
-      "ends; .graphml, .nodelink (JSON) and .edgelist the graph of branches, as networkx reads\n"
-      "it; .csv has the header edge,x,y,r; .dxf holds polylines and exact splines; pictures\n"
-      "show the axis coloured by radius.\n"
+      "Formats: .json is medial's own: lossless, and read by every command. .safetensors holds\n"
+      "the same as binary columns: smaller and three times as fast. .geojson, .gpkg, .shp and\n"
+      ".fgb hold one line per branch with its nodes and the radius at both ends. .graphml,\n"
+      ".nodelink (JSON) and .edgelist hold the graph of branches, for networkx. .csv has the\n"
+      "header edge,x,y,r. .dxf holds polylines and exact splines. Pictures show the axis\n"
+      "coloured by radius.\n"
       "\n"
       "Examples:\n"
       "  medial axis plan.geojson -o plan.svg --disks 200\n"

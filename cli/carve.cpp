@@ -24,11 +24,11 @@
 namespace medial::cli {
 namespace {
 
-/// In millimetres: no usual tool cuts so deep, so the input's units are hardly millimetres.
+/// In millimetres: usual tools do not cut deeper, so the input's unit is hardly the millimetre.
 constexpr double unlikely_depth = 50;
 constexpr char gcode_formats[] = ".nc .gcode .ngc .tap .cnc";
 
-/// What is given, in units of the result; the rest has defaults in millimetres.
+/// The options given, in units of the result; defaults are in millimetres.
 struct MachineArguments {
   std::optional<double> safe, rapid, pass_depth, clear_pass_depth;
   std::optional<double> feed, plunge, clear_feed, clear_plunge;
@@ -50,7 +50,7 @@ struct CarveArguments : FileArguments {
   Options options;  ///< exterior and margin
 };
 
-/// The point of a box at so much of its width and height.
+/// The point of a box at a share of its width and height.
 struct NamedOrigin {
   const char* name;
   double across, up;
@@ -62,7 +62,7 @@ constexpr std::array<NamedOrigin, 6> origins{{{"lower-left", 0, 0},
                                               {"center", 0.5, 0.5},
                                               {"centre", 0.5, 0.5}}};
 
-/// X,Y of the drawing; nothing where the text is no such pair.
+/// X,Y of the drawing; nothing if the text is not such a pair.
 std::optional<Vec2> point_of(const std::string& text) {
   const std::size_t comma = text.find(',');
   Vec2 p;
@@ -73,7 +73,7 @@ std::optional<Vec2> point_of(const std::string& text) {
 }
 
 /// The place of the drawing that becomes 0,0. By default its own origin, or the lower left corner
-/// where y is turned up.
+/// if y is flipped.
 Vec2 zero_of(const Document<ShapeItem>& file, const std::string& origin) {
   if (const auto point = point_of(origin)) return *point;
   if (origin == "drawing" || (origin.empty() && !file.y_down)) return {};
@@ -87,7 +87,7 @@ Vec2 zero_of(const Document<ShapeItem>& file, const std::string& origin) {
   return box.low + Vec2{named.across * size.x, up * size.y};
 }
 
-/// Whether the drawing keeps its six decimals in a double when this is its origin.
+/// Refuses an origin that would cost the drawing its six decimals.
 Status check_zero(const Document<ShapeItem>& file, Vec2 zero) {
   constexpr double most = 1e9;
   for (const ShapeItem& item : file.items)
@@ -96,7 +96,7 @@ Status check_zero(const Document<ShapeItem>& file, Vec2 zero) {
   return success();
 }
 
-/// Options with the defaults of hobby machines in wood.
+/// Fills in the defaults of hobby machines in wood.
 io::MachineOptions machine_of(const CarveArguments& arguments, Unit unit) {
   const MachineArguments& given = arguments.machine;
   const double one = 1 / millimetres(unit);  // a millimetre
@@ -116,7 +116,7 @@ io::MachineOptions machine_of(const CarveArguments& arguments, Unit unit) {
   return machine;
 }
 
-/// A pass as deep as half of an end mill is wide; 2 mm of a V.
+/// Half of an end mill's diameter; 2 mm for a V.
 CarveOptions carve_options(const CarveArguments& arguments, Unit unit) {
   CarveOptions options = arguments.carve;
   options.cleared = arguments.clear_tool;
@@ -130,7 +130,7 @@ Result<Tabs> tabs_for(const Shape& shape, const MedialAxis& axis, const CarveArg
                       const CarveOptions& options, Unit unit) {
   if (!arguments.tabs.wanted()) return Tabs{};
   const double bottom = clearing_before(options, 0, 0).depth, one = 1 / millimetres(unit);
-  if (!(bottom > 0)) return invalid_option("tabs need --depth, how thick the material is");
+  if (!(bottom > 0)) return invalid_option("tabs need --depth, the thickness of the material");
   const double height = arguments.tabs.height.value_or(std::min(2 * one, bottom / 2));
   if (height >= bottom) return invalid_option("--tab-height must be below the depth");
   auto lines = place_tabs(shape, axis, arguments.tabs);
@@ -138,8 +138,7 @@ Result<Tabs> tabs_for(const Shape& shape, const MedialAxis& axis, const CarveArg
   return Tabs{std::move(lines).value(), arguments.tabs.width.value_or(6 * one), bottom - height};
 }
 
-/// All shapes as one, for what lies around them together: around each alone would be through its
-/// neighbours.
+/// All shapes as one: the exterior of each alone would contain its neighbours.
 Status unite(std::vector<ShapeItem>& items) {
   std::vector<Ring> rings;
   for (const ShapeItem& item : items)
@@ -155,10 +154,10 @@ Status unite(std::vector<ShapeItem>& items) {
 }
 
 struct CarvedItem : io::CarveItem {
-  std::uint64_t parts = 0, narrow = 0;  ///< of the shape; and those that the tool does not fit into
+  std::uint64_t parts = 0, narrow = 0;  ///< all parts; those too narrow for the tool
 };
 
-/// Counts parts by their largest disks. They are at nodes, or hardly larger.
+/// Counts parts by their largest disks at nodes; others are hardly larger.
 void count_parts(const MedialAxis& axis, const CarveOptions& options, CarvedItem& item) {
   constexpr double rounding = 1e-9;
   std::map<std::uint32_t, double> widest;
@@ -198,7 +197,7 @@ Result<CarvedItem> carve_one(Shape shape, const CarveArguments& arguments,
   return item;
 }
 
-/// What the tools do not reach, in notes.
+/// Notes on what the tools do not reach.
 void note_uncut(const std::vector<CarvedItem>& items, const CarveArguments& arguments) {
   const std::string& input = arguments.input.path;
   const CarveOptions& tool = arguments.carve;
@@ -208,7 +207,8 @@ void note_uncut(const std::vector<CarvedItem>& items, const CarveArguments& argu
     paths += item.carving.paths.size(), clearing += item.clearing.paths.size();
   }
   if (paths == 0)
-    say("medial: {}: note: nothing is cut: the tool fits nowhere into the shape; a smaller {}, or "
+    say("medial: {}: note: nothing is cut: the tool fits nowhere in the shape; use a smaller {}, "
+        "or "
         "another --units or --scale\n",
         input, tool.angle == 0 ? "--tool" : "--tip");
   else if (narrow > 0)
@@ -220,7 +220,8 @@ void note_uncut(const std::vector<CarvedItem>& items, const CarveArguments& argu
         "shape and the rectangle around it\n",
         input);
   if (arguments.clear_tool > 0 && clearing == 0)
-    say("medial: {}: note: the mill of --clear-tool fits nowhere: the V clears all\n", input);
+    say("medial: {}: note: the mill of --clear-tool fits nowhere: the V clears everything\n",
+        input);
 }
 
 Result<int> finish_carve(const Document<io::CarveItem>& file, const CarveArguments& arguments,
@@ -279,7 +280,7 @@ Status write_preview(const CarveArguments& arguments, const Document<io::CarveIt
   return io::write_carving(arguments.preview, {}, file, machine, arguments.write);
 }
 
-/// The text of a template from a file, or a known name as it is.
+/// The text of a template file, or a known name unchanged.
 Status read_post(std::string& post) {
   const std::string known = io::post_names();
   if (post.empty() || (", " + known + ",").find(", " + post + ",") != std::string::npos)
@@ -287,12 +288,12 @@ Status read_post(std::string& post) {
   std::ifstream file(post, std::ios::binary);
   std::stringstream text;
   if (!(text << file.rdbuf()))
-    return invalid_option("--post is " + known + " or the name of a template that can be read");
+    return invalid_option("--post is " + known + " or the name of a readable template");
   post = text.str();
   return success();
 }
 
-/// What tools need, and what has no effect.
+/// Refuses missing options, and options without effect.
 Status check_tools(const CarveArguments& arguments) {
   const CarveOptions& carve = arguments.carve;
   if (!arguments.tabs.wanted() && (arguments.tabs.width || arguments.tabs.height))
@@ -330,7 +331,7 @@ Result<int> run_carve(const CarveArguments& given) {
   UnitOptions& units = arguments.input.source.units;
   const bool usual = units.wanted == Unit::unknown || units.wanted == Unit::millimetre ||
                      units.wanted == Unit::inch;
-  if (!usual) return invalid_option("G-code is in mm or in: --output-units takes one of them");
+  if (!usual) return invalid_option("G-code is in mm or in: --output-units must be one of them");
   units.assumed = Unit::millimetre;
   if (units.wanted == Unit::unknown) units.wanted = Unit::millimetre;
   auto shapes = load_shapes(arguments.input, common);
@@ -373,31 +374,31 @@ void add_length(CLI::App& command, const char* name, T& value, const char* text,
 void add_tool_options(CLI::App& command, CarveArguments& arguments) {
   CarveOptions& carve = arguments.carve;
   add_value(command, "--angle", carve.angle, "A REQUIRED", in_range(0, 170),
-            "Between the sides of the V-shaped tool, in degrees, in [1, 170]; or 0 for an\n"
-            "end mill, which clears pockets.")
+            "The angle between the sides of the V-shaped tool, in degrees, in [1, 170]; or 0\n"
+            "for an end mill, which clears pockets.")
       ->required();
   add_length(command, "--depth", carve.depth, "Z",
-             "The largest depth: what is wider gets a flat bottom (default: as deep as the\n"
+             "The largest depth; wider places get a flat bottom (default: as deep as the\n"
              "tool reaches).");
   add_length(command, "--tool", carve.tool, "D",
-             "The tool's diameter; of a V its largest, which limits the depth.");
+             "The tool's diameter; for a V, its largest diameter, which limits the depth.");
   add_length(command, "--tip", carve.tip, "D",
              "The diameter of a V's flat tip (default: a point).");
   add_value(command, "--pass-depth", arguments.machine.pass_depth, "Z", in_range(0, 1e9, true),
-            "The depth of one pass (default: 2 mm, of an end mill half its diameter; 0: all\n"
+            "The depth of one pass (default: 2 mm, or half of an end mill's diameter; 0: all\n"
             "in one).");
   carve.ramp = 20;
   add_value(command, "--ramp", carve.ramp, "A", in_range(0.1, 90),
-            "The steepest way into the material, along the path, in degrees (default: 20;\n"
+            "The steepest angle of ramps into the material, in degrees (default: 20;\n"
             "90: straight down).");
   add_length(command, "--step", carve.step, "S",
-             "Between the passes that clear a flat bottom (default: half of the tip's\n"
-             "diameter, which leaves nothing; of a pointed tool a 20th of its radius at the\n"
+             "The distance between passes that clear a flat bottom (default: half of the tip's\n"
+             "diameter, which leaves nothing; for a pointed tool, 1/20 of its radius at the\n"
              "bottom, which leaves ridges).");
   add_length(command, "--path-tolerance", carve.chord, "T",
-             "How far straight moves may be off the axis's curves, always upwards (default:\n"
-             "1e-5 of the diagonal), and in .csv off arcs, always inwards (default: 1e-6 of\n"
-             "the tool's radius at the bottom).");
+             "The largest error of straight moves: above the axis's curves (default: 1e-5 of\n"
+             "the diagonal), and in .csv inside arcs (default: 1e-6 of the tool's radius at\n"
+             "the bottom).");
 }
 
 void add_tab_options(CLI::App& command, CarveArguments& arguments) {
@@ -407,29 +408,30 @@ void add_tab_options(CLI::App& command, CarveArguments& arguments) {
       command
           .add_option(
               "--tabs", tabs.count,
-              "Leave this many bars at each part that would come loose: at each hole, with\n"
+              "Leave this many bars at each part that would come loose: at each hole, or with\n"
               "--exterior around each shape. They lie on the bottom, from side to side, and\n"
               "need --depth.")
           ->check(CLI::Range(1, 1000))
           ->option_text("N");
   command
       .add_option("--tab-spacing", tabs.spacing,
-                  "The same, one for each so long part of the boundary.")
+                  "Instead: one bar per this length of the boundary.")
       ->check(a_positive_number())
       ->option_text("L")
       ->excludes(count);
-  add_length(command, "--tab-width", tabs.width, "W", "How wide they are (default: 6 mm).");
+  add_length(command, "--tab-width", tabs.width, "W", "The width of the bars (default: 6 mm).");
   add_length(command, "--tab-height", tabs.height, "H",
-             "How high, above the bottom (default: 2 mm, at most half of the depth).");
+             "Their height above the bottom (default: 2 mm, at most half of the depth).");
 }
 
 void add_clearing_options(CLI::App& command, CarveArguments& arguments) {
   const OptionGroup group(command, "Clearing before a V");
   CLI::Option* tool =
       command
-          .add_option("--clear-tool", arguments.clear_tool,
-                      "First clear flat bottoms by an end mill of this diameter; the V then cuts\n"
-                      "walls, corners and what the mill leaves. Needs --depth or --tool.")
+          .add_option(
+              "--clear-tool", arguments.clear_tool,
+              "First clear flat bottoms with an end mill of this diameter; the V then cuts\n"
+              "walls, corners and what the mill leaves. Needs --depth or --tool.")
           ->check(a_positive_number())
           ->option_text("D");
   MachineArguments& machine = arguments.machine;
@@ -438,20 +440,20 @@ void add_clearing_options(CLI::App& command, CarveArguments& arguments) {
   };
   add("--clear-pass-depth", machine.clear_pass_depth, "Z",
       "The depth of one pass (default: half of the diameter).");
-  add("--clear-feed", machine.clear_feed, "F", "As --feed, of the mill (default: --feed).");
-  add("--clear-plunge", machine.clear_plunge, "F", "As --plunge (default: --plunge).");
-  add("--clear-spindle", machine.clear_spindle, "S", "As --spindle (default: --spindle).");
+  add("--clear-feed", machine.clear_feed, "F", "Like --feed, for the mill (default: --feed).");
+  add("--clear-plunge", machine.clear_plunge, "F", "Like --plunge (default: --plunge).");
+  add("--clear-spindle", machine.clear_spindle, "S", "Like --spindle (default: --spindle).");
 }
 
 void add_machine_options(CLI::App& command, CarveArguments& arguments) {
   const OptionGroup group(command, "G-code");
   MachineArguments& machine = arguments.machine;
   add_length(command, "--feed", machine.feed, "F",
-             "Of cutting moves, units a minute (default: 1000 mm).");
+             "Speed of cutting moves, in units per minute (default: 1000 mm).");
   add_length(command, "--plunge", machine.plunge, "F",
-             "Straight downwards, units a minute (default: 300 mm).");
+             "Speed straight downwards, in units per minute (default: 300 mm).");
   add_length(command, "--rapid", machine.rapid, "F",
-             "Of other moves, for the estimated time (default: 3000 mm).");
+             "Speed of other moves, for the estimated time (default: 3000 mm).");
   add_length(command, "--safe", machine.safe, "Z", "The height of other moves (default: 5 mm).");
   add_length(command, "--spindle", machine.spindle, "S",
              "Turns per minute (default: not started).");
@@ -461,20 +463,21 @@ void add_machine_options(CLI::App& command, CarveArguments& arguments) {
     return known ? std::string() : "'" + text + "' is neither a corner, center, drawing nor X,Y";
   };
   command
-      .add_option("--origin", arguments.origin,
-                  "What becomes 0,0: lower-left, lower-right, upper-left, upper-right or center\n"
-                  "of the shapes, drawing, or the point X,Y of it (default: lower-left where y\n"
-                  "points down in the file, else drawing).")
+      .add_option(
+          "--origin", arguments.origin,
+          "The place that becomes 0,0: lower-left, lower-right, upper-left, upper-right or\n"
+          "center of the shapes; drawing, for its own origin; or a point X,Y of it (default:\n"
+          "lower-left if y points down in the file, else drawing).")
       ->check(CLI::Validator(check, ""))
       ->option_text("WHERE");
   command
       .add_option("--post", machine.post,
-                  "What stands around the moves: " + io::post_names() +
-                      " (default:\nplain), or the name of a template, see docs/carve.md.")
+                  "The dialect of the G-code: " + io::post_names() +
+                      " (default:\nplain), or the name of a template: see docs/carve.md.")
       ->option_text("NAME");
   command
       .add_option("--preview", arguments.preview,
-                  "Also write a picture of the surface after the cut, simulated.")
+                  "Also write a picture of the simulated surface after the cut.")
       ->check(a_name())
       ->option_text("PICTURE");
 }
@@ -491,19 +494,19 @@ Command make_carve_command(CLI::App& program) {
   add_tab_options(*command, *arguments);
   add_exterior_options(
       *command, arguments->options,
-      "Cut what lies around the shape and in its holes, up to a rectangle, so that the\n"
-      "shape stands out: the rectangle's edges become walls as well.");
+      "Cut around the shape, up to a rectangle, and in its holes, so that the shape\n"
+      "stands out. The rectangle's edges become walls, too.");
   add_machine_options(*command, *arguments);
   add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::carving),
                      "for example nc");
   add_width_option(*command, arguments->write.width);
   add_common_options(*command, arguments->common);
   command->footer(
-      "The tool's point follows the axis at the depth where the tool is as wide as the\n"
-      "disk: walls begin at the boundary, corners come out sharp. Nothing outside is\n"
-      "touched. Flat bottoms are cleared from the inside out without lifting where that is\n"
-      "safe. Lengths are millimetres, or inches with --output-units in; of an SVG the\n"
-      "physical size counts, or 96 pixels an inch; z is 0 on the surface.\n"
+      "The tip of the tool follows the axis at the depth where the tool is as wide as the\n"
+      "disk, so walls begin at the boundary and corners are sharp. Nothing outside is\n"
+      "touched. Flat bottoms are cleared from the inside out, without lifting where that is\n"
+      "safe. Lengths are millimetres, or inches with --output-units in. For an SVG, the\n"
+      "physical size applies, or 96 pixels per inch. z is 0 on the surface.\n"
       "\n"
       "Examples:\n"
       "  medial carve spanner.svg --angle 60 -o spanner.nc\n"

@@ -1,4 +1,4 @@
-// medial centreline: shapes in; their main paths, widest ways or wide parts out.
+// medial centreline: shapes in; their main paths, widest paths or wide parts out.
 
 #include "medial/centreline.h"
 
@@ -51,7 +51,7 @@ void append(MedialAxis& all, const MedialAxis& one) {
   all.resolution = std::max(all.resolution, one.resolution);
 }
 
-/// The pieces of all paths of a shape, for what takes time in proportion to the shape.
+/// The pieces of all paths of a shape together, as some functions take O(shape) time.
 AxisPath all_of(const std::vector<AxisPath>& paths) {
   AxisPath all;
   for (const AxisPath& path : paths)
@@ -68,7 +68,7 @@ Status make_lines(Document<AxisItem>& file, const Paths& paths,
     all.method = item.axis.method;
     all.tolerance = item.axis.tolerance;
     all.resolution = item.axis.resolution;
-    // A line that is not extended needs no sites, which are those of all parts.
+    // Only an extended line needs sites, which are those of all parts.
     std::vector<Site> sites =
         arguments.line.extend ? item.axis.sites : std::exchange(item.axis.sites, {});
     if (arguments.keep_loops) {
@@ -88,7 +88,7 @@ Status make_lines(Document<AxisItem>& file, const Paths& paths,
   return for_each_item(std::vector<double>(file.items.size(), 1.0), threads, make);
 }
 
-/// The axis without forks in corners: of a shape like a network all of its ways, with the cycles.
+/// The axis without forks in corners: for a network, all of its paths, including cycles.
 Result<MedialAxis> network_of(const MedialAxis& axis, double trim) {
   PruneOptions options;
   options.measure = PruneMeasure::significance;
@@ -107,12 +107,12 @@ Status make_networks(Document<AxisItem>& file, const CentrelineArguments& argume
   });
 }
 
-/// The lines of some features, and what they leave out.
+/// The lines of some features, and the lengths that they leave out.
 struct LineSums {
   std::uint64_t features = 0, lines = 0;
   double length = 0, narrowest = std::numeric_limits<double>::infinity();
   double network = 0;   ///< length of the whole networks
-  double channels = 0;  ///< of the ways around holes
+  double channels = 0;  ///< of the paths around holes
 
   LineSums& operator+=(const LineSums& more) {
     features += more.features, lines += more.lines;
@@ -129,7 +129,7 @@ LineSums sums_of(const Paths& paths) {
   return sums;
 }
 
-/// Adds what main paths leave out, for a note.
+/// Adds the lengths that main paths leave out, for a note.
 Status add_what_is_left_out(const Document<AxisItem>& file, const Paths& paths,
                             const CentrelineArguments& arguments, int threads, LineSums& sums) {
   if (arguments.common.quiet || arguments.path.between_places()) return success();
@@ -149,13 +149,13 @@ Status add_what_is_left_out(const Document<AxisItem>& file, const Paths& paths,
   return success();
 }
 
-/// Says how much of the networks and of the ways around holes the main paths leave out.
+/// A note on what main paths leave out of the networks and of the paths around holes.
 void note_what_is_left_out(const LineSums& sums, const CentrelineArguments& arguments) {
   const double whole = sums.network, channels = sums.channels, chosen = sums.length;
   constexpr double worth_a_note = 0.01;
   const bool kept = arguments.keep_loops;
   if (channels > worth_a_note * chosen)
-    say("medial: {}: note: the main paths are {:.6g} long, the other ways around holes {:.6g}; "
+    say("medial: {}: note: the main paths are {:.6g} long, the other paths around holes {:.6g}; "
         "{}\n",
         arguments.input.path, chosen, channels,
         kept ? "both are kept" : "--loops=keep keeps them, --all the whole network");
@@ -195,7 +195,7 @@ Result<int> finish_lines(const Paths& paths, const LineSums& sums, const LoadedA
   return finish(arguments, std::move(object), axes.phases, describe(sums, arguments));
 }
 
-/// The polygons of a shape, one for each component, as rings of points: arcs within a chord.
+/// The polygons of a shape, one per component, as rings of points; chords replace arcs.
 void add_polygons(const Shape& shape, std::uint32_t feature, double chord, io::Layer& layer) {
   std::vector<io::LayerFeature> polygons(shape.component_count());
   for (std::size_t i = 0; i < shape.loop_count(); ++i) {
@@ -248,7 +248,7 @@ void add_lines(const MedialAxis& lines, std::uint32_t feature, double chord, io:
   }
 }
 
-/// What became of the shapes of a file.
+/// The collapsed shapes of a file.
 struct Collapse {
   std::vector<CollapsedShape> shapes;
   Document<io::Layer> layers;  ///< polygons, lines
@@ -323,7 +323,7 @@ void keep_clearance(Document<AxisItem>& file, double clearance) {
   }
 }
 
-/// The same for a file of many features, part by part; nothing where that cannot be.
+/// The same for a file of many features, part by part; nothing if that is impossible.
 Result<std::optional<int>> stream_centreline(const CentrelineArguments& arguments) {
   if (arguments.collapse > 0 || arguments.path.between_places() || arguments.common.json)
     return std::optional<int>();
@@ -406,7 +406,7 @@ CLI::Option* add_line_options(CLI::App& command, CentrelineArguments& arguments)
             "stays inside the shape.");
   CLI::Option* all = command.add_flag(
       "--all", arguments.all,
-      "Instead of a line: the whole network, all ways around holes included, without\n"
+      "Instead of a line: the whole network, with all paths around holes, but without\n"
       "forks in corners (see --trim).");
   for (const char* other : {"--from", "--to", "--widest", "--extend", "--smooth", "--route"})
     all->excludes(other);
@@ -414,8 +414,8 @@ CLI::Option* add_line_options(CLI::App& command, CentrelineArguments& arguments)
       .add_option_function<std::string>(
           "--loops",
           [&arguments](const std::string& what) { arguments.keep_loops = what == "keep"; },
-          "Keep the other ways around holes that leave the line and come back to it, such\n"
-          "as a river's side channels, without its tributaries: keep, or drop (default).")
+          "Other paths around holes that leave the line and come back to it, such as a\n"
+          "river's side channels (not its tributaries): keep, or drop (default).")
       ->check(CLI::IsMember({"keep", "drop"}))
       ->option_text("WHAT")
       ->excludes(all);
@@ -428,37 +428,38 @@ CLI::Option* add_line_options(CLI::App& command, CentrelineArguments& arguments)
 Command make_centreline_command(CLI::App& program) {
   auto arguments = std::make_shared<CentrelineArguments>();
   CLI::App* command = program.add_subcommand(
-      "centreline", "Compute the centre lines of shapes, or the widest way between two places.");
+      "centreline", "Compute the centre lines of shapes, or the widest path between two places.");
   command->alias("centerline");
   add_input_options(*command, arguments->input);
   add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::axes));
   CLI::Option* all = add_line_options(*command, *arguments);
   CLI::Option* clearance =
       add_value(*command, "--clearance", arguments->clearance, "R", a_positive_number(),
-                "Instead of a line: all of the axis where a disk of this radius has room.");
+                "Instead of a line: the whole axis where a disk of this radius fits.");
   CLI::Option* collapse =
-      add_value(*command, "--collapse", arguments->collapse, "WIDTH", a_positive_number(),
-                "Instead: parts narrower than this become lines, the rest stays polygons;\n"
-                "as layers, or as shapes with lines in .json. Formats:\n" +
-                    std::string(collapse_formats))
+      add_value(
+          *command, "--collapse", arguments->collapse, "WIDTH", a_positive_number(),
+          "Instead: collapse parts narrower than this to lines, and keep the rest as polygons;\n"
+          "as layers, or as shapes with lines in .json. Formats:\n" +
+              std::string(collapse_formats))
           ->excludes(clearance);
   clearance->excludes(all);
   collapse->excludes(all);
   for (CLI::Option* option : {clearance, collapse})
     for (const char* place : {"--from", "--to", "--widest", "--loops"}) option->excludes(place);
   add_exterior_options(*command, arguments->options,
-                       "Lines of what lies around the shape and in its holes, within a rectangle.")
+                       "Lines of the exterior: around the shape, within a rectangle, and in holes.")
       ->excludes(collapse);
   add_simplify_option(*command, arguments->write);
   add_picture_options(*command, arguments->write);
   add_common_options(*command, arguments->common);
   command->footer(
       "The main path of a shape joins the two ends of its axis that are farthest apart,\n"
-      "measured along the axis. Each part of a feature has one; a ring without dead ends\n"
-      "has a closed one. The attributes of the features are carried along.\n"
+      "measured along the axis. Each part of a feature has one; that of a ring without dead\n"
+      "ends is closed. Lines get the attributes of their features.\n"
       "\n"
       "Formats are those of `medial axis`: exact curves in .json, .dxf and .svg, lines\n"
-      "with both ends' radii in .geojson, .gpkg, .shp and .fgb, samples with radii in .csv.\n"
+      "with the radii of both ends in .geojson, .gpkg, .shp and .fgb, samples with radii in .csv.\n"
       "\n"
       "Examples:\n"
       "  medial centreline rivers.geojson --project --extend --smooth 1 -o lines.gpkg\n"

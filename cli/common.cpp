@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The limits of what can be asked for, so that no value asks for more memory than a machine has.
+// Limits of options, so that no value needs more memory than a machine has.
 constexpr double smallest_chord = 1e-9;
 constexpr double largest_tolerance = 1e-3;
 constexpr double smallest_arc_tolerance = 1e-13;
@@ -65,7 +65,7 @@ bool lists(const std::string& formats, const std::string& wanted) {
   return false;
 }
 
-/// With --text the font stands for INPUT; then a first word that was taken for INPUT is the second.
+/// With --text the font replaces INPUT; then the first word is the second file.
 void settle_input(InputOptions& input, const std::string& second_name, std::string* second) {
   if (input.source.text.empty()) {
     if (!input.font.empty()) throw CLI::RequiresError("--font", "--text");
@@ -87,12 +87,12 @@ void add_curve_options(CLI::App& command, InputOptions& input) {
       ->option_text("TEXT");
   command.add_option("--font", input.font, "The font file of --text.")->option_text("FILE");
   add_value(command, "--font-size", input.source.font_size, "S", a_positive_number(),
-            "How large the letters are: the em, in --units (default: in font units).")
+            "The size of the letters: their em, in --units (default: font units).")
       ->needs("--font");
   ArcOptions& arcs = input.source.load.arcs;
   add_value(command, "--arc-tolerance", arcs.tolerance, "T",
             in_range(smallest_arc_tolerance, largest_arc_tolerance),
-            "Curves become arcs within this fraction of the diagonal of the\n"
+            "Replace curves by arcs within this fraction of the diagonal of the\n"
             "bounding box (default: 1e-6). Arcs and straight edges stay exact.");
   command
       .add_option_function<double>(
@@ -108,8 +108,8 @@ void add_curve_options(CLI::App& command, InputOptions& input) {
   command
       .add_flag("--close{all}", input.close,
                 "Loose curves (DXF): join ends that are at most GAP apart, in units of\n"
-                "the input (default: 1e-6 of the diagonal; curves that stay open are left\n"
-                "out); without GAP, close every open curve.")
+                "the input (default: 1e-6 of the diagonal), and leave out curves that stay\n"
+                "open; without GAP, close every open curve.")
       ->each([&input](const std::string& text) {
         double gap = std::numeric_limits<double>::infinity();
         if (text != "all" && (!CLI::detail::lexical_cast(text, gap) || !(gap >= 0))) {
@@ -133,27 +133,27 @@ CLI::Option* add_unit(CLI::App& command, const char* name, Unit& unit, const std
 void add_unit_options(CLI::App& command, UnitOptions& units) {
   const OptionGroup group(command, "Units");
   add_unit(command, "--units", units.given,
-           "What lengths of the input are in, where it does not say, or is wrong:\n" +
+           "The unit of lengths in the input, if the file does not state it or is wrong:\n" +
                unit_names() + ".");
   add_unit(command, "--output-units", units.wanted,
-           "Convert to these units, after reading; lengths in other options are in them, too.");
+           "Convert to these units after reading; other options use them, too.");
   add_value(command, "--scale", units.scale, "S", in_range(1e-9, 1e9, true),
-            "Enlarge the input by this factor (default: 1).");
+            "Scale the input by this factor (default: 1).");
   add_value(command, "--pixel-size", units.pixel_size, "L", a_positive_number(),
             "Images: the side of a pixel, in --units (default: 1, or with --output-units\n"
-            "what the file says of its dots per inch).");
+            "by the file's dots per inch).");
 }
 
 void add_outline_options(CLI::App& command, InputOptions& input) {
   input.source.read.smooth_contour = true;
   CLI::Option* smooth =
       command.add_flag("--smooth-contour", input.whole_smooth,
-                       "Images: all of the axis of the smooth curve within half a pixel of the\n"
-                       "pixels' boundary, which stands for it (default: `axis` and `prune` keep\n"
+                       "Images: keep the whole axis of the smooth curve that approximates the\n"
+                       "pixels' boundary within half a pixel (default: `axis` and `prune` keep\n"
                        "what a person would draw).");
   command
       .add_flag("!--pixel-outline", input.source.read.smooth_contour,
-                "Images: the pixels' boundary as it is, with a branch at each of its stairs.")
+                "Images: use the exact boundary of the pixels, with a branch at each step.")
       ->excludes(smooth);
 }
 
@@ -176,7 +176,7 @@ void add_input_options(CLI::App& command, InputOptions& input, const std::string
 }
 
 void add_input_options(CLI::App& command, InputOptions& input) {
-  // Words that no option takes are reported first.
+  // Report words that no option takes first.
   command.parse_complete_callback([&command, &input] {
     if (command.remaining_size() == 0) settle_input(input, {}, nullptr);
   });
@@ -184,7 +184,7 @@ void add_input_options(CLI::App& command, InputOptions& input) {
   command
       .add_option("INPUT", input.path,
                   "Shapes: any vector file that GDAL reads, .svg, .dxf, .wkt, plain `x y`\n"
-                  "text, medial's own .json, any of them with .gz; a binary image (PNG, TIFF,\n"
+                  "text, medial's own .json, all also with .gz; a binary image (PNG, TIFF,\n"
                   "GeoTIFF, PGM, PBM); or - for standard input.")
       ->option_text(" ");
   const OptionGroup group(command, input_group);
@@ -192,7 +192,7 @@ void add_input_options(CLI::App& command, InputOptions& input) {
       ->option_text("NAME");
   command
       .add_option("--where", read.where,
-                  "Read only the features for which this SQL condition holds,\n"
+                  "Read only the features that satisfy this SQL condition,\n"
                   "for example \"population > 1000\".")
       ->option_text("SQL");
   // A flag that carries a value: as an option, `--repair FILE` would take the file for the rule.
@@ -206,19 +206,19 @@ void add_input_options(CLI::App& command, InputOptions& input) {
       ->check(CLI::IsMember({"make-valid", "even-odd", "non-zero"}).description(""))
       ->each([&read](const std::string& rule) { read.repair = rules.at(rule); });
   command.add_flag("--skip-invalid", read.skip_invalid,
-                   "Leave out invalid features instead of refusing the file; a note on each\n"
-                   "says why, and another one how many.");
+                   "Leave out invalid features instead of refusing the file; notes say\n"
+                   "why, and how many.");
   command
       .add_option("--crs", read.crs,
-                  "The reference system of the coordinates, in place of the file's own.")
+                  "The reference system of the coordinates; overrides the file's own.")
       ->option_text("EPSG:N");
   command.add_flag("--project", read.project,
-                   "Longitudes and latitudes: compute in a fitting local projection, in\n"
-                   "metres. Formats of GIS, .wkt and .csv get longitudes and latitudes again;\n"
+                   "Longitudes and latitudes: compute in a suitable local projection, in\n"
+                   "metres. GIS formats, .wkt and .csv get longitudes and latitudes again;\n"
                    "radii and lengths stay in metres.");
   add_image_options(command, read.image);
   command.add_flag("--labels", read.image.labels,
-                   "Images: a feature for the pixels of each value but 0.");
+                   "Images: make one feature of the pixels of each value except 0.");
   add_outline_options(command, input);
   add_curve_options(command, input);
   add_unit_options(command, input.source.units);
@@ -228,7 +228,7 @@ void add_image_options(CLI::App& command, io::ImageOptions& options) {
   command
       .add_option("--threshold", options.threshold,
                   "Images: pixels of at least this value are foreground (default: half of\n"
-                  "the format's range; 128 of 8 bits).")
+                  "the format's range, such as 128 for 8 bits).")
       ->check(in_range(-1e300, 1e300, true))
       ->option_text("VALUE");
   command.add_flag("--invert", options.invert,
@@ -248,7 +248,7 @@ void add_format_option(CLI::App& command, std::string& format, const std::string
 void add_layer_options(CLI::App& command, io::WriteOptions& write) {
   command
       .add_option("--output-layer", write.layer,
-                  "The name of the layer in a .gpkg; further ones are called NAME_nodes and so on.")
+                  "The name of the layer in a .gpkg; others are called NAME_nodes and so on.")
       ->check(a_name())
       ->option_text("NAME");
   command.add_flag("--overwrite", write.overwrite,
@@ -259,7 +259,7 @@ void add_output_options(CLI::App& command, FileArguments& arguments, const std::
                         const std::string& piped) {
   add_output_option(
       command, arguments.output, "OUTPUT",
-      fmt::format("The output file; its extension chooses the format:\n{}\n"
+      fmt::format("The output file; its extension selects the format:\n{}\n"
                   "- is standard output, see --format. Without -o, only a summary is\n"
                   "printed.",
                   formats));
@@ -270,8 +270,8 @@ void add_output_options(CLI::App& command, FileArguments& arguments, const std::
 void add_threads_option(CLI::App& command, int& threads) {
   const OptionGroup group(command, common_group);
   add_value(command, "--threads", threads, "N", in_range(0, most_threads),
-            "Threads to use (default: 0, all of the machine). The result is the\n"
-            "same, byte for byte.");
+            "The number of threads (default: 0, all of the machine). The result\n"
+            "is the same, byte for byte.");
 }
 
 void add_report_options(CLI::App& command, CommonOptions& common) {
@@ -279,23 +279,24 @@ void add_report_options(CLI::App& command, CommonOptions& common) {
   command.add_flag("--stats", common.stats,
                    "Report times in seconds, counts and memory: as a table on standard error,\n"
                    "or with --json within the object on standard output.");
-  command.add_flag("--json", common.json, "Print one JSON object on standard output; errors too.");
-  command.add_flag("--quiet", common.quiet, "No warnings, notes or progress; only errors.");
+  command.add_flag("--json", common.json,
+                   "Print one JSON object on standard output, also for errors.");
+  command.add_flag("--quiet", common.quiet, "Print only errors: no warnings, notes or progress.");
 }
 
 void add_common_options(CLI::App& command, CommonOptions& common) {
   add_threads_option(command, common.threads);
   const OptionGroup group(command, common_group);
   add_value(command, "--tolerance", common.tolerance, "T", a_tolerance(),
-            "How far a disk may miss what it touches, as a fraction of the diagonal\n"
-            "of the bounding box, at most 1e-3 (default: 4e-15, in verify 1e-14, or\n"
-            "what the coordinates' spacing allows).");
+            "The largest distance at which a disk touches a site, as a fraction of the\n"
+            "diagonal of the bounding box, at most 1e-3 (default: 4e-15, in verify\n"
+            "1e-14, or what the spacing of coordinates allows).");
   add_value(command, "--corner-angle", common.corner_angle, "A", in_range(0, 10),
-            "Where an arc is involved, convex joints below this angle, in degrees, are\n"
-            "smooth and not corners, at most 10 (default: 1 for fonts and .svg, else 0.01).");
+            "Convex joints with an arc are smooth, not corners, below this angle, in\n"
+            "degrees, at most 10 (default: 1 for fonts and .svg, else 0.01).");
   add_value(command, "--chord", common.chord, "C", in_range(smallest_chord, 1),
-            "Where curves are written as points, chords stay within this fraction\n"
-            "of the diagonal of the bounding box (default: 1e-3).");
+            "Where curves are written as points: the largest distance of chords, as a\n"
+            "fraction of the diagonal of the bounding box (default: 1e-3).");
   add_report_options(command, common);
 }
 
@@ -312,16 +313,16 @@ void add_picture_options(CLI::App& command, io::WriteOptions& write) {
   const OptionGroup group(command, picture_group);
   add_value(command, "--disks", write.disks, "N", in_range(0, most_disks),
             "Draw about N maximal disks, spread over the axis (default: 0).");
-  command.add_flag("--contacts", write.contacts, "Draw where the nodes' disks touch the boundary.");
+  command.add_flag("--contacts", write.contacts, "Draw the foot points of the nodes' disks.");
   command.add_flag("--nodes", write.nodes,
-                   "Draw the nodes, by kind; in .gpkg and graphs also those inside of branches.");
-  command.add_flag("!--no-shape", write.shape, "Leave the shape out.");
+                   "Draw the nodes, by kind; .gpkg and graphs also get those inside branches.");
+  command.add_flag("!--no-shape", write.shape, "Leave out the shape.");
 }
 
 void add_simplify_option(CLI::App& command, io::WriteOptions& write) {
   add_value(command, "--simplify", write.simplify, "E", a_positive_number(),
-            "Lines of GIS formats, .wkt and graphs have few points within E, in units of the\n"
-            "input, of the axis (default: chords, see --chord). Their ends stay.");
+            "Simplify lines in GIS formats, .wkt and graphs within E, in units of the input,\n"
+            "of the axis (default: see --chord). Keeps their ends.");
 }
 
 CLI::Option* add_exterior_options(CLI::App& command, Options& options, const std::string& help) {
@@ -361,7 +362,7 @@ CLI::Validator a_positive_number() {
 
 namespace {
 
-/// Numbers separated by commas; nothing where there is an empty one, or what is no number.
+/// Numbers separated by commas; nothing if one is missing or not a number.
 std::optional<std::vector<double>> numbers_of(const std::string& text) {
   std::vector<double> numbers;
   for (std::size_t at = 0;;) {
@@ -415,8 +416,8 @@ CLI::Validator a_whole_number() {
 
 namespace {
 
-/// Whether what is written with this name is what is read with the input's: a file itself, a part
-/// of a shapefile, or the image of a map.
+/// Whether writing to this name overwrites the input: the file itself, a part of a shapefile, or
+/// the image of a map.
 bool is_read_with(const fs::path& target, const fs::path& input) {
   std::error_code ignored;
   const auto same = [&](const fs::path& a, const fs::path& b) {
@@ -468,10 +469,10 @@ Status check_output(const std::string& path, const std::string& format,
   if (path.empty() && format.empty()) return success();
   if (path != "-") {
     if (!format.empty())
-      return invalid_option("--format is for -o -; a file's extension chooses its format");
+      return invalid_option("--format is for -o -; a file's extension selects its format");
     return check_file(path, known_formats, input);
   }
-  // Without a format, a pipe takes medial's own.
+  // A pipe gets medial's own format by default.
   const bool native = format.empty() && lists(known_formats, "json");
   if (format.empty() && !native)
     return invalid_option("-o - needs --format, for example --format csv");
@@ -483,8 +484,7 @@ Status check_output(const std::string& path, const std::string& format,
 
 namespace {
 
-/// What is asked for a picture alone, where the output is another file. Nodes are a layer of
-/// GeoPackages, too.
+/// Refuses options of pictures for other files. Nodes are a layer of GeoPackages, too.
 Status check_picture_options(const FileArguments& arguments) {
   const io::WriteOptions& write = arguments.write;
   const bool asked =
@@ -578,7 +578,7 @@ Status print(const std::string& text) {
 }
 
 Status print(const Json& object) {
-  // File names need not be UTF-8; the object has to be.
+  // File names need not be UTF-8; the object must be.
   return print(object.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 

@@ -1,4 +1,4 @@
-// medial compare: all methods that take an input, side by side.
+// medial compare: the methods that support an input, side by side.
 
 #include <fmt/format.h>
 
@@ -20,20 +20,20 @@ namespace {
 
 struct CompareArguments : FileArguments {
   std::string methods = "all";
-  double fit = 0;   ///< boundaries become smooth within this distance; 0: they do not
+  double fit = 0;   ///< smooths boundaries within this distance; 0: no
   Options options;  ///< exterior and margin
 };
 
 struct Row {
   std::string method;
-  std::string refused;  ///< why there is nothing else
-  bool failed = false;  ///< no axis of an input that the method takes, or one that is not verified
+  std::string refused;  ///< the reason, if there is nothing else
+  bool failed = false;  ///< no axis although the method supports the input, or a wrong one
   double seconds = 0;
   std::uint64_t nodes = 0, branches = 0, parts = 0, cycles = 0;
   AxisDistance distance;
   double radius_error = 0;
   bool passed = false;
-  bool unresolved = false;  ///< not passed only because the grid is too coarse for the shape
+  bool unresolved = false;  ///< failed only because the grid is too coarse for the shape
   std::string failure;
   MedialAxis axis;
 };
@@ -49,7 +49,7 @@ double radius_error(const Shape& shape, const MedialAxis& axis) {
   return largest;
 }
 
-/// What the axes of all methods are measured against.
+/// The reference for the axes of all methods.
 struct Reference {
   Shape region;  ///< the shape, or its surroundings, whose axis is that of the exterior
   MedialAxis axis;
@@ -74,7 +74,7 @@ Result<Reference> reference_of(const Shape& shape, double of_input,
   return reference;
 }
 
-/// One method's axis of a shape beside the exact one, on one thread.
+/// Compares one method's axis of a shape with the exact one, on one thread.
 Row measure(const ShapeItem& item, const Reference& reference, const Method& method) {
   Row row;
   row.method = name_of(method);
@@ -241,19 +241,18 @@ Command make_compare_command(CLI::App& program) {
                     "A picture of the first feature's axes side by side: .svg .pdf .png .ps");
   add_value(*command, "--fit", arguments->fit, "D", a_positive_number(),
             "First replace every boundary by a smooth curve through its corners, within D\n"
-            "of it, as curve-axis needs it.");
+            "of it, which curve-axis needs.");
   add_exterior_options(*command, arguments->options,
                        "The axes of what lies around the shape and in its holes, within a\n"
                        "rectangle.");
   add_common_options(*command, arguments->common);
   command->footer(
       "Each method runs on one thread. Distances are to the axis of the method disks, by\n"
-      "samples; Hausdorff is the larger of both directions. A method that does not take\n"
-      "the input says why. Of a sampled axis only radii and graph can be verified, not that\n"
-      "it is where the exact one is: the distance says that. An axis of pixels is\n"
-      "unresolved if its grid is too coarse for parts or holes of the shape. Exit status 1:\n"
-      "an axis is wrong in another way, a method failed, or one named by --methods does not\n"
-      "take the input.\n"
+      "samples; Hausdorff is the larger of both directions. A method that does not support\n"
+      "the input says why. Of a sampled axis, only radii and graph can be verified, not its\n"
+      "place: the distance shows that. An axis of pixels is unresolved if its grid is too\n"
+      "coarse for parts or holes of the shape. Exit status 1: an axis is wrong in another\n"
+      "way, a method failed, or a method named by --methods does not support the input.\n"
       "\n"
       "Examples:\n"
       "  medial compare plan.wkt\n"

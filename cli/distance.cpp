@@ -85,20 +85,20 @@ Command make_distance_command(CLI::App& program) {
       ->check(a_name())
       ->option_text(" ");
   add_output_option(*command, arguments->output, "IMAGE",
-                    fmt::format("The output file; its extension chooses the format:\n{}\n"
+                    fmt::format("The output file; its extension selects the format:\n{}\n"
                                 ".tif has 32 bits per pixel, the others 16.",
                                 grid_formats));
   add_image_options(*command, arguments->image);
   command->add_flag("--squared", arguments->format.squared,
-                    "Write squared distances, which are whole numbers.");
+                    "Write squared distances, which are integers.");
   add_value(*command, "--scale", arguments->format.scale, "S", in_range(1e-6, 1e6, true),
-            "Multiply distances by this, in formats of 16 bits rounded to the\n"
-            "nearest whole number (default: 1).");
+            "Multiply distances by this; formats of 16 bits round to the\n"
+            "nearest integer (default: 1).");
   command->add_flag("--cracks", arguments->cracks,
                     "Measure to the boundary of the pixels' squares, not to the centre of\n"
                     "the nearest background pixel.");
   command->add_flag("!--open", arguments->options.outside_is_background,
-                    "Pixels outside of the image are not background.");
+                    "Pixels outside the image are not background.");
   add_threads_option(*command, arguments->common.threads);
   add_report_options(*command, arguments->common);
   command->footer(

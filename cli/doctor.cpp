@@ -1,4 +1,4 @@
-// medial doctor: what this build consists of, and whether it works here.
+// medial doctor: the parts of this build, and whether it works here.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -32,7 +32,7 @@ constexpr std::pair<const char*, io::DocumentKind> written_kinds[] = {
     {"layers", io::DocumentKind::layers},      {"voxels", io::DocumentKind::voxels},
     {"distances", io::DocumentKind::distances}};
 
-/// "works", or what went wrong with the axis of an L, by hand 9 edges.
+/// "works", or the error for the axis of an L, which has 9 edges.
 std::string try_axis(bool exact) {
   const Ring ring{{{0, 0}, {10, 0}, {10, 3}, {3, 3}, {3, 10}, {0, 10}}, {}};
   const auto shape = build_shape({&ring, 1});
@@ -92,7 +92,7 @@ Command make_doctor_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "doctor", "Print versions and formats of this build, and whether it works here.");
   command->add_flag("--json", *json, "Print a JSON object instead of a table.");
-  command->footer("Exit status 1: something fails. Add the output to a report of a problem.");
+  command->footer("Exit status 1: something fails. Add the output to a bug report.");
   return {command, [json] { return run_doctor(*json); }};
 }
 

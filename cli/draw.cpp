@@ -31,21 +31,21 @@ Command make_draw_command(CLI::App& program) {
   auto arguments = std::make_shared<DrawArguments>();
   CLI::App* command = program.add_subcommand("draw", "Draw shapes and their medial axes.");
   add_input_options(*command, arguments->input);
-  arguments->input.source.read.smooth_contour = false;  // what a file holds, as it is
+  arguments->input.source.read.smooth_contour = false;  // the file's own contours
   add_output_option(*command, arguments->output, "PICTURE REQUIRED",
-                    fmt::format("The picture; its extension chooses the format: {}\n"
+                    fmt::format("The picture; its extension selects the format: {}\n"
                                 "- is standard output, see --format.",
                                 picture_formats))
       ->required();
   add_format_option(*command, arguments->format, "for example svg");
   add_exterior_options(
       *command, arguments->options,
-      "The axis of what lies around the shape and in its holes, within a rectangle.");
+      "The axis of the exterior: around the shape, within a rectangle, and in holes.");
   add_picture_options(*command, arguments->write);
   add_common_options(*command, arguments->common);
   command->footer(
-      "INPUT may be shapes, whose axes are then computed, or medial's own .json, which\n"
-      "is drawn as it stands. The axis is coloured by radius. Vector pictures hold exact\n"
+      "INPUT may be shapes, whose axes are then computed, or medial's own .json, whose\n"
+      "axes are drawn.  The axis is coloured by radius. Vector pictures hold exact\n"
       "curves.\n"
       "\n"
       "Examples:\n"

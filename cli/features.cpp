@@ -115,7 +115,7 @@ void add_thresholds(CLI::App& command, FeatureOptions& options) {
   };
   add("--parallel", options.parallel, "A worm's radius changes by at most this times its length");
   add("--even", options.even, "and also by at most this times its mean radius");
-  add("--bend", options.bend, "The rate of a cup's or flare's radius changes by more");
+  add("--bend", options.bend, "The slope of a cup's or flare's radius changes by more");
   add("--turn", options.turn, "A straight run turns by at most this, in radians");
   add("--spiral", options.spiral, "A spiral's curvature changes by more than this times its mean");
   add("--shortest", options.shortest,
@@ -127,7 +127,7 @@ void add_thresholds(CLI::App& command, FeatureOptions& options) {
 Command make_features_command(CLI::App& program) {
   auto arguments = std::make_shared<FeatureArguments>();
   CLI::App* command = program.add_subcommand(
-      "features", "Describe shapes by their branches and what these are made of.");
+      "features", "Describe shapes by their branches and the primitives in them.");
   add_input_options(*command, arguments->input);
   add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::features));
   add_choice<io::FeatureTable>(
@@ -135,21 +135,22 @@ Command make_features_command(CLI::App& program) {
       {{"runs", io::FeatureTable::runs},
        {"branches", io::FeatureTable::branches},
        {"points", io::FeatureTable::points}},
-      "What .geojson .shp .fgb .csv hold: runs (default), branches or points;\n"
+      "The content of .geojson .shp .fgb .csv: runs (default), branches or points;\n"
       ".json and .gpkg hold all.");
   command
       ->add_flag("!--no-names", arguments->table.names, "Pictures without the names of primitives.")
       ->group("Pictures");
   add_thresholds(*command, arguments->options);
-  add_exterior_options(*command, arguments->axis,
-                       "Describe what lies around the shape and in its holes, within a rectangle.");
+  add_exterior_options(
+      *command, arguments->axis,
+      "Describe the exterior: around the shape, within a rectangle, and in holes.");
   add_picture_options(*command, arguments->write);
   add_common_options(*command, arguments->common);
   command->footer(
       "INPUT may be shapes, whose axes are then computed, or medial's own .json. A branch\n"
-      "runs from its deeper end. It is cut into primitives by its radius: worm (even),\n"
-      "wedge (linear), cup (bulging sides), flare (hollow sides), opening or closing; in\n"
-      "seven variations by its curvature: straight, circular, spiral in, spiral out, left or\n"
+      "runs from its deeper end. Its radius divides it into primitives: worm (constant),\n"
+      "wedge (linear), cup (bulging sides), flare (hollow sides), opening or closing; its\n"
+      "curvature into seven variations: straight, circular, spiral in, spiral out, left or\n"
       "right (Blum and Nagel). Prune noisy outlines first.\n"
       "\n"
       "Examples:\n"

@@ -62,7 +62,7 @@ Command make_field_command(CLI::App& program) {
   command->add_flag("!--no-brightness", arguments->picture.brightness, "Draw the lines only.");
   add_common_options(*command, arguments->common);
   command->footer(
-      "The brighter a point, the lower is the potential, on a logarithmic scale. Force\n"
+      "The brighter a point, the lower its potential, on a logarithmic scale. Force\n"
       "lines run along the force, into the valleys: `medial axis --method potential`\n"
       "follows these.\n"
       "\n"

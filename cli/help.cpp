@@ -1,4 +1,4 @@
-// Help pages, `medial help`, and what is said about a line that cannot be parsed.
+// Help pages, `medial help`, and errors of command lines that cannot be parsed.
 
 #include "cli/help.h"
 
@@ -201,8 +201,8 @@ void describe_program(CLI::App& program) {
       "\n"
       "Exit status: 0 for success; 1 if `verify`, `legal` or `compare` rejects an axis; 2 for an\n"
       "error, printed as one line on standard error: `medial: FILE: feature F, ring R, vertex V\n"
-      "at (X, Y): what is wrong [code]`. Features, rings and vertices count from 0. No output is\n"
-      "written then, and an interrupted run leaves no partial file.");
+      "at (X, Y): TEXT [CODE]`. Features, rings and vertices count from 0. After an error or an\n"
+      "interruption there is no output, not even a partial file.");
 }
 
 void heed_help_anywhere(CLI::App& program) {
@@ -228,7 +228,8 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
   std::string nearest;
   std::size_t fewest = std::max<std::size_t>(1, word.size() / 4) + 1;
   for (const std::string& candidate : known) {
-    // Most words are mistyped at their end: an unfinished one stands for the first that begins so.
+    // Most typing errors are at the end: an unfinished word stands for the first that begins with
+    // it.
     const bool unfinished = word.size() > 3 && candidate.starts_with(word);
     const std::size_t apart = unfinished ? 1 : letters_apart(word, candidate);
     if (apart < fewest) {

@@ -1,4 +1,4 @@
-// medial info: what a file of shapes or of axes holds.
+// medial info: the contents of a file of shapes or axes.
 
 #include <fmt/format.h>
 
@@ -106,7 +106,7 @@ Result<int> summarize_polygons(const FileArguments& arguments) {
   return finish(arguments.common, std::move(object), phases, table.text());
 }
 
-/// One value if all axes agree, or else how many there are.
+/// The value if all axes agree, else "differs by feature".
 template <class Get>
 std::string common_value(const Document<AxisItem>& file, Get get) {
   const std::string first = get(file.items.front().axis);
@@ -133,7 +133,8 @@ Result<int> summarize_axes(const FileArguments& arguments) {
   const auto file = io::read_native(arguments.input.path);
   if (!file) return file.error();
   phases.end("read");
-  if (file->items.empty()) return error_at(ErrorCode::empty, arguments.input.path, "holds no axis");
+  if (file->items.empty())
+    return error_at(ErrorCode::empty, arguments.input.path, "contains no axis");
   // Contours are shapes whose axes are still to be computed.
   if (std::ranges::any_of(file->items, [](const auto& item) { return !item.contours.empty(); }))
     return summarize_polygons(arguments);
@@ -194,10 +195,10 @@ Command make_info_command(CLI::App& program) {
   arguments->input.source.read.smooth_contour = false;  // counts and areas are those of the pixels
   add_common_options(*command, arguments->common);
   command->footer(
-      "For polygons: features, outer rings, holes, vertices, extent, area, what was\n"
-      "cleaned, and the coordinate reference system; invalid polygons are an error (exit\n"
-      "status 2) that names the place. For axes: nodes by kind, edges, branches, length\n"
-      "and the deepest disk, which is the maximum inscribed circle.\n"
+      "For polygons: features, outer rings, holes, vertices, extent, area, corrections,\n"
+      "and the coordinate reference system; invalid polygons are an error (exit status 2)\n"
+      "that names the place. For axes: nodes by kind, edges, branches, length and the\n"
+      "deepest disk, which is the maximum inscribed circle.\n"
       "Lengths are in the units of the file.\n"
       "\n"
       "Examples:\n"

@@ -1,4 +1,4 @@
-// medial legal: can these functions be medial axes at all? And the boundary's curvature by them.
+// medial legal: whether curves with radii can be medial axes; and the boundary's curvature.
 
 #include <fmt/format.h>
 
@@ -42,7 +42,7 @@ Json json_of(const Legality& one, std::size_t branch, double slack) {
   return object;
 }
 
-/// Which restriction a branch breaks, and where.
+/// The condition that a branch violates, and where.
 std::string offence(const Legality& one, std::size_t feature, std::size_t branch, double slack) {
   const bool steep = one.steepness > slack;
   const AxisJet& at = steep ? one.steepest : one.sharpest;
@@ -62,7 +62,7 @@ struct Verdict {
   Json features = Json::array();
 };
 
-/// With `listed` every branch becomes an object.
+/// With `listed`, every branch becomes an object.
 Verdict judge(const Document<AxisItem>& file, double slack, bool listed) {
   Verdict verdict;
   for (std::size_t i = 0; i < file.items.size(); ++i) {
@@ -129,8 +129,8 @@ void each_foot(const std::vector<Curvatures>& all, const Act& act) {
       for (const FootCurvature& at : branch) act(i, at);
 }
 
-/// From feet a line towards the centre of curvature, as long as the curvature is large: into the
-/// shape where it is convex. The largest curvature but for a twentieth is 5 % of the size long.
+/// Lines from foot points towards the centre of curvature (inside where the shape is convex), with
+/// lengths proportional to the curvature: its 95 % quantile is 5 % of the size long.
 io::Layer curvature_comb(const std::vector<Curvatures>& all) {
   constexpr double apart = 0.003;  // teeth, as a share of the size
   std::vector<double> sizes;
@@ -213,11 +213,11 @@ Command make_legal_command(CLI::App& program) {
       ->required()
       ->option_text("REQUIRED");
   add_value(*command, "--slack", arguments->slack, "S", in_range(0, largest_slack),
-            "By how much the restrictions may be missed, no unit (default: 1e-9); more\n"
-            "for samples, whose derivatives are differences.");
+            "The largest violation of the conditions, dimensionless (default: 1e-9; larger\n"
+            "for samples, whose derivatives are differences).");
   add_value(*command, "--curvature", arguments->curvature, "FILE", a_name(),
-            "Write the boundary's curvature at the feet of the disks, and its derivative\n"
-            "along the boundary: as numbers (.csv), or as a comb of lines that long:\n" +
+            "Write the boundary's curvature at the foot points of disks, and its derivative\n"
+            "along the boundary: as numbers (.csv), or as a comb of lines:\n" +
                 io::formats_of(io::DocumentKind::layers));
   add_width_option(*command, arguments->write.width);
   add_report_options(*command, arguments->common);
@@ -225,9 +225,9 @@ Command make_legal_command(CLI::App& program) {
       "A curve with a radius function is the medial axis of some shape only if the radius\n"
       "changes no faster than the arc length, |R'| <= 1, and the curve does not bend too\n"
       "sharply, 1 - R'^2 - R R'' >= |K| R sqrt(1 - R'^2) (Shaked and Bruckstein 1996,\n"
-      "(9) and (10)); where both hold strictly it is one locally. No shape is needed.\n"
-      "Branches count as in the native format's edges: by their lowest edge. Of an\n"
-      "unpacked axis only what its error does not explain is illegal.\n"
+      "(9) and (10)). If both hold strictly, it is one locally. No shape is needed.\n"
+      "Branches are ordered by their lowest edge in the native format. In an unpacked\n"
+      "axis, only what its error does not explain is illegal.\n"
       "\n"
       "Exit status: 0 legal, 1 illegal, 2 an error.\n"
       "\n"

@@ -14,7 +14,7 @@
 namespace medial::cli {
 namespace {
 
-/// Where a line is to begin or end: a point, or the middle of the side that begins at a vertex.
+/// The place where a line begins or ends: a point, or the middle of the side after a vertex.
 struct NamedPlace {
   std::optional<Vec2> point;
   VertexSource side;
@@ -84,7 +84,7 @@ Result<AxisPath> path_between_named(const AxisItem& item, const NamedPlace& from
   return path_between(item.axis, *ends[0], *ends[1], arguments.path.route);
 }
 
-/// In which feature a place lies, or nearest to which.
+/// The feature that contains a place, or else the nearest one.
 std::size_t feature_of(const Document<AxisItem>& file, const NamedPlace& place) {
   std::size_t best = 0;
   double deepest = -std::numeric_limits<double>::infinity();
@@ -123,23 +123,23 @@ void note_places_outside(const Document<AxisItem>& file, const PathOptions& argu
 void add_path_options(CLI::App& command, PathOptions& arguments) {
   CLI::Option* from = command.add_option(
       "--from", arguments.from,
-      "Where the line begins, with --to, instead of the two ends farthest apart: at\n"
-      "a point X,Y or in the middle of a side, as RING/VERTEX, the vertex where it\n"
-      "starts in the input.");
-  CLI::Option* to = command.add_option("--to", arguments.to, "Where it ends, likewise.");
+      "Where the line begins: at a point X,Y, or in the middle of the side that starts\n"
+      "at RING/VERTEX of the input. With --to, replaces the two ends that are farthest\n"
+      "apart.");
+  CLI::Option* to = command.add_option("--to", arguments.to, "Where the line ends.");
   CLI::Option* widest = command.add_option(
       "--widest", arguments.widest,
-      "The way between two places along which the largest disk can pass, and of\n"
-      "those the shortest.");
+      "The path between two places that lets the largest disk pass; of several,\n"
+      "the shortest.");
   for (CLI::Option* place : {from, to}) place->check(a_place())->option_text("PLACE");
   widest->check(a_place())->expected(2)->option_text("PLACE PLACE")->excludes(from)->excludes(to);
   add_choice<Route>(command, "--route", arguments.path.route,
                     {{"roomy", Route::roomy}, {"shortest", Route::shortest}},
-                    "Which way around holes: roomy (default), where a passage twice as wide may\n"
+                    "The path around holes: roomy (default), where a passage twice as wide may\n"
                     "be twice as long; or shortest.");
   add_value(command, "--trim", arguments.path.trim, "RADII", in_range(0, 1e6),
-            "Ends do not run into corners: what protrudes from a disk by at most this\n"
-            "many of its radii is cut (default: 1, corners of 60 degrees and more; 0\n"
+            "Keep ends out of corners: cut what protrudes from a disk by at most this\n"
+            "many of its radii (default: 1, corners of 60 degrees and more; 0\n"
             "cuts nothing).");
 }
 
@@ -149,7 +149,7 @@ Result<std::vector<std::vector<AxisPath>>> choose_paths(const Document<AxisItem>
   const bool widest = !arguments.widest.empty();
   const std::string& from = widest ? arguments.widest[0] : arguments.from;
   const std::string& to = widest ? arguments.widest[1] : arguments.to;
-  if (from.empty() != to.empty()) return invalid_option("--from and --to go together");
+  if (from.empty() != to.empty()) return invalid_option("--from and --to must be given together");
   if (!from.empty()) {
     const NamedPlace begin = *named(from), end = *named(to);
     const std::size_t chosen = feature_of(file, begin);

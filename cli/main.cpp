@@ -32,7 +32,7 @@ constexpr MakeCommand* makers[] = {
     make_centreline_command, make_measure_command, make_carve_command,     make_tiles_command,
     make_doctor_command,     make_help_command,    make_completion_command};
 
-/// Prints the help or the version, or what is wrong with the command line.
+/// Prints the help, the version, or the error of the command line.
 int explain_and_exit(const CLI::App& program, const CLI::ParseError& parse_error, bool json) {
   if (parse_error.get_exit_code() == 0) {
     std::ostringstream text;
@@ -44,8 +44,8 @@ int explain_and_exit(const CLI::App& program, const CLI::ParseError& parse_error
   return report_error(invalid_option(text), json, hint);
 }
 
-/// An option whose value may be missing gets the one that its help gives, unless a number follows:
-/// CLI11 would take the next word, whatever it is.
+/// Adds the default value of an option whose value is optional, unless a number follows: CLI11
+/// would take any next word.
 void give_default_values(CLI::App& program, std::vector<std::string>& words) {
   const CLI::App* command = words.empty() ? nullptr : find_command(program, words[0]);
   if (command == nullptr) return;
@@ -62,7 +62,7 @@ void give_default_values(CLI::App& program, std::vector<std::string>& words) {
 
 int run(std::vector<std::string> words, bool json) {
   CLI::App program(
-      "Exact medial axis transform of shapes with holes: all centres of the largest\n"
+      "Exact medial axis transform of shapes with holes: the centres of all maximal\n"
       "disks inside a shape, with their radii.");
   describe_program(program);
   std::vector<Command> commands;
@@ -95,7 +95,7 @@ int run(std::vector<std::string> words, bool json) {
 int main(int argc, char** argv) {
   using namespace medial;
   cli::occupy_standard_descriptors();
-  // Whether errors are wanted as JSON has to be known even where the line cannot be parsed.
+  // Find out whether errors should be JSON even if the line cannot be parsed.
   const bool json =
       std::any_of(argv, argv + argc, [](const char* word) { return !std::strcmp(word, "--json"); });
   cli::install_signal_handlers();

@@ -28,8 +28,8 @@ void draw_pixels(const MedialAxis& axis, const PixelPlacement& t, bool nodes_alo
     for (const Disk& disk : sample_by_step(axis, edge, 0.25 * side)) draw(disk);
 }
 
-/// Takes away foreground pixels, those farthest from the lines first, as long as no component and
-/// no hole comes or goes, down to the lines and what connects them (Pudney 1998).
+/// Removes foreground pixels, farthest from the lines first, without changing components or holes,
+/// until only the lines and their connections remain (Pudney 1998).
 class Peeling {
  public:
   Peeling(Image& image, const Image& lines, const DistanceMap& distances)
@@ -53,8 +53,8 @@ class Peeling {
   static constexpr std::array<std::pair<int, int>, 8> around{
       {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
 
-  /// Whether the pixel is foreground beside the lines, with one run of background around it that
-  /// has a side in common with it.
+  /// Whether the pixel is foreground off the lines, with exactly one run of background around it
+  /// that shares a side with it.
   bool can_go(std::int64_t x, std::int64_t y) const {
     if (!image_.at(x, y) || lines_.at(x, y)) return false;
     std::array<bool, 8> empty{};
@@ -79,7 +79,7 @@ class Peeling {
   std::priority_queue<std::pair<std::uint32_t, std::uint64_t>> border_;
 };
 
-/// Of the pixels of lines those in the image, and what else it needs to be as connected as that.
+/// The pixels of lines in the image, and those needed to be as connected as the image.
 Result<Image> lines_in(Image image, const Image& drawn) {
   Image lines(image.width(), image.height()), beside = lines;
   for (std::uint32_t y = 0; y < image.height(); ++y)
@@ -91,7 +91,7 @@ Result<Image> lines_in(Image image, const Image& drawn) {
   return thin(image);
 }
 
-/// Whether an axis is what a brushfire leaves of the image's own pixels: their lines as they are.
+/// Whether an axis is what a brushfire leaves of the image's own pixels, which are lines already.
 bool is_of_own_pixels(const MedialAxis& axis, double pixel) {
   constexpr double rounding = 1e-9;
   return axis.method == "brushfire" && std::abs(axis.resolution - pixel) < rounding * pixel;
@@ -123,7 +123,7 @@ Status write_mask(const Document<AxisItem>& axes, const FileArguments& arguments
     for (double& t : placement)
       t *= axes.pixel / std::hypot(file->placement[1], file->placement[4]);
   else if (source.read.project || units.wanted != Unit::unknown || units.scale != 1)
-    return invalid_option("--mask needs square pixels where lengths are converted");
+    return invalid_option("--mask needs square pixels if lengths are converted");
   Image drawn(file->image.width(), file->image.height());
   const bool burnt = std::ranges::all_of(
       axes.items, [&](const AxisItem& item) { return is_of_own_pixels(item.axis, axes.pixel); });

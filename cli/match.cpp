@@ -29,7 +29,7 @@ struct NamedSignature {
   ShapeSignature signature;
 };
 
-/// Makes one shape with one axis of all items, in the first.
+/// Merges all items into the first: one shape with one axis.
 void join_items(std::vector<AxisItem>& items) {
   for (std::size_t i = 1; i < items.size(); ++i) {
     MedialAxis& axis = items[0].axis;
@@ -80,7 +80,7 @@ Result<ShapeSignature> signature_of(AxisItem& item) {
   return medial::signature_of(axis, medial::describe(axis));
 }
 
-/// The signatures of a file's features, or of all of it as one shape.
+/// The signatures of a file's features, or of the whole file as one shape.
 Result<std::vector<NamedSignature>> signatures_of(const InputOptions& input,
                                                   const CommonOptions& common, bool each) {
   auto axes = load_axes(input, common);
@@ -98,7 +98,7 @@ Result<std::vector<NamedSignature>> signatures_of(const InputOptions& input,
   return map_items<NamedSignature>(edge_weights_of(axes->file), common.threads, sign);
 }
 
-/// The files of a folder, those below it included, by name.
+/// The files in a folder and its subfolders, by name.
 Result<std::vector<std::string>> files_of(const std::string& folder) {
   std::vector<std::string> files;
   std::error_code problem;
@@ -110,7 +110,7 @@ Result<std::vector<std::string>> files_of(const std::string& folder) {
   return files;
 }
 
-/// What the first shape is compared with.
+/// The shapes to compare with.
 struct Candidates {
   std::vector<NamedSignature> shapes;
   std::uint64_t refused = 0;  ///< files of a folder without shapes
@@ -136,7 +136,7 @@ Result<Candidates> candidates_of(const MatchArguments& arguments) {
       return std::move(found).error();
     }
   }
-  if (out.shapes.empty()) return error_at(ErrorCode::empty, arguments.other, "holds no shape");
+  if (out.shapes.empty()) return error_at(ErrorCode::empty, arguments.other, "contains no shape");
   return out;
 }
 
@@ -145,7 +145,7 @@ Result<int> run_match(const MatchArguments& arguments) {
   Phases phases;
   auto asked = signatures_of(arguments.input, arguments.common, false);
   if (!asked) return std::move(asked).error();
-  if (asked->empty()) return error_at(ErrorCode::empty, path, "holds no shape");
+  if (asked->empty()) return error_at(ErrorCode::empty, path, "contains no shape");
   const auto candidates = candidates_of(arguments);
   if (!candidates) return candidates.error();
   using Ranked = std::pair<double, const NamedSignature*>;
@@ -176,19 +176,20 @@ Result<int> run_match(const MatchArguments& arguments) {
 Command make_match_command(CLI::App& program) {
   auto arguments = std::make_shared<MatchArguments>();
   CLI::App* command = program.add_subcommand(
-      "match", "Rank shapes by their similarity to another one, however turned or scaled.");
+      "match",
+      "Rank shapes by their similarity to another one, whatever their rotation and scale.");
   add_input_options(*command, arguments->input, "OTHER",
                     "A second file of shapes or axes, or a folder of such files.",
                     arguments->other);
   command->add_flag("--each", arguments->each,
-                    "Every feature of OTHER is a shape; otherwise each file is one.");
+                    "Treat every feature of OTHER as a shape; otherwise each file is one.");
   add_value(*command, "--best", arguments->best, "N", a_whole_number(),
             "Print the N most similar (default: 10; 0: all).");
   add_common_options(*command, arguments->common);
   command->footer(
-      "The numbers are dissimilarities: 0 for the same shape, about 1 for two at random. They\n"
-      "come from distributions over the axis (thickness, distances, erosion) that rotation,\n"
-      "scale and reflection do not change and that noise of the outline hardly changes.\n"
+      "The numbers are dissimilarities: 0 for the same shape, about 1 for two random shapes.\n"
+      "They compare distributions over the axis (thickness, distances, erosion), which do not\n"
+      "change with rotation, scale and reflection, and hardly with noise of the outline.\n"
       "\n"
       "Examples:\n"
       "  medial match horse.png silhouettes/\n"

@@ -1,4 +1,4 @@
-// medial measure: how wide shapes are: profiles, transects, necks, means, largest disks.
+// medial measure: widths of shapes: profiles, transects, necks, means, largest disks.
 
 #include "medial/measure.h"
 
@@ -45,10 +45,10 @@ struct MeasureArguments : FileArguments {
 struct Line {
   AxisPath path;
   std::vector<LocalWidth> profile, transects;
-  std::vector<Neck> necks;  ///< of the line by itself
+  std::vector<Neck> necks;  ///< of the line alone
 };
 
-/// What is measured of a feature.
+/// The measurements of a feature.
 struct Measured {
   std::vector<Line> lines;
   MeanWidth mean;
@@ -65,8 +65,8 @@ std::vector<double> even_lengths(double whole, std::uint64_t count) {
   return at;
 }
 
-/// In the middles of `count` equal parts, or at multiples of a spacing, evened out around the
-/// middle of the line.
+/// The middles of `count` equal parts, or multiples of a spacing, centred on the middle of the
+/// line.
 std::vector<double> transect_lengths(double whole, const MeasureArguments& arguments) {
   std::vector<double> at;
   if (arguments.spacing > 0) {
@@ -81,7 +81,7 @@ std::vector<double> transect_lengths(double whole, const MeasureArguments& argum
   return at;
 }
 
-/// The length of an edge as far as t.
+/// The length of an edge up to t.
 double length_to(const MedialAxis& axis, const EdgePlace& place) {
   MedialAxis alone;
   Edge edge = axis.edges[place.edge];
@@ -92,7 +92,7 @@ double length_to(const MedialAxis& axis, const EdgePlace& place) {
   return place.t > 0 ? total_length(part_of(alone, piece)) : 0.0;
 }
 
-/// The necks of a line seen by itself, with their lengths along it.
+/// The necks of a line alone, with their lengths along it.
 std::vector<Neck> necks_of(const MedialAxis& axis, const AxisPath& path, double widening) {
   const MedialAxis line = part_of(axis, path.pieces);
   std::vector<Neck> found = necks(line, widening);
@@ -225,14 +225,14 @@ std::string summary_of(const Measured& measured, const MeasureArguments& argumen
   return rows.text();
 }
 
-/// What a feature is called: its number, or the value that it has in an image of labels.
+/// The name of a feature: its number, or its value in an image of labels.
 std::string name_of_feature(const Document<AxisItem>& file, std::size_t i) {
   const Attributes& attributes = file.items[i].attributes;
   const bool label = file.pixel > 0 && attributes.size() == 1 && attributes[0].first == "value";
   return label ? attributes[0].second : fmt::format("{}", file.index_of(i));
 }
 
-/// Whether features are called by the values of an image of labels.
+/// Whether features are named by the values of an image of labels.
 bool has_labels(const Document<AxisItem>& file) {
   return file.pixel > 0 && !file.items.empty() && !file.items[0].attributes.empty();
 }
@@ -376,7 +376,7 @@ Result<std::vector<Measured>> measure_all(const Document<AxisItem>& file, int th
   return all;
 }
 
-/// The table is what is asked for where nothing is written.
+/// Without an output file, the result is the table.
 bool prints_table(const MeasureArguments& arguments) {
   return arguments.output != "-" &&
          (!arguments.common.quiet || (arguments.output.empty() && arguments.plot.empty()));
@@ -414,7 +414,7 @@ class LateTable {
   bool failed_ = false;
 };
 
-/// Measures shapes whose axes and boundaries are not needed any more.
+/// Measures shapes, whose axes and boundaries are then no longer needed.
 Result<io::MeasuredItems> measure_part(Document<ShapeItem> shapes, int threads, AxesReport& report,
                                        const MeasureArguments& arguments,
                                        std::vector<Measured>& all) {
@@ -430,7 +430,7 @@ Result<io::MeasuredItems> measure_part(Document<ShapeItem> shapes, int threads, 
   return out;
 }
 
-/// Measures a file of many features part by part; nothing where that cannot be.
+/// Measures a file of many features part by part; nothing if that is impossible.
 Result<std::optional<int>> stream_measures(const MeasureArguments& arguments) {
   const CommonOptions& common = arguments.common;
   if (!arguments.plot.empty() || common.json || arguments.path.between_places())
@@ -511,7 +511,7 @@ Result<int> run_measure(const MeasureArguments& given) {
   note_places_outside(axes->file, arguments.path, arguments);
   if (axes->file.pixel > 0 && input.source.read.smooth_contour && !common.quiet)
     say("medial: {}: note: areas and widths are those of the smoothed outline, which lies within "
-        "half a pixel of the pixels' edges; --pixel-outline measures these\n",
+        "half a pixel of the pixels' edges; --pixel-outline measures the pixels\n",
         input.path);
   const auto all = measure_all(axes->file, common.threads, arguments);
   if (!all) return all.error();
@@ -530,7 +530,7 @@ Result<int> run_measure(const MeasureArguments& given) {
 Command make_measure_command(CLI::App& program) {
   auto arguments = std::make_shared<MeasureArguments>();
   CLI::App* command = program.add_subcommand(
-      "measure", "Measure how wide shapes are: profiles, transects, necks, largest disks.");
+      "measure", "Measure the widths of shapes: profiles, transects, necks, largest disks.");
   add_input_options(*command, arguments->input);
   add_output_option(*command, arguments->output, "OUTPUT",
                     "The output file: the width profile as .csv, or transects, necks and disks\n"
@@ -555,20 +555,20 @@ Command make_measure_command(CLI::App& program) {
   add_value(*command, "--widening", arguments->widening, "FACTOR", in_range(1 + 1e-9, 1e9),
             "A neck opens on both sides to at least this many times its width (default: 1.1).");
   add_value(*command, "--disks", arguments->disks, "K", in_range(1, most_measured_disks, true),
-            "The N largest disks inside the shape that do not overlap, one after\n"
-            "another: they are measured, not only drawn.");
+            "The N largest disjoint disks inside the shape, one after another:\n"
+            "measured, not only drawn.");
   add_path_options(*command, arguments->path);
   add_exterior_options(*command, arguments->options,
-                       "The widths of what lies around the shape and in its holes, within a\n"
-                       "rectangle: of bays, gaps and holes. The area is that of the axis's disks.")
+                       "Measure the exterior, around the shape, within a rectangle, and in its\n"
+                       "holes: bays, gaps and holes. The area is that of the axis's disks.")
       ->excludes("--disks");
   add_width_option(*command, arguments->write.width);
   add_common_options(*command, arguments->common);
   command->footer(
       "Widths are diameters of maximal disks along the centre line (medial centreline).\n"
-      "`mean width by length` is their mean along the line, `by area` the mean over all\n"
-      "points of the shape of the width where they belong. A neck is narrower than what\n"
-      "lies on both sides of it.\n"
+      "`mean width by length` is their mean along the line, `by area` the mean over the\n"
+      "points of the shape, each with the width at its place on the line. A neck is narrower\n"
+      "than both of its sides.\n"
       "\n"
       "Examples:\n"
       "  medial measure river.geojson --project --plot widths.svg -o widths.csv\n"

@@ -13,15 +13,15 @@ namespace {
 
 constexpr char answer_formats[] = ".csv .json";
 
-/// A place and what is nearest to it.
+/// A place and the site nearest to it.
 struct Answer {
   Vec2 place;
   NearestSite nearest = {};
   SiteKind kind = SiteKind::vertex;
-  std::uint32_t feature = 0;  ///< of those that share the site the first
+  std::uint32_t feature = 0;  ///< the first of those that share the site
 };
 
-/// All points of the file of queries, vertices of lines as well.
+/// All points of the file of queries, including vertices of lines.
 Status add_places(const NearestArguments& asked, const InputOptions& input,
                   const CommonOptions& common, std::vector<Answer>& answers) {
   InputOptions from;
@@ -76,8 +76,8 @@ void add_nearest_options(CLI::App& command, NearestArguments& nearest) {
       [&nearest](const std::vector<double>& xy) {
         nearest.places.push_back({xy[0], xy[1]});
       },
-      "What is nearest to this place: the site, its kind and feature, the distance and\n"
-      "the nearest point. May be repeated. As .csv or .json to -o or standard output.")
+      "Find the site nearest to this place, its kind and feature, the distance and the\n"
+      "nearest point. May be repeated. Writes .csv or .json to -o or standard output.")
       ->trigger_on_parse()
       ->option_text("X,Y");
   command
@@ -91,7 +91,7 @@ Result<int> run_nearest(const FileArguments& arguments, const NearestArguments& 
   const auto& [input, common, output, format, write] = arguments;
   if (input.source.read.project)
     return invalid_option(
-        "--project cannot be used with places: their projection is not known beforehand");
+        "--project cannot be used with places: their projection is not known in advance");
   Status writable = check_output(arguments, answer_formats);
   if (writable && !asked.queries.empty())
     writable = check_output(output, format, answer_formats, asked.queries, common.json);
@@ -119,7 +119,7 @@ Result<int> run_nearest(const FileArguments& arguments, const NearestArguments& 
     answer.feature = pieces->feature[site.ring];
   }
   phases.end("search");
-  // .json or .csv, as check_output() has seen to.
+  // .json or .csv: checked by check_output().
   const bool to_file = !output.empty() && output != "-";
   const bool as_json = to_file ? output.ends_with('n') || output.ends_with('N')
                                : common.json || (output == "-" && format != "csv");

@@ -79,7 +79,7 @@ Result<int> run_nest(const NestArguments& arguments) {
   phases.end("nest");
   if (found->empty())
     return error_at(ErrorCode::empty, arguments.input.path,
-                    "no bay of one shape takes a peninsula of the other");
+                    "no peninsula of one shape fits in a bay of the other");
   Json list = Json::array();
   std::string text =
       fmt::format("{:>10} {:>9} {:>8} {:>12} {:>12} {:>12} {:>12} {:>10}\n", "saved", "degrees",
@@ -107,25 +107,25 @@ Result<int> run_nest(const NestArguments& arguments) {
 
 Command make_nest_command(CLI::App& program) {
   auto arguments = std::make_shared<NestArguments>();
-  CLI::App* command = program.add_subcommand(
-      "nest", "Lay a shape into the bays of another one, and the other way round.");
+  CLI::App* command =
+      program.add_subcommand("nest", "Place a shape so that it interlocks with another one.");
   add_input_options(*command, arguments->input, "OTHER",
-                    "A file with the shape that is turned and moved. Of both files the first\n"
-                    "feature counts, which must be in one part.",
+                    "A file with the shape that is rotated and moved. Both files contribute their\n"
+                    "first feature, which must be connected.",
                     arguments->other);
   add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::axes));
   add_picture_options(*command, arguments->write);
   add_value(*command, "--gap", arguments->gap, "D", in_range(0, 1e300, true),
             "The least distance between the shapes, in units of the input (default: 0).");
   add_value(*command, "--best", arguments->best, "N", in_range(1, 100),
-            "So many placements, those that save most first (default: 5).");
-  command->add_flag("--no-mirror", arguments->no_mirror, "Do not turn the shape over.");
+            "The number of placements, those that save most first (default: 5).");
+  command->add_flag("--no-mirror", arguments->no_mirror, "Do not mirror the shape.");
   add_common_options(*command, arguments->common);
   command->footer(
       "Bays are branches of the axis around a shape, peninsulas branches of the axis inside.\n"
-      "`saved` is by how much the convex hull of both shapes is smaller than their two hulls.\n"
-      "A placement mirrors (x to -x), turns about the origin, then moves. The output holds\n"
-      "the first one: INPUT with the axis of its bays, and OTHER in its place.\n"
+      "`saved` is the area of the two convex hulls less that of their common hull. A placement\n"
+      "mirrors (x to -x), rotates about the origin, then moves. The output shows the first\n"
+      "one: INPUT with the axis of its bays, and OTHER in its place.\n"
       "\n"
       "Examples:\n"
       "  medial nest frame.dxf bracket.dxf\n"

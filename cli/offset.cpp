@@ -28,7 +28,7 @@ struct OffsetArguments : FileArguments {
   bool loose = false;
 };
 
-/// The passes step, 2 step, ... of one shape: as clearances, inside until nothing is left.
+/// The clearances of passes of one shape at each step, inside until nothing is left.
 Result<Offsets> offset_one(const Shape& shape, const OffsetArguments& arguments,
                            const Options& options) {
   std::vector<double> clearances;
@@ -74,7 +74,8 @@ Result<int> finish_offsets(const OffsetSums& sums, const OffsetArguments& argume
                            const Phases& phases) {
   const std::string& input = arguments.input.path;
   if (sums.regions == 0 && !arguments.common.quiet)
-    say("medial: {}: note: the result is empty: no shape is as wide as that distance\n", input);
+    say("medial: {}: note: the result is empty: no shape is wide enough for that distance\n",
+        input);
   const Json seconds = {{"axis", sums.seconds_axis},
                         {"curves", sums.seconds_curves},
                         {"all", phases.seconds("offset") + phases.seconds("stream")},
@@ -93,7 +94,7 @@ Result<int> finish_offsets(const OffsetSums& sums, const OffsetArguments& argume
                 {{"seconds", seconds}});
 }
 
-/// Keeps of a region's attributes those that more features of it have as well.
+/// Keeps those attributes of a region that another feature of it has, too.
 void keep_common(io::BufferSource& of, const io::BufferSource& more) {
   if (of.features.empty())
     of.attributes = more.attributes;
@@ -104,8 +105,8 @@ void keep_common(io::BufferSource& of, const io::BufferSource& more) {
   of.features.insert(of.features.end(), more.features.begin(), more.features.end());
 }
 
-/// The features in each region of buffers. A chain lies in one region as a whole: where its first
-/// point does, or what that point touches and has become part of. O(n log n) expected.
+/// The features in each region of buffers. A whole chain lies in one region: that of its first
+/// point, or of the piece that this point touches and was merged into. O(n log n) expected.
 std::vector<io::BufferSource> sources_of(const LoosePieces& file, const PlanarGraph& planar_graph,
                                          const Offsets& offsets) {
   const SiteLocator locator(sites_of(planar_graph));
@@ -176,7 +177,7 @@ Result<Document<io::OffsetItem>> offset_file(const OffsetArguments& arguments) {
   return offset_each(std::move(shapes->file), arguments.common.threads, arguments);
 }
 
-/// The same for a file of many features, part by part; nothing where that cannot be.
+/// The same for a file of many features, part by part; nothing if that is impossible.
 Result<std::optional<int>> stream_offsets(const OffsetArguments& arguments) {
   if (arguments.loose) return std::optional<int>();
   OffsetSums sums;
@@ -202,9 +203,9 @@ Result<int> run_offset(const OffsetArguments& arguments) {
   if (arguments.distances.empty() == (arguments.step == 0))
     return invalid_option("give either --distance or --step");
   if (arguments.exterior && arguments.step > 0 && !std::isfinite(arguments.last))
-    return invalid_option("outward passes never end: give a distance to --until");
+    return invalid_option("outward passes never end: give --until a distance");
   if (arguments.loose && (arguments.step > 0 || arguments.exterior))
-    return invalid_option("--loose goes with --distance only");
+    return invalid_option("--loose needs --distance, not --step");
   Status writable = check_output(arguments, io::formats_of(io::DocumentKind::offsets));
   if (!writable) return std::move(writable).error();
   const auto streamed = stream_offsets(arguments);
@@ -233,11 +234,11 @@ Command make_offset_command(CLI::App& program) {
   add_list_option(
       *command, "--distance", 0,
       [arguments](const std::vector<double>& distances) { arguments->distances = distances; },
-      "Distances from the boundary, in units of the input: inside of the shape\n"
-      "where they are positive, outside where they are negative.")
+      "Distances from the boundary, in units of the input: positive inside the\n"
+      "shape, negative outside.")
       ->option_text("D[,D...]");
   add_value(*command, "--step", arguments->step, "S", a_positive_number(),
-            "Instead: nested passes, one every S units of the input, from --first on.");
+            "Instead: nested passes, one every S units of the input, starting at --first.");
   add_value(*command, "--first", arguments->first, "D", a_positive_number(),
             "The first pass (default: S).");
   command
@@ -250,10 +251,10 @@ Command make_offset_command(CLI::App& program) {
       })
       ->option_text("D");
   command->add_flag("--exterior", arguments->exterior,
-                    "Positive distances are outside, around the shape and in its holes.");
+                    "Positive distances are outside: around the shape and in its holes.");
   command->add_flag("--loose", arguments->loose,
-                    "Buffers: all places within each distance of the file's points, lines and\n"
-                    "boundaries, taken together; --repair splits them where they cross.");
+                    "Buffers: all points within each distance of the file's points, lines and\n"
+                    "boundaries together; --repair splits these where they cross.");
   add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::offsets));
   command->add_flag("--chords", arguments->write.chords,
                     "Well-known text: polygons of chords (see --chord) instead of exact arcs.");
@@ -264,9 +265,9 @@ Command make_offset_command(CLI::App& program) {
       "(inside), or of the shape grown by D (outside): an outer ring, then its holes. Rings\n"
       "are lines and arcs; all distances are found in one walk along the axis. Regions of\n"
       "successive distances nest: .json and .geojson name each one's parent. .dxf has\n"
-      "closed polylines with bulges, a layer for each distance; .wkt exact circular\n"
-      "strings; .geojson chords. Of buffers (--loose), .json and .geojson list the features in\n"
-      "each region, and the attributes on which all of them agree.\n"
+      "closed polylines with bulges, one layer per distance; .wkt exact circular strings;\n"
+      ".geojson chords. For buffers (--loose), .json and .geojson list the features in each\n"
+      "region, and the attributes on which all of them agree.\n"
       "\n"
       "Examples:\n"
       "  medial offset plan.wkt --distance 0.5,1,2 -o plan.svg\n"

@@ -31,8 +31,8 @@ double extent_of(const Document<AxisItem>& file) {
   return all.is_nothing() ? 0 : diagonal(all);
 }
 
-/// How the error is divided between rounding and pruning: the settings are tried for the shortest
-/// pack, but large ones take the first, as the others differ by some hundredths only.
+/// The shares of the error for rounding and pruning. All are tried for the shortest pack; large
+/// packs take the first, as the others differ by a few per cent only.
 constexpr std::array<std::pair<double, double>, 3> settings{{{0.3, 0.9}, {0.2, 0.9}, {0.4, 0.85}}};
 constexpr std::size_t large_pack = 32768;  // bytes
 
@@ -48,7 +48,7 @@ Result<int> finish_pack(const PackArguments& arguments, Json object, const Phase
   return finish(arguments.common, std::move(object), phases, text);
 }
 
-/// The boundary, packed in the same way and as it was: to compare.
+/// The sizes of the boundary to compare: packed in the same way, and as text.
 Json compare_boundary(const Document<AxisItem>& file, double error) {
   std::vector<Shape> shapes;
   std::string text;
@@ -206,22 +206,21 @@ Command make_pack_command(CLI::App& program) {
       ->required();
   CLI::Option* error =
       add_value(*command, "--error", arguments->error, "E", in_range(0, 1e300),
-                "How far the shape may change, as a share of the diagonal (default: 0.001).");
+                "The largest change of the shape, as a share of the diagonal (default: 0.001).");
   command
       ->add_flag("--absolute", arguments->absolute,
-                 "--error is in units of the input; of --squares, in pixels.")
+                 "--error is in units of the input, or with --squares in pixels.")
       ->needs(error);
   command->add_flag("--squares", arguments->squares,
-                    "For an image: maximal squares of pixels instead; without loss, or with\n"
+                    "For an image: maximal squares of pixels instead; lossless, or with\n"
                     "--error N --absolute at most N pixels away.");
   command->add_flag("--compare", arguments->compare,
-                    "Also print what the boundary takes: within the same error, coded alike;\n"
+                    "Also print the size of the boundary: within the same error, coded alike;\n"
                     "and as text compressed by zstd.");
   add_common_options(*command, arguments->common);
   command->footer(
-      "A pack holds disks along the branches that matter, in whole numbers, compressed\n"
-      "by zstd. Unpacked, their union lies within the error of the shape, and the shape\n"
-      "within the error of it.\n"
+      "A pack holds disks along the branches that matter, as integers, compressed by zstd.\n"
+      "The union of the unpacked disks and the shape are within the error of each other.\n"
       "\n"
       "Examples:\n"
       "  medial pack leaf.svg -o leaf.mpk --error 0.002 --compare\n"
@@ -239,7 +238,7 @@ Command make_unpack_command(CLI::App& program) {
       ->option_text("REQUIRED");
   add_output_option(*command, arguments->output, "OUTPUT",
                     fmt::format("The output file for the axis and its shape: {};\n"
-                                "of a pack of squares for the image: {}.",
+                                "from a pack of squares, for the image: {}.",
                                 io::formats_of(io::DocumentKind::axes), image_formats));
   add_format_option(*command, arguments->format, "default: json");
   add_picture_options(*command, arguments->write);

@@ -46,7 +46,7 @@ Result<T> in_file(Result<T> result, const InputOptions& input) {
   return result;
 }
 
-/// An error of what a shape is made of, with its cure.
+/// The error of an invalid shape, with a remedy.
 Error with_cure(Error error, const InputOptions& input) {
   using enum ErrorCode;
   const io::ReadOptions& read = input.source.read;
@@ -54,14 +54,14 @@ Error with_cure(Error error, const InputOptions& input) {
                        error.code == hole_outside || error.code == nested_outer;
   const bool flat = error.code == no_area || error.code == too_few_points;
   if ((tangled || flat) && read.repair == RepairRule::none && !io::is_image(input.path))
-    error.text += tangled ? "; --repair mends such rings"
+    error.text += tangled ? "; --repair repairs such rings"
                           : "; --repair drops such rings, and so does --skip-invalid";
   else if (flat && !read.skip_invalid)
     error.text += "; --skip-invalid leaves such features out";
   return error;
 }
 
-/// --stats beyond what every command has.
+/// The entries of --stats that not every command has.
 Json statistics_of(const LoadedAxes& axes, const AxisSummary& summary) {
   const Statistics& counted = axes.axes.statistics;
   const ShapeReport& cleaned = axes.report.shapes;
@@ -120,8 +120,8 @@ std::string describe(const AxisSummary& summary, Unit unit) {
   return text;
 }
 
-/// Whether a native file holds the axes that are asked for. It may hold shapes alone, or contours,
-/// whose axes are still to be computed; and a margin asks for axes of its own.
+/// Whether a native file holds the requested axes. It may hold only shapes or contours, and a
+/// margin requires new axes.
 bool has_axes(const Document<AxisItem>& file, const Options& options) {
   const auto& items = file.items;
   if (std::ranges::any_of(items, [](const auto& item) { return !item.contours.empty(); }))
@@ -149,7 +149,7 @@ Status check_image_options(const InputOptions& input) {
   if (!image.threshold && !image.invert && !image.labels) return success();
   if (image.labels && (image.threshold || image.invert))
     return invalid_option(
-        "--labels takes each value but 0: --threshold and --invert have no effect");
+        "--labels uses each value except 0: --threshold and --invert have no effect");
   const bool other =
       input.path != "-" && std::filesystem::exists(input.path) && !io::is_image(input.path);
   return other ? invalid_option("--threshold, --invert and --labels are for images, which " +
@@ -198,7 +198,7 @@ Status with_planar_graph(const LoosePieces& pieces, const FileArguments& argumen
   if (!touching) return with_cure(std::move(touching).error(), input);
   if (*touching > 0 && !arguments.common.quiet)
     say("medial: {}: note: points and edges within {:.2g} of each other touch, as rounding "
-        "does not tell them apart\n",
+        "cannot separate them\n",
         input.path, *touching);
   return success();
 }
@@ -230,7 +230,7 @@ Result<LoadedAxes> load_axes(const InputOptions& input, const CommonOptions& com
     if (has_axes(*stored, options)) {
       if (has_effect(input.source.units))
         return error_at(ErrorCode::invalid_option, input.path,
-                        "a stored axis keeps its units: convert the shape it is of");
+                        "a stored axis keeps its units: convert its shape instead");
       out.file = std::move(stored).value();
       out.phases.end("read");
       return out;
@@ -376,7 +376,7 @@ Result<std::optional<LoadedAxes>> stream(const FileArguments& arguments, const I
 
 namespace {
 
-/// Items of which the axis is one point, the centre of a disk.
+/// Items whose axis is one point, the centre of a disk.
 std::uint64_t points_of(const Document<AxisItem>& file) {
   return static_cast<std::uint64_t>(std::ranges::count_if(file.items, [](const AxisItem& item) {
     return item.axis.edges.empty() && !item.axis.nodes.empty();
@@ -385,8 +385,8 @@ std::uint64_t points_of(const Document<AxisItem>& file) {
 
 void note_points(std::uint64_t points, const FileArguments& arguments) {
   if (points == 0 || arguments.common.quiet || arguments.output.empty()) return;
-  say("medial: {}: note: the axis of {} is a single point, the centre of a disk, and no line; "
-      ".json, .graphml and .nodelink have it as a node\n",
+  say("medial: {}: note: the axis of {} is a single point, the centre of a disk, not a line; "
+      ".json, .graphml and .nodelink hold it as a node\n",
       arguments.input.path, counted(points, "feature"));
 }
 

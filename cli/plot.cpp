@@ -16,7 +16,7 @@
 namespace medial::cli {
 namespace {
 
-// In points, of one plot and of the room for its labels.
+// In points: one plot, and the margins for its labels.
 constexpr double plot_width = 420, plot_height = 320;
 constexpr double left_room = 64, right_room = 16, top_room = 30, bottom_room = 46;
 constexpr double text_size = 10;
@@ -24,7 +24,7 @@ constexpr double text_size = 10;
 struct Color {
   double red, green, blue;
 };
-// Okabe and Ito's colours, which colour-blind eyes tell apart.
+// Okabe and Ito's colours, which colour-blind readers can distinguish.
 constexpr std::array<Color, 6> colors{{{0.00, 0.45, 0.70},
                                        {0.84, 0.37, 0.00},
                                        {0.00, 0.62, 0.45},
@@ -131,7 +131,7 @@ class Painter {
     const double shift = align == Align::left ? 0 : align == Align::center ? 0.5 : 1.0;
     cairo_move_to(cairo_, x - shift * extents.x_advance, y);
     cairo_show_text(cairo_, words.c_str());
-    cairo_new_path(cairo_);  // the text's end is no point of what is drawn next
+    cairo_new_path(cairo_);  // do not connect the text's end to the next path
   }
 
   void draw_axes() {
@@ -173,7 +173,7 @@ class Painter {
       cairo_stroke(cairo_);
     }
     cairo_set_dash(cairo_, nullptr, 0, 0);
-    constexpr std::size_t most_dots = 40;  // more of them hide their line
+    constexpr std::size_t most_dots = 40;  // more would hide their line
     if (series.reference || !series.marks || (series.line && series.points.size() > most_dots))
       return;
     // Dots, as lines without length that have round ends: one short path for all.
@@ -193,7 +193,7 @@ class Painter {
   /// A coordinate with few digits, for short files: to a quarter of a point.
   static double shortened(double v) { return std::round(4 * v) / 4; }
 
-  /// On the side of the plot where rising or falling curves leave room.
+  /// The legend, on the side where rising or falling curves leave room.
   void draw_legend(const Series& series, double y) {
     const bool falling =
         !plot_.series.empty() && !plot_.series[0].points.empty() &&

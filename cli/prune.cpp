@@ -1,4 +1,4 @@
-// medial prune: axes without the branches that do not matter.
+// medial prune: removes branches that do not matter.
 
 #include "medial/prune.h"
 
@@ -22,7 +22,7 @@ constexpr std::array measure_helps = {
     "Branches by the geometric mean of --significance and --erosion",
     "Branches by how far the shape reaches beyond the disk where they\n"
     "begin, relative to that disk's radius (Ho and Dyer)",
-    "Branches by their longest way to an end, relative to that radius",
+    "Branches by their longest path to an end, relative to that radius",
     "Branches by the boundary beyond that disk, relative to its chord",
     "Points by their radius, relative to R",
     "Points by the angle between the radii to the boundary, in degrees",
@@ -32,7 +32,7 @@ constexpr std::array measure_helps = {
     "Points by that length minus its chord, relative to 2 R",
     "Points by the area that would be lost, relative to the shape's",
     "Lambda medial axis: the smallest circle around the feet, relative to R",
-    "Scale axis: the growth at which another disk covers this one, from 1 up",
+    "Scale axis: the growth factor >= 1 at which another disk covers this one",
 };
 
 }  // namespace
@@ -59,21 +59,21 @@ void add_prune_options(CLI::App& command, PruneArguments& arguments) {
                                     "(default: prominence).")
                         ->option_text("MEASURE");
   CLI::Option* keep = add_value(command, "--keep", arguments.keep, "N", a_whole_number(),
-                                "The most important branches, at most N for each\n"
-                                "feature, instead of a threshold.");
+                                "Instead of a threshold: keep at most N branches of each\n"
+                                "feature, the most important ones.");
   for (CLI::Option* option : options) {
     by->excludes(option);
     keep->excludes(option);
   }
   command.add_flag("--tips", arguments.tips,
-                   "Extend what is kept to its tips, along the ways that reach farthest.");
+                   "Extend what is kept to its tips, along the paths that reach farthest.");
   // A flag that carries a value, as --repair is one.
   command
       .add_flag(
           fmt::format("--specks{{{}}}", speck_share), arguments.speck_share,
-          fmt::format("First leave out specks: holes and parts with a bounding box whose\n"
+          fmt::format("First remove specks: holes and parts with a bounding box whose\n"
                       "diagonal is below this share of the square root of the feature's area\n"
-                      "(without a value: {}). Stored axes are computed again.",
+                      "(without a value: {}). Computes stored axes again.",
                       speck_share))
       ->check(in_range(0, 1, true))
       ->each([&arguments](const std::string& share) {
@@ -90,7 +90,7 @@ Result<PruneOptions> prune_options(const PruneArguments& arguments) {
     if (!measure) {
       std::string names;
       for (const PruneMeasure one : prune_measures()) names += fmt::format(" {}", name_of(one));
-      return invalid_option(fmt::format("--by: '{}' is none of{}", arguments.by, names));
+      return invalid_option(fmt::format("--by: '{}' is not one of{}", arguments.by, names));
     }
     options.measure = *measure;
   }
@@ -116,7 +116,7 @@ void note_specks(const Document<AxisItem>& file, const InputOptions& input,
   for (const AxisItem& item : file.items)
     specks += item.shape.loop_count() - without_specks(item.shape, speck_share).loop_count();
   if (specks > 0)
-    say("medial: {}: note: {}, with an axis or a cycle of its own; `medial prune --specks` leaves "
+    say("medial: {}: note: {}, with a separate axis or cycle; `medial prune --specks` leaves "
         "out specks\n",
         input.path,
         specks == 1 ? "1 part or hole of the image is a speck"
@@ -236,22 +236,22 @@ Command make_prune_command(CLI::App& program) {
   add_input_options(*command, arguments->input);
   add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::axes));
   add_prune_options(*command, arguments->prune);
-  add_exterior_options(*command, arguments->options,
-                       "Prune the axis of what lies around the shape and in its holes, within a\n"
-                       "rectangle.");
+  add_exterior_options(
+      *command, arguments->options,
+      "Prune the axis of the exterior: around the shape and in its holes, within a\n"
+      "rectangle.");
   command->add_flag(
       "--preview", arguments->preview,
-      "One picture over thresholds instead: none, a quarter, a half, the chosen one,\n"
-      "twice and four times it.");
+      "Instead: one picture of several thresholds: 0, and 1/4, 1/2, 1, 2 and 4 times\n"
+      "the chosen one.");
   add_simplify_option(*command, arguments->write);
   add_picture_options(*command, arguments->write);
   add_common_options(*command, arguments->common);
   command->footer(
       "INPUT is medial's own .json with axes, or shapes, whose axes are then computed. R\n"
-      "is the radius of the deepest disk of each connected part. No measure has a unit.\n"
-      "Parts and cycles stay whatever the threshold, and more of a measure leaves less\n"
-      "of the axis, never anything else. Edges of exact axes are cut exactly. One measure\n"
-      "at a time.\n"
+      "is the radius of the deepest disk of each connected part. Measures are dimensionless.\n"
+      "Parts and cycles stay at any threshold; a larger threshold keeps a subset of the axis.\n"
+      "Edges of exact axes are cut exactly. Only one measure can be used at a time.\n"
       "\n"
       "Examples:\n"
       "  medial prune plan.json -o spine.json\n"

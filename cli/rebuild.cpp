@@ -29,7 +29,7 @@ struct RebuildArguments : FileArguments {
   Options options;  ///< of smooth: exterior and margin
 };
 
-/// What was rebuilt, and how far it is from what it should be.
+/// The rebuilt shapes, and their distance from the reference.
 struct Rebuilt {
   std::vector<Shape> shapes;
   std::uint64_t medial_points = 0, crossings = 0;  ///< summed over the features
@@ -37,7 +37,7 @@ struct Rebuilt {
   ShapeDistance distance;
 };
 
-/// The axes of what lies around a file's shapes, in a rectangle. The shapes go to `before`.
+/// The axes of the exteriors of a file's shapes, in a rectangle. The shapes go to `before`.
 Result<LoadedAxes> axes_outside(const RebuildArguments& arguments, std::vector<Shape>& before) {
   const auto& [input, common] = std::tie(arguments.input, arguments.common);
   auto loaded = load_shapes(input, common);
@@ -55,8 +55,8 @@ Result<LoadedAxes> axes_outside(const RebuildArguments& arguments, std::vector<S
   return compute_axes(std::move(loaded).value(), input, common);
 }
 
-/// The shape whose surroundings these are: what their loops enclose except the rectangle's, which
-/// reaches furthest to the left.
+/// The shape with these surroundings: enclosed by their loops except the rectangle, which reaches
+/// furthest to the left.
 Result<Shape> inside_surroundings(const Shape& around) {
   std::vector<Ring> rings = rings_of(around);
   const auto leftmost = [](const Ring& ring) {
@@ -261,10 +261,10 @@ Result<int> run_smooth(const RebuildArguments& arguments) { return run(arguments
 void add_rebuild_options(CLI::App& command, RebuildArguments& arguments) {
   CLI::Option* tangents =
       command.add_flag("--tangents", arguments.tangents,
-                       "Polygons by tangents of disks instead, as of smooth sampled axes.");
+                       "Make polygons from tangents of disks instead, as for smooth sampled axes.");
   add_value(command, "--points", arguments.points, "N", in_range(3, 10'000'000),
-            "With --tangents: points on the axis, about (default: the samples, or\n"
-            "1000 of an exact axis).");
+            "With --tangents: the approximate number of points on the axis (default:\n"
+            "the samples, or 1000 on an exact axis).");
   add_value(command, "--pixels", arguments.pixels, "N", in_range(1, 32768),
             fmt::format("The union of the disks as an image with a longer side of N\n"
                         "pixels: {}",
@@ -276,15 +276,15 @@ void add_options(CLI::App& command, RebuildArguments& arguments, bool smooths) {
   add_input_options(command, arguments.input);
   add_output_options(command, arguments, io::formats_of(io::DocumentKind::shapes));
   command.add_flag("--polygon", arguments.polygon,
-                   "Straight edges only: arcs become chords within --chord.");
+                   "Make straight edges only: replace arcs by chords within --chord.");
   add_width_option(command, arguments.write.width);
   add_value(command, "--against", arguments.against, "SHAPES", a_name(),
             "Measure area and Hausdorff distance against these shapes.");
   if (smooths) {
     add_prune_options(command, arguments.prune);
     add_exterior_options(command, arguments.options,
-                         "Fill notches instead: prune the axis of what lies around the shape and\n"
-                         "in its holes, within a rectangle.");
+                         "Fill notches instead: prune the axis of the exterior, around the shape,\n"
+                         "within a rectangle, and in its holes.");
   } else {
     add_rebuild_options(command, arguments);
   }
@@ -298,9 +298,9 @@ Command make_rebuild_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("rebuild", "Rebuild the shape of an axis.");
   add_options(*command, *arguments, false);
   command->footer(
-      "From an exact axis the boundary comes back exactly, as segments and arcs; where it\n"
-      "was pruned, arcs of the last disks close it. Sampled axes give polygons. INPUT is\n"
-      "medial's own .json with axes; of shapes the axis is computed first.\n"
+      "An exact axis gives back its boundary exactly, as segments and arcs; where it was\n"
+      "pruned, arcs of the last disks close it. Sampled axes give polygons. INPUT is medial's\n"
+      "own .json with axes, or shapes, whose axes are computed first.\n"
       "\n"
       "Examples:\n"
       "  medial rebuild plan.json -o again.svg --against plan.geojson\n"
@@ -316,10 +316,9 @@ Command make_smooth_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("smooth", "Smooth shapes by pruning their axes.");
   add_options(*command, *arguments, true);
   command->footer(
-      "Computes the axis, prunes it as `medial prune` does, and rebuilds the shape: what\n"
-      "is removed is replaced by arcs of the disks at its base (Ho and Dyer). Only\n"
-      "protrusions are removed; notches stay, and with --exterior the other way round.\n"
-      "Parts and holes stay.\n"
+      "Computes the axis, prunes it like `medial prune`, and rebuilds the shape: arcs of the\n"
+      "disks at their base replace protrusions (Ho and Dyer). Notches stay; with --exterior,\n"
+      "notches are filled and protrusions stay. Parts and holes always stay.\n"
       "\n"
       "Examples:\n"
       "  medial smooth coast.wkt.gz -o calm.geojson\n"

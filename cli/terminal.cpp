@@ -25,7 +25,7 @@ constexpr char wipe_line[] = "\r\x1b[K";
 constexpr double seconds_between_draws = 0.1;
 constexpr int bar_width = 30;
 
-// Whether a bar stands on the terminal that a signal has to wipe.
+// Whether the terminal shows a bar that a signal must wipe.
 std::atomic<bool> bar_visible = false;
 bool quiet = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "read in a signal handler");
@@ -43,8 +43,8 @@ extern "C" void end_quietly(int signal_number) {
 void install_signal_handlers() {
   for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
     struct sigaction action {};
-    // What the parent ignores (nohup, jobs in the background) stays ignored; only a closed pipe has
-    // to end us in any case, or else a long output would be computed for nobody.
+    // Signals that the parent ignores (nohup, background jobs) stay ignored, except for a closed
+    // pipe: it must end the process, or else a long output would be computed in vain.
     if (sigaction(signal_number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN &&
         signal_number != SIGPIPE) {
       continue;
@@ -59,13 +59,13 @@ void install_signal_handlers() {
 void occupy_standard_descriptors() {
   for (int descriptor = 0; descriptor <= 2; ++descriptor) {
     if (fcntl(descriptor, F_GETFD) != -1) continue;
-    // The lowest free descriptor is this one. Opened the wrong way round, so that its use fails.
+    // This is the lowest free descriptor. Open it in the opposite mode, so that its use fails.
     if (open("/dev/null", descriptor == 0 ? O_WRONLY : O_RDONLY) == -1) return;
   }
 }
 
 void say_text(const std::string& text) {
-  // Not by fmt::print, which throws where it cannot write.
+  // Not by fmt::print, which throws if it cannot write.
   (void)std::fwrite(text.data(), 1, text.size(), stderr);
   (void)std::fflush(stderr);
 }
@@ -78,7 +78,7 @@ std::string one_line(const std::string& text) {
     const auto byte = static_cast<unsigned char>(line[i]);
     const bool last = byte == '\n' && i + 1 == line.size();
     if ((byte < 0x20 && !last) || byte == 0x7f) line[i] = ' ';
-    // U+0080 to U+009F begin commands as well.
+    // U+0080 to U+009F begin commands, too.
     if (byte == 0xc2 && static_cast<unsigned char>(line[i + 1]) < 0xa0) line.replace(i, 2, " ");
   }
   return line;
@@ -157,7 +157,7 @@ Activity::Activity(const std::string& doing, const std::string& path) {
   };
   try {
     clock_ = std::thread(std::move(show));
-  } catch (const std::system_error&) {  // the system has no thread to spare: no clock
+  } catch (const std::system_error&) {  // the system refuses a thread: no clock
   }
 }
 

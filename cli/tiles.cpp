@@ -20,7 +20,7 @@ struct TilesArguments : FileArguments {
   std::uint64_t tiles = 0;
 };
 
-/// The levels of a quadtree with that many leaves; of none asked for, with some 2^16 edges in each.
+/// The levels of a quadtree with `tiles` leaves; for 0, with about 2^16 edges in each.
 int levels_for(std::uint64_t tiles, std::size_t edges) {
   constexpr std::uint64_t in_leaf = 1 << 16;
   const std::uint64_t wanted = tiles > 0 ? tiles : std::max<std::uint64_t>(edges / in_leaf, 4);
@@ -40,11 +40,11 @@ void add_to(std::vector<TileLevel>& sum, const std::vector<TileLevel>& rows) {
   }
 }
 
-/// What the library says of levels, for those who ask for tiles.
+/// An error of the library about levels, in terms of tiles.
 std::string in_words_of_the_command(std::string text) {
-  constexpr std::string_view levels = "take fewer levels";
+  constexpr std::string_view levels = "use fewer levels";
   if (const std::size_t at = text.find(levels); at != std::string::npos)
-    text.replace(at, levels.size(), "take fewer tiles");
+    text.replace(at, levels.size(), "use fewer tiles");
   return text;
 }
 
@@ -111,26 +111,25 @@ Result<int> run_tiles(const TilesArguments& arguments) {
 
 Command make_tiles_command(CLI::App& program) {
   auto arguments = std::make_shared<TilesArguments>();
-  CLI::App* command = program.add_subcommand(
-      "tiles", "Compute medial axes in tiles that know nothing of each other.");
+  CLI::App* command = program.add_subcommand("tiles", "Compute medial axes in independent tiles.");
   add_input_options(*command, arguments->input);
   add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::axes));
   command
       ->add_option("--tiles", arguments->tiles,
-                   "How many tiles, from 1 to 1048576: the next power of four (default: some\n"
-                   "65,536 edges in each, but at least 4).")
+                   "The number of tiles, from 1 to 1048576, rounded up to a power of four\n"
+                   "(default: about 65,536 edges in each, at least 4).")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 20))
       ->option_text("N");
   add_picture_options(*command, arguments->write);
   add_common_options(*command, arguments->common);
   command->footer(
       "Each tile loads the edges in its window and keeps the part of the axis whose disks\n"
-      "lie inside. Only the edges that other disks can still touch move on to the tile\n"
-      "around it, up to the root. The axis is that of `medial axis`, but for rounding and\n"
-      "the order of nodes and edges. For shapes of straight edges.\n"
+      "lie inside. Only edges that other disks can still touch move on to the parent tile,\n"
+      "up to the root. The axis is that of `medial axis`, up to rounding and the order of\n"
+      "nodes and edges. For shapes of straight edges.\n"
       "\n"
-      "Without -o it prints a row for each level: tiles with edges, edges in all of them\n"
-      "and in the largest one, and edges of the axis that were finished there.\n"
+      "Without -o, prints one row per level: tiles with edges, edges in all of them and in\n"
+      "the largest one, and edges of the axis that were finished there.\n"
       "\n"
       "Examples:\n"
       "  medial tiles coast.wkt.gz -o coast.json\n"

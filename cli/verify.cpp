@@ -1,4 +1,4 @@
-// medial verify: does a stored axis belong to these shapes?
+// medial verify: whether a stored axis belongs to these shapes.
 
 #include "medial/verify.h"
 
@@ -24,8 +24,8 @@ struct VerifyArguments : FileArguments {
 constexpr int most_samples = 1000;
 constexpr std::size_t most_failures_shown = 20;
 
-/// Calls visit(name, number, is_sum) for every number of a Certificate, and whether that of a whole
-/// file is the sum over its features or else the largest.
+/// Calls visit(name, number, is_sum) for every number of a Certificate. `is_sum`: a file has the
+/// sum over its features, else the largest.
 template <class Visit>
 void each_number(const Visit& visit) {
   using C = Certificate;
@@ -160,15 +160,15 @@ std::string verdict_table(const VoronoiCertificate& c) {
   return rows.text();
 }
 
-/// What reads the stored file, with a line on the terminal where that takes long.
+/// Reads the stored file, with a line on the terminal if that takes long.
 template <class Read>
 auto read_stored(const std::string& path, Read read) {
   const Activity shown("reading", path);
   return read(path);
 }
 
-/// The planar graph of what the diagram is of. Where rounding could not tell things apart, they
-/// touched; the graph that fits has as many sites as the diagram, and else is the last one.
+/// The planar graph of a diagram. Things that rounding could not separate touched: takes the graph
+/// with as many sites as the diagram, or else the last one.
 Result<PlanarGraph> graph_of(const LoosePieces& pieces, const VoronoiDiagram& diagram,
                              const VerifyArguments& arguments) {
   std::optional<PlanarGraph> found;
@@ -188,7 +188,7 @@ Result<PlanarGraph> graph_of(const LoosePieces& pieces, const VoronoiDiagram& di
   return std::move(*found);
 }
 
-/// A Voronoi diagram against what is loose in the input.
+/// Checks a Voronoi diagram against the loose pieces of the input.
 Result<int> verify_voronoi(const VerifyArguments& arguments) {
   const CommonOptions& common = arguments.common;
   Phases phases;
@@ -196,7 +196,7 @@ Result<int> verify_voronoi(const VerifyArguments& arguments) {
   if (!stored) return std::move(stored).error();
   if (stored->items.size() != 1 || !stored->items.front().diagram.enclosure)
     return error_at(ErrorCode::unsupported, arguments.axis_path,
-                    "is of polygons alone (--method lee); only diagrams within an enclosure can be "
+                    "is of polygons only (--method lee); only diagrams within an enclosure can be "
                     "verified");
   auto pieces = load_loose(arguments.input, common);
   if (!pieces) return std::move(pieces).error();
@@ -232,7 +232,7 @@ Result<std::vector<Certificate>> verify_all(const Document<ShapeItem>& shapes,
   return map_items<Certificate>(weights_of(shapes), common.threads, verify_one);
 }
 
-/// Whether the axes are of other shapes than these, as other options of reading make them.
+/// Whether the axes are of other shapes, such as other reading options would make.
 bool are_other_shapes(const Document<AxisItem>& stored, const Document<ShapeItem>& shapes) {
   for (std::size_t i = 0; i < shapes.items.size(); ++i)
     if (stored.items[i].shape.points != shapes.items[i].shape.points) return true;
@@ -248,7 +248,7 @@ Result<int> run_verify(const VerifyArguments& arguments) {
   auto stored = read_stored(axis_path, io::read_native);
   if (!stored) return std::move(stored).error();
   InputOptions source = input;
-  // Axes of pixels are of the pixels' own boundary.
+  // Axes of pixels belong to the pixels' own boundary.
   for (const AxisItem& item : stored->items)
     if (is_of_pixels(item.axis.method)) source.source.read.smooth_contour = false;
   auto loaded = load_shapes(source, common);
@@ -272,8 +272,8 @@ Result<int> run_verify(const VerifyArguments& arguments) {
   loaded->phases.end("verify");
   const Certificate all = merge(*certificates);
   if (!all.passed && !common.quiet && are_other_shapes(*stored, shapes))
-    say("medial: {}: note: its axes are of other shapes than those of the input; give verify the "
-        "options that they were made with, such as --pixel-outline or --repair\n",
+    say("medial: {}: note: its axes are of other shapes than the input; give verify the options "
+        "that they were made with, such as --pixel-outline or --repair\n",
         axis_path);
   Json object = {{"input", input.path}, {"axis", axis_path}, {"features", count}};
   const bool part =
@@ -304,8 +304,8 @@ Command make_verify_command(CLI::App& program) {
       "order. The report gives the largest |distance to the boundary - radius|, the largest\n"
       "intrusion of the boundary into a disk, whether the graph is connected with one\n"
       "cycle per hole, whether every convex corner has its leaf and every boundary point\n"
-      "its disk, and both areas. Lengths are in the units of the input. Of an axis that was\n"
-      "pruned, cut or smoothed it checks what holds of every part: disks, contacts, and no\n"
+      "its disk, and both areas. Lengths are in the units of the input. For an axis that was\n"
+      "pruned, cut or smoothed, it checks what holds for every part: disks, contacts, and no\n"
       "more cycles than holes.\n"
       "For a diagram of `medial voronoi`: samples of every edge against the nearest of all\n"
       "sites, faces closed and oriented consistently, and their areas against that of the\n"

@@ -28,7 +28,7 @@ struct Diagrams {
   Phases phases;
 };
 
-/// One diagram of all that the file holds.
+/// One diagram of the whole content of the file.
 Result<Diagrams> compute_together(const VoronoiArguments& arguments) {
   const CommonOptions& common = arguments.common;
   Diagrams out;
@@ -140,7 +140,7 @@ Command make_voronoi_command(CLI::App& program) {
   add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::voronoi));
   command
       ->add_option("--method", arguments->method,
-                   "The method: disks (default), of everything in the file together, within an\n"
+                   "The method: disks (default), for everything in the file together, within an\n"
                    "enclosure; or lee, inside each polygon.")
       ->check(CLI::IsMember({"disks", "lee"}))
       ->option_text("NAME");
@@ -151,23 +151,23 @@ Command make_voronoi_command(CLI::App& program) {
       *command, "--enclosure,--frame", 4,
       [arguments](const std::vector<double>& box) { arguments->enclosure = box; },
       "The enclosure itself: low x, low y, high x, high y, in units of the input. It must\n"
-      "hold the input.")
+      "contain the input.")
       ->excludes("--margin")
       ->option_text("X,Y,X,Y");
   add_nearest_options(*command, arguments->nearest);
   add_picture_options(*command, arguments->write);
   add_common_options(*command, arguments->common);
   command->footer(
-      "Every point, and every segment and arc between its ends, has a face: the places\n"
-      "that are nearer to it than to all others, bounded by exact curves and by the\n"
-      "enclosure. Edges may meet in ends; where they cross, --repair splits them. In plain\n"
-      "text, blocks between blank lines are chains, and a single block a list of points.\n"
+      "Every point, and every segment and arc without its ends, has a face: the points\n"
+      "nearer to it than to all others, bounded by exact curves and by the enclosure. Edges\n"
+      "may meet in ends; where they cross, --repair splits them. In plain text, blocks\n"
+      "between blank lines are chains, and a single block is a list of points.\n"
       "\n"
       "With --method lee, polygons without arcs: every segment and every reflex vertex has a\n"
       "face inside.\n"
       "\n"
       ".json holds the graph without loss, .geojson the faces as polygons and the edges\n"
-      "as lines, .wkt the faces, .csv the edges; pictures show the faces in colours.\n"
+      "as lines, .wkt the faces, .csv the edges. Pictures show the faces in colours.\n"
       "\n"
       "Examples:\n"
       "  medial voronoi wells.csv -o wells.geojson\n"

@@ -99,7 +99,7 @@ std::string counts_of(const VoxelTopology& topology) {
                      counted(topology.cavities, "cavity", "cavities"));
 }
 
-/// What was repaired, and where the grid is too coarse.
+/// Notes on what was repaired, and whether the grid is too coarse.
 void print_notes(const VoxelArguments& arguments, const Outcome& outcome) {
   if (arguments.common.quiet) return;
   const std::string& input = arguments.input.path;
@@ -174,18 +174,18 @@ void add_own_options(CLI::App& command, VoxelArguments& arguments) {
   CLI::Option* voxels = add_value(command, "--voxels", options.voxels, "N", in_range(4, 4096, true),
                                   "Voxels along the longest side of the mesh (default: 128).");
   add_value(command, "--resolution", options.resolution, "H", a_positive_number(),
-            "Instead of that: the edge of a voxel, in units of the input.")
+            "Instead: the edge length of a voxel, in units of the input.")
       ->excludes(voxels);
   add_value(command, "--angle", options.angle, "A", in_range(1.0, 120.0, true),
-            "In degrees: two feet of a voxel count as two if they are this far apart as\n"
-            "seen from it, 1 to 120 (default: 30). Smaller angles give the axis of\n"
-            "the faces as they are; meshes of curved surfaces need larger ones.");
+            "The least angle between two foot points, seen from a voxel, that count as\n"
+            "two, 1 to 120 degrees (default: 30). Small angles give the axis of the flat\n"
+            "faces; meshes of curved surfaces need larger ones.");
   CLI::Option* thin =
       add_choice<Thinning>(
           command, "--thin", options.thinning,
           {{"sheets", Thinning::sheets}, {"curves", Thinning::curves}, {"none", Thinning::none}},
-          "What the axis is thinned to: sheets, one voxel thick (default);\n"
-          "curves; or none.")
+          "Thin the axis to sheets, one voxel thick (default), to curves, or\n"
+          "not at all (none).")
           ->option_text("KIND");
   command.add_flag("--surface", options.surface,
                    "Write sheets as triangles and curves as lines, with a radius at each\n"
@@ -193,16 +193,16 @@ void add_own_options(CLI::App& command, VoxelArguments& arguments) {
   add_choice<bool>(command, "--method", arguments.potential,
                    {{"ridge", false}, {"potential", true}},
                    "ridge (default), or potential: sheets and curves along the force lines\n"
-                   "from convex edges and vertices, if the surface is charged.")
+                   "of the charged surface, from convex edges and vertices.")
       ->excludes(thin);
   add_value(command, "--order", arguments.order, "N", in_range(2, 64, true),
             "The potential is the integral of 1 / distance^N (default: 8).");
   add_choice<bool>(command, "--search", options.sorted_list,
                    {{"tree", false}, {"sorted-list", true}},
-                   "How the nearest faces are found: tree (default), or sorted-list, as\n"
-                   "published, slow for many faces. Both give the same voxels.");
+                   "The search for nearest faces: tree (default), or sorted-list, as published,\n"
+                   "which is slow for many faces. Both give the same voxels.");
   add_value(command, "--memory", arguments.memory, "G", in_range(0.001, 1e6, true),
-            "Give up before more than about G gibibytes are used (default: 4).");
+            "Fail rather than use more than about G gibibytes (default: 4).");
   add_value(command, "--width", arguments.width, "W", in_range(48.0, 8000.0, true),
             "Width of a picture of three views, in pixels (default: 1536).");
 }
@@ -224,10 +224,10 @@ Command make_voxels_command(CLI::App& program) {
   add_threads_option(*command, arguments->common.threads);
   add_report_options(*command, arguments->common);
   command->footer(
-      "The axis is a set of voxels with radii, by ridge following: surfaces one voxel\n"
-      "thick in general. It has as many parts, tunnels and cavities as the voxels inside\n"
-      "of the mesh. Open meshes, edges of more than two faces and faces that cross or\n"
-      "touch are refused, with the place.\n"
+      "The axis is a set of voxels with radii, by ridge following: usually surfaces one\n"
+      "voxel thick. It has as many parts, tunnels and cavities as the voxels inside the\n"
+      "mesh. Open meshes, edges of more than two faces, and faces that cross or touch are\n"
+      "refused, with the place.\n"
       "\n"
       ".ply and .vtk hold radius and quality, .glb the radius, .obj the links between\n"
       "voxels, .png the axis from three sides, coloured by radius.\n"

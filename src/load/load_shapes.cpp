@@ -240,7 +240,7 @@ Status take_valid(std::vector<Attempt> attempts, const Document<Feature>& featur
   if (options.part) return success();
   shapes.notes.push_back(std::to_string(dropped) + " of " + std::to_string(attempts.size()) +
                          " features are invalid and were left out" +
-                         (is_tangled(*first) ? "; --repair mends such rings" : ""));
+                         (is_tangled(*first) ? "; --repair repairs such rings" : ""));
   return success();
 }
 

@@ -276,7 +276,7 @@ std::optional<Error> refuse_grid(const TileGrid& grid, const Options& options) {
     return refused("the number of levels must be in [0, 10]");
   constexpr double far_above = 16;  // a disk may be off by some tolerances
   if (!(grid.slack() > far_above * tolerance_for(grid.box, options.tolerance)))
-    return refused("the tiles are too small for the tolerance: take fewer levels");
+    return refused("the tiles are too small for the tolerance: use fewer levels");
   return std::nullopt;
 }
 

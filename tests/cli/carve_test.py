@@ -181,7 +181,7 @@ class Carve(CommandLine):
         self.write("slot.wkt", "POLYGON ((0 0, 10 0, 10 1, 0 1, 0 0))")
         note = self.succeed("carve", "slot.wkt", "--units", "mm", "--angle", "0", "--tool", "5", "--depth", "1",
                             "-o", "s.nc").stderr
-        self.assertIn(b"the tool fits nowhere into the shape", note)
+        self.assertIn(b"the tool fits nowhere in the shape", note)
         program = self.read("s.nc").decode()
         self.assertNotIn("{", program)
         self.assertTrue(program.rstrip().endswith("M2"), program)

@@ -30,8 +30,8 @@ class Help(CommandLine):
         self.assertLess(page.index("Examples:"), page.index("Options:"))
         self.assertLess(page.index("--keep N"), page.index("described by --help-all"))
         self.assertLess(page.index("described by --help-all"), page.index("--threads"))
-        self.assertNotIn("Threads to use", page)
-        self.assertIn("Threads to use", self.succeed("prune", "--help-all").stdout.decode())
+        self.assertNotIn("The number of threads", page)
+        self.assertIn("The number of threads", self.succeed("prune", "--help-all").stdout.decode())
         for command in self.commands():
             self.assertLess(len(self.succeed(command, "--help").stdout.splitlines()), 80, command)
 

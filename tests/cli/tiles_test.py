@@ -52,4 +52,4 @@ class Tiles(CommandLine):
         self.refuse("[a-z_]+", "tiles", "star.wkt", "--tiles", "0")
         self.refuse("[a-z_]+", "tiles", "star.wkt", "--tiles", "1048577")
         text = self.refuse("invalid_option", "tiles", "star.wkt", "--tolerance", "1e-4")
-        self.assertIn("take fewer tiles", text)
+        self.assertIn("use fewer tiles", text)

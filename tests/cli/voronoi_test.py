@@ -108,7 +108,7 @@ class Voronoi(CommandLine):
         self.write("near.wkt", "LINESTRING(0 0,3 1);LINESTRING(1.5 0.50000000000000011,1 2);POINT(2 2);"
                                "POINT(2.0000000000000004 2);POINT(0.30000000000000004 0.1)".replace(";", "\n"))
         done = self.succeed("voronoi", "near.wkt", "-o", "v.json")
-        self.assertIn(b"rounding does not tell them apart", done.stderr)
+        self.assertIn(b"rounding cannot separate them", done.stderr)
         self.assertTrue(json.loads(self.succeed("verify", "near.wkt", "v.json", "--json").stdout)["passed"])
         self.assertIn(b"rounding", self.succeed("offset", "near.wkt", "--loose", "--distance", "0.5", "-o", "b.wkt").stderr)
         self.write("apart.wkt", "LINESTRING(0 0,3 1)\nLINESTRING(1.5 0.5000000001,1 2)\nPOINT(2 2)\nPOINT(2.0000000001 2)")
