@@ -26,51 +26,51 @@ export type PruneMeasure =
 export type Repair = "make_valid" | "even_odd" | "non_zero";
 
 export interface ShapeOptions {
-  /** Of each coordinate's edge: the tangent of a quarter of the angle it spans; 0 straight. */
+  /** The bulge of the edge after each vertex: the tangent of a quarter of its angle; 0: straight. */
   bulges?: ArrayLike<number>;
-  /** What is inside where rings cross; without it crossing rings are an error. */
+  /** The rule that decides what is inside where rings cross; without it, that is an error. */
   repair?: Repair;
-  /** How far arcs may be from free-form curves, as a share of the diagonal. */
+  /** The largest distance of arcs from free-form curves, as a share of the diagonal. */
   arcTolerance?: number;
-  /** Boundaries become smooth curves within this distance; 0: they stay. */
+  /** Replaces boundaries by smooth curves within this distance; 0 keeps them. */
   fit?: number;
 }
 
 export interface AxisOptions extends ShapeOptions {
   method?: Method;
-  /** Residuals below this share of the diagonal count as touching; 0: by the coordinates. */
+  /** A disk touches a site at a distance below this share of the diagonal; 0: by rounding. */
   tolerance?: number;
-  /** Convex joints with an arc that turn by less, in degrees, are no corner. */
+  /** A convex joint with an arc is a corner if it turns by more than this, in degrees. */
   cornerAngle?: number;
-  /** Makes every decision about the graph certain. */
+  /** Decides every question about the graph exactly. */
   exact?: boolean;
-  /** The axis of what lies around the shape and in its holes. */
+  /** Computes the axis of the exterior: around the shape and in its holes. */
   exterior?: boolean;
   margin?: number;
-  /** Of `ridge` and `brushfire`: the side of a pixel, or how many lie along the longer side. */
+  /** For `ridge` and `brushfire`: the side of a pixel, or the number along the longer side. */
   resolution?: number;
   pixels?: number;
   collinear?: number;
   search?: "tree" | "sorted-list";
   rule?: "crossing" | "difference";
   family?: "sequential" | "sides" | "marking" | "simultaneous";
-  /** Of `biarc-dc`. */
+  /** For `biarc-dc`. */
   seed?: number;
-  /** Of `potential`. */
+  /** For `potential`. */
   order?: number;
-  /** Only the branch to which the force leads from this place; only what lies in this box. */
+  /** Only the branch to which the force leads from `start`; only the part in a box. */
   start?: [number, number];
   within?: [number, number, number, number];
   baseOrder?: number;
   coarse?: number;
   angle?: number;
   movement?: number;
-  /** Of `potential` and `curve-axis`. */
+  /** For `potential` and `curve-axis`. */
   step?: number;
   firstMaximum?: number;
 }
 
-/** An input or an option that has no answer. */
+/** An input or an option that cannot be computed. */
 export class MedialError extends Error {
   constructor(text: string, code?: string, place?: object);
   /** A stable name, such as "crossing" or "invalid_option". */
@@ -82,7 +82,7 @@ export class MedialError extends Error {
   readonly point?: [number, number];
 }
 
-/** What owns memory of the module: the garbage collector frees it, or free() at once. */
+/** Owns memory of the module, which the garbage collector frees, or free() at once. */
 export class Handle {
   free(): void;
 }
@@ -92,7 +92,7 @@ export class Records<Column extends string = string> implements Iterable<Record<
   readonly length: number;
   /** Record i as an object. */
   at(i: number): Record<Column, number>;
-  /** The records as they lie in the module's memory, until it next grows or is freed. */
+  /** The records in the module's memory, valid until it grows or is freed. */
   view(Type?: Float64ArrayConstructor | Uint32ArrayConstructor | Uint8ArrayConstructor): Float64Array | Uint32Array | Uint8Array;
   [Symbol.iterator](): Iterator<Record<Column, number>>;
 }
@@ -133,13 +133,13 @@ export const NODE_KINDS: readonly ["leaf", "site_change", "branching"];
 export const SITE_KINDS: readonly ["segment", "vertex", "arc"];
 export const NO_SITE: number;
 
-/** A closed curve: pieces end to end. A straight piece closes it where its ends differ. */
+/** A closed curve of pieces end to end. If its ends differ, a straight piece closes it. */
 export class Contour {
   constructor(start: Position, role?: "any" | "outer" | "hole" | "winding");
   lineTo(end: Position): this;
   /** `bulge` is the tangent of a quarter of the arc's angle, positive to the left. */
   arcTo(end: Position, bulge: number): this;
-  /** By its control points but the first; rational with `weights`. */
+  /** Takes the control points except the first; rational with `weights`. */
   bezierTo(control: Position[], weights?: number[]): this;
   ellipseTo(center: Position, u: Position, v: Position, begin: number, end: number): this;
 }
@@ -147,7 +147,7 @@ export class Contour {
 /** A bounded region of the plane, of straight and circular edges. */
 export class Shape extends Handle {
   constructor(x: Geometry, options?: ShapeOptions);
-  /** x and y of the vertices of all loops, loop after loop. */
+  /** x and y of the vertices of all loops, loop by loop. */
   readonly points: Float64Array;
   readonly bulges: Float64Array;
   readonly sources: Uint32Array;
@@ -296,41 +296,41 @@ export class Field extends Handle {
 }
 export function field(x: MedialAxis | Geometry, order?: number): Field;
 export function curveAxis(x: Geometry, options?: AxisOptions): MedialAxis;
-/** What an edit has changed. Take out what is removed first: new numbers may be those of removed ones. */
+/** What an edit has changed. Apply removals first: new nodes and edges may get their numbers. */
 export interface Change {
   removedNodes: Uint32Array;
   removedEdges: Uint32Array;
   addedNodes: Uint32Array;
   addedEdges: Uint32Array;
-  /** That was moved, inserted or removed. */
+  /** The vertex moved, inserted or removed. */
   vertex: number;
-  /** Computed again as a whole: all nodes and edges before are removed. */
+  /** All was computed again, and all earlier nodes and edges are removed. */
   everything: boolean;
 }
 /**
- * A shape of straight edges with its axis, which follows when vertices move, come and go. Vertices keep
- * their numbers; so do sites, nodes and edges, except where `Change.everything` is set. A new editor
- * counts vertices, nodes and edges as its shape and its axis do. An edit that makes edges cross throws a
+ * A polygon and its axis, which follows when vertices are moved, inserted or removed. Vertices keep
+ * their numbers; so do sites, nodes and edges, unless `Change.everything` is set. A new editor
+ * numbers vertices, nodes and edges as its shape and its axis do. An edit that makes edges cross throws a
  * MedialError with the place, and changes nothing.
  */
 export class Editor extends Handle {
   constructor(x: Geometry, options?: { tolerance?: number });
   move(vertex: number, to: Position): Change;
-  /** A vertex on the edge that begins at the vertex `before`. */
+  /** Inserts a vertex on the edge that begins at the vertex `before`. */
   insert(before: number, point: Position): Change;
   remove(vertex: number): Change;
-  /** Takes the last edit back, and those before, one by one; nothing where there is none. */
+  /** Undoes the last edit that is not undone yet; without one, changes nothing. */
   undo(): Change;
-  /** An editor of its own in the same state. */
+  /** An independent editor in the same state. */
   copy(): Editor;
   vertex(number: number): [number, number] | null;
   nodes(numbers: ArrayLike<number>): Nodes;
   edges(numbers: ArrayLike<number>): Edges;
   sites(numbers: ArrayLike<number>): Sites;
-  /** All of the axis as it is now, with its shape; nodes and edges count from 0 without gaps. */
+  /** The current axis with its shape; nodes and edges are numbered from 0 without gaps. */
   readonly axis: MedialAxis;
 }
 
-/** An axis with its shape, as the text of a native file; and the items of such a text. */
+/** An axis with its shape as the text of a native file; and the items of such a text. */
 export function dumps(axis: MedialAxis): string;
 export function loads(text: string): { shape: Shape; axis?: MedialAxis }[];
