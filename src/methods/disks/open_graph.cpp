@@ -26,7 +26,7 @@ class FirstPlaces {
   }
   std::uint32_t place_of(std::uint32_t number) {
     constexpr std::uint32_t spread = 0x9E3779B1;  // the golden ratio's bits
-    for (std::size_t i = number * spread;; ++i) {
+    for (std::uint32_t i = number * spread;; ++i) {
       std::uint32_t& place = table_[i & (table_.size() - 1)];
       if (place == none) {
         place = static_cast<std::uint32_t>(numbers.size());
