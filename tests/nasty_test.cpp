@@ -6,10 +6,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <numbers>
+#include <numeric>
 #include <ostream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "medial/medial.h"
 #include "support/environment.h"
@@ -200,6 +204,40 @@ TEST(SmoothBiarcs, AreDecidedInDouble) {
     EXPECT_LE(axis->statistics.exact_precise, 1) << seed;
     EXPECT_TRUE(verify(*shape, *axis, {.threads = 1}).passed) << seed;
   }
+}
+
+/// A closed spline around a regular star.
+std::vector<Contour> spline_star(int tips) {
+  std::vector<Vec2> control;
+  for (int i = 0; i < 2 * tips + 3; ++i) {
+    const double angle = std::numbers::pi * (i % (2 * tips)) / tips, radius = i % 2 == 0 ? 100 : 40;
+    control.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+  }
+  std::vector<double> knots(control.size() + 4);
+  std::iota(knots.begin(), knots.end(), 0.0);
+  std::vector<Contour> contours(1);
+  EXPECT_TRUE(contours[0].spline_to(3, knots, control));
+  return contours;
+}
+
+/// On lines of symmetry, feet on both sides come to joints at one place but for rounding.
+TEST(SymmetricSplines, AreDecidedWithoutALostStep) {
+  for (const int tips : {6, 9, 12})
+    for (const double slip : {0.0, 1e-15, 1e-13, 1e-11}) {
+      auto rings = approximate_by_arcs(spline_star(tips), {.tolerance = 1e-7, .threads = 1});
+      ASSERT_TRUE(rings);
+      Random random(static_cast<std::uint64_t>(tips));
+      for (double& bulge : (*rings)[0].bulges) bulge *= 1 + slip * random.between(-1, 1);
+      const auto shape = build_shape(*rings);
+      ASSERT_TRUE(shape) << to_string(shape.error());
+      const auto axis = compute(*shape, {.threads = 1});
+      ASSERT_TRUE(axis) << to_string(axis.error());
+      EXPECT_EQ(axis->statistics.exact_changes, 0) << tips << " tips, slip " << slip;
+      EXPECT_TRUE(verify(*shape, *axis, {.threads = 1}).passed) << tips << " tips, slip " << slip;
+      if (slip == 0) {
+        EXPECT_EQ(axis->statistics.exact_precise, 0) << tips << " tips";
+      }
+    }
 }
 
 /// Repair leaves a shape a place for bulges even where none of its edges is bent.

@@ -71,7 +71,8 @@ Certainty::Contact Certainty::contact_of(const site::Site& s, const Disk& disk) 
   const site::ArcView view = site::view_of_arc(s, disk.center);
   const double bend = std::abs(s.curvature), all = 1 + bend * size;
   return {(1 / view.size) * view.toward, view.distance - disk.radius,
-          4 * unsure * all + 0.5 * rounding, bend / view.size, 4 * rounding * all / view.size};
+          9 * unsure * all / (1 + view.size) + 0.5 * rounding, bend / view.size,
+          4 * rounding * all / view.size};
 }
 
 bool Certainty::is_near(std::uint32_t i, double slack) const {
@@ -166,16 +167,16 @@ bool Certainty::moves_forward() const {
 bool Certainty::ends(const Boundary& boundary, double tolerance, const Span& span,
                      const Disk& disk) {
   constexpr double open = 16;  // tolerances: what a tie leaves open
-  const auto is_touched = [&](std::uint32_t after) {
-    const double away = distance(boundary.sites[after].point, disk.center);
-    return std::abs(away - disk.radius) <= open * tolerance + span.error;
+  const auto gap = [&](std::uint32_t after) {
+    return std::abs(distance(boundary.sites[after].point, disk.center) - disk.radius);
   };
   for (std::uint32_t i = span.right; i < span.left; ++i) {
     if (boundary.is_smooth(i)) {
       const std::uint32_t at = boundary.elements[i] == Element::vertex ? i : i + 1;
-      if (!is_touched(at)) return false;
+      if (!(gap(at) <= open * tolerance + span.error)) return false;
       continue;
     }
+    if (boundary.is_blunt(i) && gap(i + 1) <= open * tolerance) continue;
     const Event leaf{Event::Kind::contact, i + 1, Disk{boundary.sites[i + 1].point, 0}};
     Certainty end(boundary, span, disk, leaf);
     if (disk.radius > open * tolerance && !end.moves_forward()) return false;

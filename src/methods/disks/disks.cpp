@@ -13,6 +13,7 @@
 #include "methods/disks/collect.h"
 #include "methods/disks/connect.h"
 #include "methods/disks/exact_event.h"
+#include "methods/disks/local_check.h"
 #include "methods/disks/merge_ties.h"
 #include "methods/disks/near_circle.h"
 #include "methods/disks/walk.h"
@@ -107,7 +108,10 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   // A diagram has nodes for a planar graph's points, and edges that lead there, as well.
   const std::size_t spare_nodes = boundary.two_sided ? problem.shape.points.size() : 0;
   Graph graph = collect(chunks, bridges.size(), spare_nodes);
-  merge_ties(boundary, tree, takes_exact ? &sites : nullptr, problem.local_tolerance(), graph);
+  const double tolerance = problem.local_tolerance();
+  merge_ties(boundary, tree, takes_exact ? &sites : nullptr, tolerance, graph);
+  if (!findings.lost.empty() && is_right_around(boundary, tree, graph, findings.lost, tolerance))
+    findings.lost.clear();
   statistics.seconds_collect = watch.lap();
   return graph;
 }

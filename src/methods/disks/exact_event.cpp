@@ -3,6 +3,7 @@
 #ifdef MEDIAL_HAS_EXACT
 
 #include <algorithm>
+#include <cmath>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -265,18 +266,23 @@ class ExactEvents::Search {
     };
     const Hit hit =
         events_.tree_.nearest(disk.center, disk.radius - rounding, span_.right + 1, span_.left - 1);
-    if (hit) {
+    if (hit && !is_seen(hit.site)) {
       add(hit.site);
-      if (!is_seen(hit.site)) return found;
+      return found;
     }
     std::vector<std::uint32_t> near;
     events_.tree_.within(disk.center, disk.radius + rounding, span_.right + 1, span_.left - 1,
                          near);
-    is_hopeless_ = events_.boundary_.has_arcs && near.size() > most_around;
-    if (is_hopeless_) return found;
+    std::size_t touched = 0;
     std::erase_if(near, [&](std::uint32_t site) {
-      return is_bridge(site) || exact::clearance(exact_site(site), exact_disk) >= 0;
+      if (is_bridge(site) || is_hopeless_) return true;
+      const double gap = gap_of(site, disk);
+      if (gap >= -events_.sites_.fine_tolerance_ && continues_touched(site)) return true;
+      if (gap < -rounding) return false;
+      is_hopeless_ = events_.boundary_.has_arcs && ++touched > most_around;
+      return is_hopeless_ || exact::clearance(exact_site(site), exact_disk) >= 0;
     });
+    if (is_hopeless_) return found;
     // Of many that are new, a few take the place of most others.
     std::vector<std::uint32_t> fresh = near;
     std::erase_if(fresh, [&](std::uint32_t site) {
@@ -285,6 +291,26 @@ class ExactEvents::Search {
     const std::vector<std::uint32_t>& some = fresh.empty() ? near : fresh;
     for (std::size_t i = 0; i < some.size(); i += some.size() / few_ + 1) add(some[i]);
     return found;
+  }
+
+  double gap_of(std::uint32_t site, const Disk& disk) const {
+    return std::sqrt(site::squared_distance(events_.boundary_.sites[site], disk.center)) -
+           disk.radius;
+  }
+
+  /// Whether a site continues one that the disk touches, at a joint that is smooth but for
+  /// rounding: beside the one normal there, a disk reaches over the other edge by less than the
+  /// tolerance.
+  bool continues_touched(std::uint32_t site) const {
+    const auto joins = [&](std::uint32_t a, std::uint32_t b) {
+      return outline_.joined(a, b) && !outline_.sites[a].is_vertex() &&
+             !outline_.sites[b].is_vertex();
+    };
+    const auto is_joined = [&](std::uint32_t touched) {
+      return joins(name(touched), name(site)) || joins(name(site), name(touched));
+    };
+    return events_.boundary_.has_arcs &&
+           (is_joined(span_.right) || is_joined(span_.left) || (best_ && is_joined(site_)));
   }
 
   /// Whether a disk that touches a site's carrier, or its joint, touches the site, in the part of

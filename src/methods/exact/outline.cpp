@@ -1,7 +1,5 @@
 #include "methods/exact/outline.h"
 
-#include "methods/checks.h"
-
 namespace medial::exact {
 
 namespace {
@@ -16,26 +14,24 @@ int turn_between(const ExactSite& before, const ExactSite& after) {
   return cross(arriving.normal, leaving.normal).sign();
 }
 
-/// The site of that number of a shape of straight edges.
-ExactSite straight_site(const Problem& problem, const site::SiteNumbers& numbers,
-                        std::uint32_t site) {
+/// The site of that number.
+ExactSite site_of(const Problem& problem, const site::SiteNumbers& numbers, std::uint32_t site) {
   // The share of the points before it is about that of the sites.
   const double share = static_cast<double>(site) / numbers.count;
   const auto about = static_cast<std::size_t>(share * static_cast<double>(numbers.edge.size()));
   const std::size_t point = site::point_of(numbers, site, about);
   const medial::Site found = site::result_site(problem.shape, numbers, site, point);
-  return {problem.frame.to_local(found.start), problem.frame.to_local(found.end), 0};
+  return {problem.frame.to_local(found.start), problem.frame.to_local(found.end), found.bulge};
 }
 
 }  // namespace
 
 SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers, bool stores_sites) {
   SiteLoops outline;
-  const bool stores = stores_sites || has_arcs(problem.shape);
-  outline.sites = stores ? SiteList(numbers.count)
-                         : SiteList(numbers.count, [&problem, &numbers](std::uint32_t site) {
-                             return straight_site(problem, numbers, site);
-                           });
+  outline.sites = stores_sites ? SiteList(numbers.count)
+                               : SiteList(numbers.count, [&problem, &numbers](std::uint32_t site) {
+                                   return site_of(problem, numbers, site);
+                                 });
   outline.next.resize(numbers.count);
   outline.passes.assign(numbers.count, false);
   outline.blunt.assign(numbers.count, false);
@@ -51,11 +47,12 @@ SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers, b
       const std::size_t point = loop.begin() + i, after = loop.begin() + loop.next(i);
       const std::uint32_t edge = numbers.edge[point];
       if (numbers.is_site(point)) {
-        if (stores) outline.sites.set(edge - 1, {loop.local(i), loop.local(i), 0});
+        if (stores_sites) outline.sites.set(edge - 1, {loop.local(i), loop.local(i), 0});
         outline.next[edge - 1] = edge;
         outline.passes[edge - 1] = true;
       }
-      if (stores) outline.sites.set(edge, {loop.local(i), loop.local(loop.next(i)), loop.bulge(i)});
+      if (stores_sites)
+        outline.sites.set(edge, {loop.local(i), loop.local(loop.next(i)), loop.bulge(i)});
       outline.next[edge] = first_of(loop.next(i));
       outline.passes[edge] = numbers.joints[after] != site::Joint::corner;
       outline.blunt[edge] = numbers.joints[after] == site::Joint::blunt;

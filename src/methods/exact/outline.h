@@ -10,8 +10,8 @@
 
 namespace medial::exact {
 
-/// Sites by their numbers: stored, or, of straight edges, worked out at each question, which takes
-/// no memory. Few of them are ever asked for.
+/// Sites by their numbers: stored, or worked out at each question, which takes no memory. Few of
+/// them are ever asked for.
 class SiteList {
  public:
   explicit SiteList(std::uint32_t count = 0) : stored_(count) {}
@@ -70,8 +70,8 @@ struct SiteLoops {
   }
 };
 
-/// `numbers`: the problem's, or those of parted_numbers(). With `stores_sites` or arcs the sites
-/// are stored; otherwise the problem and the numbers must outlive them.
+/// `numbers`: the problem's, or those of parted_numbers(). With `stores_sites` the sites are
+/// stored; otherwise the problem and the numbers must outlive them.
 SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers,
                      bool stores_sites = true);
 

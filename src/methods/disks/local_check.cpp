@@ -1,0 +1,107 @@
+#include "methods/disks/local_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/compat.h"
+#include "site/bisector.h"
+
+namespace medial::disks {
+namespace {
+
+class LocalCheck {
+ public:
+  LocalCheck(const Boundary& boundary, const site::BoundaryTree& tree, const Graph& graph,
+             double tolerance)
+      : boundary_(boundary), tree_(tree), graph_(graph), tolerance_(tolerance) {}
+
+  bool holds_around(std::span<const std::uint32_t> sites) {
+    std::vector<bool> named(boundary_.sites.size(), false);
+    for (const std::uint32_t site : sites) named[site] = true;
+    degree_.assign(graph_.nodes.size(), 0);
+    for (const Link& link : graph_.links)
+      for (const std::uint32_t node : link.node) ++degree_[node];
+    return ranges::all_of(graph_.links, [&](const Link& link) {
+      return (!named[link.site[0]] && !named[link.site[1]]) || is_right(link);
+    });
+  }
+
+ private:
+  const site::Site& site(std::uint32_t i) const { return boundary_.sites[i]; }
+  const Disk& disk(std::uint32_t node) const { return graph_.nodes[node].disk; }
+
+  bool is_right(const Link& link) const {
+    const Disk &from = disk(link.node[0]), &to = disk(link.node[1]);
+    const site::Control control =
+        site::control_of(site(link.site[0]), site(link.site[1]), from, to);
+    const Boundary::SiteRange& run = boundary_.runs[graph_.nodes[link.node[0]].component];
+    for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0})
+      if (!is_maximal(at(from, control, to, t), link, run)) return false;
+    return feet_advance(link, from.center, to.center) && leaf_is_right(link, 0, run) &&
+           leaf_is_right(link, 1, run);
+  }
+
+  /// The point of the edge's curve at parameter t.
+  static Disk at(const Disk& from, const site::Control& control, const Disk& to, double t) {
+    const double a = (1 - t) * (1 - t), b = 2 * t * (1 - t) * control.weight, c = t * t;
+    const double all = a + b + c;
+    return {(1 / all) * (a * from.center + b * control.point.center + c * to.center),
+            (a * from.radius + b * control.point.radius + c * to.radius) / all};
+  }
+
+  bool is_maximal(const Disk& disk, const Link& link, const Boundary::SiteRange& run) const {
+    for (const std::uint32_t i : link.site)
+      if (!touches(site(i), disk, tolerance_)) return false;
+    return !tree_.nearest(disk.center, disk.radius - tolerance_, run.first, run.last);
+  }
+
+  /// From its inside.
+  static bool touches(const site::Site& site, const Disk& disk, double slack) {
+    if (!site.is_vertex() && !(site::carrier_distance(site, disk.center) >= -slack)) return false;
+    return std::abs(std::sqrt(site::squared_distance(site, disk.center)) - disk.radius) <= slack;
+  }
+
+  /// Whether the feet move forward on the right site and backward on the left one, but for what the
+  /// tolerance leaves open.
+  bool feet_advance(const Link& link, Vec2 from, Vec2 to) const {
+    const auto advances = [&](const site::Site& site, Vec2 a, Vec2 b) {
+      const double slack = 4 * tolerance_;
+      // Round a vertex, normals turn to the right.
+      if (site.is_vertex())
+        return cross(b - site.point, a - site.point) >= -slack * distance(site.point, a);
+      // Next to an arc's centre, feet are less certain than centres.
+      const double size =
+          std::min(site::view_of_arc(site, a).size, site::view_of_arc(site, b).size);
+      return (site::carrier_parameter(site, b) - site::carrier_parameter(site, a)) * size >= -slack;
+    };
+    return advances(site(link.site[1]), from, to) && advances(site(link.site[0]), to, from);
+  }
+
+  /// Whether the disk at an end from which no other edge leads touches all that is ahead.
+  bool leaf_is_right(const Link& link, std::size_t end, const Boundary::SiteRange& run) const {
+    const Disk& leaf = disk(link.node[end]);
+    if (degree_[link.node[end]] != 1 || !(leaf.radius > 0)) return true;
+    const std::uint32_t last = link.site[1 - end];
+    for (std::uint32_t i = link.site[end]; i != last; i = i == run.last ? run.first : i + 1)
+      if (i != link.site[end] && boundary_.elements[i] != Element::bridge &&
+          !touches(site(i), leaf, 2 * tolerance_))
+        return false;
+    return true;
+  }
+
+  const Boundary& boundary_;
+  const site::BoundaryTree& tree_;
+  const Graph& graph_;
+  const double tolerance_;
+  std::vector<std::uint32_t> degree_;
+};
+
+}  // namespace
+
+bool is_right_around(const Boundary& boundary, const site::BoundaryTree& tree, const Graph& graph,
+                     std::span<const std::uint32_t> sites, double tolerance) {
+  return LocalCheck(boundary, tree, graph, tolerance).holds_around(sites);
+}
+
+}  // namespace medial::disks
