@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
+#include <string>
 #include <utility>
 
 #include "medial/document.h"
@@ -34,10 +36,12 @@ void print_notes(const Document<Item>& file, const InputOptions& input,
 
 void note_unresolved(const AxesReport& report, const InputOptions& input,
                      const CommonOptions& common) {
-  if (report.unresolved > 0 && !common.quiet)
-    say("medial: {}: note: the grid does not resolve {} of the shape's parts or holes; a smaller "
-        "--resolution may\n",
-        input.path, report.unresolved);
+  if (report.unresolved == 0 || common.quiet) return;
+  const bool is_known = report.pixels < std::numeric_limits<std::uint32_t>::max();
+  say("medial: {}: note: the grid does not resolve {} of the shape's parts or holes; {}\n",
+      input.path, report.unresolved,
+      is_known ? "--pixels " + std::to_string(report.pixels) + " does"
+               : "a smaller --resolution may, or another method");
 }
 
 template <class T>

@@ -4,10 +4,12 @@
 
 #include <cmath>
 #include <random>
+#include <string_view>
 
 #include "medial/compute.h"
 #include "medial/raster.h"
 #include "medial/verify.h"
+#include "methods/raster/finer_grid.h"
 
 namespace medial {
 namespace {
@@ -83,6 +85,67 @@ TEST(BrushfireMethod, TakesShapesWithArcsAndHoles) {
     EXPECT_NEAR(off, 8, 5 * axis.resolution);
     EXPECT_NEAR(node.disk.radius, std::min(10 - off, off - 6), 1e-9);
   }
+}
+
+/// Two components whose pixels touch on a coarse grid keep an axis each, in one part, and a ring
+/// within a pixel of another has its cycle.
+TEST(BrushfireMethod, ComponentsThatTouchOnTheGridStayApart) {
+  const auto box = [](double x, double y, double size) {
+    return Ring{{{x, y}, {x + size, y}, {x + size, y + size}, {x, y + size}}, RingRole::any, {}};
+  };
+  const auto shape = build_shape(std::vector<Ring>{box(0, 0, 30), box(5, 5, 20), box(30.05, 0, 30),
+                                                   box(35, 5, 20), box(15, 30.05, 30)});
+  ASSERT_TRUE(shape.ok());
+  ASSERT_EQ(shape->component_count(), 3U);
+  for (const Brushfire family :
+       {Brushfire::sequential, Brushfire::sides, Brushfire::marking, Brushfire::simultaneous}) {
+    const Certificate certificate = verify(*shape, burnt(*shape, family, 1, 0));
+    EXPECT_TRUE(certificate.passed) << certificate.failures.front();
+    EXPECT_EQ(certificate.graph_parts, 3U);
+    EXPECT_EQ(certificate.cycles, 2U);
+  }
+}
+
+/// Where a grid is too coarse for necks and holes, the number of pixels that is named does.
+TEST(BrushfireMethod, NamesTheGridThatDoes) {
+  // Two squares joined by a neck, and a small hole beside them.
+  const Ring outer{{{0, 0},
+                    {40, 0},
+                    {40, 18},
+                    {41, 18},
+                    {41, 0},
+                    {80, 0},
+                    {80, 40},
+                    {41, 40},
+                    {41, 18.6},
+                    {40, 18.6},
+                    {40, 40},
+                    {0, 40}},
+                   RingRole::any,
+                   {}};
+  const Ring hole{{{10.1, 10.1}, {10.1, 10.9}, {10.9, 10.9}, {10.9, 10.1}}, RingRole::any, {}};
+  const auto shape = build_shape(std::vector<Ring>{outer, hole});
+  ASSERT_TRUE(shape.ok());
+  for (const char* const name : {"brushfire", "ridge"}) {
+    const auto axis_of = [&](std::uint32_t pixels) {
+      Method method = method::Brushfire{{.pixels = pixels}};
+      if (std::string_view(name) == "ridge") method = method::Ridge{.grid = {.pixels = pixels}};
+      return compute(*shape, {.method = method});
+    };
+    const auto coarse = axis_of(20);
+    ASSERT_TRUE(coarse.ok());
+    const Certificate certificate = verify(*shape, *coarse);
+    EXPECT_FALSE(certificate.passed);
+    EXPECT_EQ(certificate.unresolved, certificate.failures.size());
+    const std::uint32_t pixels = raster::pixels_that_do(*shape, name, coarse->resolution);
+    EXPECT_GT(pixels, 20U);
+    EXPECT_LE(pixels, 320U);
+    const auto fine = axis_of(pixels);
+    ASSERT_TRUE(fine.ok());
+    EXPECT_TRUE(verify(*shape, *fine).passed) << name;
+  }
+  // Nothing up to sixteen times as many pixels shows this neck.
+  EXPECT_EQ(raster::pixels_that_do(*shape, "brushfire", 1e9), 0U);
 }
 
 TEST(BrushfireMethod, RefusesWhatItCannot) {

@@ -346,6 +346,35 @@ TEST(CurveAxis, OneThatGoesAstrayIsBegunAnew) {
   EXPECT_GT(anew, 0U);
 }
 
+/// A graph of nodes without disks.
+MedialAxis graph_of(std::size_t nodes, const std::vector<std::array<std::uint32_t, 2>>& links) {
+  MedialAxis axis;
+  axis.nodes.resize(nodes);
+  for (const auto& link : links) axis.edges.push_back({link, {no_site, no_site}, {}, 1});
+  return axis;
+}
+
+/// What has a cycle too many or too few, or is in two parts, is refused.
+TEST(CurveAxis, AnAxisHasACycleForEachHole) {
+  const auto is_right = [](const MedialAxis& axis, std::size_t holes) {
+    const Status status = curve_axis::check_cycles(axis, holes);
+    EXPECT_TRUE(status || status.error().code == ErrorCode::unsupported);
+    return status.ok();
+  };
+  const MedialAxis tree = graph_of(4, {{0, 1}, {1, 2}, {1, 3}});
+  const MedialAxis ring = graph_of(4, {{0, 1}, {1, 2}, {2, 3}, {3, 1}});
+  const MedialAxis two = graph_of(4, {{0, 1}, {1, 2}, {2, 3}, {3, 1}, {0, 3}});
+  for (std::size_t holes = 0; holes < 4; ++holes) {
+    EXPECT_EQ(is_right(tree, holes), holes == 0);
+    EXPECT_EQ(is_right(ring, holes), holes == 1);
+    EXPECT_EQ(is_right(two, holes), holes == 2);
+  }
+  EXPECT_TRUE(is_right(graph_of(1, {}), 0));
+  EXPECT_FALSE(is_right(graph_of(0, {}), 0));
+  // As many edges as one cycle needs, but in two parts.
+  EXPECT_FALSE(is_right(graph_of(5, {{0, 1}, {1, 2}, {2, 0}, {2, 1}, {3, 4}}), 1));
+}
+
 /// A loop of this one ends in a tip whose radius is 2e-8: no step from there is short enough, and
 /// the last branch gets no further than a share of a step from it.
 TEST(CurveAxis, EndsInATipThatIsAllButACorner) {

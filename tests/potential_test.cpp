@@ -132,7 +132,7 @@ TEST(Potential, PixelNoiseIsConnectedThroughLevelFloorsAndNecks) {
 
 /// A lower bound of forces than any shape's, and a flag that is up: both end within a few lines.
 TEST(Potential, TracingEndsWithItsBudgetAndWhenCancelled) {
-  const Shape shape = pixel_noise(14, 0.7);
+  const Shape shape = pixel_noise(16, 0.7);
   const auto regions = potential::regions_of(Problem(shape, Options{}), 1e-4);
   ASSERT_FALSE(regions.empty());
   const auto largest = std::max_element(

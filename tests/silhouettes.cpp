@@ -6,9 +6,11 @@
 // Each seed is one silhouette(), or one of the images redrawn(), as the pixels' outline and as a
 // smooth one. Each axis must be verified; `potential` alone goes three orders. By `curve-axis`, the
 // fit of the outline is followed. `lee`, `biarc-dc` and `curve-axis` may refuse a shape as
-// unsupported or too large; a fit that a refusal names must be followed. One line for each failure,
-// then a table of methods, also to a file, and how often each reason was given for a refusal.
-// --method: one method alone. Exit status: 0; 1 where something failed; 2 for a wrong call.
+// unsupported or too large; a fit that a refusal names must be followed. Where the grid of `ridge`
+// or `brushfire` is too coarse, the number of pixels that the note names must do. One line for each
+// failure, then a table of methods, also to a file, and how often each reason was given for a
+// refusal. --method: one method alone. Exit status: 0; 1 where something failed; 2 for a wrong
+// call.
 
 #include "support/silhouettes.h"
 
@@ -21,11 +23,13 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "medial/io/read.h"
 #include "medial/medial.h"
 #include "methods/curve_axis/curve_axis.h"
+#include "methods/raster/finer_grid.h"
 
 namespace medial::test {
 namespace {
@@ -33,9 +37,10 @@ namespace {
 struct Tally {
   int axes = 0, refused = 0, failed = 0;
   int unresolved = 0;  ///< parts or holes are too fine for the grid of pixels, as the axis says
-  int named = 0;       ///< refusals that name a fit that would do
+  int named = 0;       ///< refusals that name a fit, and notes a number of pixels, that would do
   int misnamed = 0;    ///< of these, fits that are refused as well
-  double all = 0, slowest = 0;         ///< seconds
+  double all = 0, slowest = 0;  ///< seconds
+  std::uint64_t slowest_seed = 0;
   std::map<std::string, int> reasons;  ///< of refusals
 
   /// Whether this is how a method may refuse a shape that it does not take.
@@ -44,7 +49,10 @@ struct Tally {
     ++reasons[error.text.substr(0, error.text.find(';'))];  // before the fit that would do
     return error.code == ErrorCode::unsupported || error.code == ErrorCode::too_large;
   }
-  void took(double seconds) { all += seconds, slowest = std::max(slowest, seconds); }
+  void took(double seconds, std::uint64_t seed) {
+    all += seconds;
+    if (seconds > slowest) slowest = seconds, slowest_seed = seed;
+  }
 };
 std::map<std::string, Tally> tallies;
 
@@ -52,12 +60,29 @@ double seconds_since(std::clock_t begin) {
   return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
 }
 
+/// Whether the number of pixels that would do is named, and does.
+bool count_named_pixels(Tally& tally, const Shape& shape, Method method, const MedialAxis& axis) {
+  ++tally.unresolved;
+  const std::uint32_t pixels = raster::pixels_that_do(shape, axis.method, axis.resolution);
+  if (pixels == 0) return false;
+  ++tally.named;
+  std::visit(
+      [&](auto& own) {
+        if constexpr (requires { own.grid; }) own.grid = {.pixels = pixels};
+      },
+      method);
+  const auto finer = compute(shape, {.method = method});
+  if (finer && verify(shape, *finer).passed) return true;
+  ++tally.misnamed;
+  return false;
+}
+
 /// Counts and reports one axis; whether it is as it must be.
 bool judge(const std::string& name, std::uint64_t seed, const Shape& shape, const Method& method) {
   const auto began = std::clock();
   const auto axis = compute(shape, {.method = method});
   Tally& tally = tallies[name];
-  tally.took(seconds_since(began));
+  tally.took(seconds_since(began), seed);
   const std::string_view plain = name_of(method);
   std::string reason;
   if (!axis) {
@@ -66,8 +91,9 @@ bool judge(const std::string& name, std::uint64_t seed, const Shape& shape, cons
   } else {
     const Certificate certificate = verify(shape, *axis);
     if (certificate.passed) return ++tally.axes, true;
-    if (is_of_pixels(plain) && certificate.unresolved == certificate.failures.size())
-      return ++tally.unresolved, true;
+    if (is_of_pixels(plain) && certificate.unresolved == certificate.failures.size() &&
+        count_named_pixels(tally, shape, method, *axis))
+      return true;
     reason = certificate.failures.front();
   }
   ++tally.failed;
@@ -79,17 +105,12 @@ bool judge(const std::string& name, std::uint64_t seed, const Shape& shape, cons
 /// By every method that takes shapes, or by the one of this name.
 bool try_shape(const std::string& outline, std::uint64_t seed, const Shape& shape,
                const std::string& only) {
-  // The specks of large silhouettes are finer than the default grid.
-  constexpr PixelGrid fine{.pixels = 4096};
   bool good = true;
   for (const MethodInfo& info : methods()) {
     const std::string name = info.name;
     if (name == "curve-axis" || (!only.empty() && name != only)) continue;
     if (name != "potential") {
-      Method method = *method_from(name);
-      if (auto* ridge = std::get_if<method::Ridge>(&method)) ridge->grid = fine;
-      if (auto* brushfire = std::get_if<method::Brushfire>(&method)) brushfire->grid = fine;
-      good = judge(name + ", " + outline, seed, shape, method) && good;
+      good = judge(name + ", " + outline, seed, shape, *method_from(name)) && good;
       continue;
     }
     for (const int order : {0, 1, 8}) {
@@ -147,7 +168,7 @@ bool try_fit(std::uint64_t seed, const std::vector<Ring>& rings, double share) {
   const auto began = std::clock();
   const auto found = compute_curve_axis(contours, {.fit = within});
   Tally& tally = tallies[name];
-  tally.took(seconds_since(began));
+  tally.took(seconds_since(began), seed);
   std::string reason;
   if (!found) {
     const bool may = tally.refuse(found.error());
@@ -188,18 +209,19 @@ bool try_image(std::uint64_t seed, const Image& image, const std::string& only) 
 
 std::string table() {
   std::string text =
-      "| method | verified | refused | grid too coarse | wrong | fits named, and followed | s in "
-      "all | "
-      "the slowest |\n"
-      "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n";
+      "| method | verified | refused | grid too coarse | wrong | fits or pixels named, and "
+      "followed "
+      "| s in all | the slowest | its seed |\n"
+      "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n";
   for (const auto& [name, tally] : tallies) {
     std::array<char, 40> fits{};
     std::array<char, 400> line{};
-    if (name.starts_with("curve-axis") && tally.refused > 0)
+    if (tally.named > 0 || (name.starts_with("curve-axis") && tally.refused > 0))
       std::snprintf(fits.data(), fits.size(), "%d, %d", tally.named, tally.named - tally.misnamed);
-    std::snprintf(line.data(), line.size(), "| %s | %d | %d | %d | %d | %s | %.1f | %.2f |\n",
-                  name.c_str(), tally.axes, tally.refused, tally.unresolved, tally.failed,
-                  fits.data(), tally.all, tally.slowest);
+    std::snprintf(line.data(), line.size(),
+                  "| %s | %d | %d | %d | %d | %s | %.1f | %.2f | %llu |\n", name.c_str(),
+                  tally.axes, tally.refused, tally.unresolved, tally.failed, fits.data(), tally.all,
+                  tally.slowest, static_cast<unsigned long long>(tally.slowest_seed));
     text += line.data();
   }
   return text;

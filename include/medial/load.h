@@ -90,11 +90,12 @@ Result<double> with_planar_graph(const LoosePieces& pieces, bool node_crossings,
 struct AxesReport {
   Statistics statistics;
   std::uint64_t unresolved = 0;  ///< parts and holes too fine for the grid of an axis of pixels
+  std::uint32_t pixels = 0;      ///< PixelGrid::pixels that do for all; the largest: none known
 };
 
 /// The axis of every shape by compute(); `threads`, `progress` and `cancel` apply to all together.
-/// The default resolution of pixel methods is Document::pixel. Statistics of items have no times.
-/// Errors: those of compute(), with the feature.
+/// Pixels are Document::pixel by default; statistics have no times. Errors: as compute(), and
+/// where.
 Result<Document<AxisItem>> compute_axes(Document<ShapeItem> shapes, Options options = {},
                                         AxesReport* report = nullptr);
 

@@ -1,28 +1,50 @@
+#include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
 #include <variant>
 
 #include "axis/statistics.h"
+#include "base/disjoint_sets.h"
 #include "base/threads.h"
 #include "load/file_index.h"
 #include "load/progress.h"
 #include "medial/load.h"
+#include "methods/raster/finer_grid.h"
 
 namespace medial {
 namespace {
 
 /// How far an axis of pixels of an interior is from one part for each component and one cycle for
-/// each hole of its shape, by the Euler characteristic.
+/// each hole of its shape.
 std::uint64_t unresolved_in(const AxisItem& item) {
   const Shape& shape = item.shape;
   const MedialAxis& axis = item.axis;
   if (!is_of_pixels(axis.method) || axis.exterior > 0) return 0;
-  const auto count = [](std::size_t n) { return static_cast<std::int64_t>(n); };
-  return static_cast<std::uint64_t>(std::abs(count(axis.nodes.size()) - count(axis.edges.size()) -
-                                             count(shape.component_count()) +
-                                             count(shape.hole_count())));
+  std::vector<std::int64_t> parts(shape.component_count(), -1), cycles(shape.component_count());
+  for (std::size_t i = 0; i < shape.loop_count(); ++i)
+    if (shape.hole[i]) --cycles[shape.component[i]];
+  for (const Node& node : axis.nodes) ++parts[node.component];
+  DisjointSets sets(axis.nodes.size());
+  for (const Edge& edge : axis.edges) {
+    const std::uint32_t component = axis.nodes[edge.node[0]].component;
+    if (sets.join(edge.node[0], edge.node[1]))
+      --parts[component];
+    else
+      ++cycles[component];
+  }
+  std::int64_t off = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i) off += std::abs(parts[i]) + std::abs(cycles[i]);
+  return static_cast<std::uint64_t>(off);
+}
+
+/// How many pixels would do where some do not; see AxesReport.
+std::uint32_t pixels_for(const AxisItem& item) {
+  const MedialAxis& axis = item.axis;
+  const std::uint32_t pixels = raster::pixels_that_do(item.shape, axis.method, axis.resolution);
+  return pixels > 0 ? pixels : std::numeric_limits<std::uint32_t>::max();
 }
 
 /// Documents hold nothing that differs from run to run.
@@ -65,7 +87,9 @@ Result<Document<AxisItem>> compute_axes(Document<ShapeItem> shapes, Options opti
   AxesReport sum;
   for (AxisItem& item : axes.items) {
     sum.statistics += item.axis.statistics;
-    sum.unresolved += unresolved_in(item);
+    const std::uint64_t unresolved = unresolved_in(item);
+    sum.unresolved += unresolved;
+    if (unresolved > 0 && report != nullptr) sum.pixels = std::max(sum.pixels, pixels_for(item));
     forget_times(item.axis.statistics);
   }
   sum.statistics.threads = effective_threads(options.threads);

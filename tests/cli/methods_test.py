@@ -111,3 +111,18 @@ class Methods(CommandLine):
         fit = re.search(r"--fit ([0-9.]+)", text).group(1)
         self.succeed("axis", "cusp.svg", "--method", "curve-axis", "--fit", fit, "-o", "t.json")
         self.assertEqual(self.run_medial("legal", "t.json").returncode, 0)
+
+    def test_a_note_names_the_pixels_that_do(self):
+        """A frame with a hole smaller than a pixel, by both methods of pixels."""
+        self.write("speck.wkt", "POLYGON ((0 0, 90 0, 90 60, 0 60, 0 0),"
+                                " (30.2 20.2, 30.2 20.8, 30.8 20.8, 30.8 20.2, 30.2 20.2))")
+        for method in ("ridge", "brushfire"):
+            coarse = self.succeed("axis", "speck.wkt", "--method", method, "--pixels", "30", "-o", "a.json")
+            note = coarse.stderr.decode()
+            self.assertIn("the grid does not resolve 1 of the shape's parts or holes; --pixels ", note)
+            self.assertEqual(self.run_medial("verify", "speck.wkt", "a.json").returncode, 1)
+            pixels = note.split("--pixels ")[1].split()[0]
+            fine = self.succeed("axis", "speck.wkt", "--method", method, "--pixels", pixels, "-o", "b.json")
+            self.assertNotIn("does not resolve", fine.stderr.decode())
+            self.succeed("verify", "speck.wkt", "b.json")
+

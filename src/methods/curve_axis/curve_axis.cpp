@@ -11,6 +11,7 @@
 
 #include "axis/node_kinds.h"
 #include "base/box_tree.h"
+#include "base/disjoint_sets.h"
 #include "base/in_flight.h"
 #include "base/local_frame.h"
 #include "medial/shape.h"
@@ -453,17 +454,6 @@ Vec2 direction_of(int round) {
   return {std::cos(angle), std::sin(angle)};
 }
 
-/// Whether an axis goes once around each hole: success for a connected one.
-Status check_cycles(const MedialAxis& axis, std::size_t holes) {
-  if (axis.edges.size() + 1 == axis.nodes.size() + holes) return success();
-  Error error{ErrorCode::unsupported,
-              "the curve axis has gone astray: it does not go once around each hole; use the "
-              "method disks",
-              {}};
-  if (!axis.nodes.empty()) error.place.point = axis.nodes.front().disk.center;
-  return error;
-}
-
 /// The method on one component, again with shorter steps and other bridges where it goes astray.
 Result<CurveAxis> follow(const Loops& loops, const method::CurveAxis& options,
                          const std::atomic<bool>* cancel) {
@@ -610,6 +600,18 @@ Result<CurveAxis> follow_fit(std::span<const Contour> contours, const method::Cu
 }
 
 }  // namespace
+
+Status check_cycles(const MedialAxis& axis, std::size_t holes) {
+  DisjointSets parts(axis.nodes.size());
+  for (const Edge& edge : axis.edges) parts.join(edge.node[0], edge.node[1]);
+  if (parts.count() == 1 && axis.edges.size() + 1 == axis.nodes.size() + holes) return success();
+  Error error{ErrorCode::unsupported,
+              "the curve axis has gone astray: it does not go once around each hole; use the "
+              "method disks",
+              {}};
+  if (!axis.nodes.empty()) error.place.point = axis.nodes.front().disk.center;
+  return error;
+}
 
 Result<MedialAxis> run(const Problem& problem) {
   std::vector<Contour> loops;

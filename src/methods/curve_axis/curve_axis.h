@@ -56,6 +56,10 @@ Result<CurveAxis> compute_curve_axis(std::span<const Contour> contours,
 
 namespace curve_axis {
 
+/// Success if an axis is in one part and has as many cycles as its component has holes. Errors:
+/// unsupported, as the method has gone astray.
+Status check_cycles(const MedialAxis& axis, std::size_t holes);
+
 /// The method `curve-axis` (docs/curve-axis.md) on the problem's contours, or on the shape's own
 /// loops. Errors: those of compute_curve_axis().
 Result<MedialAxis> run(const Problem& problem);

@@ -7,6 +7,112 @@
 namespace medial::potential {
 namespace {
 
+/// The force along a small circle around a minimum.
+class Circle {
+ public:
+  Circle(ForceLines& lines, const ValleyPoint& minimum)
+      : lines_(lines), center_(minimum.place), radius_(lines.reach(minimum.radius)) {}
+
+  static Vec2 towards(double turns) {
+    const double angle = 2 * std::numbers::pi * turns;
+    return {std::cos(angle), std::sin(angle)};
+  }
+  Vec2 at(Vec2 direction) const { return center_ + radius_ * direction; }
+
+  /// The directions in which valleys lead away, in turns, ascending: there the force along the
+  /// circle goes from forward to backward.
+  std::vector<double> valleys() {
+    constexpr int first_looks = 16;
+    for (int i = 0; i <= first_looks; ++i) {
+      const double turns = static_cast<double>(i) / first_looks;
+      Look next = i < first_looks ? look(turns) : looks_.front();
+      next.turns = turns;
+      if (i > 0) look_between(looks_.back(), next, 2);
+      looks_.push_back(next);
+    }
+    std::vector<double> found;
+    const auto is_lost = [](const Look& one) { return one.aside == 0; };
+    looks_.pop_back();
+    const auto first = std::find_if_not(looks_.begin(), looks_.end(), is_lost);
+    if (first == looks_.end()) return {};
+    for (auto passed = looks_.begin(); passed != first; ++passed) passed->turns += 1;
+    std::rotate(looks_.begin(), first, looks_.end());
+    looks_.push_back(looks_.front());
+    looks_.back().turns += 1;
+    const Look* before = &looks_.front();
+    for (const Look& here : looks_) {
+      if (is_lost(here)) continue;
+      // On a floor without slope the force has no direction: that is its middle.
+      if (before->aside > 0 && here.aside < 0) found.push_back(between(*before, here));
+      before = &here;
+    }
+    return found;
+  }
+
+ private:
+  struct Look {
+    double turns = 0;
+    double aside = 0;  ///< the sine from the direction outward to the force; 0: lost
+    double slope = 0;  ///< of that, by turns
+  };
+
+  Look look(double turns) {
+    const Vec2 out = towards(turns), along = left_of(out);
+    double distance = 0;
+    const Force force = lines_.force_at(at(out), distance);
+    const double size = norm(force.force);
+    if (!(distance > 0) || !(size > 0) || lines_.lost(force)) return {turns};
+    const Vec2 direction = (1 / size) * force.force;
+    const Vec2 change = (radius_ / (distance * size)) * force.derivative(along);
+    const double turning = cross(direction, change) - 1;
+    return {turns, cross(out, direction), 2 * std::numbers::pi * turning * dot(out, direction)};
+  }
+
+  /// Looks where two looks leave open how often the sine changes its sign in between.
+  void look_between(Look a, Look b, int depth) {
+    const bool is_lost = (a.aside == 0) != (b.aside == 0);
+    if (depth == 0 || !(is_lost || may_change_more(a, b))) return;
+    const Look middle = look(0.5 * (a.turns + b.turns));
+    look_between(a, middle, depth - 1);
+    looks_.push_back(middle);
+    look_between(middle, b, depth - 1);
+  }
+
+  /// Whether it may do so more often than its signs at both ends tell: not where it rises, or
+  /// falls, at both, nor where the tangents there meet before they reach zero.
+  static bool may_change_more(const Look& a, const Look& b) {
+    if (a.aside == 0) return false;
+    const double way = a.aside > 0 ? 1 : -1;
+    const double begins = way * a.aside, ends = way * b.aside;
+    const double falls = -way * a.slope, rises = way * b.slope, width = b.turns - a.turns;
+    if (ends < 0) return !(falls > 0 && rises < 0);
+    if (!(falls > 0 && rises > 0)) return false;
+    const double meeting = (ends - begins - rises * width) / -(falls + rises);
+    return begins - falls * std::clamp(meeting, 0.0, width) <= 0;
+  }
+
+  /// Where the sine is 0 between two looks, by false position.
+  double between(Look a, Look b) {
+    constexpr int most_looks = 4;
+    constexpr double widest = 1.0 / 16, accuracy = 1e-3;
+    if (b.turns - a.turns > widest) return 0.5 * (a.turns + b.turns);
+    double turns = 0;
+    for (int i = 0; i < most_looks; ++i) {
+      const double share = std::clamp(a.aside / (a.aside - b.aside), 0.1, 0.9);
+      turns = a.turns + share * (b.turns - a.turns);
+      const Look here = look(turns);
+      if (std::abs(here.aside) <= accuracy) break;
+      (here.aside > 0 ? a : b) = here;
+    }
+    return turns;
+  }
+
+  ForceLines& lines_;
+  const Vec2 center_;
+  const double radius_;
+  std::vector<Look> looks_;
+};
+
 /// Whether p lies inside of a polygon.
 bool encloses(const std::vector<Vec2>& polygon, Vec2 p) {
   bool inside = false;
@@ -72,45 +178,17 @@ bool SaddleSearch::wanted(std::uint32_t from, std::span<const ValleyPoint> betwe
 }
 
 void SaddleSearch::traverse() {
-  constexpr int directions = 48;
-  constexpr int halvings = 5;
   const auto done = [&] { return complete() || lines_.exhausted(); };
   // Minima that are found on the way come after these.
   for (; traversed_ < graph_.skeleton.points.size() && !done(); ++traversed_) {
     const std::uint32_t m = traversed_;
     const ValleyPoint minimum = graph_.skeleton.points[m];
     if (minimum.kind != ValleyPoint::Kind::minimum) continue;
-    const double around = lines_.reach(minimum.radius);
-    // The force along a circle turns from forward to backward in a valley.
-    double radius = 0;
-    const auto along = [&](Vec2 direction) {
-      const Force force = lines_.force_at(minimum.place + around * direction, radius);
-      return radius > 0 && !lines_.lost(force) ? dot(force.force, left_of(direction)) : 0;
-    };
-    const auto towards = [](double turns) {
-      const double angle = 2 * std::numbers::pi * turns / directions;
-      return Vec2{std::cos(angle), std::sin(angle)};
-    };
-    // The last place where the force is none or has no direction lies before this.
-    int known_at = -1;
-    double before = along(towards(known_at));
-    while (before == 0 && known_at > -directions) before = along(towards(--known_at));
-    for (int i = 0; i < directions && !done(); ++i) {
-      const double here = along(towards(i));
-      if (here == 0) continue;
-      const bool valley = before > 0 && here < 0;
-      double low = known_at, high = i;
-      before = here;
-      known_at = i;
-      if (!valley) continue;
-      // On a floor without slope the force has no direction: that is its middle.
-      for (int k = 0; k < halvings && high - low <= 1; ++k) {
-        const double middle = 0.5 * (low + high);
-        (along(towards(middle)) > 0 ? low : high) = middle;
-      }
-      const Vec2 direction = towards(0.5 * (low + high));
-      const Vec2 p = minimum.place + around * direction;
-      radius = lines_.distance_at(p);
+    Circle circle(lines_, minimum);
+    for (const double turns : circle.valleys()) {
+      if (done()) break;
+      const Vec2 direction = Circle::towards(turns), p = circle.at(direction);
+      const double radius = lines_.distance_at(p);
       const std::uint32_t known =
           graph_.joined(p, radius, direction, 2 * ForceLines::merge_share, true);
       if (known != no_point) {

@@ -8,7 +8,7 @@ namespace medial::potential {
 namespace {
 
 /// Valleys of an order from here on are sharp enough for a much higher order at once.
-constexpr double searched_below = 32;
+constexpr double searched_below = 24;
 /// From order to order of one point.
 constexpr double ratio = 4;
 

@@ -8,6 +8,7 @@
 #include "base/stopwatch.h"
 #include "medial/raster.h"
 #include "methods/raster/brushfire/fill.h"
+#include "methods/raster/brushfire/layers.h"
 #include "methods/raster/ridge/digitize.h"
 #include "site/boundary_tree.h"
 
@@ -81,21 +82,20 @@ Result<MedialAxis> run(const Problem& problem) {
     return Error{ErrorCode::unsupported,
                  "no pixel's centre lies inside the shape: the resolution is too low",
                  {}};
-  const Image inside = image_of(runs, grid);
   statistics.seconds_sites = watch.lap();
-
-  const Result<Image> burnt =
-      thin(inside, {own.family, problem.options.progress, problem.options.cancel});
-  if (!burnt) return burnt.error();
-  statistics.seconds_walk = watch.lap();
-
   Radius radius(problem.shape, problem.frame);
   statistics.seconds_tree = watch.lap();
-  const std::vector<MedialPixel> pixels = pixels_of(*burnt, runs, grid, radius);
-  statistics.queries = pixels.size();
+
   axis.sites = problem.result_sites();
-  link_pixels(grid, pixels, nullptr, axis);
-  statistics.seconds_collect = watch.lap();
+  for (const auto& layer : layers_of(runs)) {
+    const Result<Image> burnt =
+        thin(image_of(layer, grid), {own.family, problem.options.progress, problem.options.cancel});
+    if (!burnt) return burnt.error();
+    statistics.seconds_walk += watch.lap();
+    link_pixels(grid, pixels_of(*burnt, layer, grid, radius), nullptr, axis);
+    statistics.seconds_collect += watch.lap();
+  }
+  statistics.queries = axis.nodes.size();
   statistics.seconds = all.lap();
   return axis;
 }
