@@ -94,8 +94,7 @@ struct AxesReport {
 };
 
 /// The axis of every shape by compute(); `threads`, `progress` and `cancel` apply to all together.
-/// Pixels are Document::pixel by default; statistics have no times. Errors: as compute(), and
-/// where.
+/// Pixels are Document::pixel by default; statistics have no times. Errors: those of compute().
 Result<Document<AxisItem>> compute_axes(Document<ShapeItem> shapes, Options options = {},
                                         AxesReport* report = nullptr);
 
