@@ -104,7 +104,23 @@ struct Bounded<exact::Precise> {
  private:
   Bounded(Real approximate, Size size, Size bound)
       : value(std::move(approximate)), largest(size), error(bound) {}
-  Size magnitude() const { return std::abs(static_cast<Size>(value)); }
+  /// Rounded towards 0, by less than `widen` has room for.
+  Size magnitude() const {
+#ifdef MEDIAL_WITHOUT_GMP
+    return std::abs(static_cast<Size>(value));
+#else
+    // mpfr_get_ld() takes ten times as long.
+    const mpfr_srcptr number = value.backend().data();
+    if (mpfr_regular_p(number) == 0) return std::abs(static_cast<Size>(value));
+    constexpr int bits = std::numeric_limits<mp_limb_t>::digits;
+    const auto* limbs = static_cast<const mp_limb_t*>(mpfr_custom_get_significand(number));
+    const auto count = (mpfr_get_prec(number) + bits - 1) / bits;
+    constexpr Size limb = bits == 64 ? 0x1p64L : 0x1p32L;
+    const Size leading =
+        static_cast<Size>(limbs[count - 1]) * limb + static_cast<Size>(limbs[count - 2]);
+    return std::ldexp(leading, static_cast<int>(mpfr_custom_get_exp(number)) - 2 * bits);
+#endif
+  }
 };
 
 namespace exact {
