@@ -308,7 +308,7 @@ export interface Change {
   everything: boolean;
 }
 /**
- * A polygon and its axis, which follows when vertices are moved, inserted or removed. Vertices keep
+ * A shape and its axis, which follows when vertices, edges and loops change. Vertices keep
  * their numbers; so do sites, nodes and edges, unless `Change.everything` is set. A new editor
  * numbers vertices, nodes and edges as its shape and its axis do. An edit that makes edges cross throws a
  * MedialError with the place, and changes nothing.
@@ -319,11 +319,20 @@ export class Editor extends Handle {
   /** Inserts a vertex on the edge that begins at the vertex `before`. */
   insert(before: number, point: Position): Change;
   remove(vertex: number): Change;
+  /** Of the edge that begins at a vertex: the tangent of a quarter of its angle, 0 straight. */
+  setBulge(vertex: number, bulge: number): Change;
+  /** A hole or an outer loop, by where it lies; its vertices count on from `Change.vertex`. */
+  insertLoop(points: Position[] | ArrayLike<number>, bulges?: ArrayLike<number>): Change;
+  /** The loop that a vertex lies on. */
+  removeLoop(vertex: number): Change;
+  moveLoop(vertex: number, by: Position): Change;
   /** Undoes the last edit that is not undone yet; without one, changes nothing. */
   undo(): Change;
   /** An independent editor in the same state. */
   copy(): Editor;
   vertex(number: number): [number, number] | null;
+  /** The bulge of the edge that begins at a vertex. */
+  bulge(vertex: number): number | null;
   nodes(numbers: ArrayLike<number>): Nodes;
   edges(numbers: ArrayLike<number>): Edges;
   sites(numbers: ArrayLike<number>): Sites;

@@ -25,7 +25,9 @@ type Functions = { [K in keyof typeof medial as (typeof medial)[K] extends (...g
   (typeof medial)[K] extends (...given: infer A) => infer R ? (...given: A) => Promise<Plain<R>> : never };
 
 type Columns<T> = T extends medial.Records ? Omit<T, keyof medial.Records> : T;
-type Methods = "move" | "insert" | "remove" | "undo" | "vertex" | "nodes" | "edges" | "sites";
+type Methods =
+  | "move" | "insert" | "remove" | "setBulge" | "insertLoop" | "removeLoop" | "moveLoop" | "undo"
+  | "vertex" | "bulge" | "nodes" | "edges" | "sites";
 /** An editor that stays in the worker. */
 export type RemoteEditor = {
   [K in Methods]: (...given: Parameters<medial.Editor[K]>) => Promise<Columns<ReturnType<medial.Editor[K]>>>;

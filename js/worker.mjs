@@ -51,7 +51,10 @@ const left = new FinalizationRegistry(({ editor, call }) => call("free", [], edi
 
 /** What stands for an editor of the worker: the same methods, each giving a promise. */
 function remote_editor(editor, call) {
-  const methods = ["move", "insert", "remove", "undo", "copy", "vertex", "nodes", "edges", "sites"];
+  const methods = [
+    "move", "insert", "remove", "setBulge", "insertLoop", "removeLoop", "moveLoop", "undo", "copy",
+    "vertex", "bulge", "nodes", "edges", "sites",
+  ];
   const remote = {
     get axis() {
       return call("axis", [], editor);

@@ -1,8 +1,10 @@
-// medial_edits: many random edits of 20 shapes by medial::Editor, compared with what compute()
-// makes of the edited shape: of small shapes after every edit, of large ones after every
-// thousandth.
+// medial_edits: many random edits of 20 shapes by medial::Editor, of vertices, of loops and of
+// arcs, compared with what compute() makes of the edited shape: of small shapes after every edit,
+// of large ones after every thousandth.
 //
-//   medial_edits [EDITS] [FIRST] [COUNT]     (default: 100000 edits of each of the 20 shapes)
+//   medial_edits [EDITS] [FIRST] [COUNT] [KINDS]
+//
+// Default: 100000 edits of each of the 20 shapes and of all three kinds (0, 1 and 2).
 //
 // Prints Markdown. Exit status 1 where an axis differs, or where an edit fails by a fault of ours.
 
@@ -71,7 +73,7 @@ Case shape_of_case(std::uint64_t i) {
 }
 
 /// Whether all went well.
-bool run(std::uint64_t number, int count) {
+bool run(std::uint64_t number, int count, test::EditKinds kinds) {
   const Case one = shape_of_case(number);
   const auto shape = build_shape(one.rings);
   auto editor = shape ? Editor::make(*shape) : Result<Editor>(shape.error());
@@ -82,7 +84,7 @@ bool run(std::uint64_t number, int count) {
   constexpr std::size_t small = 200;
   constexpr int seldom = 1000;
   const int interval = shape->points.size() <= small ? 1 : seldom;
-  test::Edits edits(number + 1);
+  test::Edits edits(number + 1, kinds);
   auto vertices = static_cast<std::uint32_t>(shape->points.size());
   int repaired = 0, whole = 0, refused = 0, compared = 0;
   std::string fault;
@@ -90,14 +92,16 @@ bool run(std::uint64_t number, int count) {
     const auto change = edits.next(*editor, vertices);
     if (!change && change.error().code == ErrorCode::internal) fault = to_string(change.error());
     ++(!change ? refused : change->everything ? whole : repaired);
-    if ((change || interval > 1) && i % interval == 0 && fault.empty()) {
+    if ((change || interval > 1) && (i % interval == 0 || i == count) && fault.empty()) {
       fault = test::fault_of(*editor);
       ++compared;
     }
     if (!fault.empty()) fault = "edit " + std::to_string(i) + ": " + fault;
   }
-  std::printf("| %s | %zu | %d | %d | %d | %d | %s |\n", one.name, shape->points.size(), repaired,
-              whole, refused, compared, fault.empty() ? "none" : fault.c_str());
+  constexpr const char* names[] = {"vertices", "loops", "arcs"};
+  std::printf("| %s | %s | %zu | %d | %d | %d | %d | %s |\n", one.name,
+              names[static_cast<std::size_t>(kinds)], shape->points.size(), repaired, whole,
+              refused, compared, fault.empty() ? "none" : fault.c_str());
   std::fflush(stdout);
   return fault.empty();
 }
@@ -111,10 +115,13 @@ int main(int argc, char** argv) {
   };
   const int count = number(1, 100000), first = number(2, 0), last = first + number(3, shapes);
   std::printf(
-      "| shape | vertices | repaired | all computed | refused | compared | differences |\n"
-      "|---|--:|--:|--:|--:|--:|---|\n");
+      "| shape | edits of | vertices | repaired | all computed | refused | compared | differences "
+      "|\n"
+      "|---|---|--:|--:|--:|--:|--:|---|\n");
   bool is_right = true;
-  for (int i = first; i < last && i < shapes; ++i)
-    is_right = run(static_cast<std::uint64_t>(i), count) && is_right;
+  for (int kinds = number(4, 0); kinds <= number(4, 2); ++kinds)
+    for (int i = first; i < last && i < shapes; ++i)
+      is_right = run(static_cast<std::uint64_t>(i), count, static_cast<test::EditKinds>(kinds)) &&
+                 is_right;
   return is_right ? 0 : 1;
 }

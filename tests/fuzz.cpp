@@ -114,7 +114,8 @@ bool try_shape(std::uint64_t seed) {
 /// Returns whether the axis follows the seed's edits.
 bool try_edits(std::uint64_t seed) {
   constexpr int edits = 4;
-  const std::optional<std::string> fault = fault_of_edits(seed, edits);
+  const std::optional<std::string> fault =
+      fault_of_edits(seed, edits, static_cast<EditKinds>(seed % 3));
   if (fault) print_line("edits " + std::to_string(seed) + ": " + *fault);
   return !fault;
 }

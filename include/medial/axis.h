@@ -58,8 +58,7 @@ struct Edge {
 /// nearest site on each side. For pixels, it is the side of a pixel. Nodes, ordered by y, then x,
 /// are centres of medial pixels (for `ridge` also points between pixels); their radii are within
 /// half a pixel's diagonal of the distance to the boundary. Straight edges join neighbours (of
-/// eight); their sites are two that the first node's disk touches within a few pixels, or both
-/// no_site.
+/// eight); their sites are two that the first node's disk all but touches, or both no_site.
 struct MedialAxis {
   std::string method;     ///< the engine's name: see name_of(Method)
   double tolerance = 0;   ///< bound of |distance - radius|, in units of the input

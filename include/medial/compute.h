@@ -23,8 +23,7 @@ struct Options {
   double margin = 0;
   /// Called from any thread with the share done, in any order, finally with 1; must not throw.
   std::function<void(double)> progress = {};
-  /// Once it is true, compute() returns ErrorCode::cancelled: during the walk at once, otherwise
-  /// when the current phase ends.
+  /// Once true, compute() returns ErrorCode::cancelled: at once, or when the current phase ends.
   const std::atomic<bool>* cancel = nullptr;
 };
 

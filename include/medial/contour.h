@@ -58,8 +58,7 @@ struct ArcReport {
 
 /// Approximates contours by arcs and segments within the tolerance, by spiral biarcs (Aichholzer et
 /// al., Algorithms 1 and 2). The result is smooth except at corners; straight pieces and arcs stay
-/// as they are. Errors: not_finite, invalid_option, malformed, no_area, unsupported (a weight <= 0,
-/// a degree > 32).
+/// unchanged. Errors: not_finite, invalid_option, malformed, no_area, unsupported (weight, degree).
 Result<std::vector<Ring>> approximate_by_arcs(std::span<const Contour> contours,
                                               const ArcOptions& options = {},
                                               ArcReport* report = nullptr);

@@ -36,8 +36,7 @@ double default_threshold(PruneMeasure measure);  ///< drops noise, keeps what a 
 struct PruneOptions {
   PruneMeasure measure = PruneMeasure::prominence;
   std::optional<double> threshold = {};  ///< empty: the default of the measure
-  /// Instead of a threshold: keep at most this many branches, those that matter most. Cycles always
-  /// stay, even if they alone have more.
+  /// Instead of a threshold: keep at most this many branches, and all cycles.
   std::optional<std::uint64_t> keep = {};
   bool tips = false;  ///< extend each end to a tip, along the path with the largest reach
 };

@@ -2,6 +2,7 @@
 
 import { Handle, MedialError, call, table } from "./core.mjs";
 import { MedialAxis, Shape } from "./axis.mjs";
+import { rings_of_lists } from "./read.mjs";
 import { Records } from "./records.mjs";
 
 /** A number of a vertex, a node or an edge, as the module takes it. */
@@ -9,12 +10,16 @@ function whole(number) {
   if (Number.isInteger(number) && number >= 0 && number < 0xffffffff) return number;
   throw new MedialError("numbers are whole and not negative", "malformed");
 }
+function number(value) {
+  if (typeof value === "number") return value;
+  throw new MedialError("a bulge is a number", "malformed");
+}
 function place(point) {
   if (point?.length === 2 && Array.from(point).every((x) => typeof x === "number")) return point;
   throw new MedialError("a place is a pair of x and y", "malformed");
 }
 
-/** A shape of straight edges with its axis, which follows when vertices move, come and go. */
+/** A shape with its axis, which follows when vertices, edges and loops change. */
 export class Editor extends Handle {
   constructor(x, { tolerance = 0, ...others } = {}) {
     for (const name of Object.keys(others)) throw new MedialError(`there is no option '${name}'`, "invalid_option");
@@ -40,6 +45,24 @@ export class Editor extends Handle {
   remove(vertex) {
     return this.#change("remove", whole(vertex));
   }
+  /** Of the edge that begins at a vertex: the tangent of a quarter of its angle, 0 straight. */
+  setBulge(vertex, bulge) {
+    return this.#change("set_bulge", whole(vertex), number(bulge));
+  }
+  /** A hole or an outer loop, by where it lies; its vertices count on from the change's. */
+  insertLoop(points, bulges) {
+    const { coordinates } = rings_of_lists([points], () => 0);
+    const own = bulges && Float64Array.from(bulges, number);
+    if (own && own.length !== coordinates.length / 2) throw new MedialError("a loop has a bulge for each point", "malformed");
+    return this.#change("insert_loop", coordinates, coordinates.length / 2, own);
+  }
+  /** The loop that a vertex lies on. */
+  removeLoop(vertex) {
+    return this.#change("remove_loop", whole(vertex));
+  }
+  moveLoop(vertex, by) {
+    return this.#change("move_loop", whole(vertex), ...place(by));
+  }
   /** Takes the last edit back, and those before, one by one; nothing where there is none. */
   undo() {
     return this.#change("undo");
@@ -54,6 +77,11 @@ export class Editor extends Handle {
     call("editor_vertex", this.address, whole(number));
     const [x, y] = table();
     return x === undefined ? null : [x, y];
+  }
+  /** The bulge of the edge that begins at a vertex; null where there is no such vertex. */
+  bulge(vertex) {
+    call("editor_vertex", this.address, whole(vertex));
+    return table()[2] ?? null;
   }
   #records(kind, numbers) {
     const wanted = Uint32Array.from(numbers, whole);

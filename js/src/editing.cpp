@@ -69,15 +69,36 @@ MEDIAL_JS int medial_editor_insert(Editor* editor, std::uint32_t before, double 
 MEDIAL_JS int medial_editor_remove(Editor* editor, std::uint32_t vertex) {
   return answer_change([&] { return editor->remove(vertex); });
 }
+MEDIAL_JS int medial_editor_set_bulge(Editor* editor, std::uint32_t vertex, double bulge) {
+  return answer_change([&] { return editor->set_bulge(vertex, bulge); });
+}
+/// `bulges`: as many as points, or null.
+MEDIAL_JS int medial_editor_insert_loop(Editor* editor, const double* coordinates,
+                                        std::size_t count, const double* bulges) {
+  return answer_change([&] {
+    Ring ring;
+    for (std::size_t i = 0; i < count; ++i)
+      ring.points.push_back({coordinates[2 * i], coordinates[2 * i + 1]});
+    if (bulges != nullptr) ring.bulges.assign(bulges, bulges + count);
+    return editor->insert_loop(ring);
+  });
+}
+MEDIAL_JS int medial_editor_remove_loop(Editor* editor, std::uint32_t vertex) {
+  return answer_change([&] { return editor->remove_loop(vertex); });
+}
+MEDIAL_JS int medial_editor_move_loop(Editor* editor, std::uint32_t vertex, double x, double y) {
+  return answer_change([&] { return editor->move_loop(vertex, {x, y}); });
+}
 MEDIAL_JS int medial_editor_undo(Editor* editor) {
   return answer_change([&] { return editor->undo(); });
 }
 
-/// x and y; nothing where there is no such vertex.
+/// x, y and the bulge of the edge after it; nothing where there is no such vertex.
 MEDIAL_JS int medial_editor_vertex(const Editor* editor, std::uint32_t vertex) {
   return answered([&] {
     answer().tables.emplace_back();
-    if (const auto place = editor->vertex(vertex)) answer().tables[0] = {place->x, place->y};
+    if (const auto place = editor->vertex(vertex))
+      answer().tables[0] = {place->x, place->y, *editor->bulge(vertex)};
     return 1;
   });
 }

@@ -102,7 +102,6 @@ test("refusals have a place and change nothing; objects are freed", () => {
   assert.throws(() => editor.move(0, [NaN, 0]), { code: "not_finite" });
   assert.throws(() => editor.move(0, [1]), { code: "malformed" });
   assert.throws(() => editor.edges([12345]), { code: "invalid_option" });
-  assert.throws(() => new medial.Editor("M 0 0 h 4 a 1 1 0 0 1 0 2 h -4 a 1 1 0 0 1 0 -2 z"), { code: "unsupported" });
   assert.throws(() => new medial.Editor(box, { exact: true }), { code: "invalid_option" });
   const other = editor.copy();
   other.move(3, [2, 2]);
@@ -113,12 +112,45 @@ test("refusals have a place and change nothing; objects are freed", () => {
   assert.deepEqual(other.vertex(3), [2, 2]);
 });
 
+test("loops and arcs follow", () => {
+  const editor = new medial.Editor([[0, 0], [9, 0], [9, 2], [5, 2], [5, 4], [0, 4]]);
+  const same = () => {
+    const axis = editor.axis;
+    const expected = medial.axis(axis.shape);
+    assert.deepEqual(graph_of(axis), graph_of(expected));
+    [axis, expected].forEach((one) => one.free());
+  };
+  const { vertex } = editor.insertLoop([[1, 1], [2, 1], [2, 2], [1, 2], [1, 1]]);
+  same();
+  editor.moveLoop(vertex + 1, [0.5, 0.25]);
+  assert.deepEqual(editor.vertex(vertex), [1.5, 1.25]);
+  same();
+  editor.setBulge(1, 0.25);
+  assert.equal(editor.bulge(1), 0.25);
+  same();
+  const circle = editor.insertLoop(new Float64Array([3, 0.5, 3.5, 0.5]), [1, 1]);
+  same();
+  assert.throws(() => editor.moveLoop(vertex, [0, 2]), { code: "crossing" });
+  editor.removeLoop(circle.vertex);
+  editor.removeLoop(vertex);
+  same();
+  for (let k = 0; k < 6; ++k) editor.undo();
+  assert.equal(editor.bulge(1), 0);
+  same();
+  assert.throws(() => editor.setBulge(0, "1"), { code: "malformed" });
+  assert.throws(() => editor.insertLoop([[0, 0]], [1, 2]), { code: "malformed" });
+  assert.throws(() => editor.removeLoop(99), { code: "invalid_option" });
+  editor.free();
+});
+
 test("in a worker", async () => {
   const worker = await inWorker();
   try {
     const editor = await worker.Editor(box);
     const { addedEdges } = await editor.move(2, [5, 2]);
     assert.equal((await editor.edges(addedEdges)).controlX.length, addedEdges.length);
+    assert.equal((await editor.insertLoop([[1, 0.5], [2, 0.5], [1, 1.5]])).vertex, 4);
+    await editor.undo();
     const copy = await editor.copy();
     await copy.undo();
     assert.deepEqual([await editor.vertex(2), await copy.vertex(2)], [[5, 2], [4, 2]]);

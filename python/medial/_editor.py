@@ -32,7 +32,7 @@ class Change(NamedTuple):
 
 
 class Editor:
-    """A polygon and its axis, which follows when vertices are moved, inserted or removed.
+    """A shape and its axis, which follows when vertices, edges and loops change.
 
     The axis equals that of `axis`; an edit repairs it only where it changes. Vertices keep their
     numbers; sites, nodes and edges do, too, unless ``Change.everything`` is set. A new editor
@@ -117,6 +117,92 @@ class Editor:
         """
         return Change(*self._core.remove(vertex))
 
+    def set_bulge(self, vertex: int, bulge: float) -> Change:
+        """Makes the edge that begins at a vertex an arc, or a segment.
+
+        Parameters
+        ----------
+        vertex : int
+            Its number.
+        bulge : float
+            The tangent of a quarter of the arc's angle: 0 straight, positive where it turns left.
+
+        Examples
+        --------
+        >>> import medial
+        >>> editor = medial.Editor([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> _ = editor.set_bulge(1, 0.5)
+        >>> editor.bulge(1)
+        0.5
+        """
+        return Change(*self._core.set_bulge(vertex, bulge))
+
+    def insert_loop(self, points: npt.ArrayLike, bulges: npt.ArrayLike | None = None) -> Change:
+        """Inserts a hole or an outer loop, by where it lies.
+
+        Its vertices have the numbers from ``Change.vertex`` on, in their order.
+
+        Parameters
+        ----------
+        points : array of (x, y)
+            Closed or not, in any orientation.
+        bulges : array, optional
+            Of the edge after each point.
+
+        Examples
+        --------
+        >>> import medial
+        >>> editor = medial.Editor([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> editor.insert_loop([(1, 0.5), (2, 0.5), (1, 1.5)]).vertex
+        4
+        """
+        try:
+            places = np.ascontiguousarray(points, np.float64).reshape(-1, 2)
+            own = np.ascontiguousarray([] if bulges is None else bulges, np.float64).reshape(-1)
+        except (TypeError, ValueError) as error:
+            raise MedialError("a loop is a list of places, and bulges are numbers", "malformed") from error
+        return Change(*self._core.insert_loop(places.reshape(-1), own))
+
+    def remove_loop(self, vertex: int) -> Change:
+        """Removes the loop that a vertex lies on.
+
+        Parameters
+        ----------
+        vertex : int
+            Its number.
+
+        Examples
+        --------
+        >>> import medial
+        >>> editor = medial.Editor([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> change = editor.insert_loop([(1, 0.5), (2, 0.5), (1, 1.5)])
+        >>> _ = editor.remove_loop(change.vertex)
+        >>> len(editor.axis.edges)
+        5
+        """
+        return Change(*self._core.remove_loop(vertex))
+
+    def move_loop(self, vertex: int, by: Sequence[float]) -> Change:
+        """Moves the loop that a vertex lies on.
+
+        Parameters
+        ----------
+        vertex : int
+            Its number.
+        by : (x, y)
+            How far.
+
+        Examples
+        --------
+        >>> import medial
+        >>> editor = medial.Editor([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> change = editor.insert_loop([(1, 0.5), (2, 0.5), (1, 1.5)])
+        >>> _ = editor.move_loop(change.vertex, (0.5, 0))
+        >>> editor.vertex(change.vertex)
+        (1.5, 0.5)
+        """
+        return Change(*self._core.move_loop(vertex, _place(by)))
+
     def undo(self) -> Change:
         """Undoes the last edit that is not undone yet; without one, changes nothing.
 
@@ -162,6 +248,21 @@ class Editor:
         """
         place = self._core.vertex(number)
         return None if place is None else (place[0], place[1])
+
+    def bulge(self, vertex: int) -> float | None:
+        """The bulge of the edge that begins at a vertex; None where there is no such vertex.
+
+        Parameters
+        ----------
+        vertex : int
+
+        Examples
+        --------
+        >>> import medial
+        >>> medial.Editor([(0, 0), (4, 0), (4, 2), (0, 2)]).bulge(0)
+        0.0
+        """
+        return self._core.bulge(vertex)
 
     def nodes(self, numbers: npt.ArrayLike) -> Records:
         """The nodes with these numbers; fields as in `MedialAxis.nodes`.

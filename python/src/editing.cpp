@@ -38,6 +38,15 @@ nb::tuple change_of(Result<AxisChange> result) {
                         change.everything);
 }
 
+/// A ring from x and y one after the other, and the bulges of its edges or none.
+Ring ring_of(const Values<double>& points, const Values<double>& bulges) {
+  const std::span<const double> xy = span_of(points), own = span_of(bulges);
+  Ring ring;
+  for (std::size_t i = 0; i + 1 < xy.size(); i += 2) ring.points.push_back({xy[i], xy[i + 1]});
+  ring.bulges.assign(own.begin(), own.end());
+  return ring;
+}
+
 std::unique_ptr<AxisOf> axis_of(const Editor& self) {
   return share(std::make_shared<const Shape>(self.shape()), self.axis());
 }
@@ -65,6 +74,28 @@ void bind_editing(nb::module_& module) {
           "remove",
           [](Editor& self, std::uint32_t vertex) { return change_of(self.remove(vertex)); }, lock)
       .def(
+          "set_bulge",
+          [](Editor& self, std::uint32_t vertex, double bulge) {
+            return change_of(self.set_bulge(vertex, bulge));
+          },
+          lock)
+      .def(
+          "insert_loop",
+          [](Editor& self, const Values<double>& points, const Values<double>& bulges) {
+            return change_of(self.insert_loop(ring_of(points, bulges)));
+          },
+          lock)
+      .def(
+          "remove_loop",
+          [](Editor& self, std::uint32_t vertex) { return change_of(self.remove_loop(vertex)); },
+          lock)
+      .def(
+          "move_loop",
+          [](Editor& self, std::uint32_t vertex, std::array<double, 2> by) {
+            return change_of(self.move_loop(vertex, {by[0], by[1]}));
+          },
+          lock)
+      .def(
           "undo", [](Editor& self) { return change_of(self.undo()); }, lock)
       .def(
           "copy", [](const Editor& self) { return Editor(self); }, lock)
@@ -75,6 +106,9 @@ void bind_editing(nb::module_& module) {
             if (!place) return std::nullopt;
             return std::array{place->x, place->y};
           },
+          lock)
+      .def(
+          "bulge", [](const Editor& self, std::uint32_t vertex) { return self.bulge(vertex); },
           lock)
       .def(
           "nodes",

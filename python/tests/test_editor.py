@@ -52,3 +52,27 @@ def test_edits_that_are_refused_change_nothing():
     other = editor.copy()
     other.move(0, (-1, -1))
     assert editor.vertex(0) == (0, 0)
+
+
+def test_loops_and_arcs_follow():
+    editor = medial.Editor(ROOM)
+    hole = editor.insert_loop([(1, 1), (2, 1), (2, 2), (1, 2), (1, 1)]).vertex
+    editor.move_loop(hole + 1, (0.5, 0.25))
+    assert editor.vertex(hole) == (1.5, 1.25)
+    editor.set_bulge(1, 0.25)
+    assert editor.bulge(1) == 0.25
+    circle = editor.insert_loop([(3.0, 0.5), (3.5, 0.5)], bulges=[1, 1]).vertex
+    again = medial.axis(editor.axis.shape)
+    assert editor.axis.verify().passed
+    assert len(editor.axis.edges) == len(again.edges)
+    with pytest.raises(medial.MedialError) as refused:
+        editor.move_loop(hole, (0, 2))
+    assert refused.value.code == "crossing"
+    editor.remove_loop(circle)
+    editor.remove_loop(hole)
+    assert editor.vertex(hole) is None
+    for _ in range(6):
+        editor.undo()
+    assert editor.bulge(1) == 0
+    with pytest.raises(medial.MedialError):
+        editor.insert_loop("no")

@@ -132,6 +132,7 @@ export class Live {
   /** Whether the editor knows the vertices that an edit is about. */
   knows({ kind, ring, index }) {
     const numbers = this.numbers[ring];
+    if (kind === "ring") return this.has_all;
     if (kind !== "insert") return numbers[index] >= 0 && this.next[numbers[index]] >= 0 && (kind === "move" || numbers.length > 3);
     return this.#edge_at(ring, index) >= 0;
   }
@@ -147,6 +148,7 @@ export class Live {
   follow(edit) {
     const { editor } = this;
     const { kind, ring, index, point } = edit;
+    if (kind === "ring") return this.#follow_ring(edit);
     const v = kind === "insert" ? this.#edge_at(ring, index) : this.numbers[ring][index];
     let change;
     if (kind === "move") change = editor.move(v, point);
@@ -157,12 +159,31 @@ export class Live {
     if (kind === "move") this.#moved(v, point);
     else if (kind === "insert") this.#inserted(v, change.vertex, ring, index, point);
     else this.#removed(v, ring, index);
-    if (change.everything) {
-      const { shape } = this.axis;
-      const { sources } = shape;
-      this.#read(shape, (k) => sources[2 * k + 1]);
-    } else this.#take(change);
+    this.#take_any(change);
     this.is_in_step = true;
+  }
+  /** A whole ring; its vertices come to their places, whatever rounding makes of the sums. */
+  #follow_ring({ ring, xy, by }) {
+    const numbers = this.numbers[ring];
+    const [first] = numbers;
+    const way = by ?? [xy[0] - this.x[first], xy[1] - this.y[first]];
+    const change = this.editor.moveLoop(first, way);
+    this.is_in_step = false;
+    this.#forget_axis();
+    const off = numbers.map((v, i) => (this.x[v] + way[0] !== xy[2 * i] || this.y[v] + way[1] !== xy[2 * i + 1] ? i : -1));
+    for (const v of numbers) this.#forget(v);
+    numbers.forEach((v, i) => ([this.x[v], this.y[v]] = [xy[2 * i], xy[2 * i + 1]]));
+    for (const v of numbers) this.#add(v);
+    this.#take_any(change);
+    for (const i of off) if (i >= 0) this.#take_any(this.editor.move(numbers[i], [xy[2 * i], xy[2 * i + 1]]));
+    this.is_in_step = true;
+  }
+  #take_any(change) {
+    this.#forget_axis();
+    if (!change.everything) return this.#take(change);
+    const { shape } = this.axis;
+    const { sources } = shape;
+    this.#read(shape, (k) => sources[2 * k + 1]);
   }
 
   /** Lets `largest` follow where the largest disk has become smaller, in O(n). */

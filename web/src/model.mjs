@@ -159,10 +159,15 @@ function contour_of(ring, medial) {
 
 /**
  * Moves, inserts or removes a vertex of a ring: { kind, ring, index, point }; an inserted one comes before
- * the vertex `index`. Gives the edit that takes it back.
+ * the vertex `index`. Or moves a ring: { kind: "ring", ring, xy }. Gives the edit that takes it back.
  */
-export function apply_edit(rings, { kind, ring: r, index, point }) {
+export function apply_edit(rings, { kind, ring: r, index, point, xy }) {
   const ring = rings[r];
+  if (kind === "ring") {
+    const old = ring.xy;
+    ring.xy = xy;
+    return { kind, ring: r, xy: old };
+  }
   if (kind === "insert") {
     Object.assign(ring, with_vertex(ring, index - 1, point));
     return { kind: "remove", ring: r, index };

@@ -121,12 +121,14 @@ export class Studio extends EventTarget {
     if (this.scene.rings !== this.#settled) return;
     for (const one of made) {
       const last = this.#edits.at(-1);
-      if (last && ["kind", "ring", "index"].every((name) => last.edit[name] === one.edit[name]) && one.edit.kind === "move") last.edit = one.edit;
+      const goes_on = last && ["kind", "ring", "index"].every((name) => last.edit[name] === one.edit[name]);
+      if (goes_on && ["move", "ring"].includes(one.edit.kind)) last.edit = { ...one.edit, by: undefined };
       else this.#edits.push(one);
     }
   }
-  #around({ kind, ring, index, point }) {
+  #around({ kind, ring, index, point, xy: moved }) {
     const { xy } = this.scene.rings[ring];
+    if (kind === "ring") return Array.from({ length: moved.length / 2 + 1 }, (_, i) => [0, 1].map((k) => moved[(2 * i + k) % moved.length]));
     const at = (i) => [xy.at((2 * i) % xy.length), xy.at((2 * i + 1) % xy.length)];
     const [before, after] = [at(index - 1), at(kind === "insert" ? index : index + 1)];
     return kind === "remove" ? [before, after] : [before, point, after];

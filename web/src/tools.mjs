@@ -234,11 +234,16 @@ export class Tools {
     if (this.scene.hot?.kind === "edge") this.scene.hot = { ...this.scene.hot, handles: this.#handles(this.scene.hot) };
     this.studio.emit("dragged", at);
   }
-  /** Lets the axis follow a vertex, the two of an edge, or those of a small ring. False where it cannot. */
+  /** Lets the axis follow a vertex, the two of an edge, or a ring. False where it cannot. */
   #follow(drag, to, dx, dy) {
     const { ring, ring_before: before } = drag;
     const count = size_of(before);
-    if (drag.handle || (drag.kind === "ring" && count > MOST_AT_ONCE)) return false;
+    if (drag.handle) return false;
+    if (drag.kind === "ring" && count > MOST_AT_ONCE) {
+      const { xy } = this.scene.rings[ring];
+      const by = [before.xy[0] + dx - xy[0], before.xy[1] + dy - xy[1]];
+      return this.studio.edit([{ kind: "ring", ring, by, xy: xy.map((v, k) => v + by[k % 2]) }]);
+    }
     const moved = (index) => {
       const [x, y] = point_of(before, index);
       return { kind: "move", ring, index, point: [x + dx, y + dy] };

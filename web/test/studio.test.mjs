@@ -121,6 +121,31 @@ test("a hole is drawn, and dragged", async () => {
   assert.ok(Math.abs(Math.min(...hole.xy.filter((_, k) => k % 2 === 0)) - 20) < 1, String(hole.xy));
 });
 
+test("a hole of many vertices is dragged, and the axis follows", async () => {
+  const round = Array.from({ length: 100 }, (_, k) => [10 + 3 * Math.cos(k * Math.PI / 50), 10 + 3 * Math.sin(k * Math.PI / 50)]);
+  const text = [...round, round[0]].map((at) => at.join(" ")).join(", ");
+  await paste(`POLYGON ((0 0, 40 0, 40 20, 20 18, 0 20, 0 0), (${text}))`);
+  const [before] = (await rings()).slice(1);
+  await drag(await screen(10, 10), await screen(28, 9));
+  const [moved] = (await rings()).slice(1);
+  assert.ok(Math.abs(moved.xy[0] - 31) < 1, String(moved.xy[0]));
+  const state = () => page.evaluate(() => {
+    const expected = studio.medial.axis(studio.rings.map(({ xy }) => xy));
+    const counts = [Boolean(studio.live), studio.axis.edges.length === expected.edges.length, studio.axis.verify?.().passed ?? studio.certificate().passed];
+    expected.free();
+    return counts;
+  });
+  assert.deepEqual(await state(), [true, true, true]);
+  await drag(await screen(28, 9), await screen(28, -5), 2); // refused
+  assert.deepEqual(await state(), [true, true, true]);
+  await page.keyboard.press("Control+z");
+  await settled();
+  if ((await rings())[1].xy[0] !== before.xy[0]) await page.keyboard.press("Control+z"); // the part of the second drag that was done
+  await settled();
+  assert.deepEqual((await rings())[1].xy, before.xy);
+  assert.deepEqual(await state(), [true, true, true]);
+});
+
 test("circle, polygon and freehand", async () => {
   await page.keyboard.press("n");
   await settled();

@@ -1,6 +1,9 @@
 #include "methods/disks/tie_fit.h"
 
 #include <algorithm>
+#include <limits>
+
+#include "base/compat.h"
 
 namespace medial::disks {
 namespace {
@@ -34,32 +37,36 @@ double residual_of(const TieSites& sites, const Touch& i, const DiskOf<double>& 
 #ifdef MEDIAL_HAS_EXACT
 using exact::Precise;
 
-ContactOf<Precise> contact_of(const TieSites& sites, const Touch& i, const DiskOf<Precise>& disk) {
+/// Of a site as the shape has it. `Real` has more digits than double.
+template <class Real>
+ContactOf<Real> contact_of(const TieSites& sites, const Touch& i, const DiskOf<Real>& disk) {
+  using std::sqrt;
   const exact::ExactSite& site = sites.exact->site(i.site);
   const Vec2 center{static_cast<double>(disk.x), static_cast<double>(disk.y)};
   const site::Site seen = i.seen_from(sites.sites, center);
   if (seen.is_vertex() && site.is_arc())
-    return contact_with_point(Precise(seen.point.x), Precise(seen.point.y), disk);
-  const Precise x(site.start.x), y(site.start.y);
+    return contact_with_point(Real(seen.point.x), Real(seen.point.y), disk);
+  const Real x(site.start.x), y(site.start.y);
   if (site.is_vertex()) return contact_with_point(x, y, disk);
-  const Precise along_x = Precise(site.end.x) - x, along_y = Precise(site.end.y) - y;
-  const Precise length = sqrt(Precise(along_x * along_x + along_y * along_y));
+  const Real along_x = Real(site.end.x) - x, along_y = Real(site.end.y) - y;
+  const Real length = sqrt(Real(along_x * along_x + along_y * along_y));
   if (!site.is_arc()) {
-    const Precise nx = -along_y / length, ny = along_x / length;
-    return {nx, ny, Precise(nx * (disk.x - x) + ny * (disk.y - y) - disk.radius)};
+    const Real nx = -along_y / length, ny = along_x / length;
+    return {nx, ny, Real(nx * (disk.x - x) + ny * (disk.y - y) - disk.radius)};
   }
-  const Precise bulge(site.bulge), squared = bulge * bulge;
-  const Precise height = (1 - squared) / (4 * bulge);
-  const Precise to_x = disk.x - (x + along_x / 2 - height * along_y),
-                to_y = disk.y - (y + along_y / 2 + height * along_x);
-  const Precise away = sqrt(Precise(to_x * to_x + to_y * to_y));
-  const Precise radius = length * (1 + squared) / (4 * bulge);  // signed
+  const Real bulge(site.bulge), squared = bulge * bulge;
+  const Real height = (1 - squared) / (4 * bulge);
+  const Real to_x = disk.x - (x + along_x / 2 - height * along_y),
+             to_y = disk.y - (y + along_y / 2 + height * along_x);
+  const Real away = sqrt(Real(to_x * to_x + to_y * to_y));
+  const Real radius = length * (1 + squared) / (4 * bulge);  // signed
   const int sense = bulge > 0 ? -1 : 1;
-  return {Precise(sense * to_x / away), Precise(sense * to_y / away),
-          Precise(radius + sense * away - disk.radius)};
+  return {Real(sense * to_x / away), Real(sense * to_y / away),
+          Real(radius + sense * away - disk.radius)};
 }
 
-Precise residual_of(const TieSites& sites, const Touch& i, const DiskOf<Precise>& disk) {
+template <class Real>
+Real residual_of(const TieSites& sites, const Touch& i, const DiskOf<Real>& disk) {
   return size_of(contact_of(sites, i, disk).residual);
 }
 #endif
@@ -237,20 +244,45 @@ site::Site Touch::seen_from(std::span<const site::Site> sites, Vec2 center) cons
   return site::make_vertex(whole.at(s));
 }
 
+namespace {
+
+/// Asks for the verdict in numbers of more digits, from a disk on, and moves the disk.
+template <class Real>
+Verdict judge_again(const TieSites& sites, std::span<const Touch> contacts, const Bound& bound,
+                    Disk& disk, double& worst) {
+  Exchange<Real> exchange(sites, {Real(disk.center.x), Real(disk.center.y), Real(disk.radius)});
+  const Verdict verdict = exchange.judge(contacts, bound);
+  const DiskOf<Real>& found = exchange.disk;
+  disk = {{static_cast<double>(found.x), static_cast<double>(found.y)},
+          static_cast<double>(found.radius)};
+  worst = static_cast<double>(exchange.worst);
+  return verdict;
+}
+
+}  // namespace
+
 bool TieFit::fits(std::span<const Touch> contacts, double bound) {
   constexpr double noise = 0x1p-51;  // of a distance in double
-  Exchange<double> exchange(*sites_, {disk.center.x, disk.center.y, disk.radius});
-  Verdict verdict = exchange.judge(contacts, {bound, noise});
-  disk = {{exchange.disk.x, exchange.disk.y}, exchange.disk.radius};
-  worst = exchange.worst;
+  Verdict verdict = Verdict::open;
+  {
+    Exchange<double> exchange(*sites_, {disk.center.x, disk.center.y, disk.radius});
+    verdict = exchange.judge(contacts, {bound, noise});
+    disk = {{exchange.disk.x, exchange.disk.y}, exchange.disk.radius};
+    worst = exchange.worst;
+  }
 #ifdef MEDIAL_HAS_EXACT
   if (verdict == Verdict::open && sites_->exact != nullptr) {
-    Exchange<Precise> precise(
-        *sites_, {Precise(disk.center.x), Precise(disk.center.y), Precise(disk.radius)});
-    verdict = precise.judge(contacts, {bound, 0x1p-200});
-    disk = {{static_cast<double>(precise.disk.x), static_cast<double>(precise.disk.y)},
-            static_cast<double>(precise.disk.radius)};
-    worst = static_cast<double>(precise.worst);
+    // Distances to vertices and segments have an error of less than 16 roundings of a coordinate
+    // below 4; those to flat arcs may lose all digits.
+    constexpr double long_noise = 64 * std::numeric_limits<long double>::epsilon();
+    const auto is_arc = [&](const Touch& i) { return sites_->sites[i.site].is_arc(); };
+    const Disk start = disk;
+    if (ranges::none_of(contacts, is_arc))
+      verdict = judge_again<long double>(*sites_, contacts, {bound, long_noise}, disk, worst);
+    if (verdict == Verdict::open) {
+      disk = start;
+      verdict = judge_again<Precise>(*sites_, contacts, {bound, 0x1p-200}, disk, worst);
+    }
   }
 #endif
   return verdict == Verdict::yes || (verdict == Verdict::open && worst <= bound);

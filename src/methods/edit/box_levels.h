@@ -1,8 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -39,8 +41,20 @@ class BoxLevels {
     if (!levels_.empty()) find_below(levels_.size() - 1, 0, query, visit);
   }
 
+  /// The number whose box's content is nearest to a point; `squared(number)` measures it.
+  template <class Squared>
+  std::uint32_t nearest(Vec2 p, const Squared& squared) const {
+    Nearest best;
+    if (!levels_.empty()) nearest_below(levels_.size() - 1, 0, p, squared, best);
+    return best.number;
+  }
+
  private:
   static constexpr std::size_t fan_out = 8;
+  struct Nearest {
+    std::uint32_t number = ~std::uint32_t{0};
+    double squared = std::numeric_limits<double>::infinity();
+  };
 
   static bool meet(const Box& a, const Box& b) {
     return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
@@ -59,6 +73,34 @@ class BoxLevels {
     if (level == 0) return visit(static_cast<std::uint32_t>(i));
     const std::size_t end = std::min((i + 1) * fan_out, levels_[level - 1].size());
     for (std::size_t k = i * fan_out; k < end; ++k) find_below(level - 1, k, query, visit);
+  }
+
+  static double squared_distance(const Box& box, Vec2 p) {
+    const double x = std::max({box.low.x - p.x, p.x - box.high.x, 0.0});
+    const double y = std::max({box.low.y - p.y, p.y - box.high.y, 0.0});
+    return x * x + y * y;
+  }
+  template <class Squared>
+  void nearest_below(std::size_t level, std::size_t i, Vec2 p, const Squared& squared,
+                     Nearest& best) const {
+    if (level == 0) {
+      const auto number = static_cast<std::uint32_t>(i);
+      const double away = squared(number);
+      if (away < best.squared) best = {number, away};
+      return;
+    }
+    const std::vector<Box>& below = levels_[level - 1];
+    std::array<std::pair<double, std::size_t>, fan_out> order;  // by increasing distance
+    std::size_t count = 0;
+    for (std::size_t k = i * fan_out; k < std::min((i + 1) * fan_out, below.size()); ++k) {
+      if (below[k].is_nothing()) continue;
+      const double away = squared_distance(below[k], p);
+      std::size_t place = count++;
+      for (; place > 0 && order[place - 1].first > away; --place) order[place] = order[place - 1];
+      order[place] = {away, k};
+    }
+    for (std::size_t k = 0; k < count && order[k].first < best.squared; ++k)
+      nearest_below(level - 1, order[k].second, p, squared, best);
   }
 
   std::vector<std::vector<Box>> levels_;  ///< from the boxes themselves up to one

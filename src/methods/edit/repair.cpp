@@ -1,12 +1,15 @@
 #include "methods/edit/repair.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "methods/disks/disks.h"
 #include "methods/disks/exact_event.h"
 #include "methods/disks/merge_ties.h"
+#include "methods/disks/near_circle.h"
 #include "methods/disks/tie_fit.h"
+#include "site/bisector.h"
 #include "site/boundary_tree.h"
 
 namespace medial::edit {
@@ -17,6 +20,8 @@ using disks::Element;
 
 /// How far a border's disk may be off, in tolerances: as the node of a tie.
 constexpr double border_error = 16;
+/// In tolerances: arcs that are within them of one circle are near to it, as `disks` has it.
+constexpr double near_circle = 1 << 12;
 /// What no disk is off by, in the local frame.
 constexpr double loose = 0x1p-20;
 
@@ -30,12 +35,15 @@ exact::SiteLoops outline_of(const Rings& rings, const Window& window) {
   for (std::uint32_t i = 0; i < names.size(); ++i) {
     const std::uint32_t vertex = names[i] / 2, after = rings.next_site(names[i]);
     const bool is_edge = Rings::is_edge(names[i]);
+    const std::uint32_t end = is_edge ? rings.corner_after(vertex) : vertex;
+    const site::Joint joint = rings[end].joint;
     outline.sites.push_back(
-        {rings.local(vertex), rings.local(is_edge ? rings.corner_after(vertex) : vertex), 0});
+        {rings.local(vertex), rings.local(end), is_edge ? rings[vertex].bulge : 0});
     const auto place = std::lower_bound(names.begin(), names.end(), after);
     const bool is_inside = place != names.end() && *place == after;
     outline.next.push_back(is_inside ? static_cast<std::uint32_t>(place - names.begin()) : i);
-    outline.passes[i] = is_inside && (!is_edge || !Rings::is_edge(after));
+    outline.passes[i] = is_inside && (!is_edge || joint != site::Joint::corner);
+    outline.blunt[i] = is_edge && is_inside && joint == site::Joint::blunt;
   }
   outline.loop_begin = {0, static_cast<std::uint32_t>(names.size())};
   outline.component = {0};
@@ -65,7 +73,8 @@ class Repairer {
     const site::BoundaryTree tree(boundary_.sites);
     std::vector<std::unique_ptr<disks::Chunk>> chunks;
     chunks.push_back(walk(tree));
-    if (!chunks[0]->lost.empty() || !ends_well(*chunks[0], doubtful)) return std::nullopt;
+    if (in_centers_ || !chunks[0]->lost.empty() || !ends_well(*chunks[0], doubtful))
+      return std::nullopt;
     disks::Graph part = disks::collect(chunks, window_.bridges.size(), 0);
     if (degree_of_first(part) != 1) {
       doubtful.push_back(borders_[0].node);
@@ -75,28 +84,31 @@ class Repairer {
 #ifdef MEDIAL_HAS_EXACT
     sites = &sites_;
 #endif
+    if (disks::is_in_centers(boundary_, part, near_circle * measures_.fine_tolerance))
+      return std::nullopt;
     disks::merge_ties(boundary_, tree, sites, measures_.tolerance, part);
     return result(part, doubtful);
   }
 
  private:
-  std::unique_ptr<disks::Chunk> walk(const site::BoundaryTree& tree) const {
+  std::unique_ptr<disks::Chunk> walk(const site::BoundaryTree& tree) {
     const std::vector<bool> never;
     const disks::ExactEvents* decide = nullptr;
 #ifdef MEDIAL_HAS_EXACT
     const disks::ExactEvents events(sites_, boundary_, tree, never);
     decide = &events;
 #endif
-    const disks::WalkContext context{boundary_,
-                                     window_.bridges,
-                                     tree,
-                                     disks::fine_share * measures_.fine_tolerance,
-                                     measures_.radius_limit,
-                                     decide,
-                                     nullptr,
-                                     nullptr,
-                                     0,
-                                     {}};
+    const disks::WalkContext context{
+        boundary_,
+        window_.bridges,
+        tree,
+        (rings_.has_arcs() ? 1 : disks::fine_share) * measures_.fine_tolerance,
+        measures_.radius_limit,
+        decide,
+        nullptr,
+        &in_centers_,
+        near_circle * measures_.fine_tolerance,
+        {}};
     return disks::walk_part(context, window_.bridges[0].disk,
                             border_error * measures_.fine_tolerance);
   }
@@ -151,12 +163,26 @@ class Repairer {
         ++found;
       }
       if (!touches(part, link)) return std::nullopt;
-      repair.links.push_back({link.node, {name_of(link.site[0]), name_of(link.site[1])}});
+      repair.edges.push_back({link.node, {name_of(link.site[0]), name_of(link.site[1])}, {}, 1});
     }
     if (degree[0] != 1 || found != borders_.size()) return std::nullopt;
     find_doubtful(repair, doubtful);
     if (!doubtful.empty()) return std::nullopt;
+    for (std::size_t i = 0; i < part.links.size(); ++i) {
+      const disks::Link& link = part.links[i];
+      const site::Control control =
+          site::control_of(boundary_.sites[link.site[0]], boundary_.sites[link.site[1]],
+                           disk_of(repair, link.node[0]), disk_of(repair, link.node[1]));
+      repair.edges[i].control = control.point;
+      repair.edges[i].weight = control.weight;
+    }
     return repair;
+  }
+
+  /// Of a border's node its disk as it is.
+  const Disk& disk_of(const Repair& repair, std::uint32_t node) const {
+    const std::uint32_t old = repair.old_nodes[node];
+    return old == none ? repair.disks[node] : graph_.disk(old);
   }
 
   std::uint32_t name_of(std::uint32_t site) const {
@@ -167,7 +193,8 @@ class Repairer {
     for (const std::uint32_t node : link.node)
       for (const std::uint32_t i : link.site) {
         const Disk& disk = part.nodes[node].disk;
-        const double away = std::sqrt(site::squared_distance(rings_.site(name_of(i)), disk.center));
+        const site::Site site = rings_.site_near(name_of(i), disk.center);
+        const double away = std::sqrt(site::squared_distance(site, disk.center));
         if (!(std::abs(away - disk.radius) <= loose)) return false;
       }
     return true;
@@ -176,28 +203,46 @@ class Repairer {
   /// Adds the nodes of borders that merge_ties() might make one with their new neighbours, were the
   /// edges between them in the window's inside.
   void find_doubtful(const Repair& repair, std::vector<std::uint32_t>& doubtful) const {
-    constexpr std::size_t enough = 3;  // links: one of them has a third site
-    std::vector<std::vector<std::uint32_t>> links(repair.disks.size());
-    for (std::uint32_t i = 0; i < repair.links.size(); ++i)
-      for (const std::uint32_t node : repair.links[i].node)
-        if (links[node].size() < enough) links[node].push_back(i);
-    for (const disks::Link& link : repair.links)
+    constexpr std::size_t enough = 3;  // edges: one of them has a third site
+    std::vector<std::vector<std::uint32_t>> edges(repair.disks.size());
+    for (std::uint32_t i = 0; i < repair.edges.size(); ++i)
+      for (const std::uint32_t node : repair.edges[i].node)
+        if (edges[node].size() < enough) edges[node].push_back(i);
+    for (const AxisGraph::Edge& edge : repair.edges)
       for (std::size_t k = 0; k < 2; ++k) {
-        const std::uint32_t border = repair.old_nodes[link.node[k]], inner = link.node[1 - k];
-        if (border == none || graph_.degree(border) < enough || links[inner].size() < enough)
+        const std::uint32_t border = repair.old_nodes[edge.node[k]], inner = edge.node[1 - k];
+        if (border == none) continue;
+        if (graph_.degree(border) < enough || edges[inner].size() < enough) {
+          if (rings_.has_arcs() && may_be_hub(edge, graph_.disk(border), repair.disks[inner]))
+            doubtful.push_back(border);
           continue;
+        }
         std::uint32_t before = none, after = none;
         const auto take = [&](const std::array<std::uint32_t, 2>& sites, std::uint32_t& third) {
           for (const std::uint32_t site : sites)
-            if (site != link.site[0] && site != link.site[1]) third = site;
+            if (site != edge.site[0] && site != edge.site[1]) third = site;
         };
-        for (const std::uint32_t i : links[inner]) take(repair.links[i].site, before);
+        for (const std::uint32_t i : edges[inner]) take(repair.edges[i].site, before);
         graph_.for_edges_at(
-            border, [&](std::uint32_t edge, std::size_t) { take(graph_.edge(edge).site, after); });
+            border, [&](std::uint32_t i, std::size_t) { take(graph_.edge(i).site, after); });
         if (may_be_one(repair.disks[inner], graph_.disk(border),
-                       {link.site[0], link.site[1], before, after}))
+                       {edge.site[0], edge.site[1], before, after}))
           doubtful.push_back(border);
       }
+  }
+
+  /// Whether merge_ties() may make one of two nodes of which not both branch: they are no further
+  /// apart than their disks may move, or one of them is the own disk of an arc.
+  bool may_be_hub(const AxisGraph::Edge& edge, const Disk& border, const Disk& inner) const {
+    constexpr double reach = 16;  // tolerances
+    std::array<Vec2, 2> outward;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const site::Site site = rings_.site_near(edge.site[i], border.center);
+      if (disks::is_own_circle(site, border, near_circle * measures_.fine_tolerance)) return true;
+      outward[i] = site::outward(site, border.center);
+    }
+    const double play = 2 / norm(outward[0] - outward[1]);
+    return !(distance(border.center, inner.center) > reach * measures_.tolerance * play);
   }
 
   /// Whether one disk may touch four sites within the tolerance, of which each of two touches
@@ -208,7 +253,7 @@ class Repairer {
     for (const Disk& disk : {from, to}) {
       std::array<disks::ContactOf<double>, 4> contacts;
       for (std::size_t i = 0; i < sites.size(); ++i)
-        contacts[i] = disks::contact_of(rings_.site(sites[i]), disk);
+        contacts[i] = disks::contact_of(rings_.site_near(sites[i], disk.center), disk);
       if (!(std::abs(disks::Dependency<double>(contacts).level) > 2 * measures_.tolerance))
         return true;
     }
@@ -221,6 +266,7 @@ class Repairer {
   const Window& window_;
   const disks::Boundary& boundary_;
   const Measures& measures_;
+  std::atomic<bool> in_centers_ = false;  ///< see WalkContext
 #ifdef MEDIAL_HAS_EXACT
   const disks::ExactSites sites_;
 #endif

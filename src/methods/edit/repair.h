@@ -15,11 +15,11 @@ struct Measures {
   double radius_limit = 0;
 };
 
-/// The new part of an axis: its links name nodes of its own and sites by their numbers in Rings.
+/// The new part of an axis: its edges name nodes of its own and sites by their numbers in Rings.
 struct Repair {
   std::vector<Disk> disks;
   std::vector<std::uint32_t> old_nodes;  ///< of each node: that of the axis at a border, or none
-  std::vector<disks::Link> links;
+  std::vector<AxisGraph::Edge> edges;
 };
 
 /// Walks what the window encloses. None where the walk loses its way; where it ends so near to a

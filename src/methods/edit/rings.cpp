@@ -1,98 +1,92 @@
 #include "methods/edit/rings.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <numbers>
 
 #include "base/predicates.h"
 
 namespace medial::edit {
 namespace {
 
-Box box_of(Vec2 a, Vec2 b) {
-  Box box{a, a};
-  box.add(b);
+Box box_of(const BulgeArc& edge) {
+  Box box{edge.start, edge.start};
+  box.add(edge.end);
+  if (edge.bulge == 0) return box;
+  for (const Vec2 direction : {Vec2{1, 0}, Vec2{0, 1}})
+    if (const auto p = parallel_point(edge, direction)) box.add(*p);
   return box;
 }
 
-bool holds(const Box& box, Vec2 p) {
-  return box.low.x <= p.x && p.x <= box.high.x && box.low.y <= p.y && p.y <= box.high.y;
-}
-
-struct Triangle {
-  std::array<Vec2, 3> corner;
-
-  /// Whether a point lies inside or on the border; a little too often where the corners lie on one
-  /// line.
-  bool has(Vec2 p) const {
-    Box box = box_of(corner[0], corner[1]);
-    box.add(corner[2]);
-    if (!holds(box, p)) return false;
-    int left = 0, right = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const int side = orientation(corner[i], corner[(i + 1) % 3], p);
-      left += side > 0 ? 1 : 0;
-      right += side < 0 ? 1 : 0;
-    }
-    return left == 0 || right == 0;
+/// Twice the area inside a ring, positive where it runs counter-clockwise.
+double signed_area(const std::vector<Corner>& corners) {
+  double area = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Corner &from = corners[i], &to = corners[i + 1 < corners.size() ? i + 1 : 0];
+    area += cross(from.point - corners[0].point, to.point - corners[0].point);
+    if (from.bulge != 0) area += 2 * area_beside_chord({from.point, to.point, from.bulge});
   }
-};
-
-/// Where two segments cross.
-Vec2 crossing_of(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
-  const double share = cross(c - a, d - c) / cross(b - a, d - c);
-  return a + std::clamp(share, 0.0, 1.0) * (b - a);
+  return area;
 }
 
-enum class Meeting : std::uint8_t { none, touch, cross };
-
-/// How two closed segments meet.
-Meeting meeting(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
-  const int of_a = orientation(c, d, a), of_b = orientation(c, d, b);
-  if (of_a * of_b > 0) return Meeting::none;
-  const int of_c = orientation(a, b, c), of_d = orientation(a, b, d);
-  if (of_c * of_d > 0) return Meeting::none;
-  if (of_a * of_b < 0 && of_c * of_d < 0) return Meeting::cross;
-  const Box first = box_of(a, b), second = box_of(c, d);
-  const bool apart = first.low.x > second.high.x || second.low.x > first.high.x ||
-                     first.low.y > second.high.y || second.low.y > first.high.y;
-  return apart ? Meeting::none : Meeting::touch;
+/// The same ring in the other direction.
+std::vector<Corner> turned_round(const std::vector<Corner>& corners) {
+  std::vector<Corner> result(corners.rbegin(), corners.rend());
+  for (std::size_t i = 0; i < result.size(); ++i)
+    result[i].bulge = -corners[(2 * corners.size() - 2 - i) % corners.size()].bulge;
+  return result;
 }
 
 }  // namespace
 
-Rings::Rings(const Shape& shape, const LocalFrame& frame)
-    : frame_(frame), vertices_(shape.points.size()) {
+Rings::Rings(const Shape& shape, const LocalFrame& frame, const Joining& joining)
+    : frame_(frame), joining_(joining), vertices_(shape.points.size()) {
   for (std::uint32_t l = 0; l < shape.loop_count(); ++l) {
     const std::uint32_t begin = shape.loop_begin[l], end = shape.loop_begin[l + 1];
     loops_.push_back({begin, end - begin, shape.component[l], shape.hole[l]});
-    for (std::uint32_t i = begin; i < end; ++i)
-      vertices_[i] = {shape.points[i], i + 1 < end ? i + 1 : begin, i > begin ? i - 1 : end - 1, l};
+    for (std::uint32_t i = begin; i < end; ++i) {
+      vertices_[i].point = shape.points[i];
+      vertices_[i].next = i + 1 < end ? i + 1 : begin;
+      vertices_[i].before = i > begin ? i - 1 : end - 1;
+      vertices_[i].loop = l;
+      set_bulge(i, shape.bulge(i));
+    }
   }
   for (std::uint32_t v = 0; v < vertices_.size(); ++v) {
-    vertices_[v].reflex = is_reflex(v);
+    vertices_[v].joint = joint_at(v);
     set_box(v);
   }
 }
 
-bool Rings::adopt(const Shape& shape, const LocalFrame& frame) {
+bool Rings::adopt(const Shape& shape, const LocalFrame& frame, const Joining& joining) {
   std::vector<Vertex> vertices = vertices_;
   std::vector<Loop> loops;
   std::size_t left = 0;
   for (const Loop& loop : loops_) left += loop.size;
   for (std::uint32_t l = 0; l < shape.loop_count(); ++l) {
     const std::uint32_t begin = shape.loop_begin[l], end = shape.loop_begin[l + 1];
-    const std::uint32_t first = shape.sources[begin].vertex;
+    const std::uint32_t first = shape.sources[begin].vertex,
+                        second = shape.sources[begin + 1].vertex;
     if (vertices_[first].flat) return false;
-    const bool forward = corner_after(first) == shape.sources[begin + 1].vertex;
+    const bool forward =
+        corner_after(first) == second &&
+        (corner_before(first) != second || vertices_[first].bulge == shape.bulge(begin));
     std::uint32_t point = begin, size = 0, v = first;
     do {
       const Vertex& old = vertices_[v];
-      if (!old.flat && (point == end || shape.sources[point++].vertex != v)) return false;
-      vertices[v].next = forward ? old.next : old.before;
-      vertices[v].before = forward ? old.before : old.next;
-      vertices[v].loop = l;
+      Vertex& now = vertices[v];
+      now.next = forward ? old.next : old.before;
+      now.before = forward ? old.before : old.next;
+      now.bulge = forward ? old.bulge : -vertices_[old.before].bulge;
+      now.loop = l;
+      if (!old.flat) {
+        if (point == end || shape.sources[point].vertex != v || shape.points[point] != old.point ||
+            shape.bulge(point) != now.bulge)
+          return false;
+        ++point;
+      }
       ++size;
-      v = vertices[v].next;
+      v = now.next;
     } while (v != first);
     if (point != end || size > left) return false;
     left -= size;
@@ -102,163 +96,275 @@ bool Rings::adopt(const Shape& shape, const LocalFrame& frame) {
   vertices_ = std::move(vertices);
   loops_ = std::move(loops);
   frame_ = frame;
+  joining_ = joining;
   for (std::uint32_t v = 0; v < vertices_.size(); ++v) {
     if (!has(v)) continue;
-    vertices_[v].reflex = is_reflex(v);
+    vertices_[v].joint = joint_at(v);
     set_box(v);
   }
   return true;
 }
 
+site::Site Rings::site_near(std::uint32_t site, Vec2 local) const {
+  const site::Pieces all = pieces(site);
+  const bool is_last = all.count > 1 && site::squared_distance(all.last(), local) <
+                                            site::squared_distance(all.first(), local);
+  return is_last ? all.last() : all.first();
+}
+
+void Rings::add_pieces(std::uint32_t site, std::vector<site::Site>& pieces) const {
+  const site::Pieces all = this->pieces(site);
+  pieces.insert(pieces.end(), all.site.begin(),
+                all.site.begin() + static_cast<std::ptrdiff_t>(all.count));
+}
+
+void Rings::set_bulge(std::uint32_t v, double bulge) {
+  arcs_ += (bulge != 0 ? 1U : 0U) - (vertices_[v].bulge != 0 ? 1U : 0U);
+  vertices_[v].bulge = bulge;
+}
+
 bool Rings::is_flat(std::uint32_t v) const {
+  if (vertices_[v].bulge != 0 || vertices_[vertices_[v].before].bulge != 0) return false;
   const Vec2 before = vertices_[vertices_[v].before].point, here = vertices_[v].point,
              after = vertices_[vertices_[v].next].point;
   return orientation(before, here, after) == 0 && strictly_between(before, here, after);
 }
 
-bool Rings::is_reflex(std::uint32_t v) const {
-  const Vertex& vertex = vertices_[v];
-  return orientation(vertices_[vertex.before].point, vertex.point, vertices_[vertex.next].point) <=
-         0;
+site::Joint Rings::joint_at(std::uint32_t v) const {
+  const BulgeArc before = edge(vertices_[v].before), after = edge(v);
+  if (before.bulge == 0 && after.bulge == 0)
+    return orientation(before.start, after.start, after.end) > 0 ? site::Joint::corner
+                                                                 : site::Joint::reflex;
+  return site::joint_of(before, after, joining_.tolerance,
+                        joining_.corner_angle * std::numbers::pi / 180);
 }
 
-void Rings::set_box(std::uint32_t v) {
-  boxes_.set(v, box_of(vertices_[v].point, vertices_[vertices_[v].next].point));
+void Rings::judge_vertex(std::uint32_t v) {
+  vertices_[v].flat = is_flat(v);
+  vertices_[v].joint = joint_at(v);
 }
 
-Rings::Judgement Rings::judge(const Edit& edit) const {
-  const Vec2 p = vertices_[edit.before].point, n = vertices_[edit.after].point, x = edit.place;
-  const bool has_old = edit.old != none, has_fresh = edit.fresh != none;
-  const Vec2 v = has_old ? vertices_[edit.old].point : p;
-  const auto turns_back = [](Vec2 a, Vec2 b, Vec2 c) {
-    return orientation(a, b, c) == 0 && !strictly_between(a, b, c);
-  };
-  const Judgement unclear{Verdict::unclear, none, {}};
-  const Vec2 outer[2] = {vertices_[vertices_[edit.before].before].point,
-                         vertices_[vertices_[edit.after].next].point};
-  if (edit.before == edit.after || (has_fresh && turns_back(p, x, n)) ||
-      turns_back(outer[0], p, has_fresh ? x : n) || turns_back(has_fresh ? x : p, n, outer[1]))
-    return unclear;
-
-  // What the edges sweep while the vertex moves straight to its place, from or to an edge's inside.
-  std::vector<Triangle> swept;
-  if (has_old && has_fresh) {
-    swept = {{{p, v, x}}, {{v, n, x}}};
-    if (swept[0].has(n) || swept[1].has(p)) return unclear;
-  } else {
-    swept = {{{p, has_old ? v : x, n}}};
-  }
-  struct NewEdge {
-    Vec2 from, to;
-    std::uint32_t start, end;
-  };
-  std::vector<NewEdge> edges;
-  if (has_fresh)
-    edges = {{p, x, edit.before, none}, {x, n, none, edit.after}};
-  else
-    edges = {{p, n, edit.before, edit.after}};
-
-  Box query = box_of(p, n);
-  if (has_old) query.add(v);
-  if (has_fresh) query.add(x);
-  Judgement result;
-  boxes_.find(query, [&](std::uint32_t s) {
-    if (result.verdict == Verdict::crosses) return;
-    const std::uint32_t t = vertices_[s].next;
-    const Vec2 a = vertices_[s].point, b = vertices_[t].point;
-    const bool is_own = s == edit.before || (has_old && s == edit.old);
-    if (is_own) return;
-    for (const NewEdge& edge : edges) {
-      if (s == edge.end || t == edge.start) continue;  // they meet there only
-      const Meeting how = meeting(edge.from, edge.to, a, b);
-      if (how == Meeting::cross)
-        result = {Verdict::crosses, s, crossing_of(edge.from, edge.to, a, b)};
-      if (how == Meeting::touch) result.verdict = Verdict::unclear;
-    }
-    if (result.verdict == Verdict::crosses) return;
-    const bool is_moving = has_old && has_fresh;
-    if (is_moving && meeting(v, x, a, b) != Meeting::none) result.verdict = Verdict::unclear;
-    if (s == edit.after) return;
-    for (const Triangle& triangle : swept)
-      if (triangle.has(a)) result.verdict = Verdict::unclear;
-  });
-  return result;
-}
+void Rings::set_box(std::uint32_t v) { boxes_.set(v, box_of(edge(v))); }
 
 std::vector<Rings::Extent> Rings::sites_around(const Edit& edit) const {
   std::vector<Extent> sites;
+  const auto add = [&](std::uint32_t site) {
+    const std::uint32_t v = site / 2;
+    sites.push_back(
+        {site, is_edge(site) ? corner_after(v) : v, is_edge(site) ? vertices_[v].bulge : 0});
+  };
+  if (edit.is_of_loops()) {
+    for (const auto* corners : {&edit.out, &edit.in})
+      if (!corners->empty() && has(corners->front().number))
+        for_sites_of(vertices_[corners->front().number].loop, add);
+    return sites;
+  }
   std::uint32_t v = vertices_[edit.before].before;
   const std::size_t count =
       (edit.old != none && has(edit.old)) || (edit.fresh != none && has(edit.fresh)) ? 4 : 3;
   for (std::size_t i = 0; i < count; ++i, v = vertices_[v].next) {
     const std::uint32_t corner = corner_to(v);
-    if (sites.empty() || sites.back().site != 2 * corner + 1)
-      sites.push_back({2 * corner + 1, corner_after(corner)});
-    if (!vertices_[v].flat && vertices_[v].reflex) sites.push_back({2 * v, v});
+    if (sites.empty() || sites.back().site != 2 * corner + 1) add(2 * corner + 1);
+    if (!vertices_[v].flat && is_reflex(v)) add(2 * v);
   }
   return sites;
 }
 
+std::uint32_t Rings::site_around(Vec2 place) const {
+  const Vec2 p = frame_.to_local(place);
+  const auto pieces_at = [&](std::uint32_t v) {
+    const BulgeArc arc = local_edge(v);
+    return site::pieces_of(arc.start, arc.end, arc.bulge);
+  };
+  const std::uint32_t v = boxes_.nearest(place, [&](std::uint32_t edge) {
+    const site::Pieces pieces = pieces_at(edge);
+    const double first = site::squared_distance(pieces.first(), p);
+    const double least =
+        pieces.count == 1 ? first : std::min(first, site::squared_distance(pieces.last(), p));
+    return frame_.inverse * frame_.inverse * least;
+  });
+  if (v == none) return none;
+  const site::Pieces pieces = pieces_at(v);
+  const bool is_last = pieces.count > 1 && site::squared_distance(pieces.last(), p) <
+                                               site::squared_distance(pieces.first(), p);
+  const site::Site& piece = is_last ? pieces.last() : pieces.first();
+  const double s = site::foot_parameter(piece, p);
+  for (const bool at_end : {false, true}) {
+    if (s != (at_end ? piece.length : 0) || (pieces.count > 1 && is_last != at_end)) continue;
+    const std::uint32_t end = at_end ? vertices_[v].next : v;
+    if (vertices_[end].flat || vertices_[end].joint == site::Joint::smooth) break;
+    return is_reflex(end) ? 2 * end : none;
+  }
+  return site::carrier_distance(piece, p) > 0 ? 2 * corner_to(v) + 1 : none;
+}
+
+void Rings::take_out(std::uint32_t loop) {
+  for_vertices(loop, [&](std::uint32_t v) {
+    set_bulge(v, 0);
+    vertices_[v] = {};
+    boxes_.set(v, Box::nothing());
+  });
+  loops_[loop] = {};
+}
+
+void Rings::put_in(const std::vector<Corner>& corners) {
+  std::uint32_t room = 0;
+  for (const Corner& corner : corners) room = std::max(room, corner.number + 1);
+  loops_.reserve(loops_.size() + 1);
+  while (vertices_.size() < room) {  // first, as memory may run out
+    boxes_.set(static_cast<std::uint32_t>(vertices_.size()), Box::nothing());
+    vertices_.emplace_back();
+  }
+  Loop loop{corners[0].number, static_cast<std::uint32_t>(corners.size()), 0, false};
+  if (const std::uint32_t around = site_around(corners[0].point); around != none) {
+    loop.component = loops_[vertices_[around / 2].loop].component;
+    loop.hole = true;
+  } else {
+    for (const Loop& other : loops_)
+      if (other.size > 0) loop.component = std::max(loop.component, other.component + 1);
+  }
+  const auto empty =
+      std::find_if(loops_.begin(), loops_.end(), [](const Loop& one) { return one.size == 0; });
+  const auto number = static_cast<std::uint32_t>(empty - loops_.begin());
+  if (empty == loops_.end()) loops_.emplace_back();
+  loops_[number] = loop;
+  const bool turns = (signed_area(corners) < 0) != loop.hole;
+  const std::vector<Corner> all = turns ? turned_round(corners) : corners;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::uint32_t v = all[i].number;
+    vertices_[v].point = all[i].point;
+    vertices_[v].next = all[i + 1 < all.size() ? i + 1 : 0].number;
+    vertices_[v].before = all[i > 0 ? i - 1 : all.size() - 1].number;
+    vertices_[v].loop = number;
+    set_bulge(v, all[i].bulge);
+  }
+  for (const Corner& corner : all) {
+    judge_vertex(corner.number);
+    set_box(corner.number);
+  }
+}
+
 void Rings::apply(const Edit& edit) {
+  if (edit.is_of_loops()) {
+    if (!edit.out.empty()) take_out(vertices_[edit.out.front().number].loop);
+    if (!edit.in.empty()) put_in(edit.in);
+    return;
+  }
   if (edit.fresh == vertices_.size()) {  // first, as memory may run out
     boxes_.set(edit.fresh, Box::nothing());
     vertices_.emplace_back();
   }
   const std::uint32_t loop = vertices_[edit.before].loop;
   if (edit.old != none && edit.old != edit.fresh) {
+    set_bulge(edit.old, 0);
     vertices_[edit.old] = {};
     boxes_.set(edit.old, Box::nothing());
     --loops_[loop].size;
   }
   if (edit.fresh != none) {
     if (edit.fresh != edit.old) ++loops_[loop].size;
-    vertices_[edit.fresh] = {edit.place, edit.after, edit.before, loop};
+    Vertex& fresh = vertices_[edit.fresh];
+    fresh.point = edit.place;
+    fresh.next = edit.after;
+    fresh.before = edit.before;
+    fresh.loop = loop;
+    set_bulge(edit.fresh, edit.bulge[1]);
   }
+  set_bulge(edit.before, edit.bulge[0]);
   vertices_[edit.before].next = edit.fresh != none ? edit.fresh : edit.after;
   vertices_[edit.after].before = edit.fresh != none ? edit.fresh : edit.before;
   loops_[loop].first = edit.before;
   for (const std::uint32_t v : {edit.before, edit.fresh, edit.after}) {
     if (v == none) continue;
-    vertices_[v].flat = is_flat(v);
-    vertices_[v].reflex = is_reflex(v);
+    judge_vertex(v);
     set_box(v);
   }
 }
 
 Edit Rings::inverse(const Edit& edit) const {
-  return {edit.before, edit.after, edit.fresh, edit.old,
-          edit.old != none ? vertices_[edit.old].point : Vec2{}};
+  Edit back;
+  if (edit.is_of_loops()) {
+    back.out = edit.in;
+    if (!edit.out.empty())
+      for_vertices(vertices_[edit.out.front().number].loop, [&](std::uint32_t v) {
+        back.in.push_back({v, vertices_[v].point, vertices_[v].bulge});
+      });
+    return back;
+  }
+  back.before = edit.before;
+  back.after = edit.after;
+  back.old = edit.fresh;
+  back.fresh = edit.old;
+  back.bulge[0] = vertices_[edit.before].bulge;
+  if (edit.old == none) return back;
+  back.place = vertices_[edit.old].point;
+  back.bulge[1] = vertices_[edit.old].bulge;
+  return back;
+}
+
+std::vector<std::uint32_t> Rings::loops() const {
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t l = 0; l < loops_.size(); ++l)
+    if (loops_[l].size > 0) all.push_back(l);
+  const auto comes_first = [&](std::uint32_t a, std::uint32_t b) {
+    const Loop &x = loops_[a], &y = loops_[b];
+    return x.component != y.component ? x.component < y.component : !x.hole && y.hole;
+  };
+  if (!std::is_sorted(all.begin(), all.end(), comes_first))
+    std::stable_sort(all.begin(), all.end(), comes_first);
+  return all;
+}
+
+std::vector<std::uint32_t> Rings::component_numbers() const {
+  std::vector<std::uint32_t> numbers;
+  std::uint32_t count = 0;
+  for (const std::uint32_t l : loops()) {
+    const std::uint32_t component = loops_[l].component;
+    if (component >= numbers.size()) numbers.resize(component + 1, none);
+    if (numbers[component] == none) numbers[component] = count++;
+  }
+  return numbers;
+}
+
+void Rings::append(std::uint32_t loop, std::uint32_t ring, std::uint32_t component,
+                   Shape& shape) const {
+  if (shape.loop_begin.empty()) shape.loop_begin.push_back(0);
+  std::uint32_t v = first_of(loop);
+  do {
+    shape.points.push_back(vertices_[v].point);
+    shape.sources.push_back({ring, v});
+    if (has_arcs()) shape.bulges.push_back(vertices_[v].bulge);
+    v = corner_after(v);
+  } while (v != first_of(loop));
+  shape.loop_begin.push_back(static_cast<std::uint32_t>(shape.points.size()));
+  shape.component.push_back(component);
+  shape.hole.push_back(loops_[loop].hole);
 }
 
 Shape Rings::shape() const {
   Shape shape;
-  shape.loop_begin.push_back(0);
-  for (std::uint32_t l = 0; l < loops_.size(); ++l) {
-    std::uint32_t v = first_of(l);
-    do {
-      shape.points.push_back(vertices_[v].point);
-      shape.sources.push_back({l, v});
-      v = corner_after(v);
-    } while (v != first_of(l));
-    shape.loop_begin.push_back(static_cast<std::uint32_t>(shape.points.size()));
-    shape.component.push_back(loops_[l].component);
-    shape.hole.push_back(loops_[l].hole);
-  }
+  const std::vector<std::uint32_t> components = component_numbers();
+  for (const std::uint32_t l : loops()) append(l, l, components[loops_[l].component], shape);
+  return shape;
+}
+
+Shape Rings::shape_of(std::uint32_t loop) const {
+  Shape shape;
+  append(loop, loop, 0, shape);
   return shape;
 }
 
 std::vector<Ring> Rings::rings(std::vector<std::vector<std::uint32_t>>& numbers) const {
   std::vector<Ring> rings;
-  for (const Loop& loop : loops_) {
+  for (const std::uint32_t l : loops()) {
     Ring& ring = rings.emplace_back();
-    ring.role = loop.hole ? RingRole::hole : RingRole::outer;
+    ring.role = loops_[l].hole ? RingRole::hole : RingRole::outer;
     std::vector<std::uint32_t>& own = numbers.emplace_back();
-    std::uint32_t v = loop.first;
-    do {
+    for_vertices(l, [&](std::uint32_t v) {
       ring.points.push_back(vertices_[v].point);
+      if (has_arcs()) ring.bulges.push_back(vertices_[v].bulge);
       own.push_back(v);
-      v = vertices_[v].next;
-    } while (v != loop.first);
+    });
   }
   return rings;
 }

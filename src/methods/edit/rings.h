@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "axis/sites.h"
+#include "base/arc.h"
 #include "base/local_frame.h"
 #include "medial/error.h"
 #include "medial/shape.h"
@@ -15,45 +18,66 @@ namespace medial::edit {
 
 constexpr std::uint32_t none = ~std::uint32_t{0};
 
+/// A vertex of a whole loop, and the edge that begins there.
+struct Corner {
+  std::uint32_t number = none;
+  Vec2 point;  ///< in units of the input
+  double bulge = 0;
+};
+
 /// One edit: the vertex `old` between `before` and `after` gives way to the vertex `fresh` at a
-/// place; either may be none.
+/// place; either may be none. Or a whole loop gives way to another one; either may be empty.
 struct Edit {
   std::uint32_t before = none, after = none;
   std::uint32_t old = none, fresh = none;
-  Vec2 place;  ///< of `fresh`, in units of the input
+  Vec2 place;                     ///< of `fresh`, in units of the input
+  std::array<double, 2> bulge{};  ///< of the edges that begin at `before` and at `fresh`
+  std::vector<Corner> out, in;
+
+  bool is_of_loops() const { return !out.empty() || !in.empty(); }
 };
 
-/// The loops of a shape of straight edges as linked lists of vertices, whose numbers stay while
-/// others come and go. A vertex's number is also that of the edge that begins there. A vertex is
-/// flat where its edges go on straight: the shape has no vertex there. Sites have numbers too: 2 v
-/// is the vertex v, which is a site where it is reflex, and 2 v + 1 the site that begins there and
+/// The loops of a shape as linked lists of vertices, whose numbers stay while others come and go. A
+/// vertex's number is also that of the edge that begins there. A vertex is flat where its edges are
+/// straight and go on in one line: the shape has no vertex there. Sites have numbers too: 2 v is
+/// the vertex v, which is a site where it is reflex, and 2 v + 1 the site that begins there and
 /// ends at the next vertex that is not flat.
 class Rings {
  public:
   struct Vertex {
     Vec2 point;  ///< in units of the input
+    double bulge = 0;
     std::uint32_t next = none, before = none;
     std::uint32_t loop = none;  ///< none: there is no such vertex
-    bool reflex = false, flat = false;
+    site::Joint joint = site::Joint::corner;
+    bool flat = false;
+  };
+  /// What decides how edges join with arcs: in units of the input, and in degrees.
+  struct Joining {
+    double tolerance = 0, corner_angle = 0;
   };
 
   Rings() = default;
   /// The vertices have the numbers of the shape's points.
-  Rings(const Shape& shape, const LocalFrame& frame);
+  Rings(const Shape& shape, const LocalFrame& frame, const Joining& joining);
   /// Takes over the order, directions and nesting of a shape that was built from rings(), whose
   /// sources name vertices by their numbers. False, and nothing happens, where its loops are
   /// others.
-  bool adopt(const Shape& shape, const LocalFrame& frame);
+  bool adopt(const Shape& shape, const LocalFrame& frame, const Joining& joining);
 
   std::size_t size() const { return vertices_.size(); }
   const Vertex& operator[](std::uint32_t v) const { return vertices_[v]; }
   bool has(std::uint32_t v) const { return v < vertices_.size() && vertices_[v].loop != none; }
   std::uint32_t loop_size(std::uint32_t loop) const { return loops_[loop].size; }
   std::uint32_t component(std::uint32_t loop) const { return loops_[loop].component; }
+  bool is_hole(std::uint32_t loop) const { return loops_[loop].hole; }
+  bool has_arcs() const { return arcs_ > 0; }
+  bool is_reflex(std::uint32_t v) const { return vertices_[v].joint == site::Joint::reflex; }
   /// A vertex of a loop that is not flat.
   std::uint32_t first_of(std::uint32_t loop) const { return corner_to(loops_[loop].first); }
   const LocalFrame& frame() const { return frame_; }
   void set_frame(const LocalFrame& frame) { frame_ = frame; }
+  const Joining& joining() const { return joining_; }
   /// The next vertex, and the one before, that is not flat.
   std::uint32_t corner_after(std::uint32_t v) const {
     do v = vertices_[v].next;
@@ -65,19 +89,29 @@ class Rings {
   static std::uint32_t vertex_of(std::uint32_t site) { return site / 2; }
   static bool is_edge(std::uint32_t site) { return site % 2 == 1; }
   bool is_site(std::uint32_t site) const {
-    return has(site / 2) && !vertices_[site / 2].flat &&
-           (is_edge(site) || vertices_[site / 2].reflex);
+    return has(site / 2) && !vertices_[site / 2].flat && (is_edge(site) || is_reflex(site / 2));
   }
   std::uint32_t next_site(std::uint32_t site) const {
     if (!is_edge(site)) return site + 1;
     const std::uint32_t after = corner_after(site / 2);
-    return 2 * after + (vertices_[after].reflex ? 0 : 1);
+    return first_site(after);
+  }
+  std::uint32_t site_before(std::uint32_t site) const {
+    const bool follows_vertex = is_edge(site) && is_reflex(site / 2);
+    return follows_vertex ? site - 1 : 2 * corner_before(site / 2) + 1;
   }
   Vec2 local(std::uint32_t v) const { return frame_.to_local(vertices_[v].point); }
-  site::Site site(std::uint32_t site) const {
-    if (!is_edge(site)) return site::make_vertex(local(site / 2));
-    return site::make_segment(local(site / 2), local(corner_after(site / 2)));
+  /// A site in the local frame: in two pieces where it is an arc of more than a quarter of a
+  /// circle.
+  site::Pieces pieces(std::uint32_t site) const {
+    const std::uint32_t v = site / 2;
+    if (!is_edge(site)) return {{site::make_vertex(local(v))}, 1};
+    return site::pieces_of(local(v), local(corner_after(v)), vertices_[v].bulge);
   }
+  /// The piece nearest to a place.
+  site::Site site_near(std::uint32_t site, Vec2 local) const;
+  /// Adds the pieces of a site to a list.
+  void add_pieces(std::uint32_t site, std::vector<site::Site>& pieces) const;
 
   enum class Verdict : std::uint8_t {
     keeps_form,  ///< the loops can move there without touching each other on the way
@@ -94,9 +128,13 @@ class Rings {
   /// A site and where it ends.
   struct Extent {
     std::uint32_t site, end;
+    double bulge;
+    bool operator==(const Extent&) const = default;
   };
   /// The sites that an edit can change, before or after apply().
   std::vector<Extent> sites_around(const Edit& edit) const;
+  /// The site nearest to a place in the interior; none where the place is not inside.
+  std::uint32_t site_around(Vec2 place) const;
   void apply(const Edit& edit);  ///< nothing happens where it throws
   /// The edit that takes this one back. Before apply().
   Edit inverse(const Edit& edit) const;
@@ -106,37 +144,76 @@ class Rings {
   /// Calls visit(site) for all sites, loop after loop, as the result of compute() lists them.
   template <class Visit>
   void for_sites(const Visit& visit) const {
-    for (const Loop& loop : loops_) {
-      const std::uint32_t corner = corner_to(loop.first);
-      const std::uint32_t first = 2 * corner + (vertices_[corner].reflex ? 0 : 1);
-      std::uint32_t site = first;
-      do {
-        visit(site);
-        site = next_site(site);
-      } while (site != first);
-    }
+    for (const std::uint32_t loop : loops()) for_sites_of(loop, visit);
+  }
+  template <class Visit>
+  void for_sites_of(std::uint32_t loop, const Visit& visit) const {
+    const std::uint32_t first = first_site(first_of(loop));
+    std::uint32_t site = first;
+    do {
+      visit(site);
+      site = next_site(site);
+    } while (site != first);
   }
   Shape shape() const;
+  /// The same of one loop, as if there were no other.
+  Shape shape_of(std::uint32_t loop) const;
+  /// How the components count in shape().
+  std::vector<std::uint32_t> component_numbers() const;
   /// The loops as rings, in their order, and the numbers of their vertices.
   std::vector<Ring> rings(std::vector<std::vector<std::uint32_t>>& numbers) const;
 
  private:
   struct Loop {
-    std::uint32_t first = 0, size = 0, component = 0;
+    std::uint32_t first = none, size = 0, component = 0;
     bool hole = false;
   };
   std::uint32_t corner_to(std::uint32_t v) const {
     while (vertices_[v].flat) v = vertices_[v].before;
     return v;
   }
+  std::uint32_t first_site(std::uint32_t corner) const {
+    return 2 * corner + (is_reflex(corner) ? 0 : 1);
+  }
+  /// The loops that there are: component after component, the outer one first.
+  std::vector<std::uint32_t> loops() const;
+  template <class Visit>
+  void for_vertices(std::uint32_t loop, const Visit& visit) const {
+    std::uint32_t v = loops_[loop].first;
+    do {
+      const std::uint32_t next = vertices_[v].next;
+      visit(v);
+      v = next;
+    } while (v != loops_[loop].first);
+  }
+  void append(std::uint32_t loop, std::uint32_t ring, std::uint32_t component, Shape& shape) const;
+  BulgeArc edge(std::uint32_t v) const {
+    return {vertices_[v].point, vertices_[vertices_[v].next].point, vertices_[v].bulge};
+  }
+  BulgeArc local_edge(std::uint32_t v) const {
+    return {local(v), local(vertices_[v].next), vertices_[v].bulge};
+  }
+  void set_bulge(std::uint32_t v, double bulge);
   bool is_flat(std::uint32_t v) const;
-  bool is_reflex(std::uint32_t v) const;
+  site::Joint joint_at(std::uint32_t v) const;
+  void judge_vertex(std::uint32_t v);
   void set_box(std::uint32_t v);
+  void take_out(std::uint32_t loop);
+  void put_in(const std::vector<Corner>& corners);
+
+  Judgement judge_straight(const Edit& edit) const;
+  Judgement judge_with_arcs(const Edit& edit) const;
+  Judgement judge_out(const Edit& edit) const;
+  Judgement judge_in(const Edit& edit) const;
+  /// The loops other than this one whose boundary comes near to a box, each with a vertex.
+  std::vector<std::uint32_t> loops_near(const Box& box, std::uint32_t but) const;
 
   LocalFrame frame_;
+  Joining joining_;
+  std::size_t arcs_ = 0;  ///< edges with a bulge
   std::vector<Vertex> vertices_;
-  std::vector<Loop> loops_;
-  BoxLevels boxes_;  ///< of edges, in units of the input
+  std::vector<Loop> loops_;  ///< of size 0: there is none
+  BoxLevels boxes_;          ///< of edges, in units of the input
 };
 
 }  // namespace medial::edit

@@ -47,13 +47,20 @@ class Assembly {
     }
   };
 
-  /// Where along a site a disk touches it: the parameter on an edge, on a vertex the angle by which
-  /// the normal has turned to the right since the edge before.
+  /// Where along a site a disk touches it: the parameter on an edge, whose pieces follow each
+  /// other, on a vertex the angle by which the normal has turned to the right since the edge
+  /// before.
   double place_on(std::uint32_t number, Vec2 center) const {
-    const site::Site site = rings_.site(number);
-    if (Rings::is_edge(number)) return site::foot_parameter(site, center);
-    const Vec2 from = rings_.site(2 * rings_.corner_before(number / 2) + 1).normal();
-    const Vec2 to = center - site.point;
+    const site::Pieces pieces = rings_.pieces(number);
+    if (Rings::is_edge(number)) {
+      const bool is_last = pieces.count > 1 && site::squared_distance(pieces.last(), center) <
+                                                   site::squared_distance(pieces.first(), center);
+      return is_last ? pieces.first().length + site::foot_parameter(pieces.last(), center)
+                     : site::foot_parameter(pieces.first(), center);
+    }
+    const std::uint32_t before = 2 * rings_.corner_before(number / 2) + 1;
+    const Vec2 from = rings_.pieces(before).last().end_normal();
+    const Vec2 to = center - pieces.first().point;
     const double angle = std::atan2(-cross(from, to), dot(from, to));
     return angle < -0.5 * std::numbers::pi ? angle + 2 * std::numbers::pi : angle;
   }
@@ -106,7 +113,8 @@ class Assembly {
 
   /// The loops that no border touches.
   void add_whole_loops(std::uint32_t loop) {
-    std::vector<std::uint32_t> found{loop};
+    std::vector<std::uint32_t> found;
+    if (loop != none) found.push_back(loop);
     for (const std::uint32_t edge : affected_.edges)
       for (const std::uint32_t site : graph_.edge(edge).site)
         if (rings_.is_site(site)) found.push_back(rings_[site / 2].loop);
@@ -154,20 +162,27 @@ class Assembly {
   std::optional<Connection> connection(std::size_t piece) const {
     constexpr double share = 0.3819660112501051;  // of no meaning to anybody who draws
     const Piece& own = cycles_.back()[piece];
-    const site::Site edge = rings_.site(own.site);
-    const double from = std::max(own.from, 0.0), to = std::min(own.to, edge.length);
+    const site::Pieces edge = rings_.pieces(own.site);
+    const double from = std::max(own.from, 0.0), to = std::min(own.to, length_of(edge));
     if (!(from < to)) return std::nullopt;
     const double place = from + share * (to - from);
-    const Vec2 foot = edge.at(place), normal = edge.normal();
+    const bool on_last = edge.count > 1 && place > edge.first().length;
+    const site::Site& own_piece = on_last ? edge.last() : edge.first();
+    const double s = on_last ? place - edge.first().length : place;
+    const Vec2 foot = own_piece.at(s), normal = own_piece.normal_at(s);
     std::uint32_t touched = none;
     double radius = radius_limit_;
+    if (own_piece.curvature > 0) radius = std::min(radius, 1 / own_piece.curvature);
     for (const Cycle& cycle : cycles_)
       for (const Piece& other : cycle) {
         if (other.site == none || other.site == own.site) continue;
-        const double r = site::touching_radius(foot, normal, rings_.site(other.site));
-        if (r < radius || (r == radius && !Rings::is_edge(other.site))) {
-          radius = r;
-          touched = other.site;
+        const site::Pieces pieces = rings_.pieces(other.site);
+        for (std::size_t k = 0; k < pieces.count; ++k) {
+          const double r = site::touching_radius(foot, normal, pieces.site[k]);
+          if (r < radius || (r == radius && !Rings::is_edge(other.site))) {
+            radius = r;
+            touched = other.site;
+          }
         }
       }
     if (touched == none || !(radius > 0)) return std::nullopt;
@@ -183,14 +198,17 @@ class Assembly {
     return std::nullopt;
   }
 
+  static double length_of(const site::Pieces& edge) {
+    return edge.first().length + (edge.count > 1 ? edge.last().length : 0);
+  }
+
   /// Of an edge touched in an end that is a site of its own, that one.
   std::uint32_t owner(std::uint32_t number, Vec2 center) const {
     if (!Rings::is_edge(number)) return number;
-    const site::Site edge = rings_.site(number);
-    const double s = site::foot_parameter(edge, center);
+    const double s = place_on(number, center);
     const std::uint32_t after = rings_.corner_after(number / 2);
-    if (s <= 0 && rings_[number / 2].reflex) return number - 1;
-    if (s >= edge.length && rings_[after].reflex) return 2 * after;
+    if (s <= 0 && rings_.is_reflex(number / 2)) return number - 1;
+    if (s >= length_of(rings_.pieces(number)) && rings_.is_reflex(after)) return 2 * after;
     return number;
   }
 
@@ -238,6 +256,7 @@ class Assembly {
     }
     names.resize(kept);
     disks::Boundary& boundary = window.boundary;
+    boundary.has_arcs = rings_.has_arcs();
     boundary.bridge_places.assign(window.bridges.size(), {none, none});
     boundary.reserve(cycle.size());
     for (const Piece& piece : cycle) add(piece, names, several, boundary);
@@ -258,10 +277,20 @@ class Assembly {
     }
     const auto name = static_cast<std::uint32_t>(
         std::lower_bound(names.begin(), names.end(), piece.site) - names.begin());
-    site::Site site = rings_.site(piece.site);
-    if (Rings::is_edge(piece.site) && several[name])
-      site = site::part_of(site, std::max(piece.from, 0.0), std::min(piece.to, site.length));
-    boundary.add(site, Rings::is_edge(piece.site) ? Element::edge : Element::vertex, name);
+    const site::Pieces pieces = rings_.pieces(piece.site);
+    if (!Rings::is_edge(piece.site)) return boundary.add(pieces.first(), Element::vertex, name);
+    double begin = 0;
+    for (std::size_t k = 0; k < pieces.count; ++k) {
+      const site::Site& whole = pieces.site[k];
+      const double from = std::max(piece.from - begin, 0.0),
+                   to = std::min(piece.to - begin, whole.length);
+      begin += whole.length;
+      if (pieces.count > 1 && !(from < to)) continue;
+      const bool is_last = k + 1 == pieces.count;
+      boundary.add(
+          several[name] ? site::part_of(whole, from, to) : whole, Element::edge, name,
+          is_last ? rings_[rings_.corner_after(piece.site / 2)].joint : site::Joint::smooth);
+    }
   }
 
   const Rings& rings_;
@@ -312,7 +341,7 @@ void Spread::spread(const std::vector<site::Site>& fresh, double margin) {
       const std::uint32_t other = graph_.edge(edge).node[1 - k];
       if (marks_[other] == mark_) return;
       const Disk& disk = graph_.disk(other);
-      if (disk.radius == 0 || is_near(disk)) add_node(other);
+      if (disk.radius == 0 || graph_.degree(other) == 1 || is_near(disk)) add_node(other);
     });
 }
 

@@ -55,8 +55,8 @@ struct Window {
   std::vector<disks::Bridge> bridges;
   std::vector<std::uint32_t> names;  ///< of the boundary's `originals`: the sites in Rings
 };
-/// None where all of the axis is affected, where rounding leaves the borders' order open, and where
-/// it takes long to connect many loops.
+/// `loop`: one that has changed, or none. None where all of the axis is affected, where rounding
+/// leaves the borders' order open, and where it takes long to connect many loops.
 std::optional<Window> window_of(const Rings& rings, const AxisGraph& graph,
                                 const Affected& affected, std::uint32_t loop, double radius_limit);
 

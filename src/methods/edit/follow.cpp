@@ -1,0 +1,335 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/tolerance.h"
+#include "methods/edit/parts.h"
+
+namespace medial {
+
+using edit::error_of;
+
+namespace {
+
+/// Adds what a second change removes and adds to lists of a first one.
+void join(std::vector<std::uint32_t>& removed, std::vector<std::uint32_t>& added,
+          const std::vector<std::uint32_t>& then_removed,
+          const std::vector<std::uint32_t>& then_added) {
+  std::sort(added.begin(), added.end());
+  std::vector<std::uint32_t> gone;
+  for (const std::uint32_t number : then_removed)
+    (std::binary_search(added.begin(), added.end(), number) ? gone : removed).push_back(number);
+  std::sort(gone.begin(), gone.end());
+  added.erase(std::remove_if(added.begin(), added.end(),
+                             [&](std::uint32_t number) {
+                               return std::binary_search(gone.begin(), gone.end(), number);
+                             }),
+              added.end());
+  added.insert(added.end(), then_added.begin(), then_added.end());
+}
+void join(AxisChange& first, const AxisChange& second) {
+  join(first.removed_nodes, first.added_nodes, second.removed_nodes, second.added_nodes);
+  join(first.removed_edges, first.added_edges, second.removed_edges, second.added_edges);
+}
+
+Error crossing_error(const Rings::Judgement& judgement) {
+  Error error = error_of(ErrorCode::crossing, "edges would cross", judgement.edge);
+  error.place.point = judgement.point;
+  return error;
+}
+
+}  // namespace
+
+/// Whether all local coordinates of new places are exact.
+bool Editor::Parts::fits_frame(const edit::Edit& edit) const {
+  const auto fits = [&](Vec2 place) {
+    const Vec2 local = rings.frame().to_local(place);
+    constexpr double largest = 2;
+    return std::abs(local.x) < largest && std::abs(local.y) < largest &&
+           rings.frame().to_input(local) == place;
+  };
+  return (edit.fresh == none || fits(edit.place)) &&
+         std::all_of(edit.in.begin(), edit.in.end(),
+                     [&](const edit::Corner& corner) { return fits(corner.point); });
+}
+
+std::optional<Error> Editor::Parts::refuse(const edit::Edit& edit) const {
+  const auto is_finite = [](Vec2 p) { return std::isfinite(p.x) && std::isfinite(p.y); };
+  const char* const not_finite = "a coordinate or a bulge is not finite";
+  if (edit.is_of_loops()) {
+    for (const edit::Corner& corner : edit.in)
+      if (!is_finite(corner.point) || !std::isfinite(corner.bulge))
+        return error_of(ErrorCode::not_finite, not_finite, corner.number);
+    return std::nullopt;
+  }
+  const std::uint32_t shown = edit.fresh != none ? edit.fresh : edit.old;
+  if (!std::isfinite(edit.bulge[0]) || !std::isfinite(edit.bulge[1]) ||
+      (edit.fresh != none && !is_finite(edit.place)))
+    return error_of(ErrorCode::not_finite, not_finite, shown);
+  const std::uint32_t fewest = edit.bulge[0] == 0 && !rings.has_arcs() ? 3 : 2;
+  if (edit.fresh == none && rings.loop_size(rings[edit.before].loop) <= fewest)
+    return error_of(ErrorCode::too_few_points, "a loop keeps three vertices, with arcs two", shown);
+  return std::nullopt;
+}
+
+Result<AxisChange> Editor::Parts::change(const edit::Edit& edit) {
+  if (auto error = refuse(edit)) return std::move(*error);
+  if (!apart.empty() || !fits_frame(edit)) return rebuild(edit);
+  const Rings::Judgement judgement = rings.judge(edit);
+  if (judgement.verdict == Rings::Verdict::crosses) return crossing_error(judgement);
+  const edit::Edit back = rings.inverse(edit);
+  edit::make_room(inverse, inverse.size() + 1);
+  if (edit.fresh != none) box.add(edit.place);
+  for (const edit::Corner& corner : edit.in) box.add(corner.point);
+  measures.radius_limit = radius_limit(box, rings.frame());
+  std::optional<Error> refused;
+  auto step =
+      judgement.verdict == Rings::Verdict::unclear ? follow_in_two(edit, refused) : follow(edit);
+  if (refused) return std::move(*refused);
+  if (!step) return rebuild(edit);
+  inverse.push_back(back);
+  step->change.vertex = subject_of(edit);
+  return std::move(step->change);
+}
+
+Result<AxisChange> Editor::Parts::undo() {
+  if (inverse.empty()) return AxisChange{};
+  edit::Edit last = inverse.back();
+  // build_shape() may have turned the loop round since.
+  if (!last.is_of_loops() && last.before != last.after &&
+      rings[last.before].next != (last.old != none ? last.old : last.after)) {
+    std::swap(last.before, last.after);
+    const auto [first, second] = last.bulge;
+    if (last.fresh != none)
+      last.bulge = {-second, -first};
+    else
+      last.bulge = {-first, 0};
+  }
+  auto result = change(last);
+  if (!result) return result;
+  inverse.pop_back();  // of this edit
+  inverse.pop_back();
+  return result;
+}
+
+/// The sites whose disks an edit takes away, and nodes around a place where new ones come. Before
+/// the edit is made.
+Editor::Parts::Seeds Editor::Parts::seeds_of(const edit::Edit& edit) const {
+  Seeds seeds;
+  seeds.before = rings.sites_around(edit);
+  const auto has_edges = [&](std::uint32_t site) {
+    bool has = false;
+    graph.for_edges_of_site(site, [&](std::uint32_t, std::size_t) { has = true; });
+    return has;
+  };
+  // An arc may have no edges: its disk is where those of its neighbours end.
+  for (const Rings::Extent& one : seeds.before) {
+    if (has_edges(one.site)) continue;
+    std::uint32_t after = one.site, before = one.site;
+    do after = rings.next_site(after);
+    while (after != one.site && !has_edges(after));
+    do before = rings.site_before(before);
+    while (before != one.site && !has_edges(before));
+    seeds.sites.insert(seeds.sites.end(), {after, before});
+  }
+  if (!edit.out.empty()) {
+    const bool is_hole = rings.is_hole(rings[edit.out.front().number].loop);
+    seeds.parts += is_hole ? 1 : -1;
+    seeds.is_whole_part = !is_hole;
+  }
+  if (!edit.in.empty()) add_seeds_around(edit.in.front().point, seeds);
+  return seeds;
+}
+
+/// The disk that touches what is nearest to a place, and grows on until it is maximal, holds the
+/// place: it is on one of the edges of that site.
+void Editor::Parts::add_seeds_around(Vec2 place, Seeds& seeds) const {
+  const std::uint32_t site = rings.site_around(place);
+  seeds.parts += site == none ? 1 : -1;
+  seeds.is_whole_part = site == none;
+  if (site != none) seeds.sites.push_back(site);
+}
+
+/// Makes an edit by which no loop changes its form, and repairs the axis. None, and nothing has
+/// happened, where all has to be computed again.
+std::optional<Step> Editor::Parts::follow(const edit::Edit& edit) {
+  const Seeds seeds = seeds_of(edit);
+  const edit::Edit back = rings.inverse(edit);
+  rings.apply(edit);
+  std::optional<Step> step;
+  try {
+    step = seeds.is_whole_part ? repair_part(edit, seeds) : repair(edit, seeds);
+  } catch (...) {
+    rings.apply(back);
+    throw;
+  }
+  if (!step) rings.apply(back);
+  return step;
+}
+
+/// Takes a vertex that jumps across others, or a loop, out, and puts it in again where it shall be.
+/// None, and nothing has happened, where one of the two changes the form of a loop, or crosses
+/// others.
+std::optional<Step> Editor::Parts::follow_in_two(const edit::Edit& edit,
+                                                 std::optional<Error>& refused) {
+  edit::Edit out{edit.before, edit.after, edit.old, none, {}, {}, edit.out, {}};
+  edit::Edit in{edit.before, edit.after, none, edit.fresh, edit.place, edit.bulge, {}, edit.in};
+  const bool has_two = edit.is_of_loops() ? !edit.out.empty() && !edit.in.empty()
+                                          : edit.old == edit.fresh && !refuse(out);
+  if (!has_two || rings.judge(out).verdict != Rings::Verdict::keeps_form) return std::nullopt;
+  const edit::Edit back = rings.inverse(out);
+  std::optional<Step> first = follow(out), second;
+  if (!first) return std::nullopt;
+  const auto take_back = [&] {
+    put_back(*first);
+    rings.apply(back);
+  };
+  try {
+    const Rings::Judgement judgement = rings.judge(in);
+    if (judgement.verdict == Rings::Verdict::keeps_form) second = follow(in);
+    if (edit.is_of_loops() && judgement.verdict == Rings::Verdict::crosses)
+      refused = crossing_error(judgement);
+    if (second) {
+      // In a copy: if memory runs out halfway, put_back() still needs the first change as it was.
+      AxisChange both = first->change;
+      join(both, second->change);
+      first->change = std::move(both);
+    }
+  } catch (...) {
+    if (second) {
+      put_back(*second);
+      rings.apply(out);
+    }
+    take_back();
+    throw;
+  }
+  if (second) return first;
+  take_back();
+  return std::nullopt;
+}
+
+/// Finds what changes, and the new part of the axis. None where all has to be computed again.
+std::optional<Step> Editor::Parts::repair(const edit::Edit& edit, const Seeds& seeds) {
+  constexpr double margin = 64;  // tolerances
+  constexpr int most_rounds = 16;
+  edit::Spread spread(graph, marks, ++mark);
+  const std::vector<Rings::Extent>& before = seeds.before;
+  const std::vector<Rings::Extent> after = rings.sites_around(edit);
+  const auto stays_in = [&](const Rings::Extent& one, const std::vector<Rings::Extent>& others) {
+    const bool moves =
+        edit.old == edit.fresh && (one.site / 2 == edit.fresh || one.end == edit.fresh);
+    return !moves && std::find(others.begin(), others.end(), one) != others.end();
+  };
+  bool changes = edit.is_of_loops();
+  for (const Rings::Extent& one : before) {
+    if (stays_in(one, after)) continue;
+    spread.add_site(one.site);
+    changes = true;
+  }
+  if (!changes) return Step{};
+  for (const std::uint32_t site : seeds.sites) spread.add_site(site);
+  std::vector<site::Site> fresh;
+  for (const Rings::Extent& one : after)
+    if (!stays_in(one, before)) rings.add_pieces(one.site, fresh);
+  const std::uint32_t changed =
+      edit.is_of_loops() ? edit.in.empty() ? none : edit.in[0].number : edit.before;
+  for (int round = 0; round < most_rounds; ++round) {
+    spread.spread(fresh, margin * measures.tolerance);
+    const edit::Affected affected = spread.result();
+    const auto window =
+        edit::window_of(rings, graph, affected, changed == none ? none : rings[changed].loop,
+                        measures.radius_limit);
+    if (!window) return std::nullopt;
+    std::vector<std::uint32_t> doubtful;
+    const auto found = edit::repair(rings, graph, affected, *window, measures, doubtful);
+    if (found) return replace(affected, *found, seeds.parts);
+    if (doubtful.empty()) return std::nullopt;
+    for (const std::uint32_t node : doubtful) spread.add_around(node, std::size_t{1} << round);
+  }
+  return std::nullopt;
+}
+
+/// The axis of an outer loop without holes comes or goes as a whole.
+std::optional<Step> Editor::Parts::repair_part(const edit::Edit& edit, const Seeds& seeds) {
+  edit::Spread spread(graph, marks, ++mark);
+  for (const Rings::Extent& one : seeds.before) spread.add_site(one.site);
+  for (const std::uint32_t site : seeds.sites) spread.add_site(site);
+  spread.spread({}, 0);
+  const edit::Affected affected = spread.result();
+  if (!affected.borders.empty()) return std::nullopt;
+  if (edit.in.empty()) return replace(affected, {}, seeds.parts);
+  const auto found = axis_of_loop(rings[edit.in.front().number].loop);
+  if (!found) return std::nullopt;
+  return replace(affected, *found, seeds.parts);
+}
+
+std::optional<edit::Repair> Editor::Parts::axis_of_loop(std::uint32_t loop) const {
+  Shape shape = rings.shape_of(loop);
+  for (Vec2& p : shape.points) p = rings.frame().to_local(p);
+  std::vector<std::uint32_t> vertices;
+  for (VertexSource& source : shape.sources) {
+    vertices.push_back(source.vertex);
+    source = {0, static_cast<std::uint32_t>(vertices.size() - 1)};
+  }
+  Options own = options;
+  own.tolerance = relative_tolerance(measures.tolerance, bounding_box(shape));
+  const auto axis = edit::local_axis(shape, own, rings.frame().scale * rings.joining().tolerance);
+  if (!axis || axis->tolerance > 2 * measures.tolerance) return std::nullopt;
+  edit::Repair repair;
+  for (const medial::Node& node : axis->nodes) repair.disks.push_back(node.disk);
+  repair.old_nodes.assign(repair.disks.size(), none);
+  const auto number_of = [&](std::uint32_t i) {
+    const Site& site = axis->sites[i];
+    return 2 * vertices[site.vertex] + (site.kind == SiteKind::vertex ? 0 : 1);
+  };
+  for (const medial::Edge& edge : axis->edges)
+    repair.edges.push_back(
+        {edge.node, {number_of(edge.site[0]), number_of(edge.site[1])}, edge.control, edge.weight});
+  return repair;
+}
+
+/// Puts the new part in the place of the old one; none, and nothing happens, where that would not
+/// give the axis so many more parts, less cycles.
+std::optional<Step> Editor::Parts::replace(const edit::Affected& affected,
+                                           const edit::Repair& repair, int parts) {
+  const auto fresh =
+      static_cast<std::size_t>(std::count(repair.old_nodes.begin(), repair.old_nodes.end(), none));
+  const auto signed_size = [](std::size_t size) { return static_cast<std::ptrdiff_t>(size); };
+  if (signed_size(fresh + affected.edges.size()) !=
+      signed_size(affected.nodes.size() + repair.edges.size()) + parts)
+    return std::nullopt;
+  // Memory may run out here, and nowhere below.
+  std::vector<std::uint32_t> number = repair.old_nodes;
+  Step step;
+  AxisChange& change = step.change;
+  for (const std::uint32_t node : affected.nodes) step.nodes.push_back(graph.disk(node));
+  for (const std::uint32_t edge : affected.edges) step.edges.push_back(graph.edge(edge));
+  change.removed_nodes = affected.nodes;
+  change.removed_edges = affected.edges;
+  change.added_nodes.reserve(fresh);
+  change.added_edges.reserve(repair.edges.size());
+  graph.make_room(fresh, repair.edges.size(), 2 * rings.size());
+  for (const std::uint32_t edge : affected.edges) graph.remove_edge(edge);
+  for (const std::uint32_t node : affected.nodes) graph.remove_node(node);
+  for (std::size_t i = 0; i < number.size(); ++i)
+    if (number[i] == none)
+      change.added_nodes.push_back(number[i] = graph.add_node(repair.disks[i]));
+  for (AxisGraph::Edge edge : repair.edges) {
+    for (std::uint32_t& node : edge.node) node = number[node];
+    change.added_edges.push_back(graph.add_edge(edge));
+  }
+  return step;
+}
+
+/// Undoes the last replace(): in the opposite order all numbers come back as they were.
+void Editor::Parts::put_back(const Step& step) {
+  const AxisChange& change = step.change;
+  for (auto i = change.added_edges.rbegin(); i != change.added_edges.rend(); ++i)
+    graph.remove_edge(*i);
+  for (auto i = change.added_nodes.rbegin(); i != change.added_nodes.rend(); ++i)
+    graph.remove_node(*i);
+  for (auto i = step.nodes.rbegin(); i != step.nodes.rend(); ++i) graph.add_node(*i);
+  for (auto i = step.edges.rbegin(); i != step.edges.rend(); ++i) graph.add_edge(*i);
+}
+
+}  // namespace medial

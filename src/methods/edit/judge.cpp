@@ -1,0 +1,379 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "base/predicates.h"
+#include "methods/edit/rings.h"
+
+// Whether an edit keeps the form of a shape's loops.
+
+namespace medial::edit {
+namespace {
+
+Box box_of(Vec2 a, Vec2 b) {
+  Box box{a, a};
+  box.add(b);
+  return box;
+}
+
+bool holds(const Box& box, Vec2 p) {
+  return box.low.x <= p.x && p.x <= box.high.x && box.low.y <= p.y && p.y <= box.high.y;
+}
+
+struct Triangle {
+  std::array<Vec2, 3> corner;
+
+  /// Whether a point lies inside or on the border; a little too often where the corners lie on one
+  /// line.
+  bool has(Vec2 p) const {
+    Box box = box_of(corner[0], corner[1]);
+    box.add(corner[2]);
+    if (!holds(box, p)) return false;
+    int left = 0, right = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int side = orientation(corner[i], corner[(i + 1) % 3], p);
+      left += side > 0 ? 1 : 0;
+      right += side < 0 ? 1 : 0;
+    }
+    return left == 0 || right == 0;
+  }
+};
+
+/// Where two segments cross.
+Vec2 crossing_of(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+  const double share = cross(c - a, d - c) / cross(b - a, d - c);
+  return a + std::clamp(share, 0.0, 1.0) * (b - a);
+}
+
+enum class Meeting : std::uint8_t { none, touch, cross };
+
+/// How two closed segments meet.
+Meeting meeting(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+  const int of_a = orientation(c, d, a), of_b = orientation(c, d, b);
+  if (of_a * of_b > 0) return Meeting::none;
+  const int of_c = orientation(a, b, c), of_d = orientation(a, b, d);
+  if (of_c * of_d > 0) return Meeting::none;
+  if (of_a * of_b < 0 && of_c * of_d < 0) return Meeting::cross;
+  const Box first = box_of(a, b), second = box_of(c, d);
+  const bool apart = first.low.x > second.high.x || second.low.x > first.high.x ||
+                     first.low.y > second.high.y || second.low.y > first.high.y;
+  return apart ? Meeting::none : Meeting::touch;
+}
+
+/// Whether segments and arcs of at most a half circle keep further apart than a margin, but for an
+/// end that two share. Says no where that takes long to find out.
+class Apartness {
+ public:
+  explicit Apartness(double margin) : margin_(margin) {}
+
+  bool apart(const BulgeArc& a, const BulgeArc& b) {
+    steps_ = 0;
+    return keep_apart(a, b);
+  }
+  /// Two that begin in one point.
+  bool apart_after_start(const BulgeArc& a, const BulgeArc& b) {
+    steps_ = 0;
+    return part(a, b);
+  }
+
+ private:
+  static constexpr int most_steps = 256;
+  static double sagitta(const BulgeArc& arc) {
+    return 0.5 * std::abs(arc.bulge) * norm(arc.chord());
+  }
+  static std::array<BulgeArc, 2> halves(const BulgeArc& arc) {
+    const Vec2 middle = arc.bulge == 0 ? midpoint(arc.start, arc.end) : apex(arc);
+    const double bulge = half_bulge(arc.bulge);
+    return {{{arc.start, middle, bulge}, {middle, arc.end, bulge}}};
+  }
+  static double squared_distance(const BulgeArc& segment, Vec2 p) {
+    const Vec2 d = segment.chord(), q = p - segment.start;
+    const double share = std::clamp(dot(d, q) / squared_norm(d), 0.0, 1.0);
+    return squared_norm(q - share * d);
+  }
+  /// Between the chords.
+  static double chord_distance(const BulgeArc& a, const BulgeArc& b) {
+    if (meeting(a.start, a.end, b.start, b.end) != Meeting::none) return 0;
+    return std::sqrt(std::min({squared_distance(a, b.start), squared_distance(a, b.end),
+                               squared_distance(b, a.start), squared_distance(b, a.end)}));
+  }
+
+  bool keep_apart(const BulgeArc& a, const BulgeArc& b) {
+    const double of_a = sagitta(a), of_b = sagitta(b);
+    if (chord_distance(a, b) > of_a + of_b + margin_) return true;
+    if (++steps_ > most_steps || of_a + of_b <= margin_) return false;
+    const auto [first, second] = halves(of_a > of_b ? a : b);
+    const BulgeArc& other = of_a > of_b ? b : a;
+    return keep_apart(first, other) && keep_apart(second, other);
+  }
+
+  /// The way to an arc's point encloses with the tangent at the start half of the angle that the
+  /// arc turns by: where that is less than the angle between the tangents, no two such ways are
+  /// one.
+  bool part(const BulgeArc& a, const BulgeArc& b) {
+    constexpr double least = 1e-9;
+    const double angle = std::abs(signed_angle(start_tangent(a), start_tangent(b)));
+    const double turns = 2 * (std::atan(std::abs(a.bulge)) + std::atan(std::abs(b.bulge)));
+    if (angle > turns + least) return true;
+    if (++steps_ > most_steps || angle < least) return false;
+    const auto of_a = halves(a), of_b = halves(b);
+    return part(of_a[0], of_b[0]) && keep_apart(of_a[0], of_b[1]) && keep_apart(of_a[1], of_b[0]) &&
+           keep_apart(of_a[1], of_b[1]);
+  }
+
+  double margin_;
+  int steps_ = 0;
+};
+
+/// How often a closed curve runs around a point that does not lie on it.
+int turns_around(std::span<const BulgeArc> curve, Vec2 p) {
+  double sum = 0;
+  for (const BulgeArc& arc : curve) {
+    const Vec2 from = arc.start - p, to = arc.end - p;
+    const int side = orientation(arc.start, arc.end, p);
+    sum += side * std::atan2(std::abs(cross(from, to)), dot(from, to));
+    if (arc.bulge == 0 || (side < 0) != (arc.bulge > 0)) continue;
+    const Vec2 q = p - arc.start;
+    const double height =
+        dot(left_of(start_tangent(arc)), q) - 0.5 * curvature(arc) * squared_norm(q);
+    if ((height > 0) == (arc.bulge > 0)) sum += std::copysign(2 * std::numbers::pi, arc.bulge);
+  }
+  return static_cast<int>(std::lround(sum / (2 * std::numbers::pi)));
+}
+
+Box box_around(std::span<const BulgeArc> curve, double margin) {
+  Box box = Box::nothing();
+  for (const BulgeArc& arc : curve) {
+    const double reach = margin + 0.5 * std::abs(arc.bulge) * norm(arc.chord());
+    const Box chord = box_of(arc.start, arc.end);
+    box.add({chord.low - Vec2{reach, reach}, chord.high + Vec2{reach, reach}});
+  }
+  return box;
+}
+
+/// Whether build_shape() may take edges that meet as one, or an edge for something else.
+class Cleaning {
+ public:
+  explicit Cleaning(double tolerance) : tolerance_(tolerance) {}
+
+  bool changes(const BulgeArc& edge) const {
+    constexpr double shortest = 2048, flattest = 64;  // tolerances
+    const double length = norm(edge.chord()), bulge = std::abs(edge.bulge);
+    if (!(length > 0) || bulge > 1) return true;
+    return bulge > 0 &&
+           (!(length > shortest * tolerance_) || !(bulge * length > flattest * tolerance_));
+  }
+  bool may_join(const BulgeArc& before, const BulgeArc& after) const {
+    constexpr double alike = 1e-9, play = 1024;
+    if (!(before.bulge * after.bulge > 0)) return false;
+    const double shorter = std::min(norm(before.chord()), norm(after.chord()));
+    return std::abs(signed_angle(end_tangent(before), start_tangent(after))) < alike &&
+           std::abs(curvature(before) - curvature(after)) * shorter * shorter <= play * tolerance_;
+  }
+
+ private:
+  double tolerance_;
+};
+
+}  // namespace
+
+Rings::Judgement Rings::judge_straight(const Edit& edit) const {
+  const Vec2 p = vertices_[edit.before].point, n = vertices_[edit.after].point, x = edit.place;
+  const bool has_old = edit.old != none, has_fresh = edit.fresh != none;
+  const Vec2 v = has_old ? vertices_[edit.old].point : p;
+  const auto turns_back = [](Vec2 a, Vec2 b, Vec2 c) {
+    return orientation(a, b, c) == 0 && !strictly_between(a, b, c);
+  };
+  const Judgement unclear{Verdict::unclear, none, {}};
+  const Vec2 outer[2] = {vertices_[vertices_[edit.before].before].point,
+                         vertices_[vertices_[edit.after].next].point};
+  if (edit.before == edit.after || (has_fresh && turns_back(p, x, n)) ||
+      turns_back(outer[0], p, has_fresh ? x : n) || turns_back(has_fresh ? x : p, n, outer[1]))
+    return unclear;
+
+  // What the edges sweep while the vertex moves straight to its place, from or to an edge's inside.
+  std::vector<Triangle> swept;
+  if (has_old && has_fresh) {
+    swept = {{{p, v, x}}, {{v, n, x}}};
+    if (swept[0].has(n) || swept[1].has(p)) return unclear;
+  } else {
+    swept = {{{p, has_old ? v : x, n}}};
+  }
+  struct NewEdge {
+    Vec2 from, to;
+    std::uint32_t start, end;
+  };
+  std::vector<NewEdge> edges;
+  if (has_fresh)
+    edges = {{p, x, edit.before, none}, {x, n, none, edit.after}};
+  else
+    edges = {{p, n, edit.before, edit.after}};
+
+  Box query = box_of(p, n);
+  if (has_old) query.add(v);
+  if (has_fresh) query.add(x);
+  Judgement result;
+  boxes_.find(query, [&](std::uint32_t s) {
+    if (result.verdict == Verdict::crosses) return;
+    const std::uint32_t t = vertices_[s].next;
+    const Vec2 a = vertices_[s].point, b = vertices_[t].point;
+    const bool is_own = s == edit.before || (has_old && s == edit.old);
+    if (is_own) return;
+    for (const NewEdge& edge : edges) {
+      if (s == edge.end || t == edge.start) continue;  // they meet there only
+      const Meeting how = meeting(edge.from, edge.to, a, b);
+      if (how == Meeting::cross)
+        result = {Verdict::crosses, s, crossing_of(edge.from, edge.to, a, b)};
+      if (how == Meeting::touch) result.verdict = Verdict::unclear;
+    }
+    if (result.verdict == Verdict::crosses) return;
+    const bool is_moving = has_old && has_fresh;
+    if (is_moving && meeting(v, x, a, b) != Meeting::none) result.verdict = Verdict::unclear;
+    if (s == edit.after) return;
+    for (const Triangle& triangle : swept)
+      if (triangle.has(a)) result.verdict = Verdict::unclear;
+  });
+  return result;
+}
+
+Rings::Judgement Rings::judge(const Edit& edit) const {
+  if (!edit.out.empty() && !edit.in.empty()) return {Verdict::unclear, none, {}};  // one by one
+  if (!edit.out.empty()) return judge_out(edit);
+  if (!edit.in.empty()) return judge_in(edit);
+  const bool is_straight = !has_arcs() && edit.bulge[0] == 0 && edit.bulge[1] == 0;
+  return is_straight ? judge_straight(edit) : judge_with_arcs(edit);
+}
+
+namespace {
+
+/// A new edge, whose ends are vertices of the shape or none.
+struct FreshEdge {
+  BulgeArc arc;
+  std::uint32_t start, end;
+};
+
+}  // namespace
+
+/// Where there are arcs, what comes within some tolerances of an edge may touch it.
+Rings::Judgement Rings::judge_with_arcs(const Edit& edit) const {
+  constexpr double margin = 64;
+  const Judgement unclear{Verdict::unclear, none, {}};
+  if (edit.before == edit.after) return unclear;
+  const Vec2 p = vertices_[edit.before].point, n = vertices_[edit.after].point, x = edit.place;
+  std::vector<FreshEdge> fresh;
+  std::vector<BulgeArc> swept{edge(edit.before)};  // what is between the old edges and the new ones
+  if (edit.old != none) swept.push_back(edge(edit.old));
+  if (edit.fresh != none) {
+    fresh = {{{p, x, edit.bulge[0]}, edit.before, none}, {{x, n, edit.bulge[1]}, none, edit.after}};
+  } else {
+    fresh = {{{p, n, edit.bulge[0]}, edit.before, edit.after}};
+  }
+  for (std::size_t i = fresh.size(); i-- > 0;) swept.push_back(fresh[i].arc.reversed());
+  const Cleaning cleaning(joining_.tolerance);
+  Apartness apartness(margin * joining_.tolerance);
+  std::vector<BulgeArc> chain{edge(vertices_[edit.before].before)};
+  for (const FreshEdge& one : fresh) chain.push_back(one.arc);
+  chain.push_back(edge(edit.after));
+  for (std::size_t i = 0; i + 1 < chain.size(); ++i)
+    if (cleaning.changes(chain[i]) || cleaning.may_join(chain[i], chain[i + 1])) return unclear;
+  if (fresh.size() == 2 && !apartness.apart_after_start(fresh[0].arc.reversed(), fresh[1].arc))
+    return unclear;
+
+  Judgement result;
+  boxes_.find(box_around(swept, margin * joining_.tolerance), [&](std::uint32_t s) {
+    if (result.verdict == Verdict::crosses || s == edit.before || s == edit.old) return;
+    const std::uint32_t t = vertices_[s].next;
+    const BulgeArc other = edge(s);
+    for (const FreshEdge& one : fresh) {
+      const bool at_start = t == one.start, at_end = s == one.end;
+      const bool is_apart = at_start && at_end ? false
+                            : at_start ? apartness.apart_after_start(one.arc, other.reversed())
+                            : at_end   ? apartness.apart_after_start(one.arc.reversed(), other)
+                                       : apartness.apart(one.arc, other);
+      if (is_apart) continue;
+      result.verdict = Verdict::unclear;
+      if (one.arc.bulge == 0 && other.bulge == 0 && !at_start && !at_end &&
+          meeting(one.arc.start, one.arc.end, other.start, other.end) == Meeting::cross) {
+        result = {Verdict::crosses, s,
+                  crossing_of(one.arc.start, one.arc.end, other.start, other.end)};
+        return;
+      }
+    }
+    if (result.verdict != Verdict::keeps_form) return;
+    if ((s != edit.after && turns_around(swept, other.start) != 0) ||
+        turns_around(swept, apex(other)) != 0)
+      result.verdict = Verdict::unclear;
+  });
+  return result;
+}
+
+std::vector<std::uint32_t> Rings::loops_near(const Box& box, std::uint32_t but) const {
+  std::vector<std::uint32_t> vertices, seen;
+  boxes_.find(box, [&](std::uint32_t s) {
+    const std::uint32_t loop = vertices_[s].loop;
+    if (loop == but || std::find(seen.begin(), seen.end(), loop) != seen.end()) return;
+    seen.push_back(loop);
+    vertices.push_back(s);
+  });
+  return vertices;
+}
+
+/// A loop can go where it encloses no other one.
+Rings::Judgement Rings::judge_out(const Edit& edit) const {
+  const std::uint32_t loop = vertices_[edit.out.front().number].loop;
+  std::vector<BulgeArc> curve;
+  for_vertices(loop, [&](std::uint32_t v) { curve.push_back(edge(v)); });
+  for (const std::uint32_t v : loops_near(box_around(curve, 0), loop))
+    if (turns_around(curve, vertices_[v].point) != 0) return {Verdict::unclear, none, {}};
+  const bool is_only = loops_.size() == 1 || loops().size() == 1;
+  return {is_only ? Verdict::unclear : Verdict::keeps_form, none, {}};
+}
+
+/// A loop can come where it is one that build_shape() takes as it is, and meets and encloses none.
+Rings::Judgement Rings::judge_in(const Edit& edit) const {
+  constexpr double margin = 64;
+  const Judgement unclear{Verdict::unclear, none, {}};
+  std::vector<BulgeArc> curve;
+  Ring ring;
+  for (std::size_t i = 0; i < edit.in.size(); ++i) {
+    const Corner &from = edit.in[i], &to = edit.in[i + 1 < edit.in.size() ? i + 1 : 0];
+    curve.push_back({from.point, to.point, from.bulge});
+    ring.points.push_back(from.point);
+    ring.bulges.push_back(from.bulge);
+  }
+  const auto alone = build_shape({&ring, 1});
+  if (!alone || alone->loop_count() != 1 || alone->points.size() != edit.in.size()) return unclear;
+  for (std::size_t i = 0; i < alone->points.size(); ++i)
+    if (alone->points[i] != edit.in[alone->sources[i].vertex].point ||
+        std::abs(alone->bulge(i)) > 1)
+      return unclear;
+  const Cleaning cleaning(joining_.tolerance);
+  const bool has_curves = has_arcs() || !alone->bulges.empty();
+  Apartness apartness(margin * joining_.tolerance);
+  Judgement result;
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const BulgeArc& one = curve[i];
+    if (cleaning.changes(one) || cleaning.may_join(one, curve[i + 1 < curve.size() ? i + 1 : 0]))
+      return unclear;
+    boxes_.find(box_around({&one, 1}, margin * joining_.tolerance), [&](std::uint32_t s) {
+      if (result.verdict == Verdict::crosses) return;
+      const BulgeArc other = edge(s);
+      const bool straight = one.bulge == 0 && other.bulge == 0;
+      const Meeting how =
+          straight ? meeting(one.start, one.end, other.start, other.end) : Meeting::touch;
+      if (straight && how == Meeting::cross)
+        result = {Verdict::crosses, s, crossing_of(one.start, one.end, other.start, other.end)};
+      else if (has_curves ? !apartness.apart(one, other) : how == Meeting::touch)
+        result.verdict = Verdict::unclear;
+    });
+    if (result.verdict == Verdict::crosses) return result;
+  }
+  for (const std::uint32_t v : loops_near(box_around(curve, 0), none))
+    if (turns_around(curve, vertices_[v].point) != 0) return unclear;
+  return result;
+}
+
+}  // namespace medial::edit

@@ -1,0 +1,192 @@
+#include "methods/edit/parts.h"
+
+#include <utility>
+
+#include "axis/node_kinds.h"
+#include "base/tolerance.h"
+#include "methods/checks.h"
+#include "methods/disks/disks.h"
+#include "methods/problem.h"
+
+namespace medial {
+namespace edit {
+
+std::uint32_t subject_of(const edit::Edit& edit) {
+  if (edit.is_of_loops()) return (edit.in.empty() ? edit.out : edit.in).front().number;
+  return edit.fresh != none ? edit.fresh : edit.old;
+}
+
+Error error_of(ErrorCode code, const char* text, std::uint32_t vertex) {
+  Error error{code, text, {}};
+  error.place.vertex = vertex;
+  return error;
+}
+
+Result<MedialAxis> local_axis(const Shape& shape, const Options& options, double joint_tolerance) {
+  Problem problem(shape, options);
+  problem.joint_tolerance = joint_tolerance;
+  auto axis = disks::run(problem);
+  if (axis && problem.is_cancelled()) return Error{ErrorCode::cancelled, "cancelled", {}};
+  return axis;
+}
+
+}  // namespace edit
+
+namespace {
+
+/// For each site of an axis of the shape's image in the local frame its number.
+std::vector<std::uint32_t> site_numbers(const MedialAxis& axis, const Shape& shape, bool is_first) {
+  std::vector<std::uint32_t> sites;
+  sites.reserve(axis.sites.size());
+  for (const Site& site : axis.sites)
+    sites.push_back(2 * (is_first ? site.vertex : shape.sources[site.vertex].vertex) +
+                    (site.kind == SiteKind::vertex ? 0 : 1));
+  return sites;
+}
+
+/// An error of a shape's image in the local frame, as one of the shape.
+Error from_local(Error error, const Shape& shape, const LocalFrame& frame) {
+  if (error.place.point) error.place.point = frame.to_input(*error.place.point);
+  if (error.place.vertex && *error.place.vertex < shape.sources.size()) {
+    const VertexSource source = shape.sources[*error.place.vertex];
+    error.place.ring = source.ring;
+    error.place.vertex = source.vertex;
+  }
+  return error;
+}
+
+}  // namespace
+
+/// Computes the axis of a shape: the first one, or one built from the rings, whose sources name
+/// vertices.
+Status Editor::Parts::start(const Shape& shape, bool is_first) {
+  if (auto error = medial::refuse(shape, options)) return std::move(*error);
+  box = bounding_box(shape);
+  const LocalFrame frame = frame_of(box);
+  Shape local = shape;
+  for (Vec2& p : local.points) p = frame.to_local(p);
+  for (std::uint32_t i = 0; i < local.sources.size(); ++i) local.sources[i] = {0, i};
+  const Box local_box = bounding_box(local);
+  Options local_options = options;
+  const double scaled = frame.scale * tolerance_for(box, options.tolerance);
+  if (scaled > tolerance_for(local_box, options.tolerance))
+    local_options.tolerance = relative_tolerance(scaled, local_box);
+  const Rings::Joining joining{tolerance_for(box, 0), options.corner_angle};
+  const auto axis = edit::local_axis(local, local_options, frame.scale * joining.tolerance);
+  if (!axis) return from_local(axis.error(), shape, frame);
+  tolerance = tolerance_for(box, options.tolerance);
+  measures = {frame.scale * tolerance, tolerance_for(local_box, options.tolerance),
+              radius_limit(box, frame)};
+  apart.clear();
+  apart_shape = {};
+  apart_components.clear();
+  if (is_first) rings = Rings(shape, frame, joining);
+  if (is_first || rings.adopt(shape, frame, joining)) {
+    graph = AxisGraph(*axis, site_numbers(*axis, shape, is_first));
+  } else {
+    std::vector<std::uint32_t> counted(axis->sites.size());
+    for (std::uint32_t i = 0; i < counted.size(); ++i) counted[i] = i;
+    apart = axis->sites;
+    for (Site& site : apart) {
+      const VertexSource source = shape.sources[site.vertex];
+      site = {frame.to_input(site.start),
+              frame.to_input(site.end),
+              source.ring,
+              source.vertex,
+              site.kind,
+              site.bulge};
+    }
+    apart_shape = shape;
+    for (const Node& node : axis->nodes) apart_components.push_back(node.component);
+    rings.set_frame(frame);
+    graph = AxisGraph(*axis, counted);
+  }
+  marks.assign(graph.node_slots() + graph.node_slots() / edit::spare_share, 0);
+  mark = 0;
+  return success();
+}
+
+void Editor::Parts::list_all(std::vector<std::uint32_t>& nodes,
+                             std::vector<std::uint32_t>& edges) const {
+  for (std::uint32_t i = 0; i < graph.node_slots(); ++i)
+    if (graph.has_node(i)) nodes.push_back(i);
+  for (std::uint32_t i = 0; i < graph.edge_slots(); ++i)
+    if (graph.has_edge(i)) edges.push_back(i);
+}
+
+/// Computes all again after an edit; nothing happens where that fails.
+Result<AxisChange> Editor::Parts::rebuild(const edit::Edit& edit) {
+  AxisChange change;
+  change.vertex = subject_of(edit);
+  change.everything = true;
+  list_all(change.removed_nodes, change.removed_edges);
+  Parts next = *this;
+  next.rings.apply(edit);
+  std::vector<std::vector<std::uint32_t>> numbers;
+  const std::vector<Ring> all = next.rings.rings(numbers);
+  auto shape = build_shape(all);
+  if (!shape) {
+    Error error = std::move(shape).error();
+    if (error.place.ring && error.place.vertex && *error.place.ring < numbers.size() &&
+        *error.place.vertex < numbers[*error.place.ring].size())
+      error.place.vertex = numbers[*error.place.ring][*error.place.vertex];
+    error.place.ring.reset();
+    return error;
+  }
+  for (VertexSource& source : shape->sources) source.vertex = numbers[source.ring][source.vertex];
+  if (auto started = next.start(*shape, false); !started) {
+    Error error = std::move(started).error();
+    error.place.ring.reset();  // the vertex has its number
+    return error;
+  }
+  next.list_all(change.added_nodes, change.added_edges);
+  next.inverse.push_back(rings.inverse(edit));
+  *this = std::move(next);
+  return change;
+}
+
+std::vector<edit::Corner> Editor::Parts::corners_of(std::uint32_t vertex) const {
+  std::vector<edit::Corner> corners;
+  std::uint32_t v = vertex;
+  do {
+    corners.push_back({v, rings[v].point, rings[v].bulge});
+    v = rings[v].next;
+  } while (v != vertex);
+  return corners;
+}
+
+Node Editor::Parts::node(std::uint32_t number) const {
+  const LocalFrame& frame = rings.frame();
+  const Disk& disk = graph.disk(number);
+  std::uint32_t component = apart.empty() ? 0 : apart_components[number];
+  if (apart.empty()) {
+    std::uint32_t site = none;
+    graph.for_edges_at(number,
+                       [&](std::uint32_t edge, std::size_t) { site = graph.edge(edge).site[0]; });
+    if (site == none) site = rings.site_around(frame.to_input(disk.center));  // of a circle
+    if (site != none) component = rings.component(rings[site / 2].loop);
+  }
+  return {{frame.to_input(disk.center), frame.inverse * disk.radius},
+          component,
+          kind_of_degree(graph.degree(number))};
+}
+
+Edge Editor::Parts::edge(std::uint32_t number) const {
+  const LocalFrame& frame = rings.frame();
+  const AxisGraph::Edge& own = graph.edge(number);
+  return {own.node,
+          own.site,
+          {frame.to_input(own.control.center), frame.inverse * own.control.radius},
+          own.weight};
+}
+
+Site Editor::Parts::site(std::uint32_t number) const {
+  if (!apart.empty()) return apart[number];
+  const Rings::Vertex& vertex = rings[number / 2];
+  const bool is_edge = Rings::is_edge(number);
+  if (!is_edge) return {vertex.point, vertex.point, vertex.loop, number / 2, SiteKind::vertex};
+  return {vertex.point, rings[rings.corner_after(number / 2)].point,           vertex.loop,
+          number / 2,   vertex.bulge == 0 ? SiteKind::segment : SiteKind::arc, vertex.bulge};
+}
+
+}  // namespace medial

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "medial/editor.h"
+#include "methods/edit/repair.h"
+#include "methods/edit/rings.h"
+#include "methods/edit/window.h"
+
+namespace medial::edit {
+
+/// What an edit has changed, and what was there in the order of `change`.
+struct Step {
+  AxisChange change;
+  std::vector<Disk> nodes;
+  std::vector<AxisGraph::Edge> edges;
+};
+
+/// The vertex that an edit is about: of a loop, its first one.
+std::uint32_t subject_of(const Edit& edit);
+
+/// An error at a vertex.
+Error error_of(ErrorCode code, const char* text, std::uint32_t vertex);
+
+/// What compute() makes of a shape's image in the local frame, where edges join as in the shape.
+Result<MedialAxis> local_axis(const Shape& shape, const Options& options, double joint_tolerance);
+
+}  // namespace medial::edit
+
+namespace medial {
+
+using edit::AxisGraph;
+using edit::none;
+using edit::Rings;
+using edit::Step;
+
+/// What an editor holds. Sources: parts.cpp (all of the axis), follow.cpp (edits that it follows).
+struct Editor::Parts {
+  Options options;
+  Box box;  ///< of the shape, and of places where it was
+  Rings rings;
+  AxisGraph graph;
+  edit::Measures measures;
+  double tolerance = 0;  ///< in units of the input
+  std::vector<edit::Edit> inverse;
+  std::vector<std::uint32_t> marks;  ///< see Spread
+  std::uint32_t mark = 0;
+  /// The shape's sites where its edges are not those of the rings, since some touch or vertices lie
+  /// in a straight line; empty: they are.
+  std::vector<Site> apart;
+  Shape apart_shape;
+  std::vector<std::uint32_t> apart_components;  ///< of nodes
+
+  Status start(const Shape& shape, bool is_first);
+  Result<AxisChange> change(const edit::Edit& edit);
+  Result<AxisChange> undo();
+
+  std::optional<Error> refuse(const edit::Edit& edit) const;
+  /// The part of the axis that an edit takes away is found from these sites on.
+  struct Seeds {
+    std::vector<Rings::Extent> before;  ///< sites that the edit can change
+    std::vector<std::uint32_t> sites;
+    int parts = 0;  ///< that the axis gets: components less holes
+    bool is_whole_part = false;
+  };
+  Seeds seeds_of(const edit::Edit& edit) const;
+  void add_seeds_around(Vec2 place, Seeds& seeds) const;
+
+  std::optional<Step> follow(const edit::Edit& edit);
+  std::optional<Step> follow_in_two(const edit::Edit& edit, std::optional<Error>& refused);
+  Result<AxisChange> rebuild(const edit::Edit& edit);
+  bool fits_frame(const edit::Edit& edit) const;
+  std::optional<Step> repair(const edit::Edit& edit, const Seeds& seeds);
+  std::optional<Step> repair_part(const edit::Edit& edit, const Seeds& seeds);
+  std::optional<edit::Repair> axis_of_loop(std::uint32_t loop) const;
+  std::optional<Step> replace(const edit::Affected& affected, const edit::Repair& repair,
+                              int parts);
+  void put_back(const Step& step);
+  void list_all(std::vector<std::uint32_t>& nodes, std::vector<std::uint32_t>& edges) const;
+  /// The loop that a vertex lies on, from there on.
+  std::vector<edit::Corner> corners_of(std::uint32_t vertex) const;
+  Node node(std::uint32_t number) const;
+  Edge edge(std::uint32_t number) const;
+  Site site(std::uint32_t number) const;
+};
+
+}  // namespace medial
