@@ -49,7 +49,7 @@ export class Editor extends Handle {
     return new Editor(new Copied(call("editor_copy", this.address)));
   }
 
-  /** The place of a vertex; null where there is no such vertex. */
+  /** The place of a vertex; null if it does not exist. */
   vertex(number) {
     call("editor_vertex", this.address, whole(number));
     const [x, y] = table();

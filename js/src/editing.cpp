@@ -73,7 +73,7 @@ MEDIAL_JS int medial_editor_undo(Editor* editor) {
   return answer_change([&] { return editor->undo(); });
 }
 
-/// x and y; nothing where there is no such vertex.
+/// x and y; nothing if the vertex does not exist.
 MEDIAL_JS int medial_editor_vertex(const Editor* editor, std::uint32_t vertex) {
   return answered([&] {
     answer().tables.emplace_back();

@@ -252,7 +252,7 @@ class Bands {
     return true;
   }
 
-  /// Whether what was read was a mask of zeros and ones, which is to be read again.
+  /// Whether the image was a mask of zeros and ones, which must be read again.
   bool has_become_mask() {
     if (options_.threshold || options_.labels || threshold_ <= 1 || !seen_.is_mask()) return false;
     threshold_ = 1;

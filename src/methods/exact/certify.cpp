@@ -361,7 +361,7 @@ class Certifier {
     return before == after;
   }
 
-  /// Whether a link inside of a cluster runs backward for certain. Beside joints that only count as
+  /// Whether a link inside a cluster runs backward for certain. Beside joints that only count as
   /// smooth it may, by as much as they are off.
   bool runs_backward(const std::vector<std::uint32_t>& nodes) const {
     return outline_.parted && ranges::any_of(nodes, [&](std::uint32_t node) {
