@@ -40,7 +40,7 @@ export class Editor extends Handle {
   remove(vertex) {
     return this.#change("remove", whole(vertex));
   }
-  /** Takes the last edit back, and those before, one by one; nothing where there is none. */
+  /** Undoes the last edit that is not undone yet; without one, changes nothing. */
   undo() {
     return this.#change("undo");
   }

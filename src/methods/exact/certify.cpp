@@ -498,7 +498,7 @@ Status certify(const Problem& problem, bool part_joints, MedialAxis& axis) {
       error = {
           ErrorCode::unsupported,
           "the axis could not be made certain here, as it happens where arcs are of one circle "
-          "but for rounding; it can be computed without `exact`",
+          "up to rounding; it can be computed without `exact`",
           {}};
     error.place.point = place;
     return error;

@@ -308,7 +308,7 @@ class MergeCurve {
                                                                        : crossing[first];
   }
 
-  /// Whether a disk that touches an edge's elements lies outward of its inner end, but for
+  /// Whether a disk that touches an edge's elements lies outward of its inner end, up to
   /// rounding.
   bool is_outward(const ListEdge& edge, const Disk& disk) const {
     if constexpr (with_arcs)
