@@ -220,7 +220,7 @@ std::vector<Contour> spline_star(int tips) {
   return contours;
 }
 
-/// On lines of symmetry, feet on both sides come to joints at one place but for rounding.
+/// On lines of symmetry, feet on both sides come to joints at one place up to rounding.
 TEST(SymmetricSplines, AreDecidedWithoutALostStep) {
   for (const int tips : {6, 9, 12})
     for (const double slip : {0.0, 1e-15, 1e-13, 1e-11}) {
