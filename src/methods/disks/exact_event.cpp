@@ -298,7 +298,7 @@ class ExactEvents::Search {
            disk.radius;
   }
 
-  /// Whether a site continues one that the disk touches, at a joint that is smooth but for
+  /// Whether a site continues one that the disk touches, at a joint that is smooth up to
   /// rounding: beside the one normal there, a disk reaches over the other edge by less than the
   /// tolerance.
   bool continues_touched(std::uint32_t site) const {
