@@ -388,7 +388,7 @@ TEST(Carve, TabsStandAndNothingElseDoes) {
 }
 
 TEST(Carve, TabsEndAtTheWalls) {
-  // A window behind a thin wall: nothing of a tab outside of the part is left in it.
+  // A window behind a thin wall: nothing of a tab outside the part is left in it.
   const Shape part = shape_of({{.points = {{0, 0}, {20, 0}, {20, 12}, {0, 12}}},
                                {.points = {{0.6, 3}, {6, 3}, {6, 9}, {0.6, 9}}}});
   const Shape around = surroundings(part, 4).value();

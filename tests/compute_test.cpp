@@ -98,7 +98,7 @@ TEST(Compute, RefusesHandMadeShapes) {
   expect_malformed(broken);
 }
 
-/// Slots of 2e-10 of the size beside each other: of their walls, which lie in one line but for
+/// Slots of 2e-10 of the size beside each other: of their walls, which lie in one line up to
 /// rounding, a large disk cannot tell which it touches.
 TEST(Compute, NarrowSlotsBesideEachOtherAreVerified) {
   const Shape shape = *build_shape(std::vector<Ring>{

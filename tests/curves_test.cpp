@@ -630,7 +630,7 @@ TEST(Arcs, NearlyEverythingIsConverted) {
       {{0, 0}, {1, 1}, {-1e-9, 1}, {1, 0}},              // nearly a cusp
       {{0, 0}, {1, 1}, {1e-5, 1}, {1, 0}},               // a tiny loop or a sharp bend
       {{0, 0}, {1, 1e-14}, {2, 1e-13}, {3, 0}},          // nearly straight
-      {{0, 0}, {1, 1e-17}, {2, 0}},                      // straight but for rounding
+      {{0, 0}, {1, 1e-17}, {2, 0}},                      // straight up to rounding
       {{1e8, 1e8}, {1e8 + 1, 1e8}, {1e8 + 1, 1e8 + 1}},  // far away
       {{0, 0}, {huge, 0}, {huge, huge}},
       {{-1e308, 0}, {1e308, 0}, {1e308, 1e308}},

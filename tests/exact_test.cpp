@@ -267,7 +267,7 @@ TEST(ExactAxis, OfLeeIsThatOfDisks) {
 }
 
 /// A wall nearly on one line, with a notch in it: a disk beside the notch touches both of its ends
-/// and the wall on both sides but for rounding, of which each joint lies behind the other's line.
+/// and the wall on both sides up to rounding, of which each joint lies behind the other's line.
 /// And where the wall leaves open how far along it a disk touches, no foot moves backward.
 TEST(ExactAxis, OfNotchesInAWall) {
   Random random(1);
@@ -351,7 +351,7 @@ TEST(ExactAxis, OfRandomPolygons) { check_random(shape_count(33), random_shape);
 TEST(ExactAxis, OfRandomPolygonsOnGrids) { check_random(shape_count(10), random_integer_shape); }
 TEST(ExactAxis, OfRandomArcs) { check_random(shape_count(25), random_arc_shape); }
 
-/// Gears whose arcs have one circle but for rounding: a disk near the centre may touch such a
+/// Gears whose arcs have one circle up to rounding: a disk near the centre may touch such a
 /// circle where its arc is not.
 TEST(ExactAxis, OfGearsAroundTheirHub) {
   for (const std::uint64_t seed : {184U, 1522U, 4185U, 5987U}) {

@@ -333,7 +333,7 @@ TEST(LeeTies, OfMazesAreBrokenAlike) {
     EXPECT_EQ(check_axis_of(built(maze(10000, seed)), true), "") << seed;
 }
 
-/// Next to the ends of the axis hundreds of sides touch one disk but for rounding, of which three
+/// Next to the ends of the axis hundreds of sides touch one disk up to rounding, of which three
 /// determine it to some 1e-8 only: taken for a tie, it may reach over sides further on.
 TEST(LeeTies, OfNearlyRoundEllipsesReachOverNothing) {
   const Shape shape = built(ellipse(300000, 1.998));

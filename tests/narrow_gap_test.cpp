@@ -1,6 +1,6 @@
 // Narrow slots, slits, wedges and rings: random shapes whose loops, or parts of one loop, come as
 // near to each other as 1e-14 to 1e-6 of the size. Walls that gaps have cut out of one line stay in
-// one line but for rounding. MEDIAL_PROPERTY_COUNT: half as many shapes (10,000 without it).
+// one line up to rounding. MEDIAL_PROPERTY_COUNT: half as many shapes (10,000 without it).
 
 #include <gtest/gtest.h>
 

@@ -171,7 +171,7 @@ constexpr std::array<ArcBesideASplinter, 3> arcs_beside_splinters{
      {"AConcaveArc",
       {{{33, 0}, {32.999991655349731, 1.5139579772949219e-05}, {0, 0}}},
       {-0.37007874015748032, 0, 0}},
-     // Two sides lie on one line but for rounding, and a loop between them encloses nothing.
+     // Two sides lie on one line up to rounding, and a loop between them encloses nothing.
      {"AnArcBesideAnEdgeThatReturns",
       {{{49, 67}, {48.999999999999446, 66.999999999999403}, {0, 0}}},
       {0, 0.92913385826771655, 0}}}};
@@ -220,7 +220,7 @@ std::vector<Contour> spline_star(int tips) {
   return contours;
 }
 
-/// On lines of symmetry, feet on both sides come to joints at one place but for rounding.
+/// On lines of symmetry, feet on both sides come to joints at one place up to rounding.
 TEST(SymmetricSplines, AreDecidedWithoutALostStep) {
   for (const int tips : {6, 9, 12})
     for (const double slip : {0.0, 1e-15, 1e-13, 1e-11}) {

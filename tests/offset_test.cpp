@@ -221,7 +221,7 @@ TEST(Offset, RefusesWhatItCannotDo) {
   EXPECT_EQ(offset_curves(square, {&one, 1}, sampled).error().code, ErrorCode::unsupported);
 }
 
-/// Clearances inside and outside of a shape: small ones, and some at which things happen.
+/// Clearances inside and outside a shape: small ones, and some at which things happen.
 std::vector<double> interesting(const MedialAxis& axis, double size, test::Random& random) {
   const double deepest = deepest_disk(axis).radius;
   std::vector<double> out{deepest * random.unit(), deepest * random.unit(), deepest * 0.999,
@@ -257,7 +257,7 @@ TEST(Offset, EveryPointHasItsDistance) {
 }
 
 TEST(Offset, MovesWithTheShape) {
-  // Rotation, scale, another start, the other direction: the same but for rounding.
+  // Rotation, scale, another start, the other direction: the same up to rounding.
   std::size_t compared = 0;
   for (std::uint64_t seed = 0; seed < offset_count / 5; ++seed) {
     const RandomShape random = test::random_any(seed);

@@ -21,7 +21,7 @@ const std::uint64_t pack_count = test::shape_count(100);
 using test::Random;
 using test::RandomShape;
 
-/// How far a point lies outside of the hulls of an axis of straight edges; 0 or less inside.
+/// How far a point lies outside the hulls of an axis of straight edges; 0 or less inside.
 double outside(const MedialAxis& axis, Vec2 p) {
   double least = std::numeric_limits<double>::infinity();
   for (const Node& node : axis.nodes)

@@ -469,7 +469,7 @@ TEST(PlanarGraph, EdgesThatAreNearlyTangentHaveRightDiagrams) {
   }
 }
 
-/// On one line but for rounding, where holes begin to be walked around: across `disks::outreach`.
+/// On one line up to rounding, where holes begin to be walked around: across `disks::outreach`.
 TEST(PlanarGraph, EdgesEndToEndOnOneLineHaveRightDiagrams) {
   for (std::uint64_t seed = 0; seed < shape_count(600); ++seed) {
     medial::Random random(seed);

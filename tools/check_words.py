@@ -31,6 +31,18 @@ INSTEAD = {
     "begun again": "restarted",
     "what of (?:the|a|an|it|its)": "the part of",
     "where two copies at once reach": "two independent processes reach",
+    "but for rounding": "up to rounding",
+    "put off": "deferred",
+    "looked for": "searched for, tested",
+    "so many (?:at most|of them|points on|disks|pixels)": "at most N; this many",
+    "for each so long": "per N of length",
+    "how far (?:chords|arcs) may be": "the largest distance of",
+    "(?:that )?know nothing of each other": "independent",
+    "takes the last edit back": "undoes",
+    "there is never a partial": "never leaves a partial",
+    "no machine holds": "too large for any machine",
+    "turned round": "flipped, reversed",
+    "one to a line": "one per line",
 }
 
 DOCUMENTS = {".md", ".1", ".txt"}

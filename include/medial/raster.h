@@ -14,7 +14,7 @@ bool fits_image(std::uint64_t width, std::uint64_t height);
 
 /// A binary image: one bit per pixel, set in the foreground. Rows go from the top down; pixel (x,
 /// y) is the square [x, x + 1] x [y, y + 1]. Connectedness is by eight neighbours in the foreground
-/// and by four in the background, to which all outside of the image belongs.
+/// and by four in the background, to which all outside the image belongs.
 class Image {
  public:
   Image() = default;

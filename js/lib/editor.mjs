@@ -63,7 +63,7 @@ export class Editor extends Handle {
   moveLoop(vertex, by) {
     return this.#change("move_loop", whole(vertex), ...place(by));
   }
-  /** Takes the last edit back, and those before, one by one; nothing where there is none. */
+  /** Undoes the last edit, and those before, one by one; nothing where there is none. */
   undo() {
     return this.#change("undo");
   }
@@ -72,7 +72,7 @@ export class Editor extends Handle {
     return new Editor(new Copied(call("editor_copy", this.address)));
   }
 
-  /** The place of a vertex; null where there is no such vertex. */
+  /** The place of a vertex; null if it does not exist. */
   vertex(number) {
     call("editor_vertex", this.address, whole(number));
     const [x, y] = table();

@@ -16,7 +16,7 @@ namespace medial::papers {
 std::vector<Contour> tree(int depth);
 
 /// The closed uniform cubic B-spline that has Koch's curve of this order as its control polygon:
-/// 3 * 4^order cubics, nowhere a corner; six-fold symmetry but for rounding.
+/// 3 * 4^order cubics, nowhere a corner; six-fold symmetry up to rounding.
 std::vector<Contour> snowflake(int order);
 
 /// The word CAD, `lines` lines of `lines` words: strokes of lines and cubics that meet in corners,

@@ -179,7 +179,7 @@ class Halves {
     return outer;
   }
 
-  /// Whether a point's foot on an element's line lies on the element, but for rounding.
+  /// Whether a point's foot on an element's line lies on the element, up to rounding.
   bool is_beside(std::uint32_t i, Vec2 p) const {
     constexpr double slack = 1e-9;
     const site::Site& site = elements_.sites[i];

@@ -120,7 +120,7 @@ auto without_lock(const Work& work) {
   return work();
 }
 
-constexpr std::size_t long_work = 20'000;  ///< from so many points on, interrupts are looked for
+constexpr std::size_t long_work = 20'000;  ///< for more points, checks for interrupts
 constexpr int most_threads = 1024;         ///< what compute() takes, for work of many shapes too
 constexpr int fine_work = 1000;            ///< below so many, one thread is as fast as several
 

@@ -52,7 +52,7 @@ std::vector<Branch> branches(const MedialAxis& axis) {
     const Step lowest{static_cast<std::uint32_t>(i), true};
     used[i] = true;
     Branch branch;
-    // Backward from the lowest edge, then turned round; then forward from it.
+    // Backward from the lowest edge, then reversed; then forward from it.
     const auto extend = [&](Step step) {
       while (incidence.degree(head_of(axis, step)) == 2) {
         step = next_step(axis, incidence, step);

@@ -7,7 +7,7 @@
 
 namespace medial {
 
-/// Whether places lie inside of a shape. Keeps its edges, not the shape.
+/// Whether places lie inside a shape. Keeps its edges, not the shape.
 class Inside {
  public:
   /// O(n log n).

@@ -10,7 +10,7 @@ namespace medial {
 /// A real number known as `value`, off by at most `error` (infinite where nothing is known):
 /// running error analysis. The operations below keep that true whatever they round. In double, what
 /// an operation rounds away is computed itself (Dekker, Knuth; fused multiply-add), so numbers that
-/// double represents, those of an integer grid for one, keep the error 0, and a sum of them that is
+/// double represents, such as those of an integer grid, keep the error 0, and a sum of them that is
 /// zero is known to be zero. Requires round to nearest, and numbers below 1e300 in size.
 template <class Real>
 struct Bounded {

@@ -21,7 +21,7 @@ void advise(const void* begin, std::size_t bytes, int advice) {
   const std::uintptr_t last = (address + bytes) / page * page;
   if (first >= last) return;
   void* const whole_pages = const_cast<char*>(static_cast<const char*>(begin)) + (first - address);
-  // Where the system takes no such advice, nothing is lost.
+  // If the system ignores the advice, nothing is lost.
   static_cast<void>(::madvise(whole_pages, last - first, advice));
 }
 

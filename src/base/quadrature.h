@@ -15,7 +15,7 @@ struct GaussNode {
 inline constexpr std::array<GaussNode, 3> gauss3{
     {{-0.7745966692414834, 5.0 / 9}, {0, 8.0 / 9}, {0.7745966692414834, 5.0 / 9}}};
 
-/// Eight points, of which these are the positive ones: exact up to degree fifteen.
+/// The positive ones of eight points: exact up to degree fifteen.
 inline constexpr std::array<GaussNode, 4> gauss8{{{0.1834346424956498, 0.3626837833783620},
                                                   {0.5255324099163290, 0.3137066458778873},
                                                   {0.7966664774136267, 0.2223810344533745},

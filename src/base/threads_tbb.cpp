@@ -27,7 +27,7 @@ thread_local bool alone = false;
 /// oneTBB waits for them for ever.
 std::atomic<bool> forked{false};
 
-/// Whether work is to be shared with other threads.
+/// Whether to share work with other threads.
 bool shared() {
   if (alone || forked) return false;
   [[maybe_unused]] static const int registered =

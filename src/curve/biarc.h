@@ -45,7 +45,7 @@ JointCircle joint_circle(const Station& a, const Station& b);
 ///
 /// Not by centres, which are far away where curvatures are small, but by curvatures. With H the end
 /// of larger curvature k and tangent v, d the way from there to the other end and v1 the tangent
-/// there (both turned round where H is the second end), the joint circle leaves H in the direction
+/// there (both reversed where H is the second end), the joint circle leaves H in the direction
 /// m of v + 2 (v1.d) d / |d|^2 - v1 with curvature q = 2 (m x d) / |d|^2. Points c on both circles
 /// satisfy k |c|^2 = 2 (v x c) and q |c|^2 = 2 (m x c), so that c is a multiple of q v - k m.
 Vec2 spiral_joint(const Station& a, const Station& b);

@@ -100,7 +100,7 @@ void Contour::ellipse_to(Vec2 center, Vec2 u, Vec2 v, double begin, double end) 
     if (!weights.empty()) weights.push_back(weights.back());
     return;
   }
-  // A sweep that is some quarters but for rounding takes no piece more for it.
+  // A sweep that is some quarters up to rounding takes no piece more for it.
   constexpr double rounding = 1e-12;
   const bool whole = std::abs(sweep) >= 4 * quarter * (1 - rounding);
   const int count =

@@ -262,7 +262,7 @@ int Converter::knots_of(const Bezier& part, const Station& a, const Station& b, 
   return count;
 }
 
-/// Where curvature is constant but for rounding: one arc, between the directions at both ends.
+/// Where curvature is constant up to rounding: one arc, between the directions at both ends.
 bool Converter::try_single_arc(const Bezier& part, const Station& a, const Station& b) {
   const Vec2 chord = b.point - a.point;
   const double leaving = bulge_leaving(a.tangent, chord);
@@ -401,7 +401,7 @@ Splits find_splits(const Bezier& curve) {
   add_roots(polynomials.inflection, Split::Kind::inflection);
   add_roots(polynomials.apex, Split::Kind::apex);
 
-  // Cusps: where the speed is stationary and zero. Seldom, so looked for only where a split is slow
+  // Cusps: where the speed is stationary and zero. Rare, so tested only where a split is slow
   // or an end is singular.
   const double size = extent(curve);
   double cusps[max_degree + 2];

@@ -86,7 +86,7 @@ Status add_branches(TableSink& sink, const Row& row, const WriteOptions& options
   return success();
 }
 
-/// Of each node, whether it lies inside of a branch: there the axis only passes to another site.
+/// Of each node, whether it lies inside a branch: there the axis only passes to another site.
 std::vector<bool> inner_nodes(const MedialAxis& axis, const std::vector<Branch>& branches) {
   std::vector<bool> inner(axis.nodes.size(), false);
   for (const Branch& branch : branches)

@@ -64,7 +64,7 @@ class Unfolded {
   };
   std::vector<Layer> layers;
 
-  /// Adds a block's curves; layer "0" inside of a block is the layer of its insertion.
+  /// Adds a block's curves; layer "0" inside a block is the layer of its insertion.
   Status add(const std::string& block, const Affine& map, const std::string& layer, int depth) {
     const auto found = drawing_.blocks.find(block);
     if (found == drawing_.blocks.end()) return success();

@@ -95,7 +95,7 @@ class Drawing {
 /// attribute, holes by the even-odd rule. Loose curves are joined (io/join.h); what stays open is
 /// left out with a note. Hidden and frozen layers are left out, unless options.layer names one.
 /// Errors: too_large (blocks that unfold to more than they may), unsupported (blocks nested too
-/// deeply), empty, invalid_option (no such layer).
+/// deeply), empty, invalid_option (an unknown layer).
 Result<Document<Feature>> features_of(const Drawing& drawing, const ReadOptions& options);
 
 }  // namespace medial::io

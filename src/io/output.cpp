@@ -42,7 +42,7 @@ std::array<std::atomic<const char*>, slots> g_partial{};
 constexpr std::array<std::string_view, 5> siblings{".shx", ".dbf", ".prj", ".cpg", ".shp"};
 constexpr std::array<std::string_view, 3> tails{"-journal", "-wal", "-shm"};
 
-/// The names for one hidden directory: each ended by a NUL, an empty one at the end.
+/// The names for one hidden directory: each ends with a NUL, and the last is empty.
 std::string partial_names(const std::string& path, const std::string& directory) {
   std::string names = path + '\0';
   for (const std::string_view tail : tails) (names += path).append(tail) += '\0';

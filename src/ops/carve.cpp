@@ -98,7 +98,7 @@ std::vector<ToolPoint> path_from(const Ring& ring, const RingPlace& place, doubl
   return path;
 }
 
-/// Where another tool was: within `reach` of the rings of a region, or inside of it.
+/// Where another tool was: within `reach` of the rings of a region, or inside it.
 class ClearedBefore {
  public:
   ClearedBefore() = default;

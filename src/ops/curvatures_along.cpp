@@ -59,7 +59,7 @@ void add_samples(const std::vector<AxisJet>& jets, Side side, std::vector<FootCu
   }
 }
 
-/// Inside of an exact edge.
+/// Inside an exact edge.
 void add_exact(const MedialAxis& axis, const Step& step, std::vector<FootCurvature>& out) {
   constexpr int samples = 8;
   const Edge& edge = axis.edges[step.edge];

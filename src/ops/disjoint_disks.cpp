@@ -42,7 +42,7 @@ class Region {
   void take(const Disk& disk) { taken_.push_back(disk); }
   bool is_simple() const { return edges_.size() <= 4 * few_carriers; }
 
-  /// The radius of the largest disk around c in the region; negative outside of it. As a function
+  /// The radius of the largest disk around c in the region; negative outside it. As a function
   /// of c it has the Lipschitz constant 1. O(log n) expected, and one step for each disk taken.
   double clearance(Vec2 c) const {
     const auto hit = tree_.nearest_lowest(c, anywhere);

@@ -72,7 +72,7 @@ class DiskLiner {
   }
 
   /// By how much a fire that comes from the samples' front, started at `time`, is ahead of the
-  /// radius: by so much does what it left behind reach beyond the disk, wherever it is.
+  /// radius: this is how far what it left behind reaches beyond the disk, wherever it is.
   static double ahead(const Sample& s, double time) { return time + s.along - s.disk.radius; }
 
   static Sample between(const Sample& a, const Sample& b, double t) {

@@ -174,7 +174,7 @@ double HalfEdges::gap(HalfEdge half) const {
       return distance(begin, end) <= slack || angle > std::numbers::pi ? 0 : angle;
     return angle > std::numbers::pi ? angle : full_turn;
   }
-  // A disk that touches all around but for one point is a step backwards by rounding.
+  // A disk that touches all around except in one point is a step backwards by rounding.
   if (distance(begin, end) <= slack || full_turn - angle < hardly) return 0;
   if (angle <= std::numbers::pi || exact(half) || around_an_end) return angle;
   // Samples: a step backwards, or more than a half circle? The tangents and rates decide: a foot

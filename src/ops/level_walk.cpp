@@ -75,7 +75,7 @@ class LevelWalk::RingBuilder {
     last_ = towards;
   }
   void end(Vec2 point) {
-    if (site_ == no_site) return;  // nothing has begun
+    if (site_ == no_site) return;  // no walk has started
     const Site& site = axis_.sites[site_];
     switch (site.kind) {
       case SiteKind::segment:
@@ -315,7 +315,7 @@ OffsetRing LevelWalk::loop_from(HalfEdge first, double level) {
   }
 }
 
-/// The loop on the right of which a face lies that is nowhere below the level.
+/// The loop with a face on its right that is nowhere below the level.
 OffsetRing LevelWalk::loop_around(HalfEdge last, double level) const {
   const HalfEdge first = halves_.next(last);
   OffsetRing loop{{}, halves_.to(first), halves_.right_site(first)};

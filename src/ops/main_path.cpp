@@ -249,7 +249,7 @@ class MainPaths {
   std::vector<double> lengths_;
   std::vector<Hanging> hanging_;
   std::vector<std::uint32_t> degree_;  ///< in the core; 0: hanging, or the last node of a tree
-  std::vector<bool> taken_;            ///< edges outside of the core
+  std::vector<bool> taken_;            ///< edges outside the core
   std::vector<std::uint32_t> part_, core_;
   std::size_t part_edges_ = 0;
 };

@@ -27,7 +27,7 @@ struct Link {
 
 bool is_inner(EdgePlace place) { return place.t > 0 && place.t < 1; }
 
-/// Whether the radius does not change along an edge but for rounding.
+/// Whether the radius does not change along an edge up to rounding.
 bool is_flat(const MedialAxis& axis, std::uint32_t edge) {
   return ops::narrowest_place(axis, edge).t == 0.5 && ops::widest_place(axis, edge).t == 0.5;
 }
@@ -57,7 +57,7 @@ EdgePlace middle_of_flat(const MedialAxis& axis, const Incidence& incidence, Edg
     chain.push_back({place.edge, true});
     follow(own.node[1], place.edge);
   } else {
-    // An end of the edge that is as narrow but for rounding.
+    // An end of the edge that is as narrow up to rounding.
     const double radius = disk_at(axis, own, place.t).radius;
     for (const std::uint32_t node : own.node)
       if (chain.empty() && axis.nodes[node].disk.radius - radius <= 4 * axis.tolerance)

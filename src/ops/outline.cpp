@@ -133,7 +133,7 @@ class BoundaryWalk {
     return std::nullopt;
   }
 
-  /// The walk may have begun in the middle of a site.
+  /// The walk may have started in the middle of a site.
   void join_ends() {
     if (pieces_.size() < 2 || pieces_.front().site == no_site) return;
     if (pieces_.front().site != pieces_.back().site) return;
@@ -174,7 +174,7 @@ class BoundaryWalk {
     for (const OutlinePiece& piece : pieces_) {
       if (contour.points.empty()) contour.start_at(piece.begin);
       if (!(contour.points.back() == piece.begin)) contour.line_to(piece.begin);
-      constexpr double half_turn = 3;  // about: no such arc ends where it begins, but a circle
+      constexpr double half_turn = 3;  // about: of these, only a circle ends where it begins
       if (piece.begin == piece.end && piece.angle < half_turn) continue;
       if (piece.angle > 0) {
         ops::add_arc(piece.disk, piece.begin, piece.end, piece.angle, contour);

@@ -254,7 +254,7 @@ class AxisDecoder {
 /// A disk's numbers are rounded by half a quantum each: its centre by 1 / sqrt 2 of it.
 constexpr double rounding = std::numbers::sqrt2 / 2 + 0.5;
 
-/// Of the error: rebuild() makes chords of the hulls' arcs within so much.
+/// The share of the error for the chords that rebuild() makes of hulls' arcs.
 constexpr double chord_share = 1.0 / 16;
 
 /// Of the axes' extent. The number of disks along a curve grows as the root of one over the error.

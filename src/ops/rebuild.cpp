@@ -35,7 +35,7 @@ class Thinner {
     out_.tolerance = axis.tolerance;
     out_.resolution = resolution;
   }
-  /// A place inside of an edge.
+  /// A place inside an edge.
   std::uint32_t add(const Disk& disk) {
     out_.nodes.push_back({disk, 0, NodeKind::site_change});
     return static_cast<std::uint32_t>(out_.nodes.size() - 1);

@@ -149,7 +149,7 @@ class Crossing {
   const std::vector<std::pair<double, double>>& inside() const { return inside_; }
 
  private:
-  /// How far the place at a share is beyond the reach of all tabs, but for rounding.
+  /// How far the place at a share is beyond the reach of all tabs, up to rounding.
   double excess(double share) const {
     double least = infinity;
     for (const TabLine* line : near_)

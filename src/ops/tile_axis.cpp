@@ -39,7 +39,7 @@ Box box_of_disks(const Disk& from, const Disk& control, const Disk& to, double w
   return {{-farthest(-1, 0), -farthest(0, -1)}, {farthest(1, 0), farthest(0, 1)}};
 }
 
-/// Whether a box lies inside of another, and farther from its border than that.
+/// Whether a box lies inside another, and farther from its border than that.
 bool is_inside(const Box& box, const Box& window, double slack) {
   return box.low.x > window.low.x + slack && box.low.y > window.low.y + slack &&
          box.high.x < window.high.x - slack && box.high.y < window.high.y - slack;
@@ -92,7 +92,7 @@ class TileAxis {
     name_nodes();
   }
 
-  /// Sites that disks of edges outside of the window touch, at their ends too.
+  /// Sites that disks of edges outside the window touch, at their ends too.
   std::vector<TileEdge> open(const Box& window, double slack) const {
     std::vector<bool> open_node(axis_.nodes.size(), false), touched(edges_.size(), false);
     std::vector<bool> touched_point(tile_.graph.points.size(), false);

@@ -445,7 +445,7 @@ class ArcSweeper {
   }
 
   /// Notes that the edges of two pieces that lie on each other pass through each other's ends,
-  /// where these are not the same. What touch() looks at is as near but for rounding.
+  /// where these are not the same. What touch() looks at is as near up to rounding.
   bool note_overlap(const ActivePiece& lower, const ActivePiece& upper) {
     const auto first_of = [&](std::uint32_t v) {
       while (noded_.passing[v]) --v;

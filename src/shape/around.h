@@ -16,7 +16,7 @@ inline double bulge_of(const PlanarGraph& graph, std::uint32_t half_edge) {
 }
 
 /// What lies around a planar graph, within an enclosure, as the boundary that an engine walks
-/// along: one component for each face, of which the unbounded one (the first) has the enclosure as
+/// along: one component for each face; the first, unbounded one has the enclosure as
 /// its outer loop.
 ///
 /// This is no shape that build_shape() would make: edges can stand there twice, once for each side,

@@ -271,7 +271,7 @@ class Cleaner {
   std::vector<bool>
       straightened_;     ///< of each edge: whether it was an arc, as straight as rounding
   double rounding_ = 0;  ///< the spacing of doubles at the largest coordinate, about
-  /// How far arcs may be off one circle and still become one: what the tolerance cannot tell apart.
+  /// Arcs this near to one circle become one: the tolerance cannot separate them.
   double play_ = 0;
 };
 

@@ -24,7 +24,7 @@ Result<Exterior> exterior_of(const Shape& shape, double margin);
 /// The margin that options ask for: `margin`, or where that is 0 half of the box's longer side.
 double margin_for(const Box& box, double margin);
 
-/// The same. Errors: invalid_option, outside of [1e-6, 1e6] of the box's diagonal.
+/// The same. Errors: invalid_option, outside [1e-6, 1e6] of the box's diagonal.
 Result<double> checked_margin_for(const Box& box, double margin);
 
 }  // namespace medial

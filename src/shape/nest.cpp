@@ -218,7 +218,7 @@ void turn_around(Shape& shape, std::size_t first) {
   std::for_each(from(shape.bulges), shape.bulges.end(), [](double& bulge) { bulge = 0 - bulge; });
 }
 
-/// Puts the last loop right where edges were taken for one within the tolerance. False where that
+/// Corrects the last loop if edges were merged within the tolerance. False where that
 /// leaves nothing of it.
 bool mend_last_loop(Shape& shape, bool hole) {
   const std::size_t first = shape.loop_begin.back(), size = shape.points.size() - first;

@@ -445,7 +445,7 @@ Result<PlanarGraph> build(std::span<const Chain> chains, const PlanarGraphOption
   const std::uint64_t points = input->points.size();
   Result<PlanarGraph> planar_graph = build_once(*input, options, report, nullptr);
   if (!planar_graph && planar_graph.error().code == ErrorCode::overlap) {
-    // Rare, so looked for only now: edges that are there twice.
+    // Rare, so tested only now: duplicate edges.
     const std::size_t before = input->edges.size();
     drop_repeated(*input, report);
     if (input->edges.size() < before) planar_graph = build_once(*input, options, report, nullptr);

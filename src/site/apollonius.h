@@ -302,7 +302,7 @@ Solutions<Real> about_center(const Carrier<Real>& arc,
   for (std::size_t i = 0; i < roots.count; ++i) {
     const Real& l = roots.root[i];
     const Real s = line->radius + l * line->slope, r = own.radius - s;
-    // Inside of the circle of a convex arc, outside of the other.
+    // Inside the circle of a convex arc, outside the other.
     if (r >= Real(0) && s * own.radius >= Real(0))
       result.disk[result.count++] = {own.center + line->origin + l * line->along, r};
   }

@@ -59,7 +59,7 @@ struct Bisector {
     if (size > 0) direction = (1 / size) * direction;
   }
 
-  /// Of two sites in one line but for rounding, which alone would tell where their feet move: takes
+  /// Of two sites in one line up to rounding, which alone would tell where their feet move: takes
   /// the disks over one place, with this unit normal, instead.
   void straighten(Vec2 normal) {
     is_straight = true;

@@ -16,7 +16,7 @@ enum class Joint : std::uint8_t {
   reflex,  ///< at a reflex angle: the vertex is a site
 };
 
-/// The joint where `before` ends and `after` begins, of which at least one is an arc.
+/// The joint where `before` ends and `after` begins; at least one is an arc.
 ///
 /// Directions count as one below the angle that rounding of the coordinates leaves open: 1e-12, and
 /// four times `tolerance` (that of the coordinates, in their units) against the chords; but no more

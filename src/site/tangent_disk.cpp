@@ -108,7 +108,7 @@ std::optional<Disk> tangent_disk_in_high_precision(const Site& a, const Site& b,
 
 double tangent_radius(Vec2 foot, Vec2 normal, const Site& site) {
   constexpr double none = std::numeric_limits<double>::infinity();
-  // Rounding turns unit normals by up to so much: of those that differ by less nothing is known.
+  // Rounding turns unit normals by up to this: nothing is known of those that differ by less.
   constexpr double parallel = 0x1p-51;
   if (site.is_vertex()) {
     const Vec2 d = site.point - foot;

@@ -87,7 +87,7 @@ double outside(const Disk& disk, Vec2 p) { return distance(disk.center, p) - dis
 /// The largest distance from a point of an edge between two lengths along it to the union of two
 /// disks.
 ///
-/// With f and g the distances outside of each: along a line or a circle, each rises and falls
+/// With f and g the distances outside each: along a line or a circle, each rises and falls
 /// between the point next to the disk's centre and the one opposite to it. Between two such points
 /// min(f, g) is largest at an end, or where f = g if one of them rises and the other falls.
 double uncovered(const Disk& a, const Disk& b, const BoundaryEdge& edge, double from, double to) {

@@ -7,7 +7,7 @@
 
 namespace medial::volume {
 
-/// What ends a computation early; thrown inside of the layer only.
+/// What ends a computation early; thrown inside the layer only.
 struct Interrupted {
   Error error;
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-// The surface on the grid, the voxels inside of it, and their bounded sets.
+// The surface on the grid, the voxels inside it, and their bounded sets.
 
 #include <functional>
 #include <vector>

@@ -44,7 +44,7 @@ bool FeetFinder::in_cone(Vec3 p, Vec3 direction, const Box3& box) const {
   return along > cosine_ * reach + sine_ * across + rounding * (reach + across);
 }
 
-/// Calls take(node) for nodes near p first: it returns whether to look inside of it. Then
+/// Calls take(node) for nodes near p first: it returns whether to look inside it. Then
 /// take(face) for the faces of leaves.
 template <class Take>
 void FeetFinder::visit_tree(Vec3 p, Scratch& scratch, Take take) const {

@@ -86,7 +86,7 @@ int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
                       std::abs(cd.x) * (std::abs(ab1) + std::abs(ab2));
   // With u = epsilon / 2: three roundings of the differences, two of products, three of sums on the
   // way of each term, so less than (8 + 64 u) u of the sum of sizes; u more for that sum's own
-  // roundings, of which there are seven. Underflow adds less than the smallest normal number.
+  // seven roundings. Underflow adds less than the smallest normal number.
   constexpr double u = std::numeric_limits<double>::epsilon() / 2;
   constexpr double relative = (16 + 256 * u) * u;
   const double error = relative * size + std::numeric_limits<double>::min();

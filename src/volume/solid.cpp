@@ -312,7 +312,7 @@ Result<Nesting> nest(const Solid& solid, const FaceTree& tree,
   nesting.depth.assign(surfaces, 0);
   nesting.outward.assign(surfaces, true);
   // Signed volumes about each tip; of simple closed surfaces, so that the sign is well off zero
-  // unless the surface is flat, and then there is nothing inside of it.
+  // unless the surface is flat, and then there is nothing inside it.
   std::vector<double> volume(surfaces, 0);
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const Vec3 origin = mesh.vertices[tip[surface_of[f]]];

@@ -1,6 +1,6 @@
 #pragma once
 
-// The topology of sets of voxels: 26 neighbours in the set, 6 outside of it.
+// The topology of sets of voxels: 26 neighbours in the set, 6 outside it.
 
 #include <array>
 #include <vector>

@@ -34,7 +34,7 @@ constexpr Neighbourhood center_bit = 1U << 13U;
 constexpr Neighbourhood all_bits = (1U << 27U) - 1;
 constexpr int bit_of(int dx, int dy, int dz) { return (dx + 1) + 3 * (dy + 1) + 9 * (dz + 1); }
 
-/// The neighbour that a bit of a Neighbourhood stands for. Requires one inside of the grid.
+/// The neighbour that a bit of a Neighbourhood stands for. Requires one inside the grid.
 inline Cell neighbour(Cell cell, int bit) {
   return {cell.x + static_cast<std::uint32_t>(bit % 3) - 1,
           cell.y + static_cast<std::uint32_t>(bit / 3 % 3) - 1,

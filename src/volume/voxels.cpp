@@ -30,7 +30,7 @@ constexpr int fewest_voxels = 4, most_voxels = 4096;
 /// Empty cells on each side of the solid.
 constexpr std::uint32_t margin = 2;
 /// One edge of a voxel and a little: where a sheet lies halfway between two layers of voxels both
-/// qualities are 1, but for rounding (report, Section A.3, step 6).
+/// qualities are 1, up to rounding (report, Section A.3, step 6).
 constexpr double tolerance = 1 + 1e-6;
 
 std::optional<Error> refuse(const Solid& solid, const VoxelOptions& options) {

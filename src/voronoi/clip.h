@@ -24,10 +24,10 @@ struct ConicEdge {
   ConicEdge part(double begin, double end) const;
 };
 
-/// The parts of an edge strictly inside of a box, in order: none, all of it, or several.
+/// The parts of an edge strictly inside a box, in order: none, all of it, or several.
 void clip(const ConicEdge& edge, const Box& box, std::vector<ClippedPart>& parts);
 
-/// Whether a point lies strictly inside of a box.
+/// Whether a point lies strictly inside a box.
 inline bool is_inside(const Box& box, Vec2 p) {
   return p.x > box.low.x && p.x < box.high.x && p.y > box.low.y && p.y < box.high.y;
 }

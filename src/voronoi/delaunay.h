@@ -11,7 +11,7 @@
 
 namespace medial::voronoi {
 
-/// In place of a vertex: outside of the convex hull.
+/// In place of a vertex: outside the convex hull.
 constexpr std::uint32_t outside = 0xFFFFFFFF;
 
 /// A Delaunay triangulation of the whole plane: triangles, and one "ghost" beyond each edge of the

@@ -48,12 +48,12 @@ class EnclosureCut {
         point_count_(static_cast<std::uint32_t>(planar_graph.points.size())),
         diagram_(diagram) {}
 
-  /// Whether a place is clearly inside of the enclosure: nodes that are not are cut off, so that
-  /// nodes that are one but for rounding are cut off together.
+  /// Whether a place is clearly inside the enclosure: nodes that are not are cut off, so that
+  /// nodes that are one up to rounding are cut off together.
   bool holds(Vec2 p) const { return is_inside(inside_, p); }
 
-  /// Appends the edge, or the parts of it inside of the enclosure, to the diagram. `node_at(end)`
-  /// gives the node of an end, and is asked for ends inside of the enclosure only;
+  /// Appends the edge, or the parts of it inside the enclosure, to the diagram. `node_at(end)`
+  /// gives the node of an end, and is asked for ends inside the enclosure only;
   /// `take_control(part)` sets control point and weight of a part from its ends. Returns whether it
   /// is all of the edge.
   template <class NodeAt, class TakeControl>

@@ -263,7 +263,7 @@ class Assembly {
     return closed;
   }
 
-  /// Keeps the nodes inside of the enclosure; the planar graph's points among them once they are
+  /// Keeps the nodes inside the enclosure; the planar graph's points among them once they are
   /// asked for.
   void make_nodes() {
     node_of_point_ = large_vector(planar_graph_.points.size(), none);
@@ -489,7 +489,7 @@ void set_kinds(VoronoiDiagram& diagram) {
 }
 
 Box far_enclosure(const Box& enclosure) {
-  // Everything inside of the enclosure is nearer than its diagonal to the planar graph, which is
+  // Everything inside the enclosure is nearer than its diagonal to the planar graph, which is
   // inside.
   const double away = 1.0625 * diagonal(enclosure);
   return {enclosure.low - Vec2{away, away}, enclosure.high + Vec2{away, away}};

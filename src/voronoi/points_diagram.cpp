@@ -96,7 +96,7 @@ class Dual {
   }
 
  private:
-  /// A triangle that is no node: a ghost, or with its centre outside of the enclosure.
+  /// A triangle that is no node: a ghost, or with its centre outside the enclosure.
   struct Outer {
     std::uint32_t triangle;
     std::array<std::uint32_t, 3> vertex;
@@ -132,7 +132,7 @@ class Dual {
     return {local_.to_input(a + center), local_.inverse * norm(center)};
   }
 
-  /// A node for each triangle whose circle has its centre inside of the enclosure; the same for
+  /// A node for each triangle whose circle has its centre inside the enclosure; the same for
   /// neighbours whose centres are one. Nodes take the place of the circles, none of which comes
   /// before its own.
   void make_nodes() {
@@ -229,7 +229,7 @@ class Dual {
     return std::clamp(place, -reach_, reach_);
   }
 
-  /// The part inside of the enclosure of the edge between two sites, the first one on its left; or
+  /// The part inside the enclosure of the edge between two sites, the first one on its left; or
   /// none.
   std::uint32_t add_cut_edge(std::array<std::uint32_t, 2> site, ConicEdge& curve,
                              std::array<std::uint32_t, 2> node) {
@@ -302,7 +302,7 @@ class Dual {
       }
   }
 
-  /// Clockwise around each site, and the edges inside of the enclosure. The triangulation has its
+  /// Clockwise around each site, and the edges inside the enclosure. The triangulation has its
   /// points in an order in which neighbours are close, so the walks go along that, so few at a time
   /// that what they have met is still in the cache when their edges are made.
   void make_faces() {
@@ -421,7 +421,7 @@ class Dual {
   const Box enclosure_;
   const LocalFrame local_;
   const double tolerance_;
-  const double reach_;  ///< local: further than that from a site is outside of the enclosure
+  const double reach_;  ///< local: further than that from a site is outside the enclosure
   Delaunay triangulation_;
   bool has_ties_ = false;
   std::vector<Outer> outer_;  ///< by the `spare` of its triangle

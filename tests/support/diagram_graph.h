@@ -54,7 +54,7 @@ inline Box enclosure_around(const PlanarGraph& planar_graph) {
 }
 
 /// Puts edges of any diagram of this planar graph into the form in which they are compared: without
-/// those shorter than `near` (ties) and those outside of the enclosure. What separates an edge from
+/// those shorter than `near` (ties) and those outside the enclosure. What separates an edge from
 /// its own end is divided there; where the next edge goes straight on, so that the end's face is
 /// empty, it separates the two edges.
 class EdgesInForm {

@@ -28,7 +28,7 @@ function coast(n) {
   studio.frame();
 }
 
-/** Brings a vertex into the middle, its edges so many pixels long; 0: shows all. Gives its place. */
+/** Centres a vertex, with edges this many pixels long; 0: shows all. Returns its place. */
 function look(pixels) {
   studio.fit();
   const { xy } = studio.rings[0];

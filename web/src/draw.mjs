@@ -369,7 +369,7 @@ function draw_refused(c, points, camera, theme) {
 
 // The axis that follows edits.
 
-/** Lines of an axis with so many edges: their width, and whether their ends are round. */
+/** The lines of an axis with `count` edges: their width, and whether their ends are round. */
 const lines_of = (count) => [count > 100_000 ? 1 : count > 12_000 ? 1.5 : 2.25, count > 12_000 ? "butt" : "round"];
 let covered = new Uint8Array(0); // half pixels that have a short piece
 
@@ -428,7 +428,7 @@ function conics_in(live, camera, part) {
   else for (let e = 0; e < live.edges.room; ++e) if (live.edges.has(e)) add(e);
   return shades;
 }
-/** A part of the screen in the plane, with a margin of so many pixels. */
+/** A part of the screen in the plane, with a margin in pixels. */
 function box_of(camera, [left, top, right, bottom], margin) {
   const [x0, y1] = camera.toPlane(left - margin, top - margin);
   const [x1, y0] = camera.toPlane(right + margin, bottom + margin);
@@ -450,7 +450,7 @@ function draw_axis(c, live, camera, theme, part, alpha) {
 }
 
 /**
- * The inside of the shape in a part of the screen, by the even-odd rule, and the boundary there. Each chain
+ * The inside the shape in a part of the screen, by the even-odd rule, and the boundary there. Each chain
  * of edges bounds an area that reaches far to the left, which counts where an edge lies on the right of a
  * point; where the boundary leaves the part on its right side, the rest of that side changes sides as well.
  */

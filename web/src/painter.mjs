@@ -1,6 +1,6 @@
 // Paints frames. What stays while the pointer moves is kept in a layer; of it only the tiles are drawn
 // again in which the axis has changed, or which come into view. Where a whole frame takes long, a view
-// that moves shows the layer as it was, moved, and is drawn when it rests.
+// that moves shows the old layer, shifted, and is drawn when it rests.
 
 import { draw_base, draw_over, draw_part } from "./draw.mjs";
 

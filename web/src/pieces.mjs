@@ -113,7 +113,7 @@ function cut(path, x0, y0, x, y, x1, y1, w, right, bottom) {
   path.lineTo(line[2], line[3]);
 }
 
-/** The part of a segment inside of a box (Liang and Barsky). */
+/** The part of a segment inside a box (Liang and Barsky). */
 export function clipped(x0, y0, x1, y1, left, top, right, bottom) {
   let [from, to] = [0, 1];
   const [dx, dy] = [x1 - x0, y1 - y0];

@@ -4,7 +4,7 @@
 
 const LEVELS = 11;
 
-/** A typed array with room for so many, with what was in it. */
+/** A typed array with room for this many, and the old contents. */
 export function grown(array, size, fill = 0) {
   if (size <= array.length) return array;
   const larger = new array.constructor(Math.max(size, Math.ceil(1.25 * array.length)));

@@ -143,7 +143,7 @@ Result<PackFile> unpack_bytes(std::span<const std::uint8_t> bytes) {
   return guarded({}, [&]() -> Result<PackFile> {
     constexpr std::size_t header = magic.size() + 3;
     if (bytes.size() < header || !std::equal(magic.begin(), magic.end(), bytes.begin()))
-      return malformed("this is no pack");
+      return malformed("this is not a pack");
     if (bytes[3] != code_version)
       return Error{ErrorCode::unsupported, fmt::format("a pack of version {}", bytes[3]), {}};
     if (bytes[4] > static_cast<std::uint8_t>(PackKind::squares))

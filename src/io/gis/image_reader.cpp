@@ -252,7 +252,7 @@ class Bands {
     return true;
   }
 
-  /// Whether what was read was a mask of zeros and ones, which is to be read again.
+  /// Whether the image was a mask of zeros and ones, which must be read again.
   bool has_become_mask() {
     if (options_.threshold || options_.labels || threshold_ <= 1 || !seen_.is_mask()) return false;
     threshold_ = 1;
@@ -405,7 +405,7 @@ Result<ImageFile> read_raster(const std::string& name, const ImageOptions& optio
   const char* const drivers[] = {"PNG", "GTiff", "JPEG", "BMP", "WEBP", "GIF", nullptr};
   const std::unique_ptr<GDALDataset> dataset(GDALDataset::Open(
       name.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, drivers));
-  if (!dataset) return Error{ErrorCode::malformed, failure("this is no image"), {}};
+  if (!dataset) return Error{ErrorCode::malformed, failure("this is not an image"), {}};
   const auto width = static_cast<std::uint64_t>(dataset->GetRasterXSize());
   const auto height = static_cast<std::uint64_t>(dataset->GetRasterYSize());
   if (!fits_image(width, height)) return too_large_image(width, height);

@@ -267,7 +267,7 @@ Result<PendingFile> temporary_file(const Target& target) {
   return PendingFile::create((folder / (target.name + "." + target.format)).string());
 }
 
-/// Whether the format holds what is to be written.
+/// Whether the format can hold the content.
 Status check_tables(const Target& target, const TableSource& source) {
   if (source.tables.size() != 1 && target.tables != TableRoom::several)
     return Error{ErrorCode::unsupported,

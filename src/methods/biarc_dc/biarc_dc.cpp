@@ -78,7 +78,7 @@ struct Attempt {
 };
 
 /// Aichholzer et al., Section 3: sites, divide by random maximal disks, conquer, curves. Where the
-/// axis is to be verified, its edges need their curves whatever the options say.
+/// axis will be verified, its edges need their curves whatever the options say.
 Result<Attempt> attempt(const Problem& problem, std::uint64_t seed, bool verified, Report* report) {
   MedialAxis axis;
   axis.method = "biarc-dc";

@@ -95,7 +95,7 @@ Seam contact_in_run(const Context& context, const Subshape& subshape,
     const Touch& touch = *run[j];
     const Element& element = subshape.elements[touch.element];
     const bool has_before = j > 0, has_after = j + 1 < run.size();
-    // A vertex is not nearer than a neighbour that is touched inside, but for rounding.
+    // A vertex is not nearer than a neighbour that is touched inside, up to rounding.
     const bool at_joint = is_vertex(touch) ? (has_before && is_inside(*run[j - 1])) ||
                                                  (has_after && is_inside(*run[j + 1]))
                                            : (has_before && touch.parameter <= element.from) ||

@@ -207,7 +207,7 @@ Place place_or_copy(Context& context, const Subshape& subshape, std::size_t k, c
 }
 
 /// Where a disk touches element `k`, or its neighbour if the nearest point of both is their joint
-/// within rounding but lies inside of the neighbour.
+/// within rounding but lies inside the neighbour.
 Place place_on(Context& context, const Subshape& subshape, std::size_t k, const Disk& disk,
                const DiskList& disks) {
   int direction = 0;
@@ -321,7 +321,7 @@ struct DiskAtPlace {
 
   /// What joins the place smoothly is touched nowhere else. (Two neighbours of monotonic curvature
   /// have nested circles, and a disk that touches both sides of a reflex vertex has it inside.)
-  /// So many elements after the one of the place, in boundary order, and before it are left out.
+  /// Leaves out this many elements after the one of the place, in boundary order, and before it.
   std::size_t beside_after() const {
     const std::size_t k = place.at_joint ? subshape.next(place.element) : place.element;
     return (place.at_joint ? 1 : 0) + (context.joins_smoothly(subshape.elements[k]) ? 1 : 0);
@@ -366,7 +366,7 @@ struct DiskAtPlace {
   }
 };
 
-/// Of an arc whose own circle reaches over nothing but for rounding, the neighbour with a smaller
+/// Of an arc whose own circle reaches over nothing up to rounding, the neighbour with a smaller
 /// circle, if there is one: the axis ends in the centre of that.
 std::optional<Place> rounder_neighbor(const Context& context, const Subshape& subshape,
                                       const Place& place) {

@@ -70,7 +70,7 @@ Start start_of_outer(const LoopEdges& loop, const SiteNumbers& numbers, bool has
 }
 
 /// Whether the boundary faces `outreach` where two edges join, or looks the other way, as it does
-/// on the far side of edges that lie across that direction: there it is as far out but for
+/// on the far side of edges that lie across that direction: there it is as far out up to
 /// rounding.
 bool faces_out(const LoopEdges& loop, std::uint32_t i) {
   if (loop.size() == 1) return true;

@@ -26,8 +26,8 @@ Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t bridge_co
 /// Makes edges of the links, with their curves, works out an axis' nodes' kinds, and goes back to
 /// the result's numbers of sites and to the input's units. Returns the edges with an
 /// end that does not touch one of the edge's two sites, give or take `slack` in local units: where
-/// bridges divide a site, the piece of it that the edge names. Of planar graphs none are looked
-/// for. E is Edge or VoronoiEdge.
+/// bridges divide a site, the piece of it that the edge names. Planar graphs have
+/// none. E is Edge or VoronoiEdge.
 template <class E>
 std::vector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& frame, double slack,
                                     Graph& graph, std::vector<E>& edges);

@@ -29,7 +29,7 @@ struct WalkContext {
   std::atomic<bool>* in_centers = nullptr;
   double near = 0;
   std::function<void(std::uint64_t)> finished_sites;  ///< gets the number of further finished sites
-  /// Above 0, tasks are put off, and so is what is left of one that has found so many nodes.
+  /// Above 0, tasks are deferred, and so is the rest of one that has found this many nodes.
   std::uint32_t most_nodes = 0;
 };
 

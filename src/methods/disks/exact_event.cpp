@@ -115,7 +115,7 @@ class ExactEvents::Search {
   static constexpr double rounding = 0x1p-47;
   /// No two points of the local frame are further apart.
   static constexpr double furthest = 8;
-  /// In the centre of more arcs of one circle but for rounding, 256 bits take too long.
+  /// In the centre of more arcs of one circle up to rounding, 256 bits take too long.
   static constexpr std::size_t most_around = 1024;
 
   exact::ExactSite exact_site(std::uint32_t i) const { return outline_.sites[name(i)]; }
@@ -298,7 +298,7 @@ class ExactEvents::Search {
            disk.radius;
   }
 
-  /// Whether a site continues one that the disk touches, at a joint that is smooth but for
+  /// Whether a site continues one that the disk touches, at a joint that is smooth up to
   /// rounding: beside the one normal there, a disk reaches over the other edge by less than the
   /// tolerance.
   bool continues_touched(std::uint32_t site) const {
@@ -324,7 +324,7 @@ class ExactEvents::Search {
   }
 
   /// Whether the foot of a disk's centre on the carrier of a site may lie on the site. Where two
-  /// edges join smoothly but for rounding, one normal ends the first one and begins the second.
+  /// edges join smoothly up to rounding, one normal ends the first one and begins the second.
   bool has_foot(std::uint32_t site, const PreciseDisk& disk) const {
     const std::uint32_t own = name(site);
     const auto before = events_.sites_.joined_before(own);

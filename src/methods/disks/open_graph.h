@@ -55,7 +55,7 @@ class OpenGraph {
     Graph graph;
     std::vector<std::uint32_t> place;     ///< of each open node in the part
     std::vector<std::uint32_t> rim;       ///< the open nodes that come first in the part
-    std::size_t known = 0;                ///< so many of them were in parts before
+    std::size_t known = 0;                ///< number of them in earlier parts
     std::vector<std::uint32_t> stays;     ///< links that do
     std::vector<std::uint8_t> more_ends;  ///< of each of `rim`: how many ends of these
     bool has_ties = false;

@@ -91,7 +91,7 @@ struct Chunk {
   std::vector<std::uint32_t> lost;  ///< sites at which a step before has turned out to be wrong
   std::vector<std::unique_ptr<Chunk>> children;  ///< in the order in which they were forked
   std::uint32_t span = 0;                        ///< how many sites were to be walked
-  std::function<void()> walk;                    ///< where tasks are put off: what walks it
+  std::function<void()> walk;                    ///< walks it, if tasks are deferred
   Statistics statistics;
 };
 
@@ -101,8 +101,8 @@ struct Chunk {
 /// on the boundary only, never on the number of threads. O(n log n) expected.
 std::vector<std::unique_ptr<Chunk>> walk(const WalkContext& context);
 
-/// The same put off, with WalkContext::most_nodes: chunks that Chunk::walk walks, once and on any
-/// thread, and whose children are put off in their turn. Both arguments must outlive them.
+/// The same deferred, with WalkContext::most_nodes: chunks that Chunk::walk walks, once and on any
+/// thread, and whose children are deferred in turn. Both arguments must outlive them.
 std::vector<std::unique_ptr<Chunk>> put_off_walk(const WalkContext& context, TaskGroup& none);
 
 /// Walks a part of a boundary, its one run, from a disk that touches the run's first and last site

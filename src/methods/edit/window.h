@@ -44,7 +44,7 @@ class Spread {
   std::vector<std::uint32_t>& marks_;  ///< of nodes
   std::uint32_t mark_;
   std::vector<std::uint32_t> nodes_;
-  std::size_t spread_ = 0;  ///< so many of them have been looked at
+  std::size_t spread_ = 0;  ///< number of them visited
 };
 
 /// The part of the boundary whose sites the disks of the new part of the axis can touch, as one

@@ -361,7 +361,7 @@ class Certifier {
     return before == after;
   }
 
-  /// Whether a link inside of a cluster runs backward for certain. Beside joints that only count as
+  /// Whether a link inside a cluster runs backward for certain. Beside joints that only count as
   /// smooth it may, by as much as they are off.
   bool runs_backward(const std::vector<std::uint32_t>& nodes) const {
     return outline_.parted && ranges::any_of(nodes, [&](std::uint32_t node) {
@@ -498,7 +498,7 @@ Status certify(const Problem& problem, bool part_joints, MedialAxis& axis) {
       error = {
           ErrorCode::unsupported,
           "the axis could not be made certain here, as it happens where arcs are of one circle "
-          "but for rounding; it can be computed without `exact`",
+          "up to rounding; it can be computed without `exact`",
           {}};
     error.place.point = place;
     return error;

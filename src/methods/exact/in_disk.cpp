@@ -74,7 +74,7 @@ class Kernel {
     return clears(fourth, outside, side);
   }
 
-  /// The disk that touches three sites of which no two are joined; none where it is left open.
+  /// The disk that touches three sites, no two of which are joined; none if undecided.
   std::optional<DiskBounds<Precise>> disk_of(const std::array<std::uint32_t, 3>& touched) {
     Three three;
     if (solve(touched, three) != Sign::positive) return std::nullopt;
@@ -157,7 +157,7 @@ class Kernel {
     return {form.height, form.size * spoke.size - dot(form.slope, spoke.normal)};
   }
 
-  /// Whether a disk stays outside of a site. Near the centre of a convex arc's own circle it can
+  /// Whether a disk stays outside a site. Near the centre of a convex arc's own circle it can
   /// reach over that circle elsewhere than on the arc: where its centre lies beyond the normals at
   /// the arc's ends, these decide. `outside` gives the sign of a site's form, `side` that of
   /// direction.(centre - point).

@@ -28,11 +28,11 @@ enum class Sign : std::int8_t {
   zero = 0,
   positive = 1,
   open,  ///< the numbers in use do not tell
-  none,  ///< there is no such disk
+  none,  ///< no disk touches them
 };
 
 /// For four sites that a disk, or nearly one, touches in this counter-clockwise order: whether
-/// `fourth` stays outside of the disk that touches the others (positive), touches it as well
+/// `fourth` stays outside the disk that touches the others (positive), touches it as well
 /// (zero), or reaches into it. So of the two ways to divide the four among two disks, positive
 /// stands for (first, second, third) and (first, third, fourth), and negative for the other one.
 ///

@@ -1,7 +1,7 @@
 #pragma once
 
 // A site as the exact decisions see it: as it stands in the shape, with the contact of a disk as an
-// equation whose coefficients are rational but for one square root.
+// equation whose coefficients are rational up to one square root.
 
 #include <cmath>
 

@@ -102,8 +102,8 @@ std::optional<Disk> ArcContacts::disk_at(const site::SmoothPlace& place, std::ui
   return Disk{place.point + radius * place.normal, radius};
 }
 
-/// The disks that touch three elements, of which two or more are joined smoothly: the own circle of
-/// one that is joined to both others and no flatter, but for rounding; or a disk at a joint, no
+/// The disks that touch three elements, two or more of which are joined smoothly: the own circle of
+/// one that is joined to both others and no flatter, up to rounding; or a disk at a joint, no
 /// larger than the circles of arcs that are joined there. False where none are joined.
 bool ArcContacts::add_at_joint(const Three& three, Disks& found) const {
   std::size_t joined = 0, apart = 0, other = 0;
@@ -140,7 +140,7 @@ bool ArcContacts::add_at_joint(const Three& three, Disks& found) const {
   return true;
 }
 
-/// The disks that touch three elements of which no two are joined smoothly.
+/// The disks that touch three elements, no two of which are joined smoothly.
 void ArcContacts::add_tangent_disks(const Three& three, Disks& found) {
   for (const std::uint32_t i : three) {
     if (!elements_.is_convex_arc(i)) continue;

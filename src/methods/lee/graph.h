@@ -21,7 +21,7 @@ class Graph {
   /// O(N).
   Graph(Diagram& diagram, const std::vector<std::uint32_t>& last_edges, double tolerance);
   /// Whether the diagram is one of whole polygons: every list of N elements has 2 N - 3 edges
-  /// (Lemma 3), of which only the terminating bisector ends in a corner. Nothing else may be asked
+  /// (Lemma 3), where only the terminating bisector ends in a corner. Nothing else may be asked
   /// of a graph that is not.
   bool is_whole() const { return is_whole_; }
   /// Where one that is not is broken: an element, if any is known.

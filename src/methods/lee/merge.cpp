@@ -116,7 +116,7 @@ class MergeCurve {
     return place;
   }
 
-  /// Drops the outermost edges of one side of which no disk is inside the shape: those where the
+  /// Drops the outermost edges of one side with no disk inside the shape: those where the
   /// disk at the inner end reaches over the element on the other side, and those that lie behind,
   /// in the part that the current disk cuts off. Drops nothing where it is the current disk that is
   /// not inside the shape: the first edge that does not lie behind decides.
@@ -308,7 +308,7 @@ class MergeCurve {
                                                                        : crossing[first];
   }
 
-  /// Whether a disk that touches an edge's elements lies outward of its inner end, but for
+  /// Whether a disk that touches an edge's elements lies outward of its inner end, up to
   /// rounding.
   bool is_outward(const ListEdge& edge, const Disk& disk) const {
     if constexpr (with_arcs)

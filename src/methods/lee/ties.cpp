@@ -211,7 +211,7 @@ std::optional<Disk> find_overreach(const Graph& graph, double slack) {
 
 namespace {
 
-/// Whether so many Voronoi edges next to each other are short that what each may be off adds up.
+/// Whether so many neighbouring Voronoi edges are short that their errors add up.
 bool has_large_tie(const Graph& graph, double slack) {
   constexpr std::uint32_t large = 8;
   constexpr double next_to = 16;

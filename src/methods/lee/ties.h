@@ -6,7 +6,7 @@
 
 namespace medial::lee {
 
-/// Where more than three elements touch one disk but for rounding, a tie, the merges broke it some
+/// Where more than three elements touch one disk up to rounding, a tie, the merges broke it some
 /// way: a few Voronoi points lie close together, some of them far less exactly known than the disk
 /// that touches all. Such points all become that disk, and the edges between them have no length,
 /// wherever one disk touches all their elements within half of the tolerance. O(doubtful edges), or
