@@ -50,8 +50,8 @@ struct MethodArguments {
 struct AxisArguments : FileArguments {
   Options options;
   MethodArguments methods;
-  double fit = 0;     ///< for curve-axis: smooths polygons within this distance; 0: no
-  bool mask = false;  ///< write an image of the input's size
+  double fit = 0;      ///< for curve-axis: smooths polygons within this distance; 0: no
+  bool mask = false;   ///< write an image of the input's size
   bool parts = false;  ///< write in parts, however small
   const CLI::App* command = nullptr;
 };

@@ -42,7 +42,7 @@ class PartsOfAxes {
       all_points_ += static_cast<double>(item.shape.points.size());
   }
 
-  /// Writes all parts. `again()` where the walk of one shape has begun anew, which makes void what
+  /// Writes all parts. `again()` where the walk of one shape has begun again, which makes void what
   /// has been written: then everything is to be written again.
   Status write_all(PartWriter& writer, bool by_branches) {
     numbers_ = {false, false};
@@ -117,7 +117,7 @@ class PartsOfAxes {
   Status begin_again(std::size_t i, AxisPart&& part) {
     again_ = true;
     whole_.emplace(i, std::move(part));
-    return Error{ErrorCode::internal, "the walk has begun again: please report this shape", {}};
+    return Error{ErrorCode::internal, "the walk has restarted: please report this shape", {}};
   }
 
   Status put_part(AxisPart&& part, PartWriter& writer) {
@@ -144,7 +144,7 @@ class PartsOfAxes {
   Part numbers_{false, false};
   double done_points_ = 0, all_points_ = 0;
   bool again_ = false;
-  std::map<std::size_t, AxisPart> whole_;  ///< axes whose walk has begun again
+  std::map<std::size_t, AxisPart> whole_;  ///< axes whose walk has restarted
   std::optional<Error> own_error_;         ///< of computing
   AxesReport report_;
 };

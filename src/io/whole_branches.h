@@ -25,7 +25,7 @@ class WholeBranches {
   std::vector<bool> waiting_edges() const;
 
   AxisPart open_;
-  /// The nodes between two edges of which one is still to come, by their numbers in the whole axis.
+  /// The nodes between two edges one of which is still to come, by their numbers in the whole axis.
   std::unordered_map<std::uint32_t, std::uint32_t> half_met_;
   std::size_t waiting_ = 0;  ///< edges that the last take() has left
 };
