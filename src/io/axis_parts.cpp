@@ -42,7 +42,7 @@ class PartsOfAxes {
       all_points_ += static_cast<double>(item.shape.points.size());
   }
 
-  /// Writes all parts. `again()` where the walk of one shape has begun again, which makes void what
+  /// Writes all parts. `again()` where the walk of one shape restarts, which makes void what
   /// has been written: then everything is to be written again.
   Status write_all(PartWriter& writer, bool by_branches) {
     numbers_ = {false, false};
