@@ -42,7 +42,7 @@ class PartsOfAxes {
       all_points_ += static_cast<double>(item.shape.points.size());
   }
 
-  /// Writes all parts. `again()` where the walk of one shape restarts, which makes void what
+  /// Writes all parts. `take_again()` where the walk of one shape restarts, which makes void what
   /// has been written: then everything is to be written again.
   Status write_all(PartWriter& writer, bool by_branches) {
     numbers_ = {false, false};
@@ -54,7 +54,7 @@ class PartsOfAxes {
     if (Status ended = put({false, true}, writer); !ended) return ended;
     return writer.finish();
   }
-  bool again() const { return again_; }
+  bool take_again() { return std::exchange(again_, false); }
   const std::optional<Error>& own_error() const { return own_error_; }
   const AxesReport& report() const { return report_; }
   /// What stands in front of the first part.
@@ -80,7 +80,9 @@ class PartsOfAxes {
       return branches.is_full() ? put_part(branches.take(), writer) : success();
     };
     const auto whole = whole_.find(i);
-    Status done = whole != whole_.end() ? take(AxisPart(whole->second)) : compute(i, take);
+    const bool is_known = whole != whole_.end();
+    if (is_known) count(i, whole->second.axis.statistics);
+    Status done = is_known ? take(AxisPart(whole->second)) : compute(i, take);
     if (done && by_branches) done = put_part(branches.take(), writer);
     numbers_.node += nodes;
     done_points_ += static_cast<double>(shape.shape.points.size());
@@ -102,8 +104,7 @@ class PartsOfAxes {
       return done;
     });
     if (rest) {
-      report_.statistics += rest->statistics;
-      if (visit_) report_.sites += Problem(shape, options_).numbers().count;
+      count(i, rest->statistics);
       return success();
     }
     Error error = rest.error();
@@ -111,6 +112,11 @@ class PartsOfAxes {
     error.place.feature = shapes_.index_of(i);
     own_error_ = error;
     return error;
+  }
+
+  void count(std::size_t i, const Statistics& statistics) {
+    report_.statistics += statistics;
+    if (visit_) report_.sites += Problem(shapes_.items[i].shape, options_).numbers().count;
   }
 
   /// The parts of this shape are void: the new one is the whole axis.
@@ -186,7 +192,7 @@ Result<std::optional<AxesReport>> write_in_parts(const Destination& target,
                         put);
   };
   Status done = write_once();
-  while (!done && parts.again()) done = write_once();
+  while (!done && parts.take_again()) done = write_once();
   if (parts.own_error()) return *parts.own_error();
   if (!done) return std::move(done).error();
   return std::optional(parts.report());
