@@ -102,8 +102,12 @@ bench: setup    ## compare with Boost.Polygon and CGAL
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial_bench
 	@$(RELEASE)/bench/medial_bench
 
-bench-scale: build      ## time and memory against size, and tiles: make bench-scale TILES="FILE..." [MOST=10000000]
-	@python3 bench/scale.py $(RELEASE)/cli/medial --most $(or $(MOST),10000000) --tiles $(TILES)
+bench-scale: setup      ## time and memory against size, and tiles: make bench-scale TILES="FILE..." [MOST=10000000] [TO=csv]
+	@tools/setup.sh bench
+	@cmake --preset release -DMEDIAL_UNITY=$(UNITY) -DMEDIAL_BENCH=ON
+	@cmake --build $(RELEASE) -j $(JOBS) --target medial_cli --target medial_bench_scale
+	@python3 bench/scale.py $(RELEASE)/cli/medial $(RELEASE)/bench/medial_bench_scale \
+		--most $(or $(MOST),10000000) --output "$(TO)" --tiles $(TILES)
 
 bench-flo-mat: build    ## compare with flo-mat (npm): see bench/flo_mat/README.md
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial_papers

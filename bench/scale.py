@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Time and memory of `medial axis` against the number of vertices, and `medial tiles` against the whole.
+"""Time and memory of axes in parts against the number of vertices, and `medial tiles` against the whole.
 
-    bench/scale.py PROGRAM [--most N] [--tiles FILE...]
+    bench/scale.py MEDIAL MEDIAL_BENCH_SCALE [--most N] [--output FORMAT] [--tiles FILE...]
 
-Prints tables in Markdown. Processor time of one thread with reading, the best of three below a million vertices; growth is the
-exponent of the time from one size to the next. Of tiles, "edges" are the edges of the boundary that a level loads, the
-leaves first; the graph is compared with that of the whole by sites and nodes.
+Prints tables in Markdown. Processor time of one thread, the best of three below a million vertices; growth is the
+exponent of the time from one size to the next; memory is the peak above the shape alone. Of tiles, "edges" are the
+edges of the boundary that a level loads, the leaves first; the graph is compared with that of the whole by sites and
+nodes.
 """
 
 import argparse
@@ -18,52 +19,6 @@ import tempfile
 from collections import Counter
 
 
-def noise(count, seed=1):
-    """Midpoints displaced at random, in a ring: as rough on every scale."""
-    state, values = seed, [0.0]
-    scale = 0.3
-    while len(values) < count:
-        finer = []
-        for i, value in enumerate(values):
-            state = (state * 6364136223846793005 + 1442695040888963407) % 2**64
-            finer += [value, (value + values[(i + 1) % len(values)]) / 2 + scale * (state / 2**64 - 0.5)]
-        values, scale = finer, scale * 0.55
-    return values
-
-
-def coast(count):
-    radii = noise(count)
-    for i, radius in enumerate(radii):
-        angle = 2 * math.pi * i / len(radii)
-        yield (1 + radius) * math.cos(angle), (1 + radius) * math.sin(angle)
-
-
-def comb(count):
-    teeth = count // 4
-    yield from ((0, 0), (2 * teeth - 1, 0))
-    for i in reversed(range(teeth)):
-        yield from ((2 * i + 1, 6), (2 * i, 6))
-        if i:
-            yield from ((2 * i, 1), (2 * i - 1, 1))
-
-
-def blob(count):
-    for i in range(count):
-        angle = 2 * math.pi * i / count
-        radius = 1 + 0.3 * math.cos(5 * angle) + 0.05 * math.cos(13 * angle)
-        yield radius * math.cos(angle), radius * math.sin(angle)
-
-
-def write(path, points):
-    with open(path, "w", encoding="ascii") as file:
-        file.write("POLYGON ((")
-        first = None
-        for x, y in points:
-            first = first or (x, y)
-            file.write(f"{x:.15g} {y:.15g}, ")
-        file.write(f"{first[0]:.15g} {first[1]:.15g}))")
-
-
 def run(program, *words):
     """The report of a command, and its processor seconds without those of writing."""
     done = subprocess.run([program, *words, "--threads", "1", "--json", "--stats"], stdout=subprocess.PIPE, check=True)
@@ -71,23 +26,21 @@ def run(program, *words):
     return report, sum(seconds for phase, seconds in report["processor"].items() if phase != "write")
 
 
-def growth(program, folder, most):
-    print("| shape | vertices | us a vertex | growth | peak bytes a vertex |\n|---|--:|--:|--:|--:|")
-    for make in (coast, comb, blob):
+def growth(giant, folder, most, output):
+    print("| shape | vertices | us a vertex | growth | bytes a vertex |\n|---|--:|--:|--:|--:|")
+    for shape in ("coast", "comb", "blob", "needles"):
         last, count = None, 100_000
         while count <= most:
-            path = os.path.join(folder, "shape.wkt")
-            write(path, make(count))
-            times = []
+            target = ["-o", os.path.join(folder, "axis." + output)] if output else []
+            reports = []
             for _ in range(3 if count < 1_000_000 else 1):
-                report, seconds = run(program, "axis", path)
-                times.append(seconds)
-            points = report["input_points"] - 1
-            per = min(times) / points
-            grown = f"{math.log(min(times) / last[0]) / math.log(points / last[1]):.2f}" if last else ""
-            peak = report["peak_bytes"] / points
-            print(f"| {make.__name__} | {points:,} | {1e6 * per:.2f} | {grown} | {peak:.0f} |", flush=True)
-            last, count = (min(times), points), 10 * count
+                done = subprocess.run([giant, shape, str(count), *target], stdout=subprocess.PIPE, check=True)
+                reports.append(json.loads(done.stdout))
+            report = min(reports, key=lambda each: each["seconds"])
+            points, per = report["vertices"], report["microseconds_a_vertex"]
+            grown = f"{math.log(per * points / (last[0] * last[1])) / math.log(points / last[1]):.2f}" if last else ""
+            print(f"| {shape} | {points:,} | {per:.2f} | {grown} | {report['bytes_a_vertex']:.0f} |", flush=True)
+            last, count = (per, points), 10 * count
 
 
 def graph(path):
@@ -122,11 +75,13 @@ def tiles(program, folder, files):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program")
+    parser.add_argument("giant", help="medial_bench_scale, which makes the shapes")
+    parser.add_argument("--output", default="", metavar="FORMAT", help="written: csv, geojson or fgb (none)")
     parser.add_argument("--most", type=int, default=10_000_000, metavar="N", help="vertices (10,000,000)")
     parser.add_argument("--tiles", nargs="*", default=[], metavar="FILE", help="shapes to divide")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        growth(options.program, folder, options.most)
+        growth(options.giant, folder, options.most, options.output)
         if options.tiles:
             tiles(options.program, folder, options.tiles)
 

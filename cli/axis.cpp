@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <tuple>
@@ -48,8 +50,9 @@ struct MethodArguments {
 struct AxisArguments : FileArguments {
   Options options;
   MethodArguments methods;
-  double fit = 0;     ///< for curve-axis: smooths polygons within this distance; 0: no
-  bool mask = false;  ///< write an image of the input's size
+  double fit = 0;      ///< for curve-axis: smooths polygons within this distance; 0: no
+  bool mask = false;   ///< write an image of the input's size
+  bool parts = false;  ///< write in parts, however small
   const CLI::App* command = nullptr;
 };
 
@@ -84,6 +87,29 @@ Status check_method_options(const CLI::App& command, std::string_view method) {
   return success();
 }
 
+/// Shapes of more vertices are computed and written in parts, which other commands do not need.
+constexpr std::uint64_t most_points = std::uint64_t{1} << 22;
+
+/// Whether axes may be written in parts: nothing has to be done with the whole, and both the method
+/// and the format go part by part.
+bool allows_parts(const AxisArguments& arguments, const Options& options) {
+  const std::string& path = arguments.output;
+  const std::string name =
+      arguments.format.empty() ? path.substr(path.rfind('.') + 1) : arguments.format;
+  constexpr std::array<std::string_view, 4> formats{"csv", "geojson", "fgb", "shp"};
+  const bool written =
+      !path.empty() && path != "-" && std::ranges::find(formats, name) != formats.end();
+  return (written || path.empty()) && !arguments.mask &&
+         std::holds_alternative<method::Disks>(options.method) && !options.exact &&
+         !options.exterior && !io::is_image(arguments.input.path);
+}
+
+bool wants_parts(const Document<ShapeItem>& shapes, const AxisArguments& arguments) {
+  return arguments.parts || std::ranges::any_of(shapes.items, [](const ShapeItem& item) {
+           return item.shape.points.size() > most_points;
+         });
+}
+
 Result<int> run_axis(const AxisArguments& arguments) {
   Status writable = check_output(
       arguments, io::formats_of(arguments.mask ? io::DocumentKind::image : io::DocumentKind::axes));
@@ -99,13 +125,24 @@ Result<int> run_axis(const AxisArguments& arguments) {
   input.source.load.keep_contours = info_of(options.method).contours;
   input.source.load.fit = arguments.fit;
   if (auto* own = std::get_if<method::CurveAxis>(&options.method)) own->fit = arguments.fit;
-  if (!arguments.mask) {
-    const auto streamed = stream_axes(arguments, input, options);
+  const bool in_parts = allows_parts(arguments, options);
+  if (arguments.parts && !in_parts)
+    return invalid_option(
+        "--parts is for files of .csv, .geojson, .fgb and .shp, and for --method disks without "
+        "--exact, --exterior and --mask");
+  if (!arguments.mask && !arguments.parts) {
+    const auto streamed = stream_axes(arguments, input, options, nullptr, nullptr,
+                                      in_parts ? most_points : ~std::uint64_t{0});
     if (!streamed) return streamed.error();
     if (*streamed) return **streamed;
   }
   auto shapes = load_shapes(input, arguments.common);
   if (!shapes) return std::move(shapes).error();
+  if (in_parts && wants_parts(shapes->file, arguments)) {
+    const auto written = finish_in_parts(*shapes, arguments, input, options);
+    if (!written) return written.error();
+    if (*written) return **written;
+  }
   auto axes = compute_axes(std::move(shapes).value(), input, arguments.common, options);
   if (!axes) return std::move(axes).error();
   if (Status pruned = prune_image(*axes, arguments); !pruned) return std::move(pruned).error();
@@ -247,6 +284,10 @@ Command make_axis_command(CLI::App& program) {
   command->add_flag(
       "--mask", arguments->mask,
       "Images: write a mask of pixels (" + io::formats_of(io::DocumentKind::image) + ").");
+  command->add_flag("--parts", arguments->parts,
+                    "Write .csv, .geojson, .fgb and .shp while the axis grows, which takes less\n"
+                    "memory: always done for shapes of more than 4 million vertices. Its edges\n"
+                    "come in another order.");
   add_method_options(*command, arguments->methods);
   add_exterior_options(
       *command, arguments->options,

@@ -271,6 +271,26 @@ AxisSummary summarize(const Document<AxisItem>& file) {
   return summary;
 }
 
+namespace {
+
+void count_kind(AxisSummary& summary, const Node& node) {
+  ++(node.kind == NodeKind::leaf          ? summary.leaves
+     : node.kind == NodeKind::site_change ? summary.site_changes
+                                          : summary.branchings);
+}
+void take_deepest(AxisSummary& summary, const MedialAxis& axis, std::uint64_t feature) {
+  if (axis.nodes.empty()) return;
+  const Disk disk = deepest_disk(axis);
+  if (!(disk.radius > summary.deepest.radius)) return;
+  summary.deepest = disk;
+  summary.deepest_feature = feature;
+}
+
+constexpr std::uint8_t inner_bit = 1, end_bit = 2;
+bool is_inner(const Node& node) { return node.kind == NodeKind::site_change; }
+
+}  // namespace
+
 void add_to(AxisSummary& summary, const Document<AxisItem>& more) {
   for (const AxisItem& item : more.items) {
     const MedialAxis& axis = item.axis;
@@ -278,18 +298,46 @@ void add_to(AxisSummary& summary, const Document<AxisItem>& more) {
     summary.edges += axis.edges.size();
     summary.branches += branch_count(axis);
     summary.length += total_length(axis);
-    for (const Node& node : axis.nodes)
-      ++(node.kind == NodeKind::leaf          ? summary.leaves
-         : node.kind == NodeKind::site_change ? summary.site_changes
-                                              : summary.branchings);
-    const std::uint64_t feature = summary.features++;
-    if (axis.nodes.empty()) continue;
-    const Disk disk = deepest_disk(axis);
-    if (disk.radius > summary.deepest.radius) {
-      summary.deepest = disk;
-      summary.deepest_feature = feature;
-    }
+    for (const Node& node : axis.nodes) count_kind(summary, node);
+    take_deepest(summary, axis, summary.features++);
   }
+}
+
+void PartsSummary::add(std::size_t shape, const AxisPart& part) {
+  if (part.begins) {
+    if (shape == 0) *this = {};
+    end_shape();
+  }
+  const MedialAxis& axis = part.axis;
+  for (std::size_t i = part.known; i < axis.nodes.size(); ++i) {
+    const Node& node = axis.nodes[i];
+    count_kind(summary_, node);
+    if (node.component >= kinds_.size()) kinds_.resize(node.component + 1);
+    kinds_[node.component] |= is_inner(node) ? inner_bit : end_bit;
+  }
+  for (const Edge& edge : axis.edges)
+    for (const std::uint32_t node : edge.node) branch_ends_ += is_inner(axis.nodes[node]) ? 0 : 1;
+  nodes_ += axis.nodes.size() - part.known;
+  edges_ += axis.edges.size();
+  summary_.length += total_length(axis);
+  take_deepest(summary_, axis, shape);
+}
+
+void PartsSummary::end_shape() {
+  if (nodes_ > 0 && edges_ == 0) ++points_;
+  summary_.edges += std::exchange(edges_, 0);
+  nodes_ = 0;
+  // A closed branch is all of its component.
+  summary_.branches +=
+      static_cast<std::uint64_t>(std::ranges::count(std::exchange(kinds_, {}), inner_bit));
+}
+
+AxisSummary PartsSummary::finish(std::size_t shapes, std::uint64_t sites) {
+  end_shape();
+  summary_.branches += std::exchange(branch_ends_, 0) / 2;
+  summary_.features = shapes;
+  summary_.sites = sites;
+  return summary_;
 }
 
 Json to_json(const AxisSummary& summary) {
@@ -399,12 +447,13 @@ void note_points(std::uint64_t points, const FileArguments& arguments) {
 Result<std::optional<int>> stream_axes(
     const FileArguments& arguments, const InputOptions& input, Options options,
     const std::function<Status(Document<AxisItem>& part)>& change,
-    const std::function<std::string()>& line) {
+    const std::function<std::string()>& line, std::uint64_t most_points) {
   const bool talkative = is_talkative(arguments);
   AxisSummary summary;
   std::uint64_t points = 0;
   options = engine_options(arguments.common, 1, 0, std::move(options));
   io::StreamOptions how;
+  how.most_points = most_points;
   how.compute = [&](Document<ShapeItem> shapes, int threads,
                     AxesReport& report) -> Result<io::StreamItems> {
     Options own = options;
@@ -427,6 +476,31 @@ Result<std::optional<int>> stream_axes(
   if (!talkative) return std::optional<int>(exit_success);
   auto printed = line ? finish(arguments, {}, (*axes)->phases, line())
                       : print_summary(**axes, summary, arguments);
+  if (!printed) return std::move(printed).error();
+  return std::optional<int>(*printed);
+}
+
+Result<std::optional<int>> finish_in_parts(LoadedShapes& shapes, const FileArguments& arguments,
+                                           const InputOptions& input, Options options) {
+  const CommonOptions& common = arguments.common;
+  PartsSummary parts;
+  LoadedAxes out{{shapes.file, {}}, {}, shapes.report, shapes.phases};
+  Progress progress("medial axis", error_is_terminal() && !common.quiet);
+  options = engine_options(common, common.threads, shapes.file.corner_angle, std::move(options));
+  options.progress = progress.callback();
+  const auto visit = [&](std::size_t shape, const AxisPart& part) { parts.add(shape, part); };
+  auto report = in_file(io::write_in_parts(arguments.output, arguments.format, shapes.file, options,
+                                           write_options(arguments), visit),
+                        input);
+  if (!report) return std::move(report).error();
+  if (!*report) return std::optional<int>();
+  out.axes = **report;
+  out.axes.statistics.threads = effective_threads(common.threads);
+  out.phases.end("axis");
+  const AxisSummary summary = parts.finish(shapes.file.items.size(), out.axes.sites);
+  note_points(parts.points(), arguments);
+  if (!is_talkative(arguments)) return std::optional<int>(exit_success);
+  auto printed = print_summary(out, summary, arguments);
   if (!printed) return std::move(printed).error();
   return std::optional<int>(*printed);
 }

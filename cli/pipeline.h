@@ -88,6 +88,24 @@ struct AxisSummary {
 AxisSummary summarize(const Document<AxisItem>& file);
 /// Takes further features into account.
 void add_to(AxisSummary& summary, const Document<AxisItem>& more);
+
+/// The same of axes in parts, shape by shape.
+class PartsSummary {
+ public:
+  void add(std::size_t shape, const AxisPart& part);
+  /// There are no more parts of so many shapes with so many sites.
+  AxisSummary finish(std::size_t shapes, std::uint64_t sites);
+  std::uint64_t points() const { return points_; }  ///< axes of one point, at the end
+
+ private:
+  void end_shape();
+
+  AxisSummary summary_;
+  std::uint64_t branch_ends_ = 0, points_ = 0;
+  // Of the shape under way:
+  std::uint64_t nodes_ = 0, edges_ = 0;
+  std::vector<std::uint8_t> kinds_;  ///< of each component, of its nodes: bits
+};
 Json to_json(const AxisSummary& summary);
 
 /// Writes a file by write(path, format), unless there is none, and ends the phase "write".
@@ -117,11 +135,18 @@ Result<std::optional<LoadedAxes>> stream(const FileArguments& arguments, const I
 /// What load_shapes(), compute_axes(), `change` and finish_axes() do together, in constant memory,
 /// where the file is large and the formats allow it; otherwise nothing. `change` is called for
 /// several parts at once; `line` replaces the summary that is printed. Of `options`, this sets what
-/// the common options hold. Errors: theirs.
+/// the common options hold. Nothing, too, where a feature has more than `most_points`. Errors:
+/// theirs.
 Result<std::optional<int>> stream_axes(
     const FileArguments& arguments, const InputOptions& input, Options options = {},
     const std::function<Status(Document<AxisItem>& part)>& change = nullptr,
-    const std::function<std::string()>& line = nullptr);
+    const std::function<std::string()>& line = nullptr,
+    std::uint64_t most_points = ~std::uint64_t{0});
+
+/// compute_axes() and finish_axes() in one, in parts: no axis is in memory as a whole. Nothing
+/// where the output is not written so.
+Result<std::optional<int>> finish_in_parts(LoadedShapes& shapes, const FileArguments& arguments,
+                                           const InputOptions& input, Options options);
 
 /// The end of a command that made axes: writes them, and prints a summary, statistics or both.
 /// Returns the exit status.

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -155,6 +156,21 @@ TEST(Parts, EndWithTheErrorOfTheSink) {
       compute_in_parts(shape_of(test::blob(300)), {}, [&](AxisPart&&) { return Status(full); });
   ASSERT_FALSE(axis.ok());
   EXPECT_EQ(axis.error().text, full.text);
+}
+
+TEST(Parts, EndWhereTheCallerCancels) {
+  std::atomic<bool> cancel = false;
+  Options options;
+  options.cancel = &cancel;
+  std::size_t parts = 0;
+  const auto axis = compute_in_parts(shape_of(test::maze(40000)), options, [&](AxisPart&&) {
+    ++parts;
+    cancel = true;
+    return success();
+  });
+  ASSERT_FALSE(axis.ok());
+  EXPECT_EQ(axis.error().code, ErrorCode::cancelled);
+  EXPECT_EQ(parts, 1U);
 }
 
 // Methods that cannot hand out parts hand out one.

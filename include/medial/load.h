@@ -75,11 +75,9 @@ struct LoosePieces {
 
 /// The whole content of features as chains, in order. Errors: those of approximate_by_arcs().
 Result<LoosePieces> load_loose(Document<Feature> features, const ArcOptions& options = {});
-
 /// Errors: those of build_planar_graph(), with feature, ring in the feature, and vertex.
 Result<PlanarGraph> planar_graph_of(const LoosePieces& pieces,
                                     const PlanarGraphOptions& options = {});
-
 /// Calls use(graph) with planar_graph_of(pieces). If `use` fails with `unsupported`, a ring and a
 /// point, as rounding cannot separate two things, calls it again with graphs in which they touch.
 /// Returns their PlanarGraphOptions::reach, or 0. Errors: of planar_graph_of(), the last of `use`.
@@ -91,6 +89,7 @@ struct AxesReport {
   Statistics statistics;
   std::uint64_t unresolved = 0;  ///< parts and holes too fine for the grid of an axis of pixels
   std::uint32_t pixels = 0;      ///< PixelGrid::pixels that do for all; the largest: none known
+  std::uint64_t sites = 0;       ///< of axes in parts
 };
 
 /// The axis of every shape by compute(); `threads`, `progress` and `cancel` apply to all together.

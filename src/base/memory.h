@@ -21,6 +21,12 @@ void reserve_large(std::vector<T>& elements, std::size_t count) {
   prefer_large_pages(elements.data(), count * sizeof(T));
 }
 
+/// Frees all memory of a vector: to assign {} only clears it.
+template <class T>
+void free_memory(std::vector<T>& elements) {
+  std::vector<T>().swap(elements);
+}
+
 /// A vector of `count` equal elements, with large pages.
 template <class T>
 std::vector<T> large_vector(std::size_t count, const T& value = {}) {

@@ -41,6 +41,7 @@ std::string site_text(const MedialAxis& axis, std::uint32_t site) {
 
 /// A feature on its way to the tables.
 struct Row {
+  const Part& part;
   std::size_t feature = 0;
   std::uint64_t first_node = 0;  ///< nodes are numbered on from feature to feature
   const AxisItem& item;
@@ -71,9 +72,9 @@ Status add_branches(TableSink& sink, const Row& row, const WriteOptions& options
     const Step& first = branch.steps.front();
     const auto& site = axis.edges[first.edge].site;
     values = {whole(row.feature),
-              whole(i),
-              whole(row.first_node + branch.from),
-              whole(row.first_node + branch.to),
+              whole(row.part.branch + i),
+              whole(row.part.number_of_node(row.first_node, branch.from)),
+              whole(row.part.number_of_node(row.first_node, branch.to)),
               axis.nodes[branch.from].disk.radius,
               axis.nodes[branch.to].disk.radius,
               total,
@@ -137,7 +138,7 @@ TableSource tables_of(const AxesOutput& output, const Target& target) {
       const AxisItem& item = output.document.items[i];
       const std::vector<Value> values = attributes->values_of(item.attributes);
       const std::vector<Branch> all = branches(item.axis);
-      const Row row{part.number_of(output.document, i), first_node, item, all, values};
+      const Row row{part, part.number_of(output.document, i), first_node, item, all, values};
       if (Status added = add_branches(sink, row, output.options); !added) return added;
       if (nodes)
         if (Status added = add_nodes(sink, row, output.options.nodes); !added) return added;

@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -79,7 +80,13 @@ struct ImageOutput {
 struct Part {
   bool begins = true, ends = true;
   std::uint64_t feature = 0, node = 0, edge = 0;
+  std::uint64_t branch = 0;  ///< the first one, of a part of one axis; and the nodes' numbers there
+  std::span<const std::uint32_t> nodes = {};
 
+  /// Of a node of an item whose first node has this number.
+  std::uint64_t number_of_node(std::uint64_t first, std::uint32_t i) const {
+    return first + (nodes.empty() ? i : nodes[i]);
+  }
   /// Of an item in the file that it was read from, as notes and errors say it.
   std::uint64_t number_of(const DocumentInfo& document, std::size_t i) const {
     return document.indices.empty() ? feature + i : document.indices[i];

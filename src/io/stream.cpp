@@ -2,7 +2,6 @@
 #include <sys/stat.h>
 
 #include <atomic>
-#include <mutex>
 
 #include "axis/statistics.h"
 #include "base/in_flight.h"
@@ -13,6 +12,7 @@
 #include "io/format.h"
 #include "io/format_name.h"
 #include "io/open.h"
+#include "io/part_writer.h"
 #include "io/tables.h"
 #include "io/write_target.h"
 #include "medial/io/write.h"
@@ -73,9 +73,10 @@ struct Survey {
   std::uint64_t features = 0;
   double points = 0;
   bool arcs = false;
+  bool too_large = false;  ///< a feature has more points than are wanted: the rest is unread
 };
 
-Result<Survey> survey_of(PartReader reader, const std::string& crs) {
+Result<Survey> survey_of(PartReader reader, const std::string& crs, std::uint64_t most_points) {
   Survey survey;
   bool degrees = true;
   for (;;) {
@@ -90,6 +91,7 @@ Result<Survey> survey_of(PartReader reader, const std::string& crs) {
     std::ranges::move(features.notes, std::back_inserter(common.notes));
     degrees = degrees && can_be_degrees(features);
     for (const Feature& feature : features.items) {
+      survey.too_large = survey.too_large || point_count(feature) > most_points;
       survey.columns.add(feature.attributes);
       survey.points += static_cast<double>(point_count(feature));
       survey.arcs = survey.arcs || std::ranges::any_of(feature.rings, [](const Ring& ring) {
@@ -97,6 +99,7 @@ Result<Survey> survey_of(PartReader reader, const std::string& crs) {
                     });
     }
     survey.features += features.items.size();
+    if (survey.too_large) return survey;
   }
   if (Status complete = reader.finish(survey.common); !complete) return std::move(complete).error();
   if (Status settled = settle_crs(survey.common, crs, degrees); !settled)
@@ -131,72 +134,6 @@ StreamItems without_items(StreamItems none, const DocumentInfo& info) {
   if (auto* measured = std::get_if<MeasuredItems>(&none))
     static_cast<DocumentInfo&>(measured->first) = info;
   return none;
-}
-
-/// Parts as text, by the writer of whole documents.
-class TextParts final : public PartWriter {
- public:
-  TextParts(Target& target, const Format& format) : target_(target), format_(format) {}
-
-  Result<std::shared_ptr<void>> prepare(const PartOutput& output, const Part& part) override {
-    auto text = std::make_shared<std::string>();
-    OutputStream out = OutputStream::to(*text);
-    Target own;
-    own.part = part;
-    own.arcs = target_.arcs;
-    own.columns = target_.columns;
-    own.format = target_.format;
-    own.tables = target_.tables;
-    own.name = target_.name;
-    own.unit = target_.unit;
-    own.crs = target_.crs;
-    own.out = &out;
-    std::unique_lock<std::mutex> alone(projecting_, std::defer_lock);
-    if (own.crs.changes_points()) alone.lock();
-    Status written = std::visit(
-        [&]<class Output>(const Output& one) {
-          return std::get<Writer<Output>>(format_.writers)(own, one);
-        },
-        output);
-    if (!written) return std::move(written).error();
-    if (!own.status()) return own.status().error();
-    if (Status complete = out.finish(); !complete) return std::move(complete).error();
-    return std::shared_ptr<void>(std::move(text));
-  }
-
-  Status add(void* prepared) override {
-    std::string_view text = *static_cast<const std::string*>(prepared);
-    // Of rows that commas divide, the very first one has none.
-    if (!any_ && text.starts_with(",\n")) text.remove_prefix(1);
-    any_ = any_ || (begun_ && !text.empty());
-    begun_ = true;
-    target_.out->put(text);
-    return success();
-  }
-
-  Status finish() override { return success(); }
-
- private:
-  Target& target_;
-  const Format& format_;
-  std::mutex projecting_;
-  bool begun_ = false, any_ = false;
-};
-
-/// Where nobody wants the items themselves.
-class NoParts final : public PartWriter {
- public:
-  Result<std::shared_ptr<void>> prepare(const PartOutput&, const Part&) override {
-    return std::shared_ptr<void>();
-  }
-  Status add(void*) override { return success(); }
-  Status finish() override { return success(); }
-};
-
-Result<std::unique_ptr<PartWriter>> writer_of_parts(Target& target, const Format& format,
-                                                    const PartOutput& none) {
-  if (format.write_parts != nullptr) return format.write_parts(target, none);
-  return std::unique_ptr<PartWriter>(std::make_unique<TextParts>(target, format));
 }
 
 /// A part of the file on its way.
@@ -389,8 +326,9 @@ Result<std::optional<StreamReport>> stream(const std::string& path, const Destin
   auto first = open_features(path, read);
   if (!first) return std::move(first).error();
   if (*first == nullptr) return std::optional<StreamReport>();
-  auto survey = survey_of(PartReader(std::move(*first), read), read.crs);
+  auto survey = survey_of(PartReader(std::move(*first), read), read.crs, options.most_points);
   if (!survey) return std::move(survey).error();
+  if (survey->too_large) return std::optional<StreamReport>();
   DocumentInfo info = survey->common;
   info.notes.clear();
   const StreamItems none = without_items(options.none, info);
@@ -414,9 +352,8 @@ Result<std::optional<StreamReport>> stream(const std::string& path, const Destin
     auto writer = writer_of_parts(to, chosen, frame);
     return writer ? write_by(**writer) : Status(std::move(writer).error());
   };
-  NoParts nowhere;
   Status done =
-      silent ? write_by(nowhere)
+      silent ? write_by(*writer_of_nothing())
              : write_target(target, format,
                             {kind, kind == DocumentKind::layers ? "geojson" : "json", "medial",
                              info.crs_wkt, info.unit, options.write.overwrite, options.write.layer},

@@ -31,7 +31,8 @@ constexpr double single_precision_slack = 0x1p-20;
 constexpr double chord_rounding = 0x1p-48;
 /// Chord boxes pay where the boundary strays from the chord by no more than this share of it,
 constexpr double flat_enough = 1.0 / 16;
-/// and on the levels of nodes of 8 to 512 sites: larger ones are few.
+/// and on the levels of nodes of 32 to 512 sites: larger ones are few, and boxes of 8 sites take
+/// as long as these sites, and more memory than all the others.
 constexpr std::size_t chord_levels = 4;
 /// where at least one node in `rare` has one.
 constexpr std::size_t rare = 16;
@@ -80,35 +81,51 @@ void BoundaryTree::build_chord_boxes() {
        ++level) {
     const std::size_t span = std::size_t{block_size} << (2 * level);
     const std::size_t nodes = levels_[level].size();
-    auto boxes = large_vector<ChordBoxes>(nodes);
+    std::vector<ChordBoxes>& boxes = chords_.emplace_back();
+    if (level == 0) continue;
+    // Where few of a sample fit, the level takes no memory.
+    constexpr std::size_t sampled = 16;
+    if (nodes > sampled * sampled) {
+      std::size_t fitting = 0;
+      ChordBoxes some;
+      for (std::size_t node = 0; node < nodes; node += sampled)
+        fitting += set_chord_boxes(node, span, some);
+      if (fitting * sampled * rare * span < sites_.size()) continue;
+    }
+    boxes = large_vector<ChordBoxes>(nodes);
     std::atomic<std::size_t> count = 0;
     parallel_ranges(nodes, 256, [&](std::size_t node, std::size_t last) {
       std::size_t fitting = 0;
-      for (; node < last; ++node) {
-        for (std::size_t lane = 0; lane < fan; ++lane) {
-          const std::size_t begin = (node * fan + lane) * span;
-          const std::size_t end = std::min(begin + span, sites_.size());
-          std::optional<ChordBox> box;
-          if (begin < end) box = chord_box(sites_.subspan(begin, end - begin));
-          if (box) {
-            ++fitting;
-          } else {
-            constexpr double all = std::numeric_limits<double>::infinity();
-            box = ChordBox{{1, 0}, -all, all, -all, all};
-          }
-          boxes[node].normal_x[lane] = box->normal.x;
-          boxes[node].normal_y[lane] = box->normal.y;
-          boxes[node].low[lane] = box->low;
-          boxes[node].high[lane] = box->high;
-          boxes[node].begin[lane] = box->begin;
-          boxes[node].end[lane] = box->end;
-        }
-      }
+      for (; node < last; ++node) fitting += set_chord_boxes(node, span, boxes[node]);
       count += fitting;
     });
-    if (count * rare * span < sites_.size()) boxes = {};  // its memory, too
-    chords_.push_back(std::move(boxes));
+    if (count * rare * span < sites_.size()) free_memory(boxes);
   }
+}
+
+/// The boxes of a node over lanes of `span` sites each; how many lanes have one.
+std::size_t BoundaryTree::set_chord_boxes(std::size_t node, std::size_t span,
+                                          ChordBoxes& boxes) const {
+  std::size_t fitting = 0;
+  for (std::size_t lane = 0; lane < fan; ++lane) {
+    const std::size_t begin = (node * fan + lane) * span;
+    const std::size_t end = std::min(begin + span, sites_.size());
+    std::optional<ChordBox> box;
+    if (begin < end) box = chord_box(sites_.subspan(begin, end - begin));
+    if (box) {
+      ++fitting;
+    } else {
+      constexpr double all = std::numeric_limits<double>::infinity();
+      box = ChordBox{{1, 0}, -all, all, -all, all};
+    }
+    boxes.normal_x[lane] = box->normal.x;
+    boxes.normal_y[lane] = box->normal.y;
+    boxes.low[lane] = box->low;
+    boxes.high[lane] = box->high;
+    boxes.begin[lane] = box->begin;
+    boxes.end[lane] = box->end;
+  }
+  return fitting;
 }
 
 /// The direction of the line that a boundary with reflex vertices shows to what lies before it, or

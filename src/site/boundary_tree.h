@@ -60,6 +60,7 @@ class BoundaryTree {
   };
 
   void build_chord_boxes();
+  std::size_t set_chord_boxes(std::size_t node, std::size_t span, ChordBoxes& boxes) const;
   static Vec2 chord_of(std::span<const site::Site> sites);
   static std::optional<ChordBox> chord_box(std::span<const site::Site> sites);
   static std::uint32_t beyond(const ChordBoxes& boxes, Vec2 c, double reach);

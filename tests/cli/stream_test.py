@@ -5,7 +5,7 @@ import json
 import random
 import sqlite3
 
-from support import CommandLine
+from support import CommandLine, star
 
 
 def footprints(count, seed=1):
@@ -142,3 +142,32 @@ class Stream(CommandLine):
         self.assertIn("feature 7000", said)
         self.assertIn("3 of 12000 features are invalid", said)
         self.assert_same("geojson")
+
+
+class InParts(CommandLine):
+    """One shape whose axis is written while it grows."""
+
+    def rows(self, name):
+        edges = {}
+        for line in self.read(name).decode().splitlines()[1:]:
+            edge, *disk = line.split(",")
+            edges.setdefault(edge, []).append(tuple(disk))
+        return sorted(min(samples, samples[::-1]) for samples in edges.values())
+
+    def test_edges_are_those_of_the_whole(self):
+        self.write("star.wkt", star(20_000))
+        said = [self.succeed("axis", "star.wkt", "-o", name, "--json", *more).stdout
+                for name, more in (("whole.csv", []), ("parts.csv", ["--parts"]))]  # fmt: skip
+        self.assertEqual(self.rows("whole.csv"), self.rows("parts.csv"))
+        whole, parts = map(json.loads, said)
+        for name in ("features", "sites", "nodes", "edges", "branches", "deepest"):
+            self.assertEqual(whole[name], parts[name], name)
+        self.assertAlmostEqual(whole["length"] / parts["length"], 1, 12)
+        self.assertNotEqual(self.read("whole.csv"), self.read("parts.csv"))
+        self.succeed("axis", "star.wkt", "--parts")
+
+    def test_what_is_not_written_so(self):
+        self.write("star.wkt", star(50))
+        for more in (["-o", "a.json"], ["-o", "-", "--format", "csv"], ["-o", "a.csv", "--exact"],
+                     ["-o", "a.csv", "--method", "lee"], ["-o", "a.csv", "--exterior"]):  # fmt: skip
+            self.refuse("invalid_option", "axis", "star.wkt", "--parts", *more)

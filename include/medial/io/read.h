@@ -46,7 +46,6 @@ struct ReadOptions {
 /// free cells of a ROS map (.yaml). On standard input, recognises WKT, GeoJSON, SVG, DXF, `x y`
 /// text and medial's own format by their first characters. Errors: also no_area, invalid_option.
 Result<Document<Feature>> read_document(const std::string& path, const ReadOptions& options = {});
-
 /// The same for a text in memory, like standard input.
 Result<Document<Feature>> read_document_text(std::string_view text,
                                              const ReadOptions& options = {});
@@ -54,7 +53,6 @@ Result<Document<Feature>> read_document_text(std::string_view text,
 /// The subpaths of SVG path data (the attribute `d`) as contours of the non-zero rule; if `loose`,
 /// those that are not closed stay open. Errors: malformed.
 Result<std::vector<Contour>> read_path_data(std::string_view text, bool loose = false);
-
 /// The outlines of one line of UTF-8 text, with the advances and kerning of a scalable font file
 /// (TrueType, OpenType, Type 1): one feature per character with an outline, with an em of `size`
 /// (0: font units) and the baseline at y = 0. Replaces characters that the font lacks, with a note.
@@ -72,7 +70,6 @@ struct SourceOptions {
 /// The features of a file, by read_document() or read_text(); shapes of medial's .json keep their
 /// sources. Errors: theirs, with the file; invalid_option (an option that does not apply).
 Result<Document<Feature>> read_features(const std::string& path, const SourceOptions& options = {});
-
 /// Passes read_features() to medial::load_shapes() or, unrepaired, load_loose(). Errors: theirs.
 Result<Document<ShapeItem>> load_shapes(const std::string& path, const SourceOptions& options = {},
                                         LoadReport* report = nullptr);

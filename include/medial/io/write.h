@@ -62,6 +62,14 @@ struct WriteOptions {
 Status write_axes(const Destination& target, const std::string& format,
                   const Document<AxisItem>& file, const WriteOptions& options = {});
 
+/// Gets parts of axes, shape by shape; where the first shape's begins, all before are void.
+using PartVisitor = std::function<void(std::size_t shape, const AxisPart& part)>;
+/// Computes axes and writes them as they grow (compute_in_parts()), nowhere if it has no name;
+/// returns nothing where it is no .csv, .geojson, .fgb or .shp. Edges come in the order of parts.
+Result<std::optional<AxesReport>> write_in_parts(
+    const Destination& target, const std::string& format, const Document<ShapeItem>& shapes,
+    const Options& options, const WriteOptions& write = {}, const PartVisitor& visit = {});
+
 /// Shapes: .json (native), .svg (up to the shift of its viewport), .dxf (polylines with bulges) and
 /// .wkt (one geometry per line; with arcs a MULTISURFACE) are lossless; .geojson has chords.
 Status write_shapes(const Destination& target, const std::string& format,
@@ -185,7 +193,6 @@ Status write_layers(const Destination& target, const std::string& format,
 
 /// Layers, and the features that they belong to.
 using MeasuredItems = std::pair<Document<Layer>, Document<AxisItem>>;
-/// What can be made from a file's features.
 using StreamItems = std::variant<Document<AxisItem>, Document<OffsetItem>, MeasuredItems>;
 
 struct StreamOptions {
@@ -197,9 +204,9 @@ struct StreamOptions {
   std::function<Result<StreamItems>(Document<ShapeItem> shapes, int threads, AxesReport& report)>
       compute;
   std::function<void(const StreamItems& part)> visit;  ///< in order, before writing; may be empty
-  /// Gets the share done, in [0, 1], and the number of features; may be empty.
-  std::function<void(double share, std::uint64_t features)> progress;
-  std::uint64_t least_bytes = std::uint64_t{1} << 20;  ///< smaller files are read whole
+  std::function<void(double share, std::uint64_t features)> progress;  ///< may be empty
+  std::uint64_t least_bytes = std::uint64_t{1} << 20;  ///< of a file; smaller ones are read whole
+  std::uint64_t most_points = ~std::uint64_t{0};       ///< of a feature; otherwise nothing is done
 };
 
 struct StreamReport {
@@ -250,13 +257,10 @@ Status write_distances(const std::string& path, const DistanceMap& distances,
 /// The bytes of a pack for write_pack(), compressed by zstd. Errors: internal.
 Result<std::vector<std::uint8_t>> pack_bytes(const PackFile& file);
 Status write_pack(const std::string& path, const std::vector<std::uint8_t>& bytes);
-
 /// The size in bytes of a text or code compressed by zstd, at the level of packs.
 std::size_t compressed_size(std::span<const std::uint8_t> bytes);
 std::size_t compressed_size(const ShapeCode& code);
-
 Status write_text(const std::string& path, const std::string& text);
-
 /// Removes temporary files of unfinished writes; safe to call from a signal handler.
 void remove_partial_files() noexcept;
 

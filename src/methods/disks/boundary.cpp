@@ -154,6 +154,16 @@ void add_loop(const LoopEdges& loop, const SiteNumbers& numbers, const Start& st
 
 }  // namespace
 
+void Originals::compress() {
+  if (stored_.empty()) return;
+  const std::size_t first = stored_[0], count = stored_.size();
+  for (std::size_t i = 0; i < count; ++i)
+    if (stored_[i] != (i + first < count ? i + first : i + first - count)) return;
+  first_ = first;
+  count_ = count;
+  free_memory(stored_);
+}
+
 double clockwise_turn(Vec2 from, Vec2 to) {
   constexpr double none = 1e-9;  // a little to the left is rounding
   const double angle = std::atan2(-cross(from, to), dot(from, to));
@@ -200,6 +210,7 @@ Boundary loops_boundary(const Problem& problem, const SiteNumbers& numbers, bool
     boundary.runs.push_back(
         {first, static_cast<std::uint32_t>(boundary.sites.size() - 1), at_corner});
   }
+  if (shape.loop_count() == 1) boundary.originals.compress();
   return boundary;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "base/memory.h"
@@ -25,6 +26,27 @@ enum class Element : std::uint8_t {
   bridge,  ///< the dividing disk between a hole and what it was connected to; touches nothing
 };
 
+/// Of each site of a boundary, what it is called among the result's sites; of a bridge, its number.
+/// Where the boundary is one loop these are the numbers in turn, which take no memory.
+class Originals {
+ public:
+  std::uint32_t operator[](std::size_t i) const {
+    if (!stored_.empty()) return stored_[i];
+    const std::size_t number = i + first_;
+    return static_cast<std::uint32_t>(number < count_ ? number : number - count_);
+  }
+  std::size_t size() const { return stored_.empty() ? count_ : stored_.size(); }
+  void reserve(std::size_t count) { reserve_large(stored_, count); }
+  void push_back(std::uint32_t original) { stored_.push_back(original); }
+  void assign(std::vector<std::uint32_t> originals) { stored_ = std::move(originals); }
+  /// Gives memory back where they are the numbers in turn.
+  void compress();
+
+ private:
+  std::vector<std::uint32_t> stored_;
+  std::size_t first_ = 0, count_ = 0;
+};
+
 /// The boundary as sites in boundary order, in the local frame: what the walk goes along. Every
 /// component is one run of sites that begins and ends at a convex corner of its outer loop, or at a
 /// smooth place where it has none; its holes are spliced in where their connecting disks touch, so
@@ -39,8 +61,7 @@ struct Boundary {
   std::vector<site::Site> sites;
   std::vector<Element> elements;    ///< of each site
   std::vector<site::Joint> joints;  ///< of an edge with the next one; empty: all are corners
-  std::vector<std::uint32_t>
-      originals;                ///< index among the result's sites; of a bridge: its number
+  Originals originals;
   std::vector<SiteRange> runs;  ///< of each component
   /// Of each bridge, its two places in the order: before and after the hole. Of a disk at which a
   /// part of a boundary ends, its one place twice.
@@ -53,7 +74,7 @@ struct Boundary {
   void reserve(std::size_t count) {
     reserve_large(sites, count);
     elements.reserve(count);
-    reserve_large(originals, count);
+    originals.reserve(count);
     if (has_arcs) joints.reserve(count);
   }
   void add(const site::Site& site, Element element, std::uint32_t original,

@@ -203,7 +203,7 @@ std::vector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& 
       node.kind = kind_of_degree(degree[i]);
     }
   });
-  graph.links = {};
+  free_memory(graph.links);
   std::vector<std::uint32_t> all;
   for (const auto& found : doubtful) all.insert(all.end(), found.begin(), found.end());
   return all;

@@ -118,9 +118,12 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
 
 /// The sites of a boundary get the names that the axis has for them.
 void rename(const std::vector<std::uint32_t>& names, Boundary& boundary) {
-  for (std::size_t i = 0; i < boundary.originals.size(); ++i)
-    if (boundary.elements[i] != Element::bridge)
-      boundary.originals[i] = names[boundary.originals[i]];
+  std::vector<std::uint32_t> renamed;
+  for (std::size_t i = 0; i < boundary.originals.size(); ++i) {
+    const std::uint32_t own = boundary.originals[i];
+    renamed.push_back(boundary.elements[i] == Element::bridge ? own : names[own]);
+  }
+  boundary.originals.assign(std::move(renamed));
 }
 
 /// The engine: sites, holes connected, tree, walk, graph. The edges are returned apart from the

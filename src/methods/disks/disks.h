@@ -21,7 +21,7 @@ Result<MedialAxis> run(const Problem& problem);
 /// axis without sites, nodes and edges; nothing where the first way to decide fails, and run() has
 /// to look for another one.
 Result<std::optional<MedialAxis>> run_in_parts(const Problem& problem, const AxisSink& sink,
-                                               std::size_t part_nodes = 1 << 16);
+                                               std::size_t part_nodes = 1 << 14);
 
 /// run() for what lies around a planar graph (shape/around.h): a shape whose edges may stand there
 /// twice, once for each side, and with loops of one point. The axis' edges, Edge or VoronoiEdge,

@@ -21,7 +21,7 @@ using Hit = Contacts::Hit;
 const exact::SiteLoops& ExactSites::outline() const {
   std::call_once(once_, [&] {
     outline_ = make_();
-    before_.resize(outline_.sites.size());
+    before_.resize(outline_.next.size());
     for (std::uint32_t i = 0; i < before_.size(); ++i) before_[outline_.next[i]] = i;
     if (boundary_.has_arcs) choose_normals();
   });
@@ -42,8 +42,8 @@ void ExactSites::choose_normals() const {
 }
 
 std::optional<std::uint32_t> ExactSites::joined_before(std::uint32_t site) const {
-  if (!outline().joined(before_[site], site)) return std::nullopt;
-  return before_[site];
+  const std::uint32_t before = outline().next.empty() ? outline_.before(site) : before_[site];
+  return outline_.joined(before, site) ? std::optional(before) : std::nullopt;
 }
 
 std::optional<ExactSites::Touch> ExactSites::first_touch(
@@ -153,7 +153,7 @@ class ExactEvents::Search {
     exact::ApproximateRoots<Precise> roots;
     const exact::ExactSite& site = outline_.sites[own];
     const auto before = events_.sites_.joined_before(own);
-    if (at_end && outline_.joined(own, outline_.next[own]))
+    if (at_end && outline_.joined(own, outline_.next_of(own)))
       return outline_.spoke_after<Number>(own, roots);
     if (!at_end && before) return outline_.spoke_after<Number>(*before, roots);
     if (site.is_vertex()) return std::nullopt;
@@ -328,7 +328,7 @@ class ExactEvents::Search {
   bool has_foot(std::uint32_t site, const PreciseDisk& disk) const {
     const std::uint32_t own = name(site);
     const auto before = events_.sites_.joined_before(own);
-    const bool is_joined = before || outline_.joined(own, outline_.next[own]);
+    const bool is_joined = before || outline_.joined(own, outline_.next_of(own));
     if (!is_joined || exact_site(site).is_vertex())
       return exact::may_have_foot(exact_site(site), disk);
     const auto begin = *end_of(own, false), end = *end_of(own, true);

@@ -66,7 +66,7 @@ class ExactSites {
   void choose_normals() const;
   mutable std::once_flag once_;
   mutable exact::SiteLoops outline_;
-  mutable std::vector<std::uint32_t> before_;  ///< of each site, that before it on the loop
+  mutable std::vector<std::uint32_t> before_;  ///< of each site on the loop, if `next` is stored
 #endif
 };
 

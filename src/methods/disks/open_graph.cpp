@@ -104,6 +104,12 @@ void OpenGraph::add(Task task) {
   statistics_ += chunk.statistics;
 }
 
+/// Calls use(task) for those that begin at a node: the components not yet begun lie below them.
+template <class Use>
+void OpenGraph::for_each_begun(const Use& use) {
+  for (auto task = tasks_.rbegin(); task != tasks_.rend() && task->node != none; ++task) use(*task);
+}
+
 bool OpenGraph::is_full(std::size_t nodes) const {
   return graph_.nodes.size() >= last_held_ + std::max(nodes, last_held_);
 }
@@ -156,8 +162,7 @@ void OpenGraph::resolve() {
   gone_links_.clear();
   for (Link& link : graph_.links)
     for (std::uint32_t& node : link.node) node = target(node);
-  for (Task& task : tasks_)
-    if (task.node != none) task.node = target(task.node);
+  for_each_begun([&](Task& task) { task.node = target(task.node); });
 }
 
 /// Marks open nodes, their neighbours and what may be contracted with them; and those that others
@@ -166,7 +171,7 @@ std::vector<std::uint8_t> OpenGraph::held_nodes(const std::vector<std::uint32_t>
   std::vector<std::uint8_t> held(graph_.nodes.size());
   for (std::size_t i = 0; i < held.size(); ++i) held[i] = waiting_[i] > 0;
   for (const Link& link : graph_.links) {
-    for (const std::size_t k : {0, 1})
+    for (const std::size_t k : {0U, 1U})
       if (waiting_[link.node[k]] > 0) held[link.node[1 - k]] = true;
   }
   if (!ties.empty()) hold_ties(ties, held);
@@ -219,7 +224,7 @@ OpenGraph::Cut OpenGraph::cut() {
   };
   const auto take_ends = [&](const auto& takes) {
     for (const Link& link : graph_.links)
-      for (const std::size_t k : {0, 1})
+      for (const std::size_t k : {0U, 1U})
         if (takes(link.node[k], link.node[1 - k])) take_first(link.node[k]);
   };
   take_ends(
@@ -353,6 +358,10 @@ void OpenGraph::keep(const Cut& cut) {
   waiting_.resize(count);
   moved_.resize(count);
   last_held_ = count;
+  for_each_begun([&](Task& task) {
+    task.node = place[task.node];
+    ++last_held_;
+  });
   for (const std::uint32_t bridge : half_met_) {
     End& end = ends_[bridge];
     end.node = place[end.node];
@@ -365,8 +374,6 @@ void OpenGraph::keep(const Cut& cut) {
     for (std::uint32_t& node : link.node) node = place[node];
   }
   graph_.links.resize(cut.stays.size());
-  for (Task& task : tasks_)
-    if (task.node != none) task.node = place[task.node];
 }
 
 bool OpenGraph::has_right_cycles() const {

@@ -61,6 +61,8 @@ class OpenGraph {
     bool has_ties = false;
   };
 
+  template <class Use>
+  void for_each_begun(const Use& use);
   std::uint32_t target(std::uint32_t node);
   void meet(std::uint32_t bridge, End end);
   void resolve();
@@ -88,7 +90,7 @@ class OpenGraph {
   std::vector<End> ends_;                  ///< of each bridge, the end that was reached first
   std::vector<std::uint32_t> half_met_;    ///< bridges
   std::vector<std::uint32_t> gone_links_;  ///< since resolve()
-  std::size_t last_held_ = 0;
+  std::size_t last_held_ = 0;  ///< nodes that the last part has left, and tasks at them
   std::uint32_t given_ = 0;  ///< nodes
   bool glued_ = false, lost_ = false, begins_ = true;
   std::vector<std::int64_t> balance_;  ///< of each component: nodes less edges so far

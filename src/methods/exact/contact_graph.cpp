@@ -67,7 +67,7 @@ class NodeReader {
         contacts.push_back({site, no_half});
         const bool corner = !outline_.passes[site];
         if (contacts.size() > most || (corner && halves_.size() > 1)) return false;
-        site = outline_.next[site];
+        site = outline_.next_of(site);
         next = leaving_at(site);
       }
       if (next == halves_[0]) return left == 0;
@@ -132,7 +132,7 @@ std::optional<std::uint32_t> ContactGraph::build(const MedialAxis& axis, const S
       std::uint32_t site = outline.loop_begin[loop];
       do {
         contacts.push_back({site, no_half});
-        site = outline.next[site];
+        site = outline.next_of(site);
       } while (site != outline.loop_begin[loop]);
       ++loop;
     } else if (!reader.read(halves, contacts)) {

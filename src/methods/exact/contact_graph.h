@@ -80,7 +80,7 @@ inline bool is_corner(std::span<const Contact> contacts, const SiteLoops& outlin
   if (contacts.size() != 2) return false;
   for (std::size_t i = 0; i < 2; ++i) {
     const std::uint32_t before = contacts[i].site;
-    if (contacts[i].half == no_half && outline.next[before] == contacts[1 - i].site &&
+    if (contacts[i].half == no_half && outline.next_of(before) == contacts[1 - i].site &&
         (!outline.passes[before] || outline.blunt[before]))
       return true;
   }

@@ -208,7 +208,7 @@ class Kernel {
   Sign meets(std::uint32_t a, const Reach& c, std::uint32_t third) {
     Sign sign = sign_of(c.height);
     if (sign == Sign::positive) sign = sign_of(c.closing);
-    for (const std::uint32_t edge : {a, outline_.next[a]}) {
+    for (const std::uint32_t edge : {a, outline_.next_of(a)}) {
       const ExactSite& site = outline_.sites[edge];
       if (!(site.bulge > 0) || sign != Sign::positive) continue;
       const Reach own = edge == a ? c : reach(spoke_of<Number>(site, false, roots_), third);

@@ -32,7 +32,7 @@ SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers, b
                                : SiteList(numbers.count, [&problem, &numbers](std::uint32_t site) {
                                    return site_of(problem, numbers, site);
                                  });
-  outline.next.resize(numbers.count);
+  if (stores_sites) outline.next.resize(numbers.count);
   outline.passes.assign(numbers.count, false);
   outline.blunt.assign(numbers.count, false);
   outline.component = problem.shape.component;
@@ -46,14 +46,15 @@ SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers, b
     for (std::uint32_t i = 0; i < loop.size(); ++i) {
       const std::size_t point = loop.begin() + i, after = loop.begin() + loop.next(i);
       const std::uint32_t edge = numbers.edge[point];
-      if (numbers.is_site(point)) {
-        if (stores_sites) outline.sites.set(edge - 1, {loop.local(i), loop.local(i), 0});
+      if (numbers.is_site(point)) outline.passes[edge - 1] = true;
+      if (stores_sites && numbers.is_site(point)) {
+        outline.sites.set(edge - 1, {loop.local(i), loop.local(i), 0});
         outline.next[edge - 1] = edge;
-        outline.passes[edge - 1] = true;
       }
-      if (stores_sites)
+      if (stores_sites) {
         outline.sites.set(edge, {loop.local(i), loop.local(loop.next(i)), loop.bulge(i)});
-      outline.next[edge] = first_of(loop.next(i));
+        outline.next[edge] = first_of(loop.next(i));
+      }
       outline.passes[edge] = numbers.joints[after] != site::Joint::corner;
       outline.blunt[edge] = numbers.joints[after] == site::Joint::blunt;
     }
@@ -66,7 +67,7 @@ void part_joints(SiteLoops& outline) {
   const auto count = static_cast<std::uint32_t>(outline.sites.size());
   outline.parted = true;
   for (std::uint32_t edge = 0; edge < count; ++edge) {
-    const std::uint32_t after = outline.next[edge];
+    const std::uint32_t after = outline.next_of(edge);
     if (!outline.joined(edge, after) || outline.sites[edge].is_vertex() ||
         outline.sites[after].is_vertex())
       continue;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <utility>
@@ -33,7 +34,8 @@ class SiteList {
 /// The boundary as loops of sites, numbered as in MedialAxis::sites.
 struct SiteLoops {
   SiteList sites;
-  std::vector<std::uint32_t> next;  ///< the site that follows on the loop
+  /// The site that follows on the loop; empty: the next number, after a loop's last its first one.
+  std::vector<std::uint32_t> next;
   /// Whether a foot can pass on from the site to the next one: at a reflex vertex's ends and at a
   /// smooth joint, but not at a corner.
   std::vector<bool> passes;
@@ -56,8 +58,18 @@ struct SiteLoops {
   }
   bool has_name(std::uint32_t site) const { return site < sites.size() - flatter.size(); }
 
+  std::uint32_t next_of(std::uint32_t site) const {
+    if (!next.empty()) return next[site];
+    const auto end = std::upper_bound(loop_begin.begin(), loop_begin.end(), site);
+    return site + 1 == *end ? *(end - 1) : site + 1;
+  }
+  /// The site before it on the loop, where `next` is empty.
+  std::uint32_t before(std::uint32_t site) const {
+    const auto end = std::upper_bound(loop_begin.begin(), loop_begin.end(), site);
+    return site == *(end - 1) ? *end - 1 : site - 1;
+  }
   bool joined(std::uint32_t site, std::uint32_t after) const {
-    return passes[site] && !blunt[site] && next[site] == after;
+    return passes[site] && !blunt[site] && next_of(site) == after;
   }
   /// The disks that touch the boundary where `site` ends and the next one begins: on the normal of
   /// the edge that ends there, or, after a vertex and by `by_next`, of the edge that begins. So
@@ -65,13 +77,13 @@ struct SiteLoops {
   template <class Number, class Roots>
   Spoke<Number> spoke_after(std::uint32_t site, Roots& roots) const {
     if (sites[site].is_vertex() || (!by_next.empty() && by_next[site]))
-      return spoke_of<Number>(sites[next[site]], false, roots);
+      return spoke_of<Number>(sites[next_of(site)], false, roots);
     return spoke_of<Number>(sites[site], true, roots);
   }
 };
 
-/// `numbers`: the problem's, or those of parted_numbers(). With `stores_sites` the sites are
-/// stored; otherwise the problem and the numbers must outlive them.
+/// `numbers`: the problem's, or those of parted_numbers(). With `stores_sites` the sites and `next`
+/// are stored; otherwise the problem and the numbers must outlive them.
 SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers,
                      bool stores_sites = true);
 

@@ -1,0 +1,393 @@
+// Collections of polygons in GeoJSON, feature by feature, as GDAL reads them: it takes ten times as
+// long, since it makes an object of each number and reads the file twice. What is unusual is left
+// to GDAL, so that all files mean what they mean there.
+
+#include <simdjson.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdlib>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "io/formats/geojson.h"
+#include "io/place.h"
+
+namespace medial::io {
+
+namespace {
+
+namespace json = simdjson::ondemand;
+
+/// Thrown where GDAL is to read the file.
+struct Unusual {};
+
+void usual(bool condition) {
+  if (!condition) throw Unusual{};
+}
+
+/// The text of an object with a list of features: each of these, and its other members.
+class CollectionText {
+ public:
+  explicit CollectionText(std::shared_ptr<TextSource> source) : source_(std::move(source)) {
+    expect('{');
+  }
+
+  /// The next feature's text; false at the end, when all other members are known.
+  bool next(std::string& feature) {
+    while (!at_end_) {
+      if (in_list_) {
+        if (!ends_with(']', is_first_)) {
+          feature.clear();
+          take_value(feature);
+          return true;
+        }
+        in_list_ = false;
+      } else if (ends_with('}', !has_members_)) {
+        at_end_ = true;
+      } else {
+        take_member();
+      }
+    }
+    usual(source_->peek() < 0 && !source_->failure());
+    return false;
+  }
+  const std::map<std::string, std::string>& members() const { return members_; }
+
+ private:
+  void expect(char c) {
+    source_->skip_space();
+    usual(source_->peek() == c);
+    source_->skip();
+    source_->skip_space();
+  }
+
+  /// Whether a list ends here; otherwise goes past the comma between two of its values.
+  bool ends_with(char end, bool first) {
+    source_->skip_space();
+    if (source_->peek() == end) {
+      expect(end);
+      return true;
+    }
+    if (!first) expect(',');
+    is_first_ = false;
+    has_members_ = true;
+    return false;
+  }
+
+  void take_member() {
+    std::string key, value;
+    take_value(key);
+    expect(':');
+    if (key == "\"features\"") {
+      usual(!members_.contains(key));
+      members_[key];
+      expect('[');
+      in_list_ = is_first_ = true;
+      return;
+    }
+    take_value(value);
+    usual(members_.emplace(std::move(key), std::move(value)).second);
+  }
+
+  char take(std::string& text) {
+    const int c = source_->peek();
+    usual(c >= 0);
+    text.push_back(static_cast<char>(c));
+    source_->skip();
+    return text.back();
+  }
+  void take_string(std::string& text) {
+    for (char c = take(text); (c = take(text)) != '"';)
+      if (c == '\\') take(text);
+  }
+  /// One value, whatever it is: its brackets match.
+  void take_value(std::string& text) {
+    std::size_t depth = 0;
+    do {
+      const int c = source_->peek();
+      if (c == '"') {
+        take_string(text);
+      } else if (c == ',' || c == ':' ? depth == 0 : c < 0) {
+        throw Unusual{};
+      } else {
+        take(text);
+        if (c == '{' || c == '[') ++depth;
+        if (c == '}' || c == ']') {
+          usual(depth > 0);
+          --depth;
+        } else if (depth == 0 && c != '{' && c != '[') {
+          take_word(text);
+        }
+      }
+    } while (depth > 0);
+  }
+  /// The rest of a number or a word.
+  void take_word(std::string& text) {
+    for (int c = source_->peek(); c > ' ' && c != ',' && c != ']' && c != '}'; c = source_->peek())
+      take(text);
+  }
+
+  std::shared_ptr<TextSource> source_;
+  std::map<std::string, std::string> members_;
+  bool in_list_ = false, is_first_ = true, has_members_ = false, at_end_ = false;
+};
+
+enum class Kind : std::uint8_t { none, whole, real, text, boolean };
+
+/// A value, and how GDAL writes it where the column has this kind.
+struct Property {
+  std::string name, text;
+  Kind kind = Kind::none;
+  double number = 0;
+};
+
+std::string text_of(double number) {
+  std::array<char, 32> digits{};
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr};
+}
+
+/// GDAL takes texts for dates and times that are anything like them.
+bool may_be_date(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
+  constexpr std::string_view digits = "0123456789+-T";
+  return !text.empty() && digits.find(text[0]) != std::string_view::npos &&
+         text.find_first_of("-/:") != std::string_view::npos;
+}
+
+Property property_of(json::field field) {
+  Property property;
+  property.name = std::string_view(field.unescaped_key());
+  usual(property.name != "id");  // which GDAL takes for that of the feature
+  json::value value = field.value();
+  switch (json::json_type(value.type())) {
+    case json::json_type::number: {
+      constexpr std::int64_t exact = std::int64_t{1} << 53;
+      const json::number number = value.get_number();
+      property.kind = number.is_double() ? Kind::real : Kind::whole;
+      property.number = number.as_double();
+      usual(property.kind == Kind::real ||
+            (number.is_int64() && number.get_int64() < exact && number.get_int64() > -exact));
+      property.text = property.kind == Kind::real ? text_of(property.number)
+                                                  : std::to_string(number.get_int64());
+      break;
+    }
+    case json::json_type::string:
+      property.kind = Kind::text;
+      property.text = std::string_view(value.get_string());
+      usual(!may_be_date(property.text) && property.text.find('\0') == std::string::npos);
+      break;
+    case json::json_type::boolean:
+      property.kind = Kind::boolean;
+      property.text = bool(value.get_bool()) ? "1" : "0";
+      break;
+    case json::json_type::null:
+      break;
+    default:
+      throw Unusual{};
+  }
+  return property;
+}
+
+Ring ring_of(json::array positions, RingRole role) {
+  Ring ring;
+  ring.role = role;
+  for (json::value position : positions) {
+    std::array<double, 2> place{};
+    std::size_t count = 0;
+    for (json::value number : position.get_array()) {
+      const double coordinate = number.get_double();
+      if (count < 2) place[count] = coordinate;
+      ++count;
+    }
+    usual(count == 2 || count == 3);
+    ring.points.push_back({place[0], place[1]});
+  }
+  usual(ring.points.size() >= 4 && ring.points.front() == ring.points.back());
+  return ring;
+}
+
+void add_polygon(json::array polygon, std::vector<Ring>& rings) {
+  RingRole role = RingRole::outer;
+  for (json::value ring : polygon) {
+    rings.push_back(ring_of(ring.get_array(), role));
+    role = RingRole::hole;
+  }
+  usual(role == RingRole::hole);
+}
+
+void add_geometry(json::object geometry, std::vector<Ring>& rings) {
+  const std::string_view type = geometry.find_field_unordered("type").get_string();
+  const bool several = type == "MultiPolygon";
+  usual(several || type == "Polygon");
+  json::array coordinates = geometry.find_field_unordered("coordinates").get_array();
+  if (!several) return add_polygon(coordinates, rings);
+  for (json::value polygon : coordinates) add_polygon(polygon.get_array(), rings);
+  usual(!rings.empty());
+}
+
+/// A feature before the kinds of its columns are known.
+struct ParsedFeature {
+  std::vector<Ring> rings;
+  std::vector<Property> properties;
+};
+
+ParsedFeature parse(json::parser& parser, std::string& text) {
+  text.reserve(text.size() + simdjson::SIMDJSON_PADDING);
+  json::document document =
+      parser.iterate(simdjson::padded_string_view(text.data(), text.size(), text.capacity()));
+  ParsedFeature feature;
+  int types = 0, geometries = 0, lists = 0;
+  for (json::field field : document.get_object()) {
+    const std::string_view key = field.unescaped_key();
+    if (key == "type") {
+      usual(std::string_view(field.value().get_string()) == "Feature" && ++types == 1);
+    } else if (key == "geometry") {
+      usual(++geometries == 1);
+      add_geometry(field.value().get_object(), feature.rings);
+    } else if (key == "properties") {
+      usual(++lists == 1);
+      for (json::field property : field.value().get_object())
+        feature.properties.push_back(property_of(property));
+    } else {
+      usual(key == "bbox");
+    }
+  }
+  usual(types == 1 && geometries == 1 && lists == 1);
+  return feature;
+}
+
+/// The columns of all features, which have them in one order.
+class Columns {
+ public:
+  void add(const std::vector<Property>& properties) {
+    if (!std::exchange(any_, true)) {
+      for (const Property& property : properties) columns_.emplace_back(property.name, Kind::none);
+      for (const auto& [name, kind] : columns_)
+        usual(std::ranges::count(columns_, name, [](const auto& c) { return c.first; }) == 1);
+    }
+    usual(properties.size() == columns_.size());
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      auto& [name, kind] = columns_[i];
+      const Kind own = properties[i].kind;
+      usual(properties[i].name == name);
+      const auto is_number = [](Kind k) { return k == Kind::whole || k == Kind::real; };
+      if (kind == Kind::none)
+        kind = own;
+      else if (is_number(kind) && is_number(own))
+        kind = kind == Kind::real ? kind : own;
+      else
+        usual(own == Kind::none || own == kind);
+    }
+  }
+  Attributes attributes_of(std::vector<Property> properties) const {
+    Attributes attributes;
+    for (std::size_t i = 0; i < properties.size(); ++i) {
+      Property& own = properties[i];
+      if (own.kind == Kind::none) continue;
+      const bool as_real = own.kind == Kind::whole && columns_[i].second == Kind::real;
+      attributes.emplace_back(std::move(own.name),
+                              as_real ? text_of(own.number) : std::move(own.text));
+    }
+    return attributes;
+  }
+
+ private:
+  std::vector<std::pair<std::string, Kind>> columns_;
+  bool any_ = false;
+};
+
+/// Longitude and latitude as GDAL writes them.
+constexpr const char* geographic =
+    "GEOGCRS[\"WGS 84\",DATUM[\"World Geodetic System 1984\",ELLIPSOID[\"WGS 84\",6378137,"
+    "298.257223563,LENGTHUNIT[\"metre\",1]]],PRIMEM[\"Greenwich\",0,ANGLEUNIT[\"degree\","
+    "0.0174532925199433]],CS[ellipsoidal,2],AXIS[\"geodetic latitude (Lat)\",north,ORDER[1],"
+    "ANGLEUNIT[\"degree\",0.0174532925199433]],AXIS[\"geodetic longitude (Lon)\",east,ORDER[2],"
+    "ANGLEUNIT[\"degree\",0.0174532925199433]],ID[\"EPSG\",4326]]";
+
+/// The reference system as well-known text, or as "EPSG:n".
+std::string crs_of(const std::map<std::string, std::string>& members, json::parser& parser) {
+  const auto found = members.find("\"crs\"");
+  if (found == members.end()) return geographic;
+  const simdjson::padded_string text(found->second);
+  json::document document = parser.iterate(text);
+  json::object crs = document.get_object();
+  usual(std::string_view(crs.find_field_unordered("type").get_string()) == "name");
+  std::string_view name =
+      crs.find_field_unordered("properties").get_object().find_field_unordered("name").get_string();
+  for (const std::string_view begin : {"urn:ogc:def:crs:EPSG::", "EPSG:"}) {
+    if (!name.starts_with(begin)) continue;
+    name.remove_prefix(begin.size());
+    usual(!name.empty() && name.find_first_not_of("0123456789") == std::string_view::npos);
+    return name == "4326" ? geographic : "EPSG:" + std::string(name);
+  }
+  usual(name == "urn:ogc:def:crs:OGC:1.3:CRS84");
+  return geographic;
+}
+
+class GeojsonReader final : public FeatureReader {
+ public:
+  /// Reads all of the file once. Throws Unusual, simdjson_error.
+  explicit GeojsonReader(std::string path) : path_(std::move(path)) {
+    begin();
+    while (next()) columns_.add(parse(parser_, text_).properties);
+    const auto type = collection_->members().find("\"type\"");
+    usual(type != collection_->members().end() && type->second == "\"FeatureCollection\"");
+    crs_ = crs_of(collection_->members(), parser_);
+    usual(count_ > 0);
+    begin();
+  }
+
+  Result<bool> read(std::size_t points, Document<Feature>& document) override {
+    document.crs_wkt = crs_;
+    try {
+      for (std::size_t count = 0; count < points;) {
+        if (!next()) return false;
+        ParsedFeature parsed = parse(parser_, text_);
+        Feature& feature = document.items.emplace_back();
+        feature.id = count_ - 1;
+        feature.rings = std::move(parsed.rings);
+        feature.attributes = columns_.attributes_of(std::move(parsed.properties));
+        count += point_count(feature);
+      }
+      return true;
+    } catch (const Unusual&) {
+    } catch (const simdjson::simdjson_error&) {
+    }
+    return Error{ErrorCode::unreadable, "the file has changed while it was read", in_file(path_)};
+  }
+
+ private:
+  void begin() {
+    auto source = TextSource::open(path_);
+    usual(source.ok());
+    collection_.emplace(std::move(*source));
+    count_ = 0;
+  }
+  bool next() {
+    if (!collection_->next(text_)) return false;
+    ++count_;
+    return true;
+  }
+
+  std::string path_, text_, crs_;
+  std::optional<CollectionText> collection_;
+  json::parser parser_;
+  Columns columns_;
+  std::int64_t count_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<FeatureReader> open_geojson(const std::string& path) {
+  try {
+    return std::make_unique<GeojsonReader>(path);
+  } catch (const Unusual&) {
+  } catch (const simdjson::simdjson_error&) {
+  }
+  return nullptr;
+}
+
+}  // namespace medial::io

@@ -1,0 +1,79 @@
+#include "io/part_writer.h"
+
+#include <mutex>
+
+namespace medial::io {
+
+namespace {
+
+/// Parts as text, by the writer of whole documents.
+class TextParts final : public PartWriter {
+ public:
+  TextParts(Target& target, const Format& format) : target_(target), format_(format) {}
+
+  Result<std::shared_ptr<void>> prepare(const PartOutput& output, const Part& part) override {
+    auto text = std::make_shared<std::string>();
+    OutputStream out = OutputStream::to(*text);
+    Target own;
+    own.part = part;
+    own.arcs = target_.arcs;
+    own.columns = target_.columns;
+    own.format = target_.format;
+    own.tables = target_.tables;
+    own.name = target_.name;
+    own.unit = target_.unit;
+    own.crs = target_.crs;
+    own.out = &out;
+    std::unique_lock<std::mutex> alone(projecting_, std::defer_lock);
+    if (own.crs.changes_points()) alone.lock();
+    Status written = std::visit(
+        [&]<class Output>(const Output& one) {
+          return std::get<Writer<Output>>(format_.writers)(own, one);
+        },
+        output);
+    if (!written) return std::move(written).error();
+    if (!own.status()) return own.status().error();
+    if (Status complete = out.finish(); !complete) return std::move(complete).error();
+    return std::shared_ptr<void>(std::move(text));
+  }
+
+  Status add(void* prepared) override {
+    std::string_view text = *static_cast<const std::string*>(prepared);
+    // Of rows that commas divide, the very first one has none.
+    if (!any_ && text.starts_with(",\n")) text.remove_prefix(1);
+    any_ = any_ || (begun_ && !text.empty());
+    begun_ = true;
+    target_.out->put(text);
+    return success();
+  }
+
+  Status finish() override { return success(); }
+
+ private:
+  Target& target_;
+  const Format& format_;
+  std::mutex projecting_;
+  bool begun_ = false, any_ = false;
+};
+
+/// Where nobody wants the items themselves.
+class NoParts final : public PartWriter {
+ public:
+  Result<std::shared_ptr<void>> prepare(const PartOutput&, const Part&) override {
+    return std::shared_ptr<void>();
+  }
+  Status add(void*) override { return success(); }
+  Status finish() override { return success(); }
+};
+
+}  // namespace
+
+Result<std::unique_ptr<PartWriter>> writer_of_parts(Target& target, const Format& format,
+                                                    const PartOutput& none) {
+  if (format.write_parts != nullptr) return format.write_parts(target, none);
+  return std::unique_ptr<PartWriter>(std::make_unique<TextParts>(target, format));
+}
+
+std::unique_ptr<PartWriter> writer_of_nothing() { return std::make_unique<NoParts>(); }
+
+}  // namespace medial::io
