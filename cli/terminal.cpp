@@ -54,6 +54,7 @@ void install_signal_handlers() {
     sigfillset(&action.sa_mask);
     sigaction(signal_number, &action, nullptr);
   }
+  signal(SIGXFSZ, SIG_IGN);  // writing beyond the limit of file sizes fails then: an error
 }
 
 void occupy_standard_descriptors() {

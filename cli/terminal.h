@@ -17,7 +17,8 @@
 namespace medial::cli {
 
 /// From here on, SIGINT, SIGTERM, SIGHUP and SIGPIPE remove what is half written and end the
-/// process with 128 + the signal's number, without a word.
+/// process with 128 + the signal's number, without a word. Writing beyond the limit of file sizes
+/// becomes an error instead of a signal.
 void install_signal_handlers();
 
 /// Occupies descriptors 0 to 2 where the parent closed them: else the next file opened would get

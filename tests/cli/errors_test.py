@@ -3,6 +3,7 @@
 import gzip
 import json
 import os
+import resource
 import subprocess
 
 from support import BOW_TIE, FRAME, PROGRAM, RECTANGLE, SQUARES, CommandLine
@@ -80,6 +81,18 @@ class Errors(CommandLine):
         self.refuse("unwritable", "axis", "frame.wkt", "-o", "frame.wkt")
         self.assertEqual(self.read("frame.wkt").decode(), FRAME)
         self.refuse("unwritable", "axis", "frame.wkt", "-o", "/proc/out.csv")
+
+    def test_a_limit_of_file_sizes_is_an_error(self):
+        self.write("frame.wkt", FRAME)
+        self.write("out.csv", "precious")
+        limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (100, limits[1]))
+        try:
+            for name in ("out.csv", "out.json", "out.svg"):
+                self.refuse("unwritable", "axis", "frame.wkt", "-o", name)
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+        self.assertEqual(self.read("out.csv"), b"precious")
 
     def test_an_output_is_refused_before_the_input_is_read(self):
         self.refuse("unwritable", "axis", "none.wkt", "-o", "none/out.csv")

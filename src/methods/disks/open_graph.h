@@ -90,8 +90,8 @@ class OpenGraph {
   std::vector<End> ends_;                  ///< of each bridge, the end that was reached first
   std::vector<std::uint32_t> half_met_;    ///< bridges
   std::vector<std::uint32_t> gone_links_;  ///< since resolve()
-  std::size_t last_held_ = 0;  ///< nodes that the last part has left, and tasks at them
-  std::uint32_t given_ = 0;  ///< nodes
+  std::size_t last_held_ = 0;              ///< nodes that the last part has left, and tasks at them
+  std::uint32_t given_ = 0;                ///< nodes
   bool glued_ = false, lost_ = false, begins_ = true;
   std::vector<std::int64_t> balance_;  ///< of each component: nodes less edges so far
   Statistics statistics_;
