@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <random>
+#include <string>
+#include <vector>
+
 #include "medial/io/read.h"
 #include "support/scratch_folder.h"
 
@@ -67,15 +72,46 @@ TEST_F(Geojson, IsThatOfGdal) {
                                                  std::string(name) + R"("}},)"));
 }
 
+TEST_F(Geojson, LongNumbersAreTheNearestDoubles) {
+  std::mt19937_64 random(41);
+  std::vector<std::string> numbers;
+  for (int i = 0; i < 4000; ++i) {
+    std::string number = random() % 2 == 0 ? "0." : "-12.";
+    for (std::size_t digits = 14 + random() % 26; digits > 0; --digits)
+      number += static_cast<char>('0' + random() % 10);
+    numbers.push_back(random() % 4 == 0 ? number + "e3" : number);
+  }
+  std::string ring;
+  for (std::size_t i = 0; i < numbers.size(); i += 2)
+    ring += "[" + numbers[i] + "," + numbers[i + 1] + "],";
+  ring += "[" + numbers[0] + "," + numbers[1] + "]";
+  const std::string file =
+      write("long.geojson",
+            collected(geo_feature("{}", R"({"type":"Polygon","coordinates":[[)" + ring + "]]}")));
+  const Result<Document<Feature>> read = read_document(file);
+  ASSERT_TRUE(read.ok());
+  const std::vector<Vec2>& points = read->items.at(0).rings.at(0).points;
+  ASSERT_GE(points.size(), numbers.size() / 2);
+  for (std::size_t i = 0; i < numbers.size(); i += 2) {
+    EXPECT_EQ(points[i / 2].x, std::strtod(numbers[i].c_str(), nullptr)) << numbers[i];
+    EXPECT_EQ(points[i / 2].y, std::strtod(numbers[i + 1].c_str(), nullptr)) << numbers[i + 1];
+  }
+}
+
 // What the reader leaves to GDAL, or would not read alike.
 TEST_F(Geojson, ThatIsUnusualIsThatOfGdal) {
   for (const char* properties :
        {R"({"d":"2020-01-31"})", R"({"t":"12:30"})", R"({"o":{"a":1}})", R"({"l":[1,2]})",
-        R"({"n":1e20})", R"({"n":1e300})", "null", R"({"id":7})", R"({"a":1,"a":2})"})
+        R"({"n":1e20})", R"({"n":12345678901234567890.0})", R"({"n":1e300})", "null", R"({"id":7})",
+        R"({"a":1,"a":2})"})
     expect_same(collected(geo_feature(properties)));
   expect_same(collected(geo_feature(R"({"a":1})") + "," + geo_feature(R"({"a":"x"})")));
   expect_same(collected(geo_feature(R"({"a":1,"b":2})") + "," + geo_feature(R"({"b":3,"a":4})")));
   expect_same(collected(geo_feature("{}", geo_square, R"("id":5,)")));
+  expect_same(collected(geo_feature("{}"), R"("bbox":[1,,2],)"));
+  expect_same(collected(geo_feature("{}"), R"("\u0063rs":{"type":"name"},)"));
+  expect_same(collected(geo_feature(
+      "{}", R"({"coordinates":[[[0,0],[1,0],[1,1],[0,0]]],)" + std::string(geo_square).substr(1))));
   expect_same(collected(geo_feature("{}", geo_square, R"("id":"x",)")));
   for (const char* geometry :
        {"null", R"({"type":"Point","coordinates":[1,2]})", R"({"type":"Polygon","coordinates":[]})",

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "io/formats/geojson.h"
+#include "io/formats/json_number.h"
 #include "io/place.h"
 
 namespace medial::io {
@@ -80,6 +81,7 @@ class CollectionText {
   void take_member() {
     std::string key, value;
     take_value(key);
+    usual(key[0] == '"' && key.find('\\') == std::string::npos);
     expect(':');
     if (key == "\"features\"") {
       usual(!members_.contains(key));
@@ -164,14 +166,13 @@ Property property_of(json::field field) {
   json::value value = field.value();
   switch (json::json_type(value.type())) {
     case json::json_type::number: {
-      constexpr std::int64_t exact = std::int64_t{1} << 53;
-      const json::number number = value.get_number();
-      property.kind = number.is_double() ? Kind::real : Kind::whole;
-      property.number = number.as_double();
-      usual(property.kind == Kind::real ||
-            (number.is_int64() && number.get_int64() < exact && number.get_int64() > -exact));
-      property.text = property.kind == Kind::real ? text_of(property.number)
-                                                  : std::to_string(number.get_int64());
+      constexpr double exact = 1LL << 53;
+      const bool whole = value.raw_json_token().find_first_of(".eE") == std::string_view::npos;
+      property.kind = whole ? Kind::whole : Kind::real;
+      property.number = nearest_double(value);
+      usual(std::abs(property.number) < exact);
+      property.text = whole ? std::to_string(static_cast<std::int64_t>(property.number))
+                            : text_of(property.number);
       break;
     }
     case json::json_type::string:
@@ -198,11 +199,10 @@ Ring ring_of(json::array positions, RingRole role) {
     std::array<double, 2> place{};
     std::size_t count = 0;
     for (json::value number : position.get_array()) {
-      const double coordinate = number.get_double();
-      if (count < 2) place[count] = coordinate;
-      ++count;
+      usual(count < 2);
+      place[count++] = nearest_double(number);
     }
-    usual(count == 2 || count == 3);
+    usual(count == 2);
     ring.points.push_back({place[0], place[1]});
   }
   usual(ring.points.size() >= 4 && ring.points.front() == ring.points.back());
@@ -219,6 +219,15 @@ void add_polygon(json::array polygon, std::vector<Ring>& rings) {
 }
 
 void add_geometry(json::object geometry, std::vector<Ring>& rings) {
+  int types = 0, lists = 0;
+  for (json::field field : geometry) {
+    const std::string_view key = field.unescaped_key();
+    types += key == "type" ? 1 : 0;
+    lists += key == "coordinates" ? 1 : 0;
+    usual(key == "type" || key == "coordinates");
+  }
+  usual(types == 1 && lists == 1);
+  geometry.reset();
   const std::string_view type = geometry.find_field_unordered("type").get_string();
   const bool several = type == "MultiPolygon";
   usual(several || type == "Polygon");
@@ -307,16 +316,27 @@ constexpr const char* geographic =
     "ANGLEUNIT[\"degree\",0.0174532925199433]],AXIS[\"geodetic longitude (Lon)\",east,ORDER[2],"
     "ANGLEUNIT[\"degree\",0.0174532925199433]],ID[\"EPSG\",4326]]";
 
+/// The only member of this name.
+simdjson::dom::element only(simdjson::dom::object object, std::string_view key) {
+  simdjson::dom::element found;
+  int count = 0;
+  for (const auto& member : object) {
+    if (member.key != key) continue;
+    found = member.value;
+    ++count;
+  }
+  usual(count == 1);
+  return found;
+}
+
 /// The reference system as well-known text, or as "EPSG:n".
-std::string crs_of(const std::map<std::string, std::string>& members, json::parser& parser) {
+std::string crs_of(const std::map<std::string, std::string>& members,
+                   simdjson::dom::parser& parser) {
   const auto found = members.find("\"crs\"");
   if (found == members.end()) return geographic;
-  const simdjson::padded_string text(found->second);
-  json::document document = parser.iterate(text);
-  json::object crs = document.get_object();
-  usual(std::string_view(crs.find_field_unordered("type").get_string()) == "name");
-  std::string_view name =
-      crs.find_field_unordered("properties").get_object().find_field_unordered("name").get_string();
+  const simdjson::dom::object crs = parser.parse(found->second);
+  usual(std::string_view(only(crs, "type")) == "name");
+  std::string_view name = only(only(crs, "properties"), "name");
   for (const std::string_view begin : {"urn:ogc:def:crs:EPSG::", "EPSG:"}) {
     if (!name.starts_with(begin)) continue;
     name.remove_prefix(begin.size());
@@ -331,11 +351,24 @@ class GeojsonReader final : public FeatureReader {
  public:
   /// Reads all of the file once. Throws Unusual, simdjson_error.
   explicit GeojsonReader(std::string path) : path_(std::move(path)) {
+    // The parser on demand does not look at what it skips.
+    simdjson::dom::parser strict;
+    const auto check = [&](const std::string& text) {
+      usual(strict.parse(text).error() == simdjson::SUCCESS);
+    };
     begin();
-    while (next()) columns_.add(parse(parser_, text_).properties);
-    const auto type = collection_->members().find("\"type\"");
-    usual(type != collection_->members().end() && type->second == "\"FeatureCollection\"");
-    crs_ = crs_of(collection_->members(), parser_);
+    while (next()) {
+      check(text_);
+      columns_.add(parse(parser_, text_).properties);
+    }
+    const auto& members = collection_->members();
+    for (const auto& [key, value] : members) {
+      check(key);
+      if (key != "\"features\"") check(value);
+    }
+    const auto type = members.find("\"type\"");
+    usual(type != members.end() && type->second == "\"FeatureCollection\"");
+    crs_ = crs_of(members, strict);
     usual(count_ > 0);
     begin();
   }

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/formats/json_number.h"
 #include "io/text_source.h"
 #include "medial/axis.h"
 #include "medial/document.h"
@@ -46,7 +47,7 @@ Integer integer(json::value value) {
 }
 
 inline double number(json::value value) {
-  const double result = value.get_double();
+  const double result = nearest_double(value);
   demand(std::isfinite(result), "a number is not finite");
   return result;
 }
