@@ -133,7 +133,8 @@ int turns_around(std::span<const BulgeArc> curve, Vec2 p) {
   double sum = 0;
   for (const BulgeArc& arc : curve) {
     const Vec2 from = arc.start - p, to = arc.end - p;
-    const int side = orientation(arc.start, arc.end, p);
+    // What lies on the chord's line counts as on its right: there an arc may enclose it.
+    const int side = orientation(arc.start, arc.end, p) > 0 ? 1 : -1;
     sum += side * std::atan2(std::abs(cross(from, to)), dot(from, to));
     if (arc.bulge == 0 || (side < 0) != (arc.bulge > 0)) continue;
     const Vec2 q = p - arc.start;
