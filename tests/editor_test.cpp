@@ -204,6 +204,85 @@ TEST(Editor, BendsAnEdge) {
   EXPECT_TRUE(editor.set_bulge(2, *editor.bulge(2))->added_edges.empty());
 }
 
+TEST(Editor, BendsAnEdgeOfANarrowShape) {
+  Editor editor = editor_of(rectangle(100, 1));
+  for (int i = 0; i < 40; ++i)
+    ASSERT_TRUE(
+        editor.insert(vertex_at(editor, {0, 0}), {98 - 2.0 * i, 0.25 * (i % 2) - 0.125}).ok());
+  ASSERT_TRUE(editor.set_bulge(vertex_at(editor, {100, 1}), 1).ok());
+  EXPECT_EQ(fault_of(editor), "");
+  const auto back = editor.undo();
+  ASSERT_TRUE(back.ok());
+  EXPECT_EQ(fault_of(editor), "");
+}
+
+Ring circle_around(Vec2 center, double radius) {
+  return {{center - Vec2{radius, 0}, center + Vec2{radius, 0}}, RingRole::any, {1, 1}};
+}
+
+TEST(Editor, KeepsAHoleInItsOuterCircle) {
+  Editor editor = editor_of({circle_around({0, 0}, 8), circle_around({0, 0}, 2)});
+  const std::uint32_t outer = vertex_at(editor, {-8, 0});
+  EXPECT_EQ(editor.remove_loop(outer).error().code, ErrorCode::hole_outside);
+  EXPECT_EQ(editor.move_loop(outer, {40, 0}).error().code, ErrorCode::hole_outside);
+  EXPECT_EQ(editor.shape().hole_count(), 1U);
+  EXPECT_EQ(fault_of(editor), "");
+  ASSERT_TRUE(editor.move_loop(vertex_at(editor, {-2, 0}), {1, 0}).ok());
+  EXPECT_EQ(fault_of(editor), "");
+}
+
+/// Whether two editors' shapes and axes are the same to the bit and in the same order.
+void expect_same(const Editor& a, const Editor& b) {
+  const Shape of_a = a.shape(), of_b = b.shape();
+  EXPECT_EQ(of_a.points, of_b.points);
+  EXPECT_EQ(of_a.bulges, of_b.bulges);
+  EXPECT_EQ(of_a.component, of_b.component);
+  const MedialAxis first = a.axis(), second = b.axis();
+  ASSERT_EQ(first.nodes.size(), second.nodes.size());
+  ASSERT_EQ(first.edges.size(), second.edges.size());
+  for (std::uint32_t i = 0; i < first.nodes.size(); ++i) {
+    EXPECT_EQ(first.nodes[i].disk.center, second.nodes[i].disk.center);
+    EXPECT_EQ(first.nodes[i].disk.radius, second.nodes[i].disk.radius);
+    EXPECT_EQ(first.nodes[i].component, second.nodes[i].component);
+  }
+  for (std::uint32_t i = 0; i < first.edges.size(); ++i) {
+    EXPECT_EQ(first.edges[i].node, second.edges[i].node);
+    EXPECT_EQ(first.edges[i].site, second.edges[i].site);
+  }
+  for (std::uint32_t i = 0; a.node(i) || b.node(i); ++i)
+    EXPECT_EQ(a.node(i)->component, b.node(i)->component);
+}
+
+TEST(Editor, ARefusedEditChangesNothing) {
+  Editor editor = editor_of({rectangle(4, 4)[0], triangle({8, 0}, {12, 0}, {8, 4})[0],
+                             triangle({1, 1}, {1, 2}, {2, 1})[0]});
+  const std::uint32_t first = vertex_at(editor, {8, 0});
+  for (const Vec2 by : {Vec2{0, 8}, Vec2{0, -8}}) ASSERT_TRUE(editor.move_loop(first, by).ok());
+  const Editor copy = editor;
+  EXPECT_FALSE(editor.move_loop(first, {-6, 1}).ok());
+  EXPECT_FALSE(editor.move_loop(vertex_at(editor, {0, 0}), {6, 1}).ok());
+  EXPECT_FALSE(editor.move_loop(vertex_at(editor, {1, 1}), {2.5, 1}).ok());
+  EXPECT_FALSE(editor.move(first, {2, 3}).ok());
+  expect_same(editor, copy);
+  Editor far = editor;
+  for (const Vec2 by : {Vec2{0, 8}, Vec2{4, 0}}) ASSERT_TRUE(far.move_loop(first, by).ok());
+  for (int i = 0; i < 2; ++i) ASSERT_TRUE(far.undo().ok());
+  EXPECT_EQ(far.shape().points, copy.shape().points);
+  EXPECT_EQ(far.shape().component, copy.shape().component);
+}
+
+TEST(Editor, TakesEqualPointsOfARingAsOne) {
+  Editor editor = editor_of(rectangle(40, 10));
+  const Ring ring{{{4, 4}, {4, 4}, {6, 4}, {4, 6}}, RingRole::any, {}};
+  ASSERT_TRUE(editor.insert_loop(ring).ok());
+  EXPECT_EQ(fault_of(editor), "");
+  EXPECT_EQ(editor.shape().points.size(), 7U);
+  const std::uint32_t vertex = vertex_at(editor, {4, 4});
+  EXPECT_TRUE(editor.site(2 * vertex + 1));
+  const Ring other{{{14, 4}, {16, 4}, {14, 6}}, RingRole::any, {0.1}};
+  EXPECT_EQ(editor.insert_loop(other).error().code, ErrorCode::invalid_option);
+}
+
 TEST(Editor, DividesAnArcAndJoinsItAgain) {
   const Ring lens{{{0, 0}, {8, 0}, {4, 6}}, RingRole::any, {0.25, 0, 0}};
   Editor editor = editor_of({lens});

@@ -272,13 +272,18 @@ bool TieFit::fits(std::span<const Touch> contacts, double bound) {
   }
 #ifdef MEDIAL_HAS_EXACT
   if (verdict == Verdict::open && sites_->exact != nullptr) {
-    // Distances to vertices and segments have an error of less than 16 roundings of a coordinate
-    // below 4; those to flat arcs may lose all digits.
-    constexpr double long_noise = 64 * std::numeric_limits<long double>::epsilon();
+    // A distance to a segment's line is a sum of two products of normal and difference. Each
+    // product has seven roundings of half an epsilon, the sum and the residual one each; the
+    // products together are at most the distance to the segment's start, below 6 where coordinates
+    // are below 4 and not negative: 24 epsilons, or 48 where they have any sign. A distance to a
+    // vertex has fewer roundings; those to flat arcs may lose all digits.
+    using Long = std::numeric_limits<long double>;
     const auto is_arc = [&](const Touch& i) { return sites_->sites[i.site].is_arc(); };
     const Disk start = disk;
-    if (ranges::none_of(contacts, is_arc))
-      verdict = judge_again<long double>(*sites_, contacts, {bound, long_noise}, disk, worst);
+    if constexpr (Long::digits > std::numeric_limits<double>::digits)
+      if (ranges::none_of(contacts, is_arc))
+        verdict = judge_again<long double>(
+            *sites_, contacts, {bound, static_cast<double>(64 * Long::epsilon())}, disk, worst);
     if (verdict == Verdict::open) {
       disk = start;
       verdict = judge_again<Precise>(*sites_, contacts, {bound, 0x1p-200}, disk, worst);

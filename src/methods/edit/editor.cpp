@@ -127,10 +127,12 @@ Result<AxisChange> Editor::set_bulge(std::uint32_t vertex, double bulge) {
 
 Result<AxisChange> Editor::insert_loop(const Ring& ring) {
   return guarded<AxisChange>(1, [&]() -> Result<AxisChange> {
+    if (!ring.bulges.empty() && ring.bulges.size() != ring.points.size())
+      return Error{ErrorCode::invalid_option, "a ring has as many bulges as points, or none", {}};
     edit::Edit edit;
     for (std::size_t i = 0; i < ring.points.size(); ++i) {
       const Vec2 p = ring.points[i];
-      if (p == ring.points[i + 1 < ring.points.size() ? i + 1 : 0] && !edit.in.empty()) continue;
+      if (p == ring.points[i + 1 < ring.points.size() ? i + 1 : 0]) continue;
       const auto number = parts_->rings.unused() + static_cast<std::uint32_t>(edit.in.size());
       edit.in.push_back({number, p, i < ring.bulges.size() ? ring.bulges[i] : 0});
     }

@@ -60,7 +60,10 @@ std::optional<Error> Editor::Parts::refuse(const edit::Edit& edit) const {
     for (const edit::Corner& corner : edit.in)
       if (!is_finite(corner.point) || !std::isfinite(corner.bulge))
         return error_of(ErrorCode::not_finite, not_finite, corner.number);
-    return std::nullopt;
+    if (edit.out.empty() || !edit.in.empty()) return std::nullopt;
+    const std::uint32_t hole = rings.hole_in(rings[edit.out.front().number].loop);
+    if (hole == none) return std::nullopt;
+    return error_of(ErrorCode::hole_outside, "the hole would not lie inside an outer ring", hole);
   }
   const std::uint32_t shown = edit.fresh != none ? edit.fresh : edit.old;
   if (!std::isfinite(edit.bulge[0]) || !std::isfinite(edit.bulge[1]) ||
@@ -77,17 +80,23 @@ Result<AxisChange> Editor::Parts::change(const edit::Edit& edit) {
   if (!apart.empty() || !fits_frame(edit)) return rebuild(edit);
   const Rings::Judgement judgement = rings.judge(edit);
   if (judgement.verdict == Rings::Verdict::crosses) return crossing_error(judgement);
-  const edit::Edit back = rings.inverse(edit);
+  edit::Edit back = rings.inverse(edit);
   edit::make_room(inverse, inverse.size() + 1);
-  if (edit.fresh != none) box.add(edit.place);
-  for (const edit::Corner& corner : edit.in) box.add(corner.point);
-  measures.radius_limit = radius_limit(box, rings.frame());
+  const Box old_box = box;
+  const auto set_box = [&](const Box& other) {
+    box = other;
+    measures.radius_limit = radius_limit(box, rings.frame());
+  };
+  Box reach = box;
+  rings.add_reach(edit, reach);
+  set_box(reach);
   std::optional<Error> refused;
   auto step =
       judgement.verdict == Rings::Verdict::unclear ? follow_in_two(edit, refused) : follow(edit);
+  if (!step) set_box(old_box);
   if (refused) return std::move(*refused);
   if (!step) return rebuild(edit);
-  inverse.push_back(back);
+  inverse.push_back(std::move(back));
   step->change.vertex = subject_of(edit);
   return std::move(step->change);
 }

@@ -133,7 +133,8 @@ int turns_around(std::span<const BulgeArc> curve, Vec2 p) {
   double sum = 0;
   for (const BulgeArc& arc : curve) {
     const Vec2 from = arc.start - p, to = arc.end - p;
-    const int side = orientation(arc.start, arc.end, p);
+    // What lies on the chord's line counts as on its right: there an arc may enclose it.
+    const int side = orientation(arc.start, arc.end, p) > 0 ? 1 : -1;
     sum += side * std::atan2(std::abs(cross(from, to)), dot(from, to));
     if (arc.bulge == 0 || (side < 0) != (arc.bulge > 0)) continue;
     const Vec2 q = p - arc.start;
@@ -311,13 +312,17 @@ Rings::Judgement Rings::judge_with_arcs(const Edit& edit) const {
 }
 
 std::vector<std::uint32_t> Rings::loops_near(const Box& box, std::uint32_t but) const {
-  std::vector<std::uint32_t> vertices, seen;
+  std::vector<std::uint32_t> vertices;
   boxes_.find(box, [&](std::uint32_t s) {
-    const std::uint32_t loop = vertices_[s].loop;
-    if (loop == but || std::find(seen.begin(), seen.end(), loop) != seen.end()) return;
-    seen.push_back(loop);
-    vertices.push_back(s);
+    if (vertices_[s].loop != but) vertices.push_back(s);
   });
+  const auto loop_of = [&](std::uint32_t v) { return vertices_[v].loop; };
+  std::sort(vertices.begin(), vertices.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return loop_of(a) < loop_of(b); });
+  vertices.erase(
+      std::unique(vertices.begin(), vertices.end(),
+                  [&](std::uint32_t a, std::uint32_t b) { return loop_of(a) == loop_of(b); }),
+      vertices.end());
   return vertices;
 }
 

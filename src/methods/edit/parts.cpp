@@ -141,6 +141,7 @@ Result<AxisChange> Editor::Parts::rebuild(const edit::Edit& edit) {
   }
   next.list_all(change.added_nodes, change.added_edges);
   next.inverse.push_back(rings.inverse(edit));
+  for (edit::Edit& one : next.inverse) one.seat.reset();  // loops may count in another way now
   *this = std::move(next);
   return change;
 }

@@ -7,7 +7,6 @@
 #include "base/predicates.h"
 
 namespace medial::edit {
-namespace {
 
 Box box_of(const BulgeArc& edge) {
   Box box{edge.start, edge.start};
@@ -18,6 +17,8 @@ Box box_of(const BulgeArc& edge) {
   return box;
 }
 
+namespace {
+
 /// Twice the area inside a ring, positive where it runs counter-clockwise.
 double signed_area(const std::vector<Corner>& corners) {
   double area = 0;
@@ -27,14 +28,6 @@ double signed_area(const std::vector<Corner>& corners) {
     if (from.bulge != 0) area += 2 * area_beside_chord({from.point, to.point, from.bulge});
   }
   return area;
-}
-
-/// The same ring in the other direction.
-std::vector<Corner> turned_round(const std::vector<Corner>& corners) {
-  std::vector<Corner> result(corners.rbegin(), corners.rend());
-  for (std::size_t i = 0; i < result.size(); ++i)
-    result[i].bulge = -corners[(2 * corners.size() - 2 - i) % corners.size()].bulge;
-  return result;
 }
 
 }  // namespace
@@ -146,6 +139,26 @@ void Rings::judge_vertex(std::uint32_t v) {
 
 void Rings::set_box(std::uint32_t v) { boxes_.set(v, box_of(edge(v))); }
 
+std::uint32_t Rings::hole_in(std::uint32_t loop) const {
+  if (loops_[loop].hole) return none;
+  for (const Loop& other : loops_)
+    if (other.size > 0 && other.hole && other.component == loops_[loop].component)
+      return other.first;
+  return none;
+}
+
+void Rings::add_reach(const Edit& edit, Box& box) const {
+  for (std::size_t i = 0; i < edit.in.size(); ++i) {
+    const Corner &from = edit.in[i], &to = edit.in[i + 1 < edit.in.size() ? i + 1 : 0];
+    box.add(box_of(BulgeArc{from.point, to.point, from.bulge}));
+  }
+  if (edit.is_of_loops()) return;
+  const Vec2 start = vertices_[edit.before].point, end = vertices_[edit.after].point;
+  const Vec2 middle = edit.fresh != none ? edit.place : end;
+  box.add(box_of(BulgeArc{start, middle, edit.bulge[0]}));
+  if (edit.fresh != none) box.add(box_of(BulgeArc{middle, end, edit.bulge[1]}));
+}
+
 std::vector<Rings::Extent> Rings::sites_around(const Edit& edit) const {
   std::vector<Extent> sites;
   const auto add = [&](std::uint32_t site) {
@@ -207,38 +220,51 @@ void Rings::take_out(std::uint32_t loop) {
   loops_[loop] = {};
 }
 
-void Rings::put_in(const std::vector<Corner>& corners) {
+Seat Rings::seat_of(std::uint32_t loop) const {
+  const Loop& own = loops_[loop];
+  return {loop, own.first, own.component, own.hole};
+}
+
+Seat Rings::find_seat(Vec2 place) const {
+  Seat seat;
+  if (const std::uint32_t around = site_around(place); around != none) {
+    seat.component = loops_[vertices_[around / 2].loop].component;
+    seat.hole = true;
+  } else {
+    for (const Loop& other : loops_)
+      if (other.size > 0) seat.component = std::max(seat.component, other.component + 1);
+  }
+  const auto empty =
+      std::find_if(loops_.begin(), loops_.end(), [](const Loop& one) { return one.size == 0; });
+  seat.loop = static_cast<std::uint32_t>(empty - loops_.begin());
+  return seat;
+}
+
+void Rings::put_in(const Edit& edit) {
+  const std::vector<Corner>& corners = edit.in;
   std::uint32_t room = 0;
   for (const Corner& corner : corners) room = std::max(room, corner.number + 1);
-  loops_.reserve(loops_.size() + 1);
   while (vertices_.size() < room) {  // first, as memory may run out
     boxes_.set(static_cast<std::uint32_t>(vertices_.size()), Box::nothing());
     vertices_.emplace_back();
   }
-  Loop loop{corners[0].number, static_cast<std::uint32_t>(corners.size()), 0, false};
-  if (const std::uint32_t around = site_around(corners[0].point); around != none) {
-    loop.component = loops_[vertices_[around / 2].loop].component;
-    loop.hole = true;
-  } else {
-    for (const Loop& other : loops_)
-      if (other.size > 0) loop.component = std::max(loop.component, other.component + 1);
+  const Seat seat = edit.seat ? *edit.seat : find_seat(corners[0].point);
+  if (seat.loop == loops_.size()) loops_.emplace_back();
+  const std::size_t size = corners.size();
+  loops_[seat.loop] = {seat.first != none ? seat.first : corners[0].number,
+                       static_cast<std::uint32_t>(size), seat.component, seat.hole};
+  const bool turns = (signed_area(corners) < 0) != seat.hole;
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::uint32_t v = corners[i].number;
+    const Corner &after = corners[i + 1 < size ? i + 1 : 0],
+                 &before = corners[(i > 0 ? i : size) - 1];
+    vertices_[v].point = corners[i].point;
+    vertices_[v].next = (turns ? before : after).number;
+    vertices_[v].before = (turns ? after : before).number;
+    vertices_[v].loop = seat.loop;
+    set_bulge(v, turns ? -before.bulge : corners[i].bulge);
   }
-  const auto empty =
-      std::find_if(loops_.begin(), loops_.end(), [](const Loop& one) { return one.size == 0; });
-  const auto number = static_cast<std::uint32_t>(empty - loops_.begin());
-  if (empty == loops_.end()) loops_.emplace_back();
-  loops_[number] = loop;
-  const bool turns = (signed_area(corners) < 0) != loop.hole;
-  const std::vector<Corner> all = turns ? turned_round(corners) : corners;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const std::uint32_t v = all[i].number;
-    vertices_[v].point = all[i].point;
-    vertices_[v].next = all[i + 1 < all.size() ? i + 1 : 0].number;
-    vertices_[v].before = all[i > 0 ? i - 1 : all.size() - 1].number;
-    vertices_[v].loop = number;
-    set_bulge(v, all[i].bulge);
-  }
-  for (const Corner& corner : all) {
+  for (const Corner& corner : corners) {
     judge_vertex(corner.number);
     set_box(corner.number);
   }
@@ -247,7 +273,7 @@ void Rings::put_in(const std::vector<Corner>& corners) {
 void Rings::apply(const Edit& edit) {
   if (edit.is_of_loops()) {
     if (!edit.out.empty()) take_out(vertices_[edit.out.front().number].loop);
-    if (!edit.in.empty()) put_in(edit.in);
+    if (!edit.in.empty()) put_in(edit);
     return;
   }
   if (edit.fresh == vertices_.size()) {  // first, as memory may run out
@@ -273,7 +299,7 @@ void Rings::apply(const Edit& edit) {
   set_bulge(edit.before, edit.bulge[0]);
   vertices_[edit.before].next = edit.fresh != none ? edit.fresh : edit.after;
   vertices_[edit.after].before = edit.fresh != none ? edit.fresh : edit.before;
-  loops_[loop].first = edit.before;
+  loops_[loop].first = edit.seat ? edit.seat->first : edit.before;
   for (const std::uint32_t v : {edit.before, edit.fresh, edit.after}) {
     if (v == none) continue;
     judge_vertex(v);
@@ -285,12 +311,14 @@ Edit Rings::inverse(const Edit& edit) const {
   Edit back;
   if (edit.is_of_loops()) {
     back.out = edit.in;
-    if (!edit.out.empty())
-      for_vertices(vertices_[edit.out.front().number].loop, [&](std::uint32_t v) {
-        back.in.push_back({v, vertices_[v].point, vertices_[v].bulge});
-      });
+    if (edit.out.empty()) return back;
+    back.seat = seat_of(vertices_[edit.out.front().number].loop);
+    for_vertices(back.seat->loop, [&](std::uint32_t v) {
+      back.in.push_back({v, vertices_[v].point, vertices_[v].bulge});
+    });
     return back;
   }
+  back.seat = seat_of(vertices_[edit.before].loop);
   back.before = edit.before;
   back.after = edit.after;
   back.old = edit.fresh;

@@ -25,6 +25,12 @@ struct Corner {
   double bulge = 0;
 };
 
+/// What a loop is among the others.
+struct Seat {
+  std::uint32_t loop = none, first = none, component = 0;
+  bool hole = false;
+};
+
 /// One edit: the vertex `old` between `before` and `after` gives way to the vertex `fresh` at a
 /// place; either may be none. Or a whole loop gives way to another one; either may be empty.
 struct Edit {
@@ -33,9 +39,13 @@ struct Edit {
   Vec2 place;                     ///< of `fresh`, in units of the input
   std::array<double, 2> bulge{};  ///< of the edges that begin at `before` and at `fresh`
   std::vector<Corner> out, in;
+  /// What the loop that changes or comes shall be, if known: so all comes back as it was.
+  std::optional<Seat> seat = std::nullopt;
 
   bool is_of_loops() const { return !out.empty() || !in.empty(); }
 };
+
+Box box_of(const BulgeArc& edge);
 
 /// The loops of a shape as linked lists of vertices, whose numbers stay while others come and go. A
 /// vertex's number is also that of the edge that begins there. A vertex is flat where its edges are
@@ -73,6 +83,8 @@ class Rings {
   bool is_hole(std::uint32_t loop) const { return loops_[loop].hole; }
   bool has_arcs() const { return arcs_ > 0; }
   bool is_reflex(std::uint32_t v) const { return vertices_[v].joint == site::Joint::reflex; }
+  /// A vertex of a hole in an outer loop; none if it has no hole.
+  std::uint32_t hole_in(std::uint32_t loop) const;
   /// A vertex of a loop that is not flat.
   std::uint32_t first_of(std::uint32_t loop) const { return corner_to(loops_[loop].first); }
   const LocalFrame& frame() const { return frame_; }
@@ -124,6 +136,8 @@ class Rings {
     Vec2 point;                 ///< where
   };
   Judgement judge(const Edit& edit) const;
+  /// Adds what the edges that come reach to a box.
+  void add_reach(const Edit& edit, Box& box) const;
 
   /// A site and where it ends.
   struct Extent {
@@ -135,8 +149,10 @@ class Rings {
   std::vector<Extent> sites_around(const Edit& edit) const;
   /// The site nearest to a place in the interior; none where the place is not inside.
   std::uint32_t site_around(Vec2 place) const;
-  void apply(const Edit& edit);  ///< nothing happens where it throws
-  /// The edit that takes this one back. Before apply().
+  /// Nothing happens where it throws, but that what goes out is gone where a loop comes as well.
+  void apply(const Edit& edit);
+  /// The edit that takes this one back. Before apply(). While no shape is adopted, or as long as
+  /// its seat is reset then, all comes back in its old order; and without a search or new memory.
   Edit inverse(const Edit& edit) const;
   /// A number for a new vertex.
   std::uint32_t unused() const { return static_cast<std::uint32_t>(vertices_.size()); }
@@ -199,7 +215,10 @@ class Rings {
   void judge_vertex(std::uint32_t v);
   void set_box(std::uint32_t v);
   void take_out(std::uint32_t loop);
-  void put_in(const std::vector<Corner>& corners);
+  void put_in(const Edit& edit);
+  Seat seat_of(std::uint32_t loop) const;
+  /// Of a loop that comes, whose vertices have room.
+  Seat find_seat(Vec2 place) const;
 
   Judgement judge_straight(const Edit& edit) const;
   Judgement judge_with_arcs(const Edit& edit) const;
