@@ -79,7 +79,7 @@ Result<int> run_nest(const NestArguments& arguments) {
   phases.end("nest");
   if (found->empty())
     return error_at(ErrorCode::empty, arguments.input.path,
-                    "no peninsula of one shape fits in a bay of the other");
+                    "no placement was found that saves area; the search is local");
   Json list = Json::array();
   std::string text =
       fmt::format("{:>10} {:>9} {:>8} {:>12} {:>12} {:>12} {:>12} {:>10}\n", "saved", "degrees",

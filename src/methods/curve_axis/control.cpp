@@ -79,7 +79,8 @@ Status Control::run() {
   Place place;
   if (any_ >= 0) place.point = last(any_).right.point;
   return Error{ErrorCode::unsupported,
-               "the curve axis reaches no end here: use a smaller step, or the method disks",
+               "the curve axis reaches no end here: fit a smooth curve to the outline, or use the "
+               "method disks",
                place};
 }
 

@@ -69,6 +69,8 @@ Certainty::Contact Certainty::contact_of(const site::Site& s, const Disk& disk) 
   if (!s.is_arc()) return {s.normal(), cross(s.direction, d) - disk.radius, unsure, 0, 0};
   // The direction, the curvature and, between two pieces of an arc, the point have been rounded.
   const site::ArcView view = site::view_of_arc(s, disk.center);
+  // The height is off by 5/4 of unsure * all, which the root's derivative doubles, |toward| by 3/4,
+  // curvature and direction by 1: of these 4.25 the bound is twice.
   const double bend = std::abs(s.curvature), all = 1 + bend * size;
   return {(1 / view.size) * view.toward, view.distance - disk.radius,
           9 * unsure * all / (1 + view.size) + 0.5 * rounding, bend / view.size,

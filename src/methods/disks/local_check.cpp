@@ -22,9 +22,14 @@ class LocalCheck {
     degree_.assign(graph_.nodes.size(), 0);
     for (const Link& link : graph_.links)
       for (const std::uint32_t node : link.node) ++degree_[node];
-    return ranges::all_of(graph_.links, [&](const Link& link) {
-      return (!named[link.site[0]] && !named[link.site[1]]) || is_right(link);
-    });
+    bool checks_any = false;
+    return ranges::all_of(graph_.links,
+                          [&](const Link& link) {
+                            if (!named[link.site[0]] && !named[link.site[1]]) return true;
+                            checks_any = true;
+                            return is_right(link);
+                          }) &&
+           checks_any;
   }
 
  private:

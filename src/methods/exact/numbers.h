@@ -104,7 +104,7 @@ struct Bounded<exact::Precise> {
  private:
   Bounded(Real approximate, Size size, Size bound)
       : value(std::move(approximate)), largest(size), error(bound) {}
-  /// Rounded towards 0, by less than `widen` has room for.
+  /// Off by two roundings at most, for which `widen` has room.
   Size magnitude() const {
 #ifdef MEDIAL_WITHOUT_GMP
     return std::abs(static_cast<Size>(value));
