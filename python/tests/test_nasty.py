@@ -144,7 +144,7 @@ def test_curves_with_holes_in_arrays():
 
 @pytest.mark.parametrize("given", ["POLYGON((0 0,4 0,4 2,0 0))", b"x", POLYGON, 3, None])
 def test_one_feature_is_no_sequence(given):
-    with pytest.raises(medial.MedialError, match="no sequence"):
+    with pytest.raises(medial.MedialError, match="not a sequence"):
         medial.axes(given)
 
 
