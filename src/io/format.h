@@ -119,6 +119,15 @@ class Target {
   std::string layer;          ///< see WriteOptions
   OutputCrs crs;
 
+  /// The target of one part of the document: without a file, a stream and errors of its own.
+  Target of_part(const Part& one) const {
+    Target own = *this;
+    own.part = one;
+    own.out = nullptr;
+    own.path.clear();
+    own.status_ = success();
+    return own;
+  }
   /// Points of the document become points of the output. Where one cannot be projected, the error
   /// is the document's, see status().
   template <class Points>

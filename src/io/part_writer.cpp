@@ -14,15 +14,7 @@ class TextParts final : public PartWriter {
   Result<std::shared_ptr<void>> prepare(const PartOutput& output, const Part& part) override {
     auto text = std::make_shared<std::string>();
     OutputStream out = OutputStream::to(*text);
-    Target own;
-    own.part = part;
-    own.arcs = target_.arcs;
-    own.columns = target_.columns;
-    own.format = target_.format;
-    own.tables = target_.tables;
-    own.name = target_.name;
-    own.unit = target_.unit;
-    own.crs = target_.crs;
+    Target own = target_.of_part(part);
     own.out = &out;
     std::unique_lock<std::mutex> alone(projecting_, std::defer_lock);
     if (own.crs.changes_points()) alone.lock();

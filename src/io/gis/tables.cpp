@@ -303,12 +303,7 @@ class GdalParts final : public PartWriter {
 
   Result<std::shared_ptr<void>> prepare(const PartOutput& output, const Part& part) override {
     auto rows = std::make_shared<std::vector<GdalRow>>();
-    Target own;
-    own.part = part;
-    own.columns = target_.columns;
-    own.format = target_.format;
-    own.tables = target_.tables;
-    own.crs = target_.crs;
+    Target own = target_.of_part(part);
     std::unique_lock<std::mutex> alone(projecting_, std::defer_lock);
     if (own.crs.changes_points()) alone.lock();
     GdalTables tables(own, file_, rows.get());

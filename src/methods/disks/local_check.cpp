@@ -4,7 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "base/compat.h"
 #include "site/bisector.h"
 
 namespace medial::disks {
@@ -22,14 +21,13 @@ class LocalCheck {
     degree_.assign(graph_.nodes.size(), 0);
     for (const Link& link : graph_.links)
       for (const std::uint32_t node : link.node) ++degree_[node];
-    bool checks_any = false;
-    return ranges::all_of(graph_.links,
-                          [&](const Link& link) {
-                            if (!named[link.site[0]] && !named[link.site[1]]) return true;
-                            checks_any = true;
-                            return is_right(link);
-                          }) &&
-           checks_any;
+    bool checked = false;
+    for (const Link& link : graph_.links) {
+      if (!named[link.site[0]] && !named[link.site[1]]) continue;
+      if (!is_right(link)) return false;
+      checked = true;
+    }
+    return checked;
   }
 
  private:
