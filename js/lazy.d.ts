@@ -1,3 +1,11 @@
 export * from "./index.js";
-/** Compiles the module, once; from another place if `source` gives its bytes, its URL, or it compiled. */
-export function init(source?: ArrayBuffer | ArrayBufferView | URL | string | WebAssembly.Module): Promise<void>;
+type Source = ArrayBuffer | ArrayBufferView | URL | string | WebAssembly.Module;
+/** Compiles the module, once; from other places if the sources of its two parts give bytes, a URL, or it compiled. */
+export function init(source?: Source, second?: Source): Promise<void>;
+/**
+ * The same, but waits for the first part only: axes and edits. Until complete(), what needs more throws an error
+ * (`incomplete`).
+ */
+export function begin(source?: Source | Promise<Source>, second?: Source | Promise<Source>): Promise<void>;
+/** Waits for the second part. */
+export function complete(): Promise<void>;

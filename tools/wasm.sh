@@ -33,6 +33,16 @@ packages() {
   npm install --prefix "$npm" --no-audit --no-fund --silent || { rm "$npm/package.json"; return 1; }
 }
 
+# Divides the module into what js/profile.mjs calls, which a page loads first, and the rest.
+divide() {
+  cp "$1" "$2/medial.wasm"
+  command -v wasm-split > /dev/null || return 0
+  wasm-split --instrument --all-features "$1" -o "$tree/instrumented.wasm"
+  node "$tree/package/profile.mjs" "$tree/instrumented.wasm" "$tree/profile" data
+  wasm-split --all-features "$1" --profile="$tree/profile" --export-prefix=% -o1 "$2/medial.wasm" -o2 "$2/medial-rest.wasm"
+  rm "$tree/instrumented.wasm" "$tree/profile" "$tree/package/profile.mjs"
+}
+
 build() {
   if ! command -v em++ > /dev/null; then
     echo "web: emscripten is not installed; what needs it is skipped"
@@ -46,7 +56,7 @@ build() {
   rm -rf "$tree/package"
   mkdir "$tree/package"
   cp -r js/*.mjs js/*.d.ts js/lib js/package.json js/README.md LICENSE "$tree/package/"
-  cp "$tree/js/medial.wasm" "$tree/package/lib/"
+  divide "$tree/js/medial.wasm" "$tree/package/lib"
   if [ ! -f web/build.mjs ]; then return; fi
   if packages; then
     node web/build.mjs "$tree"

@@ -3,6 +3,7 @@
 //
 //   node web/build.mjs TREE      reads TREE/package and TREE/npm, writes TREE/studio/index.html
 
+import { existsSync } from "node:fs";
 import { copyFile, mkdir, readFile, readdir, writeFile } from "node:fs/promises";
 import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
@@ -58,17 +59,18 @@ const bundle = await build({
 });
 const style = await build({ entryPoints: [join(web, "style.css")], minify: true, write: false });
 
-// Packed, as the page has to be read before anything of it runs; it compiles while the rest is read.
-const module = gzipSync(await readFile(join(tree, "package/lib/medial.wasm")), { level: 9 }).toString("base64");
-const compiling = `fetch("data:;base64,${module}").then(({ body }) => WebAssembly.compileStreaming(
-  new Response(body.pipeThrough(new DecompressionStream("gzip")), { headers: { "Content-Type": "application/wasm" } })))`;
+/** A part of the module, packed, as text that the page does not run; the second part, if there is one, comes last. */
+async function packed(part) {
+  const path = join(tree, `package/lib/${part}.wasm`);
+  if (!existsSync(path)) return "";
+  return `<script type="text/plain" id="${part}">${gzipSync(await readFile(path), { level: 9 }).toString("base64")}</script>`;
+}
 const script = bundle.outputFiles[0].text.replaceAll("</script", "<\\/script");
+const parts = await Promise.all(["medial", "medial-rest"].map(packed));
 const page = (await text(join(web, "index.html")))
   .replace('<link rel="stylesheet" href="style.css">', () => `<style>${style.outputFiles[0].text}</style>`)
-  .replace('<script type="module" src="src/main.mjs"></script>', () => [
-    `<script>globalThis.MEDIAL_WASM = ${compiling};</script>`,
-    `<script type="module">${script}</script>`,
-  ].join("\n"));
+  .replace('<script type="module" src="src/main.mjs"></script>', () =>
+    `${parts[0]}\n<script type="module" async>${script}</script>\n${parts[1]}`);
 
 /** The licences of what is in the page besides the project's own. */
 async function licences() {

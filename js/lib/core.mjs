@@ -15,21 +15,50 @@ export class MedialError extends Error {
 
 let module; // what the WebAssembly module exports
 let starting;
+let completing; // the second part of the module
+let is_incomplete = false; // whether a function of the second part was called too soon
 
-/** Compiles the module, once; from another place if `source` gives its bytes, its URL, or it compiled. */
-export function init(source) {
-  starting ??= start(source).catch((error) => {
+/**
+ * Compiles the module, once; from other places if the sources give bytes, a URL, or it compiled. It has two
+ * parts: what an axis and its edits need, and everything else.
+ */
+export async function init(source, second) {
+  await begin(source, second);
+  await completing;
+}
+
+/** The same, but waits for the first part only: until complete(), what needs more throws an error. */
+export function begin(
+  source = new URL("./medial.wasm", import.meta.url),
+  second = new URL("./medial-rest.wasm", import.meta.url),
+) {
+  starting ??= start(source, second).catch((error) => {
     starting = undefined;
     throw error;
   });
   return starting;
 }
 
-async function start(source = new URL("./medial.wasm", import.meta.url)) {
-  const compiled = await compile(source);
-  const { exports } = await WebAssembly.instantiate(compiled, imports(compiled));
+/** Waits for the second part. */
+export async function complete() {
+  await starting;
+  await completing;
+}
+
+async function start(source, second) {
+  const compiled = await compile(await source);
+  const needed = WebAssembly.Module.imports(compiled);
+  const { exports } = await WebAssembly.instantiate(compiled, imports(needed));
   exports._initialize();
   module = exports;
+  if (!needed.some((one) => one.module === "placeholder")) return;
+  completing = add_second(second);
+  completing.catch(() => {}); // those who wait for it get the error
+}
+
+/** Its functions take the places of the placeholders in the module's table. */
+async function add_second(source) {
+  await WebAssembly.instantiate(await compile(await source), { primary: module });
 }
 
 async function compile(source) {
@@ -44,16 +73,24 @@ async function compile(source) {
   return WebAssembly.compile(await response.arrayBuffer());
 }
 
+/** Stands for the functions of the second part. */
+function placeholder() {
+  is_incomplete = true;
+  throw incomplete();
+}
+const incomplete = () => new MedialError("this part of the program is still being loaded; await complete()", "incomplete");
+
 /** What the module asks of the system: a clock. Its library can do more, which is never called. */
-function imports(compiled) {
+function imports(needed) {
   const clock_time_get = (_id, _precision, at) => {
     const now = BigInt(Math.round(performance.now() * 1e6));
     new DataView(module.memory.buffer).setBigUint64(at >>> 0, now, true);
     return 0;
   };
   const given = {};
-  for (const { module: from, name } of WebAssembly.Module.imports(compiled))
-    (given[from] ??= {})[name] = name === "clock_time_get" ? clock_time_get : () => 0;
+  for (const { module: from, name } of needed)
+    (given[from] ??= {})[name] =
+      from === "placeholder" ? placeholder : name === "clock_time_get" ? clock_time_get : () => 0;
   return given;
 }
 
@@ -132,11 +169,13 @@ export function call(name, ...given) {
     });
     const result = module[`medial_${name}`](...values);
     if (result === 0) {
+      if (is_incomplete) throw incomplete();
       const { code, text: what, ...where } = JSON.parse(answer_text());
       throw new MedialError(what, code, where);
     }
     return result >>> 0;
   } finally {
+    is_incomplete = false;
     placed.forEach((address) => module.free(address));
   }
 }

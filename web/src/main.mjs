@@ -15,18 +15,56 @@ import { start_tour } from "./tour.mjs";
 
 const $ = (id) => document.getElementById(id);
 
-const begun = performance.now();
+// The module has two parts. An axis takes only the first one: it is drawn before the second part is read and compiled
+// and the page is connected.
+
+/** Compiles a part of the module, which the page holds packed. */
+function compiled(part) {
+  const binary = atob($(part).textContent);
+  const bytes = new Uint8Array(binary.length);
+  for (let k = 0; k < bytes.length; ++k) bytes[k] = binary.charCodeAt(k); // faster than Uint8Array.from()
+  const unpacked = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return WebAssembly.compileStreaming(new Response(unpacked, { headers: { "Content-Type": "application/wasm" } }));
+}
+let compile_second;
+const second = new Promise((use) => (compile_second = use)).then(() => $("medial-rest") && compiled("medial-rest"));
 try {
-  await medial.init(await globalThis.MEDIAL_WASM);
+  await medial.begin(compiled("medial"), second);
 } catch (error) {
   $("toast").textContent = `The studio cannot start in this browser: ${error.message}`;
   $("toast").hidden = false;
   throw error;
 }
 const studio = new Studio($("plane"), medial);
+globalThis.studio = studio; // for the console, and for tests
+
+/** Draws the shape of the address, or an example; false where the address has a shape that cannot be read. */
+async function first() {
+  const hash = location.hash.slice(1);
+  let linked = null;
+  if (hash) {
+    await all_read();
+    linked = await unpacked(hash).catch(() => null);
+  }
+  Object.assign(studio.settings, linked?.settings);
+  studio.change(linked?.rings ?? rings_of_text(examples[0].text));
+  studio.fit();
+  return !hash || Boolean(linked);
+}
+/** Waits for the second part of the module. */
+async function all_read() {
+  if (document.readyState === "loading") await new Promise((done) => addEventListener("DOMContentLoaded", done));
+  compile_second();
+  await medial.complete();
+}
+const is_read = await first();
+studio.frame();
+performance.mark("first axis", { detail: studio.scene.error?.code });
+await all_read();
+if (studio.scene.error?.code === "incomplete") studio.ask("axis");
+
 const tools = new Tools(studio, say);
 const player = new Player(studio);
-globalThis.studio = studio; // for the console, and for tests
 
 /** For screen readers. */
 function say(text) {
@@ -313,25 +351,15 @@ studio.addEventListener("changed", () => {
 const panel = connect_panel(studio, tell);
 start_tour(studio, { show: (text) => show(rings_of_text(text)), panel, player });
 
-// What is shown first: the drawing of the address, or an example.
+// What was drawn before anybody listened.
+for (const name of ["computed", "derived", "changed"]) studio.emit(name);
+studio.ask("theme");
+panel.read();
 
-async function first() {
-  const hash = location.hash.slice(1);
-  if (hash) {
-    try {
-      const { rings, settings } = await unpacked(hash);
-      Object.assign(studio.settings, settings);
-      panel.read();
-      return studio.change(rings);
-    } catch {
-      tell("The address holds no drawing that can be read", true);
-    }
-  }
-  studio.change(rings_of_text(examples[0].text));
-}
-await first();
-studio.fit();
-studio.frame();
-studio.opened = performance.now() - begun;
-performance.mark("first axis");
-addEventListener("hashchange", () => first().then(() => studio.fit()));
+const check_link = (is_read) => is_read || tell("The address holds no drawing that can be read", true);
+check_link(is_read);
+addEventListener("hashchange", async () => {
+  check_link(await first());
+  panel.read();
+});
+studio.opened = true;

@@ -31,6 +31,8 @@ export class Studio extends EventTarget {
   #edits = []; // since then, each with its inverse
   /** The axis that follows edits of the drawing as it is; null where none does. */
   live = null;
+  /** The largest radius of the axis. */
+  deepest = 0;
 
   constructor(canvas, medial) {
     super();

@@ -121,6 +121,11 @@ test("a hole is drawn, and dragged", async () => {
   assert.ok(Math.abs(Math.min(...hole.xy.filter((_, k) => k % 2 === 0)) - 20) < 1, String(hole.xy));
 });
 
+test("the first axis needs only the first part of the module", async () => {
+  const found = await page.evaluate(() => performance.getEntriesByName("first axis").map(({ detail }) => detail));
+  assert.deepEqual(found, [null]);
+});
+
 test("a hole of many vertices is dragged, and the axis follows", async () => {
   const round = Array.from({ length: 100 }, (_, k) => [10 + 3 * Math.cos(k * Math.PI / 50), 10 + 3 * Math.sin(k * Math.PI / 50)]);
   const text = [...round, round[0]].map((at) => at.join(" ")).join(", ");
