@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "curve/fit.h"
 #include "medial/compute.h"
 #include "medial/methods.h"
 #include "medial/query.h"
@@ -480,6 +481,42 @@ TEST(CurveAxis, RefusedFitsNameAFitOfTheSameOutline) {
   EXPECT_GT(fit, 0.01);
   EXPECT_LE(fit, 0.06);
   const auto followed = compute_curve_axis(frame, {.fit = fit});
+  EXPECT_TRUE(followed.ok()) << text;
+}
+
+/// A hole that lies in a disk as large as the fit is left out; the last loop never is.
+TEST(CurveAxis, AFitLeavesOutSpecks) {
+  const std::vector<Vec2> outer{{0, 0}, {40, 0}, {40, 30}, {0, 30}};
+  const std::vector<Vec2> speck{{0.5, 12}, {0.5, 13}, {1.5, 13}, {1.5, 12}};
+  const std::vector<std::vector<Vec2>> loops{outer, speck};
+  EXPECT_EQ(curve::fit_loops(loops, 0.7)->size(), 2U);
+  EXPECT_EQ(curve::fit_loops(loops, 0.71)->size(), 1U);
+  EXPECT_EQ(curve::fit_loops(std::span(loops).first(1), 100)->size(), 1U);
+  const std::vector<Contour> contours{contour_of(outer, {}, true), contour_of(speck, {}, true)};
+  const auto axis = compute_curve_axis(contours, {.fit = 1});
+  ASSERT_TRUE(axis.ok()) << axis.error().text;
+  EXPECT_EQ(axis->axis.nodes.size(), axis->axis.edges.size() + 1);
+}
+
+/// A ring with a gap, which coarse fits close.
+TEST(CurveAxis, FitsThatCrossNameAFitThatDoes) {
+  std::vector<Vec2> points;
+  constexpr int steps = 80;
+  for (const double radius : {10.0, 9.0})
+    for (int i = 0; i <= steps; ++i) {
+      const double share = static_cast<double>(radius > 9.5 ? i : steps - i) / steps;
+      const double angle = 0.97 * 2 * std::numbers::pi * share;
+      points.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+    }
+  const Contour ring = contour_of(points, {}, true);
+  const auto refused = compute_curve_axis({&ring, 1}, {.fit = 3});
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().code, ErrorCode::unsupported);
+  const std::string& text = refused.error().text;
+  EXPECT_TRUE(text.starts_with("the smooth curves of the fit cross here")) << text;
+  const auto at = text.find("--fit ");
+  ASSERT_NE(at, std::string::npos) << text;
+  const auto followed = compute_curve_axis({&ring, 1}, {.fit = std::stod(text.substr(at + 6))});
   EXPECT_TRUE(followed.ok()) << text;
 }
 

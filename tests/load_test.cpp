@@ -165,6 +165,17 @@ TEST(Load, AFitFollowsTheBoundaryAsRepaired) {
   EXPECT_NEAR(area(loaded->items[0].shape), 28, 0.01 * 24);
 }
 
+TEST(Load, AFitNotesTheSpecksThatItLeavesOut) {
+  LoadOptions options;
+  options.fit = 1;
+  const Ring speck{{{0.5, 0.5}, {0.5, 1}, {1, 1}, {1, 0.5}}};
+  const auto loaded = load({feature_of({square(0, 10), speck})}, options);
+  ASSERT_TRUE(loaded.ok()) << to_string(loaded.error());
+  EXPECT_EQ(loaded->items[0].shape.loop_count(), 1U);
+  ASSERT_EQ(loaded->notes.size(), 1U);
+  EXPECT_EQ(loaded->notes[0], "feature 0: 1 loop within a disk as large as --fit is left out");
+}
+
 TEST(Load, SourcesOfAFeatureReplaceThoseOfItsRings) {
   Feature feature = feature_of({square(0, 1)});
   feature.sources = {{7, 4}, {7, 5}, {7, 6}, {7, 7}};

@@ -86,6 +86,24 @@ TEST(Nest, KeepsAGapAndDoesNotMirrorUnasked) {
   EXPECT_FALSE(found->front().mirrored);
 }
 
+/// Branches around holes and between them are no peninsulas: with and without holes the same legs
+/// go into the same bays.
+TEST(Nest, HolesDoNotHidePeninsulas) {
+  const std::vector<Vec2> outline{{0, 0},   {2, 0},  {2, 4}, {8, 4}, {8, 0},  {10, 0},
+                                  {10, 10}, {8, 10}, {8, 6}, {2, 6}, {2, 10}, {0, 10}};
+  std::vector<Ring> rings(3);
+  rings[0].points = outline;
+  rings[1].points = {{3.2, 4.4}, {3.2, 5.4}, {4.2, 5.4}, {4.2, 4.4}};
+  rings[2].points = {{6.2, 4.4}, {6.2, 5.4}, {7.2, 5.4}, {7.2, 4.4}};
+  const Shape holed = *build_shape(rings);
+  const auto plain = nest(shape_of(outline), shape_of(outline)), found = nest(holed, holed);
+  ASSERT_TRUE(plain.ok() && found.ok());
+  ASSERT_FALSE(plain->empty() || found->empty());
+  EXPECT_GT(found->front().saved, 16);  // of the 24 of a bay
+  EXPECT_NEAR(found->front().saved, plain->front().saved, 0.05 * plain->front().saved);
+  expect_apart(holed, placed(holed, found->front()));
+}
+
 TEST(Nest, ConvexShapesHaveNoBays) {
   const Shape square = shape_of({{0, 0}, {2, 0}, {2, 2}, {0, 2}});
   const auto found = nest(square, square);

@@ -6,11 +6,11 @@
 // Each seed is one silhouette(), or one of the images redrawn(), as the pixels' outline and as a
 // smooth one. Each axis must be verified; `potential` alone goes three orders. By `curve-axis`, the
 // fit of the outline is followed. `lee`, `biarc-dc` and `curve-axis` may refuse a shape as
-// unsupported or too large; a fit that a refusal names must be followed. Where the grid of `ridge`
-// or `brushfire` is too coarse, the number of pixels that the note names must do. One line for each
-// failure, then a table of methods, also to a file, and how often each reason was given for a
-// refusal. --method: one method alone. Exit status: 0; 1 where something failed; 2 for a wrong
-// call.
+// unsupported or too large; a refusal by `curve-axis` must name a fit, which must be followed.
+// Where the grid of `ridge` or `brushfire` is too coarse, the number of pixels that the note names
+// must do. One line for each failure, then a table of methods, also to a file, and how often each
+// reason was given for a refusal. --method: one method alone. Exit status: 0; 1 where something
+// failed; 2 for a wrong call.
 
 #include "support/silhouettes.h"
 
@@ -26,6 +26,7 @@
 #include <variant>
 #include <vector>
 
+#include "curve/fit.h"
 #include "medial/io/read.h"
 #include "medial/medial.h"
 #include "methods/curve_axis/curve_axis.h"
@@ -126,26 +127,19 @@ bool try_shape(const std::string& outline, std::uint64_t seed, const Shape& shap
 /// The shape within splines that outlines become. Nothing where one has too few points, or where
 /// too coarse a fit crosses itself.
 Result<Shape> shape_within(const std::vector<Contour>& contours, double within) {
-  std::vector<Contour> curves;
-  for (const Contour& contour : contours) {
-    auto curve = fit_smooth_contour(contour.points, within);
-    if (!curve) return std::move(curve).error();
-    curves.push_back(std::move(curve).value());
-  }
-  const auto arcs = approximate_by_arcs(curves, {.tolerance = 1e-6});
+  std::vector<std::vector<Vec2>> polygons;
+  for (const Contour& contour : contours) polygons.push_back(contour.points);
+  const auto curves = curve::fit_loops(polygons, within);
+  if (!curves) return curves.error();
+  const auto arcs = approximate_by_arcs(*curves, {.tolerance = 1e-6});
   return arcs ? build_shape(*arcs) : Result<Shape>(arcs.error());
 }
 
-/// Counts whether a refusal names a fit, and whether that one is followed and verified. False where
-/// it is not.
-bool count_named_fit(Tally& tally, std::uint64_t seed, const std::string& text,
-                     const std::vector<Contour>& contours) {
+/// Whether a refusal names a fit that is followed and verified; counts it.
+bool count_named_fit(Tally& tally, const std::string& text, const std::vector<Contour>& contours) {
   const std::string option = "(--fit ";
   const auto at = text.find(option);
-  if (at == std::string::npos) {
-    std::printf("silhouette %llu: no fit named\n", static_cast<unsigned long long>(seed));
-    return true;
-  }
+  if (at == std::string::npos) return false;
   ++tally.named;
   const double within = std::strtod(text.c_str() + at + option.size(), nullptr);
   const auto shape = shape_within(contours, within);
@@ -162,7 +156,6 @@ bool try_fit(std::uint64_t seed, const std::vector<Ring>& rings, double share) {
   std::vector<Contour> contours;
   for (const Ring& ring : rings) contours.push_back(contour_of(ring.points, {}, true));
   const auto shape = shape_within(contours, within);
-  if (!shape) return true;
   char name[40];
   std::snprintf(name, sizeof name, "curve-axis, fit %.3f", share);
   const auto began = std::clock();
@@ -170,10 +163,10 @@ bool try_fit(std::uint64_t seed, const std::vector<Ring>& rings, double share) {
   Tally& tally = tallies[name];
   tally.took(seconds_since(began), seed);
   std::string reason;
-  if (!found) {
-    const bool may = tally.refuse(found.error());
-    if (count_named_fit(tally, seed, found.error().text, contours) && may) return true;
-    reason = found.error().text;
+  if (!found || !shape) {
+    const bool may = !found && tally.refuse(found.error());
+    if (may && count_named_fit(tally, found.error().text, contours)) return true;
+    reason = found ? "followed, though the fit makes no shape" : found.error().text;
   } else {
     const Certificate certificate = verify(*shape, found->axis);
     if (certificate.passed) {

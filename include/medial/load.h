@@ -45,7 +45,7 @@ struct LoadOptions {
   ArcOptions arcs;            ///< how free-form curves become arcs
   bool skip_invalid = false;  ///< leaves out features that make no shape, with a note each
   bool part = false;  ///< of a larger document: may be empty; no note counts what is left out
-  double fit = 0;     ///< smooths boundaries within this (fit_smooth_contour()); 0: no
+  double fit = 0;     ///< smooths boundaries within this, without loops in disks of it; 0: no
   bool keep_contours = false;  ///< fills ShapeItem::contours, also from rings
   int threads = 0;             ///< this and the next two: see Options
   std::function<void(double)> progress = {};
@@ -56,13 +56,13 @@ struct LoadOptions {
 struct LoadReport {
   ShapeReport shapes;
   ArcReport arcs;
-  std::uint64_t features = 0, left_out = 0;
+  std::uint64_t features = 0, left_out = 0, specks = 0;  ///< specks: loops too small for a fit
   LoadReport& operator+=(const LoadReport& part);
 };
 
 /// The shape of each feature, in order: applies fill rules, turns curves into arcs, repairs. Notes
-/// say what a repair changed, and what `skip_invalid` left out and why. Errors: empty; cancelled;
-/// those of approximate_by_arcs(), build_shape() and fit_smooth_contour(), with the place.
+/// say what a repair changed, and what was left out and why. Errors: empty; cancelled; those of
+/// approximate_by_arcs(), build_shape() and fit_smooth_contour(), with the place.
 Result<Document<ShapeItem>> load_shapes(Document<Feature> features, const LoadOptions& options = {},
                                         LoadReport* report = nullptr);
 

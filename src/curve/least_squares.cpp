@@ -3,7 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "medial/contour.h"
+#include "curve/fit.h"
+#include "medial/geometry.h"
 
 namespace medial {
 namespace {
@@ -243,6 +244,25 @@ Result<Contour> fit_smooth_contour(std::span<const Vec2> polygon, double toleran
     if (knots.size() > most_knots)
       return Error{ErrorCode::unsupported, "no smooth curve of 2^17 knots is that near", {}};
   }
+}
+
+Result<std::vector<Contour>> curve::fit_loops(std::span<const std::vector<Vec2>> polygons,
+                                              double tolerance) {
+  std::vector<double> radii;
+  for (const auto& polygon : polygons) {
+    Box box = Box::nothing();
+    for (const Vec2 p : polygon) box.add(p);
+    radii.push_back(distance(box.low, box.high) / 2);
+  }
+  const auto largest = std::max_element(radii.begin(), radii.end()) - radii.begin();
+  std::vector<Contour> curves;
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    if (radii[i] <= tolerance && i != static_cast<std::size_t>(largest)) continue;
+    auto curve = fit_smooth_contour(polygons[i], tolerance);
+    if (!curve) return std::move(curve).error();
+    curves.push_back(std::move(curve).value());
+  }
+  return curves;
 }
 
 }  // namespace medial

@@ -7,10 +7,12 @@
 
 #include "base/counted.h"
 #include "curve/bezier.h"
+#include "curve/fit.h"
 #include "load/file_index.h"
 #include "load/progress.h"
 #include "medial/load.h"
 #include "medial/methods.h"
+#include "methods/curve_axis/fits.h"
 #include "shape/clean.h"
 
 namespace medial {
@@ -93,16 +95,20 @@ void keep_sources(Shape& shape, const Feature& feature,
       source = feature.sources[ring_begin[source.ring] + source.vertex];
 }
 
-/// The shape within smooth curves instead.
-Result<Shape> smooth_shape(std::vector<Contour> contours, const LoadOptions& options) {
-  for (Contour& contour : contours) {
-    auto curve = fit_smooth_contour(curve::polygon_of(contour), options.fit);
-    if (!curve) return std::move(curve).error();
-    contour = std::move(curve).value();
-  }
-  const auto rings = approximate_by_arcs(contours, options.arcs);
+/// The shape within smooth curves instead. Where they cross, the error names a fit that does.
+Result<Shape> smooth_shape(const std::vector<Contour>& contours, const LoadOptions& options,
+                           LoadReport& report) {
+  std::vector<std::vector<Vec2>> polygons;
+  for (const Contour& contour : contours) polygons.push_back(curve::polygon_of(contour));
+  const auto curves = curve::fit_loops(polygons, options.fit);
+  if (!curves) return curves.error();
+  const auto rings = approximate_by_arcs(*curves, options.arcs);
   if (!rings) return rings.error();
-  return build_shape(*rings);
+  report.specks = contours.size() - curves->size();
+  auto shape = build_shape(*rings);
+  if (shape) return shape;
+  return curve_axis::with_fit_that_does(std::move(shape).error(), polygons, {.fit = options.fit},
+                                        options.cancel);
 }
 
 Result<ShapeItem> load_shape(Feature& feature, const LoadOptions& options, LoadReport& report) {
@@ -118,7 +124,7 @@ Result<ShapeItem> load_shape(Feature& feature, const LoadOptions& options, LoadR
   keep_sources(*shape, feature, ring_begin);
   const bool is_repaired = report.shapes.crossings + report.shapes.dropped_rings > 0;
   if (has_contours && is_repaired) item.contours = contours_of(rings_of(*shape), {});
-  if (options.fit > 0) shape = smooth_shape(item.contours, options);
+  if (options.fit > 0) shape = smooth_shape(item.contours, options, report);
   if (!shape) return std::move(shape).error();
   item.shape = std::move(shape).value();
   if (!options.keep_contours) item.contours = {};
@@ -142,6 +148,13 @@ std::string note_of_crossings(std::size_t feature, const ShapeReport& report, st
 std::string note_of_outlines(std::size_t features, std::uint64_t places) {
   return "the outlines of " + counted(features, "feature") + " cross or overlap in " +
          counted(places, "place") + " and are split there";
+}
+
+std::string note_of_specks(std::size_t feature, std::uint64_t loops) {
+  return "feature " + std::to_string(feature) + ": " + counted(loops, "loop") +
+         (loops == 1 ? " within a disk as large as --fit is"
+                     : " within disks as large as --fit are") +
+         " left out";
 }
 
 /// A feature's shape, or why it has none; and what was left out of it.
@@ -251,6 +264,7 @@ LoadReport& LoadReport::operator+=(const LoadReport& part) {
   arcs += part.arcs;
   features += part.features;
   left_out += part.left_out;
+  specks += part.specks;
   return *this;
 }
 
@@ -299,7 +313,10 @@ Result<Document<ShapeItem>> load_shapes(Document<Feature> features, const LoadOp
         shapes.notes.push_back(
             note_of_crossings(features.index_of(i), one, attempt.item.shape.loop_count()));
     }
+    if (reports[i].specks > 0 && !(*items)[i].error)
+      shapes.notes.push_back(note_of_specks(features.index_of(i), reports[i].specks));
     sum.shapes += one;
+    sum.specks += reports[i].specks;
     sum.arcs += reports[i].arcs;
   }
   if (outlines > 0) shapes.notes.push_back(note_of_outlines(outlines, places));

@@ -46,12 +46,12 @@ double area_of(const std::vector<Vec2>& polygon) {
 }
 
 /// The tips of the branches that reach furthest, at their shallower ends. Bays look to where a
-/// branch is deep, peninsulas away from it.
+/// branch is deep, peninsulas away from it. Branches on cycles and between them have no tip.
 std::vector<BranchTip> tips_of(const MedialAxis& axis, double size, bool bays) {
   std::vector<BranchTip> tips;
   const std::vector<Branch> all = branches(axis);
   for (const BranchFeatures& one : describe(axis).branches) {
-    if (one.closed || one.from == one.to) continue;
+    if (!std::isfinite(one.significance)) continue;
     const Disk &base = axis.nodes[one.from].disk, &tip = axis.nodes[one.to].disk;
     // As far along the branch as its direction is to count.
     Vec2 towards = base.center;
@@ -62,7 +62,7 @@ std::vector<BranchTip> tips_of(const MedialAxis& axis, double size, bool bays) {
       if (off < nearest && distance(p, tip.center) > 0.02 * size) towards = p, nearest = off;
     }
     const Vec2 way = towards - tip.center;
-    const double length = norm(way), reach = std::min(one.significance * base.radius, size);
+    const double length = norm(way), reach = one.significance * base.radius;
     if (!(length > 0 && reach > 0.01 * size)) continue;
     tips.push_back({tip.center, ((bays ? 1 : -1) / length) * way, reach});
   }

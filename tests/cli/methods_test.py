@@ -111,6 +111,9 @@ class Methods(CommandLine):
         fit = re.search(r"--fit ([0-9.]+)", text).group(1)
         self.succeed("axis", "cusp.svg", "--method", "curve-axis", "--fit", fit, "-o", "t.json")
         self.assertEqual(self.run_medial("legal", "t.json").returncode, 0)
+        self.write("speck.wkt", "POLYGON((0 0,40 0,40 30,0 30,0 0),(0.5 12,0.5 13,1.5 13,1.5 12,0.5 12))")
+        note = self.succeed("axis", "speck.wkt", "--method", "curve-axis", "--fit", "1", "-o", "t.json").stderr
+        self.assertIn(b"1 loop within a disk as large as --fit is left out", note)
 
     def test_a_note_names_the_pixels_that_do(self):
         """A frame with a hole smaller than a pixel, by both methods of pixels."""

@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <numbers>
-#include <string>
 #include <vector>
 
 #include "axis/node_kinds.h"
@@ -17,6 +14,7 @@
 #include "medial/shape.h"
 #include "methods/curve_axis/bridges.h"
 #include "methods/curve_axis/control.h"
+#include "methods/curve_axis/fits.h"
 
 namespace medial {
 namespace curve_axis {
@@ -518,6 +516,8 @@ Vec2 take_home(Loops& loops) {
   return origin;
 }
 
+}  // namespace
+
 Result<CurveAxis> follow_all(std::span<const Contour> contours, const method::CurveAxis& options,
                              const std::atomic<bool>* cancel) {
   auto components = loops_of(contours, options);
@@ -536,70 +536,6 @@ Result<CurveAxis> follow_all(std::span<const Contour> contours, const method::Cu
   }
   return all;
 }
-
-/// Smooth curves within a distance of polygons. Errors: those of fit_smooth_contour().
-Result<std::vector<Contour>> fitted(std::span<const std::vector<Vec2>> polygons, double within) {
-  std::vector<Contour> curves;
-  for (const auto& polygon : polygons) {
-    auto curve = fit_smooth_contour(polygon, within);
-    if (!curve) return std::move(curve).error();
-    curves.push_back(std::move(curve).value());
-  }
-  return curves;
-}
-
-/// Of some fits of polygons the closest one that the method follows, with two digits; next to
-/// `options.fit`, if there is one, coarser before closer. Nothing where it follows none.
-std::string fit_that_does(std::span<const std::vector<Vec2>> polygons,
-                          const method::CurveAxis& options, const std::atomic<bool>* cancel) {
-  constexpr std::array<double, 6> shares = {0.05, 0.025, 0.012, 0.006, 0.003, 0.0015};
-  constexpr std::array<double, 10> factors = {1.25, 1.6, 2, 2.5, 3.2, 4, 6, 0.8, 0.6, 0.4};
-  Box box = Box::nothing();
-  for (const auto& polygon : polygons)
-    for (const Vec2 p : polygon) box.add(p);
-  const bool is_next = options.fit > 0;
-  const double unit = is_next ? options.fit : distance(box.low, box.high);
-  std::string found;
-  for (const double share : is_next ? std::span<const double>(factors) : shares) {
-    std::array<char, 16> text{};
-    std::snprintf(text.data(), text.size(), "%.2g", share * unit);
-    if (cancel != nullptr && *cancel) return {};
-    const auto curves = fitted(polygons, std::strtod(text.data(), nullptr));
-    const bool is_followed = curves && follow_all(*curves, options, cancel).ok();
-    if (!is_followed && !found.empty()) break;
-    if (is_followed) found = text.data();
-    if (is_followed && is_next) break;
-  }
-  return found;
-}
-
-/// The method on the contours or, if asked for, on their fit.
-Result<CurveAxis> follow_fit(std::span<const Contour> contours, const method::CurveAxis& options,
-                             const std::atomic<bool>* cancel) {
-  std::vector<std::vector<Vec2>> polygons;
-  const auto make_polygons = [&] {
-    for (const Contour& contour : contours) polygons.push_back(curve::polygon_of(contour));
-  };
-  Result<std::vector<Contour>> curves = std::vector<Contour>{};
-  if (options.fit > 0) {
-    make_polygons();
-    curves = fitted(polygons, options.fit);
-    if (!curves) return std::move(curves).error();
-  }
-  Result<CurveAxis> result = follow_all(options.fit > 0 ? *curves : contours, options, cancel);
-  if (result) return result;
-  const ErrorCode code = result.error().code;
-  if (code != ErrorCode::unsupported && code != ErrorCode::too_large) return result;
-  if (polygons.empty()) make_polygons();
-  const std::string fit = fit_that_does(polygons, options, cancel);
-  if (cancel != nullptr && *cancel) return Error{ErrorCode::cancelled, "cancelled", {}};
-  if (fit.empty()) return result;
-  return Error{code,
-               result.error().text + "; it follows a spline within " + fit + " (--fit " + fit + ")",
-               result.error().place};
-}
-
-}  // namespace
 
 Status check_cycles(const MedialAxis& axis, std::size_t holes) {
   DisjointSets parts(axis.nodes.size());
