@@ -32,9 +32,9 @@ for (const input of [leaf, [drawn], [Float64Array.of(0, 0, 3, 0, 3, 2, 0, 2)], .
   axis.clearance([[50, 50]]);
   const editor = new medial.Editor(shape);
   const beside = (v) => editor.vertex(v).map((x, k) => x * (1 + 1e-3 * (k + 1)));
-  for (const edit of ["move", "move", "insert", "remove", "undo"]) {
+  for (const [edit, ...given] of [["move", 2, beside(2)], ["setBulge", 1, 0.1], ["insert", 2, beside(2)], ["remove", 3], ["undo"]]) {
     try {
-      const change = edit === "remove" || edit === "undo" ? editor[edit](3) : editor[edit](2, beside(2));
+      const change = editor[edit](...given);
       editor.edges(change.addedEdges);
       editor.nodes(change.addedNodes);
     } catch (error) {

@@ -458,16 +458,15 @@ function trace_part(live, camera, part) {
   const [left, top, right, bottom] = part.map((side, i) => side + (i < 2 ? -4 : 4));
   const far = left - 10;
   const tracer = new Tracer(far);
-  const { x, y, next, before } = live;
+  const { next, before } = live;
   const { cx, cy, dx, dy, scale } = camera.transform;
   const { fill } = tracer;
-  if (live.inside(...camera.toPlane(right, top))) fill.rect(far, top, right - far, bottom - top);
-  const add = (v) => {
-    const w = next[v];
-    const ax = (x[v] - cx) * scale + dx;
-    const ay = (cy - y[v]) * scale + dy;
-    const bx = (x[w] - cx) * scale + dx;
-    const by = (cy - y[w]) * scale + dy;
+  if (live.inside(...camera.toPlane(right, top), scale)) fill.rect(far, top, right - far, bottom - top);
+  const add = (x0, y0, x1, y1) => {
+    const ax = (x0 - cx) * scale + dx;
+    const ay = (cy - y0) * scale + dy;
+    const bx = (x1 - cx) * scale + dx;
+    const by = (cy - y1) * scale + dy;
     const is_far = Math.max(Math.abs(ax), Math.abs(ay), Math.abs(bx), Math.abs(by)) > FAR;
     if (!is_far && ax <= right && bx <= right) return tracer.edge(ax, ay, bx, by);
     const inner = clipped(ax, ay, bx, by, far, top, right, bottom);
@@ -480,7 +479,10 @@ function trace_part(live, camera, part) {
   };
   const found = live.in_box(box_of(camera, part, 4));
   const walk = (first) => {
-    for (let v = first; live.take(v); v = next[v]) add(v);
+    for (let v = first; live.take(v); v = next[v]) {
+      const line = live.edge(v, scale);
+      for (let k = 0; k + 2 < line.length; k += 2) add(line[k], line[k + 1], line[k + 2], line[k + 3]);
+    }
     tracer.end();
   };
   for (const v of found) if (!live.is_found(before[v])) walk(v);

@@ -1,8 +1,8 @@
-// A drawing of straight edges whose axis follows edits: the package's Editor, and beside it what is drawn,
-// by the editor's numbers, in arrays that change where the axis does.
+// A drawing of straight edges and arcs whose axis follows edits: the package's Editor, and beside it what is
+// drawn, by the editor's numbers, in arrays that change where the axis does.
 
 import { Quads, grown } from "./quads.mjs";
-import { size_of } from "./model.mjs";
+import { arc_of, chords_of, input_of, size_of } from "./model.mjs";
 
 const STRIDE = 7; // x0 y0 cx cy x1 y1 weight
 
@@ -12,9 +12,10 @@ export class Live {
   radii = new Float32Array(0);
   count = 0;
   largest = 0;
-  /** Boundary: vertex v, and the edge from it to `next`; -1 where there is none. */
+  /** Boundary: vertex v, and the edge from it to `next`, with its bulge; -1 where there is none. */
   x = new Float64Array(0);
   y = new Float64Array(0);
+  bulge = new Float64Array(0);
   next = new Int32Array(0);
   before = new Int32Array(0);
   ring = new Int32Array(0);
@@ -27,7 +28,8 @@ export class Live {
   is_in_step = true;
 
   constructor(medial, rings) {
-    const shape = new medial.Shape(rings.map((ring) => ring.xy));
+    const { x, options } = input_of(rings, medial);
+    const shape = new medial.Shape(x, options);
     try {
       this.editor = new medial.Editor(shape);
       this.#number(rings, shape);
@@ -57,7 +59,7 @@ export class Live {
     this.numbers = rings.map((ring) => new Int32Array(size_of(ring)).fill(-1));
     const { sources } = shape;
     const count = sources.length / 2;
-    [this.x, this.y] = [new Float64Array(count), new Float64Array(count)];
+    [this.x, this.y, this.bulge] = Array.from({ length: 3 }, () => new Float64Array(count));
     [this.ring, this.index] = [new Int32Array(count), new Int32Array(count)];
     for (let v = 0; v < count; ++v) {
       const [r, i] = [sources[2 * v], sources[2 * v + 1]];
@@ -74,14 +76,14 @@ export class Live {
   }
 
   #read_boundary(shape, number) {
-    const { points, loopBegin } = shape;
+    const { points, bulges, loopBegin } = shape;
     this.next = new Int32Array(this.x.length).fill(-1);
     this.before = new Int32Array(this.x.length).fill(-1);
     this.boundary = new Quads(shape.bounds, this.x.length);
     for (let l = 0; l + 1 < loopBegin.length; ++l)
       for (let k = loopBegin[l]; k < loopBegin[l + 1]; ++k) {
         const [v, w] = [number(k), number(k + 1 < loopBegin[l + 1] ? k + 1 : loopBegin[l])];
-        [this.x[v], this.y[v]] = [points[2 * k], points[2 * k + 1]];
+        [this.x[v], this.y[v], this.bulge[v]] = [points[2 * k], points[2 * k + 1], bulges[k] ?? 0];
         this.next[v] = w;
         this.before[w] = v;
       }
@@ -131,12 +133,20 @@ export class Live {
 
   /** Whether the editor knows the vertices that an edit is about. */
   knows({ kind, ring, index }) {
+    if (kind === "ring") return this.#known(ring).length > 0;
+    if (kind === "bend") return this.#edge_at(ring, index + 1) >= 0;
+    // The editor divides and joins arcs where a vertex comes and goes; the drawing makes edges straight there.
+    if (kind === "insert") return this.bulge[this.#edge_at(ring, index)] === 0;
     const numbers = this.numbers[ring];
-    if (kind === "ring") return this.has_all;
-    if (kind !== "insert") return numbers[index] >= 0 && this.next[numbers[index]] >= 0 && (kind === "move" || numbers.length > 3);
-    return this.#edge_at(ring, index) >= 0;
+    const v = numbers[index];
+    if (!(v >= 0 && this.next[v] >= 0)) return false;
+    return kind === "move" || (numbers.length > 3 && this.bulge[v] === 0 && this.bulge[this.before[v]] === 0);
   }
-  /** The vertex at which the edge begins that a vertex is inserted into, as the editor has it. */
+  /** The places in a ring of the vertices that the shape has. */
+  #known(ring) {
+    return [...this.numbers[ring].keys()].filter((i) => this.numbers[ring][i] >= 0 && this.next[this.numbers[ring][i]] >= 0);
+  }
+  /** The vertex at which the edge to the vertex `index` of a ring begins, as the editor has it; -1 for none. */
   #edge_at(ring, index) {
     const numbers = this.numbers[ring];
     const [a, b] = [numbers[(index + numbers.length - 1) % numbers.length], numbers[index % numbers.length]];
@@ -149,6 +159,7 @@ export class Live {
     const { editor } = this;
     const { kind, ring, index, point } = edit;
     if (kind === "ring") return this.#follow_ring(edit);
+    if (kind === "bend") return this.#follow_bend(edit);
     const v = kind === "insert" ? this.#edge_at(ring, index) : this.numbers[ring][index];
     let change;
     if (kind === "move") change = editor.move(v, point);
@@ -164,18 +175,30 @@ export class Live {
   }
   /** A whole ring; its vertices come to their places, whatever rounding makes of the sums. */
   #follow_ring({ ring, xy, by }) {
-    const numbers = this.numbers[ring];
-    const [first] = numbers;
-    const way = by ?? [xy[0] - this.x[first], xy[1] - this.y[first]];
+    const known = this.#known(ring).map((i) => ({ v: this.numbers[ring][i], x: xy[2 * i], y: xy[2 * i + 1] }));
+    const [{ v: first, x, y }] = known;
+    const way = by ?? [x - this.x[first], y - this.y[first]];
     const change = this.editor.moveLoop(first, way);
     this.is_in_step = false;
     this.#forget_axis();
-    const off = numbers.map((v, i) => (this.x[v] + way[0] !== xy[2 * i] || this.y[v] + way[1] !== xy[2 * i + 1] ? i : -1));
-    for (const v of numbers) this.#forget(v);
-    numbers.forEach((v, i) => ([this.x[v], this.y[v]] = [xy[2 * i], xy[2 * i + 1]]));
-    for (const v of numbers) this.#add(v);
+    const off = known.filter(({ v, x, y }) => this.x[v] + way[0] !== x || this.y[v] + way[1] !== y);
+    for (const { v } of known) this.#forget(v);
+    for (const { v, x, y } of known) [this.x[v], this.y[v]] = [x, y];
+    for (const { v } of known) this.#add(v);
     this.#take_any(change);
-    for (const i of off) if (i >= 0) this.#take_any(this.editor.move(numbers[i], [xy[2 * i], xy[2 * i + 1]]));
+    for (const { v, x, y } of off) this.#take_any(this.editor.move(v, [x, y]));
+    this.is_in_step = true;
+  }
+  #follow_bend({ ring, index, edge }) {
+    const v = this.#edge_at(ring, index + 1);
+    const bulge = v === this.numbers[ring][index] ? edge : -edge; // the editor may go round the other way
+    const change = this.editor.setBulge(v, bulge);
+    this.is_in_step = false;
+    this.#forget_axis();
+    this.#forget(v);
+    this.bulge[v] = bulge;
+    this.#add(v);
+    this.#take_any(change);
     this.is_in_step = true;
   }
   #take_any(change) {
@@ -222,9 +245,9 @@ export class Live {
   }
   #inserted(a, v, ring, index, [x, y]) {
     const b = this.next[a];
-    for (const name of ["x", "y", "next", "before", "ring", "index"]) this[name] = grown(this[name], v + 1);
+    for (const name of ["x", "y", "bulge", "next", "before", "ring", "index"]) this[name] = grown(this[name], v + 1);
     this.#forget(a);
-    [this.x[v], this.y[v], this.ring[v]] = [x, y, ring];
+    [this.x[v], this.y[v], this.bulge[v], this.ring[v]] = [x, y, 0, ring];
     this.#link(a, v);
     this.#link(v, b);
     this.#add(a);
@@ -258,10 +281,22 @@ export class Live {
     for (let i = from; i < numbers.length; ++i) if (numbers[i] >= 0) this.index[numbers[i]] = i;
   }
 
+  /** A box around the edge that begins at a vertex. */
+  #box_of(v) {
+    const [x0, y0, x1, y1] = [this.x[v], this.y[v], this.x[this.next[v]], this.y[this.next[v]]];
+    const bulge = this.bulge[v];
+    if (bulge === 0) return [Math.min(x0, x1), Math.min(y0, y1), Math.max(x0, x1), Math.max(y0, y1)];
+    const { cx, cy, radius } = arc_of([x0, y0], [x1, y1], bulge);
+    if (Math.abs(bulge) >= 1) return [cx - radius, cy - radius, cx + radius, cy + radius];
+    // Of less than half a circle: the triangle of the chord and the tangents at its ends.
+    const rise = bulge / (1 - bulge * bulge);
+    const [tx, ty] = [(x0 + x1) / 2 + rise * (y1 - y0), (y0 + y1) / 2 - rise * (x1 - x0)];
+    const [low_x, high_x] = [Math.max(Math.min(x0, x1, tx), cx - radius), Math.min(Math.max(x0, x1, tx), cx + radius)];
+    const [low_y, high_y] = [Math.max(Math.min(y0, y1, ty), cy - radius), Math.min(Math.max(y0, y1, ty), cy + radius)];
+    return [Math.min(low_x, x0, x1), Math.min(low_y, y0, y1), Math.max(high_x, x0, x1), Math.max(high_y, y0, y1)];
+  }
   #index_boundary(v) {
-    const { x, y } = this;
-    const w = this.next[v];
-    this.boundary.add(v, Math.min(x[v], x[w]), Math.min(y[v], y[w]), Math.max(x[v], x[w]), Math.max(y[v], y[w]));
+    this.boundary.add(v, ...this.#box_of(v));
   }
   #add(v) {
     this.#index_boundary(v);
@@ -273,9 +308,7 @@ export class Live {
   }
 
   #mark_edge(v) {
-    const { x, y } = this;
-    const w = this.next[v];
-    this.changed?.push(Math.min(x[v], x[w]), Math.min(y[v], y[w]), Math.max(x[v], x[w]), Math.max(y[v], y[w]));
+    this.changed?.push(...this.#box_of(v));
   }
   #mark_row(e) {
     if (!this.changed) return;
@@ -311,13 +344,23 @@ export class Live {
     return true;
   }
 
-  /** Whether a place is inside, by the edges that a ray to the right meets. */
-  inside(px, py) {
-    const { x, y, next, boundary } = this;
+  /** The edge that begins at a vertex: x and y of its ends, of an arc also between them, for this scale. */
+  edge(v, scale) {
+    const w = this.next[v];
+    if (this.bulge[v] === 0) return [this.x[v], this.y[v], this.x[w], this.y[w]];
+    return chords_of([this.x[v], this.y[v]], [this.x[w], this.y[w]], this.bulge[v], scale);
+  }
+
+  /** Whether a place is inside, by the edges as edge() has them that a ray to the right meets. */
+  inside(px, py, scale) {
+    const { boundary } = this;
     let inside = false;
     boundary.find([px, py, boundary.x + 2 * boundary.side, py], (v) => {
-      const w = next[v];
-      if (y[v] > py !== y[w] > py && px < ((x[w] - x[v]) * (py - y[v])) / (y[w] - y[v]) + x[v]) inside = !inside;
+      const line = this.edge(v, scale);
+      for (let k = 0; k + 2 < line.length; k += 2) {
+        const [ax, ay, bx, by] = [line[k], line[k + 1], line[k + 2], line[k + 3]];
+        if (ay > py !== by > py && px < ((bx - ax) * (py - ay)) / (by - ay) + ax) inside = !inside;
+      }
     });
     return inside;
   }

@@ -99,6 +99,20 @@ export function arc_of([x0, y0], [x1, y1], bulge) {
   return { cx, cy, radius: Math.hypot(x0 - cx, y0 - cy), begin, angle: 4 * Math.atan(bulge) };
 }
 
+/** An arc as a line within a quarter of a pixel at a scale: x and y of its points, from a to b. */
+export function chords_of(a, b, bulge, scale) {
+  const { cx, cy, radius, begin, angle } = arc_of(a, b, bulge);
+  const step = Math.max(0.02, 2 * Math.acos(Math.max(0, 1 - 0.25 / (radius * scale))));
+  const count = Math.ceil(Math.abs(angle) / step);
+  const line = [...a];
+  for (let k = 1; k < count; ++k) {
+    const at = begin + (k / count) * angle;
+    line.push(cx + radius * Math.cos(at), cy + radius * Math.sin(at));
+  }
+  line.push(...b);
+  return line;
+}
+
 /** Points along a bent edge without its ends, to hit and to bound it. */
 export function samples(ring, i, edge, count = 16) {
   const [a, b] = [point_of(ring, i), point_of(ring, next_of(ring, i))];
@@ -113,6 +127,11 @@ export function samples(ring, i, edge, count = 16) {
     const w = [s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t];
     return [0, 1].map((d) => w[0] * a[d] + w[1] * edge[d] + w[2] * edge[2 + d] + w[3] * b[d]);
   });
+}
+
+/** Points along an edge, bent as said or straight, with its ends. */
+export function line_of(ring, i, edge) {
+  return [point_of(ring, i), ...(edge ? samples(ring, i, edge) : []), point_of(ring, next_of(ring, i))];
 }
 
 /** Points of a ring with bent edges as chords. */
@@ -159,10 +178,16 @@ function contour_of(ring, medial) {
 
 /**
  * Moves, inserts or removes a vertex of a ring: { kind, ring, index, point }; an inserted one comes before
- * the vertex `index`. Or moves a ring: { kind: "ring", ring, xy }. Gives the edit that takes it back.
+ * the vertex `index`. Or bends an edge: { kind: "bend", ring, index, edge }, or moves a ring:
+ * { kind: "ring", ring, xy }. Gives the edit that takes it back.
  */
-export function apply_edit(rings, { kind, ring: r, index, point, xy }) {
+export function apply_edit(rings, { kind, ring: r, index, point, xy, edge }) {
   const ring = rings[r];
+  if (kind === "bend") {
+    const old = ring.edges.get(index) ?? 0;
+    Object.assign(ring, with_edge(ring, index, edge));
+    return { kind, ring: r, index, edge: old };
+  }
   if (kind === "ring") {
     const old = ring.xy;
     ring.xy = xy;

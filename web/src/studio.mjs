@@ -5,7 +5,7 @@
 import { Camera } from "./camera.mjs";
 import { nice_step, read_theme, ring_from } from "./draw.mjs";
 import { Live } from "./live.mjs";
-import { History, apply_edit, bounds_of, count_of, input_of, outline } from "./model.mjs";
+import { History, apply_edit, bounds_of, count_of, input_of, line_of, outline } from "./model.mjs";
 import { Painter } from "./painter.mjs";
 import { Pieces } from "./pieces.mjs";
 
@@ -124,12 +124,13 @@ export class Studio extends EventTarget {
     for (const one of made) {
       const last = this.#edits.at(-1);
       const goes_on = last && ["kind", "ring", "index"].every((name) => last.edit[name] === one.edit[name]);
-      if (goes_on && ["move", "ring"].includes(one.edit.kind)) last.edit = { ...one.edit, by: undefined };
+      if (goes_on && ["move", "bend", "ring"].includes(one.edit.kind)) last.edit = { ...one.edit, by: undefined };
       else this.#edits.push(one);
     }
   }
-  #around({ kind, ring, index, point, xy: moved }) {
+  #around({ kind, ring, index, point, edge, xy: moved }) {
     const { xy } = this.scene.rings[ring];
+    if (kind === "bend") return line_of(this.scene.rings[ring], index, edge);
     if (kind === "ring") return Array.from({ length: moved.length / 2 + 1 }, (_, i) => [0, 1].map((k) => moved[(2 * i + k) % moved.length]));
     const at = (i) => [xy.at((2 * i) % xy.length), xy.at((2 * i + 1) % xy.length)];
     const [before, after] = [at(index - 1), at(kind === "insert" ? index : index + 1)];
@@ -260,7 +261,7 @@ export class Studio extends EventTarget {
   /** Whether the axis can follow edits. */
   get #follows() {
     const { method, exact, exterior } = this.settings;
-    return method === "disks" && !exact && !exterior && this.rings.every(({ edges }) => !edges.size);
+    return method === "disks" && !exact && !exterior && this.rings.every(({ edges }) => ![...edges.values()].some(Array.isArray));
   }
   #axis_of(rings) {
     const { medial, settings } = this;

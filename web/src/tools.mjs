@@ -224,22 +224,31 @@ export class Tools {
     const before = drag.ring_before;
     const to = this.#plane(at, drag);
     const [dx, dy] = [to[0] - drag.point[0], to[1] - drag.point[1]];
-    if (this.#follow(drag, to, dx, dy)) return;
+    const is_done = this.#follow(drag, drag.handle ? this.#plane(at) : to, dx, dy);
+    if (is_done) return this.#show_handles();
     let ring;
     if (drag.handle) ring = bent(before, drag, this.#plane(at));
     else if (drag.kind === "vertex") ring = moved_vertex(before, drag.index, to);
     else if (drag.kind === "edge") ring = moved_edge(before, drag.index, dx, dy);
     else ring = moved_ring(before, dx, dy);
     this.studio.change(this.scene.rings.with(drag.ring, ring), false);
-    if (this.scene.hot?.kind === "edge") this.scene.hot = { ...this.scene.hot, handles: this.#handles(this.scene.hot) };
+    this.#show_handles();
     this.studio.emit("dragged", at);
   }
-  /** Lets the axis follow a vertex, the two of an edge, or a ring. False where it cannot. */
+  #show_handles() {
+    const { hot } = this.scene;
+    if (hot?.kind === "edge") this.scene.hot = { ...hot, handles: this.#handles(hot) };
+  }
+  /** Lets the axis follow a vertex, the two of an edge, its bend, or a ring. False where it cannot. */
   #follow(drag, to, dx, dy) {
     const { ring, ring_before: before } = drag;
     const count = size_of(before);
-    if (drag.handle) return false;
-    if (drag.kind === "ring" && count > MOST_AT_ONCE) {
+    if (drag.handle) {
+      if (drag.handle.part !== "bulge") return false;
+      const edge = bent(before, drag, to).edges.get(drag.index) ?? 0;
+      return this.studio.edit([{ kind: "bend", ring, index: drag.index, edge }]);
+    }
+    if (drag.kind === "ring" && (count > MOST_AT_ONCE || before.edges.size)) {
       const { xy } = this.scene.rings[ring];
       const by = [before.xy[0] + dx - xy[0], before.xy[1] + dy - xy[1]];
       return this.studio.edit([{ kind: "ring", ring, by, xy: xy.map((v, k) => v + by[k % 2]) }]);
@@ -253,9 +262,7 @@ export class Tools {
     // What is ahead goes first, so as not to be run over.
     const now = this.scene.rings[ring];
     const ahead = ({ index, point }) => (point[0] - now.xy[2 * index]) * point[0] + (point[1] - now.xy[2 * index + 1]) * point[1];
-    const is_done = this.studio.edit(all.sort((a, b) => ahead(b) - ahead(a)));
-    if (is_done && drag.kind === "edge" && this.scene.hot) this.scene.hot = { ...this.scene.hot, handles: this.#handles(this.scene.hot) };
-    return is_done;
+    return this.studio.edit(all.sort((a, b) => ahead(b) - ahead(a)));
   }
 
   #draft(drag, at) {

@@ -87,6 +87,52 @@ test("an edge is dragged, and bent into an arc", async () => {
   assert.ok(Math.abs(arc - 0.5) < 0.06, String(arc));
 });
 
+test("the axis of a drawing with arcs follows; undo", async () => {
+  await paste(BOX);
+  await page.click("[data-tool=circle]");
+  await drag(await screen(12, 10), await screen(17, 10));
+  const state = () => page.evaluate(() => {
+    const { axis, live, rings } = studio;
+    const bulges = rings.flatMap(({ xy, edges }) => Array.from({ length: xy.length / 2 }, (_, i) => edges.get(i) ?? 0));
+    const expected = studio.medial.axis(rings.map(({ xy }) => xy), { bulges });
+    const same = axis.edges.length === expected.edges.length && Math.abs(axis.length - expected.length) < 1e-9;
+    expected.free();
+    return [Boolean(live), same, studio.certificate().passed];
+  });
+  const same = [true, true, true];
+  assert.deepEqual(await state(), same);
+  const live = await page.evaluateHandle(() => studio.live);
+  await drag(await screen(12, 10), await screen(25, 9)); // the hole
+  await page.mouse.move(...(await screen(10, 20)));
+  await settled();
+  await drag(await screen(20, 20), await screen(20, 26)); // the middle of the upper edge: it bends
+  assert.deepEqual(await state(), same);
+  assert.ok((await page.evaluate(() => studio.rings[0].edges.get(2))) > 0.2);
+  await drag(await screen(40, 20), await screen(44, 24)); // a vertex of the arc
+  assert.deepEqual(await state(), same);
+  assert.ok(await live.evaluate((before) => before === studio.live), "nothing was computed from nothing");
+  await page.evaluate(() => (studio.scene.hot = null));
+  const picture = () => page.evaluate(() => studio.canvas.toDataURL());
+  await page.mouse.move(5, 400);
+  await settled();
+  const in_parts = await picture();
+  await page.evaluate(() => studio.ask("theme"));
+  await settled();
+  assert.equal(in_parts === (await picture()), true, "drawn in parts as drawn as a whole");
+  for (let k = 0; k < 3; ++k) await page.keyboard.press("Control+z");
+  await settled();
+  assert.deepEqual((await rings()).map(({ bent }) => bent), [0, 4]);
+  assert.deepEqual(await state(), same);
+  for (const hole of ["10 5, 20 5, 20 15, 10 15, 10 5", "10 5, 10 15, 20 15, 20 5, 10 5"]) {
+    await paste(`POLYGON ((0 0, 40 0, 40 20, 0 20, 0 0), (${hole}))`);
+    await page.mouse.move(...(await screen(12, 15)));
+    await settled();
+    await drag(await screen(15, 15), await screen(15, 18));
+    assert.deepEqual((await rings()).map(({ bent }) => bent), [0, 1]);
+    assert.deepEqual(await state(), same);
+  }
+});
+
 test("vertices are inserted and removed by double clicks, and by keys", async () => {
   await paste(BOX);
   await page.mouse.dblclick(...(await screen(10, 20)));
