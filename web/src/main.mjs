@@ -259,6 +259,7 @@ $("panel-toggle").addEventListener("click", () => {
 });
 if (innerWidth <= 760) {
   document.body.classList.add("no-panel");
+  studio.fit();
   $("panel-toggle").setAttribute("aria-expanded", "false");
 }
 
