@@ -32,7 +32,8 @@ for (const input of [leaf, [drawn], [Float64Array.of(0, 0, 3, 0, 3, 2, 0, 2)], .
   axis.clearance([[50, 50]]);
   const editor = new medial.Editor(shape);
   const beside = (v) => editor.vertex(v).map((x, k) => x * (1 + 1e-3 * (k + 1)));
-  for (const [edit, ...given] of [["move", 2, beside(2)], ["setBulge", 1, 0.1], ["insert", 2, beside(2)], ["remove", 3], ["undo"]]) {
+  const edits = [["move", 2, beside(2)], ["move", 2, editor.vertex(2)], ["setBulge", 1, 0.1], ["insert", 2, beside(2)], ["remove", 3], ["undo"]];
+  for (const [edit, ...given] of edits) {
     try {
       const change = editor[edit](...given);
       editor.edges(change.addedEdges);
@@ -40,10 +41,11 @@ for (const input of [leaf, [drawn], [Float64Array.of(0, 0, 3, 0, 3, 2, 0, 2)], .
     } catch (error) {
       if (!(error instanceof medial.MedialError)) throw error; // refused: that, too, is called
     }
+    const followed = editor.axis;
+    read(followed);
+    followed.free();
   }
-  const followed = editor.axis;
-  read(followed);
-  [given, axis, shape, editor, followed].forEach((one) => one.free());
+  [given, axis, shape, editor].forEach((one) => one.free());
 }
 
 const module = loaded();
