@@ -55,9 +55,11 @@ const made = (list) => ({
 const bundle = await build({
   entryPoints: [join(web, "src/main.mjs")],
   bundle: true, format: "esm", target: "es2022", minify: true, write: false, legalComments: "inline",
-  nodePaths: [npm], plugins: [made(await examples())], logLevel: "warning",
+  define: { "import.meta.url": "document.baseURI" }, nodePaths: [npm], plugins: [made(await examples())], logLevel: "warning",
 });
-const style = await build({ entryPoints: [join(web, "style.css")], minify: true, write: false });
+const [style, start] = await Promise.all(
+  ["style.css", "src/start.js"].map((name) => build({ entryPoints: [join(web, name)], minify: true, write: false })),
+);
 
 /** A part of the module, packed, as text that the page does not run; the second part, if there is one, comes last. */
 async function packed(part) {
@@ -65,12 +67,13 @@ async function packed(part) {
   if (!existsSync(path)) return "";
   return `<script type="text/plain" id="${part}">${gzipSync(await readFile(path), { level: 9 }).toString("base64")}</script>`;
 }
-const script = bundle.outputFiles[0].text.replaceAll("</script", "<\\/script");
+// Not as a module: that would wait for the page to be painted.
+const script = `(async()=>{"use strict";${bundle.outputFiles[0].text}})()`.replaceAll("</script", "<\\/script");
 const parts = await Promise.all(["medial", "medial-rest"].map(packed));
 const page = (await text(join(web, "index.html")))
   .replace('<link rel="stylesheet" href="style.css">', () => `<style>${style.outputFiles[0].text}</style>`)
-  .replace('<script type="module" src="src/main.mjs"></script>', () =>
-    `${parts[0]}\n<script type="module" async>${script}</script>\n${parts[1]}`);
+  .replace("</head>", () => `${parts[0]}\n<script>${start.outputFiles[0].text}</script>\n</head>`)
+  .replace('<script type="module" src="src/main.mjs"></script>', () => `<script>${script}</script>\n${parts[1]}`);
 
 /** The licences of what is in the page besides the project's own. */
 async function licences() {

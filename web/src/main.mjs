@@ -16,20 +16,12 @@ import { start_tour } from "./tour.mjs";
 const $ = (id) => document.getElementById(id);
 
 // The module has two parts. An axis takes only the first one: it is drawn before the second part is read and compiled
-// and the page is connected.
+// and the page is connected. start.js has begun to compile it.
 
-/** Compiles a part of the module, which the page holds packed. */
-function compiled(part) {
-  const binary = atob($(part).textContent);
-  const bytes = new Uint8Array(binary.length);
-  for (let k = 0; k < bytes.length; ++k) bytes[k] = binary.charCodeAt(k); // faster than Uint8Array.from()
-  const unpacked = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return WebAssembly.compileStreaming(new Response(unpacked, { headers: { "Content-Type": "application/wasm" } }));
-}
 let compile_second;
 const second = new Promise((use) => (compile_second = use)).then(() => $("medial-rest") && compiled("medial-rest"));
 try {
-  await medial.begin(compiled("medial"), second);
+  await medial.begin(first_part, second);
 } catch (error) {
   $("toast").textContent = `The studio cannot start in this browser: ${error.message}`;
   $("toast").hidden = false;
