@@ -37,6 +37,16 @@ async function examples() {
   ];
 }
 
+/** Readers of files, which the page holds as text until one is opened. */
+const later = ["opentype.js", "dxf-parser"];
+const later_only = new RegExp(`^(${later.join("|")})$`);
+async function later_script(name) {
+  const contents = `import * as all from "${name}"; export default all.default ?? all;`;
+  const options = { bundle: true, format: "esm", minify: true, write: false, legalComments: "inline", nodePaths: [npm] };
+  const { outputFiles } = await build({ ...options, stdin: { contents, resolveDir: npm } });
+  return `<script type="text/plain" id="${name}">${outputFiles[0].text.replaceAll("</script", "<\\/script")}</script>`;
+}
+
 /** The modules of the page that are made here. */
 const made = (list) => ({
   name: "made",
@@ -44,6 +54,12 @@ const made = (list) => ({
     builder.onResolve({ filter: /examples\.mjs$/ }, () => ({ path: "examples", namespace: "made" }));
     builder.onLoad({ filter: /.*/, namespace: "made" }, () => ({
       contents: `export const examples = ${JSON.stringify(list)};`,
+    }));
+    builder.onResolve({ filter: later_only }, ({ path }) => ({ path, namespace: "later" }));
+    builder.onLoad({ filter: /.*/, namespace: "later" }, ({ path }) => ({
+      contents: `const code = new Blob([document.getElementById("${path}").textContent], { type: "text/javascript" });
+        const all = await import(URL.createObjectURL(code));
+        export default all.default;`,
     }));
     builder.onResolve({ filter: /^medial-axis\// }, ({ path }) => ({
       path: join(tree, "package", path.slice("medial-axis/".length)),
@@ -70,10 +86,11 @@ async function packed(part) {
 // Not as a module: that would wait for the page to be painted.
 const script = `(async()=>{"use strict";${bundle.outputFiles[0].text}})()`.replaceAll("</script", "<\\/script");
 const parts = await Promise.all(["medial", "medial-rest"].map(packed));
+const readers = await Promise.all(later.map(later_script));
 const page = (await text(join(web, "index.html")))
   .replace('<link rel="stylesheet" href="style.css">', () => `<style>${style.outputFiles[0].text}</style>`)
   .replace("</head>", () => `${parts[0]}\n<script>${start.outputFiles[0].text}</script>\n</head>`)
-  .replace('<script type="module" src="src/main.mjs"></script>', () => `<script>${script}</script>\n${parts[1]}`);
+  .replace('<script type="module" src="src/main.mjs"></script>', () => `<script>${script}</script>\n${parts[1]}\n${readers.join("\n")}`);
 
 /** The licences of what is in the page besides the project's own. */
 async function licences() {
