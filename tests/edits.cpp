@@ -1,7 +1,7 @@
 // medial_edits: many random edits of 20 shapes by medial::Editor, of vertices, of loops and of
 // arcs, compared with what compute() makes of the edited shape: of small shapes after every edit,
 // of large ones after every thousandth. Random moves let a shape grow without end: once it is a
-// hundred times as large as in the beginning, the first shape is taken anew.
+// hundred times as large as in the beginning, the first shape is taken again.
 //
 //   medial_edits [EDITS] [FIRST] [COUNT] [KINDS]
 //
@@ -90,7 +90,7 @@ bool run(std::uint64_t number, int count, test::EditKinds kinds) {
   test::Edits edits(number + 1, kinds);
   const auto first_vertices = static_cast<std::uint32_t>(shape->points.size());
   std::uint32_t vertices = first_vertices;
-  int repaired = 0, whole = 0, refused = 0, compared = 0, anew = 0;
+  int repaired = 0, whole = 0, refused = 0, compared = 0, restarts = 0;
   std::string fault;
   for (int i = 1; i <= count && fault.empty(); ++i) {
     const auto change = edits.next(*editor, vertices);
@@ -103,14 +103,14 @@ bool run(std::uint64_t number, int count, test::EditKinds kinds) {
     if (i % interval == 0 && diagonal(bounding_box(editor->shape())) > largest) {
       editor = Editor::make(*shape);
       vertices = first_vertices;
-      ++anew;
+      ++restarts;
     }
     if (!fault.empty()) fault = "edit " + std::to_string(i) + ": " + fault;
   }
   constexpr const char* names[] = {"vertices", "loops", "arcs"};
   std::printf("| %s | %s | %zu | %d | %d | %d | %d | %d | %s |\n", one.name,
               names[static_cast<std::size_t>(kinds)], shape->points.size(), repaired, whole,
-              refused, compared, anew, fault.empty() ? "none" : fault.c_str());
+              refused, compared, restarts, fault.empty() ? "none" : fault.c_str());
   std::fflush(stdout);
   return fault.empty();
 }
@@ -124,7 +124,7 @@ int main(int argc, char** argv) {
   };
   const int count = number(1, 100000), first = number(2, 0), last = first + number(3, shapes);
   std::printf(
-      "| shape | edits of | vertices | repaired | all computed | refused | compared | anew | "
+      "| shape | edits of | vertices | repaired | all computed | refused | compared | restarts | "
       "differences |\n"
       "|---|---|--:|--:|--:|--:|--:|--:|---|\n");
   bool is_right = true;
