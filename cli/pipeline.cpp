@@ -93,12 +93,10 @@ Json statistics_of(const LoadedAxes& axes, const AxisSummary& summary) {
                  {"input_rings", cleaned.input_rings},
                  {"input_points", cleaned.input_points},
                  {"cleaned", to_json(cleaned)}};
-  if (counted.exact_filtered + counted.exact_precise > 0)
-    object["exact"] = {{"filtered", counted.exact_filtered},
-                       {"precise", counted.exact_precise},
-                       {"rational", counted.exact_rational},
-                       {"ties", counted.exact_ties},
-                       {"changes", counted.exact_changes}};
+  if (counted.exact_filtered + counted.exact_twofold + counted.exact_precise > 0)
+    object["exact"] = {{"filtered", counted.exact_filtered}, {"twofold", counted.exact_twofold},
+                       {"precise", counted.exact_precise},   {"rational", counted.exact_rational},
+                       {"ties", counted.exact_ties},         {"changes", counted.exact_changes}};
   if (axes.report.arcs.pieces > 0) object["arcs"] = to_json(axes.report.arcs);
   return object;
 }

@@ -14,9 +14,11 @@
 
 #include "medial/compute.h"
 #include "medial/verify.h"
+#include "methods/exact/disk_bounds.h"
 #include "methods/exact/divide.h"
 #include "methods/exact/in_disk.h"
 #include "methods/exact/numbers.h"
+#include "methods/exact/touch.h"
 #include "support/random_shapes.h"
 #include "support/same_graph.h"
 
@@ -42,36 +44,73 @@ TEST(Bounded, KnowsWhatDoubleRepresents) {
   EXPECT_EQ((root * root - Bounded<double>(2)).sign(), std::nullopt);
 }
 
-TEST(Bounded, BoundsItsErrors) {
-  // Sums, products, quotients and roots of random numbers, in double and in 256 bits.
-  Random random(7);
-  for (int i = 0; i < 2000; ++i) {
-    Bounded<double> x(random.between(-1, 1));
-    Bounded<exact::Precise> y(x.value);
+exact::Precise precise(double x) { return exact::Precise(x); }
+exact::Precise precise(const Twofold& x) { return exact::Precise(x.high) + x.low; }
+
+/// Sums, products, quotients, roots and small differences of random numbers, and in 256 bits.
+template <class Real>
+void check_bounds(std::uint64_t seed, double most) {
+  using Number = Bounded<Real>;
+  using Reference = Bounded<exact::Precise>;
+  Random random(seed);
+  for (int i = 0; i < 4000; ++i) {
+    const double first = random.between(-1, 1);
+    Number x(first);
+    Reference y(first);
     for (int step = 0; step < 12; ++step) {
       const double other = random.between(0.5, 2) * (random.chance(0.3) ? -1 : 1);
-      switch (random.integer(0, 3)) {
+      const auto nearest = static_cast<double>(x.value);
+      switch (random.integer(0, 4)) {
         case 0:
-          x = x + Bounded<double>(other);
-          y = y + Bounded<exact::Precise>(other);
+          x = x + Number(other);
+          y = y + Reference(other);
           break;
         case 1:
-          x = x * Bounded<double>(other);
-          y = y * Bounded<exact::Precise>(other);
+          x = x * Number(other);
+          y = y * Reference(other);
           break;
         case 2:
-          x = x / Bounded<double>(other);
-          y = y / Bounded<exact::Precise>(other);
+          x = x / Number(other);
+          y = y / Reference(other);
+          break;
+        case 3:
+          x = root_of(x * x + Number(0.25));
+          y = root_of(y * y + Reference(0.25));
           break;
         default:
-          x = root_of(x * x + Bounded<double>(0.25));
-          y = root_of(y * y + Bounded<exact::Precise>(0.25));
+          x = (x - Number(nearest)) + Number(0.125);
+          y = (y - Reference(nearest)) + Reference(0.125);
+      }
+      const auto small = x - Number(static_cast<double>(x.value));
+      const auto same = y - Reference(static_cast<double>(x.value));
+      // Of an exact zero the reference may not know the sign.
+      if (const auto sign = small.sign(); sign && (*sign != 0 || same.sign())) {
+        ASSERT_EQ(sign, same.sign());
       }
     }
-    const exact::Precise off = abs(exact::Precise(x.value) - y.value);
+    const exact::Precise off = abs(precise(x.value) - y.value);
     EXPECT_LE(off, exact::Precise(x.error) * (1 + 1e-9) + 1e-70) << i;
-    EXPECT_LT(x.error, 1e-12);
+    EXPECT_LT(x.error, most);
   }
+}
+
+TEST(Bounded, BoundsItsErrors) {
+  check_bounds<double>(7, 1e-12);
+  check_bounds<Twofold>(8, 1e-27);
+}
+
+TEST(Twofold, KnowsItsDigitsWhereNumbersAreTiny) {
+  // Below the normal numbers a rest is lost, and the bound says so.
+  const Bounded<Twofold> tiny(0x1.123456789abcdp-540), other(0x1.fedcba9876543p-520);
+  const auto product = tiny * other;
+  const exact::Precise exact = precise(tiny.value) * precise(other.value);
+  EXPECT_LE(abs(precise(product.value) - exact), exact::Precise(product.error));
+  const Bounded<Twofold> third = Bounded<Twofold>(1.0) / Bounded<Twofold>(3.0);
+  EXPECT_EQ((third * Bounded<Twofold>(3.0) - Bounded<Twofold>(1.0)).sign(), std::nullopt);
+  EXPECT_EQ((Bounded<Twofold>(0x1p100) + Bounded<Twofold>(0x1p-6) - Bounded<Twofold>(0x1p100) -
+             Bounded<Twofold>(0x1p-6))
+                .sign(),
+            0);
 }
 
 TEST(RootNumber, TellsNestedRadicalsFromZero) {
@@ -111,6 +150,91 @@ exact::SiteLoops outline_of(const Shape& shape) {
   const Options options;
   const Problem problem(shape, options);
   return exact::outline_of(problem, problem.numbers());
+}
+
+/// A segment, vertex or arc that a disk touches in a direction, but for `off`.
+exact::ExactSite touching_site(Random& random, const Disk& disk, double angle, double off) {
+  const auto at = [](double a) { return Vec2{std::cos(a), std::sin(a)}; };
+  const Vec2 foot = disk.center + (disk.radius + off) * at(angle);
+  const double reach = disk.radius * std::pow(10, random.between(-6, 0));
+  const auto kind = random.integer(0, 3);
+  if (kind == 0) return {foot, foot, 0};
+  const Vec2 along = at(angle + std::numbers::pi / 2);
+  if (kind == 1) return {foot - reach * along, foot + random.between(0.1, 2) * reach * along, 0};
+  const double half = random.between(0.01, 1.5), bend = kind == 2 ? 1 : -1;
+  const double own = disk.radius * (kind == 2 ? random.between(1.1, 20) : random.between(0.1, 20));
+  const Vec2 center = foot - bend * own * at(angle);
+  const double middle = kind == 2 ? angle : angle + std::numbers::pi;
+  return {center + own * at(middle - bend * half), center + own * at(middle + bend * half),
+          bend * std::tan(half / 2)};
+}
+
+/// Four sites that one disk all but touches, counter-clockwise, none joined to another one.
+exact::SiteLoops nearly_touched(Random& random) {
+  const Disk disk{{random.between(-1, 1), random.between(-1, 1)},
+                  std::pow(10, random.between(-5, -0.5))};
+  std::array<double, 4> angles;
+  for (double& angle : angles) angle = random.between(0, 2 * std::numbers::pi);
+  if (random.chance(0.3)) angles[1] = angles[0] + std::pow(10, random.between(-7, -2));
+  std::sort(angles.begin(), angles.end());
+  exact::SiteLoops loops;
+  for (const double angle : angles) {
+    const double off = random.between(-1, 1) * std::pow(10, random.between(-19, -9));
+    loops.sites.push_back(touching_site(random, disk, angle, off));
+    loops.next.push_back(static_cast<std::uint32_t>(loops.next.size()));
+  }
+  loops.passes.assign(4, false);
+  loops.blunt.assign(4, false);
+  loops.loop_begin = {0, 4};
+  return loops;
+}
+
+/// What the search of an event asks of disks that touch three of the sites: none where that is
+/// open.
+template <class Real>
+struct Answers {
+  std::optional<exact::DiskBounds<Real>> first, second;
+  std::array<int, 6> signs{};
+
+  explicit Answers(const exact::SiteLoops& loops) {
+    first = exact::disk_bounds<Real>(loops, {0, 1, 2}, Disk{});
+    second = exact::disk_bounds<Real>(loops, {0, 1, 3}, Disk{});
+    if (!first || !second) return;
+    const auto sign = [](std::optional<int> known) { return known.value_or(7); };
+    signs = {exact::clearance(loops.sites[3], *first),
+             exact::clearance(loops.sites[2], *second),
+             sign(exact::further_along(loops.sites[0], *first, *second)),
+             sign(exact::further_along(loops.sites[1], *second, *first)),
+             exact::may_have_foot(loops.sites[2], *first) ? 1 : 0,
+             exact::may_have_foot(loops.sites[3], *second) ? 1 : 0};
+  }
+};
+
+TEST(Twofold, DecidesAs256BitsDo) {
+  Random random(1118);
+  int decided = 0, with_disks = 0;
+  constexpr int count = 20000;
+  for (int i = 0; i < count; ++i) {
+    const exact::SiteLoops loops = nearly_touched(random);
+    const std::uint64_t before = Bounded<Twofold>::open_signs;
+    const Answers<Twofold> fast(loops);
+    if (Bounded<Twofold>::open_signs != before) continue;
+    ++decided;
+    const Answers<exact::Precise> sure(loops);
+    ASSERT_EQ(fast.first.has_value(), sure.first.has_value()) << i;
+    ASSERT_EQ(fast.second.has_value(), sure.second.has_value()) << i;
+    ASSERT_EQ(fast.signs, sure.signs) << i;
+    if (!fast.first) continue;
+    ++with_disks;
+    const auto off = [](const auto& a, const auto& b) {
+      return abs(precise(a.value) - b.value) <= exact::Precise(a.error) * (1 + 1e-9) + 1e-60;
+    };
+    EXPECT_TRUE(off(fast.first->center.x, sure.first->center.x)) << i;
+    EXPECT_TRUE(off(fast.first->center.y, sure.first->center.y)) << i;
+    EXPECT_TRUE(off(fast.first->radius, sure.first->radius)) << i;
+  }
+  EXPECT_GE(decided, count * 9 / 10);
+  EXPECT_GE(with_disks, count / 2);
 }
 
 TEST(InDisk, DecidesTiesOfEveryKind) {

@@ -22,6 +22,7 @@ inline constexpr StatisticsField<std::uint64_t> statistics_counts[] = {
     {"precision_retries", &Statistics::precision_retries},
     {"cuts", &Statistics::bridges},
     {"exact_filtered", &Statistics::exact_filtered},
+    {"exact_twofold", &Statistics::exact_twofold},
     {"exact_precise", &Statistics::exact_precise},
     {"exact_rational", &Statistics::exact_rational},
     {"exact_ties", &Statistics::exact_ties},

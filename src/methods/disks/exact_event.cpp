@@ -14,8 +14,6 @@
 namespace medial::disks {
 
 using exact::Precise;
-using PreciseDisk = exact::DiskBounds<Precise>;
-using Number = Bounded<Precise>;
 using Hit = Contacts::Hit;
 
 const exact::SiteLoops& ExactSites::outline() const {
@@ -48,11 +46,11 @@ std::optional<std::uint32_t> ExactSites::joined_before(std::uint32_t site) const
 
 std::optional<ExactSites::Touch> ExactSites::first_touch(
     Vec2 foot, const Boundary& boundary, std::span<const std::uint32_t> sites) const {
-  std::optional<PreciseDisk> best;
+  std::optional<exact::DiskBounds<Precise>> best;
   std::uint32_t touched = 0;
   for (const std::uint32_t site : sites) {
     const exact::ExactSite exact_site = outline().sites[boundary.originals[site]];
-    const auto disk = exact::disk_from(foot, outreach, exact_site);
+    const auto disk = exact::disk_from<Precise>(foot, outreach, exact_site);
     if (!disk || !exact::may_have_foot(exact_site, *disk)) continue;
     const int smaller = best ? (best->radius - disk->radius).sign().value_or(0) : 1;
     // Where an edge is touched in its end, so is the vertex there, which stands for both.
@@ -66,6 +64,7 @@ std::optional<ExactSites::Touch> ExactSites::first_touch(
 
 /// The search of one question. By docs/disks.md, Lemma 2, the disk is the only one that touches
 /// the two sites and a third one between them, in this order around it, and keeps clear of all.
+template <class Real>
 class ExactEvents::Search {
  public:
   Search(const ExactEvents& events, const Span& span, const Disk& from, bool is_exact)
@@ -87,7 +86,7 @@ class ExactEvents::Search {
           consider(site);
       candidates = best_ ? intruders(*best_) : neighbors;
       if (is_hopeless_) return std::nullopt;
-      if (best_ && candidates.empty()) return Found{site_, rounded(*best_), is_well_known()};
+      if (best_ && candidates.empty()) return Found{site_, rounded(*best_), error_of_best()};
       erase_seen(candidates);
       if (candidates.empty() && !std::exchange(node_asked, true)) {
         candidates = touched_by_node();
@@ -111,6 +110,9 @@ class ExactEvents::Search {
   }
 
  private:
+  using KnownDisk = exact::DiskBounds<Real>;
+  using Number = Bounded<Real>;
+
   /// What distances in double may be off by, and the coordinates of a rounded centre.
   static constexpr double rounding = 0x1p-47;
   /// No two points of the local frame are further apart.
@@ -133,9 +135,9 @@ class ExactEvents::Search {
   /// The disk of the bisector at which the first of the two feet comes to the end of its site: no
   /// event is later, and by the lemma this disk reaches over the site of the event, or touches it.
   /// None where that disk would be larger than the shape.
-  std::optional<PreciseDisk> end_of_feet() const {
+  std::optional<KnownDisk> end_of_feet() const {
     const std::uint32_t right = name(span_.right), left = name(span_.left);
-    std::optional<PreciseDisk> first;
+    std::optional<KnownDisk> first;
     for (const bool on_right : {true, false}) {
       const auto spoke = end_of(on_right ? right : left, on_right);
       if (!spoke) continue;
@@ -150,12 +152,12 @@ class ExactEvents::Search {
   /// The spoke on which the feet on a site begin, or end; none at a vertex from which no foot
   /// passes on.
   std::optional<exact::Spoke<Number>> end_of(std::uint32_t own, bool at_end) const {
-    exact::ApproximateRoots<Precise> roots;
+    exact::ApproximateRoots<Real> roots;
     const exact::ExactSite& site = outline_.sites[own];
     const auto before = events_.sites_.joined_before(own);
     if (at_end && outline_.joined(own, outline_.next_of(own)))
-      return outline_.spoke_after<Number>(own, roots);
-    if (!at_end && before) return outline_.spoke_after<Number>(*before, roots);
+      return outline_.template spoke_after<Number>(own, roots);
+    if (!at_end && before) return outline_.template spoke_after<Number>(*before, roots);
     if (site.is_vertex()) return std::nullopt;
     return exact::spoke_of<Number>(site, at_end, roots);
   }
@@ -170,7 +172,7 @@ class ExactEvents::Search {
 
   /// Whether one disk of the bisector comes before another one: by the foot on an edge, or between
   /// two vertices by the centre.
-  bool comes_before(const PreciseDisk& a, const PreciseDisk& b) const {
+  bool comes_before(const KnownDisk& a, const KnownDisk& b) const {
     const exact::ExactSite &right = exact_site(span_.right), &left = exact_site(span_.left);
     int forward = 0;
     if (!right.is_vertex()) forward = exact::further_along(right, a, b).value_or(0);
@@ -184,24 +186,24 @@ class ExactEvents::Search {
   }
 
   /// The node's disk as the sites have it, where all three that it touches are known.
-  std::optional<PreciseDisk> disk_of_node() const {
+  std::optional<KnownDisk> disk_of_node() const {
     if (span_.third >= events_.boundary_.sites.size()) return std::nullopt;
     const std::uint32_t right = name(span_.right), left = name(span_.left),
                         third = name(span_.third);
     if (third == right || third == left || right == left) return std::nullopt;
-    return exact::disk_bounds<Precise>(outline_, {right, left, third}, Disk{});
+    return exact::disk_bounds<Real>(outline_, {right, left, third}, Disk{});
   }
 
   /// Whether a disk lies behind that of the node, by more than that is off.
-  bool is_behind(const PreciseDisk& disk) const {
+  bool is_behind(const KnownDisk& disk) const {
     if (node_) return comes_before(disk, *node_);
-    const PreciseDisk from{exact::exact_vector<Number>(from_.center), Number(from_.radius)};
+    const KnownDisk from{exact::exact_vector<Number>(from_.center), Number(from_.radius)};
     const auto away = disk.center - from.center;
     return (dot(away, away) - Number(slack()) * Number(slack())).positive() &&
            comes_before(disk, from);
   }
 
-  bool is_too_large(const PreciseDisk& disk) const {
+  bool is_too_large(const KnownDisk& disk) const {
     return (Number(events_.sites_.radius_limit_) - disk.radius).sign() == -1;
   }
 
@@ -218,7 +220,7 @@ class ExactEvents::Search {
     seen_.insert(site);
     const std::uint32_t right = name(span_.right), left = name(span_.left), third = name(site);
     if (third == right || third == left) return;
-    const auto disk = exact::disk_bounds<Precise>(outline_, {right, third, left}, Disk{});
+    const auto disk = exact::disk_bounds<Real>(outline_, {right, third, left}, Disk{});
     if (!disk) return;
     if (is_too_large(*disk)) return;
     if (is_behind(*disk) || (best_ && !comes_before(*disk, *best_))) return;
@@ -232,7 +234,7 @@ class ExactEvents::Search {
     site_ = site;
   }
 
-  static Disk rounded(const PreciseDisk& disk) {
+  static Disk rounded(const KnownDisk& disk) {
     return {{static_cast<double>(disk.center.x.value), static_cast<double>(disk.center.y.value)},
             static_cast<double>(disk.radius.value)};
   }
@@ -243,22 +245,19 @@ class ExactEvents::Search {
     if (is_seen(site)) return;
     seen_.insert(site);
     const std::uint32_t before = name(span_.left), after = name(span_.right), third = name(site);
-    const auto disk = exact::disk_bounds<Precise>(outline_, {before, after, third}, Disk{});
+    const auto disk = exact::disk_bounds<Real>(outline_, {before, after, third}, Disk{});
     if (!disk || (best_ && !(best_->radius - disk->radius).positive())) return;
     if (!is_touched(site, *disk, false)) return;
     best_ = disk;
     site_ = site;
   }
 
-  /// Whether 256 bits tell the best disk to all digits of a double: not between sites that are
-  /// parallel but for some 1e-60.
-  bool is_well_known() const {
-    const Number &x = best_->center.x, &y = best_->center.y;
-    return x.error + y.error + best_->radius.error <= 0x1p-60L * best_->radius.largest;
+  double error_of_best() const {
+    return static_cast<double>(best_->center.x.error + best_->center.y.error + best_->radius.error);
   }
 
   /// Sites that a disk reaches over, with their neighbours; none if there are none.
-  std::vector<std::uint32_t> intruders(const PreciseDisk& exact_disk) {
+  std::vector<std::uint32_t> intruders(const KnownDisk& exact_disk) {
     const Disk disk = rounded(exact_disk);
     std::vector<std::uint32_t> found;
     const auto add = [&](std::uint32_t site) {
@@ -274,13 +273,14 @@ class ExactEvents::Search {
     events_.tree_.within(disk.center, disk.radius + rounding, span_.right + 1, span_.left - 1,
                          near);
     std::size_t touched = 0;
+    const std::vector<Vec2> vertices = touched_vertices();
     std::erase_if(near, [&](std::uint32_t site) {
-      if (is_bridge(site) || is_hopeless_) return true;
+      if (is_bridge(site) || is_hopeless_ || (best_ && site == site_)) return true;
       const double gap = gap_of(site, disk);
       if (gap >= -events_.sites_.fine_tolerance_ && continues_touched(site)) return true;
       if (gap < -rounding) return false;
       is_hopeless_ = events_.boundary_.has_arcs && ++touched > most_around;
-      return is_hopeless_ || exact::clearance(exact_site(site), exact_disk) >= 0;
+      return is_hopeless_ || exact::clearance(exact_site(site), exact_disk, vertices) >= 0;
     });
     if (is_hopeless_) return found;
     // Of many that are new, a few take the place of most others.
@@ -290,6 +290,16 @@ class ExactEvents::Search {
     });
     const std::vector<std::uint32_t>& some = fresh.empty() ? near : fresh;
     for (std::size_t i = 0; i < some.size(); i += some.size() / few_ + 1) add(some[i]);
+    return found;
+  }
+
+  /// Vertices among what the best disk touches: beside one of them, it neither keeps clear of an
+  /// edge that ends there nor reaches over that end.
+  std::vector<Vec2> touched_vertices() const {
+    std::vector<Vec2> found;
+    if (!best_) return found;
+    for (const std::uint32_t i : {span_.right, site_, span_.left})
+      if (exact_site(i).is_vertex()) found.push_back(exact_site(i).start);
     return found;
   }
 
@@ -315,7 +325,7 @@ class ExactEvents::Search {
 
   /// Whether a disk that touches a site's carrier, or its joint, touches the site, in the part of
   /// it that bridges leave between them.
-  bool is_touched(std::uint32_t site, const PreciseDisk& disk, bool at_joint) const {
+  bool is_touched(std::uint32_t site, const KnownDisk& disk, bool at_joint) const {
     if (!at_joint && !has_foot(site, disk)) return false;
     const bool too_early = site > 0 && is_bridge(site - 1) && beyond(site - 1, site, disk) == -1;
     const bool too_late = site + 1 < events_.boundary_.sites.size() && is_bridge(site + 1) &&
@@ -325,7 +335,7 @@ class ExactEvents::Search {
 
   /// Whether the foot of a disk's centre on the carrier of a site may lie on the site. Where two
   /// edges join smoothly up to rounding, one normal ends the first one and begins the second.
-  bool has_foot(std::uint32_t site, const PreciseDisk& disk) const {
+  bool has_foot(std::uint32_t site, const KnownDisk& disk) const {
     const std::uint32_t own = name(site);
     const auto before = events_.sites_.joined_before(own);
     const bool is_joined = before || outline_.joined(own, outline_.next_of(own));
@@ -337,41 +347,52 @@ class ExactEvents::Search {
   }
 
   /// Whether a disk's foot on a site lies further along than that of the bridge beside it.
-  int beyond(std::uint32_t place, std::uint32_t site, const PreciseDisk& disk) const {
+  int beyond(std::uint32_t place, std::uint32_t site, const KnownDisk& disk) const {
     const auto bridge = bridge_disk(events_.boundary_.originals[place]);
     if (!bridge) return 0;
     return exact::further_along(exact_site(site), *bridge, disk).value_or(0);
   }
 
-  std::optional<PreciseDisk> bridge_disk(std::uint32_t bridge) const {
+  std::optional<KnownDisk> bridge_disk(std::uint32_t bridge) const {
     if (!events_.sites_.reach_out_) return std::nullopt;
     const auto [first, second] = events_.boundary_.bridge_places[bridge];
     // The hole begins after the first place, where the bridge's disk touches it.
-    return exact::disk_from(events_.boundary_.sites[first + 1].point, outreach,
-                            exact_site(first - 1));
+    return exact::disk_from<Real>(events_.boundary_.sites[first + 1].point, outreach,
+                                  exact_site(first - 1));
   }
 
   const ExactEvents& events_;
   const exact::SiteLoops& outline_;
   const Span span_;
   const Disk from_;
-  std::optional<PreciseDisk> node_;  ///< of the span, where it is asked for
+  std::optional<KnownDisk> node_;  ///< of the span, where it is asked for
   std::unordered_set<std::uint32_t> seen_;
   std::size_t few_ = 8;  ///< intruders that are considered at a time
   bool is_hopeless_ = false;
-  std::optional<PreciseDisk> best_;
-  std::optional<PreciseDisk> limit_;  ///< no event is later; asked for where none is near
+  std::optional<KnownDisk> best_;
+  std::optional<KnownDisk> limit_;  ///< no event is later; asked for where none is near
   std::uint32_t site_ = 0;
 };
 
+std::optional<ExactEvents::Found> ExactEvents::search(const Span& span, const Disk& from,
+                                                      std::uint32_t hint, bool is_exact,
+                                                      bool all_around) const {
+  const std::uint64_t before = Bounded<Twofold>::open_signs;
+  auto found = Search<Twofold>(*this, span, from, is_exact).run(hint, all_around);
+  if (found && found->is_well_known() && Bounded<Twofold>::open_signs == before) return found;
+  found = Search<Precise>(*this, span, from, is_exact).run(hint, all_around);
+  if (found) found->in_precise = true;
+  return found;
+}
+
 std::optional<ExactEvents::Found> ExactEvents::next(const Span& span, const Disk& from,
                                                     std::uint32_t hint, bool is_exact) const {
-  return Search(*this, span, from, is_exact).run(hint, false);
+  return search(span, from, hint, is_exact, false);
 }
 
 std::optional<ExactEvents::Found> ExactEvents::start(const Span& whole, const Disk& about,
                                                      std::uint32_t hint) const {
-  return Search(*this, whole, about, false).run(hint, true);
+  return search(whole, about, hint, false, true);
 }
 
 }  // namespace medial::disks

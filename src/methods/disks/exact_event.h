@@ -70,7 +70,7 @@ class ExactSites {
 #endif
 };
 
-/// Answers in 256 bits what ends an edge of the axis where double cannot tell (docs/disks.md, How
+/// Answers exactly what ends an edge of the axis where double cannot tell (docs/disks.md, How
 /// it is decided).
 class ExactEvents {
  public:
@@ -86,7 +86,12 @@ class ExactEvents {
   struct Found {
     std::uint32_t site = 0;
     Disk disk;
-    bool well_known = true;  ///< the disk: to all of its digits
+    double error = 0;         ///< of the disk's coordinates together, before they were rounded
+    bool in_precise = false;  ///< by 256 bits
+
+    /// Whether the disk is known to the digits of a double: not between sites that are all but
+    /// parallel.
+    bool is_well_known() const { return error <= 0x1p-52 * disk.radius; }
   };
   /// The site in a span that a disk touches together with the span's two, and its disk, which
   /// keeps clear of all sites in the span. `from`: about the disk of the span's node; `hint`: a
@@ -102,7 +107,12 @@ class ExactEvents {
   const Boundary& boundary_;
   const site::BoundaryTree& tree_;
   const std::vector<bool>& in_precise_;
+  template <class Real>
   class Search;
+  /// In numbers of twice double's digits; where these leave a sign open, or find nothing, in 256
+  /// bits.
+  std::optional<Found> search(const Span& span, const Disk& from, std::uint32_t hint, bool is_exact,
+                              bool all_around) const;
 };
 
 }  // namespace medial::disks

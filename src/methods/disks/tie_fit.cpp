@@ -1,7 +1,6 @@
 #include "methods/disks/tie_fit.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "base/compat.h"
 
@@ -272,18 +271,14 @@ bool TieFit::fits(std::span<const Touch> contacts, double bound) {
   }
 #ifdef MEDIAL_HAS_EXACT
   if (verdict == Verdict::open && sites_->exact != nullptr) {
-    // A distance to a segment's line is a sum of two products of normal and difference. Each
-    // product has seven roundings of half an epsilon, the sum and the residual one each; the
-    // products together are at most the distance to the segment's start, below 6 where coordinates
-    // are below 4 and not negative: 24 epsilons, or 48 where they have any sign. A distance to a
-    // vertex has fewer roundings; those to flat arcs may lose all digits.
-    using Long = std::numeric_limits<long double>;
+    // Of twice a double's digits, a distance to a segment's line is a sum of two products of normal
+    // and difference, each with seven operations that lose less than 2^-102 of what they compute;
+    // the products together are at most the distance to the segment's start, below 12: less than
+    // 2^-94. A distance to a vertex has fewer operations; those to flat arcs may lose all digits.
     const auto is_arc = [&](const Touch& i) { return sites_->sites[i.site].is_arc(); };
     const Disk start = disk;
-    if constexpr (Long::digits > std::numeric_limits<double>::digits)
-      if (ranges::none_of(contacts, is_arc))
-        verdict = judge_again<long double>(
-            *sites_, contacts, {bound, static_cast<double>(64 * Long::epsilon())}, disk, worst);
+    if (ranges::none_of(contacts, is_arc))
+      verdict = judge_again<Twofold>(*sites_, contacts, {bound, 0x1p-90}, disk, worst);
     if (verdict == Verdict::open) {
       disk = start;
       verdict = judge_again<Precise>(*sites_, contacts, {bound, 0x1p-200}, disk, worst);

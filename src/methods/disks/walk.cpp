@@ -282,7 +282,12 @@ class Walker {
     if (step.is_certain) ++chunk_.statistics.exact_filtered;
   }
 
-  /// The same in 256 bits. Where these find nothing, double's event stays and is noted. Whether
+  void count(const std::optional<ExactEvents::Found>& found) {
+    ++(found && !found->in_precise ? chunk_.statistics.exact_twofold
+                                   : chunk_.statistics.exact_precise);
+  }
+
+  /// The same exactly. Where that finds nothing, double's event stays and is noted. Whether
   /// anything has changed.
   bool decide_exactly(Step& step, const Disk& from) {
     Event& event = step.event;
@@ -291,7 +296,6 @@ class Walker {
       context_.in_centers->store(true, std::memory_order_relaxed);
       return false;
     }
-    ++chunk_.statistics.exact_precise;
     Span asked = span;
     joins_pieces(asked);
     const bool from_exact = is_exact() || (span.is_exact && !boundary_.has_arcs);
@@ -299,18 +303,19 @@ class Walker {
                                : event.kind == Event::Kind::pass_left ? span.left - 1
                                                                       : event.site;
     const auto found = context_.exact->next(asked, from, hint, from_exact);
+    count(found);
     if (!found) {
       lose(span, event.site);
       return false;
     }
     // Between sites that are all but parallel, double's disk is as good as any.
-    if (!found->well_known && event.site == found->site) return false;
+    if (!found->is_well_known() && event.site == found->site) return false;
     Span ahead = span;
     stay_on_pieces(asked, found->disk.center, ahead);
     const bool passes = ahead.right != span.right || ahead.left != span.left;
     if (passes && !is_exact() && stays_on_arc(span, event)) return false;
     span = ahead;
-    step.error = Certainty::rounding;
+    step.error = Certainty::rounding + found->error;
     event.disk = found->disk;
     event.site = found->site;
     event.kind =
@@ -364,8 +369,8 @@ class Walker {
   /// start_at_smooth_place() in 256 bits; `about` and `hint` are what double takes for it. Whether
   /// there is such a disk.
   bool start_exactly(const Span& whole, const Disk& about, std::uint32_t hint) {
-    ++chunk_.statistics.exact_precise;
     const auto found = context_.exact->start(whole, about, hint);
+    count(found);
     if (!found) {
       lose(whole, hint);
       return is_exact();

@@ -510,6 +510,7 @@ Status certify(const Problem& problem, bool part_joints, MedialAxis& axis) {
   Statistics& statistics = axis.statistics;
   const Decisions& decisions = certifier.decisions();
   statistics.exact_filtered = decisions.filtered;
+  statistics.exact_twofold = decisions.twofold;
   statistics.exact_precise = decisions.precise;
   statistics.exact_rational = decisions.rational;
   statistics.exact_ties = decisions.ties;

@@ -117,10 +117,10 @@ std::optional<DiskBounds<Real>> disk_bounds(const SiteLoops& outline,
     }
     return disk;
   }
-  if constexpr (std::is_same_v<Real, Precise>)
-    return disk_of_three(outline, sites);
-  else
+  if constexpr (std::is_same_v<Real, double>)
     return three_apart(outline, sites, start);
+  else
+    return disk_of_three<Real>(outline, sites);
 }
 
 template <class Real>
@@ -166,11 +166,16 @@ bool may_reach(const ExactSite& site, const DiskBounds<Precise>& disk) {
 template std::optional<DiskBounds<double>> disk_bounds(const SiteLoops&,
                                                        const std::array<std::uint32_t, 3>&,
                                                        const Disk&);
+template std::optional<DiskBounds<Twofold>> disk_bounds(const SiteLoops&,
+                                                        const std::array<std::uint32_t, 3>&,
+                                                        const Disk&);
 template std::optional<DiskBounds<Precise>> disk_bounds(const SiteLoops&,
                                                         const std::array<std::uint32_t, 3>&,
                                                         const Disk&);
 template std::optional<int> further_along(const ExactSite&, const DiskBounds<double>&,
                                           const DiskBounds<double>&);
+template std::optional<int> further_along(const ExactSite&, const DiskBounds<Twofold>&,
+                                          const DiskBounds<Twofold>&);
 template std::optional<int> further_along(const ExactSite&, const DiskBounds<Precise>&,
                                           const DiskBounds<Precise>&);
 

@@ -75,7 +75,8 @@ class Kernel {
   }
 
   /// The disk that touches three sites, no two of which are joined; none if undecided.
-  std::optional<DiskBounds<Precise>> disk_of(const std::array<std::uint32_t, 3>& touched) {
+  template <class Real>
+  std::optional<DiskBounds<Real>> disk_of(const std::array<std::uint32_t, 3>& touched) {
     Three three;
     if (solve(touched, three) != Sign::positive) return std::nullopt;
     std::array<Number, 3> disk = three.point;
@@ -88,7 +89,7 @@ class Kernel {
     }
     for (Number& coordinate : disk) coordinate = coordinate / three.scale;
     if (!disk[2].positive()) return std::nullopt;
-    DiskBounds<Precise> found{three.origin + Vector<Number>{disk[0], disk[1]}, disk[2]};
+    DiskBounds<Real> found{three.origin + Vector<Number>{disk[0], disk[1]}, disk[2]};
     tighten(found.center.x, found.center.y, found.radius);
     return found;
   }
@@ -439,35 +440,43 @@ Sign decide(const SiteLoops& outline, AKernel&& kernel, const Quad& quad) {
   return Sign::none;
 }
 
+template <class Real>
+Sign decide_in(const SiteLoops& outline, const Quad& quad) {
+  ApproximateRoots<Real> roots;
+  return decide(outline, Kernel<Bounded<Real>, ApproximateRoots<Real>>(outline, roots), quad);
+}
+
 }  // namespace
 
-std::optional<DiskBounds<Precise>> disk_of_three(const SiteLoops& outline,
-                                                 const std::array<std::uint32_t, 3>& sites) {
-  ApproximateRoots<Precise> roots;
-  return Kernel<Bounded<Precise>, ApproximateRoots<Precise>>(outline, roots).disk_of(sites);
+template <class Real>
+std::optional<DiskBounds<Real>> disk_of_three(const SiteLoops& outline,
+                                              const std::array<std::uint32_t, 3>& sites) {
+  ApproximateRoots<Real> roots;
+  return Kernel<Bounded<Real>, ApproximateRoots<Real>>(outline, roots)
+      .template disk_of<Real>(sites);
 }
+
+template std::optional<DiskBounds<Twofold>> disk_of_three(const SiteLoops&,
+                                                          const std::array<std::uint32_t, 3>&);
+template std::optional<DiskBounds<Precise>> disk_of_three(const SiteLoops&,
+                                                          const std::array<std::uint32_t, 3>&);
 
 Sign in_disk(const SiteLoops& outline, std::uint32_t first, std::uint32_t second,
              std::uint32_t third, std::uint32_t fourth, Decisions& decisions) {
   const Quad quad{{first, second, third, fourth},
                   {outline.joined(first, second), outline.joined(second, third),
                    outline.joined(third, fourth), outline.joined(fourth, first)}};
-  ApproximateRoots<double> rounded;
-  Sign sign =
-      decide(outline, Kernel<Bounded<double>, ApproximateRoots<double>>(outline, rounded), quad);
+  Sign sign = decide_in<double>(outline, quad);
   if (sign != Sign::open) {
     ++decisions.filtered;
+  } else if (sign = decide_in<Twofold>(outline, quad); sign != Sign::open) {
+    ++decisions.twofold;
+  } else if (sign = decide_in<Precise>(outline, quad); sign != Sign::open) {
+    ++decisions.precise;
   } else {
-    ApproximateRoots<Precise> precise;
-    sign = decide(outline, Kernel<Bounded<Precise>, ApproximateRoots<Precise>>(outline, precise),
-                  quad);
-    if (sign != Sign::open) {
-      ++decisions.precise;
-    } else {
-      RootField field;
-      sign = decide(outline, Kernel<RootNumber, RootField>(outline, field), quad);
-      ++decisions.rational;
-    }
+    RootField field;
+    sign = decide(outline, Kernel<RootNumber, RootField>(outline, field), quad);
+    ++decisions.rational;
   }
   decisions.ties += sign == Sign::zero ? 1 : 0;
   return sign;

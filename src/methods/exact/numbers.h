@@ -1,7 +1,7 @@
 #pragma once
 
-// The numbers of exact decisions, beside Bounded<double>: Bounded<Precise>, and numbers from a
-// field of square roots, whose signs are decided by rational arithmetic.
+// The numbers of exact decisions: Bounded<double>, Bounded<Twofold>, Bounded<Precise>, and numbers
+// from a field of square roots, whose signs are decided by rational arithmetic.
 
 #ifdef MEDIAL_WITHOUT_GMP
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/bounded.h"
+#include "base/twofold.h"
 
 namespace medial {
 

@@ -2,22 +2,28 @@
 
 #include <algorithm>
 
+#include "base/compat.h"
+
 namespace medial::exact {
 namespace {
 
-using Number = Bounded<Precise>;
-using Roots = ApproximateRoots<Precise>;
+template <class Real>
+bool is_negative(const Bounded<Real>& number) {
+  return number.sign() == -1;
+}
 
-bool is_negative(const Number& number) { return number.sign() == -1; }
-
-int clearance_of_point(Vec2 point, const DiskBounds<Precise>& disk) {
-  const auto d = disk.center - exact_vector<Number>(point);
+template <class Real>
+int clearance_of_point(Vec2 point, const DiskBounds<Real>& disk, std::span<const Vec2> touched) {
+  if (ranges::find(touched, point) != touched.end()) return 0;
+  const auto d = disk.center - exact_vector<Bounded<Real>>(point);
   return (dot(d, d) - disk.radius * disk.radius).sign().value_or(0);
 }
 
 }  // namespace
 
-bool may_have_foot(const ExactSite& site, const DiskBounds<Precise>& disk) {
+template <class Real>
+bool may_have_foot(const ExactSite& site, const DiskBounds<Real>& disk) {
+  using Number = Bounded<Real>;
   if (site.is_vertex()) return true;
   const auto start = exact_vector<Number>(site.start), end = exact_vector<Number>(site.end);
   if (!site.is_arc()) {
@@ -25,7 +31,7 @@ bool may_have_foot(const ExactSite& site, const DiskBounds<Precise>& disk) {
     return !is_negative(dot(along, disk.center - start)) &&
            !is_negative(dot(along, end - disk.center));
   }
-  Roots roots;
+  ApproximateRoots<Real> roots;
   const auto first = spoke_of<Number>(site, false, roots).normal;
   const auto last = spoke_of<Number>(site, true, roots).normal;
   const auto toward = first + Number(-4 * site.bulge) * (disk.center - start);
@@ -34,9 +40,11 @@ bool may_have_foot(const ExactSite& site, const DiskBounds<Precise>& disk) {
                         : !is_negative(-before) && !is_negative(-after);
 }
 
-int clearance(const ExactSite& site, const DiskBounds<Precise>& disk) {
-  if (site.is_vertex()) return clearance_of_point(site.start, disk);
-  Roots roots;
+template <class Real>
+int clearance(const ExactSite& site, const DiskBounds<Real>& disk, std::span<const Vec2> touched) {
+  using Number = Bounded<Real>;
+  if (site.is_vertex()) return clearance_of_point(site.start, disk, touched);
+  ApproximateRoots<Real> roots;
   const auto form = form_of<Number>(site, disk.center, roots);
   const Number bend = form.round * disk.radius * disk.radius, reach = form.size * disk.radius;
   // With the centre as origin, on the left of the carrier and on its right.
@@ -45,22 +53,40 @@ int clearance(const ExactSite& site, const DiskBounds<Precise>& disk) {
   const auto behind = (form.height - bend + reach).sign();
   if (behind && *behind < 0) return 1;
   if (may_have_foot(site, disk)) return behind && *behind > 0 ? -1 : 0;
-  return std::min(clearance_of_point(site.start, disk), clearance_of_point(site.end, disk));
+  return std::min(clearance_of_point(site.start, disk, touched),
+                  clearance_of_point(site.end, disk, touched));
 }
 
-std::optional<DiskBounds<Precise>> disk_along(const Spoke<Number>& spoke, const ExactSite& site) {
-  Roots roots;
+template <class Real>
+std::optional<DiskBounds<Real>> disk_along(const Spoke<Bounded<Real>>& spoke,
+                                           const ExactSite& site) {
+  using Number = Bounded<Real>;
+  ApproximateRoots<Real> roots;
   const auto form = form_of<Number>(site, spoke.foot, roots);
   const Number closing = form.size * spoke.size - dot(form.slope, spoke.normal);
   if (!closing.positive() || !form.height.positive()) return std::nullopt;
   const Number times = form.height / closing;
-  return DiskBounds<Precise>{spoke.foot + times * spoke.normal, times * spoke.size};
+  return DiskBounds<Real>{spoke.foot + times * spoke.normal, times * spoke.size};
 }
 
-std::optional<DiskBounds<Precise>> disk_from(Vec2 foot, Vec2 direction, const ExactSite& site) {
-  Roots roots;
+template <class Real>
+std::optional<DiskBounds<Real>> disk_from(Vec2 foot, Vec2 direction, const ExactSite& site) {
+  using Number = Bounded<Real>;
+  ApproximateRoots<Real> roots;
   const auto normal = exact_vector<Number>(direction);
-  return disk_along({exact_vector<Number>(foot), normal, roots.root(dot(normal, normal))}, site);
+  return disk_along<Real>({exact_vector<Number>(foot), normal, roots.root(dot(normal, normal))},
+                          site);
 }
+
+template bool may_have_foot(const ExactSite&, const DiskBounds<Twofold>&);
+template bool may_have_foot(const ExactSite&, const DiskBounds<Precise>&);
+template int clearance(const ExactSite&, const DiskBounds<Twofold>&, std::span<const Vec2>);
+template int clearance(const ExactSite&, const DiskBounds<Precise>&, std::span<const Vec2>);
+template std::optional<DiskBounds<Twofold>> disk_along(const Spoke<Bounded<Twofold>>&,
+                                                       const ExactSite&);
+template std::optional<DiskBounds<Precise>> disk_along(const Spoke<Bounded<Precise>>&,
+                                                       const ExactSite&);
+template std::optional<DiskBounds<Twofold>> disk_from(Vec2, Vec2, const ExactSite&);
+template std::optional<DiskBounds<Precise>> disk_from(Vec2, Vec2, const ExactSite&);
 
 }  // namespace medial::exact

@@ -44,7 +44,7 @@ PreciseSite half_tangent(const InPrecise::Disk& disk, const PreciseSite& touched
 /// The disk of a bridge from a hole's furthest vertex to what it touches; `about` where it touches
 /// none.
 InPrecise::Disk precise_bridge(Vec2 vertex, const exact::ExactSite& touched, const Disk& about) {
-  const auto disk = exact::disk_from(vertex, disks::outreach, touched);
+  const auto disk = exact::disk_from<exact::Precise>(vertex, disks::outreach, touched);
   if (!disk) return {precise(about.center), Precise(about.radius)};
   return {{disk->center.x.value, disk->center.y.value}, disk->radius.value};
 }
