@@ -240,8 +240,8 @@ Command make_compare_command(CLI::App& program) {
   add_output_option(*command, arguments->output, "PICTURE",
                     "A picture of the first feature's axes side by side: .svg .pdf .png .ps");
   add_value(*command, "--fit", arguments->fit, "D", a_positive_number(),
-            "First replace every boundary by a smooth curve through its corners, within D\n"
-            "of it, which curve-axis needs.");
+            "First replace every boundary by a smooth curve within D of it, which\n"
+            "curve-axis needs.");
   add_exterior_options(*command, arguments->options,
                        "The axes of what lies around the shape and in its holes, within a\n"
                        "rectangle.");

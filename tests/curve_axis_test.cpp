@@ -498,6 +498,21 @@ TEST(CurveAxis, AFitLeavesOutSpecks) {
   EXPECT_EQ(axis->axis.nodes.size(), axis->axis.edges.size() + 1);
 }
 
+/// Where only a knot strays from the outline, the spans on both its sides are divided: the one
+/// alone that samples see was divided towards the knot without end.
+TEST(CurveAxis, FitsDivideBothSpansBesideAKnotThatStrays) {
+  const Image image = test::silhouette(980688, test::silhouette_size(980688)).image;
+  const auto rings = pixel_outline(image);
+  ASSERT_TRUE(rings.ok());
+  const Box box = bounding_box(*build_shape(*rings));
+  for (const double share : {0.003, 0.0055, 0.006, 0.0065}) {
+    const double within = share * distance(box.low, box.high);
+    const auto fit = fit_smooth_contour(rings->front().points, within);
+    ASSERT_TRUE(fit.ok()) << fit.error().text;
+    EXPECT_LT(fit->points.size(), 4 * rings->front().points.size() * 3);
+  }
+}
+
 /// A ring with a gap, which coarse fits close.
 TEST(CurveAxis, FitsThatCrossNameAFitThatDoes) {
   std::vector<Vec2> points;

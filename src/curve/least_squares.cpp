@@ -193,14 +193,21 @@ void fit(const Polygon& polygon, Spline& spline) {
   }
 }
 
-/// The knots with one more in the middle of each span that strays from the polygon; as many as
-/// before where none does.
+/// The knots with one more in the middle of each span that strays from the polygon, at its ends
+/// too: a knot that strays divides the spans on both its sides, else one of them would be divided
+/// towards it without end. As many as before where none strays.
 std::vector<double> refined(const Polygon& polygon, const Spline& spline, double tolerance) {
   std::vector<bool> strays(spline.size());
   visit_samples(polygon, spline,
                 [&](std::size_t i, double, double, const Spline::Row& row, Vec2 p) {
                   if (!(distance(spline.point(i, row), p) <= tolerance)) strays[i] = true;
                 });
+  std::size_t edge = 0;
+  for (std::size_t i = 0; i < spline.size(); ++i) {
+    const Vec2 knot = spline.point(i, spline.shares(i)[0]);
+    if (distance(knot, polygon.at(spline.begin(i), edge)) <= tolerance) continue;
+    strays[i] = strays[spline.index(i, -1)] = true;
+  }
   std::vector<double> knots;
   for (std::size_t i = 0; i < spline.size(); ++i) {
     knots.push_back(spline.begin(i));

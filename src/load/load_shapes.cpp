@@ -95,17 +95,20 @@ void keep_sources(Shape& shape, const Feature& feature,
       source = feature.sources[ring_begin[source.ring] + source.vertex];
 }
 
-/// The shape within smooth curves instead. Where they cross, the error names a fit that does.
+/// The shape within smooth curves instead. Where they make none, the error names a fit that does.
 Result<Shape> smooth_shape(const std::vector<Contour>& contours, const LoadOptions& options,
                            LoadReport& report) {
   std::vector<std::vector<Vec2>> polygons;
   for (const Contour& contour : contours) polygons.push_back(curve::polygon_of(contour));
-  const auto curves = curve::fit_loops(polygons, options.fit);
-  if (!curves) return curves.error();
-  const auto rings = approximate_by_arcs(*curves, options.arcs);
-  if (!rings) return rings.error();
-  report.specks = contours.size() - curves->size();
-  auto shape = build_shape(*rings);
+  const auto smooth = [&]() -> Result<Shape> {
+    const auto curves = curve::fit_loops(polygons, options.fit);
+    if (!curves) return curves.error();
+    report.specks = contours.size() - curves->size();
+    const auto rings = approximate_by_arcs(*curves, options.arcs);
+    if (!rings) return rings.error();
+    return build_shape(*rings);
+  };
+  auto shape = smooth();
   if (shape) return shape;
   return curve_axis::with_fit_that_does(std::move(shape).error(), polygons, {.fit = options.fit},
                                         options.cancel);

@@ -86,10 +86,13 @@ Result<CurveAxis> follow_fit(std::span<const Contour> contours, const method::Cu
                              const std::atomic<bool>* cancel) {
   std::vector<std::vector<Vec2>> polygons;
   for (const Contour& contour : contours) polygons.push_back(curve::polygon_of(contour));
-  Result<std::vector<Contour>> curves = std::vector<Contour>{};
-  if (options.fit > 0) curves = curve::fit_loops(polygons, options.fit);
-  if (!curves) return std::move(curves).error();
-  Result<CurveAxis> result = follow_all(options.fit > 0 ? *curves : contours, options, cancel);
+  const auto followed = [&]() -> Result<CurveAxis> {
+    if (!(options.fit > 0)) return follow_all(contours, options, cancel);
+    const auto curves = curve::fit_loops(polygons, options.fit);
+    if (!curves) return curves.error();
+    return follow_all(*curves, options, cancel);
+  };
+  Result<CurveAxis> result = followed();
   if (result) return result;
   return with_fit_that_does(std::move(result).error(), polygons, options, cancel);
 }
