@@ -2,9 +2,9 @@
 //
 //     medial_bench_scale SHAPE VERTICES [-o FILE] [--whole] [--shape FILE]
 //
-// SHAPE: coast, comb, blob, needles, star. FILE: .csv, .geojson, .fgb; without it parts are
-// counted. With --shape the shape is written, and nothing computed. Prints one object in JSON:
-// seconds of processor time and bytes a vertex, which is the peak above the shape alone.
+// SHAPE: coast, comb, blob, needles, star. FILE: what `medial axis --parts` writes; without it
+// parts are counted. With --shape the shape is written, and nothing computed. Prints one object in
+// JSON: seconds of processor time and bytes a vertex, which is the peak above the shape alone.
 
 #include <cmath>
 #include <cstdio>

@@ -76,7 +76,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program")
     parser.add_argument("giant", help="medial_bench_scale, which makes the shapes")
-    parser.add_argument("--output", default="", metavar="FORMAT", help="written: csv, geojson or fgb (none)")
+    parser.add_argument("--output", default="", metavar="FORMAT", help="written: csv, fgb, safetensors ... (none)")
     parser.add_argument("--most", type=int, default=10_000_000, metavar="N", help="vertices (10,000,000)")
     parser.add_argument("--tiles", nargs="*", default=[], metavar="FILE", help="shapes to divide")
     options = parser.parse_args()

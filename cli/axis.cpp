@@ -90,18 +90,15 @@ Status check_method_options(const CLI::App& command, std::string_view method) {
 /// Shapes of more vertices are computed and written in parts, which other commands do not need.
 constexpr std::uint64_t most_points = std::uint64_t{1} << 22;
 
+std::string growing_formats() { return io::formats_of(io::DocumentKind::axes, true); }
+
 /// Whether axes may be written in parts: nothing has to be done with the whole, and both the method
 /// and the format go part by part.
 bool allows_parts(const AxisArguments& arguments, const Options& options) {
   const std::string& path = arguments.output;
-  const std::string name =
-      arguments.format.empty() ? path.substr(path.rfind('.') + 1) : arguments.format;
-  constexpr std::array<std::string_view, 4> formats{"csv", "geojson", "fgb", "shp"};
-  const bool written =
-      !path.empty() && path != "-" && std::ranges::find(formats, name) != formats.end();
-  return (written || path.empty()) && !arguments.mask &&
-         std::holds_alternative<method::Disks>(options.method) && !options.exact &&
-         !options.exterior && !io::is_image(arguments.input.path);
+  return (path.empty() || (path != "-" && has_extension(path, growing_formats()))) &&
+         !arguments.mask && std::holds_alternative<method::Disks>(options.method) &&
+         !options.exact && !options.exterior && !io::is_image(arguments.input.path);
 }
 
 bool wants_parts(const Document<ShapeItem>& shapes, const AxisArguments& arguments) {
@@ -128,8 +125,9 @@ Result<int> run_axis(const AxisArguments& arguments) {
   const bool in_parts = allows_parts(arguments, options);
   if (arguments.parts && !in_parts)
     return invalid_option(
-        "--parts is for files of .csv, .geojson, .fgb and .shp, and for --method disks without "
-        "--exact, --exterior and --mask");
+        fmt::format("--parts is for files of {}, and for --method disks without --exact, "
+                    "--exterior and --mask",
+                    growing_formats()));
   if (!arguments.mask && !arguments.parts) {
     const auto streamed = stream_axes(arguments, input, options, nullptr, nullptr,
                                       in_parts ? most_points : ~std::uint64_t{0});
@@ -284,10 +282,13 @@ Command make_axis_command(CLI::App& program) {
   command->add_flag(
       "--mask", arguments->mask,
       "Images: write a mask of pixels (" + io::formats_of(io::DocumentKind::image) + ").");
-  command->add_flag("--parts", arguments->parts,
-                    "Write .csv, .geojson, .fgb and .shp while the axis grows, which takes less\n"
-                    "memory: always done for shapes of more than 4 million vertices. Its edges\n"
-                    "come in another order.");
+  command->add_flag(
+      "--parts", arguments->parts,
+      "Write files of these formats while the axis grows, which takes less memory:\n" +
+          growing_formats() +
+          ".\n"
+          "Always done for shapes of more than 4 million vertices. Edges come in\n"
+          "another order.");
   add_method_options(*command, arguments->methods);
   add_exterior_options(
       *command, arguments->options,

@@ -51,6 +51,12 @@ std::string lower(std::string text) {
   return text;
 }
 
+/// Of a file, without its dot.
+std::string extension_of(const std::string& path) {
+  const std::string extension = lower(fs::path(path).extension().string());
+  return extension.empty() ? extension : extension.substr(1);
+}
+
 bool lists(const std::string& formats, const std::string& wanted) {
   if (wanted.empty()) return false;
   std::string word;
@@ -438,8 +444,7 @@ Status check_file(const std::string& path, const std::string& known_formats,
     return error_at(ErrorCode::unwritable, path, std::move(text));
   };
   const fs::path target(path);
-  std::string extension = lower(target.extension().string());
-  if (!extension.empty()) extension.erase(0, 1);
+  const std::string extension = extension_of(path);
   std::error_code ignored;
   if (fs::is_directory(target, ignored)) return unwritable("is a directory");
   if (!lists(known_formats, extension)) {
@@ -463,6 +468,10 @@ Status check_file(const std::string& path, const std::string& known_formats,
 }
 
 }  // namespace
+
+bool has_extension(const std::string& path, const std::string& known_formats) {
+  return lists(known_formats, extension_of(path));
+}
 
 Status check_output(const std::string& path, const std::string& format,
                     const std::string& known_formats, const std::string& input, bool json) {

@@ -149,6 +149,7 @@ class OptionGroup {
 Status check_output(const std::string& path, const std::string& format,
                     const std::string& known_formats, const std::string& input, bool json);
 Status check_output(const FileArguments& arguments, const std::string& known_formats);
+bool has_extension(const std::string& path, const std::string& known_formats);
 /// Options for writing: --chord is a common one.
 io::WriteOptions write_options(const FileArguments& arguments);
 

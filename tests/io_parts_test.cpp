@@ -3,13 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <map>
 #include <sstream>
+#include <tuple>
 
+#include "io/spill.h"
+#include "medial/io/read.h"
 #include "medial/io/write.h"
 #include "support/computed.h"
 #include "support/generate.h"
+#include "support/generate_arcs.h"
 #include "support/scratch_folder.h"
 
 namespace medial::io {
@@ -131,9 +136,100 @@ TEST_F(InParts, BranchesAreWhole) {
   }
 }
 
+/// The edges of an axis by what they hold, each from its lower end.
+auto graph_of(const MedialAxis& axis) {
+  const auto key = [](const Disk& disk) {
+    return std::array{disk.center.x, disk.center.y, disk.radius};
+  };
+  using Key = decltype(key({}));
+  std::vector<std::tuple<Key, Key, Key, double, std::uint32_t, std::uint32_t>> edges;
+  for (const Edge& edge : axis.edges) {
+    Key from = key(axis.nodes[edge.node[0]].disk), to = key(axis.nodes[edge.node[1]].disk);
+    auto [left, right] = edge.site;
+    if (to < from) {
+      std::swap(from, to);
+      std::swap(left, right);
+    }
+    edges.emplace_back(from, to, key(edge.control), edge.weight, left, right);
+  }
+  std::sort(edges.begin(), edges.end());
+  std::vector<std::tuple<Key, std::uint32_t, NodeKind>> nodes;
+  for (const Node& node : axis.nodes) nodes.emplace_back(key(node.disk), node.component, node.kind);
+  std::sort(nodes.begin(), nodes.end());
+  return std::pair(edges, nodes);
+}
+
+TEST_F(InParts, GraphsAreThoseOfTheWhole) {
+  auto file = shapes();
+  file.unit = Unit::metre;
+  const auto whole_file = whole(file);
+  for (const char* format : {"json", "safetensors"}) {
+    const std::string one = path(std::string("whole.") + format);
+    const std::string other = path(std::string("parts.") + format);
+    ASSERT_TRUE(write_axes(one, format, whole_file)) << format;
+    const auto written = write_in_parts(other, format, file, {});
+    ASSERT_TRUE(written && *written) << format;
+    const auto expected = read_native(one), read = read_native(other);
+    ASSERT_TRUE(expected && read) << format;
+    ASSERT_EQ(read->items.size(), file.items.size());
+    EXPECT_EQ(read->unit, Unit::metre);
+    for (std::size_t i = 0; i < read->items.size(); ++i) {
+      const AxisItem &a = expected->items[i], &b = read->items[i];
+      EXPECT_EQ(a.attributes, b.attributes);
+      EXPECT_TRUE(a.shape.points == b.shape.points && a.shape.hole == b.shape.hole);
+      ASSERT_EQ(a.axis.sites.size(), b.axis.sites.size());
+      for (std::size_t k = 0; k < a.axis.sites.size(); ++k) {
+        const Site &x = a.axis.sites[k], &y = b.axis.sites[k];
+        ASSERT_TRUE(x.start == y.start && x.end == y.end && x.ring == y.ring &&
+                    x.vertex == y.vertex && x.kind == y.kind)
+            << format << ' ' << k;
+      }
+      EXPECT_TRUE(graph_of(a.axis) == graph_of(b.axis)) << format << ' ' << i;
+      EXPECT_EQ(a.axis.tolerance, b.axis.tolerance);
+      EXPECT_EQ(b.axis.method, "disks");
+    }
+  }
+}
+
+// Their sites are not known before the axis is.
+TEST_F(InParts, OfWholeGraphsWithArcsThereAreNone) {
+  Document<ShapeItem> file;
+  file.items.push_back({test::shape_of(test::Rings{test::gear(5, 0.7)}), {}});
+  for (const char* format : {"json", "safetensors"}) {
+    const auto written = write_in_parts(path(std::string("arcs.") + format), "", file, {});
+    ASSERT_TRUE(written) << format;
+    EXPECT_FALSE(*written) << format;
+  }
+}
+
+TEST_F(InParts, AreOfTheFormatsThatAreListed) {
+  EXPECT_EQ(formats_of(DocumentKind::axes, true), ".json .safetensors .geojson .shp .fgb .csv");
+}
+
+TEST_F(InParts, WaitInAFileKindByKind) {
+  Spill spill(directory_.string(), 2);
+  std::array<std::string, 2> expected, found;
+  for (int i = 0; i < 100'000; ++i)
+    for (const std::size_t kind : {0U, 1U}) {
+      const std::string text = std::to_string(i * (kind + 7)) + ' ';
+      spill.put(kind, text);
+      expected[kind] += text;
+    }
+  for (const std::size_t kind : {1U, 0U})
+    EXPECT_TRUE(spill.read(kind, [&](std::string_view text) { found[kind] += text; }));
+  EXPECT_TRUE(expected == found);
+  EXPECT_TRUE(std::filesystem::is_empty(directory_));
+  spill.clear();
+  EXPECT_TRUE(spill.read(0, [&](std::string_view text) { EXPECT_EQ(text, ""); }));
+  Spill nowhere(path("none"), 1);
+  nowhere.put(0, expected[0]);
+  EXPECT_EQ(nowhere.status().error().code, ErrorCode::unwritable);
+  EXPECT_FALSE(nowhere.read(0, [](std::string_view) {}));
+}
+
 TEST_F(InParts, OfOtherFormatsAndPipesThereAreNone) {
   const auto file = shapes();
-  for (const char* name : {"a.json", "a.gpkg", "a.svg", "a.wkt", "-"}) {
+  for (const char* name : {"a.gpkg", "a.svg", "a.wkt", "-"}) {
     const auto written = write_in_parts(name == std::string("-") ? name : path(name), "", file, {});
     ASSERT_TRUE(written) << name;
     EXPECT_FALSE(*written) << name;
@@ -145,7 +241,7 @@ TEST_F(InParts, OfOtherFormatsAndPipesThereAreNone) {
 
 TEST_F(InParts, BrokenOnesLeaveWhatWasThere) {
   const auto file = shapes();
-  for (const char* format : {"csv", "geojson", "fgb"}) {
+  for (const char* format : {"csv", "geojson", "fgb", "json", "safetensors"}) {
     const std::string name = write(std::string("a.") + format, "as it was");
     std::atomic<bool> cancel = false;
     Options options;
@@ -156,7 +252,7 @@ TEST_F(InParts, BrokenOnesLeaveWhatWasThere) {
     EXPECT_EQ(written.error().code, ErrorCode::cancelled);
     EXPECT_EQ(content(std::string("a.") + format), "as it was");
   }
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory_), {}), 3);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory_), {}), 5);
 }
 
 }  // namespace

@@ -101,21 +101,27 @@ medial::Site result_site(const Shape& shape, const SiteNumbers& numbers, std::ui
   return {p, q, ring, vertex, bulge == 0 ? SiteKind::segment : SiteKind::arc, bulge};
 }
 
-std::vector<medial::Site> result_sites(const Shape& shape, const SiteNumbers& numbers) {
+std::vector<medial::Site> result_sites(const Shape& shape, const SiteNumbers& numbers,
+                                       std::size_t first, std::size_t last) {
   std::vector<medial::Site> sites;
-  reserve_large(sites, numbers.count);
-  for (std::size_t loop = 0; loop < shape.loop_count(); ++loop) {
-    const std::uint32_t begin = shape.loop_begin[loop], end = shape.loop_begin[loop + 1];
-    for (std::uint32_t i = begin; i < end; ++i) {
-      const Vec2 p = shape.points[i], q = shape.points[i + 1 == end ? begin : i + 1];
-      const auto [ring, vertex] = shape.sources[i];
-      const double bulge = shape.bulge(i);
-      if (numbers.is_site(i)) sites.push_back({p, p, ring, vertex, SiteKind::vertex});
-      if (end - begin == 1) continue;
-      sites.push_back({p, q, ring, vertex, bulge == 0 ? SiteKind::segment : SiteKind::arc, bulge});
-    }
+  reserve_large(sites, last - first == numbers.edge.size() ? numbers.count : 2 * (last - first));
+  const auto& begins = shape.loop_begin;
+  auto next = std::upper_bound(begins.begin(), begins.end(), first);  // loop
+  for (std::size_t i = first; i < last; ++i) {
+    while (*next <= i) ++next;
+    const std::size_t begin = *(next - 1), end = *next;
+    const Vec2 p = shape.points[i], q = shape.points[i + 1 == end ? begin : i + 1];
+    const auto [ring, vertex] = shape.sources[i];
+    const double bulge = shape.bulge(i);
+    if (numbers.is_site(i)) sites.push_back({p, p, ring, vertex, SiteKind::vertex});
+    if (end - begin == 1) continue;
+    sites.push_back({p, q, ring, vertex, bulge == 0 ? SiteKind::segment : SiteKind::arc, bulge});
   }
   return sites;
+}
+
+std::vector<medial::Site> result_sites(const Shape& shape, const SiteNumbers& numbers) {
+  return result_sites(shape, numbers, 0, shape.points.size());
 }
 
 }  // namespace medial::site

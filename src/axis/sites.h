@@ -78,7 +78,9 @@ std::size_t point_of(const SiteNumbers& numbers, std::uint32_t site, std::size_t
 medial::Site result_site(const Shape& shape, const SiteNumbers& numbers, std::uint32_t site,
                          std::size_t point);
 
-/// The result's sites, in units of the input.
+/// The result's sites, in units of the input; or those of the points [first, last).
 std::vector<medial::Site> result_sites(const Shape& shape, const SiteNumbers& numbers);
+std::vector<medial::Site> result_sites(const Shape& shape, const SiteNumbers& numbers,
+                                       std::size_t first, std::size_t last);
 
 }  // namespace medial::site

@@ -1,12 +1,15 @@
 // Axes that are written while they grow.
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <utility>
 
 #include "axis/statistics.h"
 #include "io/attribute_columns.h"
+#include "io/axis_writer.h"
 #include "io/format_name.h"
 #include "io/part_writer.h"
 #include "io/tables.h"
@@ -32,65 +35,121 @@ Shape stand_in(const Shape& shape) {
   return four;
 }
 
-/// Computes the axes of a document's shapes one after another, and writes their parts.
+/// Axes by a writer of tables or texts that takes items in parts.
+class RowsOfAxes final : public AxisWriter {
+ public:
+  RowsOfAxes(const Document<ShapeItem>& shapes, const WriteOptions& write, bool by_branches,
+             PartWriter& writer)
+      : shapes_(shapes),
+        write_(write),
+        by_branches_(by_branches),
+        writer_(writer),
+        made_{shapes, {}} {}
+
+  Status begin() override {
+    if (Status framed = put_beginning(); !framed) return framed;
+    const ShapeItem& shape = shapes_.items[begun_];
+    made_.items.assign(1, AxisItem{stand_in(shape.shape), {}, shape.attributes});
+    made_.indices = {shapes_.index_of(begun_)};
+    numbers_.feature = begun_++;
+    numbers_.branch = 0;
+    nodes_ = 0;
+    return success();
+  }
+  Status add(AxisPart&& part) override {
+    nodes_ += part.axis.nodes.size() - part.known;
+    if (!by_branches_) return put_part(std::move(part));
+    branches_.add(part);
+    return branches_.is_full() ? put_part(branches_.take()) : success();
+  }
+  Status end(const Statistics&) override {
+    Status done = by_branches_ ? put_part(branches_.take()) : success();
+    branches_ = {};
+    numbers_.node += nodes_;
+    return done;
+  }
+  Status finish() override {
+    if (Status framed = put_beginning(); !framed) return framed;
+    made_.items.clear();
+    Status ended = put({false, true});
+    return ended ? writer_.finish() : ended;
+  }
+
+ private:
+  /// What stands before the first shape.
+  Status put_beginning() { return begun_ == 0 ? put({true, false}) : success(); }
+  Status put_part(AxisPart&& part) {
+    MedialAxis& axis = made_.items[0].axis;
+    axis = std::move(part.axis);
+    numbers_.nodes = part.nodes;
+    Status done = put(numbers_);
+    numbers_.edge += axis.edges.size();
+    numbers_.branch += branch_count(axis);
+    numbers_.nodes = {};
+    return done;
+  }
+  Status put(const Part& numbers) {
+    auto prepared = writer_.prepare(AxesOutput{made_, write_}, numbers);
+    return prepared ? writer_.add(prepared->get()) : Status(std::move(prepared).error());
+  }
+
+  const Document<ShapeItem>& shapes_;
+  const WriteOptions& write_;
+  bool by_branches_;
+  PartWriter& writer_;
+  Document<AxisItem> made_;  ///< the part that is being written
+  Part numbers_{false, false};
+  WholeBranches branches_;
+  std::uint64_t nodes_ = 0;
+  std::size_t begun_ = 0;
+};
+
+/// Computes the axes of a document's shapes one after another, and hands out their parts.
 class PartsOfAxes {
  public:
-  PartsOfAxes(const Document<ShapeItem>& shapes, const Options& options, const WriteOptions& write,
-              const PartVisitor& visit)
-      : shapes_(shapes), options_(options), write_(write), visit_(visit), made_{shapes, {}} {
+  PartsOfAxes(const Document<ShapeItem>& shapes, const Options& options, const PartVisitor& visit)
+      : shapes_(shapes), options_(options), visit_(visit) {
     for (const ShapeItem& item : shapes.items)
       all_points_ += static_cast<double>(item.shape.points.size());
   }
 
   /// Writes all parts. `take_again()` where the walk of one shape restarts, which makes void what
   /// has been written: then everything is to be written again.
-  Status write_all(PartWriter& writer, bool by_branches) {
-    numbers_ = {false, false};
+  Status write_all(AxisWriter& writer) {
     done_points_ = 0;
     report_ = {};
-    if (Status begun = put({true, false}, writer); !begun) return begun;
     for (std::size_t i = 0; i < shapes_.items.size(); ++i)
-      if (Status written = write_item(i, writer, by_branches); !written) return written;
-    if (Status ended = put({false, true}, writer); !ended) return ended;
+      if (Status written = write_item(i, writer); !written) return written;
     return writer.finish();
   }
   bool take_again() { return std::exchange(again_, false); }
   const std::optional<Error>& own_error() const { return own_error_; }
   const AxesReport& report() const { return report_; }
-  /// What stands in front of the first part.
-  const Document<AxisItem>& frame() const { return made_; }
 
  private:
-  Status write_item(std::size_t i, PartWriter& writer, bool by_branches) {
-    const ShapeItem& shape = shapes_.items[i];
-    made_.items.assign(1, AxisItem{stand_in(shape.shape), {}, shape.attributes});
-    made_.indices = {shapes_.index_of(i)};
-    numbers_.feature = i;
-    numbers_.branch = 0;
+  Status write_item(std::size_t i, AxisWriter& writer) {
     again_ = false;
     bool begun = false;
-    std::uint64_t nodes = 0;
-    WholeBranches branches;
     const auto take = [&](AxisPart&& part) -> Status {
       if (part.begins && std::exchange(begun, true)) return begin_again(i, std::move(part));
       if (visit_) visit_(i, part);
-      nodes += part.axis.nodes.size() - part.known;
-      if (!by_branches) return put_part(std::move(part), writer);
-      branches.add(part);
-      return branches.is_full() ? put_part(branches.take(), writer) : success();
+      return writer.add(std::move(part));
     };
-    const auto whole = whole_.find(i);
-    const bool is_known = whole != whole_.end();
-    if (is_known) count(i, whole->second.axis.statistics);
-    Status done = is_known ? take(AxisPart(whole->second)) : compute(i, take);
-    if (done && by_branches) done = put_part(branches.take(), writer);
-    numbers_.node += nodes;
-    done_points_ += static_cast<double>(shape.shape.points.size());
-    made_.items.clear();
-    return done;
+    Status done = writer.begin();
+    Statistics statistics;
+    if (const auto whole = whole_.find(i); done && whole != whole_.end()) {
+      statistics = whole->second.axis.statistics;
+      done = take(AxisPart(whole->second));
+    } else if (done) {
+      done = compute(i, take, statistics);
+    }
+    report_.statistics += statistics;
+    if (visit_) report_.sites += Problem(shapes_.items[i].shape, options_).numbers().count;
+    done_points_ += static_cast<double>(shapes_.items[i].shape.points.size());
+    return done ? writer.end(statistics) : done;
   }
 
-  Status compute(std::size_t i, const AxisSink& take) {
+  Status compute(std::size_t i, const AxisSink& take, Statistics& statistics) {
     const Shape& shape = shapes_.items[i].shape;
     Options own = options_;
     if (own.progress)
@@ -104,7 +163,7 @@ class PartsOfAxes {
       return done;
     });
     if (rest) {
-      count(i, rest->statistics);
+      statistics = rest->statistics;
       return success();
     }
     Error error = rest.error();
@@ -114,11 +173,6 @@ class PartsOfAxes {
     return error;
   }
 
-  void count(std::size_t i, const Statistics& statistics) {
-    report_.statistics += statistics;
-    if (visit_) report_.sites += Problem(shapes_.items[i].shape, options_).numbers().count;
-  }
-
   /// The parts of this shape are void: the new one is the whole axis.
   Status begin_again(std::size_t i, AxisPart&& part) {
     again_ = true;
@@ -126,28 +180,9 @@ class PartsOfAxes {
     return Error{ErrorCode::internal, "the walk has restarted: please report this shape", {}};
   }
 
-  Status put_part(AxisPart&& part, PartWriter& writer) {
-    MedialAxis& axis = made_.items[0].axis;
-    axis = std::move(part.axis);
-    numbers_.nodes = part.nodes;
-    Status done = put(numbers_, writer);
-    numbers_.edge += axis.edges.size();
-    numbers_.branch += branch_count(axis);
-    numbers_.nodes = {};
-    return done;
-  }
-
-  Status put(const Part& numbers, PartWriter& writer) {
-    auto prepared = writer.prepare(AxesOutput{made_, write_}, numbers);
-    return prepared ? writer.add(prepared->get()) : Status(std::move(prepared).error());
-  }
-
   const Document<ShapeItem>& shapes_;
   const Options& options_;
-  const WriteOptions& write_;
   const PartVisitor& visit_;
-  Document<AxisItem> made_;  ///< the part that is being written
-  Part numbers_{false, false};
   double done_points_ = 0, all_points_ = 0;
   bool again_ = false;
   std::map<std::size_t, AxisPart> whole_;  ///< axes whose walk has restarted
@@ -155,44 +190,89 @@ class PartsOfAxes {
   AxesReport report_;
 };
 
+/// Of a silent run.
+class NoAxes final : public AxisWriter {
+ public:
+  Status begin() override { return success(); }
+  Status add(AxisPart&&) override { return success(); }
+  Status end(const Statistics&) override { return success(); }
+  Status finish() override { return success(); }
+};
+
+/// Writes all of a file once.
+Status write_once(PartsOfAxes& parts, Target& to, const Format& format, const GrowingFrame& frame,
+                  const WriteOptions& write) {
+  if (format.growing == Growing::graph) return parts.write_all(*format.grow(to, frame));
+  auto columns = std::make_shared<AttributeColumns>();
+  for (const ShapeItem& item : frame.shapes.items) columns->add(item.attributes);
+  const Document<AxisItem> none{frame.shapes, {}};
+  const AxesOutput output{none, write};
+  columns->name_apart(own_columns(output));
+  to.columns = std::move(columns);
+  auto writer = writer_of_parts(to, format, output);
+  if (!writer) return std::move(writer).error();
+  RowsOfAxes rows(frame.shapes, write, format.growing == Growing::branches, **writer);
+  return parts.write_all(rows);
+}
+
+/// Where what waits to be written has room.
+std::string folder_of(const Destination& target) {
+  namespace fs = std::filesystem;
+  if (target.text != nullptr) return fs::temp_directory_path().string();
+  return fs::weakly_canonical(target.path).parent_path().string();
+}
+
+/// Whether a format is written while axes grow. What has gone to a pipe cannot be taken back where
+/// the walk begins again; sites are known beforehand where the axis comes in parts.
+bool can_grow(const Destination& target, const Format* format, const Document<ShapeItem>& shapes,
+              const Options& options) {
+  if (format == nullptr || format->growing == Growing::none) return false;
+  if (is_stream(target.path) && target.text == nullptr) return false;
+  return format->growing != Growing::graph ||
+         std::ranges::all_of(shapes.items, [&](const ShapeItem& item) {
+           return comes_in_parts(item.shape, options);
+         });
+}
+
 }  // namespace
+
+void take_whole_numbers(AxisPart& part) {
+  MedialAxis& axis = part.axis;
+  for (Edge& edge : axis.edges) {
+    for (std::uint32_t& node : edge.node) node = part.nodes[node];
+    for (std::uint32_t& site : edge.site)
+      if (site != no_site) site = part.sites[site];
+  }
+  axis.nodes.erase(axis.nodes.begin(),
+                   axis.nodes.begin() + static_cast<std::ptrdiff_t>(part.known));
+}
 
 Result<std::optional<AxesReport>> write_in_parts(const Destination& target,
                                                  const std::string& format,
                                                  const Document<ShapeItem>& shapes,
                                                  const Options& options, const WriteOptions& write,
                                                  const PartVisitor& visit) {
+  constexpr DocumentKind axes = DocumentKind::axes;
   const bool silent = target.path.empty();
-  const std::string extension = format_name(target.path, format);
-  const bool by_branches = !silent && extension != "csv";
-  const Format* row = silent ? nullptr : find_format(extension, DocumentKind::axes);
-  // What has gone to a pipe cannot be taken back where the walk begins again. Other tables have the
-  // nodes as well, and other texts an item at a time.
-  const bool is_text = extension == "csv" || extension == "geojson";
-  if (!silent && (row == nullptr || (is_stream(target.path) && target.text == nullptr) ||
-                  !(is_text || extension == "fgb" || extension == "shp")))
+  if (!silent &&
+      !can_grow(target, find_format(format_name(target.path, format), axes), shapes, options))
     return std::optional<AxesReport>();
   if (!(write.chord > 0) || !std::isfinite(write.chord))
     return Error{ErrorCode::invalid_option, "chord is not a positive number", {}};
-  PartsOfAxes parts(shapes, options, write, visit);
-  const auto write_once = [&]() -> Status {
-    if (silent) return parts.write_all(*writer_of_nothing(), by_branches);
-    const auto put = [&](Target& to, const Format& chosen) -> Status {
-      auto columns = std::make_shared<AttributeColumns>();
-      for (const ShapeItem& item : shapes.items) columns->add(item.attributes);
-      const AxesOutput frame{parts.frame(), write};
-      columns->name_apart(own_columns(frame));
-      to.columns = std::move(columns);
-      auto writer = writer_of_parts(to, chosen, frame);
-      return writer ? parts.write_all(**writer, by_branches) : Status(std::move(writer).error());
-    };
-    return write_target(target, format,
-                        {DocumentKind::axes, "json", "medial", shapes.crs_wkt, shapes.unit,
-                         write.overwrite, write.layer},
-                        put);
+  PartsOfAxes parts(shapes, options, visit);
+  NoAxes none;
+  const auto write_file = [&]() -> Status {
+    if (silent) return parts.write_all(none);
+    const GrowingFrame frame{shapes, options, folder_of(target)};
+    return write_target(
+        target, format,
+        {axes, "json", "medial", shapes.crs_wkt, shapes.unit, write.overwrite, write.layer},
+        [&](Target& to, const Format& chosen) {
+          return write_once(parts, to, chosen, frame, write);
+        });
   };
-  Status done = write_once();
-  while (!done && parts.take_again()) done = write_once();
+  Status done = write_file();
+  while (!done && parts.take_again()) done = write_file();
   if (parts.own_error()) return *parts.own_error();
   if (!done) return std::move(done).error();
   return std::optional(parts.report());

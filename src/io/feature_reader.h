@@ -20,7 +20,13 @@ class FeatureReader {
   /// sets what holds for all of them, as far as it is known; notes are those that are new. False:
   /// the end, there are no more. Errors: those of reading the format.
   virtual Result<bool> read(std::size_t points, Document<Feature>& document) = 0;
+  /// Begins again, after the end: what is now known of all features need not be found again. False:
+  /// the file is to be opened again.
+  virtual bool begin_again() { return false; }
 };
+
+/// Thrown by read() in the first pass: another reader is to read the file, from its beginning.
+struct Unusual {};
 
 /// All of them.
 inline Result<Document<Feature>> read_to_end(FeatureReader& reader) {

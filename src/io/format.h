@@ -163,6 +163,17 @@ class PartWriter {
   virtual Status finish() = 0;
 };
 
+class AxisWriter;
+struct GrowingFrame;
+
+/// What is written of an axis while it grows (docs/parts.md).
+enum class Growing : std::uint8_t {
+  none,
+  edges,     ///< one after another
+  branches,  ///< once each is whole
+  graph      ///< with all nodes and sites, by Format::grow
+};
+
 struct Format {
   std::string_view extensions;  ///< each with its dot, apart by blanks
 
@@ -195,6 +206,8 @@ struct Format {
   Result<std::unique_ptr<PartWriter>> (*write_parts)(Target& target,
                                                      const PartOutput& none) = nullptr;
   bool in_parts = false;
+  Growing growing = Growing::none;
+  std::unique_ptr<AxisWriter> (*grow)(Target& target, const GrowingFrame& frame) = nullptr;
   unsigned kinds = 0;      ///< of documents that are written, a bit each
   unsigned announced = 0;  ///< those that the row of this name in formats() writes as well
 

@@ -82,10 +82,11 @@ const Format* find_format(std::string_view extension, DocumentKind kind) {
   });
 }
 
-std::string formats_of(DocumentKind kind) {
+std::string formats_of(DocumentKind kind, bool growing) {
   std::string list;
   for (const Format& format : formats_at_hand())
-    if (format.is_known_to_hold(kind)) (list += list.empty() ? "" : " ") += format.extensions;
+    if (format.is_known_to_hold(kind) && (!growing || format.growing != Growing::none))
+      (list += list.empty() ? "" : " ") += format.extensions;
   return list;
 }
 

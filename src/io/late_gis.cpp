@@ -47,9 +47,11 @@ auto in_module(Function GisModule::*function, Arguments&&... arguments)
   return (module->*function)(std::forward<Arguments>(arguments)...);
 }
 
-Format table_format(std::string_view extension) {
+Format table_format(std::string_view extension, Growing growing) {
   using enum DocumentKind;
-  return Format{extension}.announces({axes, shapes, voronoi, offsets, features, layers});
+  Format format = Format{extension}.announces({axes, shapes, voronoi, offsets, features, layers});
+  format.growing = growing;
+  return format;
 }
 
 }  // namespace
@@ -61,9 +63,9 @@ const std::vector<Format>& formats() {
 
 // What formats_of() lists; the rows of the module do it.
 
-Format gpkg_format() { return table_format(".gpkg"); }
-Format shp_format() { return table_format(".shp"); }
-Format fgb_format() { return table_format(".fgb"); }
+Format gpkg_format() { return table_format(".gpkg", Growing::none); }
+Format shp_format() { return table_format(".shp", Growing::branches); }
+Format fgb_format() { return table_format(".fgb", Growing::branches); }
 Format with_rasters(Format format) {
   return format.announces({DocumentKind::distances, DocumentKind::image});
 }

@@ -4,10 +4,11 @@
 
 namespace medial::io {
 
-/// Opens a file to be read feature by feature; null: its format is read as a whole. Errors: those
-/// of read_document().
+/// Opens a file to be read feature by feature; null: its format is read as a whole. Where its
+/// reader finds it Unusual, it is to be opened once more so. Errors: those of read_document().
 Result<std::unique_ptr<FeatureReader>> open_features(const std::string& path,
-                                                     const ReadOptions& options);
+                                                     const ReadOptions& options,
+                                                     bool unusual = false);
 
 /// The reference system that is asked for, or the one of the file if its numbers can be degrees.
 Status settle_crs(Document<Feature>& document, const std::string& crs, bool degrees);

@@ -107,14 +107,13 @@ Result<const Format*> format_of(const std::string& path,
   return format;
 }
 
-/// A plain file of GeoJSON, which is read faster here than by GDAL; null otherwise.
-std::unique_ptr<FeatureReader> open_plain(const std::string& path, const Format& format,
-                                          const ReadOptions& options) {
+/// Whether a file may be plain GeoJSON, which is read faster here than by GDAL.
+bool may_be_plain(const std::string& path, const Format& format, const ReadOptions& options) {
   std::string name = lower_case(path);
   if (name.ends_with(".gz")) name.resize(name.size() - 3);
   const bool named = name.ends_with(".geojson") || name.ends_with(".json");
   const bool chooses = options.loose || !options.layer.empty() || !options.where.empty();
-  return format.reads_others && named && !chooses ? open_geojson(path) : nullptr;
+  return format.reads_others && named && !chooses;
 }
 
 Result<Document<Feature>> read_any(const std::string& path,
@@ -122,7 +121,8 @@ Result<Document<Feature>> read_any(const std::string& path,
                                    const ReadOptions& options) {
   const Result<const Format*> format = format_of(path, source, options);
   if (!format) return format.error();
-  if (const auto reader = open_plain(path, **format, options)) return read_to_end(*reader);
+  if (may_be_plain(path, **format, options))
+    if (auto document = read_geojson(path)) return std::move(*document);
   return (*format)->read({path, source ? *source : nullptr}, options);
 }
 
@@ -166,11 +166,12 @@ Status settle_crs(Document<Feature>& dataset, const std::string& crs, bool degre
 }
 
 Result<std::unique_ptr<FeatureReader>> open_features(const std::string& path,
-                                                     const ReadOptions& options) {
+                                                     const ReadOptions& options, bool unusual) {
   auto source = TextSource::open(path);
   const Result<const Format*> format = format_of(path, source, options);
   if (!format) return format.error();
-  if (auto reader = open_plain(path, **format, options)) return reader;
+  if (!unusual && may_be_plain(path, **format, options))
+    if (auto reader = open_geojson(path)) return reader;
   if ((*format)->open == nullptr) return std::unique_ptr<FeatureReader>();
   return (*format)->open({path, source ? *source : nullptr}, options);
 }

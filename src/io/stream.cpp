@@ -44,13 +44,13 @@ bool needs_all_features(const SourceOptions& source) {
 /// The reader's next features, checked, with their numbers in the file. Nothing: there are no more.
 class PartReader {
  public:
-  PartReader(std::unique_ptr<FeatureReader> reader, const ReadOptions& options)
-      : reader_(std::move(reader)), checks_(options) {}
+  PartReader(FeatureReader& reader, const ReadOptions& options)
+      : reader_(reader), checks_(options) {}
 
   Result<std::optional<Document<Feature>>> next() {
     if (!more_) return std::optional<Document<Feature>>();
     Document<Feature> part;
-    const Result<bool> more = reader_->read(points_of_part, part);
+    const Result<bool> more = reader_.read(points_of_part, part);
     if (!more) return more.error();
     more_ = *more;
     for (std::size_t i = 0; i < part.items.size(); ++i) part.indices.push_back(read_++);
@@ -60,7 +60,7 @@ class PartReader {
   Status finish(Document<Feature>& document) const { return checks_.finish(document); }
 
  private:
-  std::unique_ptr<FeatureReader> reader_;
+  FeatureReader& reader_;
   FeatureChecks checks_;
   bool more_ = true;
   std::uint64_t read_ = 0;
@@ -105,6 +105,45 @@ Result<Survey> survey_of(PartReader reader, const std::string& crs, std::uint64_
   if (Status settled = settle_crs(survey.common, crs, degrees); !settled)
     return std::move(settled).error();
   return survey;
+}
+
+/// A file that is read twice.
+struct TwiceRead {
+  std::string path;
+  const ReadOptions& options;
+  std::unique_ptr<FeatureReader> reader = nullptr;
+
+  /// For the first time, and after Unusual; `reader` is null where there is none of its format.
+  Status open(bool unusual = false) {
+    auto opened = open_features(path, options, unusual);
+    if (!opened) return std::move(opened).error();
+    reader = std::move(*opened);
+    return success();
+  }
+  Result<Survey> survey(std::uint64_t most_points) {
+    return survey_of(PartReader(*reader, options), options.crs, most_points);
+  }
+  Result<PartReader> again() {
+    if (!reader->begin_again())
+      if (Status opened = open(); !opened) return std::move(opened).error();
+    return PartReader(*reader, options);
+  }
+};
+
+/// Opens and surveys a file; nothing: it is not to be streamed.
+Result<std::optional<Survey>> survey_file(TwiceRead& file, std::uint64_t most_points) {
+  const auto survey = [&](bool unusual) -> Result<std::optional<Survey>> {
+    if (Status opened = file.open(unusual); !opened) return std::move(opened).error();
+    if (file.reader == nullptr) return std::optional<Survey>();
+    auto found = file.survey(most_points);
+    if (!found) return std::move(found).error();
+    return found->too_large ? std::optional<Survey>() : std::optional(std::move(*found));
+  };
+  try {
+    return survey(false);
+  } catch (const Unusual&) {
+    return survey(true);
+  }
 }
 
 PartOutput output_of(const Document<AxisItem>& made, const WriteOptions& options) {
@@ -323,12 +362,11 @@ Result<std::optional<StreamReport>> stream(const std::string& path, const Destin
       !is_large_file(path, options.least_bytes) || needs_all_features(options.source))
     return std::optional<StreamReport>();
   const ReadOptions& read = options.source.read;
-  auto first = open_features(path, read);
-  if (!first) return std::move(first).error();
-  if (*first == nullptr) return std::optional<StreamReport>();
-  auto survey = survey_of(PartReader(std::move(*first), read), read.crs, options.most_points);
-  if (!survey) return std::move(survey).error();
-  if (survey->too_large) return std::optional<StreamReport>();
+  TwiceRead file{path, read};
+  auto surveyed = survey_file(file, options.most_points);
+  if (!surveyed) return std::move(surveyed).error();
+  if (!*surveyed) return std::optional<StreamReport>();
+  std::optional<Survey>& survey = *surveyed;
   DocumentInfo info = survey->common;
   info.notes.clear();
   const StreamItems none = without_items(options.none, info);
@@ -338,9 +376,9 @@ Result<std::optional<StreamReport>> stream(const std::string& path, const Destin
   std::optional<StreamReport> report;
   std::optional<Error> input_error;
   const auto write_by = [&](PartWriter& writer) -> Status {
-    auto again = open_features(path, read);
+    auto again = file.again();
     if (!again) return std::move(again).error();
-    Stream parts(PartReader(std::move(*again), read), *survey, none, options, writer);
+    Stream parts(*again, *survey, none, options, writer);
     Status done = parts.run();
     report = std::move(parts.report);
     input_error = std::move(parts.input_error);

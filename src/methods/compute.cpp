@@ -136,12 +136,16 @@ Status hand_out_whole(MedialAxis& axis, const AxisSink& sink) {
 
 }  // namespace
 
+bool comes_in_parts(const Shape& shape, const Options& options) {
+  return std::holds_alternative<method::Disks>(options.method) && !options.exact &&
+         !options.exterior && !has_arcs(shape);
+}
+
 Result<MedialAxis> compute_in_parts(const Shape& shape, const Options& options,
                                     const AxisSink& sink) {
   try {
     if (auto error = refuse(shape, options)) return std::move(*error);
-    if (std::holds_alternative<method::Disks>(options.method) && !options.exact &&
-        !options.exterior && !has_arcs(shape)) {
+    if (comes_in_parts(shape, options)) {
       const Problem problem(shape, options);
       auto axis = on_threads(options.threads, [&] { return disks::run_in_parts(problem, sink); });
       if (!axis) return std::move(axis).error();

@@ -50,6 +50,9 @@ struct Problem {
   mutable std::optional<site::SiteNumbers> numbers_;
 };
 
+/// Whether compute_in_parts() hands out parts; otherwise the axis is a single one.
+bool comes_in_parts(const Shape& shape, const Options& options);
+
 /// What a method makes of a problem.
 struct Outcome {
   MedialAxis axis;

@@ -166,8 +166,16 @@ class InParts(CommandLine):
         self.assertNotEqual(self.read("whole.csv"), self.read("parts.csv"))
         self.succeed("axis", "star.wkt", "--parts")
 
+    def test_native_files_hold_the_same_axis(self):
+        self.write("star.wkt", star(20_000))
+        for name in ("parts.json", "parts.safetensors"):
+            self.succeed("axis", "star.wkt", "-o", name, "--parts")
+            self.succeed("verify", "star.wkt", name)
+        self.assertEqual(self.succeed("info", "parts.json").stdout.replace("json", "safetensors"),
+                         self.succeed("info", "parts.safetensors").stdout)  # fmt: skip
+
     def test_what_is_not_written_so(self):
         self.write("star.wkt", star(50))
-        for more in (["-o", "a.json"], ["-o", "-", "--format", "csv"], ["-o", "a.csv", "--exact"],
+        for more in (["-o", "a.gpkg"], ["-o", "-", "--format", "csv"], ["-o", "a.csv", "--exact"],
                      ["-o", "a.csv", "--method", "lee"], ["-o", "a.csv", "--exterior"]):  # fmt: skip
             self.refuse("invalid_option", "axis", "star.wkt", "--parts", *more)

@@ -37,7 +37,7 @@ enum class DocumentKind : std::uint8_t {
   mesh,  ///< only read
 };
 
-std::string formats_of(DocumentKind kind);  ///< extensions, such as ".json .svg"
+std::string formats_of(DocumentKind kind, bool growing = false);  ///< such as ".json .svg"
 
 struct WriteOptions {
   double chord = 1e-3;       ///< chords stay within this share (> 0) of the bounding box diagonal
@@ -64,8 +64,8 @@ Status write_axes(const Destination& target, const std::string& format,
 
 /// Gets parts of axes, shape by shape; where the first shape's begins, all before are void.
 using PartVisitor = std::function<void(std::size_t shape, const AxisPart& part)>;
-/// Computes axes and writes them as they grow (compute_in_parts()), nowhere if it has no name;
-/// returns nothing where it is no .csv, .geojson, .fgb or .shp. Edges come in the order of parts.
+/// Computes axes and writes them as they grow, in the order of parts; without a name nowhere. Nothing
+/// where the format (formats_of(axes, true)) or, of native files, the axis does not come in parts.
 Result<std::optional<AxesReport>> write_in_parts(
     const Destination& target, const std::string& format, const Document<ShapeItem>& shapes,
     const Options& options, const WriteOptions& write = {}, const PartVisitor& visit = {});

@@ -184,6 +184,7 @@ Format csv_format() {
   format.accepts = has_two_columns;
   format.gdal_chooses = true;
   format.geographic = format.in_parts = true;
+  format.growing = Growing::edges;
   return format.writes<AxesOutput, VoronoiOutput, FeaturesOutput, LayersOutput, CarvingOutput>(
       write_csv, write_csv, write_csv, write_csv, write_csv);
 }

@@ -259,6 +259,7 @@ Status write_geojson(Target& target, const VoronoiOutput& output) {
 Format geojson_format() {
   Format format = native_reading(".geojson");
   format.in_parts = true;
+  format.growing = Growing::branches;
   format.tables = TableRoom::joined;
   return with_tables<put_geojson>(format).writes<ShapesOutput, OffsetsOutput, VoronoiOutput>(
       write_geojson, write_geojson, write_geojson);

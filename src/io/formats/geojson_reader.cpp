@@ -1,6 +1,7 @@
 // Collections of polygons in GeoJSON, feature by feature, as GDAL reads them: it takes ten times as
 // long, since it makes an object of each number and reads the file twice. What is unusual is left
-// to GDAL, so that all files mean what they mean there.
+// to GDAL, so that all files mean what they mean there. The parser on demand does not look at what
+// it skips, so nothing of a feature is skipped.
 
 #include <simdjson.h>
 
@@ -21,9 +22,6 @@ namespace medial::io {
 namespace {
 
 namespace json = simdjson::ondemand;
-
-/// Thrown where GDAL is to read the file.
-struct Unusual {};
 
 void usual(bool condition) {
   if (!condition) throw Unusual{};
@@ -171,6 +169,7 @@ Property property_of(json::field field) {
       property.kind = whole ? Kind::whole : Kind::real;
       property.number = nearest_double(value);
       usual(std::abs(property.number) < exact);
+      if (whole) property.number += 0.0;  // no sign of 0
       property.text = whole ? std::to_string(static_cast<std::int64_t>(property.number))
                             : text_of(property.number);
       break;
@@ -185,6 +184,7 @@ Property property_of(json::field field) {
       property.text = bool(value.get_bool()) ? "1" : "0";
       break;
     case json::json_type::null:
+      usual(bool(value.is_null()));
       break;
     default:
       throw Unusual{};
@@ -262,8 +262,10 @@ ParsedFeature parse(json::parser& parser, std::string& text) {
         feature.properties.push_back(property_of(property));
     } else {
       usual(key == "bbox");
+      for (json::value number : field.value().get_array()) nearest_double(number);
     }
   }
+  usual(document.current_location().error() != simdjson::SUCCESS);
   usual(types == 1 && geometries == 1 && lists == 1);
   return feature;
 }
@@ -289,6 +291,13 @@ class Columns {
         kind = kind == Kind::real ? kind : own;
       else
         usual(own == Kind::none || own == kind);
+    }
+  }
+  /// Real numbers as long as only whole ones were known of their columns.
+  void settle(Attributes& attributes) const {
+    for (auto& [name, text] : attributes) {
+      const auto column = std::ranges::find(columns_, name, [](const auto& c) { return c.first; });
+      if (column->second == Kind::real) text = text_of(std::strtod(text.c_str(), nullptr));
     }
   }
   Attributes attributes_of(std::vector<Property> properties) const {
@@ -349,18 +358,59 @@ std::string crs_of(const std::map<std::string, std::string>& members,
 
 class GeojsonReader final : public FeatureReader {
  public:
-  /// Reads all of the file once. Throws Unusual, simdjson_error.
-  explicit GeojsonReader(std::string path) : path_(std::move(path)) {
-    // The parser on demand does not look at what it skips.
+  explicit GeojsonReader(std::string path) : path_(std::move(path)) { open(); }
+
+  /// The first pass finds the columns' kinds and the reference system. Throws Unusual.
+  Result<bool> read(std::size_t points, Document<Feature>& document) override {
+    try {
+      return read_usual(points, document);
+    } catch (const Unusual&) {
+      if (!is_known_) throw;
+    } catch (const simdjson::simdjson_error&) {
+      if (!is_known_) throw Unusual{};
+    }
+    return Error{ErrorCode::unreadable, "the file has changed while it was read", in_file(path_)};
+  }
+  bool begin_again() override {
+    is_known_ = true;
+    open();
+    return true;
+  }
+  const Columns& columns() const { return columns_; }
+
+ private:
+  void open() {
+    auto source = TextSource::open(path_);
+    usual(source.ok());
+    collection_.emplace(std::move(*source));
+    count_ = 0;
+  }
+
+  bool read_usual(std::size_t points, Document<Feature>& document) {
+    for (std::size_t count = 0; count < points;) {
+      if (!collection_->next(text_)) {
+        if (!is_known_) finish_first();
+        document.crs_wkt = crs_;
+        return false;
+      }
+      ParsedFeature parsed = parse(parser_, text_);
+      columns_.add(parsed.properties);
+      Feature& feature = document.items.emplace_back();
+      feature.id = count_++;
+      feature.rings = std::move(parsed.rings);
+      feature.attributes = columns_.attributes_of(std::move(parsed.properties));
+      count += point_count(feature);
+    }
+    if (is_known_) document.crs_wkt = crs_;
+    return true;
+  }
+
+  /// All other members are known.
+  void finish_first() {
     simdjson::dom::parser strict;
     const auto check = [&](const std::string& text) {
       usual(strict.parse(text).error() == simdjson::SUCCESS);
     };
-    begin();
-    while (next()) {
-      check(text_);
-      columns_.add(parse(parser_, text_).properties);
-    }
     const auto& members = collection_->members();
     for (const auto& [key, value] : members) {
       check(key);
@@ -370,39 +420,6 @@ class GeojsonReader final : public FeatureReader {
     usual(type != members.end() && type->second == "\"FeatureCollection\"");
     crs_ = crs_of(members, strict);
     usual(count_ > 0);
-    begin();
-  }
-
-  Result<bool> read(std::size_t points, Document<Feature>& document) override {
-    document.crs_wkt = crs_;
-    try {
-      for (std::size_t count = 0; count < points;) {
-        if (!next()) return false;
-        ParsedFeature parsed = parse(parser_, text_);
-        Feature& feature = document.items.emplace_back();
-        feature.id = count_ - 1;
-        feature.rings = std::move(parsed.rings);
-        feature.attributes = columns_.attributes_of(std::move(parsed.properties));
-        count += point_count(feature);
-      }
-      return true;
-    } catch (const Unusual&) {
-    } catch (const simdjson::simdjson_error&) {
-    }
-    return Error{ErrorCode::unreadable, "the file has changed while it was read", in_file(path_)};
-  }
-
- private:
-  void begin() {
-    auto source = TextSource::open(path_);
-    usual(source.ok());
-    collection_.emplace(std::move(*source));
-    count_ = 0;
-  }
-  bool next() {
-    if (!collection_->next(text_)) return false;
-    ++count_;
-    return true;
   }
 
   std::string path_, text_, crs_;
@@ -410,6 +427,7 @@ class GeojsonReader final : public FeatureReader {
   json::parser parser_;
   Columns columns_;
   std::int64_t count_ = 0;
+  bool is_known_ = false;  ///< what the first pass finds
 };
 
 }  // namespace
@@ -418,9 +436,19 @@ std::unique_ptr<FeatureReader> open_geojson(const std::string& path) {
   try {
     return std::make_unique<GeojsonReader>(path);
   } catch (const Unusual&) {
-  } catch (const simdjson::simdjson_error&) {
+    return nullptr;
   }
-  return nullptr;
+}
+
+std::optional<Document<Feature>> read_geojson(const std::string& path) {
+  try {
+    GeojsonReader reader(path);
+    auto document = read_to_end(reader);
+    for (Feature& feature : document->items) reader.columns().settle(feature.attributes);
+    return std::move(*document);
+  } catch (const Unusual&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace medial::io

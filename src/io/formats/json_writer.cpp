@@ -4,8 +4,11 @@
 #include <optional>
 
 #include "axis/statistics.h"
+#include "io/axis_writer.h"
 #include "io/formats/json.h"
 #include "io/formats/json_text.h"
+#include "io/spill.h"
+#include "methods/problem.h"
 
 namespace medial::io {
 
@@ -107,11 +110,11 @@ void put_site(OutputStream& out, const Site& site, SiteNames& names) {
     put_site(out, site);
 }
 
-void put_edge(OutputStream& out, const MedialAxis& axis, const Edge& edge) {
+void put_edge(OutputStream& out, const Edge& edge, bool plain) {
   const auto [from, to] = edge.node;
   const auto [left, right] = edge.site;
   const Disk& control = edge.control;
-  if (is_plain(axis, edge)) {
+  if (plain) {
     put_row(out, from, to, left, right);
   } else if (edge.weight == 1) {
     put_row(out, from, to, left, right, control.center.x, control.center.y, control.radius);
@@ -138,7 +141,8 @@ void put_statistics(OutputStream& out, const Statistics& statistics) {
   out.put('}');
 }
 
-void put_axis(OutputStream& out, const Shape& shape, const MedialAxis& axis) {
+/// What stands before the sites.
+void put_axis_head(OutputStream& out, const MedialAxis& axis) {
   put_member(out, ",\n\"axis\":{\"method\":", axis.method);
   const auto member = [&](const char* name, double value) {
     out.put(name);
@@ -147,13 +151,17 @@ void put_axis(OutputStream& out, const Shape& shape, const MedialAxis& axis) {
   member(",\"tolerance\":", axis.tolerance);
   member(",\"resolution\":", axis.resolution);
   if (axis.exterior != 0) member(",\"exterior\":", axis.exterior);
+}
+
+void put_axis(OutputStream& out, const Shape& shape, const MedialAxis& axis) {
+  put_axis_head(out, axis);
   SiteNames names(shape);
   out.put(",\n\"sites\":");
   put_lines(out, axis.sites, [&](const Site& site) { put_site(out, site, names); });
   out.put(",\n\"nodes\":");
   put_lines(out, axis.nodes, [&](const Node& node) { put_node(out, node); });
   out.put(",\n\"edges\":");
-  put_lines(out, axis.edges, [&](const Edge& edge) { put_edge(out, axis, edge); });
+  put_lines(out, axis.edges, [&](const Edge& edge) { put_edge(out, edge, is_plain(axis, edge)); });
   put_statistics(out, axis.statistics);
 }
 
@@ -190,6 +198,87 @@ Status put_file(Target& target, const Document<Item>& file) {
   return success();
 }
 
+/// Axes that are written while they grow: edges wait in a file until all nodes are there.
+class GrowingJson final : public AxisWriter {
+ public:
+  GrowingJson(Target& target, const GrowingFrame& frame)
+      : out_(*target.out), frame_(frame), spill_(frame.folder, 1) {
+    Document<ShapeItem> head;
+    static_cast<DocumentInfo&>(head) = frame.shapes;
+    put_head(target, head);
+    out_.put('[');
+  }
+
+  Status begin() override {
+    nodes_ = edges_ = 0;
+    spill_.clear();
+    return success();
+  }
+
+  Status add(AxisPart&& part) override {
+    if (nodes_ == 0) put_beginning(part.axis);
+    std::string text;
+    OutputStream edges = OutputStream::to(text);
+    std::vector<bool> plain;
+    for (const Edge& edge : part.axis.edges) plain.push_back(is_plain(part.axis, edge));
+    take_whole_numbers(part);
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+      edges.put(edges_++ == 0 ? "\n" : ",\n");
+      put_edge(edges, part.axis.edges[i], plain[i]);
+    }
+    for (const Node& node : part.axis.nodes) {
+      out_.put(nodes_++ == 0 ? "\n" : ",\n");
+      put_node(out_, node);
+    }
+    if (Status complete = edges.finish(); !complete) return complete;
+    spill_.put(0, text);
+    return spill_.status();
+  }
+
+  Status end(const Statistics& statistics) override {
+    out_.put("],\n\"edges\":[");
+    Status done = spill_.read(0, [&](std::string_view text) { out_.put(text); });
+    out_.put(']');
+    put_statistics(out_, statistics);
+    out_.put("}}");
+    return done;
+  }
+
+  Status finish() override {
+    out_.put("\n]}\n");
+    return success();
+  }
+
+ private:
+  /// The shape, the sites and what else stands before the nodes.
+  void put_beginning(const MedialAxis& about) {
+    out_.put(begun_ == 0 ? "\n{" : ",\n{");
+    const ShapeItem& item = frame_.shapes.items[begun_++];
+    put_attributes_and_shape(out_, item.attributes, item.shape);
+    put_axis_head(out_, about);
+    const Problem problem(item.shape, frame_.options);
+    out_.put(",\n\"sites\":[");
+    std::size_t point = 0;
+    for (std::uint32_t site = 0; site < problem.numbers().count; ++site) {
+      point = site::point_of(problem.numbers(), site, point);
+      out_.put(site == 0 ? "\n" : ",\n");
+      const bool is_vertex = site < problem.numbers().edge[point];
+      put_row(out_, is_vertex ? SiteKind::vertex : SiteKind::segment, point);
+    }
+    out_.put("],\n\"nodes\":[");
+  }
+
+  OutputStream& out_;
+  GrowingFrame frame_;
+  Spill spill_;  ///< of edges, as text
+  std::size_t begun_ = 0;
+  std::uint64_t nodes_ = 0, edges_ = 0;  ///< of this axis so far
+};
+
+std::unique_ptr<AxisWriter> grow_json(Target& target, const GrowingFrame& frame) {
+  return std::make_unique<GrowingJson>(target, frame);
+}
+
 }  // namespace
 
 void put_site(OutputStream& out, const Site& site) {
@@ -224,6 +313,8 @@ Format json_format() {
   Format format = native_reading(".json");
   format.sniff = begins_like_native;
   format.in_parts = true;
+  format.growing = Growing::graph;
+  format.grow = grow_json;
   return format.writes<AxesOutput, ShapesOutput, VoronoiOutput, OffsetsOutput, FeaturesOutput>(
       write_json, write_json, write_json, write_json, write_json);
 }

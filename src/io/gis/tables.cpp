@@ -365,12 +365,14 @@ Format shp_format() {
   Format format{".shp"};
   format.own_files = true;
   format.write_parts = GdalParts::make;
+  format.growing = Growing::branches;
   return with_tables<put_gdal_tables, OffsetsOutput, ShapesOutput, VoronoiOutput>(format);
 }
 
 Format fgb_format() {
   Format format{".fgb"};
   format.write_parts = GdalParts::make;
+  format.growing = Growing::branches;
   return with_tables<put_gdal_tables, OffsetsOutput, ShapesOutput, VoronoiOutput>(format);
 }
 
