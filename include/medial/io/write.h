@@ -64,8 +64,8 @@ Status write_axes(const Destination& target, const std::string& format,
 
 /// Gets parts of axes, shape by shape; where the first shape's begins, all before are void.
 using PartVisitor = std::function<void(std::size_t shape, const AxisPart& part)>;
-/// Computes axes and writes them as they grow, in the order of parts; without a name nowhere. Nothing
-/// where the format (formats_of(axes, true)) or, of native files, the axis does not come in parts.
+/// Computes axes and writes them as they grow, in the order of parts; without a name nowhere. No
+/// report where the format (formats_of(axes, true)) or a native file's axis has no parts.
 Result<std::optional<AxesReport>> write_in_parts(
     const Destination& target, const std::string& format, const Document<ShapeItem>& shapes,
     const Options& options, const WriteOptions& write = {}, const PartVisitor& visit = {});
