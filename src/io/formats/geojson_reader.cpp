@@ -192,6 +192,17 @@ Property property_of(json::field field) {
   return property;
 }
 
+/// Whole numbers have no sign of 0; those beyond 64 bits are others to GDAL.
+double coordinate_of(json::value value) {
+  constexpr std::size_t fits = 18;
+  const std::string_view text = value.raw_json_token();
+  const double result = nearest_double(value);
+  if (result != 0 && text.size() <= fits) return result;
+  const bool whole = text.find_first_of(".eE") == std::string_view::npos;
+  usual(!whole || text.size() <= fits);
+  return whole ? result + 0.0 : result;
+}
+
 Ring ring_of(json::array positions, RingRole role) {
   Ring ring;
   ring.role = role;
@@ -200,7 +211,7 @@ Ring ring_of(json::array positions, RingRole role) {
     std::size_t count = 0;
     for (json::value number : position.get_array()) {
       usual(count < 2);
-      place[count++] = nearest_double(number);
+      place[count++] = coordinate_of(number);
     }
     usual(count == 2);
     ring.points.push_back({place[0], place[1]});
