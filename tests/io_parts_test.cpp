@@ -15,6 +15,7 @@
 #include "support/computed.h"
 #include "support/generate.h"
 #include "support/generate_arcs.h"
+#include "support/nasty.h"
 #include "support/scratch_folder.h"
 
 namespace medial::io {
@@ -204,6 +205,66 @@ TEST_F(InParts, OfWholeGraphsWithArcsThereAreNone) {
 
 TEST_F(InParts, AreOfTheFormatsThatAreListed) {
   EXPECT_EQ(formats_of(DocumentKind::axes, true), ".json .safetensors .geojson .shp .fgb .csv");
+}
+
+/// Two rings that touch but for rounding, where the walk loses its way, below combs that are walked
+/// before.
+Shape lost_after_a_part() {
+  const auto classes = test::nasty_classes();
+  const auto one =
+      std::ranges::find_if(classes, [](const auto& known) { return known.name == "rings"; });
+  test::Rings rings = test::nasty_shape(*one, 116, false);
+  Vec2 corner = rings[0].points[0];
+  double right = corner.x;
+  for (const Ring& ring : rings)
+    for (const Vec2 p : ring.points) {
+      corner = {std::min(corner.x, p.x), std::min(corner.y, p.y)};
+      right = std::max(right, p.x);
+    }
+  const double width = right - corner.x;
+  const Ring comb = test::comb(100)[0];
+  double length = 0;
+  for (const Vec2 p : comb.points) length = std::max(length, p.x);
+  const double scale = width / length / 2;
+  for (int i = 0; i < 40; ++i) {
+    Ring& copy = *rings.insert(rings.begin() + i, comb);
+    for (Vec2& p : copy.points)
+      p = {right + width / 10 + scale * p.x, corner.y + scale * (p.y + 10 * i)};
+  }
+  return test::shape_of(rings);
+}
+
+TEST_F(InParts, BeginAgainWhereTheWalkLosesItsWay) {
+  Document<ShapeItem> file;
+  file.items.push_back({test::shape_of(test::maze(300)), {{"name", "before"}}});
+  file.items.push_back({lost_after_a_part(), {{"name", "lost"}}});
+  file.items.push_back({test::shape_of(test::maze(200)), {{"name", "after"}}});
+  const auto whole_file = whole(file);
+  for (const char* format : {"csv", "geojson", "json", "safetensors"}) {
+    const std::string one = path(std::string("whole.") + format);
+    const std::string other = path(std::string("parts.") + format);
+    ASSERT_TRUE(write_axes(one, format, whole_file));
+    std::array<std::vector<bool>, 3> begins;
+    const auto written = write_in_parts(
+        other, format, file, {}, {},
+        [&](std::size_t i, const AxisPart& part) { begins[i].push_back(part.begins); });
+    ASSERT_TRUE(written && *written) << format;
+    EXPECT_EQ(begins[0], (std::vector{true, true}));
+    EXPECT_EQ(begins[1], (std::vector{true, true})) << "the walk finds its way: take another shape";
+    EXPECT_EQ(begins[2], (std::vector{true}));
+    if (format == std::string("csv")) {
+      EXPECT_TRUE(edges_of(content("whole.csv")) == edges_of(content("parts.csv")));
+    } else if (format == std::string("geojson")) {
+      EXPECT_EQ(rows_of(one).size(), rows_of(other).size());
+    } else {
+      const auto expected = read_native(one), read = read_native(other);
+      ASSERT_TRUE(expected && read) << format;
+      ASSERT_EQ(read->items.size(), 3U);
+      for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_TRUE(graph_of(expected->items[i].axis) == graph_of(read->items[i].axis)) << i;
+    }
+  }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory_), {}), 8);
 }
 
 TEST_F(InParts, WaitInAFileKindByKind) {

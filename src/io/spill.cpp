@@ -1,5 +1,6 @@
 #include "io/spill.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,6 +14,18 @@ namespace medial::io {
 namespace {
 
 constexpr std::size_t block = std::size_t{1} << 18;
+
+/// A new file without a name; -1 with errno.
+int open_nameless(const std::string& folder) {
+#ifdef O_TMPFILE
+  const int file = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+  if (file >= 0) return file;
+#endif
+  std::string name = folder + "/.medial-XXXXXX";
+  const int named = ::mkstemp(name.data());
+  if (named >= 0) ::unlink(name.c_str());
+  return named;
+}
 
 /// Calls transfer(done) until all bytes of a block are done; errno, or 0.
 template <class Transfer>
@@ -59,12 +72,8 @@ void Spill::put(std::size_t kind, std::string_view bytes) {
 
 void Spill::write_block(Kind& kind) {
   if (file_ < 0 && status_) {
-    std::string name = folder_ + "/.medial-XXXXXX";
-    file_ = ::mkstemp(name.data());
-    if (file_ < 0)
-      fail(errno);
-    else
-      ::unlink(name.c_str());
+    file_ = open_nameless(folder_);
+    if (file_ < 0) fail(errno);
   }
   if (status_) {
     const int problem = transfer_block([&](std::size_t done) {

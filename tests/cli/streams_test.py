@@ -91,8 +91,8 @@ class Streams(CommandLine):
 
 
 class Interruption(CommandLine):
-    def start(self, output):
-        return subprocess.Popen([PROGRAM, "axis", "comb.wkt", "-o", output], cwd=self.folder.name,
+    def start(self, output, *more):
+        return subprocess.Popen([PROGRAM, "axis", "comb.wkt", "-o", output, *more], cwd=self.folder.name,
                                 stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL,
                                 preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
 
@@ -107,13 +107,14 @@ class Interruption(CommandLine):
         """A signal while the result is written leaves nothing, or all of it where it came after the work."""
         self.write("comb.wkt", comb(30_000))
         interrupted = 0
-        for output in ("out.csv", "out.json", "out.gpkg", "out.shp"):
-            self.succeed("axis", "comb.wkt", "-o", output)
+        for output, *more in (("out.csv",), ("out.json",), ("out.gpkg",), ("out.shp",),
+                              ("out.safetensors", "--parts"), ("out.json", "--parts")):  # fmt: skip
+            self.succeed("axis", "comb.wkt", "-o", output, *more)
             whole = self.results()
             self.clear()
             for signal_number in (signal.SIGINT, signal.SIGTERM):
                 for after in (0, 0.02):
-                    process = self.start(output)
+                    process = self.start(output, *more)
                     while process.poll() is None and len(self.files()) == 1:
                         time.sleep(0.001)
                     time.sleep(after)
