@@ -98,10 +98,12 @@ bool allows_parts(const AxisArguments& arguments, const Options& options) {
   const std::string& path = arguments.output;
   return (path.empty() || (path != "-" && has_extension(path, growing_formats()))) &&
          !arguments.mask && std::holds_alternative<method::Disks>(options.method) &&
-         !options.exact && !options.exterior && !io::is_image(arguments.input.path);
+         !options.exact && !options.exterior;
 }
 
+/// Axes of images are pruned as a whole. Which of standard input is known once it is read.
 bool wants_parts(const Document<ShapeItem>& shapes, const AxisArguments& arguments) {
+  if (io::is_image(arguments.input.path)) return false;
   return arguments.parts || std::ranges::any_of(shapes.items, [](const ShapeItem& item) {
            return item.shape.points.size() > most_points;
          });

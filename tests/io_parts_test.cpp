@@ -207,7 +207,7 @@ TEST_F(InParts, AreOfTheFormatsThatAreListed) {
   EXPECT_EQ(formats_of(DocumentKind::axes, true), ".json .safetensors .geojson .shp .fgb .csv");
 }
 
-/// Two rings that touch but for rounding, where the walk loses its way, below combs that are walked
+/// Two rings that touch up to rounding, where the walk loses its way, below combs that are walked
 /// before.
 Shape lost_after_a_part() {
   const auto classes = test::nasty_classes();

@@ -171,7 +171,7 @@ class InParts(CommandLine):
         for name in ("parts.json", "parts.safetensors"):
             self.succeed("axis", "star.wkt", "-o", name, "--parts")
             self.succeed("verify", "star.wkt", name)
-        self.assertEqual(self.succeed("info", "parts.json").stdout.replace("json", "safetensors"),
+        self.assertEqual(self.succeed("info", "parts.json").stdout.replace(b"json", b"safetensors"),
                          self.succeed("info", "parts.safetensors").stdout)  # fmt: skip
 
     def test_what_is_not_written_so(self):
