@@ -14,7 +14,7 @@ bool is_negative(const Bounded<Real>& number) {
 
 template <class Real>
 int clearance_of_point(Vec2 point, const DiskBounds<Real>& disk, std::span<const Vec2> touched) {
-  if (ranges::find(touched, point) != touched.end()) return 0;
+  if (std::find(touched.begin(), touched.end(), point) != touched.end()) return 0;
   const auto d = disk.center - exact_vector<Bounded<Real>>(point);
   return (dot(d, d) - disk.radius * disk.radius).sign().value_or(0);
 }
