@@ -29,10 +29,12 @@ class DiskLiner {
 
   DiskGraph run() {
     branches_ = branches(axis_);
+    lengths_.reserve(axis_.edges.size());
+    for (const Edge& edge : axis_.edges) lengths_.push_back(length(axis_, edge));
     std::vector<Fuse> fuses;
     for (const Branch& branch : branches_) {
       double total = 0;
-      for (const Step& step : branch.steps) total += length(axis_, axis_.edges[step.edge]);
+      for (const Step& step : branch.steps) total += lengths_[step.edge];
       fuses.push_back({{branch.from, branch.to}, total});
     }
     const auto start = burn(axis_, fuses);
@@ -56,16 +58,15 @@ class DiskLiner {
       const Edge& edge = axis_.edges[step.edge];
       std::vector<Disk> disks = sample_by_chord(axis_, edge, sample_share * error_);
       if (!step.forward) std::reverse(disks.begin(), disks.end());
-      const double total = length(axis_, edge);
-      double chords = 0;
-      for (std::size_t k = 1; k < disks.size(); ++k)
-        chords += distance(disks[k - 1].center, disks[k].center);
-      double way = 0;
+      const double total = lengths_[step.edge];
       if (samples.empty()) samples.push_back({disks[0], 0, 0});
+      double way = 0;
       for (std::size_t k = 1; k < disks.size(); ++k) {
         way += distance(disks[k - 1].center, disks[k].center);
-        samples.push_back({disks[k], along + (chords > 0 ? total * (way / chords) : 0), 0});
+        samples.push_back({disks[k], way, 0});
       }
+      for (std::size_t k = samples.size() - (disks.size() - 1); k < samples.size(); ++k)
+        samples[k].along = along + (way > 0 ? total * (samples[k].along / way) : 0);
       along += total;
     }
     return samples;
@@ -251,6 +252,7 @@ class DiskLiner {
   const MedialAxis& axis_;
   double prune_, error_;
   DiskGraph graph_;
+  std::vector<double> lengths_;  ///< of edges
   std::vector<Branch> branches_;
   std::vector<std::vector<Sample>> kept_;           ///< of each branch
   std::vector<std::vector<std::uint32_t>> around_;  ///< of each node: the ends that reach it

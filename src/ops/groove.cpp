@@ -101,7 +101,7 @@ class OpenEnds {
   /// others are farther.
   std::uint32_t nearest(Vec2 p) const {
     Nearest best{infinity, 0};
-    search(levels_.size(), 0, p, best);
+    search(levels_.size() - 1, 0, p, best);
     return best.second;
   }
 
@@ -127,19 +127,24 @@ class OpenEnds {
     if (level > 0) return levels_[level - 1][k];
     return inside_[k] ? Box{places_[order_[k]], places_[order_[k]]} : Box::nothing();
   }
-  /// The nearest first; of what is put in below part i of a level.
+  /// Below box i of a level: the nearest boxes first.
   void search(std::size_t level, std::size_t i, Vec2 p, Nearest& best) const {
     if (level == 0) {
-      best = std::min(best, {squared_norm(places_[order_[i]] - p), order_[i]});
+      for (std::size_t k = i * fan_out; k < end_of(level, i); ++k)
+        if (inside_[k]) best = std::min(best, {squared_norm(places_[order_[k]] - p), order_[k]});
       return;
     }
     std::array<std::pair<double, std::size_t>, fan_out> parts;
     std::size_t count = 0;
-    for (std::size_t k = i * fan_out; k < end_of(level - 1, i); ++k)
-      parts[count++] = {squared_distance(box_of(level - 1, k), p), k};
-    std::sort(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(count));
+    for (std::size_t k = i * fan_out; k < end_of(level, i); ++k) {
+      const double near = squared_distance(levels_[level - 1][k], p);
+      if (near == infinity || near > best.first) continue;
+      std::size_t at = count++;
+      for (; at > 0 && parts[at - 1].first > near; --at) parts[at] = parts[at - 1];
+      parts[at] = {near, k};
+    }
     for (std::size_t k = 0; k < count && parts[k].first <= best.first; ++k)
-      if (parts[k].first < infinity) search(level - 1, parts[k].second, p, best);
+      search(level - 1, parts[k].second, p, best);
   }
 
   const std::vector<Vec2>& places_;
@@ -171,7 +176,13 @@ void shorten_ways(const Grooves& grooves, Vec2 start, std::vector<Trail>& trails
     bool changed = false;
     for (std::size_t i = 0; i < order.size(); ++i) {
       const Vec2 before = i == 0 ? start : order[i - 1].last;
+      double way = squared_norm(order[i].first - before);
       for (std::size_t j = i; j < std::min(order.size(), i + window); ++j) {
+        // A turn that shortens neither of its two ways gains nothing.
+        if (squared_norm(order[j].last - before) >= way &&
+            (j + 1 == order.size() || squared_norm(order[j + 1].first - order[i].first) >=
+                                          squared_norm(order[j + 1].first - order[j].last)))
+          continue;
         double gain = distance(before, order[i].first) - distance(before, order[j].last);
         if (j + 1 < order.size())
           gain += distance(order[j].last, order[j + 1].first) -
@@ -183,6 +194,7 @@ void shorten_ways(const Grooves& grooves, Vec2 start, std::vector<Trail>& trails
           std::swap(order[k].first, order[k].last);
           order[k].turned = !order[k].turned;
         }
+        way = squared_norm(order[i].first - before);
         changed = true;
       }
     }

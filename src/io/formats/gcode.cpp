@@ -1,5 +1,6 @@
 // G-code.
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -16,11 +17,19 @@ namespace {
 
 /// A number without useless digits: "12.5", "-0.25", "0".
 std::string decimal(double value) {
-  std::string text = fmt::format("{:.6f}", value);
+  std::string text = fmt::format(FMT_COMPILE("{:.6f}"), value);
   while (text.back() == '0') text.pop_back();
   if (text.back() == '.') text.pop_back();
   return text == "-0" ? "0" : text;
 }
+
+/// A place as it is written.
+struct PlaceText {
+  explicit PlaceText(const ToolPoint& place)
+      : x(decimal(place.point.x)), y(decimal(place.point.y)), z(decimal(place.z)) {}
+  PlaceText() : PlaceText(ToolPoint{}) {}
+  std::string x, y, z;
+};
 
 /// Moves of one tool after another, with what they add up to.
 class Moves {
@@ -42,12 +51,11 @@ class Moves {
       feed_ = speeds_.plunge;
       down_ = started_ = true;
     }
-    at_ = first;
-    note_place();
+    arrive(first, PlaceText(first));
     for (std::size_t i = 1; i < points.size(); ++i) {
-      move(points[i - 1].bulge, points[i]);
-      at_ = points[i];
-      note_place();
+      PlaceText text(points[i]);
+      move(points[i - 1].bulge, points[i], text);
+      arrive(points[i], std::move(text));
     }
   }
   void lift() {
@@ -65,7 +73,9 @@ class Moves {
     text_ += text;
     text_ += '\n';
   }
-  void note_place() {
+  void arrive(const ToolPoint& place, PlaceText text) {
+    at_ = place;
+    at_text_ = std::move(text);
     report_.box.add(at_.point);
     report_.lowest = std::min(report_.lowest, at_.z);
   }
@@ -74,10 +84,10 @@ class Moves {
     sum += way;
     report_.seconds += minute * way / speed;
   }
-  void move(double bulge, const ToolPoint& to) {
-    const std::string x = decimal(to.point.x), y = decimal(to.point.y), z = decimal(to.z);
-    const bool same_place = x == decimal(at_.point.x) && y == decimal(at_.point.y);
-    const bool same_height = z == decimal(at_.z);
+  void move(double bulge, const ToolPoint& to, const PlaceText& to_text) {
+    const auto& [x, y, z] = to_text;
+    const bool same_place = x == at_text_.x && y == at_text_.y;
+    const bool same_height = z == at_text_.z;
     if (same_place && same_height && std::abs(bulge) < 1) return;
     std::string text;
     // Six decimals do not hold the centre of an arc that is hardly longer than they resolve.
@@ -112,6 +122,7 @@ class Moves {
   CutReport report_;
   double vertical_ = 0;
   ToolPoint at_;
+  PlaceText at_text_;
   bool down_ = false, started_ = false;
   double feed_ = 0;
 };
