@@ -35,9 +35,9 @@ Result<Outcome> run_automatic(const Problem& problem) {
     auto axis = lee::run(problem);
     if (axis &&
         (problem.is_cancelled() || has_right_topology(problem.shape, axis->nodes, axis->edges)))
-      return outcome_of(std::move(axis));
+      return outcome_of(std::move(axis), false);
   }
-  return outcome_of(disks::run(problem));
+  return outcome_of(disks::run(problem), false);
 }
 
 }  // namespace medial

@@ -100,7 +100,7 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options,
     MedialAxis& axis = outcome->axis;
     axis.statistics.threads = method.info.threads ? effective_threads(options.threads) : 1;
     if (problem.is_cancelled()) return Error{ErrorCode::cancelled, "cancelled", {}};
-    if (outcome->connected && !has_right_topology(shape, axis.nodes, axis.edges))
+    if (outcome->to_check && !has_right_topology(shape, axis.nodes, axis.edges))
       return error_of_wrong_axis(
           axis,
           "the axis does not have one part for each component and one cycle for each hole: please "

@@ -56,13 +56,14 @@ bool comes_in_parts(const Shape& shape, const Options& options);
 /// What a method makes of a problem.
 struct Outcome {
   MedialAxis axis;
-  /// Whether the graph has one part for each component and one cycle for each hole.
-  bool connected = true;
+  /// Whether compute() is to check that the graph has one part for each component and one cycle for
+  /// each hole: not where the method has done so, nor where it need not be so.
+  bool to_check = true;
 };
 
-inline Result<Outcome> outcome_of(Result<MedialAxis> axis, bool connected = true) {
+inline Result<Outcome> outcome_of(Result<MedialAxis> axis, bool to_check = true) {
   if (!axis) return std::move(axis).error();
-  return Outcome{std::move(axis).value(), connected};
+  return Outcome{std::move(axis).value(), to_check};
 }
 
 }  // namespace medial

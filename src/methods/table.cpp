@@ -25,7 +25,7 @@ const std::array<MethodRow, std::variant_size_v<Method>> rows = {{
       .threads = true},
      method::Disks{},
      takes_all,
-     [](const Problem& problem) { return outcome_of(disks::run(problem)); }},
+     [](const Problem& problem) { return outcome_of(disks::run(problem), false); }},
     {{.name = "biarc-dc",
       .summary = "the published randomised divide and conquer",
       .exterior = true,

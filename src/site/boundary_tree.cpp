@@ -389,9 +389,17 @@ void BoundaryTree::within(Vec2 c, double reach, std::uint32_t first, std::uint32
   found.clear();
   if (first > last || !(reach > 0)) return;
   const double squared = reach * reach;
+  const auto take_if_near = [&](std::uint32_t i) {
+    if (site::squared_distance(sites_[i], c) < squared) found.push_back(i);
+  };
   visit_blocks(c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
-    for (std::uint32_t i = from; i <= to; ++i)
-      if (site::squared_distance(sites_[i], c) < squared) found.push_back(i);
+    if (!has_arcs_)
+      for (; from < to; from += 2) {
+        if (!one_is_nearer(sites_[from], sites_[from + 1], c, squared)) continue;
+        take_if_near(from);
+        take_if_near(from + 1);
+      }
+    for (; from <= to; ++from) take_if_near(from);
   });
   std::sort(found.begin(), found.end());
 }

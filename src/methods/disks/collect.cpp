@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <type_traits>
 
 #include "axis/node_kinds.h"
 #include "axis/sites.h"
@@ -116,6 +115,18 @@ Gluing glue(const std::vector<Placed>& placed, std::size_t bridge_count, std::ui
   return result;
 }
 
+/// Whether a disk touches two sites from their insides, give or take `slack`.
+bool touches_both(const Disk& disk, const site::Site& left, const site::Site& right, double slack) {
+  const double least = std::max(0.0, disk.radius - slack), most = disk.radius + slack;
+  const auto touches = [&](const site::Site& site) {
+    const double squared = site::squared_distance(site, disk.center);
+    // Nor does it lie behind the site, where it gets through a gap that rounding has closed.
+    if (!site.is_arc() && cross(site.direction, disk.center - site.point) < -slack) return false;
+    return squared >= least * least && squared <= most * most;  // false for no number, too
+  };
+  return touches(left) && touches(right);
+}
+
 }  // namespace
 
 Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t bridge_count,
@@ -137,13 +148,13 @@ Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t bridge_co
     }
   };
   const auto collect_edges = [&] {
-    reserve_large(graph.links, glued ? gluing.edges : edge_count);
+    reserve_large(graph.edges, glued ? gluing.edges : edge_count);
     const auto number = [&](std::uint32_t node) { return glued ? gluing.number[node] : node; };
     for (const Placed& p : placed) {
       p.chunk->links.drain([&](std::size_t i, const Link& link) {
         if (!glued || gluing.edge_stays[p.first_edge + i])
-          graph.links.push_back(
-              {{number(p.node(link.node[0])), number(p.node(link.node[1]))}, link.site});
+          graph.edges.push_back(
+              {{number(p.node(link.node[0])), number(p.node(link.node[1]))}, link.site, {}});
       });
     }
   };
@@ -153,44 +164,30 @@ Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t bridge_co
   return graph;
 }
 
-template <class E>
 std::vector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& frame, double slack,
-                                    Graph& graph, std::vector<E>& edges) {
+                                    Graph& graph) {
   graph.statistics.largest_residual *= frame.inverse;
-  const auto touches = [&](const Disk& disk, const site::Site& site) {
-    const double least = std::max(0.0, disk.radius - slack), most = disk.radius + slack;
-    const double squared = site::squared_distance(site, disk.center);
-    // Nor does it lie behind the site, where it gets through a gap that rounding has closed.
-    if (!site.is_vertex() && !site.is_arc() && site::carrier_distance(site, disk.center) < -slack)
-      return false;
-    return squared >= least * least && squared <= most * most;  // false for no number, too
+  const auto fill_edge = [&](std::size_t i, std::vector<std::uint32_t>& doubtful) {
+    Edge& edge = graph.edges[i];
+    const site::Site &left = boundary.sites[edge.site[0]], &right = boundary.sites[edge.site[1]];
+    const Disk &from = graph.nodes[edge.node[0]].disk, &to = graph.nodes[edge.node[1]].disk;
+    if (!boundary.two_sided &&
+        !(touches_both(from, left, right, slack) && touches_both(to, left, right, slack)))
+      doubtful.push_back(static_cast<std::uint32_t>(i));
+    const site::Control control = site::control_of(left, right, from, to);
+    edge.site = {boundary.originals[edge.site[0]], boundary.originals[edge.site[1]]};
+    edge.control = {frame.to_input(control.point.center), frame.inverse * control.point.radius};
+    edge.weight = control.weight;
   };
   std::vector<std::vector<std::uint32_t>> doubtful;
-  const auto fill_edges = [&] {
-    doubtful = in_blocks<std::vector<std::uint32_t>>(
-        graph.links.size(), 4096, [&](std::size_t i, std::vector<std::uint32_t>& found) {
-          const Link& link = graph.links[i];
-          const site::Site &left = boundary.sites[link.site[0]],
-                           &right = boundary.sites[link.site[1]];
-          const Disk &from = graph.nodes[link.node[0]].disk, &to = graph.nodes[link.node[1]].disk;
-          if (!boundary.two_sided && !(touches(from, left) && touches(from, right) &&
-                                       touches(to, left) && touches(to, right)))
-            found.push_back(static_cast<std::uint32_t>(i));
-          const site::Control control = site::control_of(left, right, from, to);
-          Edge& edge = edges[i];
-          edge.node = link.node;
-          edge.site = {boundary.originals[link.site[0]], boundary.originals[link.site[1]]};
-          edge.control = {frame.to_input(control.point.center),
-                          frame.inverse * control.point.radius};
-          edge.weight = control.weight;
-        });
-  };
-  edges.resize(graph.links.size());
   std::vector<std::uint8_t> degree(graph.nodes.size());
+  const auto fill_edges = [&] {
+    doubtful = in_blocks<std::vector<std::uint32_t>>(graph.edges.size(), 4096, fill_edge);
+  };
   const auto count = [&] {
-    if (std::is_same_v<E, VoronoiEdge>) return;  // spokes are still to come
-    for (const Link& link : graph.links)
-      for (const std::uint32_t node : link.node)
+    if (boundary.two_sided) return;  // spokes are still to come
+    for (const Edge& edge : graph.edges)
+      for (const std::uint32_t node : edge.node)
         if (degree[node] < 3) ++degree[node];
   };
   in_parallel(count, fill_edges);
@@ -203,16 +200,10 @@ std::vector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& 
       node.kind = kind_of_degree(degree[i]);
     }
   });
-  free_memory(graph.links);
   std::vector<std::uint32_t> all;
   for (const auto& found : doubtful) all.insert(all.end(), found.begin(), found.end());
   return all;
 }
-
-template std::vector<std::uint32_t> complete(const Boundary&, const LocalFrame&, double, Graph&,
-                                             std::vector<Edge>&);
-template std::vector<std::uint32_t> complete(const Boundary&, const LocalFrame&, double, Graph&,
-                                             std::vector<VoronoiEdge>&);
 
 bool touches_its_sites(const MedialAxis& axis, const Edge& edge, double slack) {
   const auto squared_distance = [](const Site& site, Vec2 c) {

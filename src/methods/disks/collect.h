@@ -13,7 +13,7 @@ namespace medial::disks {
 /// An axis in the local frame, whose edges name sites of the boundary and have no curves yet.
 struct Graph {
   std::vector<Node> nodes;
-  std::vector<Link> links;
+  std::vector<Edge> edges;
   Statistics statistics;
 };
 
@@ -23,14 +23,12 @@ struct Graph {
 Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t bridge_count,
               std::size_t spare_nodes);
 
-/// Makes edges of the links, with their curves, works out an axis' nodes' kinds, and goes back to
-/// the result's numbers of sites and to the input's units. Returns the edges with an
-/// end that does not touch one of the edge's two sites, give or take `slack` in local units: where
-/// bridges divide a site, the piece of it that the edge names. Planar graphs have
-/// none. E is Edge or VoronoiEdge.
-template <class E>
+/// Works out the edges' curves and an axis' nodes' kinds, and goes back to the result's numbers of
+/// sites and to the input's units. Returns the edges with an end that does not touch one of the
+/// edge's two sites, give or take `slack` in local units: where bridges divide a site, the piece of
+/// it that the edge names. Planar graphs have none.
 std::vector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& frame, double slack,
-                                    Graph& graph, std::vector<E>& edges);
+                                    Graph& graph);
 
 /// Whether the disks at both ends and in the middle of an edge touch its two sites, give or take
 /// `slack`, in units of the input.

@@ -183,21 +183,23 @@ double Contacts::beyond_ends(std::uint32_t i, Vec2 center) const {
   return std::max(beyond_end(i, false, center), beyond_end(i, true, center));
 }
 
+bool Contacts::is_beside(std::uint32_t i, Vec2 center, const Boundary::SiteRange& run) const {
+  if (element(i) == Element::bridge) return true;
+  const double at_start = beyond_end(i, false, center), at_end = beyond_end(i, true, center);
+  if (!(std::max(at_start, at_end) > clearance())) return false;
+  if (site(i).is_vertex()) return true;
+  return at_end > at_start ? i < run.last && boundary_.is_smooth(i)
+                           : i > run.first && boundary_.is_smooth(i - 1);
+}
+
 const std::vector<std::uint32_t>& Contacts::around(const Span& span, const Disk& disk) {
+  if (disk.center == around_.center && disk.radius == around_.radius) return near_;
   ++statistics_.queries;
-  const Boundary::SiteRange& run =
-      *ranges::lower_bound(boundary_.runs, span.left, {}, &Boundary::SiteRange::last);
-  context_.tree.within(disk.center, disk.radius + clearance(), run.first, run.last, touched_);
-  std::erase_if(touched_, [&](std::uint32_t i) {
-    if (element(i) == Element::bridge) return true;
-    const double at_start = beyond_end(i, false, disk.center),
-                 at_end = beyond_end(i, true, disk.center);
-    if (!(std::max(at_start, at_end) > clearance())) return false;
-    if (site(i).is_vertex()) return true;
-    return at_end > at_start ? i < run.last && boundary_.is_smooth(i)
-                             : i > run.first && boundary_.is_smooth(i - 1);
-  });
-  return touched_;
+  around_ = disk;
+  const Boundary::SiteRange& run = run_of(span);
+  context_.tree.within(disk.center, disk.radius + clearance(), run.first, run.last, near_);
+  std::erase_if(near_, [&](std::uint32_t i) { return is_beside(i, disk.center, run); });
+  return near_;
 }
 
 double Contacts::spread_of(const std::vector<std::uint32_t>& sites, const Span& span,
@@ -221,9 +223,11 @@ double Contacts::spread_of(const std::vector<std::uint32_t>& sites, const Span& 
 }
 
 bool Contacts::may_touch_more(const Span& span, const Disk& disk, std::uint32_t next) {
-  return ranges::any_of(around(span, disk), [&](std::uint32_t i) {
-    return i > span.right && i < span.left && i != next &&
-           std::sqrt(site::squared_distance(site(i), disk.center)) <= disk.radius + touching_;
+  ++statistics_.queries;
+  context_.tree.within(disk.center, disk.radius + 2 * touching_, span.right + 1, span.left - 1,
+                       touched_);
+  return ranges::any_of(touched_, [&](std::uint32_t i) {
+    return i != next && away(i, disk) <= touching_ && !is_beside(i, disk.center, run_of(span));
   });
 }
 
@@ -240,6 +244,8 @@ bool Contacts::passes_at(const Span& span, const Disk& disk, std::uint32_t next)
 
 bool Contacts::is_clean_tie(const Span& span, const Disk& disk, std::uint32_t sure) {
   constexpr double well_placed = 16, furthest = 0x1p-12;
+  for (const std::uint32_t i : {span.right, span.left, sure})
+    if (std::abs(away(i, disk)) > touching_) return false;
   const std::vector<std::uint32_t>& sites = around(span, disk);
   const auto has = [&](std::uint32_t i) { return ranges::binary_search(sites, i); };
   if (!has(span.right) || !has(span.left) || !has(sure)) return false;
@@ -249,10 +255,9 @@ bool Contacts::is_clean_tie(const Span& span, const Disk& disk, std::uint32_t su
   std::uint32_t before = sites.back();
   Vec2 foot_before = site::foot(site(before), disk.center);
   for (const std::uint32_t i : sites) {
-    const double away = std::sqrt(site::squared_distance(site(i), disk.center)) - disk.radius;
     const double beyond = beyond_ends(i, disk.center);
     const bool at_joint = beyond > -clearance() * spread;
-    if (std::abs(away) > touching_ || beyond > context_.tolerance ||
+    if (std::abs(away(i, disk)) > touching_ || beyond > context_.tolerance ||
         (at_joint && (spread > well_placed || beyond < -context_.tolerance)))
       return false;
     const Vec2 foot = site::foot(site(i), disk.center);

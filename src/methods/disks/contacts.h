@@ -1,11 +1,13 @@
 #pragma once
 
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
 
+#include "base/compat.h"
 #include "medial/axis.h"
 #include "methods/disks/boundary.h"
 #include "methods/disks/connect.h"
@@ -156,7 +158,17 @@ class Contacts {
   /// bridge takes over: negative within.
   double beyond_end(std::uint32_t i, bool at_end, Vec2 center) const;
   double beyond_ends(std::uint32_t i, Vec2 center) const;
+  /// How far a site is from a disk: negative where the disk reaches over it.
+  double away(std::uint32_t i, const Disk& disk) const {
+    return std::sqrt(site::squared_distance(site(i), disk.center)) - disk.radius;
+  }
+  const Boundary::SiteRange& run_of(const Span& span) const {
+    return *ranges::lower_bound(boundary_.runs, span.left, {}, &Boundary::SiteRange::last);
+  }
+  /// Whether another site, or none, is nearer than site i of a run to a disk that is next to it.
+  bool is_beside(std::uint32_t i, Vec2 center, const Boundary::SiteRange& run) const;
   /// What a disk touches or is near to on all of a span's boundary, in order; until the next call.
+  /// The spans that begin at one node ask for the same disk.
   const std::vector<std::uint32_t>& around(const Span& span, const Disk& disk);
   /// How far a disk may be from the one that it should be, at most, against the residuals of its
   /// contacts with some of these sites (docs/exact.md).
@@ -182,6 +194,8 @@ class Contacts {
   /// and of the site.
   const double touching_;
   std::vector<std::uint32_t> touched_;
+  Disk around_{{0, 0}, -1};                      ///< the last one that around() was asked for,
+  std::vector<std::uint32_t> near_;              ///< and the answer
   mutable std::vector<std::uint32_t> together_;  ///< sites in one place
 };
 

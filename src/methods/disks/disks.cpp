@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <optional>
+#include <type_traits>
 
 #include "axis/statistics.h"
 #include "base/compat.h"
@@ -126,6 +127,23 @@ void rename(const std::vector<std::uint32_t>& names, Boundary& boundary) {
   boundary.originals.assign(std::move(renamed));
 }
 
+/// Moves edges, and leaves room for so many more. Edges of another type are freed as they are
+/// copied.
+template <class E>
+void take_edges(std::vector<Edge>& from, std::size_t spare, std::vector<E>& to) {
+  if constexpr (std::is_same_v<E, Edge>) {
+    to = std::move(from);
+  } else {
+    constexpr std::size_t block = 1 << 14;
+    reserve_large(to, from.size() + spare);
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      to.push_back({from[i]});
+      if ((i + 1) % block == 0) give_back_pages(&from[i + 1 - block], block * sizeof(Edge));
+    }
+    free_memory(from);
+  }
+}
+
 /// The engine: sites, holes connected, tree, walk, graph. The edges are returned apart from the
 /// axis.
 template <class E>
@@ -167,18 +185,17 @@ Result<MedialAxis> attempt(const Problem& problem, bool two_sided, const Way& wa
   watch.lap();
   constexpr double loose = 0x1p-20;  // of the size: no near tie is that far off
   const double slack = std::max(loose * diagonal(problem.box), 4 * axis.tolerance);
-  reserve_large(edges, graph->links.size() + (two_sided ? problem.numbers().count : 0));
-  const auto loose_edges =
-      complete(boundary, problem.frame, problem.frame.scale * slack, *graph, edges);
+  const auto loose_edges = complete(boundary, problem.frame, problem.frame.scale * slack, *graph);
   boundary = {};
+  take_edges(graph->edges, two_sided ? problem.numbers().count : 0, edges);
   axis.nodes = std::move(graph->nodes);
   axis.statistics += graph->statistics;
-  if (!two_sided) axis.sites = problem.result_sites();
-  axis.statistics.seconds_collect += watch.lap();
-  axis.statistics.seconds = all.lap();
   if (!two_sided && !has_right_topology(problem.shape, axis.nodes, edges))
     return error_of_wrong_axis(
         axis, "the axis does not have one cycle for each hole: please report this shape");
+  if (!two_sided) axis.sites = problem.result_sites();
+  axis.statistics.seconds_collect += watch.lap();
+  axis.statistics.seconds = all.lap();
   for (const std::uint32_t edge : loose_edges)
     if (!touches_its_sites(axis, edges[edge], slack))
       return error_of_wrong_axis(

@@ -11,8 +11,9 @@ namespace medial::disks {
 /// The share of the tolerance to which the walk separates contacts between segments.
 constexpr double fine_share = 0.125;
 
-/// The method `disks` (docs/disks.md). Requires what compute() has checked. Cut short, with any
-/// content, where the caller cancels. Errors: error_of_wrong_axis() where a disk misses one of its
+/// The method `disks` (docs/disks.md). Requires what compute() has checked. The graph has one part
+/// for each component and one cycle for each hole. Cut short, with any content, where the caller
+/// cancels. Errors: error_of_wrong_axis() where a disk misses one of its
 /// sites by far more than rounding explains; unsupported, with the place, where no way to decide
 /// finds an axis that verify() passes.
 Result<MedialAxis> run(const Problem& problem);

@@ -19,10 +19,10 @@ class LocalCheck {
     std::vector<bool> named(boundary_.sites.size(), false);
     for (const std::uint32_t site : sites) named[site] = true;
     degree_.assign(graph_.nodes.size(), 0);
-    for (const Link& link : graph_.links)
+    for (const Edge& link : graph_.edges)
       for (const std::uint32_t node : link.node) ++degree_[node];
     bool checked = false;
-    for (const Link& link : graph_.links) {
+    for (const Edge& link : graph_.edges) {
       if (!named[link.site[0]] && !named[link.site[1]]) continue;
       if (!is_right(link)) return false;
       checked = true;
@@ -34,7 +34,7 @@ class LocalCheck {
   const site::Site& site(std::uint32_t i) const { return boundary_.sites[i]; }
   const Disk& disk(std::uint32_t node) const { return graph_.nodes[node].disk; }
 
-  bool is_right(const Link& link) const {
+  bool is_right(const Edge& link) const {
     const Disk &from = disk(link.node[0]), &to = disk(link.node[1]);
     const site::Control control =
         site::control_of(site(link.site[0]), site(link.site[1]), from, to);
@@ -53,7 +53,7 @@ class LocalCheck {
             (a * from.radius + b * control.point.radius + c * to.radius) / all};
   }
 
-  bool is_maximal(const Disk& disk, const Link& link, const Boundary::SiteRange& run) const {
+  bool is_maximal(const Disk& disk, const Edge& link, const Boundary::SiteRange& run) const {
     for (const std::uint32_t i : link.site)
       if (!touches(site(i), disk, tolerance_)) return false;
     return !tree_.nearest(disk.center, disk.radius - tolerance_, run.first, run.last);
@@ -67,7 +67,7 @@ class LocalCheck {
 
   /// Whether the feet move forward on the right site and backward on the left one, but for what the
   /// tolerance leaves open.
-  bool feet_advance(const Link& link, Vec2 from, Vec2 to) const {
+  bool feet_advance(const Edge& link, Vec2 from, Vec2 to) const {
     const auto advances = [&](const site::Site& site, Vec2 a, Vec2 b) {
       const double slack = 4 * tolerance_;
       // Round a vertex, normals turn to the right.
@@ -82,7 +82,7 @@ class LocalCheck {
   }
 
   /// Whether the disk at an end from which no other edge leads touches all that is ahead.
-  bool leaf_is_right(const Link& link, std::size_t end, const Boundary::SiteRange& run) const {
+  bool leaf_is_right(const Edge& link, std::size_t end, const Boundary::SiteRange& run) const {
     const Disk& leaf = disk(link.node[end]);
     if (degree_[link.node[end]] != 1 || !(leaf.radius > 0)) return true;
     const std::uint32_t last = link.site[1 - end];

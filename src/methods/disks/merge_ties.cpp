@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -79,7 +79,7 @@ class Merger {
     if (edges.empty()) return edges;
     link_ends(edges);
     std::vector<std::uint32_t> kept = filter(
-        edges.size(), [&](std::size_t i) { return could_be_contracted(graph_.links[edges[i]]); });
+        edges.size(), [&](std::size_t i) { return could_be_contracted(graph_.edges[edges[i]]); });
     for (std::uint32_t& i : kept) i = edges[i];
     return kept;
   }
@@ -114,33 +114,39 @@ class Merger {
   }
   /// The edges that are short.
   std::vector<std::uint32_t> short_edges() const {
-    return filter(graph_.links.size(), [&](std::size_t e) {
-      const auto [from, to] = graph_.links[e].node;
+    return filter(graph_.edges.size(), [&](std::size_t e) {
+      const auto [from, to] = graph_.edges[e].node;
       return is_short(graph_.nodes[from].disk, graph_.nodes[to].disk);
     });
   }
 
-  /// Links the ends of all edges at the nodes of these ones.
+  /// Lists the ends of all edges at the nodes of these ones, the last edge first.
   void link_ends(const std::vector<std::uint32_t>& edges) {
-    constexpr std::uint32_t skipped = none - 1;
-    first_end_ = large_vector(graph_.nodes.size(), skipped);
+    std::vector<bool> listed(graph_.nodes.size());
     for (const std::uint32_t e : edges)
-      for (const std::uint32_t node : graph_.links[e].node) first_end_[node] = none;
-    next_end_ = uninitialized<std::uint32_t[]>(2 * graph_.links.size());
-    prefer_large_pages(next_end_.get(), 2 * graph_.links.size() * sizeof(std::uint32_t));
-    for (std::uint32_t end = 0; end < 2 * graph_.links.size(); ++end) {
-      std::uint32_t& first = first_end_[graph_.links[end / 2].node[end % 2]];
-      if (first == skipped) continue;
-      next_end_[end] = first;
-      first = end;
-    }
+      for (const std::uint32_t node : graph_.edges[e].node) listed[node] = true;
+    const auto for_ends = [&](const auto& use) {
+      for (std::uint32_t end = 0; end < 2 * graph_.edges.size(); ++end)
+        if (const std::uint32_t node = graph_.edges[end / 2].node[end % 2]; listed[node])
+          use(node, end);
+    };
+    ends_begin_ = large_vector<std::uint32_t>(graph_.nodes.size() + 1);
+    for_ends([&](std::uint32_t node, std::uint32_t) { ++ends_begin_[node]; });
+    std::partial_sum(ends_begin_.begin(), ends_begin_.end(), ends_begin_.begin());
+    ends_.resize(ends_begin_.back());
+    for_ends([&](std::uint32_t node, std::uint32_t end) { ends_[--ends_begin_[node]] = end; });
   }
-  bool is_branching(std::uint32_t node) const {
-    const std::uint32_t second = next_end_[first_end_[node]];
-    return second != none && next_end_[second] != none;
+  /// The ends of edges at a node of a short one: end 2 e + k is node[k] of edge e.
+  std::span<const std::uint32_t> ends_at(std::uint32_t node) const {
+    return std::span(ends_).subspan(ends_begin_[node], ends_begin_[node + 1] - ends_begin_[node]);
+  }
+  bool is_branching(std::uint32_t node) const { return ends_at(node).size() > 2; }
+  /// The node at the other end of an edge.
+  std::uint32_t other_node(std::uint32_t end) const {
+    return graph_.edges[end / 2].node[1 - end % 2];
   }
 
-  bool could_be_contracted(const Link& edge) const {
+  bool could_be_contracted(const Edge& edge) const {
     const Disk &from = graph_.nodes[edge.node[0]].disk, &to = graph_.nodes[edge.node[1]].disk;
     if (!boundary_.has_arcs && squared_norm(to.center - from.center) <= tolerance_ * tolerance_)
       return true;
@@ -166,7 +172,7 @@ class Merger {
   /// Whether an edge of which not both ends are branching nodes may be due to rounding: it is not
   /// longer than rounding leaves its end open, and the disk of one end nearly touches all that is
   /// touched at the other.
-  bool could_be_at_hub(const Link& edge) const {
+  bool could_be_at_hub(const Edge& edge) const {
     const Disk &from = graph_.nodes[edge.node[0]].disk, &to = graph_.nodes[edge.node[1]].disk;
     const double open = hub_reach * tolerance_ * play(edge, from);
     if (!(squared_norm(to.center - from.center) <= open * open)) return false;
@@ -178,7 +184,7 @@ class Merger {
   /// How far a disk may move, at most, that stays as near to the edge's two sites: against that
   /// distance. The bisector moves sideways by its inverse sine; where the disk touches an arc all
   /// along, it may move ahead by the inverse of 1 - cos of half of the arc's angle.
-  double play(const Link& edge, const Disk& disk) const {
+  double play(const Edge& edge, const Disk& disk) const {
     const Site &a = boundary_.sites[edge.site[0]], &b = boundary_.sites[edge.site[1]];
     double result = 2 / norm(site::outward(a, disk.center) - site::outward(b, disk.center));
     for (const Site* site : {&a, &b}) {
@@ -199,12 +205,12 @@ class Merger {
   /// leaf, those on the way around it from one side of its edge to the other.
   template <class Holds>
   bool all_contacts(std::uint32_t node, const Holds& holds) const {
-    for (std::uint32_t end = first_end_[node]; end != none; end = next_end_[end])
-      for (const std::uint32_t site : graph_.links[end / 2].site)
+    for (const std::uint32_t end : ends_at(node))
+      for (const std::uint32_t site : graph_.edges[end / 2].site)
         if (!holds(site)) return false;
-    const std::uint32_t end = first_end_[node];
-    if (next_end_[end] != none) return true;
-    auto [left, right] = graph_.links[end / 2].site;
+    if (ends_at(node).size() > 1) return true;
+    const std::uint32_t end = ends_at(node)[0];
+    auto [left, right] = graph_.edges[end / 2].site;
     if (end % 2 == 0) std::swap(left, right);
     const Boundary::SiteRange& run = boundary_.runs[graph_.nodes[node].component];
     for (std::uint32_t site = right;;) {
@@ -223,9 +229,9 @@ class Merger {
   }
 
   /// A site that is touched in a node of the edge, but is not the edge's own.
-  std::uint32_t other_contact(const Link& edge, std::uint32_t node) const {
-    for (std::uint32_t end = first_end_[node]; end != none; end = next_end_[end])
-      for (const std::uint32_t site : graph_.links[end / 2].site)
+  std::uint32_t other_contact(const Edge& edge, std::uint32_t node) const {
+    for (const std::uint32_t end : ends_at(node))
+      for (const std::uint32_t site : graph_.edges[end / 2].site)
         if (site != edge.site[0] && site != edge.site[1]) return site;
     return none;
   }
@@ -233,7 +239,7 @@ class Merger {
   /// The nodes of the edges, increasing, and what each of them touches.
   void collect_nodes(const std::vector<std::uint32_t>& edges) {
     for (const std::uint32_t e : edges)
-      for (const std::uint32_t node : graph_.links[e].node) nodes_.push_back(node);
+      for (const std::uint32_t node : graph_.edges[e].node) nodes_.push_back(node);
     std::sort(nodes_.begin(), nodes_.end());
     nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
     group_.assign(nodes_.size(), none);
@@ -290,8 +296,8 @@ class Merger {
       for (const std::uint32_t i : backward) groups_[i].contracts = false;
     } while (!backward.empty());
     std::erase_if(open, [&](std::uint32_t e) {
-      const Group* group = group_of(graph_.links[e].node[0]);
-      if (group == nullptr || group != group_of(graph_.links[e].node[1])) return false;
+      const Group* group = group_of(graph_.edges[e].node[0]);
+      if (group == nullptr || group != group_of(graph_.edges[e].node[1])) return false;
       contracted_.push_back(e);
       return true;
     });
@@ -302,8 +308,8 @@ class Merger {
     DisjointSets sets(nodes_.size());
     std::vector<std::uint32_t> places;
     for (const std::uint32_t e : open) {
-      if (!is_near(graph_.links[e], nearness)) continue;
-      const auto [from, to] = graph_.links[e].node;
+      if (!is_near(graph_.edges[e], nearness)) continue;
+      const auto [from, to] = graph_.edges[e].node;
       places.insert(places.end(), {place_of(from), place_of(to)});
       sets.join(places.back(), places[places.size() - 2]);
     }
@@ -318,7 +324,7 @@ class Merger {
     }
   }
 
-  bool is_near(const Link& edge, const Nearness& nearness) const {
+  bool is_near(const Edge& edge, const Nearness& nearness) const {
     const auto [from, to] = edge.node;
     const Disk &a = graph_.nodes[from].disk, &b = graph_.nodes[to].disk;
     const double length = std::min(nearness.length * tolerance_, is_short(a, b) ? tolerance_ : 0);
@@ -344,8 +350,8 @@ class Merger {
       contacts.insert(contacts.end(), own.begin(), own.end());
       const Disk& disk = graph_.nodes[node].disk;
       mean = {mean.center + disk.center, mean.radius + disk.radius};
-      for (std::uint32_t end = first_end_[node]; end != none; end = next_end_[end])
-        ends += group_of(graph_.links[end / 2].node[1 - end % 2], false) == &group ? 1 : 0;
+      for (const std::uint32_t end : ends_at(node))
+        ends += group_of(other_node(end), false) == &group ? 1 : 0;
     }
     if (ends != 2 * (group.nodes.size() - 1)) return false;
     if (boundary_.has_arcs &&
@@ -377,9 +383,8 @@ class Merger {
   /// group's nodes have its disk.
   void find_backward(const Group& group, std::vector<std::uint32_t>& backward) const {
     for (const std::uint32_t node : group.nodes) {
-      for (std::uint32_t end = first_end_[node]; end != none; end = next_end_[end]) {
-        const Link& edge = graph_.links[end / 2];
-        const Group* there = group_of(edge.node[1 - end % 2]);
+      for (const std::uint32_t end : ends_at(node)) {
+        const Group* there = group_of(other_node(end));
         if (there == &group || leads_forward(end / 2)) continue;
         backward.push_back(group_[place_of(node)]);
         if (there != nullptr)
@@ -389,7 +394,7 @@ class Merger {
   }
 
   bool leads_forward(std::uint32_t e) const {
-    const Link& edge = graph_.links[e];
+    const Edge& edge = graph_.edges[e];
     const site::Bisector bisector(boundary_.sites[edge.site[1]], boundary_.sites[edge.site[0]]);
     return bisector.position(disk_of(edge.node[0]).center) <
                bisector.position(disk_of(edge.node[1]).center) &&
@@ -403,7 +408,7 @@ class Merger {
 
   /// Whether the feet move forward on the right site and backward on the left one, but for what
   /// the tolerance leaves open, and the disk halfway along the edge still touches both and no more.
-  bool advances(const Link& edge) const {
+  bool advances(const Edge& edge) const {
     const double slack = 4 * tolerance_;
     const Site &left = boundary_.sites[edge.site[0]], &right = boundary_.sites[edge.site[1]];
     const Disk &start = disk_of(edge.node[0]), &end = disk_of(edge.node[1]);
@@ -438,19 +443,19 @@ class Merger {
       graph_.nodes[group.nodes[0]].disk = group.disk;
       gone.insert(gone.end(), group.nodes.begin() + 1, group.nodes.end());
       for (const std::uint32_t node : group.nodes)
-        for (std::uint32_t end = first_end_[node]; end != none; end = next_end_[end])
-          graph_.links[end / 2].node[end % 2] = group.nodes[0];
+        for (const std::uint32_t end : ends_at(node))
+          graph_.edges[end / 2].node[end % 2] = group.nodes[0];
     }
     std::sort(gone.begin(), gone.end());
     const std::size_t kept = graph_.nodes.size() - gone.size();
     std::vector<std::uint32_t> place(gone.size());
     fill_gaps(graph_.nodes, gone,
               [&](std::uint32_t from, std::uint32_t to) { place[from - kept] = to; });
-    for (Link& edge : graph_.links)
+    for (Edge& edge : graph_.edges)
       for (std::uint32_t& node : edge.node)
         if (node >= kept) node = place[node - kept];
     std::sort(contracted_.begin(), contracted_.end());
-    fill_gaps(graph_.links, contracted_, [](std::uint32_t, std::uint32_t) {});
+    fill_gaps(graph_.edges, contracted_, [](std::uint32_t, std::uint32_t) {});
   }
 
   const Boundary& boundary_;
@@ -458,10 +463,8 @@ class Merger {
   TieSites tie_sites_;
   double tolerance_;
   Graph& graph_;
-  /// The edges at the nodes of short edges, as linked lists of their ends: end 2 e + k is node[k]
-  /// of edge e.
-  std::vector<std::uint32_t> first_end_;
-  std::unique_ptr<std::uint32_t[]> next_end_;
+  /// Of each node, where its ends begin in `ends_`.
+  std::vector<std::uint32_t> ends_begin_, ends_;
   std::vector<std::uint32_t> nodes_;          ///< of candidates, increasing
   std::vector<std::vector<Touch>> contacts_;  ///< of each of nodes_
   std::vector<std::uint32_t> group_;          ///< of each of nodes_

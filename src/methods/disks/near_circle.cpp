@@ -42,7 +42,7 @@ bool is_near_circle(const Boundary& boundary, const Box& box, double slack) {
 
 bool is_in_centers(const Boundary& boundary, const Graph& graph, double slack) {
   if (!boundary.has_arcs) return false;
-  return ranges::any_of(graph.links, [&](const Link& edge) {
+  return ranges::any_of(graph.edges, [&](const Edge& edge) {
     const auto [left, right] = edge.site;
     const Disk &from = graph.nodes[edge.node[0]].disk, &to = graph.nodes[edge.node[1]].disk;
     for (const std::uint32_t i : {left, right})

@@ -79,7 +79,7 @@ std::vector<OpenGraph::Task> OpenGraph::take(std::size_t nodes) {
 void OpenGraph::add(Task task) {
   Chunk& chunk = *task.chunk;
   const auto first_node = static_cast<std::uint32_t>(graph_.nodes.size());
-  const auto first_link = static_cast<std::uint32_t>(graph_.links.size());
+  const auto first_link = static_cast<std::uint32_t>(graph_.edges.size());
   const auto place = [&](std::uint32_t i) { return i == 0 ? task.node : first_node + i - 1; };
   if (task.node != none) --waiting_[task.node];
   chunk.nodes.drain([&](std::size_t i, const Disk& disk) {
@@ -90,7 +90,7 @@ void OpenGraph::add(Task task) {
   number_.resize(graph_.nodes.size(), none);
   waiting_.resize(graph_.nodes.size());
   chunk.links.drain([&](std::size_t, const Link& link) {
-    graph_.links.push_back({{place(link.node[0]), place(link.node[1])}, link.site});
+    graph_.edges.push_back({{place(link.node[0]), place(link.node[1])}, link.site, {}});
   });
   for (const BridgeEnd& end : chunk.bridge_ends)
     meet(end.bridge,
@@ -131,7 +131,7 @@ void OpenGraph::meet(std::uint32_t bridge, End b) {
   --waiting_[a.node];
   glued_ = true;
   if (a.link != none && b.link != none) {
-    moved_[a.node] = moved_[b.node] = graph_.links[b.link].node[0];
+    moved_[a.node] = moved_[b.node] = graph_.edges[b.link].node[0];
     gone_links_.push_back(b.link);
   } else if (a.link != none) {
     moved_[a.node] = b.node;
@@ -157,10 +157,10 @@ void OpenGraph::resolve() {
     const auto after = std::lower_bound(gone_links_.begin(), gone_links_.end(), end.link);
     end.link -= static_cast<std::uint32_t>(after - gone_links_.begin());
   }
-  for (const std::uint32_t gone : gone_links_) graph_.links[gone].node = {none, none};
-  std::erase_if(graph_.links, [](const Link& link) { return link.node[0] == none; });
+  for (const std::uint32_t gone : gone_links_) graph_.edges[gone].node = {none, none};
+  std::erase_if(graph_.edges, [](const Edge& link) { return link.node[0] == none; });
   gone_links_.clear();
-  for (Link& link : graph_.links)
+  for (Edge& link : graph_.edges)
     for (std::uint32_t& node : link.node) node = target(node);
   for_each_begun([&](Task& task) { task.node = target(task.node); });
 }
@@ -170,7 +170,7 @@ void OpenGraph::resolve() {
 std::vector<std::uint8_t> OpenGraph::held_nodes(const std::vector<std::uint32_t>& ties) const {
   std::vector<std::uint8_t> held(graph_.nodes.size());
   for (std::size_t i = 0; i < held.size(); ++i) held[i] = waiting_[i] > 0;
-  for (const Link& link : graph_.links) {
+  for (const Edge& link : graph_.edges) {
     for (const std::size_t k : {0U, 1U})
       if (waiting_[link.node[k]] > 0) held[link.node[1 - k]] = true;
   }
@@ -184,10 +184,10 @@ void OpenGraph::hold_ties(const std::vector<std::uint32_t>& ties,
                           std::vector<std::uint8_t>& held) const {
   std::vector<std::uint8_t> in_tie(held.size()), waits(held.size());
   for (const std::uint32_t tie : ties)
-    for (const std::uint32_t node : graph_.links[tie].node) in_tie[node] = true;
+    for (const std::uint32_t node : graph_.edges[tie].node) in_tie[node] = true;
   DisjointSets sets(held.size());
   const auto for_each_link = [&](const auto& use) {
-    for (const Link& link : graph_.links) use(link.node[0], link.node[1]);
+    for (const Edge& link : graph_.edges) use(link.node[0], link.node[1]);
   };
   for_each_link([&](std::uint32_t from, std::uint32_t to) {
     if (in_tie[from] && in_tie[to]) sets.join(from, to);
@@ -223,7 +223,7 @@ OpenGraph::Cut OpenGraph::cut() {
     cut.rim.push_back(i);
   };
   const auto take_ends = [&](const auto& takes) {
-    for (const Link& link : graph_.links)
+    for (const Edge& link : graph_.edges)
       for (const std::size_t k : {0U, 1U})
         if (takes(link.node[k], link.node[1 - k])) take_first(link.node[k]);
   };
@@ -236,10 +236,10 @@ OpenGraph::Cut OpenGraph::cut() {
   for (std::uint32_t i = 0; i < count; ++i)
     if (is_ready(i) && cut.place[i] == none) take(i);
   cut.more_ends.resize(cut.rim.size());
-  for (std::uint32_t i = 0; i < graph_.links.size(); ++i) {
-    const auto [from, to] = graph_.links[i].node;
+  for (std::uint32_t i = 0; i < graph_.edges.size(); ++i) {
+    const auto [from, to] = graph_.edges[i].node;
     if (cut.place[from] != none && cut.place[to] != none) {
-      cut.graph.links.push_back({{cut.place[from], cut.place[to]}, graph_.links[i].site});
+      cut.graph.edges.push_back({{cut.place[from], cut.place[to]}, graph_.edges[i].site, {}});
       continue;
     }
     cut.stays.push_back(i);
@@ -248,7 +248,7 @@ OpenGraph::Cut OpenGraph::cut() {
         ++cut.more_ends[cut.place[node]];
   }
   cut.has_ties = std::any_of(ties.begin(), ties.end(), [&](std::uint32_t tie) {
-    const auto [from, to] = graph_.links[tie].node;
+    const auto [from, to] = graph_.edges[tie].node;
     return cut.place[from] != none && cut.place[to] != none;
   });
   return cut;
@@ -273,12 +273,12 @@ void OpenGraph::complete_part(Cut& cut, AxisPart& part) {
     lost_ = true;
     return;
   }
-  for (const Link& link : graph.links) --balance_[graph.nodes[link.node[0]].component];
+  for (const Edge& link : graph.edges) --balance_[graph.nodes[link.node[0]].component];
   for (std::size_t i = cut.known; i < graph.nodes.size(); ++i) ++balance_[graph.nodes[i].component];
   statistics_ += std::exchange(graph.statistics, {});
-  const auto doubtful =
-      complete(boundary_, problem_.frame, problem_.frame.scale * slack_, graph, part.axis.edges);
+  const auto doubtful = complete(boundary_, problem_.frame, problem_.frame.scale * slack_, graph);
   part.axis.nodes = std::move(graph.nodes);
+  part.axis.edges = std::move(graph.edges);
   name_nodes(cut, part);
   name_sites(part);
   check_edges(doubtful, part);
@@ -342,7 +342,7 @@ void OpenGraph::keep(const Cut& cut) {
   for (std::uint32_t i = 0; i < stays.size(); ++i)
     stays[i] = cut.place[i] == none && moved_[i] == i;
   for (const std::uint32_t link : cut.stays)
-    for (const std::uint32_t node : graph_.links[link].node) stays[node] = true;
+    for (const std::uint32_t node : graph_.edges[link].node) stays[node] = true;
   std::vector<std::uint32_t> place(graph_.nodes.size(), none);
   std::uint32_t count = 0;
   for (std::uint32_t i = 0; i < stays.size(); ++i) {
@@ -370,10 +370,10 @@ void OpenGraph::keep(const Cut& cut) {
           std::lower_bound(cut.stays.begin(), cut.stays.end(), end.link) - cut.stays.begin());
   }
   for (std::uint32_t i = 0; i < cut.stays.size(); ++i) {
-    Link& link = graph_.links[i] = graph_.links[cut.stays[i]];
+    Edge& link = graph_.edges[i] = graph_.edges[cut.stays[i]];
     for (std::uint32_t& node : link.node) node = place[node];
   }
-  graph_.links.resize(cut.stays.size());
+  graph_.edges.resize(cut.stays.size());
 }
 
 bool OpenGraph::has_right_cycles() const {

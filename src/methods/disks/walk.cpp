@@ -95,7 +95,7 @@ class Walker {
 
   /// Follows the bisectors from one node until the axis branches or ends.
   void follow(Step step) {
-    if (!is_open(step.span)) return;
+    if (!is_open(step.span, step.is_proposed)) return;
     while (step.is_open) {
       if (is_exact() && joins_pieces(step.span) && !is_open(step.span)) return;
       const Disk from = chunk_.nodes[step.span.node];
@@ -113,7 +113,7 @@ class Walker {
       for (Step& part : parts_) part.span.node = node;
       if (parts_.size() == 1) {
         step = parts_[0];
-        step.is_open = is_open(step.span);
+        step.is_open = is_open(step.span, step.is_proposed);
         if (step.is_open && is_full()) return stack_.push_back(step);
       } else if (parts_.size() == 2 && !stays) {
         push(parts_[0], parts_[1]);
@@ -389,11 +389,13 @@ class Walker {
     return span.left - span.right > 1 && !is_at_bridge(span) && !contacts_.is_reflex_chain(span);
   }
 
-  /// needs_walk(); where the two sites are neighbours, ends the axis there.
-  bool is_open(const Span& span) {
+  /// needs_walk(); where the two sites are neighbours, ends the axis there. What is known of a
+  /// proposed step is not asked again.
+  bool is_open(const Span& span, bool is_proposed = false) {
     const std::uint32_t between = span.left - span.right;
     const bool at_bridge = is_at_bridge(span);
-    const bool ends = between == 1 || (!at_bridge && contacts_.is_reflex_chain(span));
+    const bool ends =
+        between == 1 || (!at_bridge && !is_proposed && contacts_.is_reflex_chain(span));
     if (ends && boundary_.has_arcs && context_.exact != nullptr && !is_exact() &&
         !Certainty::ends(boundary_, context_.tolerance, span, chunk_.nodes[span.node]))
       lose(span, span.left);
@@ -474,8 +476,9 @@ class Walker {
   }
 
   void fork(const Step& step) {
-    chunk_.children.push_back(std::make_unique<Chunk>());
-    Chunk& child = *chunk_.children.back();
+    // A deferred task has few nodes of its own.
+    const std::size_t expected = context_.most_nodes > 0 ? 0 : fork_size_;
+    Chunk& child = *chunk_.children.emplace_back(std::make_unique<Chunk>(expected));
     child.component = chunk_.component;
     child.parent_node = step.span.node;
     child.nodes.push_back(chunk_.nodes[step.span.node]);

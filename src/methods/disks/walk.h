@@ -17,9 +17,14 @@ namespace medial::disks {
 
 /// A growing list that never moves its elements and frees block by block. Blocks begin small and
 /// double: a shape may have many components, each with lists of its own. At most half is unused.
+/// A list of at least `expected` elements has fewer small blocks, which an allocator would keep.
 template <class T>
 class BlockList {
  public:
+  explicit BlockList(std::size_t expected = 0)
+      : least_(std::clamp(std::bit_floor(expected), least, most)),
+        doublings_(static_cast<std::size_t>(std::bit_width(most / least_)) - 1) {}
+
   void push_back(const T& value) {
     if (size_ == capacity_) {
       const std::size_t count = size_of(blocks_.size());
@@ -32,10 +37,11 @@ class BlockList {
   }
   std::size_t size() const { return size_; }
   const T& operator[](std::size_t i) const {
+    const std::size_t doubling_end = most - least_;
     if (i >= doubling_end)
-      return blocks_[doublings + (i - doubling_end) / most][(i - doubling_end) % most];
-    const std::size_t block = static_cast<std::size_t>(std::bit_width(i / least + 1)) - 1;
-    return blocks_[block][i - ((least << block) - least)];
+      return blocks_[doublings_ + (i - doubling_end) / most][(i - doubling_end) % most];
+    const std::size_t block = static_cast<std::size_t>(std::bit_width(i / least_ + 1)) - 1;
+    return blocks_[block][i - ((least_ << block) - least_)];
   }
   /// Calls take(i, element) for all elements in order and frees each block once it is done.
   template <class Take>
@@ -52,13 +58,11 @@ class BlockList {
   }
 
  private:
-  static constexpr std::size_t least = 64;  // elements of the first block
-  static constexpr std::size_t doublings = 7;
-  static constexpr std::size_t most = least << doublings;
-  /// Where the doubling ends: block k before that begins at least * (2^k - 1).
-  static constexpr std::size_t doubling_end = most - least;
-  static std::size_t size_of(std::size_t block) { return least << std::min(block, doublings); }
+  static constexpr std::size_t least = 64, most = least << 7;  // elements of a block
+  /// Block k begins at least_ * (2^k - 1), up to the one from which all are the largest.
+  std::size_t size_of(std::size_t block) const { return least_ << std::min(block, doublings_); }
 
+  std::size_t least_, doublings_;
   std::vector<std::unique_ptr<T[]>> blocks_;
   T* next_ = nullptr;  ///< where the next element goes, unless the last block is full
   std::size_t size_ = 0;
@@ -83,6 +87,8 @@ struct BridgeEnd {
 /// What one task of the walk found. Node 0 stands for the node of the parent at which the task
 /// began.
 struct Chunk {
+  explicit Chunk(std::size_t expected = 0) : nodes(expected), links(expected) {}
+
   std::uint32_t component = 0;
   std::uint32_t parent_node = 0;
   BlockList<Disk> nodes;

@@ -129,7 +129,7 @@ class Repairer {
 
   static std::size_t degree_of_first(const disks::Graph& part) {
     std::size_t degree = 0;
-    for (const disks::Link& link : part.links)
+    for (const Edge& link : part.edges)
       for (const std::uint32_t node : link.node) degree += node == 0 ? 1 : 0;
     return degree;
   }
@@ -146,13 +146,13 @@ class Repairer {
                                std::vector<std::uint32_t>& doubtful) const {
     Repair repair;
     std::vector<std::uint32_t> degree(part.nodes.size(), 0);
-    for (const disks::Link& link : part.links)
+    for (const Edge& link : part.edges)
       for (const std::uint32_t node : link.node) ++degree[node];
     for (const Node& node : part.nodes) repair.disks.push_back(node.disk);
     repair.old_nodes.assign(part.nodes.size(), none);
     repair.old_nodes[0] = borders_[0].node;
     std::size_t found = 1;
-    for (const disks::Link& link : part.links) {
+    for (const Edge& link : part.edges) {
       for (std::size_t k = 0; k < 2; ++k) {
         if (degree[link.node[k]] != 1) continue;
         // On the way to the node.
@@ -168,8 +168,8 @@ class Repairer {
     if (degree[0] != 1 || found != borders_.size()) return std::nullopt;
     find_doubtful(repair, doubtful);
     if (!doubtful.empty()) return std::nullopt;
-    for (std::size_t i = 0; i < part.links.size(); ++i) {
-      const disks::Link& link = part.links[i];
+    for (std::size_t i = 0; i < part.edges.size(); ++i) {
+      const Edge& link = part.edges[i];
       const site::Control control =
           site::control_of(boundary_.sites[link.site[0]], boundary_.sites[link.site[1]],
                            disk_of(repair, link.node[0]), disk_of(repair, link.node[1]));
@@ -189,7 +189,7 @@ class Repairer {
     return window_.names[boundary_.originals[site]];
   }
 
-  bool touches(const disks::Graph& part, const disks::Link& link) const {
+  bool touches(const disks::Graph& part, const Edge& link) const {
     for (const std::uint32_t node : link.node)
       for (const std::uint32_t i : link.site) {
         const Disk& disk = part.nodes[node].disk;
