@@ -31,11 +31,10 @@ constexpr double single_precision_slack = 0x1p-20;
 constexpr double chord_rounding = 0x1p-48;
 /// Chord boxes pay where the boundary strays from the chord by no more than this share of it,
 constexpr double flat_enough = 1.0 / 16;
-/// and on the levels of nodes of 32 to 512 sites: larger ones are few, and boxes of 8 sites take
-/// as long as these sites, and more memory than all the others.
+/// and on the levels of nodes of 8 to 512 sites: larger ones are few,
 constexpr std::size_t chord_levels = 4;
-/// where at least one node in `rare` has one.
-constexpr std::size_t rare = 16;
+/// where at least one node in so many has one. Boxes of 8 sites take more memory than all others.
+constexpr std::size_t rare_of(std::uint32_t level) { return level == 0 ? 2 : 16; }
 
 struct Waiting {
   std::uint32_t index;
@@ -45,7 +44,7 @@ struct Waiting {
 
 }  // namespace
 
-BoundaryTree::BoundaryTree(std::span<const Site> sites)
+BoundaryTree::BoundaryTree(std::span<const Site> sites, bool saves_memory)
     : sites_(sites),
       has_arcs_(
           std::any_of(sites.begin(), sites.end(), [](const Site& site) { return site.is_arc(); })) {
@@ -73,16 +72,17 @@ BoundaryTree::BoundaryTree(std::span<const Site> sites)
     });
     levels_.push_back(std::move(upper));
   }
-  build_chord_boxes();
+  build_chord_boxes(saves_memory);
 }
 
-void BoundaryTree::build_chord_boxes() {
+void BoundaryTree::build_chord_boxes(bool saves_memory) {
   for (std::uint32_t level = 0; level < std::min<std::size_t>(chord_levels, levels_.size());
        ++level) {
     const std::size_t span = std::size_t{block_size} << (2 * level);
     const std::size_t nodes = levels_[level].size();
     std::vector<ChordBoxes>& boxes = chords_.emplace_back();
-    if (level == 0) continue;
+    if (level == 0 && saves_memory) continue;
+    const std::size_t rare = rare_of(level);
     // Where few of a sample fit, the level takes no memory.
     constexpr std::size_t sampled = 16;
     if (nodes > sampled * sampled) {

@@ -67,7 +67,7 @@ Result<std::optional<MedialAxis>> run_in_parts(const Problem& problem, const Axi
   statistics.bridges = bridges.size();
   statistics.seconds_connect = watch.lap();
   if (problem.is_cancelled()) return std::optional(std::move(axis));
-  const site::BoundaryTree tree(boundary.sites);
+  const site::BoundaryTree tree(boundary.sites, true);
   statistics.seconds_tree = watch.lap();
 
   const ExactEvents exact(sites, boundary, tree, never_in_precise);

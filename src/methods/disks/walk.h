@@ -54,7 +54,7 @@ class BlockList {
       give_back_pages(blocks_[block].get(), size_of(block) * sizeof(T));
       blocks_[block].reset();
     }
-    *this = {};
+    *this = BlockList(least_);
   }
 
  private:
