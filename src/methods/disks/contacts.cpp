@@ -193,10 +193,12 @@ bool Contacts::is_beside(std::uint32_t i, Vec2 center, const Boundary::SiteRange
 }
 
 const std::vector<std::uint32_t>& Contacts::around(const Span& span, const Disk& disk) {
-  if (disk.center == around_.center && disk.radius == around_.radius) return near_;
-  ++statistics_.queries;
-  around_ = disk;
   const Boundary::SiteRange& run = run_of(span);
+  if (&run == around_run_ && disk.center == around_.center && disk.radius == around_.radius)
+    return near_;
+  ++statistics_.queries;
+  around_run_ = &run;
+  around_ = disk;
   context_.tree.within(disk.center, disk.radius + clearance(), run.first, run.last, near_);
   std::erase_if(near_, [&](std::uint32_t i) { return is_beside(i, disk.center, run); });
   return near_;

@@ -194,8 +194,10 @@ class Contacts {
   /// and of the site.
   const double touching_;
   std::vector<std::uint32_t> touched_;
-  Disk around_{{0, 0}, -1};                      ///< the last one that around() was asked for,
-  std::vector<std::uint32_t> near_;              ///< and the answer
+  /// The last disk and boundary that around() was asked for, and the answer.
+  Disk around_{{0, 0}, -1};
+  const Boundary::SiteRange* around_run_ = nullptr;
+  std::vector<std::uint32_t> near_;
   mutable std::vector<std::uint32_t> together_;  ///< sites in one place
 };
 
