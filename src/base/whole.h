@@ -35,7 +35,9 @@ Integer multiple_of(double number, int lowest) {
   auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(number, &exponent), 53));
   int shift = exponent - 53 - lowest;
   for (; shift < 0; ++shift) mantissa /= 2;  // the last bits are 0
-  return Integer(mantissa) << static_cast<unsigned>(shift);
+  Integer result(mantissa);
+  result <<= static_cast<unsigned>(shift);
+  return result;
 }
 
 }  // namespace medial

@@ -16,6 +16,7 @@
 #include "io/formats/geojson.h"
 #include "io/formats/json_number.h"
 #include "io/place.h"
+#include "io/text_source.h"
 
 namespace medial::io {
 
