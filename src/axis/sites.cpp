@@ -86,7 +86,13 @@ std::size_t point_of(const SiteNumbers& numbers, std::uint32_t site, std::size_t
   for (std::size_t step = 1; high < edge.size() && edge[high] < site; step *= 2)
     high = std::min(edge.size(), high + step);
   const auto at = [&](std::size_t i) { return edge.begin() + static_cast<std::ptrdiff_t>(i); };
-  return static_cast<std::size_t>(std::lower_bound(at(low), at(high), site) - edge.begin());
+  const auto point =
+      static_cast<std::size_t>(std::lower_bound(at(low), at(high), site) - edge.begin());
+  // A lone point has no edge: the next point's sites begin with that number.
+  const std::size_t after = point + 1;
+  const bool is_of_next = after < edge.size() && edge[point] == site &&
+                          edge[after] - (numbers.is_site(after) ? 1 : 0) == site;
+  return is_of_next ? after : point;
 }
 
 medial::Site result_site(const Shape& shape, const SiteNumbers& numbers, std::uint32_t site,

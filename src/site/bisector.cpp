@@ -318,10 +318,17 @@ Control control_of(const Site& a, const Site& b, const Disk& from, const Disk& t
   if (const auto end = pinned_end(a, from, to)) return control_of(*end, b, from, to);
   if (const auto end = pinned_end(b, from, to)) return control_of(a, *end, from, to);
   if (a.is_arc() || b.is_arc()) return control_with_arc(a, b, from, to);
-  if (a.is_vertex() && b.is_vertex()) return control_of_vertices(a.point, b.point, from, to);
-  if (a.is_vertex()) return control_of_parabola(b, a.point, from, to);
-  if (b.is_vertex()) return control_of_parabola(a, b.point, from, to);
-  return {middle_of(from, to), 1};
+  if (!a.is_vertex() && !b.is_vertex()) return {middle_of(from, to), 1};
+  const Control control = a.is_vertex() && b.is_vertex()
+                              ? control_of_vertices(a.point, b.point, from, to)
+                          : a.is_vertex() ? control_of_parabola(b, a.point, from, to)
+                                          : control_of_parabola(a, b.point, from, to);
+  // Between sites that no double lies between, the radii are rounding.
+  const Disk& point = control.point;
+  return std::isfinite(point.center.x + point.center.y + point.radius + control.weight) &&
+                 control.weight > 0
+             ? control
+             : Control{middle_of(from, to), 1};
 }
 
 }  // namespace medial::site

@@ -63,43 +63,6 @@ std::optional<Error> refuse(const PlanarGraph& planar_graph, const Options& opti
   return std::nullopt;
 }
 
-/// The axis, but for its edges, which stand apart, and its sites.
-template <class E>
-Result<MedialAxis> run_around(const Problem& surroundings, std::vector<E>& edges) {
-  MedialAxis axis = disks::run_two_sided(surroundings, edges);
-  if (surroundings.is_cancelled()) return Error{ErrorCode::cancelled, "cancelled", {}};
-  if (!has_right_topology(surroundings.shape, axis.nodes, edges))
-    return Error{ErrorCode::internal,
-                 "the diagram is not connected as it should be: please report this input",
-                 {}};
-  return axis;
-}
-
-/// With all corners, however flat: a joint without a branch would have a straight spoke. Where the
-/// walk loses its way among flat ones, as the options have it: spokes are off by less. Of shapes
-/// with arcs, the axis has its sites.
-Result<MedialAxis> run_with_corners(const Shape& surroundings, const Options& options,
-                                    std::vector<VoronoiEdge>& edges, site::SiteNumbers& numbers) {
-  const auto run = [&](const Options& own) {
-    edges.clear();
-    Problem problem(surroundings, own);
-    auto axis = run_around(problem, edges);
-    if (axis && !surroundings.bulges.empty()) axis->sites = problem.result_sites();
-    numbers = std::move(problem).numbers();
-    return axis;
-  };
-  if (surroundings.bulges.empty()) return run(options);
-  Options all = options;
-  all.corner_angle = 0;
-  auto axis = run(all);
-  const auto touches = [&](const Edge& edge) {  // but for far more than rounding
-    return disks::touches_its_sites(*axis, edge, 0x1p20 * axis->tolerance);
-  };
-  const bool misled =
-      axis ? !ranges::all_of(edges, touches) : axis.error().code == ErrorCode::internal;
-  return misled ? run(options) : std::move(axis);
-}
-
 /// In tolerances: what is nearer to each other may be one for some disks; and what may at least
 /// have misled a walk that failed.
 constexpr double told_apart = 64, doubtful = 0x1p20;
@@ -195,6 +158,52 @@ std::optional<Error> too_close(const PlanarGraph& planar_graph, double least) {
   return error_of_close_point(planar_graph, first);
 }
 
+/// The axis, but for its edges, which stand apart, and its sites.
+template <class E>
+Result<MedialAxis> run_around(const PlanarGraph& planar_graph, const Problem& surroundings,
+                              std::vector<E>& edges) {
+  // Double alone may be misled by what is too close.
+  const bool has_arcs = !surroundings.shape.bulges.empty();
+  const double least = told_apart * surroundings.tolerance;
+  if (has_arcs)
+    if (auto error = too_close(planar_graph, least)) return std::move(*error);
+  auto [axis, is_certain] = disks::run_two_sided(surroundings, edges);
+  if (surroundings.is_cancelled()) return Error{ErrorCode::cancelled, "cancelled", {}};
+  if (!is_certain && !has_arcs)
+    if (auto error = too_close(planar_graph, least)) return std::move(*error);
+  if (!has_right_topology(surroundings.shape, axis.nodes, edges))
+    return Error{ErrorCode::internal,
+                 "the diagram is not connected as it should be: please report this input",
+                 {}};
+  return std::move(axis);
+}
+
+/// With all corners, however flat: a joint without a branch would have a straight spoke. Where the
+/// walk loses its way among flat ones, as the options have it: spokes are off by less. Of shapes
+/// with arcs, the axis has its sites.
+Result<MedialAxis> run_with_corners(const PlanarGraph& planar_graph, const Shape& surroundings,
+                                    const Options& options, std::vector<VoronoiEdge>& edges,
+                                    site::SiteNumbers& numbers) {
+  const auto run = [&](const Options& own) {
+    edges.clear();
+    Problem problem(surroundings, own);
+    auto axis = run_around(planar_graph, problem, edges);
+    if (axis && !surroundings.bulges.empty()) axis->sites = problem.result_sites();
+    numbers = std::move(problem).numbers();
+    return axis;
+  };
+  if (surroundings.bulges.empty()) return run(options);
+  Options all = options;
+  all.corner_angle = 0;
+  auto axis = run(all);
+  const auto touches = [&](const Edge& edge) {  // but for far more than rounding
+    return disks::touches_its_sites(*axis, edge, 0x1p20 * axis->tolerance);
+  };
+  const bool misled =
+      axis ? !ranges::all_of(edges, touches) : axis.error().code == ErrorCode::internal;
+  return misled ? run(options) : std::move(axis);
+}
+
 /// An internal error where points are so near to others that they may have misled the walk, as an
 /// error that names one of them.
 Error explained(Error error, const PlanarGraph& planar_graph, double tolerance) {
@@ -212,9 +221,9 @@ Result<MedialAxis> axis_around(const PlanarGraph& planar_graph, const Shape& sur
     if (auto error = beyond_limits(surroundings)) return std::move(*error);
     const Problem problem(surroundings, options);
     const double tolerance = problem.tolerance;
-    if (auto error = too_close(planar_graph, told_apart * tolerance)) return std::move(*error);
     std::vector<Edge> edges;
-    auto axis = on_threads(options.threads, [&] { return run_around(problem, edges); });
+    auto axis =
+        on_threads(options.threads, [&] { return run_around(planar_graph, problem, edges); });
     if (!axis) return explained(std::move(axis).error(), planar_graph, tolerance);
     axis->sites = problem.result_sites();
     if (divided)
@@ -244,15 +253,10 @@ Result<VoronoiDiagram> voronoi_diagram(const PlanarGraph& planar_graph, const Op
           return Error{ErrorCode::cancelled, "cancelled", {}};
         return of_points;
       }
-      std::optional<Error> close;
-      Shape shape;
-      in_parallel([&] { close = too_close(planar_graph, told_apart * tolerance); },
-                  [&] { shape = around(planar_graph, far); });
-      if (close) return std::move(*close);
-
+      const Shape shape = around(planar_graph, far);
       std::vector<VoronoiEdge> edges;
       site::SiteNumbers numbers;
-      auto axis = run_with_corners(shape, options, edges, numbers);
+      auto axis = run_with_corners(planar_graph, shape, options, edges, numbers);
       if (!axis) return std::move(axis).error();
       if (!shape.bulges.empty())
         if (Status split = voronoi::split_long_edges(*axis, edges, false); !split)

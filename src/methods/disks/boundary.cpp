@@ -81,12 +81,13 @@ bool faces_out(const LoopEdges& loop, std::uint32_t i) {
 /// The furthest place in the direction `outreach`, of those where a disk can touch the loop.
 Start start_of_hole(const LoopEdges& loop, const SiteNumbers& numbers, bool has_arcs) {
   Start start;
-  double furthest = -std::numeric_limits<double>::infinity();
+  std::optional<Vec2> furthest;
+  // Places next to each other differ exactly, so that rounding decides nothing among them.
   const auto consider = [&](Vec2 place, const Start& candidate) {
-    const double here = dot(outreach, place);
-    if (!(here > furthest) || !(candidate.inside || faces_out(loop, candidate.point))) return;
+    if (furthest && !(dot(outreach, place - *furthest) > 0)) return;
+    if (!candidate.inside && !faces_out(loop, candidate.point)) return;
     start = candidate;
-    furthest = here;
+    furthest = place;
   };
   for (std::uint32_t i = 0; i < loop.size(); ++i) {
     const Joint joint = numbers.joints[loop.begin() + i];

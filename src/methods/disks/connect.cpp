@@ -14,6 +14,9 @@ namespace {
 
 using site::Site;
 
+/// A loose segment is a run of two ends and two sides.
+constexpr std::uint32_t few = 4;
+
 /// Cuts are kept where no query finds them.
 const Site far_away = site::make_vertex({1e30, 1e30});
 
@@ -69,8 +72,6 @@ std::uint32_t facing_site(const Boundary& loops, const site::FirstTouch& first_t
   const auto is_it = [&](std::uint32_t i, const Boundary::SiteRange& run) {
     return site::squared_distance(loops.sites[i], foot) <= same_place * same_place && faces(i, run);
   };
-  // A loose segment is a run of two ends and two sides.
-  constexpr std::uint32_t few = 4;
   const Boundary::SiteRange own = run_of(loops, site);
   if (own.last - own.first < few)
     for (std::uint32_t i = own.first; i <= own.last; ++i)
@@ -165,10 +166,15 @@ class Connector {
     first_touch_.near(foot + radius * outreach, radius + rounding, shape_.component[hole],
                       [&](std::uint32_t site) {
                         const Boundary::SiteRange run = run_of(loops_, site);
+                        if (run.last - run.first < few) {  // searches find one of a segment's sides
+                          for (std::uint32_t i = run.first; i <= run.last; ++i) add(i, run);
+                          return;
+                        }
                         add(site, run);
                         add(site == run.first ? run.last : site - 1, run);
                       });
     std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
     const auto touch = exact_->first_touch(foot, loops_, near);
     if (!touch) return std::nullopt;
     return Bridge{{foot + touch->radius * outreach, touch->radius}, hole, touch->site};

@@ -200,7 +200,9 @@ const std::vector<std::uint32_t>& Contacts::around(const Span& span, const Disk&
   around_run_ = &run;
   around_ = disk;
   context_.tree.within(disk.center, disk.radius + clearance(), run.first, run.last, near_);
-  std::erase_if(near_, [&](std::uint32_t i) { return is_beside(i, disk.center, run); });
+  std::erase_if(near_, [&](std::uint32_t i) {
+    return is_beside(i, disk.center, run) || (boundary_.two_sided && !faces(i, disk.center));
+  });
   return near_;
 }
 
@@ -229,7 +231,8 @@ bool Contacts::may_touch_more(const Span& span, const Disk& disk, std::uint32_t 
   context_.tree.within(disk.center, disk.radius + 2 * touching_, span.right + 1, span.left - 1,
                        touched_);
   return ranges::any_of(touched_, [&](std::uint32_t i) {
-    return i != next && away(i, disk) <= touching_ && !is_beside(i, disk.center, run_of(span));
+    return i != next && away(i, disk) <= touching_ && !is_beside(i, disk.center, run_of(span)) &&
+           !(boundary_.two_sided && !faces(i, disk.center));
   });
 }
 

@@ -76,7 +76,7 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
                               Statistics& statistics, Findings& findings) {
   Stopwatch watch;
 #ifdef MEDIAL_HAS_EXACT
-  const bool takes_exact = !boundary.two_sided && !way.in_double;
+  const bool takes_exact = !way.in_double;
 #else
   constexpr bool takes_exact = false;
 #endif
@@ -311,14 +311,24 @@ Result<MedialAxis> run(const Problem& problem) {
 }
 
 template <class E>
-MedialAxis run_two_sided(const Problem& problem, std::vector<E>& edges) {
-  Findings findings;
-  Way in_double;
-  in_double.in_double = true;
-  return *attempt(problem, true, in_double, edges, findings);
+TwoSided run_two_sided(const Problem& problem, std::vector<E>& edges) {
+  Attempts attempts;
+  Way way;
+#ifdef MEDIAL_HAS_EXACT
+  way.in_double = has_arcs(problem.shape);
+#else
+  way.in_double = true;
+#endif
+  for (;;) {
+    edges.clear();
+    Findings findings;
+    Result<MedialAxis> axis = attempt(problem, true, way, edges, findings);
+    if (axis) return {std::move(*axis), !way.in_double};
+    way = *next_way(problem, way, findings.lost, attempts);
+  }
 }
 
-template MedialAxis run_two_sided(const Problem&, std::vector<Edge>&);
-template MedialAxis run_two_sided(const Problem&, std::vector<VoronoiEdge>&);
+template TwoSided run_two_sided(const Problem&, std::vector<Edge>&);
+template TwoSided run_two_sided(const Problem&, std::vector<VoronoiEdge>&);
 
 }  // namespace medial::disks

@@ -24,11 +24,17 @@ Result<MedialAxis> run(const Problem& problem);
 Result<std::optional<MedialAxis>> run_in_parts(const Problem& problem, const AxisSink& sink,
                                                std::size_t part_nodes = 1 << 14);
 
+/// An axis, and whether all decisions about its graph are certain. Next to arcs they are made in
+/// double.
+struct TwoSided {
+  MedialAxis axis;
+  bool is_certain = false;
+};
 /// run() for what lies around a planar graph (shape/around.h): a shape whose edges may stand there
 /// twice, once for each side, and with loops of one point. The axis' edges, Edge or VoronoiEdge,
 /// stand in `edges`; they and the nodes leave room for a diagram's spokes and the planar graph's
 /// points. It has no sites yet.
 template <class E>
-MedialAxis run_two_sided(const Problem& problem, std::vector<E>& edges);
+TwoSided run_two_sided(const Problem& problem, std::vector<E>& edges);
 
 }  // namespace medial::disks

@@ -139,7 +139,9 @@ class ExactEvents::Search {
     const std::uint32_t right = name(span_.right), left = name(span_.left);
     std::optional<KnownDisk> first;
     for (const bool on_right : {true, false}) {
-      const auto spoke = end_of(on_right ? right : left, on_right);
+      const std::uint32_t own = on_right ? span_.right : span_.left,
+                          next = on_right ? own + 1 : own - 1;
+      const auto spoke = is_bridge(next) ? spoke_at_bridge(next, own) : end_of(name(own), on_right);
       if (!spoke) continue;
       const auto disk = exact::disk_along(*spoke, outline_.sites[on_right ? left : right]);
       if (disk && !is_too_large(*disk) && has_foot(span_.right, *disk) &&
@@ -147,6 +149,22 @@ class ExactEvents::Search {
         first = disk;
     }
     return first;
+  }
+
+  /// The spoke on which the feet on a site begin, or end, because a bridge stands there.
+  std::optional<exact::Spoke<Number>> spoke_at_bridge(std::uint32_t place,
+                                                      std::uint32_t own) const {
+    const auto disk = bridge_disk(events_.boundary_.originals[place]);
+    const exact::ExactSite site = exact_site(own);
+    if (!disk || site.is_arc()) return end_of(name(own), place > own);
+    if (site.is_vertex()) {
+      const auto point = exact::exact_vector<Number>(site.start);
+      return exact::Spoke<Number>{point, disk->center - point, disk->radius};
+    }
+    exact::ApproximateRoots<Real> roots;
+    auto spoke = exact::spoke_of<Number>(site, false, roots);
+    spoke.foot = disk->center - (disk->radius / spoke.size) * spoke.normal;
+    return spoke;
   }
 
   /// The spoke on which the feet on a site begin, or end; none at a vertex from which no foot
@@ -327,6 +345,7 @@ class ExactEvents::Search {
   /// it that bridges leave between them.
   bool is_touched(std::uint32_t site, const KnownDisk& disk, bool at_joint) const {
     if (!at_joint && !has_foot(site, disk)) return false;
+    if (stands_between_bridges(site)) return lies_between_bridges(site, disk);
     const bool too_early = site > 0 && is_bridge(site - 1) && beyond(site - 1, site, disk) == -1;
     const bool too_late = site + 1 < events_.boundary_.sites.size() && is_bridge(site + 1) &&
                           beyond(site + 1, site, disk) == 1;
@@ -344,6 +363,25 @@ class ExactEvents::Search {
     const auto begin = *end_of(own, false), end = *end_of(own, true);
     return cross(disk.center - begin.foot, begin.normal).sign() != -1 &&
            cross(disk.center - end.foot, end.normal).sign() != 1;
+  }
+
+  bool stands_between_bridges(std::uint32_t site) const {
+    return exact_site(site).is_vertex() && site > 0 && is_bridge(site - 1) &&
+           site + 1 < events_.boundary_.sites.size() && is_bridge(site + 1);
+  }
+  /// Whether a disk's centre may lie in the part of a vertex that two bridges leave: more than a
+  /// half turn at a lone point, all of it where both are one.
+  bool lies_between_bridges(std::uint32_t site, const KnownDisk& disk) const {
+    const std::uint32_t before = events_.boundary_.originals[site - 1],
+                        after = events_.boundary_.originals[site + 1];
+    if (before == after) return true;
+    const auto from = bridge_disk(before), to = bridge_disk(after);
+    if (!from || !to) return true;
+    const auto point = exact::exact_vector<Number>(exact_site(site).start);
+    const auto toward = disk.center - point, first = from->center - point,
+               last = to->center - point;
+    const bool begun = cross(first, toward).sign() != 1, left = cross(toward, last).sign() != 1;
+    return cross(first, last).sign() == -1 ? begun && left : begun || left;
   }
 
   /// Whether a disk's foot on a site lies further along than that of the bridge beside it.

@@ -126,7 +126,7 @@ class Exchange {
   /// Begins with three of the contacts, as far apart as they can be found at once.
   void begin(std::span<const Touch> contacts) {
     const ContactOf<Real> first = contact(contacts[0]);
-    reference_[0] = contacts[0];
+    reference_.fill(contacts[0]);  // where a disk is in a vertex, no other is apart from it
     Real largest(-1), x(0), y(0);
     for (const Touch& i : contacts) {
       const ContactOf<Real> other = contact(i);

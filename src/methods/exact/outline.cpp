@@ -46,6 +46,13 @@ SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers, b
     for (std::uint32_t i = 0; i < loop.size(); ++i) {
       const std::size_t point = loop.begin() + i, after = loop.begin() + loop.next(i);
       const std::uint32_t edge = numbers.edge[point];
+      if (loop.size() == 1) {  // a lone point has no edge
+        if (stores_sites) {
+          outline.sites.set(edge - 1, {loop.local(i), loop.local(i), 0});
+          outline.next[edge - 1] = edge - 1;
+        }
+        continue;
+      }
       if (numbers.is_site(point)) outline.passes[edge - 1] = true;
       if (stores_sites && numbers.is_site(point)) {
         outline.sites.set(edge - 1, {loop.local(i), loop.local(i), 0});
