@@ -59,7 +59,6 @@ TEST(Tiles, GiveTheAxisOfTheWholeOfRandomShapes) {
   const std::uint64_t count = test::shape_count(200), first = test::first_seed();
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
     const test::RandomShape random = test::random_shape(seed);
-    if (random.kind == "near-touching holes") continue;  // nearer than planar graphs may be
     const Shape shape = shape_of(random.rings);
     for (const int levels : {1, 3, 6}) {
       const auto whole = compute(shape, {.threads = 1});

@@ -24,7 +24,8 @@ inline void take_control_of_points(Vec2 first, Vec2 second, ConicEdge& edge) {
   const Vec2 middle = midpoint(first, second);
   const auto grown = [&](const Disk& disk) {
     const double s = scale * dot(disk.center - middle, across);
-    const double e = disk.radius + std::abs(s), other = squared / e;
+    // No less than d, which rounding of the radius may make it.
+    const double e = std::max(disk.radius + std::abs(s), 0.5 * size), other = squared / e;
     return s >= 0 ? e : other;
   };
   const double e0 = grown(edge.from), e1 = grown(edge.to), sum = e0 + e1, product = e0 * e1;

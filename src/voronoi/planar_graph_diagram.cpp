@@ -249,9 +249,15 @@ class Assembly {
         if (is_empty_vertex(own)) continue;
         const std::uint32_t node = first_[own];
         closed = closed && last_[before] == node;
+        if (site_of(before) == site_of(own)) {  // around an end whose cell is narrower than a tie
+          before = own;
+          continue;
+        }
         const std::uint32_t point =
             is_vertex(own) ? own_[own] : start_of(planar_graph_, half_edge(own));
-        if (diagram_.nodes[node].disk.radius == 0) {
+        // Elsewhere radii may be rounded to 0, too.
+        const bool at_corner = !is_vertex(before) && !is_vertex(own);
+        if (at_corner && diagram_.nodes[node].disk.radius == 0) {
           node_of_axis_[node] = point;
         } else {
           spoke_before_[own] = spoke_after_[before] = static_cast<std::uint32_t>(spokes_.size());

@@ -93,19 +93,21 @@ class ExactEvents::Search {
         erase_seen(candidates);
       }
       if (!candidates.empty()) continue;
-      // All that the best disk reaches over has been considered: by the lemma there is no event.
-      if (best_) return std::nullopt;
-      if (!all_around && (limit_ || (limit_ = end_of_feet()))) {
+      if (!best_ && !all_around && (limit_ || (limit_ = end_of_feet()))) {
         candidates = intruders(*limit_);
         erase_seen(candidates);
-        if (candidates.empty()) return std::nullopt;
         few_ *= 2;  // if none of these is touched, all are asked for in O(log n) rounds
+      } else if (!best_ && reach <= furthest) {
+        // Only carriers were touched, beside their sites: look further around.
+        reach *= 4;
+        events_.tree_.within(from_.center, reach, span_.right + 1, span_.left - 1, candidates);
         continue;
       }
-      // Only carriers were touched, beside their sites: look further around.
-      if (!(reach <= furthest)) return std::nullopt;
-      reach *= 4;
-      events_.tree_.within(from_.center, reach, span_.right + 1, span_.left - 1, candidates);
+      if (!candidates.empty()) continue;
+      // All that these disks reach over has been considered, and what is next to it may still come
+      // first: of few sites, all are.
+      if (!may_ask_all() || std::exchange(all_asked_, true)) return std::nullopt;
+      for (std::uint32_t i = span_.right + 1; i < span_.left; ++i) candidates.push_back(i);
     }
   }
 
@@ -119,7 +121,12 @@ class ExactEvents::Search {
   static constexpr double furthest = 8;
   /// In the centre of more arcs of one circle up to rounding, 256 bits take too long.
   static constexpr std::size_t most_around = 1024;
+  /// Asking for all sites of a larger span takes too long.
+  static constexpr std::uint32_t most_asked = 1024;
 
+  bool may_ask_all() const {
+    return !events_.boundary_.has_arcs && span_.left - span_.right <= most_asked;
+  }
   exact::ExactSite exact_site(std::uint32_t i) const { return outline_.sites[name(i)]; }
   std::uint32_t name(std::uint32_t i) const { return events_.boundary_.originals[i]; }
   bool is_bridge(std::uint32_t i) const { return events_.boundary_.elements[i] == Element::bridge; }
@@ -133,7 +140,7 @@ class ExactEvents::Search {
   }
 
   /// The disk of the bisector at which the first of the two feet comes to the end of its site: no
-  /// event is later, and by the lemma this disk reaches over the site of the event, or touches it.
+  /// event is later, and this disk reaches over the site of the event, or over what is next to it.
   /// None where that disk would be larger than the shape.
   std::optional<KnownDisk> end_of_feet() const {
     const std::uint32_t right = name(span_.right), left = name(span_.left);
@@ -406,7 +413,7 @@ class ExactEvents::Search {
   std::optional<KnownDisk> node_;  ///< of the span, where it is asked for
   std::unordered_set<std::uint32_t> seen_;
   std::size_t few_ = 8;  ///< intruders that are considered at a time
-  bool is_hopeless_ = false;
+  bool is_hopeless_ = false, all_asked_ = false;
   std::optional<KnownDisk> best_;
   std::optional<KnownDisk> limit_;  ///< no event is later; asked for where none is near
   std::uint32_t site_ = 0;
