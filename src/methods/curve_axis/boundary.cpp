@@ -242,6 +242,11 @@ BoundaryPoint Boundary::before(double u) const {
   return out;
 }
 
+BoundaryPoint Boundary::sharper_at(double u) const {
+  const BoundaryPoint here = at(u), last = before(u);
+  return last.turn > here.turn ? last : here;
+}
+
 double Boundary::advanced(double u, double way) const {
   if (!std::isfinite(way)) return std::numeric_limits<double>::quiet_NaN();
   const bool forward = way > 0;

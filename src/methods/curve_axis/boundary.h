@@ -71,6 +71,8 @@ class Boundary {
   /// In a joint, as the piece behind it has it, or as the one before.
   BoundaryPoint at(double u) const;
   BoundaryPoint before(double u) const;
+  /// In a joint, as the more curved one of the two has it.
+  BoundaryPoint sharper_at(double u) const;
   /// The parameter about this way further along the boundary (backwards if negative), to the first
   /// order: with the speed at u, and behind each joint that lies on the way with the speed there,
   /// for the parameter's speed jumps where pieces join.

@@ -417,8 +417,9 @@ bool Control::steps_over_twist(const AxisPoint& from, const AxisPoint& to) const
       if (next == tips.end()) next = tips.begin();
       double way = next->u - start;
       if (way < 0) way += n;
-      if (way >= high - low) return false;
-      if (way > 0 && is_sharper(*next, radius) && !is_scanned(next->u)) return true;
+      // A foot stops in a joint where the curvature jumps, which may be a tip.
+      if (way > high - low + same_parameter) return false;
+      if (way > same_parameter && is_sharper(*next, radius) && !is_scanned(next->u)) return true;
     }
     return false;
   };
@@ -427,7 +428,7 @@ bool Control::steps_over_twist(const AxisPoint& from, const AxisPoint& to) const
 
 bool Control::is_sharper(const Tip& tip, double radius) const {
   if (tip.kind == Tip::Kind::bridge) return false;
-  return tip.kind == Tip::Kind::corner || boundary_.at(tip.u).turn * radius >= 1;
+  return tip.kind == Tip::Kind::corner || boundary_.sharper_at(tip.u).turn * radius >= 1;
 }
 
 bool Control::end_in_tip(int segment, const AxisPoint& from) {

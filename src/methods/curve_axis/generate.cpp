@@ -70,7 +70,7 @@ AxisPoint Generator::point_of(const BoundaryPoint& left, const BoundaryPoint& ri
 }
 
 AxisPoint Generator::at_maximum(double u) const {
-  const BoundaryPoint tip = boundary_.at(u);
+  const BoundaryPoint tip = boundary_.sharper_at(u);
   const double radius = 1 / tip.turn;
   return {tip, tip, {tip.point + radius * tip.normal(), radius}, tip.normal(), 1};
 }
@@ -96,26 +96,39 @@ std::optional<AxisPoint> Generator::first_after_corner(double u, double share) c
   return std::nullopt;
 }
 
-/// (13) is 0 / 0 in a tip. Where the curvature falls by a l on the left and by b r on the right,
-/// the circle tangent at both feet has, to leading order, a x^3 + 3 a x^2 - 3 b x - b = 0 with x =
-/// l / r (docs/curve-axis.md): one positive root, 1 where both sides are alike.
+/// (13) is 0 / 0 in a tip. The foot on the side where the curvature falls off less leads, by a way
+/// that turns the normal as far as asked for. On the other side (14) changes its sign once near the
+/// tip: at about that way where the curvature falls off alike, at its square where it jumps.
 std::optional<AxisPoint> Generator::first_after(const AxisPoint& tip, double turn_at_most) const {
   if (tip.disk.radius == 0) return first_after_corner(tip.left.u, turn_at_most / first_turn);
   const double u = tip.left.u, peak = tip.left.turn;
   for (double turn = turn_at_most; turn > first_turn / 1024; turn /= 2) {
     const double way = turn / peak;
-    const double a = peak - boundary_.at(boundary_.advanced(u, -way)).turn;
-    const double b = peak - boundary_.at(boundary_.advanced(u, way)).turn;
-    if (!(a > 0 && b > 0)) continue;
-    double low = 0, high = 1 + 3 * std::sqrt(b / a);
-    while (high - low > 1e-3 * high) {
-      const double x = (low + high) / 2;
-      (((a * x + 3 * a) * x - 3 * b) * x - b > 0 ? high : low) = x;
+    const BoundaryPoint left = boundary_.before(boundary_.advanced(u, -way));
+    const BoundaryPoint right = boundary_.at(boundary_.advanced(u, way));
+    if (!(left.turn < peak && right.turn < peak)) continue;
+    const bool right_leads = right.turn > left.turn;
+    const auto follower = [&](double share) {
+      return boundary_.advanced(u, right_leads ? -share * way : share * way);
+    };
+    const auto is_positive = [&](double share) {
+      return (right_leads ? symmetry(boundary_.before(follower(share)), right)
+                          : symmetry(left, boundary_.at(follower(share))))
+                 .value > 0;
+    };
+    const bool at_tip = is_positive(0);
+    double low = 0, high = 2;
+    if (is_positive(high) == at_tip) continue;
+    while (high - low > 1e-3 * high && high > converged) {
+      const double share = (low + high) / 2;
+      (is_positive(share) == at_tip ? low : high) = share;
     }
-    const double left = way * std::min(1.0, low), right = way * std::min(1.0, 1 / low);
-    const auto point = with_right(boundary_.advanced(u, -left), boundary_.advanced(u, right));
-    if (point && point->left.u < boundary_.advanced(u, -left / 4) &&
-        point->left.u > boundary_.advanced(u, -4 * left) && point->disk.radius > 0)
+    const auto point =
+        right_leads ? with_right(follower(high), right.u) : with_left(left.u, follower(high));
+    if (!point || !(point->disk.radius > 0)) continue;
+    const double found = std::abs((right_leads ? point->left.u : point->right.u) - u);
+    if (point->left.u < u && point->right.u > u && found > std::abs(follower(high / 4) - u) &&
+        found < std::abs(follower(4 * high) - u))
       return point;
   }
   return std::nullopt;
