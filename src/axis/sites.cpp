@@ -34,10 +34,14 @@ Pieces pieces_of(Vec2 start, Vec2 end, double bulge) {
 
 std::vector<site::Site> edge_sites(const Shape& shape, const LocalFrame& frame) {
   std::vector<site::Site> edges;
-  edges.reserve(shape.points.size());
+  reserve_large(edges, shape.points.size());
   for (std::size_t i = 0; i < shape.loop_count(); ++i) {
     const LoopEdges loop(shape, i, frame);
     for (std::uint32_t k = 0; k < loop.size(); ++k) {
+      if (loop.bulge(k) == 0) {
+        edges.push_back(make_segment(loop.local(k), loop.local(loop.next(k))));
+        continue;
+      }
       const Pieces pieces = loop.edge(k);
       for (std::size_t j = 0; j < pieces.count; ++j) edges.push_back(pieces.site[j]);
     }

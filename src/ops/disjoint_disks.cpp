@@ -10,8 +10,12 @@
 
 #include "axis/sites.h"
 #include "base/local_frame.h"
+#include "base/tolerance.h"
+#include "base/twofold.h"
 #include "medial/measure.h"
+#include "site/apollonius.h"
 #include "site/boundary_tree.h"
+#include "site/joint.h"
 #include "site/tangent_disk.h"
 
 namespace medial {
@@ -20,6 +24,7 @@ namespace {
 constexpr double anywhere = 8;           // no two places of the local frame are further apart
 constexpr double finest = 0x1p-50;       // local: the rounding of a centre
 constexpr std::size_t few_carriers = 8;  // enough to settle a square
+constexpr std::size_t few_sites = 16;    // near it; if they are more, so are the carriers
 constexpr double root_of_2 = 1.4142135623730951;
 
 struct Square {
@@ -28,8 +33,8 @@ struct Square {
   /// How far points of the square are from its centre, with room for contains().
   double reach() const { return root_of_2 * half * (1 + 0x1p-19) + 4 * finest; }
   bool contains(Vec2 p) const {
-    return std::max(std::abs(p.x - center.x), std::abs(p.y - center.y)) <=
-           half * (1 + 0x1p-20) + finest;
+    const double most = half * (1 + 0x1p-20) + finest;
+    return std::abs(p.x - center.x) <= most && std::abs(p.y - center.y) <= most;
   }
 };
 
@@ -37,20 +42,35 @@ struct Square {
 class Region {
  public:
   Region(const Shape& shape, const LocalFrame& frame)
-      : edges_(site::edge_sites(shape, frame)), loop_of_(loops(shape, frame)), tree_(edges_) {}
+      : edges_(site::edge_sites(shape, frame)),
+        loop_begin_(loops(shape)),
+        tolerance_(frame.scale * tolerance_for(bounding_box(shape), 0)),
+        tree_(edges_, site::BoundaryTree::Chords::none) {}
 
+  double tolerance() const { return tolerance_; }
   void take(const Disk& disk) { taken_.push_back(disk); }
   bool is_simple() const { return edges_.size() <= 4 * few_carriers; }
 
-  /// The radius of the largest disk around c in the region; negative outside it. As a function
-  /// of c it has the Lipschitz constant 1. O(log n) expected, and one step for each disk taken.
-  double clearance(Vec2 c) const {
-    const auto hit = tree_.nearest_lowest(c, anywhere);
+  /// The largest disk around a point.
+  struct Room {
+    double clearance;    ///< its radius; negative outside the region
+    Vec2 foot;           ///< where it touches
+    double to_boundary;  ///< the distance to the shape's boundary, from either side
+  };
+  /// The room around c, which is at most `at_most` away from the shape's boundary. As a function of
+  /// c, the clearance has the Lipschitz constant 1. O(log n) expected, and one step for each disk
+  /// taken.
+  Room room(Vec2 c, double at_most) const {
+    const auto hit = tree_.nearest_lowest(c, at_most * (1 + 0x1p-40) + finest);
     const double distance = std::sqrt(hit.squared_distance);
-    double clearance = is_inside(hit, c) ? distance : -distance;
-    for (const Disk& disk : taken_)
-      clearance = std::min(clearance, medial::distance(c, disk.center) - disk.radius);
-    return clearance;
+    Room room{is_inside(hit, c) ? distance : -distance, site::foot(edges_[hit.site], c), distance};
+    for (const Disk& disk : taken_) {
+      const double apart = medial::distance(c, disk.center), clear = apart - disk.radius;
+      if (clear >= room.clearance) continue;
+      room.clearance = clear;
+      room.foot = disk.center + (apart > 0 ? disk.radius / apart : 0) * (c - disk.center);
+    }
+    return room;
   }
 
   /// The carriers that disks centred in a square may touch, within a distance of its centre; false
@@ -58,12 +78,11 @@ class Region {
   bool carriers(const Square& square, double within, std::vector<site::Site>& found) const {
     const Vec2 c = square.center;
     found.clear();
-    tree_.within(c, within, 0, static_cast<std::uint32_t>(edges_.size() - 1), near_);
+    if (!tree_.few_within(c, within, few_sites, near_)) return false;
     for (const std::uint32_t i : near_) {
       if (faces_edge(edges_[i], square)) found.push_back(edges_[i]);
-      for (const std::uint32_t k : {i, next(i)})
-        if (is_reflex(k) && distance(edges_[k].point, c) <= within && faces_vertex(k, square))
-          found.push_back(site::make_vertex(edges_[k].point));
+      if (is_reflex(i) && distance(edges_[i].point, c) <= within && faces_vertex(i, square))
+        found.push_back(site::make_vertex(edges_[i].point));
       if (found.size() > few_carriers) return false;
     }
     for (const Disk& disk : taken_)
@@ -71,35 +90,16 @@ class Region {
     return found.size() <= few_carriers;
   }
 
-  /// The point of the boundary nearest to c.
-  Vec2 foot(Vec2 c) const {
-    const auto hit = tree_.nearest_lowest(c, anywhere);
-    Vec2 nearest = site::foot(edges_[hit.site], c);
-    double least = std::sqrt(hit.squared_distance);
-    for (const Disk& disk : taken_) {
-      const double apart = distance(c, disk.center);
-      if (apart - disk.radius >= least || apart == 0) continue;
-      least = apart - disk.radius;
-      nearest = disk.center + (disk.radius / apart) * (c - disk.center);
-    }
-    return nearest;
-  }
-
  private:
-  struct LoopRange {
-    std::uint32_t first, last;  ///< edges
-  };
-
   /// The circle of a disk, with what the disk leaves on its left.
   static site::Site circle(const Disk& disk) {
     return {disk.center + Vec2{disk.radius, 0}, {0, -1}, disk.radius, -1 / disk.radius};
   }
 
-  std::uint32_t next(std::uint32_t i) const {
-    return i == loop_of_[i].last ? loop_of_[i].first : i + 1;
-  }
+  /// The edge before edge i in its loop.
   std::uint32_t before(std::uint32_t i) const {
-    return i == loop_of_[i].first ? loop_of_[i].last : i - 1;
+    const auto next_loop = std::upper_bound(loop_begin_.begin(), loop_begin_.end(), i);
+    return (i == *(next_loop - 1) ? *next_loop : i) - 1;
   }
   /// Whether a place of the square may have its foot on an edge.
   static bool faces_edge(const site::Site& edge, const Square& square) {
@@ -115,17 +115,24 @@ class Region {
   }
   /// Whether the boundary turns right where edge i begins.
   bool is_reflex(std::uint32_t i) const {
-    return cross(edges_[before(i)].end_normal(), edges_[i].normal()) < 0;
+    const site::Site &a = edges_[before(i)], &b = edges_[i];
+    if (!a.is_arc() && !b.is_arc()) return cross(a.direction, b.direction) < 0;
+    return site::joint_of(bulge_arc(a), bulge_arc(b), tolerance_, 0) == site::Joint::reflex;
+  }
+  static BulgeArc bulge_arc(const site::Site& edge) {
+    const double tangent = 0.5 * edge.curvature * edge.length;  // of half of its angle
+    return {edge.point, edge.end(), tangent / (1 + std::sqrt(1 + tangent * tangent))};
   }
 
-  /// Whether c, whose nearest edge is known, lies inside: on the left of the edge, or in the wedge
-  /// of a vertex, where loops touch maybe that of another passage through the same point.
+  /// Whether c, whose nearest edge is known, lies inside: on the left of the edge or, where one of
+  /// its ends is as near, in the wedge of a vertex, where loops touch maybe that of another passage
+  /// through the same point.
   bool is_inside(const site::BoundaryTree::Hit& hit, Vec2 c) const {
     const site::Site& edge = edges_[hit.site];
-    const double s = site::foot_parameter(edge, c);
-    if (s > 0 && s < edge.length) return site::carrier_distance(edge, c) > 0;
     const double reach = std::sqrt(hit.squared_distance) * (1 + 0x1p-40) + finest;
-    tree_.within(c, reach, 0, static_cast<std::uint32_t>(edges_.size() - 1), near_);
+    if (distance(edge.point, c) > reach && distance(edge.end(), c) > reach)
+      return site::carrier_distance(edge, c) > 0;
+    tree_.few_within(c, reach, edges_.size(), near_);
     return std::any_of(near_.begin(), near_.end(), [&](std::uint32_t i) {
       return distance(edges_[i].point, c) <= reach && is_in_wedge(i, c);
     });
@@ -138,23 +145,20 @@ class Region {
     return is_reflex(i) ? left_before || left_after : left_before && left_after;
   }
 
-  std::vector<LoopRange> loops(const Shape& shape, const LocalFrame& frame) const {
-    std::vector<LoopRange> loop_of(edges_.size());
-    std::uint32_t first = 0;
-    for (std::size_t i = 0; i < shape.loop_count(); ++i) {
-      const site::LoopEdges loop(shape, i, frame);
-      std::uint32_t count = loop.size();
-      if (!shape.bulges.empty())
-        for (std::uint32_t k = 0; k < loop.size(); ++k)
-          count += static_cast<std::uint32_t>(loop.edge(k).count - 1);
-      std::fill_n(loop_of.begin() + first, count, LoopRange{first, first + count - 1});
-      first += count;
+  static std::vector<std::uint32_t> loops(const Shape& shape) {
+    std::vector<std::uint32_t> begin = shape.loop_begin;
+    if (shape.bulges.empty()) return begin;
+    for (std::size_t i = 0, edges = 0; i < shape.loop_count(); ++i) {
+      for (std::uint32_t k = shape.loop_begin[i]; k < shape.loop_begin[i + 1]; ++k)
+        edges += std::abs(shape.bulge(k)) > site::largest_bulge ? 2 : 1;
+      begin[i + 1] = static_cast<std::uint32_t>(edges);
     }
-    return loop_of;
+    return begin;
   }
 
   std::vector<site::Site> edges_;
-  std::vector<LoopRange> loop_of_;  ///< of each edge
+  std::vector<std::uint32_t> loop_begin_;  ///< loop i is edges [loop_begin_[i], loop_begin_[i + 1])
+  double tolerance_;                       ///< of local coordinates
   site::BoundaryTree tree_;
   std::vector<Disk> taken_;
   mutable std::vector<std::uint32_t> near_;
@@ -164,31 +168,63 @@ class Region {
 /// largest disk touches three carriers, or two in the ends of a diameter, or is an arc's circle.
 class LocalMaxima {
  public:
-  LocalMaxima(const Region& region, const Square& square, const std::vector<site::Site>& carriers)
-      : region_(region), square_(square) {
+  LocalMaxima(const Region& region, const Square& square, double to_boundary,
+              const std::vector<site::Site>& carriers)
+      : region_(region), square_(square), to_boundary_(to_boundary) {
     for (std::size_t i = 0; i < carriers.size(); ++i) {
-      if (carriers[i].curvature > 0) consider({center_of(carriers[i]), 1 / carriers[i].curvature});
+      if (carriers[i].curvature > 0) consider_circle(Circle(carriers[i]));
       for (std::size_t j = 0; j < i; ++j) {
         consider_diameters(carriers[i], carriers[j]);
-        for (std::size_t k = 0; k < j; ++k) {
-          const auto found = site::tangent_disks(carriers[i], carriers[j], carriers[k]);
-          for (std::size_t m = 0; m < found.count; ++m) consider(found.disk[m]);
-        }
+        for (std::size_t k = 0; k < j; ++k)
+          consider_tangent_disks(carriers[i], carriers[j], carriers[k]);
       }
     }
   }
   const Disk& deepest() const { return deepest_; }
 
  private:
-  static Vec2 center_of(const site::Site& site) {
-    return site.is_vertex() ? site.point : site.point + (1 / site.curvature) * site.normal();
+  void consider_tangent_disks(const site::Site& a, const site::Site& b, const site::Site& c) {
+    auto found = site::tangent_disks(a, b, c);
+    const double tolerance = region_.tolerance();
+    std::uint64_t in_high_precision = 0;
+    for (std::size_t i = 0; i < found.count; ++i) {
+      Disk& disk = found.disk[i];
+      if (distance(disk.center, square_.center) > 2 * square_.reach()) continue;
+      site::polish(disk, a, b, c, 0.25 * tolerance, tolerance, in_high_precision);
+      consider(disk);
+    }
   }
 
   void consider(const Disk& disk) {
     if (!(disk.radius > deepest_.radius) || !square_.contains(disk.center)) return;
-    const double clear = region_.clearance(disk.center);
+    const double clear = region_.room(disk.center, to_boundary_).clearance;
     if (clear > deepest_.radius) deepest_ = {disk.center, clear};
   }
+
+  /// Numbers of twice the digits: the centre of an almost straight arc is far away.
+  using Place = site::apollonius::Vector<Twofold>;
+  static Place exact(Vec2 p) { return {p.x, p.y}; }
+  static Place unit_normal(const site::Site& site) {
+    const Place normal = exact(site.normal());
+    return (Twofold(1) / sqrt(dot(normal, normal))) * normal;
+  }
+  /// Of an arc, or a vertex.
+  struct Circle {
+    Place center;
+    Twofold radius = 0;
+    explicit Circle(const site::Site& site) : center(exact(site.point)) {
+      if (site.is_vertex()) return;
+      const Twofold signed_radius = Twofold(1) / Twofold(site.curvature);
+      center = center + signed_radius * unit_normal(site);
+      radius = site.curvature > 0 ? signed_radius : -signed_radius;
+    }
+  };
+
+  void consider(const Place& center, const Twofold& radius) {
+    const double r(radius);
+    consider({{double(center.x), double(center.y)}, std::abs(r)});
+  }
+  void consider_circle(const Circle& circle) { consider(circle.center, circle.radius); }
 
   /// The disks whose diameter is a common normal of two carriers, unless both are lines: then one
   /// that touches a third carrier, too, is as deep.
@@ -196,26 +232,51 @@ class LocalMaxima {
     const bool a_is_line = !a.is_vertex() && !a.is_arc(), b_is_line = !b.is_vertex() && !b.is_arc();
     if (a_is_line && b_is_line) return;
     if (a_is_line) return consider_diameters(b, a);
-    const Vec2 from = center_of(a);
-    Vec2 to = b_is_line ? from - site::carrier_distance(b, from) * b.normal() : center_of(b);
-    if (norm(to - from) <= finest) to = square_.center;  // concentric: all normals are common ones
-    const double apart = norm(to - from);
-    if (apart == 0) return;
-    const Vec2 along = (1 / apart) * (to - from);
-    const double first = radius_of(a), second = b_is_line ? 0 : radius_of(b);
-    const Vec2 end = b_is_line ? to : center_of(b);
-    for (const double s : {first, -first})
-      for (const double t : {second, -second}) {
-        const Vec2 p = from + s * along, q = end + t * along;
-        consider({0.5 * (p + q), 0.5 * distance(p, q)});
-      }
+    const Circle first(a);
+    if (b_is_line) {
+      const Place normal = unit_normal(b);
+      consider_along(first, normal, -dot(normal, first.center - exact(b.point)), 0);
+      return;
+    }
+    const Circle second(b);
+    const Place to = second.center - first.center;
+    const Twofold apart = sqrt(dot(to, to));
+    if (double(apart) <= finest) return consider_ring(first, second);
+    consider_along(first, (Twofold(1) / apart) * to, apart, second.radius);
   }
-  static double radius_of(const site::Site& site) {
-    return site.is_vertex() ? 0 : std::abs(1 / site.curvature);
+
+  /// The disks between places of a circle and of another one, along the line of their centres.
+  void consider_along(const Circle& first, const Place& along, const Twofold& apart,
+                      const Twofold& second_radius) {
+    for (const Twofold& p : {first.radius, -first.radius})
+      for (const Twofold& q : {apart + second_radius, apart - second_radius})
+        consider(first.center + (Twofold(0.5) * (p + q)) * along, Twofold(0.5) * (p - q));
+  }
+
+  /// The disks between two concentric circles, all of them equally deep: one that touches a third
+  /// carrier, too, or is centred where the ring of centres leaves the square or, if it does not,
+  /// anywhere.
+  void consider_ring(const Circle& first, const Circle& second) {
+    const Place& middle = first.center;
+    for (const Twofold& other : {second.radius, -second.radius}) {
+      const Twofold ring = Twofold(0.5) * (first.radius + other);
+      const Twofold radius = Twofold(0.5) * (first.radius - other);
+      consider(middle + Place{ring, 0}, radius);
+      for (const double side : {-square_.half, square_.half}) {
+        const Place off = exact(square_.center + Vec2{side, side}) - middle;
+        // Not a number where it does not meet the side, which consider() refuses.
+        const Twofold x = sqrt(ring * ring - off.y * off.y), y = sqrt(ring * ring - off.x * off.x);
+        for (const double sign : {-1.0, 1.0}) {
+          consider(middle + Place{Twofold(sign) * x, off.y}, radius);
+          consider(middle + Place{off.x, Twofold(sign) * y}, radius);
+        }
+      }
+    }
   }
 
   const Region& region_;
   const Square& square_;
+  double to_boundary_;  ///< a bound of the distance of places in it
   Disk deepest_;
 };
 
@@ -223,6 +284,7 @@ class LocalMaxima {
 struct Candidate {
   Square square;
   double bound = 0;                            ///< of the clearance in it
+  double to_boundary = 0;                      ///< of the distance of its places from it, a bound
   std::optional<Disk> deepest = std::nullopt;  ///< of the local maxima in it, once settled
   std::uint32_t quarters = 0;                  ///< the first of its four, once divided
   std::uint32_t version = 0;                   ///< of what is known
@@ -235,7 +297,7 @@ class Search {
   Search(Region& region, const Box& box, double smallest)
       : region_(region), smallest_(std::max(smallest, finest)) {
     const Vec2 size = box.high - box.low;
-    add({0.5 * (box.low + box.high), 0.5 * std::max(size.x, size.y)}, anywhere);
+    add({0.5 * (box.low + box.high), 0.5 * std::max(size.x, size.y)}, anywhere, anywhere);
   }
 
   /// The deepest disk of what is left, which is then taken. O(log n) expected for each square that
@@ -275,8 +337,8 @@ class Search {
     heap_.push_back({candidate.priority(), i, candidate.version});
     std::push_heap(heap_.begin(), heap_.end());
   }
-  void add(const Square& square, double bound) {
-    candidates_.push_back({square, bound});
+  void add(const Square& square, double bound, double to_boundary) {
+    candidates_.push_back({square, bound, to_boundary});
     push(static_cast<std::uint32_t>(candidates_.size() - 1));
   }
   void settle(std::uint32_t i, double bound, const Disk& deepest) {
@@ -301,30 +363,33 @@ class Search {
 
   void settle_or_divide(std::uint32_t i) {
     const Square square = candidates_[i].square;
-    const double clearance = region_.clearance(square.center);
+    const auto [clearance, foot, distance] =
+        region_.room(square.center, candidates_[i].to_boundary);
+    const double to_boundary = distance + square.reach();
     double bound = std::min(candidates_[i].bound, clearance + square.reach());
     if (square.half <= finest) return settle(i, bound, {square.center, clearance});
     const bool is_small = clearance > square.reach();
-    if (is_small) bound = std::min(bound, bound_by_feet(square));
+    if (is_small) bound = std::min(bound, bound_by_feet(square, foot, to_boundary));
     // Around larger squares lie too many sites to count, but for shapes of few edges.
     if ((is_small || region_.is_simple()) &&
         region_.carriers(square, clearance + 2 * square.reach(), carriers_))
-      return settle(i, bound, LocalMaxima(region_, square, carriers_).deepest());
+      return settle(i, bound, LocalMaxima(region_, square, to_boundary, carriers_).deepest());
     candidates_[i].bound = bound;
     candidates_[i].quarters = static_cast<std::uint32_t>(candidates_.size());
     const double half = 0.5 * square.half;
     for (const double x : {-half, half})
-      for (const double y : {-half, half}) add({square.center + Vec2{x, y}, half}, bound);
+      for (const double y : {-half, half})
+        add({square.center + Vec2{x, y}, half}, bound, to_boundary);
   }
 
   /// No disk centred in the square reaches beyond two points of the boundary p and q, so its radius
   /// is at most the root mean square of the distances to them: largest at a corner of the square.
   /// Between two walls that leaves a term of second order where the Lipschitz bound has one of
   /// first order.
-  double bound_by_feet(const Square& square) const {
-    const Vec2 c = square.center, p = region_.foot(c);
-    const double apart = distance(c, p);
-    const Vec2 q = region_.foot(c + (square.reach() / apart) * (c - p));
+  double bound_by_feet(const Square& square, Vec2 p, double to_boundary) const {
+    const Vec2 c = square.center;
+    const Vec2 beyond = c + (square.reach() / distance(c, p)) * (c - p);
+    const Vec2 q = region_.room(beyond, to_boundary).foot;
     const Vec2 off = c - 0.5 * (p + q);
     const Vec2 corner{std::abs(off.x) + square.half, std::abs(off.y) + square.half};
     return std::sqrt(squared_norm(corner) + 0.25 * squared_norm(p - q)) * (1 + 0x1p-50);

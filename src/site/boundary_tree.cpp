@@ -44,7 +44,7 @@ struct Waiting {
 
 }  // namespace
 
-BoundaryTree::BoundaryTree(std::span<const Site> sites, bool saves_memory)
+BoundaryTree::BoundaryTree(std::span<const Site> sites, Chords chords)
     : sites_(sites),
       has_arcs_(
           std::any_of(sites.begin(), sites.end(), [](const Site& site) { return site.is_arc(); })) {
@@ -72,16 +72,16 @@ BoundaryTree::BoundaryTree(std::span<const Site> sites, bool saves_memory)
     });
     levels_.push_back(std::move(upper));
   }
-  build_chord_boxes(saves_memory);
+  if (chords != Chords::none) build_chord_boxes(chords == Chords::all);
 }
 
-void BoundaryTree::build_chord_boxes(bool saves_memory) {
+void BoundaryTree::build_chord_boxes(bool of_8_sites) {
   for (std::uint32_t level = 0; level < std::min<std::size_t>(chord_levels, levels_.size());
        ++level) {
     const std::size_t span = std::size_t{block_size} << (2 * level);
     const std::size_t nodes = levels_[level].size();
     std::vector<ChordBoxes>& boxes = chords_.emplace_back();
-    if (level == 0 && saves_memory) continue;
+    if (level == 0 && !of_8_sites) continue;
     const std::size_t rare = rare_of(level);
     // Where few of a sample fit, the level takes no memory.
     constexpr std::size_t sampled = 16;
@@ -402,6 +402,20 @@ void BoundaryTree::within(Vec2 c, double reach, std::uint32_t first, std::uint32
     for (; from <= to; ++from) take_if_near(from);
   });
   std::sort(found.begin(), found.end());
+}
+
+bool BoundaryTree::few_within(Vec2 c, double reach, std::size_t most,
+                              std::vector<std::uint32_t>& found) const {
+  found.clear();
+  if (sites_.empty() || !(reach > 0)) return true;
+  const double squared = reach * reach;
+  visit_blocks(c, reach, 0, static_cast<std::uint32_t>(sites_.size() - 1),
+               [&](std::uint32_t from, std::uint32_t to) {
+                 for (; from <= to; ++from)
+                   if (site::squared_distance(sites_[from], c) < squared) found.push_back(from);
+                 if (found.size() > most) reach = -single_precision_slack;  // nothing is that near
+               });
+  return found.size() <= most;
 }
 
 }  // namespace medial::site

@@ -20,9 +20,10 @@ namespace medial::site {
 /// belong to no box and are never found: cuts are stored so.
 class BoundaryTree {
  public:
-  /// Unless it `saves_memory`, a smooth boundary gets 6 bytes a site more, and searches take less
-  /// time.
-  explicit BoundaryTree(std::span<const site::Site> sites, bool saves_memory = false);
+  /// Which nodes of a smooth boundary get boxes along its chords. Searches take less time with more
+  /// of them; those of 8 sites take 6 bytes a site, and few searches do not repay any.
+  enum class Chords : std::uint8_t { all, beyond_8_sites, none };
+  explicit BoundaryTree(std::span<const site::Site> sites, Chords chords = Chords::all);
 
   struct Hit {
     static constexpr std::uint32_t none = ~std::uint32_t{0};
@@ -46,6 +47,9 @@ class BoundaryTree {
   void within(Vec2 c, double reach, std::uint32_t first, std::uint32_t last,
               std::vector<std::uint32_t>& found) const;
 
+  /// All sites nearer than `reach`, in any order; false, and not all, if they are more than `most`.
+  bool few_within(Vec2 c, double reach, std::size_t most, std::vector<std::uint32_t>& found) const;
+
  private:
   static constexpr std::uint32_t block_size = 8;
   static constexpr std::uint32_t fan = 4;
@@ -61,7 +65,7 @@ class BoundaryTree {
     double low, high, begin, end;
   };
 
-  void build_chord_boxes(bool saves_memory);
+  void build_chord_boxes(bool of_8_sites);
   std::size_t set_chord_boxes(std::size_t node, std::size_t span, ChordBoxes& boxes) const;
   static Vec2 chord_of(std::span<const site::Site> sites);
   static std::optional<ChordBox> chord_box(std::span<const site::Site> sites);

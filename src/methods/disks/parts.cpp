@@ -67,7 +67,7 @@ Result<std::optional<MedialAxis>> run_in_parts(const Problem& problem, const Axi
   statistics.bridges = bridges.size();
   statistics.seconds_connect = watch.lap();
   if (problem.is_cancelled()) return std::optional(std::move(axis));
-  const site::BoundaryTree tree(boundary.sites, true);
+  const site::BoundaryTree tree(boundary.sites, site::BoundaryTree::Chords::beyond_8_sites);
   statistics.seconds_tree = watch.lap();
 
   const ExactEvents exact(sites, boundary, tree, never_in_precise);
