@@ -231,6 +231,33 @@ TEST(Editor, KeepsAHoleInItsOuterCircle) {
   EXPECT_EQ(fault_of(editor), "");
 }
 
+/// A circle has one node, in its centre; what it touches is as near to that as its own arcs.
+TEST(Editor, KnowsWhichComponentACircleIs) {
+  for (int i = 1; i < 16; ++i) {
+    const double radius = i, width = 50 + i;
+    Editor editor = editor_of(rectangle(width, 60));
+    ASSERT_TRUE(editor.insert_loop(circle_around({width + radius, 60}, radius)).ok());
+    EXPECT_EQ(editor.shape().component_count(), 2U);
+    EXPECT_EQ(fault_of(editor), "") << radius;
+  }
+}
+
+TEST(Editor, TakesZerosWithoutTheirSign) {
+  const Ring crescent{{{0, 0}, {-1, -0.0}}, RingRole::any, {-1, 0.9375}};
+  Editor editor = editor_of(rectangle(4, 4));
+  ASSERT_TRUE(editor.move(vertex_at(editor, {0, 0}), {-2, -2}).ok());
+  ASSERT_TRUE(editor.move(vertex_at(editor, {4, 0}), {-0.0, -2}).ok());
+  ASSERT_TRUE(editor.set_bulge(vertex_at(editor, {0, -2}), -0.0).ok());
+  ASSERT_TRUE(editor.insert_loop(crescent).ok());
+  const Shape shape = editor.shape();
+  for (const Vec2 p : shape.points) {
+    EXPECT_FALSE(p.x == 0 && std::signbit(p.x));
+    EXPECT_FALSE(p.y == 0 && std::signbit(p.y));
+  }
+  for (const double bulge : shape.bulges) EXPECT_FALSE(bulge == 0 && std::signbit(bulge));
+  EXPECT_EQ(fault_of(editor), "");
+}
+
 /// Whether two editors' shapes and axes are the same to the bit and in the same order.
 void expect_same(const Editor& a, const Editor& b) {
   const Shape of_a = a.shape(), of_b = b.shape();

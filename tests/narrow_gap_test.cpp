@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -42,6 +44,36 @@ TEST_P(NarrowGaps, AreVerified) {
   }
   EXPECT_GT(2 * valid, count / gap_shares);
   EXPECT_LE(unsupported, 1 + valid / 1000);
+}
+
+/// A hole's leftmost vertex next to a circle, whose quarters are sites of their own: the disk that
+/// connects the two touches the right one.
+TEST(NarrowGap, BesideEachQuarterOfACircle) {
+  const Ring circle{{{1, 0}, {-1, 0}}, RingRole::any, {1, 1}};
+  for (const double gap : {1e-6, 1e-8, 1e-10, 1e-12}) {
+    for (int degrees = 95; degrees < 270; degrees += 10) {
+      const double angle = degrees * std::numbers::pi / 180;
+      const Vec2 tip = (1 - gap) * Vec2{std::cos(angle), std::sin(angle)};
+      const Ring hole{{tip, {0, 0.25}, {0, -0.25}}, RingRole::any, {}};
+      EXPECT_EQ(check_axis({circle, hole}), std::vector<std::string>{})
+          << "gap " << gap << " at " << degrees << " degrees";
+    }
+  }
+}
+
+/// An arc and a segment that part at an angle and cross again where they are less than the
+/// tolerance apart: the shape is the sliver behind. Where they are further apart, they cross.
+TEST(NarrowGap, EdgesThatCrossBehindACusp) {
+  for (const double slope : {1e-13, 1e-11, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5}) {
+    const Ring ring{{{-2, -1}, {-1, -1}, {0, 0}, {-1, -slope}, {-2, 0}},
+                    RingRole::any,
+                    {0, 1 - std::numbers::sqrt2, 0, 0, 0}};
+    const std::vector<std::string> failures = check_axis({ring});
+    if (slope < 2e-7)
+      EXPECT_EQ(failures, std::vector<std::string>{}) << slope;
+    else
+      EXPECT_TRUE(!failures.empty() && failures[0].ends_with("[crossing]")) << slope;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Random, NarrowGaps, testing::Range<std::uint64_t>(0, gap_shares));

@@ -23,7 +23,8 @@ enum class Joint : std::uint8_t {
 /// than 1e-7, where a disk as large as the shape that touches one edge reaches over the other by
 /// 1e-14 of its size. At a cusp the interior is inside or around it as the edges lie next to each
 /// other half a chord away, where they are (sine - (sum of the curvatures) s / 2) s apart, s from
-/// the cusp. `corner_angle` in radians.
+/// the cusp. It is one as well where they cross again before they are `tolerance` apart, which is
+/// at most sine^2 / (2 (sum of the curvatures)). `corner_angle` in radians.
 inline Joint joint_of(const BulgeArc& before, const BulgeArc& after, double tolerance,
                       double corner_angle) {
   constexpr double least = 1e-12, most = 1e-7;
@@ -39,9 +40,11 @@ inline Joint joint_of(const BulgeArc& before, const BulgeArc& after, double tole
   };
   if (cosine > 0 && std::abs(sine) <= std::min(least + rounding, most) && keeps_clear())
     return Joint::smooth;
-  if (cosine < 0 && std::abs(sine) <= least + rounding) {
+  const double both = curvature(before) + curvature(after);
+  const bool crosses_again = sine * sine <= 2 * tolerance * std::abs(both);
+  if (cosine < 0 && (std::abs(sine) <= least + rounding || crosses_again)) {
     const double away = 0.5 * std::min(chord_before, chord_after);
-    const double bend = 0.5 * (curvature(before) + curvature(after)) * away;
+    const double bend = 0.5 * both * away;
     return sine > bend ? Joint::corner : Joint::reflex;
   }
   if (sine < 0) return Joint::reflex;

@@ -52,6 +52,15 @@ std::optional<ExactSites::Touch> ExactSites::first_touch(
     const exact::ExactSite exact_site = outline().sites[boundary.originals[site]];
     const auto disk = exact::disk_from<Precise>(foot, outreach, exact_site);
     if (!disk || !exact::may_have_foot(exact_site, *disk)) continue;
+    if (best && boundary.originals[site] == boundary.originals[touched]) {
+      // Pieces of one arc: the disk is the same, and touches the nearest one.
+      const double radius = static_cast<double>(disk->radius.value);
+      const Vec2 center = foot + radius * outreach;
+      if (site::squared_distance(boundary.sites[site], center) <
+          site::squared_distance(boundary.sites[touched], center))
+        touched = site;
+      continue;
+    }
     const int smaller = best ? (best->radius - disk->radius).sign().value_or(0) : 1;
     // Where an edge is touched in its end, so is the vertex there, which stands for both.
     if (smaller < 0 || (smaller == 0 && boundary.elements[site] == Element::edge)) continue;

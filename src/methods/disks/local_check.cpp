@@ -81,16 +81,24 @@ class LocalCheck {
     return advances(site(link.site[1]), from, to) && advances(site(link.site[0]), to, from);
   }
 
-  /// Whether the disk at an end from which no other edge leads touches all that is ahead.
+  /// Whether the disk at an end from which no other edge leads touches all that is ahead, or is a
+  /// point in a convex corner.
   bool leaf_is_right(const Edge& link, std::size_t end, const Boundary::SiteRange& run) const {
     const Disk& leaf = disk(link.node[end]);
-    if (degree_[link.node[end]] != 1 || !(leaf.radius > 0)) return true;
-    const std::uint32_t last = link.site[1 - end];
-    for (std::uint32_t i = link.site[end]; i != last; i = i == run.last ? run.first : i + 1)
-      if (i != link.site[end] && boundary_.elements[i] != Element::bridge &&
+    if (degree_[link.node[end]] != 1) return true;
+    const std::uint32_t first = link.site[end], last = link.site[1 - end];
+    if (!(leaf.radius > 0)) return is_corner(first, last, run);
+    for (std::uint32_t i = first; i != last; i = i == run.last ? run.first : i + 1)
+      if (i != first && boundary_.elements[i] != Element::bridge &&
           !touches(site(i), leaf, 2 * tolerance_))
         return false;
     return true;
+  }
+
+  bool is_corner(std::uint32_t before, std::uint32_t after, const Boundary::SiteRange& run) const {
+    if (before == run.last)
+      return after == run.first && run.at_corner && boundary_.joint(before) == site::Joint::corner;
+    return after == before + 1 && boundary_.is_corner(before);
   }
 
   const Boundary& boundary_;

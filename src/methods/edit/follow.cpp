@@ -38,6 +38,18 @@ Error crossing_error(const Rings::Judgement& judgement) {
   return error;
 }
 
+/// As build_shape() does.
+void drop_signs_of_zeros(edit::Edit& edit) {
+  constexpr double zero = 0;
+  const auto drop = [](Vec2& p) { p = p + Vec2{zero, zero}; };
+  drop(edit.place);
+  for (double& bulge : edit.bulge) bulge += zero;
+  for (edit::Corner& corner : edit.in) {
+    drop(corner.point);
+    corner.bulge += zero;
+  }
+}
+
 }  // namespace
 
 /// Whether all local coordinates of new places are exact.
@@ -75,7 +87,8 @@ std::optional<Error> Editor::Parts::refuse(const edit::Edit& edit) const {
   return std::nullopt;
 }
 
-Result<AxisChange> Editor::Parts::change(const edit::Edit& edit) {
+Result<AxisChange> Editor::Parts::change(edit::Edit edit) {
+  drop_signs_of_zeros(edit);
   if (auto error = refuse(edit)) return std::move(*error);
   if (!apart.empty() || !fits_frame(edit)) return rebuild(edit);
   const Rings::Judgement judgement = rings.judge(edit);

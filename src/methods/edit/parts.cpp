@@ -164,7 +164,7 @@ Node Editor::Parts::node(std::uint32_t number) const {
     std::uint32_t site = none;
     graph.for_edges_at(number,
                        [&](std::uint32_t edge, std::size_t) { site = graph.edge(edge).site[0]; });
-    if (site == none) site = rings.site_around(frame.to_input(disk.center));  // of a circle
+    if (site == none) site = rings.arc_of(disk);
     if (site != none) component = rings.component(rings[site / 2].loop);
   }
   return {{frame.to_input(disk.center), frame.inverse * disk.radius},

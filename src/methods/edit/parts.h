@@ -54,7 +54,7 @@ struct Editor::Parts {
   std::vector<std::uint32_t> apart_components;  ///< of nodes
 
   Status start(const Shape& shape, bool is_first);
-  Result<AxisChange> change(const edit::Edit& edit);
+  Result<AxisChange> change(edit::Edit edit);
   Result<AxisChange> undo();
 
   std::optional<Error> refuse(const edit::Edit& edit) const;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/predicates.h"
+#include "methods/disks/near_circle.h"
 
 namespace medial::edit {
 
@@ -209,6 +210,19 @@ std::uint32_t Rings::site_around(Vec2 place) const {
     return is_reflex(end) ? 2 * end : none;
   }
   return site::carrier_distance(piece, p) > 0 ? 2 * corner_to(v) + 1 : none;
+}
+
+std::uint32_t Rings::arc_of(const Disk& circle) const {
+  constexpr double near = 1 << 12;  // tolerances: rounded, the circle's arcs are so far off
+  const double slack = near * joining_.tolerance;
+  const Vec2 place = frame_.to_input(circle.center + Vec2{circle.radius, 0});
+  std::uint32_t arc = none;
+  boxes_.find({place - Vec2{slack, slack}, place + Vec2{slack, slack}}, [&](std::uint32_t v) {
+    const BulgeArc edge = local_edge(v);
+    const site::Site piece = site::pieces_of(edge.start, edge.end, edge.bulge).first();
+    if (disks::is_own_circle(piece, circle, frame_.scale * slack)) arc = 2 * v + 1;
+  });
+  return arc;
 }
 
 void Rings::take_out(std::uint32_t loop) {

@@ -9,6 +9,7 @@
 #include "axis/sites.h"
 #include "base/arc.h"
 #include "base/local_frame.h"
+#include "medial/axis.h"
 #include "medial/error.h"
 #include "medial/shape.h"
 #include "methods/edit/box_levels.h"
@@ -149,6 +150,8 @@ class Rings {
   std::vector<Extent> sites_around(const Edit& edit) const;
   /// The site nearest to a place in the interior; none where the place is not inside.
   std::uint32_t site_around(Vec2 place) const;
+  /// The arc of the circle that is this disk of the local frame; none where there is none.
+  std::uint32_t arc_of(const Disk& circle) const;
   /// Nothing happens where it throws, but that what goes out is gone where a loop comes as well.
   void apply(const Edit& edit);
   /// The edit that takes this one back. Before apply(). While no shape is adopted, or as long as
