@@ -17,6 +17,7 @@
 #include "medial/sides.h"
 #include "medial/verify.h"
 #include "methods/curve_axis/boundary.h"
+#include "methods/curve_axis/generate.h"
 #include "papers/shaked_bruckstein_1996/spline.h"
 #include "support/contours.h"
 #include "support/generate.h"
@@ -27,6 +28,7 @@ namespace medial {
 namespace {
 
 using test::ellipse;
+using test::smooth_outline;
 
 /// A star of random radii, as a periodic cubic spline through its corners.
 Contour smooth_star(std::uint64_t seed) {
@@ -623,6 +625,54 @@ TEST(CurveAxis, FollowsRoundedCorners) {
   ASSERT_TRUE(centre.ok());
   ASSERT_EQ(centre->axis.nodes.size(), 1U);
   EXPECT_NEAR(centre->axis.nodes[0].disk.radius, 2, 1e-14);
+}
+
+/// Where the curvature jumps a branch begins in the centre of the more curved side, and the foot on
+/// the other side advances by the square of the way: with a curvature that falls by b r from its
+/// maximum on the one side, and is less by d on the other, l = b r^2 / (6 d - 3 b r).
+TEST(CurveAxis, BranchesBeginWhereTheCurvatureJumps) {
+  std::size_t before = 0, behind = 0;
+  for (std::uint64_t seed = 20261127500000; seed < 20261127500020; ++seed) {
+    SCOPED_TRACE(seed);
+    const curve_axis::Boundary boundary(curve_axis::normalized(smooth_outline(seed)));
+    const curve_axis::Generator generator(boundary, 1e-3 * boundary.size());
+    for (const curve_axis::Tip& tip : boundary.tips()) {
+      if (tip.u != std::floor(tip.u)) continue;
+      const double last = boundary.before(tip.u).turn, next = boundary.at(tip.u).turn;
+      const bool leads_behind = next > last;
+      ++(leads_behind ? behind : before);
+      const curve_axis::AxisPoint start = generator.at(tip);
+      EXPECT_DOUBLE_EQ(start.disk.radius, 1 / std::max(last, next));
+      const auto first = generator.first_after(start, 2e-3);
+      ASSERT_TRUE(first.has_value()) << "tip at " << tip.u;
+      EXPECT_LT(first->left.u, tip.u);
+      EXPECT_GT(first->right.u, tip.u);
+      // The disk touches the boundary in both feet.
+      for (const curve_axis::BoundaryPoint& foot : {first->left, first->right})
+        EXPECT_NEAR(distance(foot.point + first->disk.radius * foot.normal(), first->disk.center),
+                    0, 1e-9);
+      const double left = distance(first->left.point, start.left.point);
+      const double right = distance(first->right.point, start.left.point);
+      const double lead = leads_behind ? right : left, other = leads_behind ? left : right;
+      const double fall =
+          std::max(last, next) - (leads_behind ? first->right.turn : first->left.turn);
+      const double wanted = fall * lead / (6 * std::abs(next - last) - 3 * fall);
+      if (wanted > 0 && wanted < 0.01 * lead) {
+        EXPECT_NEAR(other, wanted, 0.05 * wanted) << "tip at " << tip.u;
+      }
+    }
+  }
+  EXPECT_GT(before, 10U);
+  EXPECT_GT(behind, 10U);
+}
+
+TEST(CurveAxis, FollowsOutlinesWhoseCurvatureJumps) {
+  for (std::uint64_t seed = 20261127600000;
+       seed < 20261127600000 + test::shape_count(test::sanitized ? 2000 : 200); ++seed) {
+    SCOPED_TRACE(seed);
+    const std::vector<Contour> outline{smooth_outline(seed)};
+    if (build_shape(*approximate_by_arcs(outline))) expect_the_exact_axis(outline, 1e-6);
+  }
 }
 
 /// Loops around holes are entered through disks that touch two loops.

@@ -61,7 +61,7 @@ std::string fields_of(OGRLayer& layer) {
   std::string names;
   const OGRFeatureDefn& definition = *layer.GetLayerDefn();
   for (int i = 0; i < definition.GetFieldCount(); ++i)
-    names += " " + utf8(definition.GetFieldDefn(i)->GetNameRef());
+    names.append(" ").append(utf8(definition.GetFieldDefn(i)->GetNameRef()));
   return names.empty() ? " none" : names;
 }
 

@@ -263,7 +263,7 @@ std::optional<Control::Conflict> Control::first_contact(int segment, const AxisP
     const int neighbour = at(segment).next;
     const double foot = first_foot(from.right.u, last(neighbour).left.u, last(neighbour).right.u);
     const double share = std::max(-1.0, (foot - from.right.u) / (to.right.u - from.right.u));
-    if (share < 1) {
+    if (share <= 1) {
       const auto active = generator_.with_right(between(from.left.u, to.left.u, share), foot);
       first = Conflict{neighbour, true, foot, active.value_or(to)};
       first_share = share;
@@ -272,7 +272,7 @@ std::optional<Control::Conflict> Control::first_contact(int segment, const AxisP
   const int neighbour = at(segment).previous;
   const double foot = -first_foot(-from.left.u, -last(neighbour).right.u, -last(neighbour).left.u);
   const double share = std::max(-1.0, (from.left.u - foot) / (from.left.u - to.left.u));
-  if (share < 1 && share < first_share) {
+  if (share <= 1 && share < first_share) {
     const auto active = generator_.with_left(foot, between(from.right.u, to.right.u, share));
     first = Conflict{neighbour, false, foot, active.value_or(to)};
   }
@@ -417,13 +417,14 @@ bool Control::steps_over_twist(const AxisPoint& from, const AxisPoint& to) const
       if (next == tips.end()) next = tips.begin();
       double way = next->u - start;
       if (way < 0) way += n;
-      // A foot stops in a joint where the curvature jumps, which may be a tip.
-      if (way > high - low + same_parameter) return false;
-      if (way > same_parameter && is_sharper(*next, radius) && !is_scanned(next->u)) return true;
+      if (way >= high - low) return false;
+      if (way > 0 && is_sharper(*next, radius) && !is_scanned(next->u)) return true;
     }
     return false;
   };
-  return twisted(to.left.u, from.left.u) || twisted(from.right.u, to.right.u);
+  // A foot that stops in a tip, where the curvature jumps, has come to it; from there it goes on.
+  return twisted(to.left.u - same_parameter, from.left.u - same_parameter) ||
+         twisted(from.right.u + same_parameter, to.right.u + same_parameter);
 }
 
 bool Control::is_sharper(const Tip& tip, double radius) const {

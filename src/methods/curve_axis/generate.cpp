@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace medial::curve_axis {
 namespace {
@@ -18,6 +19,8 @@ constexpr double nearly_converged = 1e-8;
 constexpr double largest_turn = 0.05;
 /// Half of the angle between the normals at the first two feet on both sides of a maximum.
 constexpr double first_turn = 0.05;
+/// No foot of a first point is nearer to its tip than this share of the other one's way.
+constexpr double least_share = 0x1p-40;
 
 /// No step is a smaller share of the longest.
 constexpr double least_step = 1e-7;
@@ -97,8 +100,9 @@ std::optional<AxisPoint> Generator::first_after_corner(double u, double share) c
 }
 
 /// (13) is 0 / 0 in a tip. The foot on the side where the curvature falls off less leads, by a way
-/// that turns the normal as far as asked for. On the other side (14) changes its sign once near the
-/// tip: at about that way where the curvature falls off alike, at its square where it jumps.
+/// that turns the normal as far as asked for. The other one is where (14) first changes its sign
+/// from the tip on: at about that way where the curvature falls off alike, at its square where the
+/// curvature jumps. Farther off, where the other side turns back, normals become parallel.
 std::optional<AxisPoint> Generator::first_after(const AxisPoint& tip, double turn_at_most) const {
   if (tip.disk.radius == 0) return first_after_corner(tip.left.u, turn_at_most / first_turn);
   const double u = tip.left.u, peak = tip.left.turn;
@@ -117,15 +121,19 @@ std::optional<AxisPoint> Generator::first_after(const AxisPoint& tip, double tur
                  .value > 0;
     };
     const bool at_tip = is_positive(0);
-    double low = 0, high = 2;
-    if (is_positive(high) == at_tip) continue;
-    while (high - low > 1e-3 * high && high > converged) {
+    double low = 0, high = least_share;
+    while (high <= 2 && is_positive(high) == at_tip) low = std::exchange(high, 2 * high);
+    if (high > 2) continue;
+    while (high - low > 1e-3 * high) {
       const double share = (low + high) / 2;
       (is_positive(share) == at_tip ? low : high) = share;
     }
     const auto point =
         right_leads ? with_right(follower(high), right.u) : with_left(left.u, follower(high));
-    if (!point || !(point->disk.radius > 0)) continue;
+    // (10): where the curvature rises again within the way, the branch is shorter than that.
+    if (!point || !(point->disk.radius > 0) || !(point->left.slack(point->disk.radius) > 0) ||
+        !(point->right.slack(point->disk.radius) > 0))
+      continue;
     const double found = std::abs((right_leads ? point->left.u : point->right.u) - u);
     if (point->left.u < u && point->right.u > u && found > std::abs(follower(high / 4) - u) &&
         found < std::abs(follower(4 * high) - u))
