@@ -9,6 +9,10 @@
 #include "base/spatial_order.h"
 #include "base/threads.h"
 
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
 namespace medial::verify_detail {
 namespace {
 
@@ -160,9 +164,29 @@ void DistanceTree::bound(std::span<const BoundaryEdge> edges, Bounds& bounds,
 }
 
 /// Lower bounds of the squared distances from p to the four sets of edges.
-void DistanceTree::squared_bounds(const Visit& visit, Vec2 p, double (&squared)[fan_out]) const {
+inline void DistanceTree::squared_bounds(const Visit& visit, Vec2 p,
+                                         double (&squared)[fan_out]) const {
   const Bounds& bounds = levels_[visit.level][visit.index];
   const Vec2 q = p - origin_;
+#if defined(__SSE2__)
+  const __m128d zero = _mm_setzero_pd();
+  const __m128d px = _mm_set1_pd(p.x), py = _mm_set1_pd(p.y);
+  const __m128d qx = _mm_set1_pd(q.x), qy = _mm_set1_pd(q.y);
+  // How far two numbers lie outside two intervals.
+  const auto outside = [zero](const double* low, const double* high, __m128d at) {
+    return _mm_max_pd(
+        _mm_max_pd(_mm_sub_pd(_mm_loadu_pd(low), at), _mm_sub_pd(at, _mm_loadu_pd(high))), zero);
+  };
+  for (std::size_t j = 0; j < fan_out; j += 2) {
+    const __m128d x = outside(bounds.low_x + j, bounds.high_x + j, px);
+    const __m128d y = outside(bounds.low_y + j, bounds.high_y + j, py);
+    const __m128d along = _mm_add_pd(_mm_mul_pd(_mm_loadu_pd(bounds.normal_x + j), qx),
+                                     _mm_mul_pd(_mm_loadu_pd(bounds.normal_y + j), qy));
+    const __m128d across = outside(bounds.slab_low + j, bounds.slab_high + j, along);
+    _mm_storeu_pd(squared + j, _mm_max_pd(_mm_add_pd(_mm_mul_pd(x, x), _mm_mul_pd(y, y)),
+                                          _mm_mul_pd(across, across)));
+  }
+#else
   for (std::size_t j = 0; j < fan_out; ++j) {
     const auto larger = [](double a, double b) { return a > b ? a : b; };
     const double x = larger(larger(bounds.low_x[j] - p.x, p.x - bounds.high_x[j]), 0);
@@ -172,6 +196,7 @@ void DistanceTree::squared_bounds(const Visit& visit, Vec2 p, double (&squared)[
     const double across = larger(beside, 0);
     squared[j] = larger(x * x + y * y, across * across);
   }
+#endif
 }
 
 /// Bounds round as well: a square this much larger loses no edge.
