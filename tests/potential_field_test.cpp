@@ -163,6 +163,30 @@ TEST(PotentialField, IntegralsOfHighOrderMatchQuadrature) {
   }
 }
 
+/// Off by less than 1e-9 of the whole, at any order, as far as it may be asked for.
+TEST(PotentialField, SteepTailsMatchQuadrature) {
+  Random random(20261127);
+  for (int i = 0; i < 2000; ++i) {
+    const double order = i % 2 == 0 ? 1 + i % 40 : random.power_of_ten(0, 3.6);
+    const potential::SteepTail tail(order);
+    const double w = tail.widest() * (i % 5 == 0 ? 1 : random.power_of_ten(-6, 0));
+    const double x = random.power_of_ten(-1, 1), y = x * std::sqrt(w);
+    // In units of (x^2 + y^2)^(-order / 2), over u = x / (x + ...): from 1 to 0.
+    const auto f = [&](double u) {
+      const double far = x / u;
+      return std::pow((far * far + y * y) / (x * x + y * y), -0.5 * order - 1) / (x * x + y * y) *
+             x / (u * u);
+    };
+    double expected = 0;
+    for (double from = 1, step = 0.5 / order; from > 0; step *= 1.5) {
+      const double to = std::max(0.0, from - step);
+      expected += integrate(f, to, from);
+      from = to;
+    }
+    EXPECT_NEAR(tail(x, w, 1) / expected, 1, 1e-9) << order << " " << w;
+  }
+}
+
 TEST(PotentialField, ForcesMatchTheirDefinition) {
   Random random(7);
   const std::vector<Rings> shapes = {rectangle(4, 2), l_shape(1), jagged_star(9), comb(3)};

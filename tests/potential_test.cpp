@@ -22,6 +22,7 @@
 #include "medial/verify.h"
 #include "methods/potential/region.h"
 #include "methods/potential/skeleton.h"
+#include "methods/potential/successor.h"
 #include "support/environment.h"
 #include "support/generate.h"
 #include "support/silhouettes.h"
@@ -144,6 +145,12 @@ TEST(Potential, TracingEndsWithItsBudgetAndWhenCancelled) {
   options.step = 0.01 * largest->size;
   const auto whole = potential::trace_valleys(*largest, charges, options);
   EXPECT_GT(whole.forces, 5000U);
+  options.most_work = whole.work / 4;
+  const auto part = potential::trace_valleys(*largest, charges, options);
+  EXPECT_FALSE(part.whole);
+  EXPECT_LT(part.work, whole.work / 3);
+  options.most_work = whole.work;
+  EXPECT_TRUE(potential::trace_valleys(*largest, charges, options).whole);
   const std::atomic<bool> cancel = true;
   options.cancel = &cancel;
   const auto cancelled = potential::trace_valleys(*largest, charges, options);
@@ -214,6 +221,60 @@ TEST(Potential, StartsOnTheExactAxisOnlyWhereAsked) {
   EXPECT_GT(start(shape, 24), 0U);
   EXPECT_EQ(start(shape, 4096), 0U);
   EXPECT_EQ(start(large, 0), 0U);
+}
+
+/// Lines that would take seconds are given up.
+TEST(Potential, StartsOnTheExactAxisWhereLinesCostTooMuch) {
+  const std::uint64_t seed = 20261127300146;
+  const Image image = silhouette(seed, silhouette_size(seed)).image;
+  const Shape shape = *build_shape(*pixel_outline(image));
+  ASSERT_LE(shape.points.size(), 2000U);
+  const auto axis = compute(shape, {.method = method::Potential{}, .threads = 1});
+  ASSERT_TRUE(axis.ok());
+  EXPECT_EQ(axis->statistics.queries, 0U);
+  EXPECT_TRUE(verify(shape, *axis).passed);
+  // Whatever the threads: what they have done is counted, not the time.
+  const auto three = compute(shape, {.method = method::Potential{}, .threads = 3});
+  ASSERT_TRUE(three.ok());
+  ASSERT_EQ(three->nodes.size(), axis->nodes.size());
+  for (std::size_t i = 0; i < axis->nodes.size(); ++i)
+    EXPECT_EQ(three->nodes[i].disk.center, axis->nodes[i].disk.center);
+}
+
+/// Where algorithm Successor ends, the force turns from one side of the valley to the other.
+TEST(Potential, SuccessorsLieWhereTheForceTurns) {
+  Random random(20261127);
+  std::size_t moved = 0;
+  for (int i = 0; i < 6; ++i) {
+    const Shape shape = *build_shape(untangled(random, 20 + random.next() % 20, 200));
+    const auto region = potential::regions_of(Problem(shape, Options{}), 1e-4).front();
+    const potential::Charges charges(region.pieces);
+    const double step = 0.01 * region.size;
+    const auto lines =
+        potential::trace_valleys(region, charges, {.order = 24, .step = step, .least_turn = 0});
+    potential::SuccessorOptions options;
+    options.step = step;
+    options.accuracy = step / 64;
+    potential::Evaluator evaluator(charges);
+    for (const potential::ValleyPoint& point : lines.points) {
+      if (point.kind != potential::ValleyPoint::Kind::valley) continue;
+      for (const double order : {96.0, 384.0}) {
+        const auto found = potential::valley_across(evaluator, point, order, options);
+        if (!found || *found == point.place) continue;
+        ++moved;
+        const Vec2 across = left_of(point.tangent);
+        const auto aside = [&](double way) {
+          evaluator.place(*found + way * options.accuracy * across);
+          const Vec2 force = evaluator.force(order).force;
+          return dot(force, across) / norm(force);
+        };
+        // To the left on its right, to the right on its left; 0.001 counts as neither.
+        EXPECT_GT(aside(-1), -0.001);
+        EXPECT_LT(aside(1), 0.001);
+      }
+    }
+  }
+  EXPECT_GT(moved, 1000U);
 }
 
 TEST(Potential, EveryPlaceInsideLeadsToItsBranch) {

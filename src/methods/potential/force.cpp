@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "base/box_tree.h"
+
 // Four numbers at a time where the processor can; without fused operations, so that the results are
 // the same everywhere.
 #if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) && \
@@ -46,9 +48,10 @@ constexpr std::array<double, 11> arctangent = {1.0,
                                                -0.04348052215716462,
                                                0.021135373157693246};
 
+using Lanes = std::array<double, Charges::leaf_size>;
+
 /// Forces of many pieces, added side by side.
 struct LaneForces {
-  using Lanes = std::array<double, Charges::leaf_size>;
   alignas(32) Lanes x{}, y{}, xx{}, xy{}, yy{};
 
   void add_to(Force& total) const {
@@ -66,11 +69,32 @@ struct LaneForces {
   }
 };
 
+/// Takes numbers to half this power: whole ones by squares.
+MEDIAL_FOUR_LANES void raise(Lanes& lanes, std::size_t count, double power) {
+  const auto whole = static_cast<unsigned>(power);
+  if (whole != power) {
+    for (std::size_t k = 0; k < count; ++k) lanes[k] = std::pow(lanes[k], 0.5 * power);
+    return;
+  }
+  Lanes square = lanes;
+  for (std::size_t k = 0; k < count; ++k) lanes[k] = whole % 2 == 1 ? std::sqrt(lanes[k]) : 1;
+  for (unsigned rest = whole / 2; rest > 0; rest /= 2) {
+    if (rest % 2 == 1)
+      for (std::size_t k = 0; k < count; ++k) lanes[k] *= square[k];
+    if (rest > 1)
+      for (std::size_t k = 0; k < count; ++k) square[k] *= square[k];
+  }
+}
+
+double half_power(double x, double power) {
+  Lanes lanes{x};
+  raise(lanes, 1, power);
+  return lanes[0];
+}
+
 /// Some pieces side by side, with r^-n, r^-2 at both ends and J(n) of each, for an order n that
 /// rises by two.
 struct Block {
-  using Lanes = std::array<double, Charges::leaf_size>;
-
   /// The ends of the pieces as seen from a place, in units of the nearest charge's distance.
   MEDIAL_FOUR_LANES void load(const Charges& charges, std::uint32_t begin, std::uint32_t end,
                               Vec2 place, double inverse) {
@@ -83,6 +107,14 @@ struct Block {
       x1[k] = -(dx * tx[k] + dy * ty[k]) * inverse;
       x2[k] = x1[k] + charges.lengths[i] * inverse;
       y[k] = (dy * tx[k] - dx * ty[k]) * inverse;
+    }
+  }
+
+  /// To the nearest points of the pieces.
+  MEDIAL_FOUR_LANES void squared_distances(Lanes& squares) const {
+    for (std::size_t k = 0; k < count; ++k) {
+      const double beyond = std::max(std::max(x1[k], -x2[k]), 0.0);
+      squares[k] = beyond * beyond + y[k] * y[k];
     }
   }
 
@@ -129,6 +161,35 @@ struct Block {
     }
   }
 
+  /// To r^-n; J is left out.
+  MEDIAL_FOUR_LANES void start_at_powers(double n) {
+    // Further away there is nothing, so no power falls below the normal range.
+    const double least = std::pow(1e-60, 1 / n);
+    for (std::size_t k = 0; k < count; ++k) {
+      const double square = y[k] * y[k];
+      q1[k] = 1 / (x1[k] * x1[k] + square);
+      q2[k] = 1 / (x2[k] * x2[k] + square);
+      p1[k] = std::max(q1[k], least);
+      p2[k] = std::max(q2[k], least);
+    }
+    raise(p1, count, n);
+    raise(p2, count, n);
+  }
+
+  /// J(n) of the pieces that lie steeply aside; -1 of others.
+  MEDIAL_FOUR_LANES void integrate_steep(const SteepTail& tail, Lanes& integrals) const {
+    const double widest = tail.widest();
+    for (std::size_t k = 0; k < count; ++k) {
+      const double far1 = std::max(std::abs(x1[k]), 1e-100),
+                   far2 = std::max(std::abs(x2[k]), 1e-100);
+      const double w1 = y[k] * y[k] / (far1 * far1), w2 = y[k] * y[k] / (far2 * far2);
+      const double first = tail(far1, std::min(w1, widest), p1[k]);
+      const double last = tail(far2, std::min(w2, widest), p2[k]);
+      const bool steep = (x1[k] > 0) == (x2[k] > 0) && std::max(w1, w2) <= widest;
+      integrals[k] = steep ? std::abs(first - last) : -1;
+    }
+  }
+
   /// To the order of `series`.
   void start_at(const LowOrder& series) {
     for (std::size_t k = 0; k < count; ++k) {
@@ -162,6 +223,16 @@ struct Block {
     }
   }
 
+  void start_from(double n, const LowOrder* series) {
+    if (n == 0) {
+      start_at_zero();
+    } else if (n == 1) {
+      start_at_one();
+    } else {
+      start_at(*series);
+    }
+  }
+
   /// (9): from order n to n + 2.
   MEDIAL_FOUR_LANES void rise_from(double n) {
     const double inverse_next = 1 / (n + 2);
@@ -170,6 +241,15 @@ struct Block {
       p2[k] *= q2[k];
       j[k] = inverse_square[k] * (x2[k] * p2[k] - x1[k] * p1[k] + (n + 1) * j[k]) * inverse_next;
     }
+  }
+
+  /// (9), from order `start` on.
+  void climb(double start, double order, const LowOrder* series) {
+    const Lanes powers1 = p1, powers2 = p2;
+    start_from(start, series);
+    for (double n = start; n + 2 < order + 0.5; n += 2) rise_from(n);
+    p1 = powers1;
+    p2 = powers2;
   }
 
   std::size_t count = 0;
@@ -188,6 +268,7 @@ Charges::Nearest Evaluator::place(Vec2 p) {
 void Evaluator::gather(double low, double high) {
   near_.clear();
   far_.clear();
+  work_ += cost_of_force;
   // The logarithm of what a unit of charge may be off.
   const double logarithm_share = std::log(far_field / (charges_.length() * inverse_));
   const double unit = std::log(inverse_);
@@ -221,8 +302,9 @@ void Evaluator::gather(double low, double high) {
     if (node.right != 0) {
       stack[depth++] = node.right;
       stack[depth++] = index + 1;
-    } else {
+    } else if (squared_distance(node.box, place_) * inverse_ * inverse_ <= reach * reach) {
       near_.push_back({node.begin, node.end});
+      work_ += node.end - node.begin;
     }
   }
 }
@@ -261,13 +343,7 @@ void Evaluator::sum(double start, double low, std::span<Force> forces) {
       sum_steep(static_cast<std::uint32_t>(range.begin + k), start, low, forces);
       block.x1[k] = block.x2[k] = block.y[k] = 1;  // nothing
     }
-    if (start == 0) {
-      block.start_at_zero();
-    } else if (start == 1) {
-      block.start_at_one();
-    } else {
-      block.start_at(*start_);
-    }
+    block.start_from(start, start_ ? &*start_ : nullptr);
     for (double n = start;; n += 2) {
       if (n > low - 0.5 && n > 0)
         block.add_force(n, lanes[static_cast<std::size_t>(std::lround(n - low))]);
@@ -287,59 +363,69 @@ void Evaluator::sum_steep(std::uint32_t piece, double start, double low,
   const double y = cross(t, d) * inverse_, square = y * y;
   const bool ahead = first >= 0;
   const double x1 = ahead ? first : -last, x2 = ahead ? last : -first;
-  const double r1 = std::sqrt(x1 * x1 + square), r2 = std::sqrt(x2 * x2 + square);
-  // The recurrence is taken downward, from where its start no longer matters: each two orders
-  // shrink an error by y^2 / r1^2.
-  double top = start;
-  while (top + 2 < high + 0.5) top += 2;
-  const double last_order = top;
-  const double ratio = 2 * std::log(r1 / std::max(std::abs(y), 1e-150));
-  const double steps = std::ceil((32 - high * std::log(r1)) / ratio);
-  top += 2 * std::clamp(steps, 1.0, 80.0);
-  double p1 = std::pow(r1, -top), p2 = std::pow(r2, -top);
-  double j = (p1 / x1 - p2 / x2) / top;
-  for (double n = top; n > start; n -= 2) {
-    // From order n to n - 2.
-    j = (n * square * j + x1 * p1 - x2 * p2) / (n - 1);
-    p1 *= r1 * r1;
-    p2 *= r2 * r2;
-    const double order = n - 2;
-    if (order > last_order + 0.5 || order < low - 0.5 || order <= 0) continue;
-    // Mirrored where the piece lies behind.
-    const Vec2 forward = ahead ? t : -t;
-    add_piece(order, forward, x1, x2, ahead ? y : -y, j, p1, p2,
-              forces[static_cast<std::size_t>(std::lround(order - low))]);
+  const double square1 = x1 * x1 + square, square2 = x2 * x2 + square;
+  double n = start;
+  while (n + 2 < high + 0.5) n += 2;
+  double p1 = half_power(1 / square1, n), p2 = half_power(1 / square2, n);
+  const SteepTail tail(n);
+  double j = tail(x1, square / (x1 * x1), p1) - tail(x2, square / (x2 * x2), p2);
+  // Mirrored where the piece lies behind.
+  const Vec2 forward = ahead ? t : -t;
+  for (;;) {
+    if (n > 0)
+      add_piece(n, forward, x1, x2, ahead ? y : -y, j, p1, p2,
+                forces[static_cast<std::size_t>(std::lround(n - low))]);
+    if (n - 2 < low - 0.5) return;
+    // Downward, the recurrence is stable.
+    p1 *= square1;
+    p2 *= square2;
+    n -= 2;
+    j = ((n + 2) * square * j + x1 * p1 / square1 - x2 * p2 / square2) / (n + 1);
   }
 }
 
-void Evaluator::sum_high(double order, Force& total) const {
-  const HighOrder high(order);
-  // What lies further away than the square root of this adds less than the far field may.
-  const double nothing =
-      std::pow(charges_.length() * inverse_ / far_field, 2 / (order + 1)) / (inverse_ * inverse_);
-  for (const Range& range : near_) {
-    std::array<double, Charges::leaf_size> squares;
-    charges_.squared_distances(place_, range.begin, range.end, squares);
-    for (std::uint32_t i = range.begin; i < range.end; ++i) {
-      if (squares[i - range.begin] > nothing) continue;
-      const Vec2 t = charges_.tangent(i), d = place_ - charges_.start(i);
-      const double x1 = -dot(d, t) * inverse_, x2 = x1 + charges_.lengths[i] * inverse_;
-      const double y = cross(t, d) * inverse_;
-      const double square1 = x1 * x1 + y * y, square2 = x2 * x2 + y * y;
-      const double p1 = high.power(square1), p2 = high.power(square2);
-      add_piece(order, t, x1, x2, y, high.integral(x1, x2, y, p1, p2), p1, p2, total);
-    }
+void Evaluator::sum_one(double order, Force& total) {
+  if (!(tail_ && tail_->order() == order)) {
+    tail_.emplace(order);
+    if (order >= HighOrder::least_order) high_.emplace(order);
   }
+  const bool is_high = order >= HighOrder::least_order;
+  const double start = std::fmod(order, 2);
+  if (!is_high && start != 0 && start != 1 && !(start_ && start_->order() == start))
+    start_.emplace(start);
+  // What lies further away than the square root of this adds less than the far field may.
+  const double nothing = std::pow(charges_.length() * inverse_ / far_field, 2 / (order + 1));
+  Block block;
+  LaneForces lanes;
+  Lanes squares, steep;
+  for (const Range& range : near_) {
+    block.load(charges_, range.begin, range.end, place_, inverse_);
+    block.squared_distances(squares);
+    const auto end = squares.begin() + static_cast<std::ptrdiff_t>(block.count);
+    if (*std::min_element(squares.begin(), end) > nothing) continue;
+    block.start_at_powers(order);
+    block.integrate_steep(*tail_, steep);
+    bool recurrence = false;
+    for (std::size_t k = 0; k < block.count; ++k) {
+      if (squares[k] > nothing) {
+        steep[k] = block.p1[k] = block.p2[k] = 0;
+      } else if (steep[k] < 0 && is_high) {
+        steep[k] = high_->integral(block.x1[k], block.x2[k], block.y[k], block.p1[k], block.p2[k]);
+      }
+      recurrence = recurrence || steep[k] < 0;
+    }
+    if (recurrence) block.climb(start, order, start_ ? &*start_ : nullptr);
+    for (std::size_t k = 0; k < block.count; ++k)
+      if (steep[k] >= 0) block.j[k] = steep[k];
+    block.add_force(order, lanes);
+  }
+  lanes.add_to(total);
 }
 
 Force Evaluator::force(double order) {
   Force result;
   gather(order, order);
-  if (order >= HighOrder::least_order) {
-    sum_high(order, result);
-  } else {
-    sum(std::fmod(order, 2), order, std::span(&result, 1));
-  }
+  sum_one(order, result);
   add_far(order, result);
   return result;
 }

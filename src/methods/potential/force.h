@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -32,9 +33,10 @@ struct Force {
 /// ([r^-n] / n, y J(n)), where J(n), the integral of dx / r^(n + 2), follows from J(n - 2) by the
 /// recurrence (9), or at one high order alone from HighOrder, in the same time for any. The
 /// recurrence is stable upward while |y| is not small against the distance to the nearest charge;
-/// other pieces are passed sideways (they lie on the point's own line, nearly), and take the
-/// recurrence downward. Pieces far away add as moments (charge and quadrupole about its centre) or
-/// not at all, as their bounds allow: what that changes is below `far_field` in the units of Force.
+/// other pieces are passed sideways (they lie on the point's own line, nearly), and have J(n) from
+/// SteepTail, and so have all that it takes at one order alone. Pieces far away add as moments
+/// (charge and quadrupole about its centre) or not at all, as their bounds allow: what that changes
+/// is below `far_field` in the units of Force.
 /// Keeps a reference to the charges and scratch memory of its own: one evaluator a thread.
 class Evaluator {
  public:
@@ -56,6 +58,11 @@ class Evaluator {
 
   static constexpr double far_field = 1e-7;
 
+  /// What all forces have cost: the charges that were summed one by one, and as much as
+  /// `cost_of_force` of them for each force. The same on every machine.
+  std::uint64_t work() const { return work_; }
+  static constexpr std::uint64_t cost_of_force = 16;
+
  private:
   /// Which pieces to sum one by one, and which sets by their moments, for orders in [low, high].
   void gather(double low, double high);
@@ -65,8 +72,9 @@ class Evaluator {
   /// Adds the near pieces' forces of the orders start, start + 2, ... from `low` on; forces[i]
   /// takes that of order low + i.
   void sum(double start, double low, std::span<Force> forces);
-  /// The near pieces' forces of one high order, from the integral itself.
-  void sum_high(double order, Force& sum) const;
+  /// Adds the near pieces' force of one order: without the recurrence where the integral itself is
+  /// as quick.
+  void sum_one(double order, Force& sum);
   void sum_steep(std::uint32_t piece, double start, double low, std::span<Force> forces) const;
 
   struct Range {
@@ -76,6 +84,9 @@ class Evaluator {
   Vec2 place_;
   double inverse_ = 1;             ///< of the distance to the nearest charge
   std::optional<LowOrder> start_;  ///< of the recurrence at orders that are no whole numbers
+  std::optional<SteepTail> tail_;  ///< of the last order that came alone
+  std::optional<HighOrder> high_;
+  std::uint64_t work_ = 0;
   std::vector<Range> near_;
   std::vector<std::uint32_t> far_;
 };

@@ -42,10 +42,11 @@ class ForceLines {
     radius = evaluator_.place(p).distance;
     return evaluator_.force(options_.order);
   }
+  std::uint64_t work() const { return evaluator_.work(); }
   double distance_at(Vec2 p) { return evaluator_.place(p).distance; }
   double reach(double radius) const { return graph_.reach(radius); }
   bool exhausted() const {
-    return graph_.skeleton.forces > budget_ ||
+    return graph_.skeleton.forces > budget_ || evaluator_.work() > options_.most_work ||
            (options_.cancel != nullptr && options_.cancel->load(std::memory_order_relaxed));
   }
 

@@ -180,16 +180,38 @@ void LowOrder::integrals(std::span<const double> x1, std::span<const double> x2,
   }
 }
 
+SteepTail::SteepTail(double order) : order_(order) {
+  // Numerator and denominator of 1 / (1 + a(1) w / (1 + a(2) w / ...)), term by term.
+  const double c = 0.5 * (order + 3);
+  std::array<double, terms> above{}, below{1};  // without the last term
+  above_[0] = below_[0] = 1;
+  for (std::size_t k = 1; k + 2 <= 2 * terms; ++k) {
+    const auto i = static_cast<double>(k / 2);
+    const double factor = k % 2 == 1 ? (0.5 + i) * (c - 1 + i) / ((c - 1 + 2 * i) * (c + 2 * i))
+                                     : i * (c - 1.5 + i) / ((c - 2 + 2 * i) * (c - 1 + 2 * i));
+    const auto next = [factor](std::array<double, terms>& last, std::array<double, terms>& before) {
+      std::array<double, terms> sum = last;
+      for (std::size_t j = 1; j < terms; ++j) sum[j] += factor * before[j - 1];
+      before = last;
+      last = sum;
+    };
+    next(above_, above);
+    next(below_, below);
+  }
+  for (double& coefficient : below_) coefficient *= order + 1;
+}
+
 HighOrder::HighOrder(double order)
     : order_(order),
       half_(std::sqrt(0.5 * std::numbers::pi / order) * whole_series(order)),
-      width_(std::sqrt(0.5 * order)) {}
+      width_(std::sqrt(0.5 * order)),
+      steep_(order) {}
 
 double HighOrder::power(double square) const { return std::exp(-0.5 * order_ * std::log(square)); }
 
-double HighOrder::tail(double square, double y, double power) const {
+double HighOrder::tail(double x, double y, double square, double power) const {
+  if (y * y <= x * x * steep_.widest()) return steep_(x, (y / x) * (y / x), power);
   const double z = y * y / square;
-  if (z <= 0.5) return power / std::sqrt(square) * tail_factor(order_, z);
   // By parts, again and again: each time another power of 1 / n, and a series without its first
   // term.
   const double t = -std::log(z), w = std::sqrt(t);
@@ -209,9 +231,11 @@ double HighOrder::tail(double square, double y, double power) const {
 double HighOrder::integral(double x1, double x2, double y, double power1, double power2) const {
   y = std::abs(y);
   const double square1 = x1 * x1 + y * y, square2 = x2 * x2 + y * y;
-  if (x1 >= 0) return tail(square1, y, power1) - tail(square2, y, power2);
-  if (x2 <= 0) return tail(square2, y, power2) - tail(square1, y, power1);
-  return 2 * half_ * power(y * y) / y - tail(square1, y, power1) - tail(square2, y, power2);
+  const double first = tail(std::abs(x1), y, square1, power1);
+  const double last = tail(std::abs(x2), y, square2, power2);
+  if (x1 >= 0) return first - last;
+  if (x2 <= 0) return last - first;
+  return 2 * half_ * power(y * y) / y - first - last;
 }
 
 double segment_integral(double order, double x1, double x2, double y) {

@@ -14,6 +14,33 @@ double segment_integral(double order, double x1, double x2, double y);
 /// The potential of order 1, (3): log((r1 + r2 + L) / (r1 + r2 - L)), without cancellation.
 double first_potential(double x1, double x2, double y);
 
+/// J(order) of all beyond x > 0, where this is not small against y: (x^2 + y^2)^(-order / 2) /
+/// ((order + 1) x) times the hypergeometric series of 1 and 1 / 2 over (order + 3) / 2 in
+/// -(y / x)^2. That is an integral of Stieltjes, which lies between any two convergents of Gauss'
+/// continued fraction that follow each other; of those that have `terms` coefficients the
+/// difference bounds what is left out, below 1e-9 of the whole.
+class SteepTail {
+ public:
+  /// Requires order >= 1.
+  explicit SteepTail(double order);
+  double order() const { return order_; }
+  /// Requires w = (y / x)^2 of at most widest(), and `power` = (x^2 + y^2)^(-order / 2).
+  double operator()(double x, double w, double power) const {
+    double above = above_.back(), below = below_.back();
+    for (std::size_t k = terms - 1; k-- > 0;) {
+      above = above * w + above_[k];
+      below = below * w + below_[k];
+    }
+    return power * above / (x * below);
+  }
+  double widest() const { return order_ / 32; }
+
+ private:
+  static constexpr std::size_t terms = 6;
+  double order_;
+  std::array<double, terms> above_{}, below_{};  ///< by powers of w; below times order + 1
+};
+
 /// The same integral at one low order, for many segments: a power series in the square of a sine or
 /// of a cosine, whichever is at most a half. Requires 0 < order < 2. Absolute error below 1e-14 of
 /// what half a line from a point at the distance 1 gives, where no charge is nearer than 1.
@@ -56,11 +83,12 @@ class HighOrder {
   static constexpr double least_order = 32;
 
  private:
-  /// J over all x beyond the one (0 or more) at which x^2 + y^2 is `square`; y > 0.
-  double tail(double square, double y, double power) const;
+  /// J beyond x, which is 0 or more; y > 0, and `square` is x^2 + y^2.
+  double tail(double x, double y, double square, double power) const;
   double order_;
   double half_;   ///< the integral of cos^order over a right angle
   double width_;  ///< sqrt(order / 2)
+  SteepTail steep_;
 };
 
 }  // namespace medial::potential

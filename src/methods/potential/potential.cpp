@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -128,43 +129,51 @@ struct Refined {
   std::vector<std::array<std::uint32_t, 2>> links;
 };
 
-Refined successors_of(const Skeleton& skeleton, const Charges& charges,
-                      const SuccessorOptions& options) {
+/// Nothing where that costs more than `most_work`.
+std::optional<Refined> successors_of(const Skeleton& skeleton, const Charges& charges,
+                                     const SuccessorOptions& options, std::uint64_t most_work) {
   Refined result;
+  std::atomic<std::uint64_t> work = 0;
+  // What all threads have done is looked at between batches, so it is the same for any number.
+  const auto in_batches = [&](std::size_t count, const auto& act) {
+    constexpr std::size_t batch = 512, grain = 16;
+    for (std::size_t begin = 0; begin < count && work <= most_work; begin += batch)
+      parallel_ranges(std::min(batch, count - begin), grain, [&](std::size_t i, std::size_t end) {
+        Evaluator evaluator(charges);
+        for (; i < end; ++i) act(evaluator, begin + i);
+        work += evaluator.work();
+      });
+  };
   result.points.resize(skeleton.points.size());
   const std::vector<ValleyPoint> points = shifted(skeleton, charges, options);
-  constexpr std::size_t grain = 16;
-  parallel_ranges(skeleton.points.size(), grain, [&](std::size_t i, std::size_t end) {
-    Evaluator evaluator(charges);
-    for (; i < end; ++i) result.points[i] = generalized_successor(evaluator, points[i], options);
+  in_batches(skeleton.points.size(), [&](Evaluator& evaluator, std::size_t i) {
+    result.points[i] = generalized_successor(evaluator, points[i], options);
   });
   std::vector<std::vector<Successor>> between(skeleton.links.size());
-  parallel_ranges(skeleton.links.size(), grain, [&](std::size_t i, std::size_t end) {
-    Evaluator evaluator(charges);
-    for (; i < end; ++i) {
-      const auto [from, to] = skeleton.links[i];
-      const auto halve = [&](const auto& self, const ValleyPoint& a, const Successor& at_a,
-                             const ValleyPoint& b, const Successor& at_b, int depth) -> void {
-        if (distance(at_a.place, at_b.place) <= widest_gap * options.step) return;
-        if (depth == 0) {
-          const auto junction = junction_between(evaluator, at_a, at_b);
-          if (junction) between[i].push_back(*junction);
-          return;
-        }
-        ValleyPoint middle = is_fixed(a) ? b : a;
-        middle.kind = ValleyPoint::Kind::valley;
-        middle.place = midpoint(a.place, b.place);
-        const Vec2 along = b.place - a.place;
-        if (norm(along) > 0) middle.tangent = (1 / norm(along)) * along;
-        middle.radius = evaluator.place(middle.place).distance;
-        const Successor found = generalized_successor(evaluator, middle, options);
-        self(self, a, at_a, middle, found, depth - 1);
-        between[i].push_back(found);
-        self(self, middle, found, b, at_b, depth - 1);
-      };
-      halve(halve, points[from], result.points[from], points[to], result.points[to], most_halvings);
-    }
+  in_batches(skeleton.links.size(), [&](Evaluator& evaluator, std::size_t i) {
+    const auto [from, to] = skeleton.links[i];
+    const auto halve = [&](const auto& self, const ValleyPoint& a, const Successor& at_a,
+                           const ValleyPoint& b, const Successor& at_b, int depth) -> void {
+      if (distance(at_a.place, at_b.place) <= widest_gap * options.step) return;
+      if (depth == 0) {
+        const auto junction = junction_between(evaluator, at_a, at_b);
+        if (junction) between[i].push_back(*junction);
+        return;
+      }
+      ValleyPoint middle = is_fixed(a) ? b : a;
+      middle.kind = ValleyPoint::Kind::valley;
+      middle.place = midpoint(a.place, b.place);
+      const Vec2 along = b.place - a.place;
+      if (norm(along) > 0) middle.tangent = (1 / norm(along)) * along;
+      middle.radius = evaluator.place(middle.place).distance;
+      const Successor found = generalized_successor(evaluator, middle, options);
+      self(self, a, at_a, middle, found, depth - 1);
+      between[i].push_back(found);
+      self(self, middle, found, b, at_b, depth - 1);
+    };
+    halve(halve, points[from], result.points[from], points[to], result.points[to], most_halvings);
   });
+  if (work > most_work) return std::nullopt;
   for (std::size_t i = 0; i < skeleton.links.size(); ++i) {
     std::uint32_t last = skeleton.links[i][0];
     for (const Successor& point : between[i]) {
@@ -229,6 +238,11 @@ std::array<std::uint32_t, 2> sites_beside(const Successor& inner, Vec2 along, co
 /// more lines cost seconds, as each of their forces is a sum over more edges.
 constexpr std::size_t most_lined = 2000;
 
+/// What forces for such lines, and for moving their points, may cost in a shape: some two thirds of
+/// a second. What is left then starts on the exact axis.
+constexpr std::uint64_t most_work = 18'000'000;
+constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
+
 /// How the points of an axis are found; what verify() refuses is found in the next way.
 enum class Way : std::uint8_t {
   lines,   ///< by force lines, or from coarse to fine
@@ -282,9 +296,14 @@ class Tracing {
     if (way == Way::lines) {
       const std::optional<Skeleton> skeleton = traced(region, charges);
       if (skeleton) {
-        statistics.queries += skeleton->forces;
-        if (own_.order == skeleton->order) return joined(unmoved(*skeleton));
-        return joined(successors_of(*skeleton, charges, search(region, *skeleton)));
+        std::optional<Refined> points =
+            own_.order == skeleton->order
+                ? unmoved(*skeleton)
+                : successors_of(*skeleton, charges, search(region, *skeleton), work_left_);
+        if (points) {
+          statistics.queries += skeleton->forces;
+          return joined(std::move(*points));
+        }
       }
     }
     if (limits_.empty()) {
@@ -299,7 +318,7 @@ class Tracing {
     if (way == Way::unmoved) return joined(unmoved(limit));
     if (own_.order > 0 && own_.order < limit_order)
       return joined(unmoved(descended(limit, charges, search(region, limit))));
-    return joined(successors_of(limit, charges, search(region, limit)));
+    return joined(*successors_of(limit, charges, search(region, limit), unlimited));
   }
 
   /// The order of the first force lines.
@@ -310,7 +329,7 @@ class Tracing {
 
   /// By force lines, or from coarse to fine; nothing where these do not connect all. Between
   /// parallel sides low orders have a force where higher ones have none left.
-  std::optional<Skeleton> traced(const Region& region, const Charges& charges) const {
+  std::optional<Skeleton> traced(const Region& region, const Charges& charges) {
     SkeletonOptions options;
     options.order = lines_order();
     options.step = own_.step * region.size;
@@ -321,8 +340,10 @@ class Tracing {
       return trace_coarse_to_fine(region, charges, options, own_.coarse * region.size);
     if (options.order > line_order) return std::nullopt;
     constexpr double ratio = 4;
-    for (; options.order >= 1; options.order /= ratio) {
+    for (; options.order >= 1; options.order = std::floor(options.order / ratio)) {
+      if (to_the_axis) options.most_work = work_left_;
       Skeleton skeleton = trace_valleys(region, charges, options);
+      if (to_the_axis) work_left_ -= std::min(work_left_, skeleton.work);
       if (skeleton.whole) return skeleton;
       if (!to_the_axis || problem_.is_cancelled()) break;
     }
@@ -379,7 +400,8 @@ class Tracing {
   const method::Potential& own_;
   const SiteNames names_;
   std::vector<Region> regions_;
-  std::vector<Skeleton> limits_;  ///< of all components, once they are needed
+  std::vector<Skeleton> limits_;         ///< of all components, once they are needed
+  std::uint64_t work_left_ = most_work;  ///< for force lines to the axis
 };
 
 bool follows_lines(const Problem& problem) {

@@ -95,6 +95,7 @@ class Tracer {
 
   Skeleton take() {
     graph_.skeleton.order = options_.order;
+    graph_.skeleton.work = lines_.work();
     graph_.skeleton.whole = complete();
     drop_hooks(graph_.skeleton, options_.step);
     return std::move(graph_.skeleton);

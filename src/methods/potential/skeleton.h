@@ -3,6 +3,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "methods/potential/force.h"
@@ -37,6 +38,7 @@ struct Skeleton {
   std::uint64_t minima = 0;
   std::uint64_t saddles = 0;
   std::uint64_t forces = 0;  ///< computed
+  std::uint64_t work = 0;    ///< what they cost: Evaluator::work()
   double order = 1;          ///< of the potential
   bool whole = true;         ///< connected, with one cycle for each hole
 };
@@ -48,6 +50,8 @@ struct SkeletonOptions {
   /// Of bends that lines start from, in radians. One that turns by less than a quarter is the end
   /// of no valley of low order, but may be the end of a branch of the axis.
   double least_turn = 0.25;
+  /// What forces may cost; what is not connected then stays so.
+  std::uint64_t most_work = std::numeric_limits<std::uint64_t>::max();
   const std::atomic<bool>* cancel = nullptr;  ///< ends the work early: the skeleton is not whole
 };
 

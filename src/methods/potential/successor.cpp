@@ -25,6 +25,62 @@ Vec2 direction_of(Evaluator& evaluator, const ValleyPoint& point, double order) 
   return ((forward > 0 ? 1 : -1) / size) * force.force;
 }
 
+/// The line across a valley at a point of it.
+class Section {
+ public:
+  struct Look {
+    double place = 0;   ///< from the point, to the left of the valley
+    double radius = 0;  ///< distance to the border
+    double aside = 0;   ///< the sine from the valley to the force; falls where a valley is passed
+    double slope = 0;   ///< of that
+    double way = 0;     ///< to where it is about 0
+    bool lost = false;  ///< the force, in the arithmetic: on the middle line of a corridor
+  };
+
+  Section(Evaluator& evaluator, const ValleyPoint& point, double order)
+      : evaluator_(evaluator),
+        start_(point.place),
+        across_(left_of(point.tangent)),
+        order_(order) {}
+
+  Vec2 at(double place) const { return start_ + place * across_; }
+
+  Look look(double place) {
+    Look result{place, evaluator_.place(at(place)).distance};
+    if (!(result.radius > 0)) return result;
+    const Force force = evaluator_.force(order_);
+    const double size = norm(force.force);
+    result.lost = !(size > 100 * Evaluator::far_field * force.potential(order_));
+    if (!(size > 0)) return result;
+    const Vec2 unit = (1 / size) * force.force;
+    const Vec2 change = (1 / (result.radius * size)) * force.derivative(across_);
+    result.aside = dot(unit, across_);
+    result.slope = dot(change, across_) - result.aside * dot(change, unit);
+    result.way = way_to_valley(result);
+    return result;
+  }
+
+ private:
+  /// Between two walls alike, a way x from the valley, the force's tangent is t tanh(k x) with
+  /// k = n t / (r sqrt(1 + t^2)). What it is and how it changes here gives t, and so x: near the
+  /// valley this is Newton's step, which is never shorter, and from where one wall alone counts it
+  /// still leads there.
+  double way_to_valley(const Look& look) const {
+    const double square = 1 - look.aside * look.aside, far = 2 * look.radius;
+    if (!(look.slope < 0 && square > 0)) return std::copysign(far, look.aside);
+    const double tangent = look.aside / std::sqrt(square);
+    const double rest = -look.slope * look.radius / (order_ * square * square);
+    const double t = std::sqrt(tangent * tangent + rest), size = t + std::abs(tangent);
+    const double rate = order_ * t / (look.radius * std::sqrt(1 + t * t));
+    const double way = 0.5 * std::log(size * size / rest) / rate;
+    return std::copysign(std::min({way, std::abs(look.aside / look.slope), far}), look.aside);
+  }
+
+  Evaluator& evaluator_;
+  const Vec2 start_, across_;
+  const double order_;
+};
+
 }  // namespace
 
 int adaptive_order(Evaluator& evaluator, double angle, int most) {
@@ -75,65 +131,56 @@ Vec2 minimum_near(Evaluator& evaluator, const ValleyPoint& minimum,
 }
 
 std::optional<Vec2> valley_across(Evaluator& evaluator, const ValleyPoint& point, double order,
-                                  const SuccessorOptions& options) {
-  const Vec2 across = left_of(point.tangent);
-  Vec2 p = point.place;
-  double radius = evaluator.place(p).distance;
+                                  const SuccessorOptions& options, double guess) {
+  const double radius = evaluator.place(point.place).distance;
   if (!(radius > 0)) return std::nullopt;
   // The sine between force and valley at which it counts as perpendicular (Section 5).
   constexpr double perpendicular = 0.001;
-  const auto projection = [&](const Force& force) {
-    const double size = norm(force.force);
-    return size > 0 ? dot(force.force, across) / size : 0;
-  };
-  const Force force = evaluator.force(order);
-  const double first = projection(force);
-  // On the middle line of a corridor the force is lost in the arithmetic.
-  const bool lost = norm(force.force) <= 100 * Evaluator::far_field * force.potential(order);
-  if (lost || std::abs(first) <= perpendicular) return p;
-  const double way = first > 0 ? 1 : -1;
-  // On until the force turns around.
-  double before = 0, here = 0, f_before = std::abs(first);
+  constexpr int most_looks = 60;
   const double furthest = std::min(widest_move * radius, options.furthest);
-  while (before < furthest) {
-    here = std::min(before + std::min(options.step, 0.5 * radius), furthest);
-    p = point.place + way * here * across;
-    radius = evaluator.place(p).distance;
-    if (!(radius > 0)) return std::nullopt;
-    double f = way * projection(evaluator.force(order));
-    if (f > perpendicular) {
-      before = here;
-      f_before = f;
-      continue;
-    }
-    if (f >= -perpendicular) return p;
-    // Between here and before: false position, kept honest by halving.
-    double a = before, b = here, fa = f_before;
-    for (int k = 0; k < 60 && b - a > options.accuracy; ++k) {
-      double m = 0.5 * (a + b);
-      if (k % 3 != 2)
-        m = std::clamp(a + (b - a) * fa / (fa - f), a + 0.02 * (b - a), b - 0.02 * (b - a));
-      p = point.place + way * m * across;
-      radius = evaluator.place(p).distance;
-      if (!(radius > 0)) break;
-      const double fm = way * projection(evaluator.force(order));
-      if (std::abs(fm) <= perpendicular) return p;
-      if (fm > 0) {
-        a = m;
-        fa = fm;
-      } else {
-        b = m;
-        f = fm;
+  Section section(evaluator, point, order);
+  // The valley lies between these: the force leads to the left at one, back at the other.
+  std::optional<Section::Look> right, left;
+  double wide = std::numeric_limits<double>::infinity();  // when last halved
+  int halved = 0;
+  double place = std::clamp(guess, -furthest, furthest);
+  for (int i = 0; i < most_looks; ++i) {
+    const Section::Look here = section.look(place);
+    if (!(here.radius > 0)) return std::nullopt;
+    if (i == 0 && here.lost) return point.place;
+    // On a ridge the sine rises.
+    if (std::abs(here.aside) <= perpendicular && !(here.slope > 0)) return section.at(place);
+    (here.aside > 0 ? right : left) = here;
+    // Across a valley the sine bends as a hyperbolic tangent, so Newton's step is no shorter than
+    // the way.
+    if (here.slope < 0 && std::abs(here.aside) <= -0.5 * options.accuracy * here.slope)
+      return section.at(place + here.way);
+    if (right && left) {
+      const double width = left->place - right->place;
+      const double share = right->aside / (right->aside - left->aside);
+      if (width <= options.accuracy) return section.at(right->place + share * width);
+      // False position where that leads out; kept honest by halving.
+      double next = (place + here.way - right->place) / width;
+      if (!(next > 0 && next < 1)) next = share;
+      if (width <= 0.5 * wide) {
+        wide = width;
+        halved = i;
+      } else if (i - halved > 2) {
+        next = 0.5;
       }
+      place = right->place + std::clamp(next, 0.02, 0.98) * width;
+    } else {
+      if (std::abs(place) >= furthest && (place > 0) == (here.aside > 0)) return std::nullopt;
+      const double longest = std::min(options.step, 0.5 * here.radius);
+      place = std::clamp(place + std::clamp(here.way, -longest, longest), -furthest, furthest);
     }
-    return point.place + way * 0.5 * (a + b) * across;
   }
   return std::nullopt;
 }
 
 Vec2 successor(Evaluator& evaluator, const ValleyPoint& point, double order,
-               const SuccessorOptions& options) {
-  return valley_across(evaluator, point, order, options).value_or(point.place);
+               const SuccessorOptions& options, double guess) {
+  return valley_across(evaluator, point, order, options, guess).value_or(point.place);
 }
 
 Successor generalized_successor(Evaluator& evaluator, const ValleyPoint& point,
@@ -153,10 +200,14 @@ Successor generalized_successor(Evaluator& evaluator, const ValleyPoint& point,
           std::max<double>(order, adaptive_order(evaluator, options.angle, most_searched_order));
     }
     order = std::min(order, options.most_order);
+    Vec2 move;
     for (;;) {
-      result.place = successor(evaluator, here, order, options);
+      // Ways fall as 1 / n.
+      const double guess = dot(move, left_of(here.tangent)) / ratio;
+      result.place = successor(evaluator, here, order, options, guess);
       result.order = order;
-      const bool still = distance(result.place, here.place) <= options.movement;
+      move = result.place - here.place;
+      const bool still = norm(move) <= options.movement;
       here.place = result.place;
       if (order >= options.most_order || still) break;
       here.tangent = direction_of(evaluator, here, order);

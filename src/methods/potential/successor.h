@@ -44,14 +44,15 @@ Vec2 minimum_near(Evaluator& evaluator, const ValleyPoint& minimum,
 /// to follow.
 constexpr double widest_move = 0.25;
 
-/// Algorithm Successor: the point of the n-skeleton across the valley at `point`, by a step of S
-/// until the n-force turns around, and halving then; nothing where it does not.
+/// Algorithm Successor: the point of the n-skeleton across the valley at `point`, by steps of S at
+/// most until the n-force turns around, and between two places then; nothing where it does not.
+/// `guess`: where to look first, to the left of the valley.
 std::optional<Vec2> valley_across(Evaluator& evaluator, const ValleyPoint& point, double order,
-                                  const SuccessorOptions& options);
+                                  const SuccessorOptions& options, double guess = 0);
 
 /// The same, or the point's own place.
 Vec2 successor(Evaluator& evaluator, const ValleyPoint& point, double order,
-               const SuccessorOptions& options);
+               const SuccessorOptions& options, double guess = 0);
 
 /// Algorithm MAT-Generalized-Polygonal for one point, repeated with twice the order until the point
 /// moves by no more than e_min, each time across the force of the order before. What a valley is
