@@ -94,6 +94,7 @@ papers: build   ## the figures and tables of the papers, drawn and measured agai
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial_papers
 	@$(RELEASE)/papers/medial_papers --output out/papers
 	@cd out/papers && for page in */*.md; do cp $$page $(CURDIR)/papers/$$page; done
+	@cd papers && for picture in */img/*; do cp $(CURDIR)/out/papers/$$(dirname $$(dirname $$picture))/$$(basename $$picture) $$picture; done
 
 bench: setup    ## compare with Boost.Polygon and CGAL
 	@tools/setup.sh bench

@@ -136,6 +136,7 @@ std::vector<Table::Column> distance_columns(const char* format) {
   for (const double order : orders) columns.push_back({order_name(order), format});
   columns.push_back({"away from leaves", "{:.3f}"});
   columns.push_back({"falls"});
+  columns.push_back({"falls from n=2 on"});
   return columns;
 }
 
@@ -149,7 +150,7 @@ bool add_distances(const NamedShape& named, Table& largest, Table& mean) {
   const double size = size_of(shape);
   std::vector<Table::Cell> largest_cells{name, shape.points.size()}, mean_cells = largest_cells;
   double away = 0, before = 1;
-  bool falls = true, complete = true;
+  bool falls = true, falls_later = true, complete = true;
   for (const double order : orders) {
     const auto axis = compute(shape, options_of(order));
     if (!axis) {
@@ -162,12 +163,14 @@ bool add_distances(const NamedShape& named, Table& largest, Table& mean) {
         cli::distance_between(*axis, *exact, 0.005 * size, 0.05 * size);
     largest_cells.emplace_back(100 * distance.largest / size);
     mean_cells.emplace_back(100 * distance.mean / size);
-    if (order > 0) falls = falls && distance.mean / size <= before;
+    const bool rises = order > 0 && distance.mean / size > before;
+    if (rises) falls = false;
+    if (rises && order > 2) falls_later = false;
     before = distance.mean / size;
     away = distance.away / size;
   }
   for (auto [cells, table] : {std::pair{&largest_cells, &largest}, {&mean_cells, &mean}}) {
-    cells->insert(cells->end(), {100 * away, falls ? "yes" : "NO"});
+    cells->insert(cells->end(), {100 * away, falls ? "yes" : "NO", falls_later ? "yes" : "NO"});
     table->add(std::move(*cells));
   }
   return complete;
@@ -378,6 +381,7 @@ Result<bool> run_ahuja_chuang_1997(const Request& request) {
   for (const NamedShape& shape : shapes) passed = add_distances(shape, largest, mean) && passed;
   const std::string text = fmt::format(
       "Distances in hundredths of the size (the larger side of the bounding box).\n\n"
+      "*falls*: whether the mean distance does from each order to the next.\n\n"
       "## Largest distance from the skeleton to the exact axis\n\n{}\n"
       "## Mean distance\n\n{}\n## Orders along half a rectangle (Fig. 13)\n\n{}\n"
       "## Time of a noisy band (Fig. 8's kind), processor time of one thread\n\n{}\n"
