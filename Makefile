@@ -140,7 +140,7 @@ edits: setup    ## 100,000 random edits of each of 20 shapes, compared with comp
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial_edits
 	@$(RELEASE)/tests/medial_edits $(EDITS)
 
-fuzz-coverage: setup  ## test shapes and files guided by coverage (clang 14, libFuzzer): make fuzz-coverage SECONDS=60 (each of two)
+fuzz-coverage: setup  ## test shapes, edits and files guided by coverage (clang 14, libFuzzer): make fuzz-coverage SECONDS=60 (each of three)
 	@tools/setup.sh fuzz
 	@tools/fuzz_coverage.sh $(COVERAGE) $(JOBS) $(SECONDS)
 

@@ -258,6 +258,92 @@ TEST(Editor, TakesZerosWithoutTheirSign) {
   EXPECT_EQ(fault_of(editor), "");
 }
 
+/// A loop takes the place of another one that went, and back.
+TEST(Editor, TakesLoopsBackInTheOrderTheyMoved) {
+  Editor editor = editor_of(hole_grid(2));
+  const std::uint32_t first = vertex_at(editor, {1, 1}), last = vertex_at(editor, {3, 3});
+  ASSERT_TRUE(editor.remove_loop(first).ok());
+  ASSERT_TRUE(editor.move_loop(last, {-2, -2.125}).ok());
+  for (int i = 0; i < 2; ++i) ASSERT_TRUE(editor.undo().ok());
+  EXPECT_EQ(editor.shape().hole_count(), 4U);
+  EXPECT_EQ(editor.vertex(last), (Vec2{3, 3}));
+  EXPECT_EQ(fault_of(editor), "");
+}
+
+TEST(Editor, KnowsALoopThatTouchesForAHole) {
+  Editor editor = editor_of({rectangle(8, 8)[0], triangle({4, 7}, {3, 4}, {5, 4})[0]});
+  const std::uint32_t top = vertex_at(editor, {4, 7});
+  for (const Vec2 by : {Vec2{0, 1}, Vec2{0, 20}}) ASSERT_TRUE(editor.move_loop(top, by).ok());
+  EXPECT_EQ(editor.shape().component_count(), 2U);
+  for (int i = 0; i < 2; ++i) {
+    const auto back = editor.undo();
+    ASSERT_TRUE(back.ok()) << to_string(back.error());
+    EXPECT_EQ(editor.shape().component_count(), 1U);
+    EXPECT_EQ(fault_of(editor), "");
+  }
+}
+
+/// The hole has its interior on the other side when its third vertex is gone.
+TEST(Editor, TakesBackWhatTurnsALoopOfTwoVertices) {
+  const Ring hole{{{2, 4}, {4, 2}, {4, 4}}, RingRole::any, {-0.25, 0, 0.25}};
+  Editor editor = editor_of({rectangle(8, 8)[0], hole});
+  const auto sorted_points = [&] {
+    std::vector<std::pair<double, double>> points;
+    for (const Vec2 p : editor.shape().points) points.emplace_back(p.x, p.y);
+    std::sort(points.begin(), points.end());
+    return points;
+  };
+  const auto points = sorted_points();
+  const double before = area(editor.shape());
+  for (const Vec2 p : {Vec2{4, 2}, Vec2{2, 4}, Vec2{4, 4}}) {
+    if (!editor.remove(vertex_at(editor, p))) continue;
+    EXPECT_EQ(fault_of(editor), "");
+    ASSERT_TRUE(editor.undo().ok());
+    EXPECT_EQ(sorted_points(), points);
+    EXPECT_EQ(area(editor.shape()), before);
+  }
+}
+
+TEST(Editor, MakesNoOuterLoopAHoleOfItsOwnHole) {
+  Editor editor = editor_of(hole_grid(1));
+  ASSERT_TRUE(editor.insert_loop(triangle({20, 0}, {24, 0}, {21, 3})[0]).ok());
+  const auto moved = editor.move_loop(vertex_at(editor, {0, 0}), {-40, -40});
+  ASSERT_FALSE(moved.ok());
+  EXPECT_EQ(moved.error().code, ErrorCode::hole_outside);
+  EXPECT_EQ(fault_of(editor), "");
+}
+
+TEST(Editor, RefusesCoordinatesThatComputeRefuses) {
+  Editor editor = editor_of(comb(40));
+  const auto moved = editor.move(vertex_at(editor, {0, 0}), {-1e-130, -1e-130});
+  ASSERT_FALSE(moved.ok());
+  EXPECT_EQ(moved.error().code, ErrorCode::unsupported);
+  EXPECT_EQ(fault_of(editor), "");
+}
+
+/// The first arc lets all touch that is within the tolerance.
+TEST(Editor, JoinsWhatIsNearWithTheFirstArc) {
+  Editor editor = editor_of({rectangle(8, 8)[0], triangle({2, 2}, {4, 2}, {2, 4})[0],
+                             triangle({4 + 0x1p-50, 2}, {6, 2}, {6, 4})[0]});
+  ASSERT_TRUE(editor.set_bulge(vertex_at(editor, {0, 0}), -0.0625).ok());
+  EXPECT_EQ(editor.shape().loop_count(), build_shape(rings_of(editor.shape()))->loop_count());
+  EXPECT_EQ(fault_of(editor), "");
+}
+
+TEST(Editor, HasTheToleranceOfAShapeThatHasShrunk) {
+  Editor editor = editor_of(comb(20));
+  const std::uint32_t vertex = vertex_at(editor, {0, 0});
+  ASSERT_TRUE(editor.move(vertex, {-1e6, 0}).ok());
+  const double large = editor.axis().tolerance;
+  Mirror mirror(editor);
+  const auto back = editor.move(vertex, {-1, 0});
+  ASSERT_TRUE(back.ok());
+  mirror.follow(*back);
+  mirror.expect(editor);
+  EXPECT_LT(editor.axis().tolerance, 1e-3 * large);
+  EXPECT_EQ(fault_of(editor), "");
+}
+
 /// Whether two editors' shapes and axes are the same to the bit and in the same order.
 void expect_same(const Editor& a, const Editor& b) {
   const Shape of_a = a.shape(), of_b = b.shape();

@@ -76,6 +76,17 @@ TEST(NarrowGap, EdgesThatCrossBehindACusp) {
   }
 }
 
+/// A hole's vertex, from which a disk connects it to others, is next to another one: what such a
+/// disk seems to touch first in double it does not touch.
+TEST(NarrowGap, BetweenVerticesOfTwoHoles) {
+  for (const double y : {1 - 0x1p-52, 1 - 0x1p-50, 1 - 0x1p-40, 1 - 0x1p-30}) {
+    const Rings rings{rectangle(5, 5)[0],
+                      triangle({4, 2}, {3, 1}, {3, 2})[0],
+                      {{{3, y}, {1, 4}, {2, 4}, {2, 3}}, RingRole::any, {}}};
+    EXPECT_EQ(check_axis(rings), std::vector<std::string>{}) << y;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Random, NarrowGaps, testing::Range<std::uint64_t>(0, gap_shares));
 
 }  // namespace

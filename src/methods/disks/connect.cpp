@@ -151,10 +151,23 @@ class Connector {
   }
 
  private:
-  /// The bridge among all sites that a disk from `foot` nearly reaches.
+  /// The bridge among all sites that a disk from `foot` nearly reaches, which has about this radius
+  /// in double. Where it touches none of them after all, among those that larger ones reach.
   std::optional<Bridge> exact_bridge(std::uint32_t hole, Vec2 foot, double radius) const {
-    constexpr double rounding = 0x1p-46;
+    constexpr double rounding = 0x1p-46, growth = 8;
     const Boundary::SiteRange own = loops_.runs[hole];
+    const double largest = largest_radius(foot);
+    for (double reach = radius + rounding;; reach = std::min(largest, growth * reach)) {
+      const std::vector<std::uint32_t> near = sites_in(foot, reach, shape_.component[hole], own);
+      const auto touch = exact_->first_touch(foot, loops_, near);
+      if (touch && touch->radius <= reach)
+        return Bridge{{foot + touch->radius * outreach, touch->radius}, hole, touch->site};
+      if (!(reach < largest)) return std::nullopt;
+    }
+  }
+  /// The sites near to the disk from `foot` with this radius, but for a hole's own.
+  std::vector<std::uint32_t> sites_in(Vec2 foot, double radius, std::uint32_t component,
+                                      const Boundary::SiteRange& own) const {
     std::vector<std::uint32_t> near;
     const auto add = [&](std::uint32_t site, const Boundary::SiteRange& run) {
       if (site < own.first || site > own.last) near.push_back(site);
@@ -163,21 +176,18 @@ class Connector {
       if (loops_.elements[after] == Element::vertex && (after < own.first || after > own.last))
         near.push_back(after);
     };
-    first_touch_.near(foot + radius * outreach, radius + rounding, shape_.component[hole],
-                      [&](std::uint32_t site) {
-                        const Boundary::SiteRange run = run_of(loops_, site);
-                        if (run.last - run.first < few) {  // searches find one of a segment's sides
-                          for (std::uint32_t i = run.first; i <= run.last; ++i) add(i, run);
-                          return;
-                        }
-                        add(site, run);
-                        add(site == run.first ? run.last : site - 1, run);
-                      });
+    first_touch_.near(foot + radius * outreach, radius, component, [&](std::uint32_t site) {
+      const Boundary::SiteRange run = run_of(loops_, site);
+      if (run.last - run.first < few) {  // searches find one of a segment's sides
+        for (std::uint32_t i = run.first; i <= run.last; ++i) add(i, run);
+        return;
+      }
+      add(site, run);
+      add(site == run.first ? run.last : site - 1, run);
+    });
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
-    const auto touch = exact_->first_touch(foot, loops_, near);
-    if (!touch) return std::nullopt;
-    return Bridge{{foot + touch->radius * outreach, touch->radius}, hole, touch->site};
+    return near;
   }
   /// A disk that reaches beyond the furthest point of all crosses the boundary, however its centre
   /// is rounded.

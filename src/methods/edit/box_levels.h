@@ -18,6 +18,9 @@ class BoxLevels {
  public:
   std::size_t size() const { return levels_.empty() ? 0 : levels_[0].size(); }
 
+  /// The box of all boxes.
+  Box all() const { return levels_.empty() ? Box::nothing() : levels_.back()[0]; }
+
   /// Sets a box, of an old number or of the next new one.
   void set(std::uint32_t number, const Box& box) {
     put(0, number, box);

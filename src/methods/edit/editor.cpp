@@ -158,6 +158,9 @@ Result<AxisChange> Editor::move_loop(std::uint32_t vertex, Vec2 by) {
     edit::Edit edit;
     edit.out = edit.in = parts_->corners_of(vertex);
     for (edit::Corner& corner : edit.in) corner.point = corner.point + by;
+    // Around holes, a loop stays an outer one.
+    const std::uint32_t loop = parts_->rings[vertex].loop;
+    if (parts_->rings.hole_in(loop) != edit::none) edit.seat = parts_->rings.seat_of(loop);
     return parts_->change(edit);
   });
 }

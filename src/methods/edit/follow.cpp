@@ -4,6 +4,7 @@
 
 #include "base/tolerance.h"
 #include "methods/edit/parts.h"
+#include "shape/limits.h"
 
 namespace medial {
 
@@ -52,13 +53,18 @@ void drop_signs_of_zeros(edit::Edit& edit) {
 
 }  // namespace
 
-/// Whether all local coordinates of new places are exact.
+/// Whether all local coordinates of new places are exact, and none is so small that compute() may
+/// refuse it.
 bool Editor::Parts::fits_frame(const edit::Edit& edit) const {
+  const Vec2 furthest{std::max(std::abs(box.low.x), std::abs(box.high.x)),
+                      std::max(std::abs(box.low.y), std::abs(box.high.y))};
+  const double least = 4 * smallest_coordinate * std::max({1.0, furthest.x, furthest.y});
+  const auto is_large = [&](double value) { return value == 0 || std::abs(value) >= least; };
   const auto fits = [&](Vec2 place) {
     const Vec2 local = rings.frame().to_local(place);
     constexpr double largest = 2;
-    return std::abs(local.x) < largest && std::abs(local.y) < largest &&
-           rings.frame().to_input(local) == place;
+    return is_large(place.x) && is_large(place.y) && std::abs(local.x) < largest &&
+           std::abs(local.y) < largest && rings.frame().to_input(local) == place;
   };
   return (edit.fresh == none || fits(edit.place)) &&
          std::all_of(edit.in.begin(), edit.in.end(),
@@ -72,7 +78,8 @@ std::optional<Error> Editor::Parts::refuse(const edit::Edit& edit) const {
     for (const edit::Corner& corner : edit.in)
       if (!is_finite(corner.point) || !std::isfinite(corner.bulge))
         return error_of(ErrorCode::not_finite, not_finite, corner.number);
-    if (edit.out.empty() || !edit.in.empty()) return std::nullopt;
+    // Where edges touch, build_shape() finds out.
+    if (edit.out.empty() || !edit.in.empty() || !apart.empty()) return std::nullopt;
     const std::uint32_t hole = rings.hole_in(rings[edit.out.front().number].loop);
     if (hole == none) return std::nullopt;
     return error_of(ErrorCode::hole_outside, "the hole would not lie inside an outer ring", hole);
@@ -90,7 +97,9 @@ std::optional<Error> Editor::Parts::refuse(const edit::Edit& edit) const {
 Result<AxisChange> Editor::Parts::change(edit::Edit edit) {
   drop_signs_of_zeros(edit);
   if (auto error = refuse(edit)) return std::move(*error);
-  if (!apart.empty() || !fits_frame(edit)) return rebuild(edit);
+  // With arcs, all that comes near touches.
+  const bool is_first_arc = !rings.has_arcs() && edit.has_arcs();
+  if (!apart.empty() || is_first_arc || !fits_frame(edit)) return rebuild(edit);
   const Rings::Judgement judgement = rings.judge(edit);
   if (judgement.verdict == Rings::Verdict::crosses) return crossing_error(judgement);
   edit::Edit back = rings.inverse(edit);
@@ -111,15 +120,34 @@ Result<AxisChange> Editor::Parts::change(edit::Edit edit) {
   if (!step) return rebuild(edit);
   inverse.push_back(std::move(back));
   step->change.vertex = subject_of(edit);
+  constexpr double shrunk = 16;
+  if (shrunk * diagonal(rings.box()) < diagonal(box)) refine(step->change);
   return std::move(step->change);
+}
+
+/// Computes all again after a change by which the shape has become much smaller, and the tolerance
+/// with it. Where that fails, the axis stays as it is.
+void Editor::Parts::refine(AxisChange& change) {
+  Parts next = *this;
+  if (!next.start_again()) return;
+  AxisChange then;
+  list_all(then.removed_nodes, then.removed_edges);
+  next.list_all(then.added_nodes, then.added_edges);
+  join(change, then);
+  change.everything = true;
+  *this = std::move(next);
 }
 
 Result<AxisChange> Editor::Parts::undo() {
   if (inverse.empty()) return AxisChange{};
   edit::Edit last = inverse.back();
-  // build_shape() may have turned the loop round since.
-  if (!last.is_of_loops() && last.before != last.after &&
-      rings[last.before].next != (last.old != none ? last.old : last.after)) {
+  // build_shape() may have turned the loop round since. Of two vertices, both follow each other.
+  const auto is_turned = [&] {
+    const Rings::Vertex& before = rings[last.before];
+    return before.next != (last.old != none ? last.old : last.after) ||
+           (rings.loop_size(before.loop) == 2 && before.bulge != last.bulge_before);
+  };
+  if (!last.is_of_loops() && is_turned()) {
     std::swap(last.before, last.after);
     const auto [first, second] = last.bulge;
     if (last.fresh != none)
@@ -166,7 +194,7 @@ Editor::Parts::Seeds Editor::Parts::seeds_of(const edit::Edit& edit) const {
 /// The disk that touches what is nearest to a place, and grows on until it is maximal, holds the
 /// place: it is on one of the edges of that site.
 void Editor::Parts::add_seeds_around(Vec2 place, Seeds& seeds) const {
-  const std::uint32_t site = rings.site_around(place);
+  const std::uint32_t site = rings.around(place).site;
   seeds.parts += site == none ? 1 : -1;
   seeds.is_whole_part = site == none;
   if (site != none) seeds.sites.push_back(site);
@@ -195,7 +223,8 @@ std::optional<Step> Editor::Parts::follow(const edit::Edit& edit) {
 std::optional<Step> Editor::Parts::follow_in_two(const edit::Edit& edit,
                                                  std::optional<Error>& refused) {
   edit::Edit out{edit.before, edit.after, edit.old, none, {}, {}, edit.out, {}};
-  edit::Edit in{edit.before, edit.after, none, edit.fresh, edit.place, edit.bulge, {}, edit.in};
+  edit::Edit in{edit.before, edit.after, none,    edit.fresh, edit.place,
+                edit.bulge,  {},         edit.in, edit.seat};
   const bool has_two = edit.is_of_loops() ? !edit.out.empty() && !edit.in.empty()
                                           : edit.old == edit.fresh && !refuse(out);
   if (!has_two || rings.judge(out).verdict != Rings::Verdict::keeps_form) return std::nullopt;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -73,6 +74,12 @@ class Apartness {
     steps_ = 0;
     return keep_apart(a, b);
   }
+  /// Whether segments cross, and not only touch within the margin.
+  bool cross(const BulgeArc& a, const BulgeArc& b) const {
+    return a.bulge == 0 && b.bulge == 0 &&
+           meeting(a.start, a.end, b.start, b.end) == Meeting::cross &&
+           end_distance(a, b) > margin_;
+  }
   /// Two that begin in one point.
   bool apart_after_start(const BulgeArc& a, const BulgeArc& b) {
     steps_ = 0;
@@ -96,7 +103,10 @@ class Apartness {
   }
   /// Between the chords.
   static double chord_distance(const BulgeArc& a, const BulgeArc& b) {
-    if (meeting(a.start, a.end, b.start, b.end) != Meeting::none) return 0;
+    return meeting(a.start, a.end, b.start, b.end) != Meeting::none ? 0 : end_distance(a, b);
+  }
+  /// From an end of one of two segments to the other one.
+  static double end_distance(const BulgeArc& a, const BulgeArc& b) {
     return std::sqrt(std::min({squared_distance(a, b.start), squared_distance(a, b.end),
                                squared_distance(b, a.start), squared_distance(b, a.end)}));
   }
@@ -296,8 +306,7 @@ Rings::Judgement Rings::judge_with_arcs(const Edit& edit) const {
                                        : apartness.apart(one.arc, other);
       if (is_apart) continue;
       result.verdict = Verdict::unclear;
-      if (one.arc.bulge == 0 && other.bulge == 0 && !at_start && !at_end &&
-          meeting(one.arc.start, one.arc.end, other.start, other.end) == Meeting::cross) {
+      if (!at_start && !at_end && apartness.cross(one.arc, other)) {
         result = {Verdict::crosses, s,
                   crossing_of(one.arc.start, one.arc.end, other.start, other.end)};
         return;
@@ -324,6 +333,34 @@ std::vector<std::uint32_t> Rings::loops_near(const Box& box, std::uint32_t but) 
                   [&](std::uint32_t a, std::uint32_t b) { return loop_of(a) == loop_of(b); }),
       vertices.end());
   return vertices;
+}
+
+Seat Rings::find_seat_anew(const std::vector<Corner>& corners) const {
+  constexpr double clear = 64;  // tolerances
+  Vec2 place;
+  double away = -1;
+  for (std::size_t i = 0; i < corners.size() && !(away > clear * joining_.tolerance); ++i) {
+    const Corner &from = corners[i], &to = corners[i + 1 < corners.size() ? i + 1 : 0];
+    const BulgeArc arc{from.point, to.point, from.bulge};
+    for (const Vec2 p : {from.point, arc.bulge == 0 ? midpoint(arc.start, arc.end) : apex(arc)})
+      if (const double here = around(p).away; here > away) {
+        place = p;
+        away = here;
+      }
+  }
+  Seat seat = new_seat();
+  double narrowest = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t loop : loops()) {
+    std::vector<BulgeArc> curve;
+    for_vertices(loop, [&](std::uint32_t v) { curve.push_back(edge(v)); });
+    if (turns_around(curve, place) == 0) continue;
+    seat.hole = !seat.hole;
+    const double width = diagonal(box_around(curve, 0));
+    if (is_hole(loop) || width >= narrowest) continue;
+    narrowest = width;
+    seat.component = component(loop);
+  }
+  return seat;
 }
 
 /// A loop can go where it encloses no other one.
@@ -357,7 +394,7 @@ Rings::Judgement Rings::judge_in(const Edit& edit) const {
       return unclear;
   const Cleaning cleaning(joining_.tolerance);
   const bool has_curves = has_arcs() || !alone->bulges.empty();
-  Apartness apartness(margin * joining_.tolerance);
+  Apartness apartness(has_curves ? margin * joining_.tolerance : 0);
   Judgement result;
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const BulgeArc& one = curve[i];
@@ -366,12 +403,12 @@ Rings::Judgement Rings::judge_in(const Edit& edit) const {
     boxes_.find(box_around({&one, 1}, margin * joining_.tolerance), [&](std::uint32_t s) {
       if (result.verdict == Verdict::crosses) return;
       const BulgeArc other = edge(s);
-      const bool straight = one.bulge == 0 && other.bulge == 0;
-      const Meeting how =
-          straight ? meeting(one.start, one.end, other.start, other.end) : Meeting::touch;
-      if (straight && how == Meeting::cross)
+      const bool meets = has_curves
+                             ? !apartness.apart(one, other)
+                             : meeting(one.start, one.end, other.start, other.end) != Meeting::none;
+      if (apartness.cross(one, other))
         result = {Verdict::crosses, s, crossing_of(one.start, one.end, other.start, other.end)};
-      else if (has_curves ? !apartness.apart(one, other) : how == Meeting::touch)
+      else if (meets)
         result.verdict = Verdict::unclear;
     });
     if (result.verdict == Verdict::crosses) return result;

@@ -114,16 +114,10 @@ void Editor::Parts::list_all(std::vector<std::uint32_t>& nodes,
     if (graph.has_edge(i)) edges.push_back(i);
 }
 
-/// Computes all again after an edit; nothing happens where that fails.
-Result<AxisChange> Editor::Parts::rebuild(const edit::Edit& edit) {
-  AxisChange change;
-  change.vertex = subject_of(edit);
-  change.everything = true;
-  list_all(change.removed_nodes, change.removed_edges);
-  Parts next = *this;
-  next.rings.apply(edit);
+/// Computes all from the rings, as an edit has left them.
+Status Editor::Parts::start_again() {
   std::vector<std::vector<std::uint32_t>> numbers;
-  const std::vector<Ring> all = next.rings.rings(numbers);
+  const std::vector<Ring> all = rings.rings(numbers);
   auto shape = build_shape(all);
   if (!shape) {
     Error error = std::move(shape).error();
@@ -134,14 +128,26 @@ Result<AxisChange> Editor::Parts::rebuild(const edit::Edit& edit) {
     return error;
   }
   for (VertexSource& source : shape->sources) source.vertex = numbers[source.ring][source.vertex];
-  if (auto started = next.start(*shape, false); !started) {
+  if (auto started = start(*shape, false); !started) {
     Error error = std::move(started).error();
     error.place.ring.reset();  // the vertex has its number
     return error;
   }
-  next.list_all(change.added_nodes, change.added_edges);
+  for (edit::Edit& one : inverse) one.seat.reset();  // loops may count in another way now
+  return success();
+}
+
+/// Computes all again after an edit; nothing happens where that fails.
+Result<AxisChange> Editor::Parts::rebuild(const edit::Edit& edit) {
+  AxisChange change;
+  change.vertex = subject_of(edit);
+  change.everything = true;
+  list_all(change.removed_nodes, change.removed_edges);
+  Parts next = *this;
   next.inverse.push_back(rings.inverse(edit));
-  for (edit::Edit& one : next.inverse) one.seat.reset();  // loops may count in another way now
+  next.rings.apply(edit, false);
+  if (auto started = next.start_again(); !started) return std::move(started).error();
+  next.list_all(change.added_nodes, change.added_edges);
   *this = std::move(next);
   return change;
 }

@@ -54,6 +54,7 @@ struct Editor::Parts {
   std::vector<std::uint32_t> apart_components;  ///< of nodes
 
   Status start(const Shape& shape, bool is_first);
+  Status start_again();
   Result<AxisChange> change(edit::Edit edit);
   Result<AxisChange> undo();
 
@@ -71,6 +72,7 @@ struct Editor::Parts {
   std::optional<Step> follow(const edit::Edit& edit);
   std::optional<Step> follow_in_two(const edit::Edit& edit, std::optional<Error>& refused);
   Result<AxisChange> rebuild(const edit::Edit& edit);
+  void refine(AxisChange& change);
   bool fits_frame(const edit::Edit& edit) const;
   std::optional<Step> repair(const edit::Edit& edit, const Seeds& seeds);
   std::optional<Step> repair_part(const edit::Edit& edit, const Seeds& seeds);

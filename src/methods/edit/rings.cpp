@@ -184,7 +184,7 @@ std::vector<Rings::Extent> Rings::sites_around(const Edit& edit) const {
   return sites;
 }
 
-std::uint32_t Rings::site_around(Vec2 place) const {
+Rings::Around Rings::around(Vec2 place) const {
   const Vec2 p = frame_.to_local(place);
   const auto pieces_at = [&](std::uint32_t v) {
     const BulgeArc arc = local_edge(v);
@@ -197,19 +197,20 @@ std::uint32_t Rings::site_around(Vec2 place) const {
         pieces.count == 1 ? first : std::min(first, site::squared_distance(pieces.last(), p));
     return frame_.inverse * frame_.inverse * least;
   });
-  if (v == none) return none;
+  if (v == none) return {};
   const site::Pieces pieces = pieces_at(v);
   const bool is_last = pieces.count > 1 && site::squared_distance(pieces.last(), p) <
                                                site::squared_distance(pieces.first(), p);
   const site::Site& piece = is_last ? pieces.last() : pieces.first();
+  const double away = frame_.inverse * std::sqrt(site::squared_distance(piece, p));
   const double s = site::foot_parameter(piece, p);
   for (const bool at_end : {false, true}) {
     if (s != (at_end ? piece.length : 0) || (pieces.count > 1 && is_last != at_end)) continue;
     const std::uint32_t end = at_end ? vertices_[v].next : v;
     if (vertices_[end].flat || vertices_[end].joint == site::Joint::smooth) break;
-    return is_reflex(end) ? 2 * end : none;
+    return {is_reflex(end) ? 2 * end : none, away};
   }
-  return site::carrier_distance(piece, p) > 0 ? 2 * corner_to(v) + 1 : none;
+  return {site::carrier_distance(piece, p) > 0 ? 2 * corner_to(v) + 1 : none, away};
 }
 
 std::uint32_t Rings::arc_of(const Disk& circle) const {
@@ -239,22 +240,25 @@ Seat Rings::seat_of(std::uint32_t loop) const {
   return {loop, own.first, own.component, own.hole};
 }
 
-Seat Rings::find_seat(Vec2 place) const {
+Seat Rings::new_seat() const {
   Seat seat;
-  if (const std::uint32_t around = site_around(place); around != none) {
-    seat.component = loops_[vertices_[around / 2].loop].component;
-    seat.hole = true;
-  } else {
-    for (const Loop& other : loops_)
-      if (other.size > 0) seat.component = std::max(seat.component, other.component + 1);
-  }
+  for (const Loop& other : loops_)
+    if (other.size > 0) seat.component = std::max(seat.component, other.component + 1);
   const auto empty =
       std::find_if(loops_.begin(), loops_.end(), [](const Loop& one) { return one.size == 0; });
   seat.loop = static_cast<std::uint32_t>(empty - loops_.begin());
   return seat;
 }
 
-void Rings::put_in(const Edit& edit) {
+Seat Rings::find_seat(Vec2 place) const {
+  Seat seat = new_seat();
+  const std::uint32_t site = around(place).site;
+  seat.hole = site != none;
+  if (seat.hole) seat.component = loops_[vertices_[site / 2].loop].component;
+  return seat;
+}
+
+void Rings::put_in(const Edit& edit, bool is_followed) {
   const std::vector<Corner>& corners = edit.in;
   std::uint32_t room = 0;
   for (const Corner& corner : corners) room = std::max(room, corner.number + 1);
@@ -262,7 +266,9 @@ void Rings::put_in(const Edit& edit) {
     boxes_.set(static_cast<std::uint32_t>(vertices_.size()), Box::nothing());
     vertices_.emplace_back();
   }
-  const Seat seat = edit.seat ? *edit.seat : find_seat(corners[0].point);
+  const Seat seat = edit.seat     ? *edit.seat
+                    : is_followed ? find_seat(corners[0].point)
+                                  : find_seat_anew(corners);
   if (seat.loop == loops_.size()) loops_.emplace_back();
   const std::size_t size = corners.size();
   loops_[seat.loop] = {seat.first != none ? seat.first : corners[0].number,
@@ -284,10 +290,10 @@ void Rings::put_in(const Edit& edit) {
   }
 }
 
-void Rings::apply(const Edit& edit) {
+void Rings::apply(const Edit& edit, bool is_followed) {
   if (edit.is_of_loops()) {
     if (!edit.out.empty()) take_out(vertices_[edit.out.front().number].loop);
-    if (!edit.in.empty()) put_in(edit);
+    if (!edit.in.empty()) put_in(edit, is_followed);
     return;
   }
   if (edit.fresh == vertices_.size()) {  // first, as memory may run out
@@ -338,6 +344,7 @@ Edit Rings::inverse(const Edit& edit) const {
   back.old = edit.fresh;
   back.fresh = edit.old;
   back.bulge[0] = vertices_[edit.before].bulge;
+  back.bulge_before = edit.bulge[0];
   if (edit.old == none) return back;
   back.place = vertices_[edit.old].point;
   back.bulge[1] = vertices_[edit.old].bulge;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -42,8 +43,15 @@ struct Edit {
   std::vector<Corner> out, in;
   /// What the loop that changes or comes shall be, if known: so all comes back as it was.
   std::optional<Seat> seat = std::nullopt;
+  double bulge_before = 0;  ///< of the edge that begins at `before`, where this takes an edit back
 
   bool is_of_loops() const { return !out.empty() || !in.empty(); }
+  /// Whether there are arcs after it where there were none.
+  bool has_arcs() const {
+    return bulge[0] != 0 || bulge[1] != 0 ||
+           std::any_of(in.begin(), in.end(),
+                       [](const Corner& corner) { return corner.bulge != 0; });
+  }
 };
 
 Box box_of(const BulgeArc& edge);
@@ -86,6 +94,7 @@ class Rings {
   bool is_reflex(std::uint32_t v) const { return vertices_[v].joint == site::Joint::reflex; }
   /// A vertex of a hole in an outer loop; none if it has no hole.
   std::uint32_t hole_in(std::uint32_t loop) const;
+  Seat seat_of(std::uint32_t loop) const;
   /// A vertex of a loop that is not flat.
   std::uint32_t first_of(std::uint32_t loop) const { return corner_to(loops_[loop].first); }
   const LocalFrame& frame() const { return frame_; }
@@ -148,15 +157,24 @@ class Rings {
   };
   /// The sites that an edit can change, before or after apply().
   std::vector<Extent> sites_around(const Edit& edit) const;
-  /// The site nearest to a place in the interior; none where the place is not inside.
-  std::uint32_t site_around(Vec2 place) const;
+  /// The site nearest to a place in the interior, none where the place is not inside, and how far
+  /// away the boundary is.
+  struct Around {
+    std::uint32_t site = none;
+    double away = 0;
+  };
+  Around around(Vec2 place) const;
   /// The arc of the circle that is this disk of the local frame; none where there is none.
   std::uint32_t arc_of(const Disk& circle) const;
   /// Nothing happens where it throws, but that what goes out is gone where a loop comes as well.
-  void apply(const Edit& edit);
+  /// An edit that is not followed leaves loops as build_shape() is to take them: a loop that comes
+  /// may touch others, and these have the wrong direction. O(n) then.
+  void apply(const Edit& edit, bool is_followed = true);
   /// The edit that takes this one back. Before apply(). While no shape is adopted, or as long as
   /// its seat is reset then, all comes back in its old order; and without a search or new memory.
   Edit inverse(const Edit& edit) const;
+  /// The box of all edges.
+  Box box() const { return boxes_.all(); }
   /// A number for a new vertex.
   std::uint32_t unused() const { return static_cast<std::uint32_t>(vertices_.size()); }
 
@@ -218,10 +236,13 @@ class Rings {
   void judge_vertex(std::uint32_t v);
   void set_box(std::uint32_t v);
   void take_out(std::uint32_t loop);
-  void put_in(const Edit& edit);
-  Seat seat_of(std::uint32_t loop) const;
-  /// Of a loop that comes, whose vertices have room.
+  void put_in(const Edit& edit, bool is_followed);
+  /// Of a loop that comes, whose vertices have room: an outer one.
+  Seat new_seat() const;
+  /// The same by a place of it, where it keeps clear of all others.
   Seat find_seat(Vec2 place) const;
+  /// The same by the place of it that is furthest from all others, whatever their directions.
+  Seat find_seat_anew(const std::vector<Corner>& corners) const;
 
   Judgement judge_straight(const Edit& edit) const;
   Judgement judge_with_arcs(const Edit& edit) const;
