@@ -150,9 +150,22 @@ class Connector {
   }
 
  private:
-  /// The bridge among all sites that a disk from `foot` nearly reaches.
+  static constexpr double rounding = 0x1p-46;
+
+  /// The bridge among all sites that a disk from `foot` nearly reaches; of more, if it is larger
+  /// than that of double.
   std::optional<Bridge> exact_bridge(std::uint32_t hole, Vec2 foot, double radius) const {
-    constexpr double rounding = 0x1p-46;
+    for (;;) {
+      const auto touch = exact_->first_touch(foot, loops_, reached(hole, foot, radius));
+      if (!touch) return std::nullopt;
+      if (touch->radius <= radius + 0.25 * rounding)
+        return Bridge{{foot + touch->radius * outreach, touch->radius}, hole, touch->site};
+      radius = touch->radius;
+    }
+  }
+
+  /// The sites of other loops that a disk from `foot` reaches, or nearly.
+  std::vector<std::uint32_t> reached(std::uint32_t hole, Vec2 foot, double radius) const {
     const Boundary::SiteRange own = loops_.runs[hole];
     std::vector<std::uint32_t> near;
     const auto add = [&](std::uint32_t site, const Boundary::SiteRange& run) {
@@ -169,9 +182,7 @@ class Connector {
                         add(site == run.first ? run.last : site - 1, run);
                       });
     std::sort(near.begin(), near.end());
-    const auto touch = exact_->first_touch(foot, loops_, near);
-    if (!touch) return std::nullopt;
-    return Bridge{{foot + touch->radius * outreach, touch->radius}, hole, touch->site};
+    return near;
   }
   /// A disk that reaches beyond the furthest point of all crosses the boundary, however its centre
   /// is rounded.
@@ -201,14 +212,16 @@ class Connector {
   std::vector<double> found_;  ///< radii of the run under way
 };
 
-/// Where along its site a bridge touches: the parameter on a segment; on a vertex, the angle by
-/// which the boundary's normal has turned to the right since the site before.
+/// Where along its site a bridge touches that begins at `foot`: the parameter on a segment; on a
+/// vertex, the angle by which the boundary's normal has turned to the right since the site before.
+/// The bridge's centre may be rounded by more than it is large.
 double place_on_site(const Boundary& loops, std::uint32_t site, std::uint32_t site_before,
-                     Vec2 center) {
+                     Vec2 foot, const Disk& disk) {
   const Site& s = loops.sites[site];
-  if (!s.is_vertex()) return site::foot_parameter(s, center);
-  if (site_before == site) return clockwise_turn(outreach, center - s.point);
-  const Vec2 from = loops.sites[site_before].end_normal(), to = center - s.point;
+  if (!s.is_vertex()) return site::foot_parameter(s, disk.center);
+  const Vec2 to = (foot - s.point) + disk.radius * outreach;
+  if (site_before == site) return clockwise_turn(outreach, to);
+  const Vec2 from = loops.sites[site_before].end_normal();
   // It lies between 0 and half a turn; rounding may add a little on both sides.
   const double angle = std::atan2(-cross(from, to), dot(from, to));
   return angle < -0.5 * std::numbers::pi ? angle + 2 * std::numbers::pi : angle;
@@ -272,14 +285,15 @@ class Splicer {
     const Boundary::SiteRange run = loops_.runs[loop];
     const auto [disk, hole, site] = bridges_[bridge];
     const std::uint32_t before = site == run.first ? run.last : site - 1;
-    const double place = place_on_site(loops_, site, before, disk.center);
+    const Vec2 foot = loops_.sites[loops_.runs[hole].first].point;
+    const double place = place_on_site(loops_, site, before, foot, disk);
     // A hole's run starts in the middle of its first vertex: what is touched earlier on that
     // vertex comes at the very end. A point's run starts and ends there, and an outer loop's at
     // the beginning of a vertex.
     const bool at_end =
         shape_.hole[loop] && site == run.first && run.first < run.last &&
         loops_.elements[site] == Element::vertex &&
-        place < place_on_site(loops_, site, before, loops_.sites[site].point + outreach);
+        place < place_on_site(loops_, site, before, loops_.sites[site].point, {{}, 1});
     return {at_end ? run.last + 1 : site, bridge, place};
   }
 

@@ -3,6 +3,7 @@
 #ifdef MEDIAL_HAS_EXACT
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <unordered_set>
 #include <utility>
@@ -93,17 +94,13 @@ class ExactEvents::Search {
         erase_seen(candidates);
       }
       if (!candidates.empty()) continue;
-      // All that the best disk reaches over has been considered: by the lemma there is no event.
-      if (best_) return std::nullopt;
-      if (!all_around && (limit_ || (limit_ = end_of_feet()))) {
-        candidates = intruders(*limit_);
-        erase_seen(candidates);
+      if (!all_around) {
+        candidates = reached_before();
         if (candidates.empty()) return std::nullopt;
-        few_ *= 2;  // if none of these is touched, all are asked for in O(log n) rounds
         continue;
       }
-      // Only carriers were touched, beside their sites: look further around.
-      if (!(reach <= furthest)) return std::nullopt;
+      // Of disks that grow in one place, the best one reaches over all that the others touch.
+      if (best_ || !(reach <= furthest)) return std::nullopt;
       reach *= 4;
       events_.tree_.within(from_.center, reach, span_.right + 1, span_.left - 1, candidates);
     }
@@ -119,6 +116,8 @@ class ExactEvents::Search {
   static constexpr double furthest = 8;
   /// In the centre of more arcs of one circle up to rounding, 256 bits take too long.
   static constexpr std::size_t most_around = 1024;
+  /// An event nearer to the node than what this leaves of the way is touched by the node's disk.
+  static constexpr int most_halvings = 128;
 
   exact::ExactSite exact_site(std::uint32_t i) const { return outline_.sites[name(i)]; }
   std::uint32_t name(std::uint32_t i) const { return events_.boundary_.originals[i]; }
@@ -132,21 +131,59 @@ class ExactEvents::Search {
     std::erase_if(sites, [&](std::uint32_t site) { return is_seen(site); });
   }
 
-  /// The disk of the bisector at which the first of the two feet comes to the end of its site: no
-  /// event is later, and by the lemma this disk reaches over the site of the event, or touches it.
-  /// None where that disk would be larger than the shape.
-  std::optional<KnownDisk> end_of_feet() const {
-    const std::uint32_t right = name(span_.right), left = name(span_.left);
-    std::optional<KnownDisk> first;
-    for (const bool on_right : {true, false}) {
-      const auto spoke = end_of(on_right ? right : left, on_right);
-      if (!spoke) continue;
-      const auto disk = exact::disk_along(*spoke, outline_.sites[on_right ? left : right]);
-      if (disk && !is_too_large(*disk) && has_foot(span_.right, *disk) &&
-          has_foot(span_.left, *disk) && (!first || comes_before(*disk, *first)))
-        first = disk;
+  /// Halves the way along the bisector, from the node, whose disk keeps clear of the span, on: by
+  /// the lemma the event comes before a disk that reaches over something. The first sites found so
+  /// that have not been considered; none where there is no event.
+  std::vector<std::uint32_t> reached_before() {
+    if (!way_) way_ = way_ahead();
+    auto& [low, high] = *way_;
+    for (; halvings_ < most_halvings; ++halvings_) {
+      const Real middle = (low + high) / 2;
+      const auto disk = disk_at(middle);
+      if (disk && !is_too_large(*disk) && (!best_ || comes_before(*disk, *best_)) &&
+          is_touched(span_.right, *disk, false) && is_touched(span_.left, *disk, false)) {
+        std::vector<std::uint32_t> found = intruders(*disk);
+        if (found.empty() && !is_hopeless_) {
+          low = middle;
+          continue;
+        }
+        erase_seen(found);
+        if (!found.empty()) {
+          high = middle;
+          few_ *= 2;  // if none of these is touched, all are asked for in O(log n) rounds
+          return found;
+        }
+      }
+      high = middle;
     }
-    return first;
+    return {};
+  }
+
+  /// Places on the bisector, from the node to the last one that a disk may have: by the share at
+  /// which its foot is on the right site, or, if that is none but the left one is an edge, on that;
+  /// between two vertices by the way from their middle, against their distance.
+  std::array<Real, 2> way_ahead() const {
+    const exact::ExactSite right = exact_site(span_.right), left = exact_site(span_.left);
+    exact::Vector<Real> from{Real(from_.center.x), Real(from_.center.y)};
+    if (node_) from = {node_->center.x.value, node_->center.y.value};
+    const Real first(1.0), last(-1.0);
+    if (!right.is_vertex()) return {std::clamp(exact::share_of(right, from), last, first), last};
+    if (!left.is_vertex()) return {std::clamp(exact::share_of(left, from), last, first), first};
+    const Real x = left.start.x - Real(right.start.x), y = left.start.y - Real(right.start.y);
+    const Real squared = x * x + y * y, dx = from.x - right.start.x, dy = from.y - right.start.y;
+    return {Real((y * dx - x * dy) / squared), Real(events_.sites_.radius_limit_ / sqrt(squared))};
+  }
+
+  std::optional<KnownDisk> disk_at(const Real& place) const {
+    const exact::ExactSite right = exact_site(span_.right), left = exact_site(span_.left);
+    const Number way(place, 0), half(0.5);
+    exact::ApproximateRoots<Real> roots;
+    if (!right.is_vertex()) return exact::disk_along(exact::spoke_at(right, way, roots), left);
+    if (!left.is_vertex()) return exact::disk_along(exact::spoke_at(left, way, roots), right);
+    const auto start = exact::exact_vector<Number>(right.start),
+               chord = exact::exact_vector<Number>(left.start) - start;
+    const auto center = start + half * chord - way * exact::left_of(chord);
+    return KnownDisk{center, root_of((half * half + way * way) * dot(chord, chord))};
   }
 
   /// The spoke on which the feet on a site begin, or end; none at a vertex from which no foot
@@ -370,7 +407,9 @@ class ExactEvents::Search {
   std::size_t few_ = 8;  ///< intruders that are considered at a time
   bool is_hopeless_ = false;
   std::optional<KnownDisk> best_;
-  std::optional<KnownDisk> limit_;  ///< no event is later; asked for where none is near
+  std::optional<std::array<Real, 2>>
+      way_;  ///< where the event may be; asked for where none is near
+  int halvings_ = 0;
   std::uint32_t site_ = 0;
 };
 
