@@ -107,7 +107,7 @@ TEST_P(CertainShapes, HaveTheTrueGraphUnderAllSymmetries) {
   EXPECT_TRUE(finding.compared);
 }
 
-constexpr std::array<Certain, 8> certain_shapes{
+constexpr std::array<Certain, 9> certain_shapes{
     {{"ACornerOfAThinStrip",
       "POLYGON ((2008245147.1 0, 17977095740.7 0, 15993690534.9 0.8, 15993690534.9 1, "
       "2008245147.1 1, 2008245147.1 0))"},
@@ -135,6 +135,11 @@ constexpr std::array<Certain, 8> certain_shapes{
      {"ASplinterOfAnEdge",
       "POLYGON ((59.00000000000007 8.000000000000082, 59 25, 35 23, "
       "35.00000000000001 22.99999999999996, 22 30, 59.00000000000007 8.000000000000082))"},
+     // The event is at another vertex of the hole than those that the search begins with.
+     {"AHoleMuchLongerThanTheDisks",
+      "POLYGON ((-535e12 0.45, 39e12 -0.68, 439e12 -0.3, -535e12 0.45), "
+      "(15e12 -0.18, -2e12 -0.19, -18e12 -0.19, -42e12 -0.23, -16e12 -0.25, 4e12 -0.27, "
+      "15e12 -0.18))"},
      // Less than 256 bits can tell.
      {"AllButParallel", "POLYGON ((0 0, 0.3 -1e-72, 1 0, 1 1, 0 0))"}}};
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/arc.h"
+#include "base/twofold.h"
 #include "methods/checks.h"
 
 namespace medial::disks {
@@ -78,13 +79,24 @@ bool faces_out(const LoopEdges& loop, std::uint32_t i) {
   return dot(before + loop.edge(i).first().normal(), outreach) > -1;
 }
 
+/// Whether a place lies further in the direction `outreach` than another one: decided with twice
+/// the digits where double leaves it open, as it does along an edge of some roundings.
+bool is_further_out(Vec2 place, Vec2 other) {
+  constexpr double rounding = 0x1p-50;
+  const Vec2 way = place - other;
+  const double out = dot(outreach, way);
+  if (std::abs(out) > rounding * (std::abs(way.x) + std::abs(way.y))) return out > 0;
+  using Number = Bounded<Twofold>;
+  const Number x = Number(place.x) - Number(other.x), y = Number(place.y) - Number(other.y);
+  return (Number(outreach.x) * x + Number(outreach.y) * y).positive();
+}
+
 /// The furthest place in the direction `outreach`, of those where a disk can touch the loop.
 Start start_of_hole(const LoopEdges& loop, const SiteNumbers& numbers, bool has_arcs) {
   Start start;
   std::optional<Vec2> furthest;
-  // Places next to each other differ exactly, so that rounding decides nothing among them.
   const auto consider = [&](Vec2 place, const Start& candidate) {
-    if (furthest && !(dot(outreach, place - *furthest) > 0)) return;
+    if (furthest && !is_further_out(place, *furthest)) return;
     if (!candidate.inside && !faces_out(loop, candidate.point)) return;
     start = candidate;
     furthest = place;

@@ -217,14 +217,16 @@ class Connector {
   std::vector<double> found_;  ///< radii of the run under way
 };
 
-/// Where along its site a bridge touches: the parameter on a segment; on a vertex, the angle by
-/// which the boundary's normal has turned to the right since the site before.
+/// Where along its site a bridge touches that begins at `foot`: the parameter on a segment; on a
+/// vertex, the angle by which the boundary's normal has turned to the right since the site before.
+/// The bridge's centre may be rounded by more than it is large.
 double place_on_site(const Boundary& loops, std::uint32_t site, std::uint32_t site_before,
-                     Vec2 center) {
+                     Vec2 foot, const Disk& disk) {
   const Site& s = loops.sites[site];
-  if (!s.is_vertex()) return site::foot_parameter(s, center);
-  if (site_before == site) return clockwise_turn(outreach, center - s.point);
-  const Vec2 from = loops.sites[site_before].end_normal(), to = center - s.point;
+  if (!s.is_vertex()) return site::foot_parameter(s, disk.center);
+  const Vec2 to = (foot - s.point) + disk.radius * outreach;
+  if (site_before == site) return clockwise_turn(outreach, to);
+  const Vec2 from = loops.sites[site_before].end_normal();
   // It lies between 0 and half a turn; rounding may add a little on both sides.
   const double angle = std::atan2(-cross(from, to), dot(from, to));
   return angle < -0.5 * std::numbers::pi ? angle + 2 * std::numbers::pi : angle;
@@ -288,14 +290,15 @@ class Splicer {
     const Boundary::SiteRange run = loops_.runs[loop];
     const auto [disk, hole, site] = bridges_[bridge];
     const std::uint32_t before = site == run.first ? run.last : site - 1;
-    const double place = place_on_site(loops_, site, before, disk.center);
+    const Vec2 foot = loops_.sites[loops_.runs[hole].first].point;
+    const double place = place_on_site(loops_, site, before, foot, disk);
     // A hole's run starts in the middle of its first vertex: what is touched earlier on that
     // vertex comes at the very end. A point's run starts and ends there, and an outer loop's at
     // the beginning of a vertex.
     const bool at_end =
         shape_.hole[loop] && site == run.first && run.first < run.last &&
         loops_.elements[site] == Element::vertex &&
-        place < place_on_site(loops_, site, before, loops_.sites[site].point + outreach);
+        place < place_on_site(loops_, site, before, loops_.sites[site].point, {{}, 1});
     return {at_end ? run.last + 1 : site, bridge, place};
   }
 

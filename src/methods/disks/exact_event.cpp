@@ -3,6 +3,7 @@
 #ifdef MEDIAL_HAS_EXACT
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <unordered_set>
 #include <utility>
@@ -102,21 +103,15 @@ class ExactEvents::Search {
         erase_seen(candidates);
       }
       if (!candidates.empty()) continue;
-      if (!best_ && !all_around && (limit_ || (limit_ = end_of_feet()))) {
-        candidates = intruders(*limit_);
-        erase_seen(candidates);
-        few_ *= 2;  // if none of these is touched, all are asked for in O(log n) rounds
-      } else if (!best_ && reach <= furthest) {
-        // Only carriers were touched, beside their sites: look further around.
-        reach *= 4;
-        events_.tree_.within(from_.center, reach, span_.right + 1, span_.left - 1, candidates);
+      if (!all_around) {
+        candidates = reached_before();
+        if (candidates.empty()) return std::nullopt;
         continue;
       }
-      if (!candidates.empty()) continue;
-      // All that these disks reach over has been considered, and what is next to it may still come
-      // first: of few sites, all are.
-      if (!may_ask_all() || std::exchange(all_asked_, true)) return std::nullopt;
-      for (std::uint32_t i = span_.right + 1; i < span_.left; ++i) candidates.push_back(i);
+      // Of disks that grow in one place, the best one reaches over all that the others touch.
+      if (best_ || !(reach <= furthest)) return std::nullopt;
+      reach *= 4;
+      events_.tree_.within(from_.center, reach, span_.right + 1, span_.left - 1, candidates);
     }
   }
 
@@ -130,12 +125,9 @@ class ExactEvents::Search {
   static constexpr double furthest = 8;
   /// In the centre of more arcs of one circle up to rounding, 256 bits take too long.
   static constexpr std::size_t most_around = 1024;
-  /// Asking for all sites of a larger span takes too long.
-  static constexpr std::uint32_t most_asked = 1024;
+  /// An event nearer to the node than what this leaves of the way is touched by the node's disk.
+  static constexpr int most_halvings = 128;
 
-  bool may_ask_all() const {
-    return !events_.boundary_.has_arcs && span_.left - span_.right <= most_asked;
-  }
   exact::ExactSite exact_site(std::uint32_t i) const { return outline_.sites[name(i)]; }
   std::uint32_t name(std::uint32_t i) const { return events_.boundary_.originals[i]; }
   bool is_bridge(std::uint32_t i) const { return events_.boundary_.elements[i] == Element::bridge; }
@@ -148,39 +140,59 @@ class ExactEvents::Search {
     std::erase_if(sites, [&](std::uint32_t site) { return is_seen(site); });
   }
 
-  /// The disk of the bisector at which the first of the two feet comes to the end of its site: no
-  /// event is later, and this disk reaches over the site of the event, or over what is next to it.
-  /// None where that disk would be larger than the shape.
-  std::optional<KnownDisk> end_of_feet() const {
-    const std::uint32_t right = name(span_.right), left = name(span_.left);
-    std::optional<KnownDisk> first;
-    for (const bool on_right : {true, false}) {
-      const std::uint32_t own = on_right ? span_.right : span_.left,
-                          next = on_right ? own + 1 : own - 1;
-      const auto spoke = is_bridge(next) ? spoke_at_bridge(next, own) : end_of(name(own), on_right);
-      if (!spoke) continue;
-      const auto disk = exact::disk_along(*spoke, outline_.sites[on_right ? left : right]);
-      if (disk && !is_too_large(*disk) && has_foot(span_.right, *disk) &&
-          has_foot(span_.left, *disk) && (!first || comes_before(*disk, *first)))
-        first = disk;
+  /// Halves the way along the bisector, from the node, whose disk keeps clear of the span, on: by
+  /// the lemma the event comes before a disk that reaches over something. The first sites found so
+  /// that have not been considered; none where there is no event.
+  std::vector<std::uint32_t> reached_before() {
+    if (!way_) way_ = way_ahead();
+    auto& [low, high] = *way_;
+    for (; halvings_ < most_halvings; ++halvings_) {
+      const Real middle = (low + high) / 2;
+      const auto disk = disk_at(middle);
+      if (disk && !is_too_large(*disk) && (!best_ || comes_before(*disk, *best_)) &&
+          is_touched(span_.right, *disk, false) && is_touched(span_.left, *disk, false)) {
+        std::vector<std::uint32_t> found = intruders(*disk);
+        if (found.empty() && !is_hopeless_) {
+          low = middle;
+          continue;
+        }
+        erase_seen(found);
+        if (!found.empty()) {
+          high = middle;
+          few_ *= 2;  // if none of these is touched, all are asked for in O(log n) rounds
+          return found;
+        }
+      }
+      high = middle;
     }
-    return first;
+    return {};
   }
 
-  /// The spoke on which the feet on a site begin, or end, because a bridge stands there.
-  std::optional<exact::Spoke<Number>> spoke_at_bridge(std::uint32_t place,
-                                                      std::uint32_t own) const {
-    const auto disk = bridge_disk(events_.boundary_.originals[place]);
-    const exact::ExactSite site = exact_site(own);
-    if (!disk || site.is_arc()) return end_of(name(own), place > own);
-    if (site.is_vertex()) {
-      const auto point = exact::exact_vector<Number>(site.start);
-      return exact::Spoke<Number>{point, disk->center - point, disk->radius};
-    }
+  /// Places on the bisector, from the node to the last one that a disk may have: by the share at
+  /// which its foot is on the right site, or, if that is none but the left one is an edge, on that;
+  /// between two vertices by the way from their middle, against their distance.
+  std::array<Real, 2> way_ahead() const {
+    const exact::ExactSite right = exact_site(span_.right), left = exact_site(span_.left);
+    exact::Vector<Real> from{Real(from_.center.x), Real(from_.center.y)};
+    if (node_) from = {node_->center.x.value, node_->center.y.value};
+    const Real first(1.0), last(-1.0);
+    if (!right.is_vertex()) return {std::clamp(exact::share_of(right, from), last, first), last};
+    if (!left.is_vertex()) return {std::clamp(exact::share_of(left, from), last, first), first};
+    const Real x = left.start.x - Real(right.start.x), y = left.start.y - Real(right.start.y);
+    const Real squared = x * x + y * y, dx = from.x - right.start.x, dy = from.y - right.start.y;
+    return {Real((y * dx - x * dy) / squared), Real(events_.sites_.radius_limit_ / sqrt(squared))};
+  }
+
+  std::optional<KnownDisk> disk_at(const Real& place) const {
+    const exact::ExactSite right = exact_site(span_.right), left = exact_site(span_.left);
+    const Number way(place, 0), half(0.5);
     exact::ApproximateRoots<Real> roots;
-    auto spoke = exact::spoke_of<Number>(site, false, roots);
-    spoke.foot = disk->center - (disk->radius / spoke.size) * spoke.normal;
-    return spoke;
+    if (!right.is_vertex()) return exact::disk_along(exact::spoke_at(right, way, roots), left);
+    if (!left.is_vertex()) return exact::disk_along(exact::spoke_at(left, way, roots), right);
+    const auto start = exact::exact_vector<Number>(right.start),
+               chord = exact::exact_vector<Number>(left.start) - start;
+    const auto center = start + half * chord - way * exact::left_of(chord);
+    return KnownDisk{center, root_of((half * half + way * way) * dot(chord, chord))};
   }
 
   /// The spoke on which the feet on a site begin, or end; none at a vertex from which no foot
@@ -422,9 +434,11 @@ class ExactEvents::Search {
   std::optional<KnownDisk> node_;  ///< of the span, where it is asked for
   std::unordered_set<std::uint32_t> seen_;
   std::size_t few_ = 8;  ///< intruders that are considered at a time
-  bool is_hopeless_ = false, all_asked_ = false;
+  bool is_hopeless_ = false;
   std::optional<KnownDisk> best_;
-  std::optional<KnownDisk> limit_;  ///< no event is later; asked for where none is near
+  std::optional<std::array<Real, 2>>
+      way_;  ///< where the event may be; asked for where none is near
+  int halvings_ = 0;
   std::uint32_t site_ = 0;
 };
 

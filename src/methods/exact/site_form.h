@@ -120,6 +120,36 @@ Spoke<Number> spoke_of(const ExactSite& edge, bool at_end, Roots& roots) {
   return {exact_vector<Number>(at_end ? to : from), normal, size};
 }
 
+/// The normal between the ends of an edge, at a `share` of the way from 1 at its start to -1 at its
+/// end: for an arc of bulge b, that of its chord turned by twice the arc tangent of b share.
+template <class Number, class Roots>
+Spoke<Number> spoke_at(const ExactSite& edge, const Number& share, Roots& roots) {
+  const Number one(1.0), two(2.0), bulge(edge.bulge), turn = bulge * share;
+  const Vector<Number> start = exact_vector<Number>(edge.start),
+                       along = exact_vector<Number>(edge.end) - start, normal = left_of(along);
+  const Number squared = turn * turn, rest = one - share;
+  const Number length = two * (one + squared);
+  const Vector<Number> foot = start + (rest * (one - bulge * turn) / length) * along -
+                              (bulge * rest * (one + share) / length) * normal;
+  return {foot, (one - squared) * normal + two * turn * along,
+          (one + squared) * roots.root(dot(along, along))};
+}
+
+/// The share at which the foot of a place lies on an edge's carrier, as an approximation.
+template <class Real>
+Real share_of(const ExactSite& edge, const Vector<Real>& place) {
+  using std::sqrt;
+  const Real x = edge.end.x - Real(edge.start.x), y = edge.end.y - Real(edge.start.y);
+  const Real dx = place.x - edge.start.x, dy = place.y - edge.start.y, squared = x * x + y * y;
+  if (!edge.is_arc()) return 1 - 2 * (x * dx + y * dy) / squared;
+  // The arc's normal at its start turned to where the place is seen.
+  const Real bulge(edge.bulge), cosine = 1 - bulge * bulge;
+  const Real nx = 2 * bulge * x - cosine * y - 4 * bulge * dx,
+             ny = 2 * bulge * y + cosine * x - 4 * bulge * dy;
+  const Real size = sqrt(Real((nx * nx + ny * ny) * squared));
+  return (nx * x + ny * y) / (bulge * (size + x * ny - y * nx));
+}
+
 /// The contact of a disk with a site: round (x.x - r r) + slope.x - size r + height is zero, with x
 /// the centre as seen from an origin; positive where the disk does not reach the site's carrier.
 /// With d = x - point it is N.d - |N| r for a segment of inward normal N, and the same less
