@@ -54,9 +54,9 @@ struct MeanWidth {
 MeanWidth mean_width(const MedialAxis& axis, const AxisPath& path);
 
 /// At most `count` disjoint disks of radius at least `least`, largest first: each is the largest in
-/// the shape minus the disks before it, up to rounding of the coordinates. Branch and bound over
-/// squares, without an axis: O(n), then O(log n + k) per square examined after k disks; real
-/// outlines need tens to hundreds of squares per disk.
+/// the shape minus the disks before it, up to rounding of the coordinates; of equal ones any.
+/// Branch and bound over squares, without an axis: O(n), then O(log n + k) per square examined after
+/// k disks; real outlines need tens to hundreds of squares per disk.
 std::vector<Disk> largest_disjoint_disks(const Shape& shape, std::size_t count, double least = 0);
 
 }  // namespace medial
