@@ -238,8 +238,8 @@ std::array<std::uint32_t, 2> sites_beside(const Successor& inner, Vec2 along, co
 /// more lines cost seconds, as each of their forces is a sum over more edges.
 constexpr std::size_t most_lined = 2000;
 
-/// What forces for such lines, and for moving their points, may cost in a shape: some two thirds of
-/// a second. What is left then starts on the exact axis.
+/// What forces for such lines, and for moving their points, may cost in a shape: some three fifths
+/// of a second. What is left then starts on the exact axis.
 constexpr std::uint64_t most_work = 18'000'000;
 constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
 
