@@ -400,8 +400,9 @@ class Tracing {
   const method::Potential& own_;
   const SiteNames names_;
   std::vector<Region> regions_;
-  std::vector<Skeleton> limits_;         ///< of all components, once they are needed
-  std::uint64_t work_left_ = most_work;  ///< for force lines to the axis
+  std::vector<Skeleton> limits_;  ///< of all components, once they are needed
+  /// For force lines to the axis, unless these were asked for.
+  std::uint64_t work_left_ = own_.base_order > 0 || own_.coarse > 0 ? unlimited : most_work;
 };
 
 bool follows_lines(const Problem& problem) {
