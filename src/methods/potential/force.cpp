@@ -425,7 +425,13 @@ void Evaluator::sum_one(double order, Force& total) {
 Force Evaluator::force(double order) {
   Force result;
   gather(order, order);
-  sum_one(order, result);
+  // Up to here the recurrence is short.
+  constexpr double least_alone = 12;
+  if (order >= least_alone) {
+    sum_one(order, result);
+  } else {
+    sum(std::fmod(order, 2), order, std::span(&result, 1));
+  }
   add_far(order, result);
   return result;
 }

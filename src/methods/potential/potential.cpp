@@ -238,8 +238,8 @@ std::array<std::uint32_t, 2> sites_beside(const Successor& inner, Vec2 along, co
 /// more lines cost seconds, as each of their forces is a sum over more edges.
 constexpr std::size_t most_lined = 2000;
 
-/// What forces for such lines, and for moving their points, may cost in a shape: some two thirds of
-/// a second. What is left then starts on the exact axis.
+/// What forces for such lines, and for moving their points, may cost in a shape: some three fifths
+/// of a second. What is left then starts on the exact axis.
 constexpr std::uint64_t most_work = 18'000'000;
 constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
 
@@ -400,8 +400,9 @@ class Tracing {
   const method::Potential& own_;
   const SiteNames names_;
   std::vector<Region> regions_;
-  std::vector<Skeleton> limits_;         ///< of all components, once they are needed
-  std::uint64_t work_left_ = most_work;  ///< for force lines to the axis
+  std::vector<Skeleton> limits_;  ///< of all components, once they are needed
+  /// For force lines to the axis, unless these were asked for.
+  std::uint64_t work_left_ = own_.base_order > 0 || own_.coarse > 0 ? unlimited : most_work;
 };
 
 bool follows_lines(const Problem& problem) {
