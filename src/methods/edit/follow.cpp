@@ -78,8 +78,7 @@ std::optional<Error> Editor::Parts::refuse(const edit::Edit& edit) const {
     for (const edit::Corner& corner : edit.in)
       if (!is_finite(corner.point) || !std::isfinite(corner.bulge))
         return error_of(ErrorCode::not_finite, not_finite, corner.number);
-    // Where edges touch, build_shape() finds out.
-    if (edit.out.empty() || !edit.in.empty() || !apart.empty()) return std::nullopt;
+    if (edit.out.empty() || !edit.in.empty()) return std::nullopt;
     const std::uint32_t hole = rings.hole_in(rings[edit.out.front().number].loop);
     if (hole == none) return std::nullopt;
     return error_of(ErrorCode::hole_outside, "the hole would not lie inside an outer ring", hole);
