@@ -146,6 +146,32 @@ constexpr std::array<Certain, 9> certain_shapes{
 INSTANTIATE_TEST_SUITE_P(Cases, CertainShapes, testing::ValuesIn(certain_shapes),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
+/// A shape of a class.
+struct Seeded {
+  std::string_view name;
+  std::uint64_t seed;
+};
+void PrintTo(const Seeded& shape, std::ostream* out) { *out << shape.name << shape.seed; }
+
+class TiesOfPolygons : public testing::TestWithParam<Seeded> {};
+
+/// From which end the walk comes to an edge, in which order contacts are found, and how centres are
+/// rounded does not matter.
+TEST_P(TiesOfPolygons, AreContractedAlikeUnderAllSymmetries) {
+  const auto classes = nasty_classes();
+  const auto one = std::find_if(classes.begin(), classes.end(),
+                                [](const auto& each) { return each.name == GetParam().name; });
+  ASSERT_NE(one, classes.end());
+  const Finding finding = examine_nasty(*one, GetParam().seed, false, {});
+  EXPECT_EQ(finding.fault, Fault::none) << finding.words;
+}
+
+constexpr std::array<Seeded, 3> ties{
+    {{"slits", 20261127000809}, {"rings", 20261127001358}, {"splinters", 20261127000354}}};
+
+INSTANTIATE_TEST_SUITE_P(Cases, TiesOfPolygons, testing::ValuesIn(ties),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
 /// A triangle with an arc beside an edge of some roundings.
 struct ArcBesideASplinter {
   std::string_view name;
@@ -320,7 +346,7 @@ TEST_P(NastyShapes, HaveTheTrueGraphUnderAllSymmetries) {
       << found.first.find(Fault::loose)->second;
 }
 
-constexpr std::array<Mended, 12> shapes{{{"strips", 0, 0},
+constexpr std::array<Mended, 13> shapes{{{"strips", 0, 0},
                                          {"slits", 0, 0},
                                          {"stretched", 0, 0},
                                          {"needles", 0, 0},
@@ -329,6 +355,7 @@ constexpr std::array<Mended, 12> shapes{{{"strips", 0, 0},
                                          {"grids", 0, 0},
                                          {"splinters", 0, 0},
                                          {"rounds", 0, 0},
+                                         {"groups", 30, 50},
                                          {"circles", 5},
                                          {"bars"},
                                          {"tangents"}}};
@@ -368,7 +395,7 @@ TEST_P(NastyPlanarGraphs, AreVerifiedUnderAllSymmetries) {
 }
 
 /// Next to arcs double decides.
-constexpr std::array<Mended, 12> planar_graphs{{{"strips"},
+constexpr std::array<Mended, 13> planar_graphs{{{"strips"},
                                                 {"slits"},
                                                 {"stretched"},
                                                 {"needles"},
@@ -377,6 +404,7 @@ constexpr std::array<Mended, 12> planar_graphs{{{"strips"},
                                                 {"grids"},
                                                 {"splinters"},
                                                 {"rounds"},
+                                                {"groups", 5},
                                                 {"circles", 20},
                                                 {"bars", 20},
                                                 {"tangents"}}};

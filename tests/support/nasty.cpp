@@ -266,7 +266,9 @@ Rings tangent_arcs(Random& random, bool small) {
   return rings;
 }
 
-constexpr std::array<NastyClass, 12> classes{{{"strips", strip_shape},
+Rings group_shape(Random& random, bool small);
+
+constexpr std::array<NastyClass, 13> classes{{{"strips", strip_shape},
                                               {"slits", slit_shape},
                                               {"stretched", stretched_shape},
                                               {"needles", needle_shape},
@@ -275,9 +277,55 @@ constexpr std::array<NastyClass, 12> classes{{{"strips", strip_shape},
                                               {"grids", grid_shape},
                                               {"splinters", splinter_shape},
                                               {"rounds", round_polygon},
+                                              {"groups", group_shape},
                                               {"circles", arc_circle, true},
                                               {"bars", bar_shape, true},
                                               {"tangents", tangent_arcs, true}}};
+
+// ---- Several of one class.
+
+/// Moves a part into a quadrant, next to the origin, where it keeps its digits, and scales it by a
+/// power of two to a width in [1, 2) times `size`.
+void add_to_quadrant(const Rings& part, std::size_t quadrant, double size, double gap,
+                     Rings& rings) {
+  Box box = Box::nothing();
+  for (const Ring& ring : part)
+    for (const Vec2 p : ring.points) box.add(p);
+  const double width = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+  const double scale = size * std::exp2(-std::ilogb(width));
+  const double x_sense = quadrant % 2 == 0 ? 1 : -1, y_sense = quadrant / 2 == 0 ? 1 : -1;
+  for (Ring ring : part) {
+    for (Vec2& p : ring.points) {
+      const Vec2 moved = scale * (p - box.low) + Vec2{gap, gap};
+      p = {x_sense * moved.x, y_sense * moved.y};
+    }
+    rings.push_back(std::move(ring));
+  }
+}
+
+/// Components, or, with the holes that they have as islands, holes of one square. All of about one
+/// size, or each of its own.
+Rings group_shape(Random& random, bool small) {
+  std::vector<const NastyClass*> polygons;
+  for (const NastyClass& one : classes)
+    if (!one.has_arcs && one.generate != group_shape) polygons.push_back(&one);
+  const auto last = static_cast<std::int64_t>(polygons.size()) - 1;
+  const NastyClass& one = *polygons[static_cast<std::size_t>(random.integer(0, last))];
+  constexpr std::size_t quadrants = 4;
+  const std::size_t count = small ? 2 : 1 + up_to(random, quadrants - 1);
+  const std::size_t first = up_to(random, quadrants);
+  const bool as_holes = random.chance(0.5), alike = random.chance(0.5);
+  const double gap = std::exp2(-static_cast<double>(random.integer(1, 50)));
+  Rings rings;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double size = alike ? 1 : std::exp2(-static_cast<double>(random.integer(0, 40)));
+    add_to_quadrant(one.generate(random, small), (first + i) % quadrants, size, gap, rings);
+  }
+  constexpr double side = 2.5;
+  if (as_holes)
+    rings.push_back(ring_of({{-side, -side}, {side, -side}, {side, side}, {-side, side}}));
+  return rings;
+}
 
 }  // namespace
 

@@ -30,7 +30,8 @@ struct NastyClass {
 /// grids: cells of integers, and polygons on them.
 /// splinters: polygons with edges of 1e-16 to 1e-12.
 /// rounds: regular polygons, their vertices off by 1e-16 to 1e-10 of the radius.
-/// circles: the same of arcs.
+/// groups: two to four of one of these classes, a quadrant each, as components or as holes.
+/// circles: as rounds, of arcs.
 /// bars: with rounded ends of one to five arcs, off by as much.
 /// tangents: random arcs that join smoothly but for an angle of 1e-16 to 1e-7.
 std::span<const NastyClass> nasty_classes();

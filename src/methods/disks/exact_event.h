@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <mutex>
@@ -9,6 +10,7 @@
 
 #include "methods/disks/contacts.h"
 #ifdef MEDIAL_HAS_EXACT
+#include "methods/exact/disk_bounds.h"
 #include "methods/exact/outline.h"
 #endif
 
@@ -49,6 +51,13 @@ class ExactSites {
 #ifdef MEDIAL_HAS_EXACT
   /// A site of the boundary as the shape has it.
   exact::ExactSite site(std::uint32_t i) const { return outline().sites[boundary_.originals[i]]; }
+  /// The disk that three sites of the boundary touch in their order; none where it is not known.
+  template <class Real>
+  std::optional<exact::DiskBounds<Real>> disk_of(const std::array<std::uint32_t, 3>& sites) const {
+    const auto name = [&](std::uint32_t i) { return boundary_.originals[i]; };
+    return exact::disk_bounds<Real>(outline(), {name(sites[0]), name(sites[1]), name(sites[2])},
+                                    Disk{});
+  }
 #endif
 
  private:

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -107,16 +108,18 @@ class Merger {
     return all;
   }
 
-  /// Whether two nodes are near to each other against both of their disks: no leaf is.
-  static bool is_short(const Disk& a, const Disk& b) {
-    const double furthest = short_edge * std::min(a.radius, b.radius);
+  /// Whether two nodes are near to each other against both of their disks, give or take `slack`: no
+  /// leaf is.
+  static bool is_short(const Disk& a, const Disk& b, double slack) {
+    const double furthest = short_edge * std::min(a.radius, b.radius) + slack;
     return squared_norm(b.center - a.center) < furthest * furthest;
   }
-  /// The edges that are short.
+  /// The edges that are short, or may be so but for the rounding of their nodes.
   std::vector<std::uint32_t> short_edges() const {
+    const double rounding = boundary_.has_arcs ? 0 : 0x1p-50;
     return filter(graph_.edges.size(), [&](std::size_t e) {
       const auto [from, to] = graph_.edges[e].node;
-      return is_short(graph_.nodes[from].disk, graph_.nodes[to].disk);
+      return is_short(graph_.nodes[from].disk, graph_.nodes[to].disk, rounding);
     });
   }
 
@@ -152,10 +155,9 @@ class Merger {
       return true;
     if (!is_branching(edge.node[0]) || !is_branching(edge.node[1]))
       return boundary_.has_arcs && could_be_at_hub(edge);
-    const std::uint32_t after = other_contact(edge, edge.node[1]);
-    if (after == none || !(std::abs(near_contact(after, from).residual) <= steepest * bound()))
-      return false;
-    const std::uint32_t before = other_contact(edge, edge.node[0]);
+    // Seen from both ends, so that it does not matter from which one the walk came.
+    const std::uint32_t after = other_contact(edge, edge.node[1], from);
+    const std::uint32_t before = after == none ? none : other_contact(edge, edge.node[0], to);
     if (before == none) return false;
     const Disk middle{midpoint(from.center, to.center), 0.5 * (from.radius + to.radius)};
     std::array<ContactOf<double>, 4> contacts;
@@ -228,12 +230,17 @@ class Merger {
     return {to.x, to.y, 0.5 * disk.radius * (squared_norm(to) - 1)};
   }
 
-  /// A site that is touched in a node of the edge, but is not the edge's own.
-  std::uint32_t other_contact(const Edge& edge, std::uint32_t node) const {
+  /// A site that is touched in a node of the edge, but is not the edge's own; none where one of
+  /// them is too far from the disk of the edge's other node.
+  std::uint32_t other_contact(const Edge& edge, std::uint32_t node, const Disk& other) const {
+    std::uint32_t found = none;
     for (const std::uint32_t end : ends_at(node))
-      for (const std::uint32_t site : graph_.edges[end / 2].site)
-        if (site != edge.site[0] && site != edge.site[1]) return site;
-    return none;
+      for (const std::uint32_t site : graph_.edges[end / 2].site) {
+        if (site == edge.site[0] || site == edge.site[1] || site == found) continue;
+        if (!(std::abs(near_contact(site, other).residual) <= steepest * bound())) return none;
+        found = site;
+      }
+    return found;
   }
 
   /// The nodes of the edges, increasing, and what each of them touches.
@@ -327,8 +334,7 @@ class Merger {
   bool is_near(const Edge& edge, const Nearness& nearness) const {
     const auto [from, to] = edge.node;
     const Disk &a = graph_.nodes[from].disk, &b = graph_.nodes[to].disk;
-    const double length = std::min(nearness.length * tolerance_, is_short(a, b) ? tolerance_ : 0);
-    if (!boundary_.has_arcs && squared_norm(b.center - a.center) <= length * length) return true;
+    if (!boundary_.has_arcs && are_near(from, to, nearness.length * tolerance_)) return true;
     if (!is_branching(from) || !is_branching(to))
       return nearness.level == nearnesses[0].level && boundary_.has_arcs && could_be_at_hub(edge);
     const std::vector<Touch>&at_from = contacts_[place_of(from)], &at_to = contacts_[place_of(to)];
@@ -338,6 +344,60 @@ class Merger {
     TieFit fit(tie_sites_, at_from.size() >= at_to.size() ? a : b);
     return fit.fits(both, nearness.level * tolerance_);
   }
+
+  /// Whether the disks of two nodes are so near to each other, and near against their radii.
+  bool are_near(std::uint32_t a, std::uint32_t b, double length) const {
+    constexpr double surely = 16;  // tolerances
+    const Disk &from = graph_.nodes[a].disk, &to = graph_.nodes[b].disk;
+    const double squared = squared_norm(to.center - from.center);
+    if (squared > surely * surely * tolerance_ * tolerance_) return false;
+#ifdef MEDIAL_HAS_EXACT
+    if (const auto near = are_near_in<Twofold>(a, b, length)) return *near;
+    if (const auto near = are_near_in<exact::Precise>(a, b, length)) return *near;
+#endif
+    return squared <= length * length && is_short(from, to, 0);
+  }
+#ifdef MEDIAL_HAS_EXACT
+  /// The same of the disks as the sites have them; none where these are not known.
+  template <class Real>
+  std::optional<bool> are_near_in(std::uint32_t a, std::uint32_t b, double length) const {
+    using Number = Bounded<Real>;
+    const auto from = disk_in<Real>(a), to = from ? disk_in<Real>(b) : std::nullopt;
+    if (!to) return std::nullopt;
+    const auto way = to->center - from->center;
+    const Number squared = dot(way, way), share(short_edge), most(length);
+    std::optional<int> sign = (most * most - squared).sign();
+    for (const auto& disk : {*from, *to}) {
+      if (!sign || *sign < 0) break;
+      const Number furthest = share * disk.radius;
+      sign = (furthest * furthest - squared).sign();
+    }
+    return sign ? std::optional(*sign >= 0) : std::nullopt;
+  }
+  /// The disk of a node that touches three sites; none of one that touches more.
+  template <class Real>
+  std::optional<exact::DiskBounds<Real>> disk_in(std::uint32_t node) const {
+    if (tie_sites_.exact == nullptr) return std::nullopt;
+    const Disk& about = graph_.nodes[node].disk;
+    std::vector<std::uint32_t> sites;  // of several pieces of one site, one
+    for (const Touch& contact : contacts_[place_of(node)])
+      if (ranges::none_of(sites, [&](std::uint32_t other) {
+            return boundary_.originals[other] == boundary_.originals[contact.site];
+          }))
+        sites.push_back(contact.site);
+    if (sites.size() != 3) return std::nullopt;
+    // Where pieces lie on two sides of a bridge their order is open.
+    for (int order = 0; order < 2; ++order, std::swap(sites[1], sites[2])) {
+      const auto disk = tie_sites_.exact->disk_of<Real>({sites[0], sites[1], sites[2]});
+      if (!disk) continue;
+      const Vec2 center{static_cast<double>(disk->center.x.value),
+                        static_cast<double>(disk->center.y.value)};
+      constexpr double of_radius = 0.125, rounding = 0x1p-48;
+      if (distance(center, about.center) <= of_radius * about.radius + rounding) return disk;
+    }
+    return std::nullopt;
+  }
+#endif
 
   /// Whether one disk touches all that a group's nodes touch, and nothing reaches into it. Around a
   /// hole a group is no tree, and the hole stays; among arcs one of the nodes branches.
@@ -361,6 +421,7 @@ class Merger {
     const double share = 1 / static_cast<double>(group.nodes.size());
     TieFit fit(tie_sites_, {share * mean.center, share * mean.radius});
     if (!fit.fits(contacts, nearnesses[0].level * tolerance_)) return false;
+    if (!boundary_.has_arcs) fit.settle(contacts);
     group.disk = fit.disk;
     group.worst = fit.worst;
     return is_empty(fit.disk, graph_.nodes[group.nodes[0]].component);

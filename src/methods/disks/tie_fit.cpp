@@ -92,9 +92,8 @@ class Exchange {
     for (int round = 0; round < most_rounds; ++round) {
       measure(contacts);
       if (worst <= low) return Verdict::yes;
-      if (count_ == 0) begin(contacts);
       const DiskOf<Real> measured = disk;
-      if (!improve()) {
+      if ((count_ == 0 && !begin(contacts)) || !improve()) {
         disk = measured;
         return Verdict::open;
       }
@@ -104,6 +103,27 @@ class Exchange {
     }
     measure(contacts);
     return worst <= low ? Verdict::yes : Verdict::open;
+  }
+
+  /// Moves on until the largest residual is the least, or below `noise`.
+  void settle(std::span<const Touch> contacts, double noise) {
+    constexpr int most_rounds = 24;
+    measure(contacts);
+    DiskOf<Real> best = disk;
+    Real least = worst;
+    for (int round = 0; round < most_rounds && worst > Real(noise); ++round) {
+      const Real before = level_;
+      if ((count_ == 0 && !begin(contacts)) || !improve()) break;
+      measure(contacts);
+      if (worst < least) {
+        best = disk;
+        least = worst;
+      }
+      const bool has_begun = count_ == 4 && before > 0;
+      if (has_begun && size_of(Real(level_ - before)) <= Real(noise)) break;
+    }
+    disk = best;
+    worst = least;
   }
 
  private:
@@ -123,8 +143,9 @@ class Exchange {
     }
   }
 
-  /// Begins with three of the contacts, as far apart as they can be found at once.
-  void begin(std::span<const Touch> contacts) {
+  /// Begins with three of the contacts, as far apart as they can be found at once. False where a
+  /// disk in a vertex has no direction from it.
+  bool begin(std::span<const Touch> contacts) {
     const ContactOf<Real> first = contact(contacts[0]);
     reference_.fill(contacts[0]);  // where a disk is in a vertex, no other is apart from it
     Real largest(-1), x(0), y(0);
@@ -137,6 +158,7 @@ class Exchange {
       x = dx;
       y = dy;
     }
+    if (!(largest >= 0)) return false;
     largest = -1;
     for (const Touch& i : contacts) {
       const ContactOf<Real> other = contact(i);
@@ -145,7 +167,9 @@ class Exchange {
       largest = size;
       reference_[2] = i;
     }
+    if (!(largest >= 0)) return false;
     count_ = 3;
+    return true;
   }
 
   bool has_strayed() const {
@@ -245,6 +269,18 @@ site::Site Touch::seen_from(std::span<const site::Site> sites, Vec2 center) cons
 
 namespace {
 
+/// What a distance loses in double.
+constexpr double noise_of_double = 0x1p-51;
+/// Of twice a double's digits, a distance to a segment's line is a sum of two products of normal
+/// and difference, each with seven operations that lose less than 2^-102 of what they compute; the
+/// products together are at most the distance to the segment's start, below 12: less than 2^-94. A
+/// distance to a vertex has fewer operations; those to flat arcs may lose all digits.
+constexpr double noise_of_twofold = 0x1p-90;
+
+bool has_arcs(const TieSites& sites, std::span<const Touch> contacts) {
+  return ranges::any_of(contacts, [&](const Touch& i) { return sites.sites[i.site].is_arc(); });
+}
+
 /// Asks for the verdict in numbers of more digits, from a disk on, and moves the disk.
 template <class Real>
 Verdict judge_again(const TieSites& sites, std::span<const Touch> contacts, const Bound& bound,
@@ -258,27 +294,32 @@ Verdict judge_again(const TieSites& sites, std::span<const Touch> contacts, cons
   return verdict;
 }
 
+template <class Real>
+void settle_in(const TieSites& sites, std::span<const Touch> contacts, double noise, TieFit& fit) {
+  Exchange<Real> exchange(
+      sites, {Real(fit.disk.center.x), Real(fit.disk.center.y), Real(fit.disk.radius)});
+  exchange.settle(contacts, noise);
+  const DiskOf<Real>& found = exchange.disk;
+  fit.disk = {{static_cast<double>(found.x), static_cast<double>(found.y)},
+              static_cast<double>(found.radius)};
+  fit.worst = static_cast<double>(exchange.worst);
+}
+
 }  // namespace
 
 bool TieFit::fits(std::span<const Touch> contacts, double bound) {
-  constexpr double noise = 0x1p-51;  // of a distance in double
   Verdict verdict = Verdict::open;
   {
     Exchange<double> exchange(*sites_, {disk.center.x, disk.center.y, disk.radius});
-    verdict = exchange.judge(contacts, {bound, noise});
+    verdict = exchange.judge(contacts, {bound, noise_of_double});
     disk = {{exchange.disk.x, exchange.disk.y}, exchange.disk.radius};
     worst = exchange.worst;
   }
 #ifdef MEDIAL_HAS_EXACT
   if (verdict == Verdict::open && sites_->exact != nullptr) {
-    // Of twice a double's digits, a distance to a segment's line is a sum of two products of normal
-    // and difference, each with seven operations that lose less than 2^-102 of what they compute;
-    // the products together are at most the distance to the segment's start, below 12: less than
-    // 2^-94. A distance to a vertex has fewer operations; those to flat arcs may lose all digits.
-    const auto is_arc = [&](const Touch& i) { return sites_->sites[i.site].is_arc(); };
     const Disk start = disk;
-    if (ranges::none_of(contacts, is_arc))
-      verdict = judge_again<Twofold>(*sites_, contacts, {bound, 0x1p-90}, disk, worst);
+    if (!has_arcs(*sites_, contacts))
+      verdict = judge_again<Twofold>(*sites_, contacts, {bound, noise_of_twofold}, disk, worst);
     if (verdict == Verdict::open) {
       disk = start;
       verdict = judge_again<Precise>(*sites_, contacts, {bound, 0x1p-200}, disk, worst);
@@ -286,6 +327,14 @@ bool TieFit::fits(std::span<const Touch> contacts, double bound) {
   }
 #endif
   return verdict == Verdict::yes || (verdict == Verdict::open && worst <= bound);
+}
+
+void TieFit::settle(std::span<const Touch> contacts) {
+#ifdef MEDIAL_HAS_EXACT
+  if (sites_->exact != nullptr)
+    return settle_in<Twofold>(*sites_, contacts, noise_of_twofold, *this);
+#endif
+  settle_in<double>(*sites_, contacts, noise_of_double, *this);
 }
 
 }  // namespace medial::disks

@@ -87,6 +87,9 @@ class TieFit {
   /// Whether a disk near the one to begin with touches all contacts within `bound`: that one, if it
   /// does.
   bool fits(std::span<const Touch> contacts, double bound);
+  /// Moves on to the disk whose largest residual is the least, which does not depend on the order
+  /// of the contacts; none of them is an arc.
+  void settle(std::span<const Touch> contacts);
 
  private:
   const TieSites* sites_;
