@@ -433,7 +433,7 @@ class Session {
     check_axis();
   }
 
-  /// The numbers of nodes and edges, as a change tells them.
+  /// The numbers of nodes and edges, as a change states them.
   void follow(const AxisChange& change) {
     const auto apply = [&](const auto& removed, const auto& added, auto& all) {
       for (const std::uint32_t i : removed)

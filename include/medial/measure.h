@@ -53,10 +53,10 @@ struct MeanWidth {
 /// The means along a path and over the shape, for an exact axis. Relative error below 1e-10.
 MeanWidth mean_width(const MedialAxis& axis, const AxisPath& path);
 
-/// At most `count` disjoint disks of radius at least `least`, largest first: each is the largest in
-/// the shape minus the disks before it, up to rounding of the coordinates; of equal ones any.
-/// Branch and bound over squares, without an axis: O(n), then O(log n + k) per square examined after
-/// k disks; real outlines need tens to hundreds of squares per disk.
+/// At most `count` disjoint disks of radius at least `least`, largest first, of equal ones any:
+/// each is the largest in the shape minus the disks before it, up to rounding of the coordinates.
+/// Branch and bound over squares, without an axis: O(n), then O(log n + k) per square examined
+/// after k disks; real outlines need tens to hundreds of squares per disk.
 std::vector<Disk> largest_disjoint_disks(const Shape& shape, std::size_t count, double least = 0);
 
 }  // namespace medial

@@ -62,8 +62,7 @@ struct Potential {
   /// The order n of the force that finds points, real, in [1, 4096]; 0: chosen for each point.
   double order = 0;
   /// The order of the first force lines, in [1, 4096]; above 24, points of the exact axis replace
-  /// them. 0: `order`, at most 24; above 2,000 edges, and where lines would take more than about a
-  /// second, higher orders start from the exact axis.
+  /// them. 0: `order`, at most 24; on large shapes higher orders start from the exact axis.
   double base_order = 0;
   double step = 0.01;  ///< the longest step, as a share of the size, in [1e-4, 0.1]
   /// If positive, computes from coarse to fine: the skeleton of a polygon within this share (at
