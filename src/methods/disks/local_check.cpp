@@ -81,16 +81,27 @@ class LocalCheck {
     return advances(site(link.site[1]), from, to) && advances(site(link.site[0]), to, from);
   }
 
-  /// Whether the disk at an end from which no other edge leads touches all that is ahead.
+  /// Whether the disk at an end from which no other edge leads touches all that is ahead: arcs all
+  /// along.
   bool leaf_is_right(const Edge& link, std::size_t end, const Boundary::SiteRange& run) const {
     const Disk& leaf = disk(link.node[end]);
     if (degree_[link.node[end]] != 1 || !(leaf.radius > 0)) return true;
     const std::uint32_t last = link.site[1 - end];
     for (std::uint32_t i = link.site[end]; i != last; i = i == run.last ? run.first : i + 1)
       if (i != link.site[end] && boundary_.elements[i] != Element::bridge &&
-          !touches(site(i), leaf, 2 * tolerance_))
+          !touches_all(site(i), leaf, 2 * tolerance_))
         return false;
     return true;
+  }
+
+  static bool touches_all(const site::Site& site, const Disk& disk, double slack) {
+    const auto is_on_disk = [&](double s) {
+      return std::abs(distance(site.at(s), disk.center) - disk.radius) <= slack;
+    };
+    if (site.curvature > 0 &&
+        !(is_on_disk(0) && is_on_disk(0.5 * site.length) && is_on_disk(site.length)))
+      return false;
+    return touches(site, disk, slack);
   }
 
   const Boundary& boundary_;
