@@ -78,6 +78,27 @@ class Centreline(CommandLine):
 
 
 class Measure(CommandLine):
+    def test_disks_without_an_axis(self):
+        self.write("rectangle.wkt", RECTANGLE)
+        whole = json.loads(self.succeed("measure", "rectangle.wkt", "--disks", "3", "--json").stdout)["features"][0]
+        alone = json.loads(self.succeed("measure", "rectangle.wkt", "--disks", "3", "--no-axis",
+                                        "--json").stdout)["features"][0]
+        self.assertEqual(alone["disks"], whole["disks"])
+        self.assertNotIn("area", alone)
+        lines = self.succeed("measure", "rectangle.wkt", "--disks", "3", "--no-axis").stdout.decode().splitlines()
+        self.assertEqual([line.split()[-5] for line in lines], ["r"] * 3)
+        self.succeed("measure", "rectangle.wkt", "--disks", "3", "-o", "whole.geojson")
+        self.succeed("measure", "rectangle.wkt", "--disks", "3", "--no-axis", "-o", "alone.geojson")
+        self.assertEqual(self.read("alone.geojson"), self.read("whole.geojson"))
+        self.succeed("measure", "rectangle.wkt", "--disks", "3", "--no-axis", "-o", "alone.svg")
+        self.write("two.wkt", RECTANGLE + "\n" + RECTANGLE)
+        rows = self.succeed("measure", "two.wkt", "--disks", "3", "--no-axis").stdout.decode().splitlines()
+        self.assertEqual([row.split()[:2] for row in rows],
+                         [["feature", "rank"]] + [[str(i), str(k)] for i in range(2) for k in range(3)])
+        self.refuse("invalid_option", "measure", "rectangle.wkt", "--no-axis")
+        self.refuse("invalid_option", "measure", "rectangle.wkt", "--disks", "1", "--no-axis", "--necks", "2")
+        self.refuse("invalid_option", "measure", "rectangle.wkt", "--disks", "1", "--no-axis", "-o", "profile.csv")
+
     def test_measure(self):
         self.write("rectangle.wkt", RECTANGLE)
         table = self.succeed("measure", "rectangle.wkt").stdout.decode()
