@@ -15,7 +15,7 @@ namespace {
 using site::Site;
 
 /// A loose segment is a run of two ends and two sides.
-constexpr std::uint32_t few = 4;
+constexpr std::uint32_t loose_sites = 4;
 
 /// Cuts are kept where no query finds them.
 const Site far_away = site::make_vertex({1e30, 1e30});
@@ -73,7 +73,7 @@ std::uint32_t facing_site(const Boundary& loops, const site::FirstTouch& first_t
     return site::squared_distance(loops.sites[i], foot) <= same_place * same_place && faces(i, run);
   };
   const Boundary::SiteRange own = run_of(loops, site);
-  if (own.last - own.first < few)
+  if (own.last - own.first < loose_sites)
     for (std::uint32_t i = own.first; i <= own.last; ++i)
       if (is_it(i, own)) return i;
   std::uint32_t found = site;
@@ -178,7 +178,7 @@ class Connector {
     };
     first_touch_.near(foot + radius * outreach, radius, component, [&](std::uint32_t site) {
       const Boundary::SiteRange run = run_of(loops_, site);
-      if (run.last - run.first < few) {  // searches find one of a segment's sides
+      if (run.last - run.first < loose_sites) {  // searches find one of a segment's sides
         for (std::uint32_t i = run.first; i <= run.last; ++i) add(i, run);
         return;
       }

@@ -151,7 +151,7 @@ const std::vector<std::uint32_t>& Contacts::touched_between(const Span& span, co
   std::uint32_t before = span.right;
   std::size_t kept = 0;
   for (const std::uint32_t hit : touched_) {
-    if (boundary_.two_sided && !faces(hit, disk.center)) continue;
+    if (looks_away(hit, disk.center)) continue;
     const std::uint32_t i = boundary_.two_sided ? hit : owner(hit, disk.center, span);
     if (i <= before || i >= span.left || !touches(i, disk, touching_)) continue;
     const double angle = angle_of(i, 0.5);
@@ -201,7 +201,7 @@ const std::vector<std::uint32_t>& Contacts::around(const Span& span, const Disk&
   around_ = disk;
   context_.tree.within(disk.center, disk.radius + clearance(), run.first, run.last, near_);
   std::erase_if(near_, [&](std::uint32_t i) {
-    return is_beside(i, disk.center, run) || (boundary_.two_sided && !faces(i, disk.center));
+    return is_beside(i, disk.center, run) || looks_away(i, disk.center);
   });
   return near_;
 }
@@ -232,7 +232,7 @@ bool Contacts::may_touch_more(const Span& span, const Disk& disk, std::uint32_t 
                        touched_);
   return ranges::any_of(touched_, [&](std::uint32_t i) {
     return i != next && away(i, disk) <= touching_ && !is_beside(i, disk.center, run_of(span)) &&
-           !(boundary_.two_sided && !faces(i, disk.center));
+           !looks_away(i, disk.center);
   });
 }
 

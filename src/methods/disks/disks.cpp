@@ -31,6 +31,12 @@ namespace {
 /// bulges round, too; in planar graphs double decides.
 constexpr double planar_share = 0.25, near_circle = 1 << 12;
 
+#ifdef MEDIAL_HAS_EXACT
+constexpr bool has_exact = true;
+#else
+constexpr bool has_exact = false;
+#endif
+
 double walk_share(const Boundary& boundary, bool in_centers) {
   if (in_centers) return fine_share;
   if (boundary.has_arcs) return 1;
@@ -75,11 +81,7 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
                               double walk_tolerance, const Way& way, Boundary& boundary,
                               Statistics& statistics, Findings& findings) {
   Stopwatch watch;
-#ifdef MEDIAL_HAS_EXACT
-  const bool takes_exact = !way.in_double;
-#else
-  constexpr bool takes_exact = false;
-#endif
+  const bool takes_exact = has_exact && !way.in_double;
   const ExactSites sites(problem, numbers, boundary);
   const std::vector<Bridge> bridges =
       connecting_disks(problem.shape, boundary, walk_tolerance, takes_exact ? &sites : nullptr,
@@ -314,11 +316,7 @@ template <class E>
 TwoSided run_two_sided(const Problem& problem, std::vector<E>& edges) {
   Attempts attempts;
   Way way;
-#ifdef MEDIAL_HAS_EXACT
-  way.in_double = has_arcs(problem.shape);
-#else
-  way.in_double = true;
-#endif
+  way.in_double = !has_exact || has_arcs(problem.shape);
   for (;;) {
     edges.clear();
     Findings findings;

@@ -140,9 +140,9 @@ class ExactEvents::Search {
     std::erase_if(sites, [&](std::uint32_t site) { return is_seen(site); });
   }
 
-  /// Halves the way along the bisector, from the node, whose disk keeps clear of the span, on: by
-  /// the lemma the event comes before a disk that reaches over something. The first sites found so
-  /// that have not been considered; none where there is no event.
+  /// Halves the way along the bisector ahead of the node, whose disk keeps clear of the span: by
+  /// the lemma the event comes before any disk that reaches over something. Returns the first sites
+  /// that such disks reach over and that have not been considered; none if there is no event.
   std::vector<std::uint32_t> reached_before() {
     if (!way_) way_ = way_ahead();
     auto& [low, high] = *way_;
