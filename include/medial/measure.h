@@ -53,7 +53,7 @@ struct MeanWidth {
 /// The means along a path and over the shape, for an exact axis. Relative error below 1e-10.
 MeanWidth mean_width(const MedialAxis& axis, const AxisPath& path);
 
-/// At most `count` disjoint disks of radius at least `least`, largest first, of equal ones any:
+/// At most `count` disjoint disks of radius at least `least`, largest first (ties in any order):
 /// each is the largest in the shape minus the disks before it, up to rounding of the coordinates.
 /// Branch and bound over squares, without an axis: O(n), then O(log n + k) per square examined
 /// after k disks; real outlines need tens to hundreds of squares per disk.

@@ -28,7 +28,7 @@ namespace {
 /// The walk separates contacts to a share of the tolerance, so fine between segments, and where
 /// arcs are within some tolerances of one circle, that it asks for rounding only. What remains of
 /// a tie is merged at the end. Among other arcs ties are known to the tolerance only, since their
-/// bulges round, too; in planar graphs double decides.
+/// bulges round, too; in planar graphs with arcs double decides.
 constexpr double planar_share = 0.25, near_circle = 1 << 12;
 
 #ifdef MEDIAL_HAS_EXACT
