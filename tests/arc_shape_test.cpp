@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -127,6 +128,59 @@ TEST(ArcCleaning, FullCircleOfManyArcsBecomesTwoHalfCircles) {
           std::is_permutation(same.points.begin(), same.points.end(), shape.points.begin()));
     }
   }
+}
+
+/// Of arcs within some roundings of one circle, what is kept does not depend on how they are
+/// written.
+TEST(ArcCleaning, WhatIsKeptIsTheSameInAllImages) {
+  std::size_t kept = 0, written = 0;
+  for (std::uint64_t seed = 20261127100000; seed < 20261127100200; ++seed) {
+    test::Random random(seed);
+    Ring ring = test::arcs_of_circle(static_cast<int>(random.integer(3, 40)));
+    const double size = random.power_of_ten(-16, -13);
+    for (Vec2& p : ring.points)
+      p = p + Vec2{random.between(-size, size), random.between(-size, size)};
+    for (double& bulge : ring.bulges) bulge *= 1 + random.between(-size, size);
+    const Shape shape = built({ring});
+    written += ring.points.size();
+    kept += shape.points.size();
+    for (const test::Symmetry& symmetry :
+         {test::Symmetry{.name = "mirrored", .xx = -1},
+          test::Symmetry{.name = "turned", .xx = 0, .xy = -1, .yx = 1, .yy = 0},
+          test::Symmetry{.name = "backwards", .reverse = true},
+          test::Symmetry{.name = "restarted", .restart = 2},
+          test::Symmetry{.name = "all", .xx = 0, .xy = 2, .yx = 2, .yy = 0, .restart = 1}}) {
+      std::vector<Vec2> points = shape.points;
+      for (Vec2& p : points) p = symmetry(p);
+      const Shape image = built(test::transformed({ring}, symmetry));
+      ASSERT_EQ(image.points.size(), points.size()) << seed << ", " << symmetry.name;
+      // Where vertices of a circle are as far out as each other, any of them will do.
+      if (points.size() > 2) {
+        EXPECT_TRUE(std::is_permutation(points.begin(), points.end(), image.points.begin()))
+            << seed << ", " << symmetry.name;
+      }
+    }
+  }
+  EXPECT_LT(2 * kept, written);
+}
+
+/// A run of more than a half circle becomes two equal arcs, whichever vertices it has.
+TEST(ArcCleaning, LongRunsBecomeTwoArcs) {
+  Ring ring;
+  const std::array<double, 4> angles{0, 100, 170, 270};
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    const double angle = angles[i] * pi / 180;
+    ring.points.push_back({std::cos(angle), std::sin(angle)});
+    ring.bulges.push_back(i < 3 ? std::tan((angles[i + 1] - angles[i]) * pi / 720) : 0);
+  }
+  ShapeReport report;
+  const Shape shape = built({ring}, &report);
+  EXPECT_EQ(report.collinear_points, 1U);
+  ASSERT_EQ(shape.points.size(), 3U);
+  EXPECT_EQ(shape.bulges[0], shape.bulges[1]);
+  EXPECT_NEAR(shape.bulges[0], std::tan(135 * pi / 720), 1e-15);
+  EXPECT_NEAR(distance(shape.points[1], {std::cos(0.75 * pi), std::sin(0.75 * pi)}), 0, 1e-15);
+  EXPECT_EQ(shape.sources[1].vertex, 1U);
 }
 
 TEST(ArcCleaning, LongArcsAreSplit) {

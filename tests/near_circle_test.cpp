@@ -145,6 +145,50 @@ TEST(CircleOfArcs, WithASliverIsACircle) {
   EXPECT_EQ(failures_of(ring), "");
 }
 
+/// A disk at one end of an arc, next to the arc's own, touches both of the arc's ends, and is no
+/// leaf.
+TEST(BarWithEndsOfArcs, WhereALeafTouchesBothEndsOfAnArcIsVerified) {
+  Ring ring;
+  ring.points = {{0.59080603709916502, -0.80698920971998311},
+                 {-0.56331051568408408, 0.82641673569159702},
+                 {-0.59080603710689006, 0.80698920973620503},
+                 {0.56331051564328505, -0.82641673570970009}};
+  ring.bulges = {0.99999999996855338, 0, 0.99999999998062983, 0};
+  expect_verified(ring, 20261127001780);
+}
+
+/// The axis of an image is the image of the axis, to the last digit. One vertex is moved, as a bar
+/// that is its own image has several axes within the tolerance.
+TEST(BarWithEndsOfArcs, ImagesHaveTheSameAxis) {
+  const std::uint64_t count = shape_count(60, 50);
+  for (std::uint64_t seed = 20261127100000; seed < 20261127100000 + count; ++seed) {
+    Random random(seed);
+    Ring ring = bar_with_ends_of_arcs(random);
+    disturb(random, random.power_of_ten(-16, -10), 40, ring);
+    ring.points[0] = ring.points[0] + Vec2{1e-12, 0};
+    const auto shape = build_shape(Rings{ring});
+    ASSERT_TRUE(shape) << seed;
+    const auto axis = compute(*shape, {.threads = 1});
+    ASSERT_TRUE(axis) << seed << ": " << to_string(axis.error());
+    for (const Symmetry& symmetry :
+         {Symmetry{.name = "mirrored", .xx = -1},
+          Symmetry{.name = "turned", .xx = 0, .xy = -1, .yx = 1, .yy = 0},
+          Symmetry{.name = "restarted", .restart = 3},
+          Symmetry{.name = "all", .xx = 0, .xy = 2, .yx = 2, .yy = 0, .restart = 1}}) {
+      const auto image = build_shape(transformed(Rings{ring}, symmetry));
+      ASSERT_TRUE(image) << seed << ", " << symmetry.name;
+      const auto other = compute(*image, {.threads = 1});
+      ASSERT_TRUE(other) << seed << ", " << symmetry.name;
+      ASSERT_EQ(other->nodes.size(), axis->nodes.size()) << seed << ", " << symmetry.name;
+      for (std::size_t i = 0; i < axis->nodes.size(); ++i) {
+        const Disk &own = axis->nodes[i].disk, &there = other->nodes[i].disk;
+        EXPECT_EQ(there.center, symmetry(own.center)) << seed << ", " << symmetry.name;
+        EXPECT_EQ(there.radius, symmetry.scale() * own.radius) << seed << ", " << symmetry.name;
+      }
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Arcs, NearCircle, testing::Values(3, 4, 5, 8, 12, 24, 64));
 
 #ifndef MEDIAL_SANITIZED

@@ -59,8 +59,8 @@ struct RingEdge {
 };
 
 /// The same for the edges of one ring with arcs, each longer than zero. A bulge whose arc is
-/// straight to rounding becomes 0. A full circle begins at its lowest vertex (by x, then y) and
-/// becomes two half circles.
+/// straight to rounding becomes 0. A full circle becomes two half circles, from one of the vertices
+/// on that are furthest from the middle of their box.
 void clean_arcs(std::vector<RingEdge>& edges, ShapeReport& report);
 
 }  // namespace medial

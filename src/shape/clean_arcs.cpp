@@ -13,12 +13,12 @@
 namespace medial {
 namespace {
 
-/// Of a sum of angles, relative.
+/// Of bulges and sums of angles, relative.
 constexpr double slack = 64 * std::numeric_limits<double>::epsilon();
 
-/// Of an arc of at most a half circle.
-double bulge_of_angle(double angle) {
-  return angle >= std::numbers::pi * (1 - slack) ? 1 : std::tan(angle / 4);
+/// The point of an arc halfway between its ends: the same, rounding included, in both directions.
+Vec2 middle_of(const BulgeArc& arc) {
+  return 0.5 * arc.start + 0.5 * arc.end - (arc.bulge / 2) * left_of(arc.chord());
 }
 
 /// The edges of one ring with arcs.
@@ -29,6 +29,7 @@ class Cleaner {
     for (const RingEdge& edge : edges) box.add(edge.point);
     rounding_ = spacing_in(box);
     play_ = std::max(4 * rounding_, tolerance_for(box, 0));
+    middle_ = 0.5 * box.low + 0.5 * box.high;
   }
 
   void run() {
@@ -64,7 +65,7 @@ class Cleaner {
     for (std::size_t i = 0; i < edges_.size(); ++i) {
       RingEdge edge = edges_[i];
       if (is_long(edge)) {
-        const Vec2 middle = apex(arc(i));
+        const Vec2 middle = middle_of(arc(i));
         edge.bulge = std::clamp(half_bulge(edge.bulge), -1.0, 1.0);
         result.push_back(edge);
         edge.point = middle;
@@ -120,150 +121,196 @@ class Cleaner {
     return true;
   }
 
-  /// Whether an arc may continue the one before it on the same circle.
+  /// Whether an arc may continue the one before it on the same circle. Of the shorter one,
+  /// direction and curvature mean no more than its length resolves.
   bool continues(std::size_t i) const {
-    const BulgeArc first = arc(previous(i));
-    const BulgeArc second = arc(i);
+    const BulgeArc first = arc(previous(i)), second = arc(i);
     if (!(first.bulge * second.bulge > 0)) return false;
-    const double length = norm(second.chord());
-    const double expected = bulge_of(end_tangent(first), second.chord());
-    if (!(std::abs(expected - second.bulge) * length <= play_)) return false;
-    const double shorter = std::min(length, norm(first.chord()));
-    return std::abs(curvature(first) - curvature(second)) * shorter * shorter <= 8 * play_;
+    const double shorter = std::min(norm(first.chord()), norm(second.chord()));
+    const Vec2 arriving = end_tangent(first), leaving = start_tangent(second);
+    return dot(arriving, leaving) > 0 &&
+           std::abs(cross(arriving, leaving)) * shorter <= 2 * play_ &&
+           std::abs(curvature(first) - curvature(second)) * shorter * shorter <= 8 * play_;
   }
 
   /// Replaces each run of arcs on one circle by one arc, or by two if it is more than a half
-  /// circle.
+  /// circle. All that decides is the same from other starts, in both directions, and under mirror
+  /// images, quarter turns and powers of two, rounding included: so is what is kept.
   void merge_cocircular() {
     const std::size_t count = edges_.size();
-    std::vector<bool> smooth(count);
-    std::size_t corner = count;
-    for (std::size_t i = 0; i < count; ++i) {
-      smooth[i] = continues(i);
-      if (!smooth[i] && corner == count) corner = i;
-    }
-    if (std::none_of(smooth.begin(), smooth.end(), [](bool value) { return value; })) return;
-    if (corner == count) {
-      // A full circle. It begins at its lowest vertex.
-      corner = 0;
-      for (std::size_t i = 1; i < count; ++i) {
-        if (lexicographic_less(edges_[i].point, edges_[corner].point)) corner = i;
-      }
-    }
-    std::rotate(edges_.begin(), edges_.begin() + static_cast<std::ptrdiff_t>(corner), edges_.end());
-    std::rotate(smooth.begin(), smooth.begin() + static_cast<std::ptrdiff_t>(corner), smooth.end());
+    std::vector<std::size_t> ends;  // of runs
+    for (std::size_t i = 0; i < count; ++i)
+      if (!continues(i)) ends.push_back(i);
+    if (count <= 2 || ends.size() == count) return;
+    if (ends.size() <= 1 && merge_circle()) return;
+    if (ends.empty()) ends = furthest_from(middle_);
     std::vector<RingEdge> result;
-    for (std::size_t i = 0; i < count;) {
-      std::size_t end = i + 1;
-      while (end < count && smooth[end]) ++end;
-      append_run(i, end, result);
-      i = end;
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+      const std::size_t end = k + 1 < ends.size() ? ends[k + 1] : ends[0] + count;
+      append_run({ends[k], end - ends[k]}, result);
     }
     // Back to the old start, where it is still a vertex, so that all else stays in its order.
-    edges_ = std::move(result);
     const auto lowest = std::min_element(
-        edges_.begin(), edges_.end(),
+        result.begin(), result.end(),
         [](const RingEdge& a, const RingEdge& b) { return a.source.vertex < b.source.vertex; });
-    if (!smooth[0]) std::rotate(edges_.begin(), lowest, edges_.end());
+    std::rotate(result.begin(), lowest, result.end());
+    replace_edges(std::move(result));
   }
 
-  /// Appends the run of edges [begin, end) to the result, merged if its vertices allow it, or else
-  /// its two halves.
-  void append_run(std::size_t begin, std::size_t end, std::vector<RingEdge>& result) {
-    const auto keep = [&] {
-      if (end - begin <= 2) {
-        for (std::size_t i = begin; i < end; ++i) result.push_back(edges_[i]);
+  void replace_edges(std::vector<RingEdge> edges) {
+    report_.collinear_points += edges_.size() - edges.size();
+    edges_ = std::move(edges);
+  }
+
+  /// The vertices furthest from a point, mostly one.
+  std::vector<std::size_t> furthest_from(Vec2 p) const {
+    std::vector<std::size_t> result;
+    double furthest = 0;
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      const double away = squared_norm(edges_[i].point - p);
+      if (away > furthest) result.clear();
+      furthest = std::max(furthest, away);
+      if (away == furthest) result.push_back(i);
+    }
+    return result;
+  }
+
+  /// Arcs that follow each other. Indices go on behind the ring's end.
+  struct Run {
+    std::size_t begin, count;
+  };
+  const RingEdge& edge(std::size_t i) const { return edges_[i % edges_.size()]; }
+  double angle_of(Run run) const {
+    double sum = 0;
+    for (std::size_t i = run.begin; i < run.begin + run.count; ++i)
+      sum += 4 * std::atan(std::abs(edge(i).bulge));
+    return sum;
+  }
+
+  /// Appends one arc, or two alike, where a run allows it; else its halves and, if they have an arc
+  /// between them, that one.
+  void append_run(Run run, std::vector<RingEdge>& result) {
+    RingEdge first = edge(run.begin);
+    const Vec2 stop = edge(run.begin + run.count).point;
+    const double sign = first.bulge > 0 ? 1 : -1;
+    Bulges bulges(first.point, stop, play_);
+    add_run(run, sign, false, bulges);
+    const double bulge = bulges.middle();
+    const bool is_arc = first.point != stop && bulges.allows(bulge) &&
+                        angle_of(run) <= 2 * std::numbers::pi * (1 + slack);
+    if (run.count > 1 && is_arc && bulges.allows(std::min(bulge, 1.0))) {
+      first.bulge = sign * std::min(bulge, 1.0);
+      result.push_back(first);
+    } else if (run.count <= 2) {
+      for (std::size_t i = 0; i < run.count; ++i) result.push_back(edge(run.begin + i));
+    } else if (is_arc) {
+      std::size_t before = run.begin;  // the last vertex in the first half
+      while (squared_norm(edge(before + 1).point - first.point) <=
+             squared_norm(edge(before + 1).point - stop))
+        ++before;
+      const Vec2 top = middle_of({first.point, stop, sign * bulge});
+      first.bulge = sign * half_bulge(bulge);
+      result.push_back(first);
+      result.push_back({top, first.bulge, edge(before).source});
+    } else {
+      const std::size_t half = run.count / 2, rest = run.count - half;
+      append_run({run.begin, half}, result);
+      if (half < rest) result.push_back(edge(run.begin + half));
+      append_run({run.begin + rest, half}, result);
+    }
+  }
+
+  /// Replaces a ring of one circle by two half circles. Of several places for them, the graph is
+  /// the same.
+  bool merge_circle() {
+    constexpr double twice_around = 4 * std::numbers::pi;
+    std::vector<RingEdge> best;
+    const auto is_lower = [](const RingEdge& a, const RingEdge& b) {
+      return lexicographic_less(a.point, b.point);
+    };
+    if (angle_of({0, edges_.size()}) > 0.75 * twice_around) return false;
+    for (const std::size_t from : furthest_from(middle_)) {
+      for (const std::size_t to : furthest_from(edges_[from].point)) {
+        std::vector<RingEdge> halves = half_circles(from, to);
+        if (!halves.empty() &&
+            (best.empty() || std::lexicographical_compare(halves.begin(), halves.end(),
+                                                          best.begin(), best.end(), is_lower)))
+          best = std::move(halves);
+      }
+    }
+    if (best.empty()) return false;
+    replace_edges(std::move(best));
+    return true;
+  }
+
+  /// Two half circles, from one vertex on, on the circle through it, another one and, within the
+  /// play, all others; none where there is no such circle.
+  std::vector<RingEdge> half_circles(std::size_t from, std::size_t to) const {
+    RingEdge first = edges_[from], second = edges_[to];
+    const double sign = first.bulge > 0 ? 1 : -1;
+    const std::size_t count = (to + edges_.size() - from) % edges_.size();
+    Bulges bulges(first.point, second.point, play_);
+    add_run({from, count}, sign, false, bulges);
+    add_run({to, edges_.size() - count}, sign, true, bulges);
+    const double bulge = bulges.middle();
+    if (!bulges.allows(bulge)) return {};
+    if (bulge != 1) {
+      const Vec2 chord = second.point - first.point;
+      second.point = second.point + (sign * (1 - bulge * bulge) / (2 * bulge)) * left_of(chord);
+      if (bulge > 1) second.source = edges_[previous(to)].source;
+    }
+    first.bulge = second.bulge = sign;
+    return {first, second};
+  }
+
+  /// The bulges of the arcs from one point to another that pass others within a distance, if these
+  /// turn to the left.
+  class Bulges {
+   public:
+    Bulges(Vec2 from, Vec2 to, double play) : from_(from), to_(to), play_(play) {}
+
+    /// An arc through p turns by twice the angle by which the chord to p turns to the one from p
+    /// on. That angle changes by |to - from| / (|p - from| |to - p|) of the way that p is moved.
+    /// `beyond`: the arc from `to` on to `from` passes p.
+    void add(Vec2 p, double sign, bool beyond) {
+      const Vec2 before = p - from_, after = to_ - p;
+      const double lengths = norm(before) * norm(after);
+      if (std::min(norm(before), norm(after)) <= play_) return;
+      const double sine = (beyond ? -sign : sign) * cross(before, after);
+      const double cosine = dot(before, after);
+      const bool wide = cosine <= 0;
+      if (!(sine > 0) && (wide || beyond)) {
+        most_ = -1;
         return;
       }
-      const std::size_t half = begin + (end - begin) / 2;
-      append_run(begin, half, result);
-      append_run(half, end, result);
-    };
-    const std::size_t last = end < edges_.size() ? end : 0;
-    const Vec2 start = edges_[begin].point;
-    const Vec2 stop = edges_[last].point;
-    constexpr double pi = std::numbers::pi;
-    const double sign = edges_[begin].bulge > 0 ? 1 : -1;
-    const double angle = angle_of_run(begin, end);
-    if (end - begin == 1 || angle > 2 * pi * (1 + slack)) return keep();
-    if (angle <= pi * (1 + slack) && start != stop) {
-      const double bulge = sign * bulge_of_angle(angle);
-      if (!follows({start, stop, bulge}, begin, end)) return keep();
-      report_.collinear_points += end - begin - 1;
-      result.push_back({start, bulge, edges_[begin].source});
-      return;
+      const double through = wide ? (lengths - cosine) / sine : sine / (lengths + cosine);
+      const double bulge = beyond ? 1 / through : through;
+      const double open = 0.5 * (1 + bulge * bulge) * play_ * norm(to_ - from_) / lengths;
+      least_ = std::max(least_, bulge - open);
+      most_ = std::min(most_, bulge + open);
     }
-    auto [middle, angle_to_middle] = middle_of_run(begin, end, angle);
-    const bool divides = std::max(angle_to_middle, angle - angle_to_middle) <= pi * (1 + slack);
-    if (divides && end - begin == 2) return keep();
-    RingEdge second = edges_[middle];
-    std::size_t end_of_first = middle;
-    if (!divides) {
-      // No vertex divides it into two parts of at most a half circle: a new one does.
-      if (start == stop) {
-        const BulgeArc part{start, second.point, sign * std::tan(angle_to_middle / 4)};
-        const double height = (1 - part.bulge * part.bulge) / (4 * part.bulge);
-        second.point = start + part.chord() + 2 * height * left_of(part.chord());
-      } else {
-        second.point = apex({start, stop, sign * std::tan(angle / 4)});
-      }
-      if (angle_to_middle > angle / 2) --middle;
-      second.source = edges_[middle].source;
-      end_of_first = middle + 1;
-      angle_to_middle = angle / 2;
-    }
-    const double first_bulge = sign * bulge_of_angle(angle_to_middle);
-    second.bulge = sign * bulge_of_angle(angle - angle_to_middle);
-    if (second.point == start || second.point == stop ||
-        !follows({start, second.point, first_bulge}, begin, end_of_first) ||
-        !follows({second.point, stop, second.bulge}, middle, end)) {
-      return keep();
-    }
-    report_.collinear_points += end - begin > 2 ? end - begin - 2 : 0;
-    result.push_back({start, first_bulge, edges_[begin].source});
-    result.push_back(second);
-  }
 
-  /// The vertex next to the middle of a run that turns by `angle`, and the angle up to it.
-  std::pair<std::size_t, double> middle_of_run(std::size_t begin, std::size_t end,
-                                               double angle) const {
-    std::pair<std::size_t, double> middle{begin + 1, 0};
-    double sum = 0;
-    for (std::size_t i = begin; i + 1 < end; ++i) {
-      sum += 4 * std::atan(std::abs(edges_[i].bulge));
-      if (i == begin || std::abs(sum - angle / 2) < std::abs(middle.second - angle / 2))
-        middle = {i + 1, sum};
+    bool allows(double bulge) const { return bulge > 0 && least_ <= bulge && bulge <= most_; }
+    /// The one in the middle; 1 where it is that up to rounding.
+    double middle() const {
+      const double bulge = 0.5 * (least_ + most_);
+      return std::abs(bulge - 1) <= slack && allows(1) ? 1 : bulge;
     }
-    return middle;
-  }
 
-  /// The angle that a run of arcs turns by: twice that between the chords to and from a vertex in
-  /// its inside. The arcs' own angles add up to it, too, but so do their errors; they say how many
-  /// times the run goes around.
-  double angle_of_run(std::size_t begin, std::size_t end) const {
-    constexpr double once_around = 2 * std::numbers::pi, same = 1e-6;
-    double sum = 0;
-    for (std::size_t i = begin; i < end; ++i) sum += 4 * std::atan(std::abs(edges_[i].bulge));
-    if (end - begin == 1) return sum;
-    const Vec2 start = edges_[begin].point, stop = edges_[end < edges_.size() ? end : 0].point;
-    const Vec2 inside = edges_[begin + (end - begin) / 2].point;
-    const Vec2 to = inside - start, from = stop - inside;
-    const double angle =
-        start == stop ? once_around : 2 * std::abs(std::atan2(cross(to, from), dot(to, from)));
-    return std::abs(angle - sum) <= same ? angle : sum;
-  }
+   private:
+    Vec2 from_, to_;
+    double play_;
+    double least_ = -std::numeric_limits<double>::infinity();
+    double most_ = std::numeric_limits<double>::infinity();
+  };
 
-  /// Whether all edges of a run lie on the arc, within the play: their ends and their middles.
-  bool follows(const BulgeArc& whole, std::size_t begin, std::size_t end) const {
-    const Vec2 normal = left_of(start_tangent(whole));
-    const double half_curvature = curvature(whole) / 2;
-    const auto is_on = [&](Vec2 p) {
-      const Vec2 q = p - whole.start;
-      return std::abs(dot(normal, q) - half_curvature * squared_norm(q)) <= play_;
-    };
-    for (std::size_t i = begin; i < end; ++i)
-      if (!is_on(edges_[i].point) || !is_on(apex(arc(i)))) return false;
-    return true;
+  /// Adds what lies inside a run: its vertices, and the middles of its arcs.
+  void add_run(Run run, double sign, bool beyond, Bulges& bulges) const {
+    for (std::size_t i = run.begin; i < run.begin + run.count; ++i) {
+      const RingEdge& one = edge(i);
+      if (i > run.begin) bulges.add(one.point, sign, beyond);
+      bulges.add(middle_of({one.point, edge(i + 1).point, one.bulge}), sign, beyond);
+    }
   }
 
   std::vector<RingEdge>& edges_;
@@ -273,6 +320,7 @@ class Cleaner {
   double rounding_ = 0;  ///< the spacing of doubles at the largest coordinate, about
   /// Arcs this near to one circle become one: the tolerance cannot separate them.
   double play_ = 0;
+  Vec2 middle_;  ///< of the vertices' box
 };
 
 }  // namespace

@@ -234,6 +234,9 @@ SiteGraph graph_of(const Shape& shape, const MedialAxis& axis) {
   }
   const std::vector<std::uint32_t> next = next_sites(shape, axis.sites);
   for (std::uint32_t i = 0; i < axis.nodes.size(); ++i) {
+    if (axis.nodes.size() == 1)  // the centre of a disk, which touches all
+      for (std::uint32_t site = 0; site < axis.sites.size(); ++site)
+        graph.contacts[i].push_back(site);
     if (leaving[i].empty()) continue;
     graph.contacts[i] = contacts_around(leaving[i], axis.sites, next);
     if (graph.contacts[i].empty())
@@ -246,6 +249,12 @@ MedialAxis moved_back(const Shape& shape, std::span<const Site> sites, const Sha
                       MedialAxis axis, const Symmetry& symmetry) {
   const double area = symmetry.xx * symmetry.yy - symmetry.xy * symmetry.yx;
   const bool mirrored = area < 0;
+  for (Node& node : axis.nodes) {
+    const Vec2 p = node.disk.center - Vec2{symmetry.dx, symmetry.dy};
+    node.disk.center = {(symmetry.yy * p.x - symmetry.xy * p.y) / area,
+                        (symmetry.xx * p.y - symmetry.yx * p.x) / area};
+    node.disk.radius /= symmetry.scale();
+  }
   const auto own = sites_by_place(shape, sites, symmetry, mirrored);
   const auto others = sites_by_place(image, axis.sites, {}, false);
   std::vector<std::uint32_t> number(axis.sites.size());
@@ -259,12 +268,6 @@ MedialAxis moved_back(const Shape& shape, std::span<const Site> sites, const Sha
   for (Edge& edge : axis.edges) {
     edge.site = {number[edge.site[0]], number[edge.site[1]]};
     if (mirrored) std::swap(edge.site[0], edge.site[1]);
-  }
-  for (Node& node : axis.nodes) {
-    const Vec2 p = node.disk.center - Vec2{symmetry.dx, symmetry.dy};
-    node.disk.center = {(symmetry.yy * p.x - symmetry.xy * p.y) / area,
-                        (symmetry.xx * p.y - symmetry.yx * p.x) / area};
-    node.disk.radius /= symmetry.scale();
   }
   return axis;
 }
@@ -287,10 +290,12 @@ std::string difference(std::span<const Site> sites, const SiteGraph& a, const Si
   }
   const auto those = first.clusters(), these = second.clusters();
   if (those.size() != these.size()) return "the numbers of nodes differ";
+  if (common.empty() && those.size() == 1)
+    forth.emplace(those.begin()->first, these.begin()->first);
   for (const auto& entry : those) {
     const std::vector<std::uint32_t>& nodes = entry.second;
     const auto other = forth.find(entry.first);
-    if (other == forth.end()) continue;  // the centre of a disk: no edge leads there
+    if (other == forth.end()) continue;
     const std::vector<std::uint32_t>& others = these.at(other->second);
     if (nodes.size() == 1 && others.size() == 1) continue;
     const auto touches_all = [&](const Disk& disk) {

@@ -20,8 +20,8 @@ struct SiteGraph {
     std::array<std::uint32_t, 2> site;  ///< on the left and on the right
   };
   std::vector<Disk> disks = {};  ///< of the nodes
-  std::vector<std::vector<std::uint32_t>> contacts =
-      {};  ///< of each node; none where it has no link
+  /// Of each node; none where it has no link, but of the only node all.
+  std::vector<std::vector<std::uint32_t>> contacts = {};
   std::vector<Link> links = {};
   std::string failure = {};  ///< why there is no such graph
 };
@@ -45,7 +45,8 @@ std::string difference(const Shape& shape, const MedialAxis& a, const MedialAxis
                        double tolerance);
 
 /// The axis of a shape's image under a symmetry that commits no rounding, as one of the shape:
-/// moved back, its sites numbered like `sites`. Without sites where these are not the same.
+/// moved back, its sites numbered like `sites`. Without sites where these are not the same; its
+/// edges keep the image's then.
 MedialAxis moved_back(const Shape& shape, std::span<const Site> sites, const Shape& image,
                       MedialAxis axis, const Symmetry& symmetry);
 

@@ -17,6 +17,7 @@
 #include "methods/disks/local_check.h"
 #include "methods/disks/merge_ties.h"
 #include "methods/disks/near_circle.h"
+#include "methods/disks/pose.h"
 #include "methods/disks/walk.h"
 #include "methods/refusal.h"
 #include "site/boundary_tree.h"
@@ -149,14 +150,14 @@ void take_edges(std::vector<Edge>& from, std::size_t spare, std::vector<E>& to) 
 /// The engine: sites, holes connected, tree, walk, graph. The edges are returned apart from the
 /// axis.
 template <class E>
-Result<MedialAxis> attempt(const Problem& problem, bool two_sided, const Way& way,
-                           std::vector<E>& edges, Findings& findings) {
+Result<MedialAxis> attempt(const Problem& problem, const SiteNumbers& own_numbers, bool two_sided,
+                           const Way& way, std::vector<E>& edges, Findings& findings) {
   MedialAxis axis;
   axis.method = "disks";
   axis.tolerance = problem.tolerance;
   Stopwatch all, watch;
 
-  const SiteNumbers* numbers = &problem.numbers();
+  const SiteNumbers* numbers = &own_numbers;
 #ifdef MEDIAL_HAS_EXACT
   std::optional<exact::PartedNumbers> parted;
   if (!way.parted.empty()) {
@@ -189,13 +190,13 @@ Result<MedialAxis> attempt(const Problem& problem, bool two_sided, const Way& wa
   const double slack = std::max(loose * diagonal(problem.box), 4 * axis.tolerance);
   const auto loose_edges = complete(boundary, problem.frame, problem.frame.scale * slack, *graph);
   boundary = {};
-  take_edges(graph->edges, two_sided ? problem.numbers().count : 0, edges);
+  take_edges(graph->edges, two_sided ? own_numbers.count : 0, edges);
   axis.nodes = std::move(graph->nodes);
   axis.statistics += graph->statistics;
   if (!two_sided && !has_right_topology(problem.shape, axis.nodes, edges))
     return error_of_wrong_axis(
         axis, "the axis does not have one cycle for each hole: please report this shape");
-  if (!two_sided) axis.sites = problem.result_sites();
+  if (!two_sided) axis.sites = site::result_sites(problem.shape, own_numbers);
   axis.statistics.seconds_collect += watch.lap();
   axis.statistics.seconds = all.lap();
   for (const std::uint32_t edge : loose_edges)
@@ -282,16 +283,15 @@ std::optional<Way> next_way(const Problem& problem, const Way& last,
   return way;
 }
 
-}  // namespace
-
-Result<MedialAxis> run(const Problem& problem) {
+/// The axis of a shape, walked as it is.
+Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbers) {
   Attempts attempts;
   std::optional<Error> error;
   for (std::optional<Way> way = Way{}; way;) {
     const bool is_first = attempts.parted == 0 && !attempts.in_precise && !attempts.in_double;
     std::vector<Edge> edges;
     Findings findings;
-    Result<MedialAxis> axis = attempt(problem, false, *way, edges, findings);
+    Result<MedialAxis> axis = attempt(problem, numbers, false, *way, edges, findings);
     if (findings.too_coarse) {
       // All that is left open there is mostly one node: what double makes of it is measured.
       way->in_double = way->in_centers = attempts.in_double = true;
@@ -312,6 +312,21 @@ Result<MedialAxis> run(const Problem& problem) {
   return std::move(*error);
 }
 
+}  // namespace
+
+Result<MedialAxis> run(const Problem& problem) {
+  if (!has_arcs(problem.shape)) return run_in_place(problem, problem.numbers());
+  const Pose pose(problem.shape);
+  Problem posed(pose.shape(), problem.options);
+  posed.joint_tolerance = problem.joint_tolerance;
+  const SiteNumbers numbers = pose.to_image(problem.numbers());
+  auto axis = run_in_place(posed, numbers);
+  if (axis) return pose.to_input(problem, numbers, std::move(axis).value());
+  // Where rounding alone decides, another order of the walk may still do.
+  if (auto as_it_is = run_in_place(problem, problem.numbers())) return as_it_is;
+  return pose.to_input(axis.error());
+}
+
 template <class E>
 TwoSided run_two_sided(const Problem& problem, std::vector<E>& edges) {
   Attempts attempts;
@@ -320,7 +335,7 @@ TwoSided run_two_sided(const Problem& problem, std::vector<E>& edges) {
   for (;;) {
     edges.clear();
     Findings findings;
-    Result<MedialAxis> axis = attempt(problem, true, way, edges, findings);
+    Result<MedialAxis> axis = attempt(problem, problem.numbers(), true, way, edges, findings);
     if (axis) return {std::move(*axis), !way.in_double};
     way = *next_way(problem, way, findings.lost, attempts);
   }

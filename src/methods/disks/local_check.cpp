@@ -81,8 +81,8 @@ class LocalCheck {
     return advances(site(link.site[1]), from, to) && advances(site(link.site[0]), to, from);
   }
 
-  /// Whether the disk at an end from which no other edge leads touches all that is ahead, or is a
-  /// point in a convex corner.
+  /// Whether the disk at an end from which no other edge leads touches all that is ahead, arcs
+  /// all along, or is a point in a convex corner.
   bool leaf_is_right(const Edge& link, std::size_t end, const Boundary::SiteRange& run) const {
     const Disk& leaf = disk(link.node[end]);
     if (degree_[link.node[end]] != 1) return true;
@@ -90,7 +90,7 @@ class LocalCheck {
     if (!(leaf.radius > 0)) return is_corner(first, last, run);
     for (std::uint32_t i = first; i != last; i = i == run.last ? run.first : i + 1)
       if (i != first && boundary_.elements[i] != Element::bridge &&
-          !touches(site(i), leaf, 2 * tolerance_))
+          !touches_all(site(i), leaf, 2 * tolerance_))
         return false;
     return true;
   }
@@ -99,6 +99,16 @@ class LocalCheck {
     if (before == run.last)
       return after == run.first && run.at_corner && boundary_.joint(before) == site::Joint::corner;
     return after == before + 1 && boundary_.is_corner(before);
+  }
+
+  static bool touches_all(const site::Site& site, const Disk& disk, double slack) {
+    const auto is_on_disk = [&](double s) {
+      return std::abs(distance(site.at(s), disk.center) - disk.radius) <= slack;
+    };
+    if (site.curvature > 0 &&
+        !(is_on_disk(0) && is_on_disk(0.5 * site.length) && is_on_disk(site.length)))
+      return false;
+    return touches(site, disk, slack);
   }
 
   const Boundary& boundary_;
