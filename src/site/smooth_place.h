@@ -11,18 +11,15 @@ namespace medial::site {
 /// Of two sites, one after the other, that join smoothly, whether the normal of the second one
 /// counts for both.
 inline bool by_second(const Site& first, const Site& second) {
-  // Of two edges the longer one knows its direction better. But of two arcs of almost one circle
-  // the rounder one says where a disk as round has to be; and so it does of others where that disk
-  // reaches less over the flatter one, by turn^2 / (2 bend) at most, than the longer one's disk
-  // does over the shorter edge, by turn * length.
+  // Of two edges the longer one knows its direction better, and its disks reach over the shorter
+  // one by turn * length at most. The rounder one's reach over the flatter one by turn^2 / (2 bend)
+  // at most: its normal counts where that is less.
   const double a = first.curvature, b = second.curvature, bend = std::abs(a - b);
-  constexpr double almost = 0x1p-20;
-  const bool alike = a > 0 && b > 0 && bend > 0 && bend <= almost * a;
   const bool edges = !first.is_vertex() && !second.is_vertex();
   const double shorter = std::min(first.length, second.length);
   const bool by_rounder =
-      alike || (edges && std::max(a, b) > 0 &&
-                std::abs(cross(first.end_normal(), second.normal())) < 2 * bend * shorter);
+      edges && std::max(a, b) > 0 &&
+      std::abs(cross(first.end_normal(), second.normal())) < 2 * bend * shorter;
   return by_rounder ? b > a : second.length > first.length;
 }
 

@@ -322,8 +322,6 @@ Result<MedialAxis> run(const Problem& problem) {
   const SiteNumbers numbers = pose.to_image(problem.numbers());
   auto axis = run_in_place(posed, numbers);
   if (axis) return pose.to_input(problem, numbers, std::move(axis).value());
-  // Where rounding alone decides, another order of the walk may still do.
-  if (auto as_it_is = run_in_place(problem, problem.numbers())) return as_it_is;
   return pose.to_input(axis.error());
 }
 
