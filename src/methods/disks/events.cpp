@@ -300,6 +300,7 @@ void EventSearch::polish(Disk& disk, const Site& third) {
 }
 
 Event EventSearch::next() {
+  if (is_at_apex()) return at_node(span_.right + 1);
   if (const auto passed = pass_over_circle()) return *passed;
   if (const auto passed = pass_pinned()) return *passed;
   if (at_narrow_gap_)
@@ -325,6 +326,15 @@ Event EventSearch::next() {
     if (span_.left - span_.right == 2 && straight) return event;
   }
   return first_contact(event);
+}
+
+bool EventSearch::is_at_apex() const {
+  const std::uint32_t next = span_.right + 1;
+  if (!(site(next).curvature > 0) || !contacts_.touches_all(next, from_)) return false;
+  const auto circle = circle_of_apex(next, span_.left);
+  if (!circle || !contacts_.touches_all(span_.left - 1, from_)) return false;
+  const double beyond = distance(circle->center, from_.center) + circle->radius - from_.radius;
+  return beyond > context_.tolerance;
 }
 
 std::optional<Event> EventSearch::pass_over_circle() const {
