@@ -11,6 +11,7 @@
 
 #include "base/arc.h"
 #include "medial/medial.h"
+#include "site/smooth_place.h"
 #include "support/generate_arcs.h"
 #include "support/wkt.h"
 
@@ -105,6 +106,29 @@ void expect_contract(const Rings& rings, const Shape& shape) {
 }
 
 // ---------------------------------------------------------------------------------- cleaning
+
+/// Of three arcs of almost one circle the short one in the middle turns by less than the tolerance
+/// against its own length, but not against that of the others: its normal would let disks reach
+/// over the first one by 29 tolerances.
+TEST(SmoothPlace, ShortArcBetweenLongOnes) {
+  const double length = 27, round = 286669.41464779759, flat = 286669.41557465104, turn = 4.59e-11;
+  const auto arc_of = [](Vec2 start, double direction, double chord, double radius) {
+    const double half = std::asin(0.5 * chord / radius);
+    const Vec2 along{std::cos(direction + half), std::sin(direction + half)};
+    return site::make_arc(start, start + chord * along, std::tan(0.5 * half));
+  };
+  const site::Site first = arc_of({0, 0}, 0, 3423, flat);
+  const double arriving = 2 * std::asin(0.5 * 3423 / flat);
+  const site::Site second = arc_of(first.end(), arriving + turn, length, round);
+  const site::SmoothPlace place = site::smooth_place(first, second);
+  // A disk all but as round as the second one, on that normal.
+  const double radius = round - 1e-6;
+  const Disk disk{place.point + radius * place.normal, radius};
+  const double over_first = radius - site::carrier_distance(first, disk.center);
+  const double over_second = radius - std::sqrt(site::squared_distance(second, disk.center));
+  const double rounding = 2 * std::nextafter(radius, 1e6) - 2 * radius;
+  EXPECT_LE(std::max(over_first, over_second), turn * length + rounding);
+}
 
 TEST(ArcCleaning, FullCircleOfManyArcsBecomesTwoHalfCircles) {
   Ring ring;

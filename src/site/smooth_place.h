@@ -17,9 +17,8 @@ inline bool by_second(const Site& first, const Site& second) {
   const double a = first.curvature, b = second.curvature, bend = std::abs(a - b);
   const bool edges = !first.is_vertex() && !second.is_vertex();
   const double shorter = std::min(first.length, second.length);
-  const bool by_rounder =
-      edges && std::max(a, b) > 0 &&
-      std::abs(cross(first.end_normal(), second.normal())) < 2 * bend * shorter;
+  const bool by_rounder = edges && std::max(a, b) > 0 &&
+                          std::abs(cross(first.end_normal(), second.normal())) < 2 * bend * shorter;
   return by_rounder ? b > a : second.length > first.length;
 }
 

@@ -317,7 +317,7 @@ Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbe
 Result<MedialAxis> run(const Problem& problem) {
   if (!has_arcs(problem.shape)) return run_in_place(problem, problem.numbers());
   const Pose pose(problem.shape);
-  Problem posed(pose.shape(), problem.options);
+  Problem posed(pose.shape(), problem.options, {}, pose.to_image(problem.box));
   posed.joint_tolerance = problem.joint_tolerance;
   const SiteNumbers numbers = pose.to_image(problem.numbers());
   auto axis = run_in_place(posed, numbers);

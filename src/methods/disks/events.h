@@ -131,8 +131,8 @@ class EventSearch {
   /// higher precision.
   void polish(Disk& disk, const site::Site& third);
   /// Whether the axis ends at the node: its disk touches all of the arcs ahead, but is not theirs,
-  /// which reaches over what lies elsewhere. Ends of arcs so near to each other leave their bisector
-  /// open by more than the disk is off.
+  /// which reaches over what lies elsewhere. Ends of arcs so near to each other leave their
+  /// bisector open by more than the disk is off.
   bool is_at_apex() const;
   /// Where the disk of the node is the circle of an arc, it touches all of it: the foot passes on.
   std::optional<Event> pass_over_circle() const;
