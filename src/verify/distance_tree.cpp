@@ -366,13 +366,14 @@ void DistanceTree::lower(Places& places, const Run& run, std::size_t i) const {
 /// Lowers the distances of places to those from all edges within the expected ones; false if it
 /// gave up.
 bool DistanceTree::find_in(const Hull& hull, Places& places) const {
-  constexpr int most_visits = 256;
+  constexpr int most_visits = 256, most_near = 16;
   const double limit = limit_for(hull.reach());
   std::array<Visit, 64> stack;
   std::size_t size = 0;
   stack[size++] = {static_cast<std::uint32_t>(levels_.size() - 1), 0, 0};
+  int near = 0;
   for (int visits = 0; size > 0; ++visits) {
-    if (visits == most_visits) return false;
+    if (visits == most_visits || near > most_near) return false;
     const Visit visit = stack[--size];
     double squared[fan_out];
     squared_bounds(visit, hull.center(), squared);
@@ -386,8 +387,11 @@ bool DistanceTree::find_in(const Hull& hull, Places& places) const {
       const Run& run = runs_[child];
       for (std::size_t i = 0; i < fan_out; i += 2) {
         const Pairwise missed = hull.misses(run, i);
-        if (missed[0] == 0) lower(places, run, i);
-        if (missed[1] == 0) lower(places, run, i + 1);
+        for (std::size_t k = 0; k < 2; ++k) {
+          if (missed[k] != 0) continue;
+          lower(places, run, i + k);
+          ++near;
+        }
       }
     }
   }
