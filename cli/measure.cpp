@@ -39,6 +39,7 @@ struct MeasureArguments : FileArguments {
   double widening = 1.1;
   std::uint64_t disks = 0;
   Options options;
+  std::vector<const CLI::Option*> of_widths;  ///< each asks for more than disks
 };
 
 /// A centre line and the widths along it.
@@ -56,6 +57,17 @@ struct Measured {
   std::vector<Neck> necks;
   std::vector<Disk> disks;
 };
+
+bool is_profile(const MeasureArguments& arguments) {
+  return arguments.format == "csv" || arguments.output.ends_with(".csv");
+}
+
+/// Whether nothing is asked for that needs an axis.
+bool wants_disks_alone(const MeasureArguments& arguments) {
+  return arguments.disks > 0 && !is_profile(arguments) &&
+         std::none_of(arguments.of_widths.begin(), arguments.of_widths.end(),
+                      [](const CLI::Option* option) { return option->count() > 0; });
+}
 
 /// `count` + 1 lengths from 0 to the whole.
 std::vector<double> even_lengths(double whole, std::uint64_t count) {
@@ -129,6 +141,26 @@ Result<Measured> measure(const AxisItem& item, const std::vector<AxisPath>& path
   return out;
 }
 
+/// The disks of shapes whose axes are not computed.
+Result<std::vector<Measured>> measure_disks(const Document<AxisItem>& file, int threads,
+                                            const MeasureArguments& arguments) {
+  std::vector<double> sizes;
+  for (const AxisItem& item : file.items)
+    sizes.push_back(static_cast<double>(item.shape.points.size()));
+  return map_items<Measured>(sizes, threads, [&](std::size_t i, int) -> Result<Measured> {
+    Measured out;
+    out.disks = largest_disjoint_disks(file.items[i].shape, arguments.disks);
+    return out;
+  });
+}
+
+Document<AxisItem> without_axes(Document<ShapeItem> shapes) {
+  Document<AxisItem> file{shapes, {}};
+  for (ShapeItem& item : shapes.items)
+    file.items.push_back({std::move(item.shape), {}, std::move(item.attributes)});
+  return file;
+}
+
 /// The narrowest neck of a feature's lines, if they have one.
 const Neck* narrowest_neck(const Measured& measured) {
   const Neck* narrowest = nullptr;
@@ -156,6 +188,12 @@ Json json_of(const Neck& neck, bool on_line) {
   return object;
 }
 
+Json json_of_disks(const Measured& measured) {
+  Json disks = Json::array();
+  for (const Disk& disk : measured.disks) disks.push_back(to_json(disk));
+  return disks;
+}
+
 Json json_of(const Measured& measured, std::size_t necks_wanted) {
   Json lines = Json::array();
   for (const Line& line : measured.lines) {
@@ -177,20 +215,27 @@ Json json_of(const Measured& measured, std::size_t necks_wanted) {
   object["necks"] = Json::array();
   for (std::size_t i = 0; i < std::min(necks_wanted, measured.necks.size()); ++i)
     object["necks"].push_back(json_of(measured.necks[i], false));
-  if (!measured.disks.empty()) {
-    object["disks"] = Json::array();
-    for (const Disk& disk : measured.disks) object["disks"].push_back(to_json(disk));
-  }
+  if (!measured.disks.empty()) object["disks"] = json_of_disks(measured);
   return object;
 }
 
 std::string place(Vec2 p) { return fmt::format("({:.10g}, {:.10g})", p.x, p.y); }
 std::string number(double value) { return fmt::format("{:.10g}", value); }
 
+void add_disks(Rows& rows, const std::vector<Disk>& disks) {
+  for (std::size_t i = 0; i < disks.size(); ++i)
+    rows.add(i == 0 ? "largest disks" : "",
+             fmt::format("r {:.10g} at {}", disks[i].radius, place(disks[i].center)));
+}
+
 /// One feature as lines of a name and a value.
 std::string summary_of(const Measured& measured, const MeasureArguments& arguments, Unit unit) {
   Rows rows(24);
   if (unit != Unit::unknown) rows.add("unit", name_of(unit));
+  if (wants_disks_alone(arguments)) {
+    add_disks(rows, measured.disks);
+    return rows.text();
+  }
   const MeanWidth& mean = measured.mean;
   rows.add("area", number(mean.area));
   rows.add("length", number(mean.length) + (measured.lines.size() > 1
@@ -217,11 +262,7 @@ std::string summary_of(const Measured& measured, const MeasureArguments& argumen
                          place(neck.width.disk.center), 2 * neck.opens_to,
                          neck.around_hole ? ", around a hole" : ""));
   }
-  for (std::size_t i = 0; i < measured.disks.size(); ++i) {
-    const Disk& disk = measured.disks[i];
-    rows.add(i == 0 ? "largest disks" : "",
-             fmt::format("r {:.10g} at {}", disk.radius, place(disk.center)));
-  }
+  add_disks(rows, measured.disks);
   return rows.text();
 }
 
@@ -237,14 +278,24 @@ bool has_labels(const Document<AxisItem>& file) {
   return file.pixel > 0 && !file.items.empty() && !file.items[0].attributes.empty();
 }
 
-std::string table_head(bool labels) {
+std::string table_head(bool labels, bool disks_alone) {
+  if (disks_alone)
+    return fmt::format("{:>7} {:>6} {:>12} {:>16} {:>16}\n", labels ? "value" : "feature", "rank",
+                       "r", "x", "y");
   return fmt::format("{:>7} {:>12} {:>12} {:>12} {:>12} {:>12} {:>12} {:>12}\n",
                      labels ? "value" : "feature", "area", "length", "narrowest", "by length",
                      "by area", "widest", "neck");
 }
 
-/// A feature in one line.
-std::string table_row(const Measured& one, const std::string& name) {
+/// A feature in one line, or in one for each disk.
+std::string table_row(const Measured& one, const std::string& name, bool disks_alone) {
+  if (disks_alone) {
+    std::string rows;
+    for (std::size_t k = 0; k < one.disks.size(); ++k)
+      rows += fmt::format("{:>7} {:>6} {:>12.6g} {:>16.10g} {:>16.10g}\n", name, k,
+                          one.disks[k].radius, one.disks[k].center.x, one.disks[k].center.y);
+    return rows;
+  }
   const Neck* neck = narrowest_neck(one);
   const auto number = [](double value, bool known) {
     return known ? fmt::format("{:.6g}", value) : std::string("-");
@@ -260,10 +311,12 @@ std::string table_end(Unit unit) {
   return unit == Unit::unknown ? std::string() : fmt::format("{:>7} {}\n", "unit", name_of(unit));
 }
 
-/// Several features, one line each.
-std::string summary_of(const std::vector<Measured>& all, const Document<AxisItem>& file) {
-  std::string text = table_head(has_labels(file));
-  for (std::size_t i = 0; i < all.size(); ++i) text += table_row(all[i], name_of_feature(file, i));
+/// Several features.
+std::string summary_of(const std::vector<Measured>& all, const Document<AxisItem>& file,
+                       bool disks_alone) {
+  std::string text = table_head(has_labels(file), disks_alone);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    text += table_row(all[i], name_of_feature(file, i), disks_alone);
   return text + table_end(file.unit);
 }
 
@@ -297,10 +350,6 @@ std::vector<Plot> profile_plots(const std::vector<Measured>& all, const std::str
     }
   }
   return plots;
-}
-
-bool is_profile(const MeasureArguments& arguments) {
-  return arguments.format == "csv" || arguments.output.ends_with(".csv");
 }
 
 io::Layer profile_of(const std::vector<Measured>& all) {
@@ -367,6 +416,7 @@ Status write_measures(Document<AxisItem>& file, const std::vector<Measured>& all
 
 Result<std::vector<Measured>> measure_all(const Document<AxisItem>& file, int threads,
                                           const MeasureArguments& arguments) {
+  if (wants_disks_alone(arguments)) return measure_disks(file, threads, arguments);
   auto paths = choose_paths(file, arguments.path, threads);
   if (!paths) return std::move(paths).error();
   auto all = map_items<Measured>(
@@ -385,10 +435,11 @@ bool prints_table(const MeasureArguments& arguments) {
 /// The table of a stream, in a temporary file until the end: errors print nothing.
 class LateTable {
  public:
+  explicit LateTable(bool disks_alone) : disks_alone_(disks_alone) {}
   void add(const std::vector<Measured>& all, const Document<AxisItem>& file) {
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (features_++ == 0) first_ = all[i];
-      put(table_row(all[i], name_of_feature(file, i)));
+      put(table_row(all[i], name_of_feature(file, i), disks_alone_));
     }
   }
   Status print_all(const MeasureArguments& arguments, Unit unit) {
@@ -396,7 +447,7 @@ class LateTable {
     if (!file_ || std::fflush(file_.get()) != 0 || std::fseek(file_.get(), 0, SEEK_SET) != 0)
       failed_ = true;
     if (failed_) return Error{ErrorCode::unwritable, "cannot write a temporary file", {}};
-    if (Status head = print(table_head(false)); !head) return head;
+    if (Status head = print(table_head(false, disks_alone_)); !head) return head;
     std::string chunk(1 << 16, 0);
     while (const std::size_t count = std::fread(chunk.data(), 1, chunk.size(), file_.get()))
       if (Status printed = print(chunk.substr(0, count)); !printed) return printed;
@@ -409,6 +460,7 @@ class LateTable {
   }
 
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_{std::tmpfile(), std::fclose};
+  bool disks_alone_;
   std::uint64_t features_ = 0;
   Measured first_;
   bool failed_ = false;
@@ -418,9 +470,12 @@ class LateTable {
 Result<io::MeasuredItems> measure_part(Document<ShapeItem> shapes, int threads, AxesReport& report,
                                        const MeasureArguments& arguments,
                                        std::vector<Measured>& all) {
-  Options options =
-      engine_options(arguments.common, threads, shapes.corner_angle, arguments.options);
-  auto file = medial::compute_axes(std::move(shapes), std::move(options), &report);
+  auto file = [&]() -> Result<Document<AxisItem>> {
+    if (wants_disks_alone(arguments)) return without_axes(std::move(shapes));
+    Options options =
+        engine_options(arguments.common, threads, shapes.corner_angle, arguments.options);
+    return medial::compute_axes(std::move(shapes), std::move(options), &report);
+  }();
   if (!file) return std::move(file).error();
   auto measured = measure_all(*file, threads, arguments);
   if (!measured) return std::move(measured).error();
@@ -436,7 +491,7 @@ Result<std::optional<int>> stream_measures(const MeasureArguments& arguments) {
   if (!arguments.plot.empty() || common.json || arguments.path.between_places())
     return std::optional<int>();
   const bool table_wanted = prints_table(arguments);
-  LateTable table;
+  LateTable table(wants_disks_alone(arguments));
   std::mutex adding;
   std::map<std::uint64_t, std::vector<Measured>> parts;  // on their way, by their first features
   io::StreamOptions how;
@@ -473,16 +528,19 @@ Result<int> finish_measure(const std::vector<Measured>& all, const LoadedAxes& a
   Json object = {{"input", arguments.input.path},
                  {"unit", name_of(axes.file.unit)},
                  {"features", Json::array()}};
+  const bool disks_alone = wants_disks_alone(arguments);
   std::string text;
   if (common.json) {
     for (std::size_t i = 0; i < all.size(); ++i) {
-      Json one = json_of(all[i], arguments.necks > 0 ? arguments.necks : default_necks);
+      Json one = disks_alone
+                     ? Json{{"disks", json_of_disks(all[i])}}
+                     : json_of(all[i], arguments.necks > 0 ? arguments.necks : default_necks);
       one["attributes"] = to_json(axes.file.items[i].attributes);
       object["features"].push_back(std::move(one));
     }
   } else if (prints_table(arguments)) {
     text = all.size() == 1 ? summary_of(all[0], arguments, axes.file.unit)
-                           : summary_of(all, axes.file);
+                           : summary_of(all, axes.file, disks_alone);
   }
   return finish(common, std::move(object), axes.phases, text);
 }
@@ -506,7 +564,12 @@ Result<int> run_measure(const MeasureArguments& given) {
   if (*streamed) return **streamed;
   auto shapes = load_shapes(input, common);
   if (!shapes) return std::move(shapes).error();
-  auto axes = compute_axes(std::move(shapes).value(), input, common, arguments.options);
+  auto axes = [&]() -> Result<LoadedAxes> {
+    if (wants_disks_alone(arguments))
+      return LoadedAxes{
+          without_axes(std::move(shapes->file)), {}, shapes->report, std::move(shapes->phases)};
+    return compute_axes(std::move(shapes).value(), input, common, arguments.options);
+  }();
   if (!axes) return std::move(axes).error();
   note_places_outside(axes->file, arguments.path, arguments);
   if (axes->file.pixel > 0 && input.source.read.smooth_contour && !common.quiet)
@@ -525,6 +588,28 @@ Result<int> run_measure(const MeasureArguments& given) {
   return finish_measure(*all, *axes, arguments);
 }
 
+void add_width_options(CLI::App& command, MeasureArguments& arguments) {
+  const auto before = static_cast<std::ptrdiff_t>(command.get_options().size());
+  command.add_option("--plot", arguments.plot, "Draw the width profiles: .svg .png .pdf.")
+      ->check(a_name())
+      ->option_text("FILE");
+  add_value(command, "--samples", arguments.samples, "N", in_range(1, most_transects, true),
+            "Steps of a width profile (default: 200), from end to end of the line.");
+  CLI::Option* transects =
+      add_value(command, "--transects", arguments.transects, "N", in_range(1, most_transects, true),
+                "N transects along each line, from boundary to boundary.");
+  add_value(command, "--spacing", arguments.spacing, "D", a_positive_number(),
+            "Transects at this distance from each other, in units of the input.")
+      ->excludes(transects);
+  add_value(command, "--necks", arguments.necks, "K", in_range(1, most_transects, true),
+            "The K necks that open most on both sides.");
+  add_value(command, "--widening", arguments.widening, "FACTOR", in_range(1 + 1e-9, 1e9),
+            "A neck opens on both sides to at least this many times its width (default: 1.1).");
+  add_path_options(command, arguments.path);
+  const std::vector<CLI::Option*> all = command.get_options();
+  arguments.of_widths.assign(all.begin() + before, all.end());
+}
+
 }  // namespace
 
 Command make_measure_command(CLI::App& program) {
@@ -539,25 +624,10 @@ Command make_measure_command(CLI::App& program) {
                         "\n- is standard output, see --format.");
   add_layer_options(*command, arguments->write);
   add_format_option(*command, arguments->format, "for example csv");
-  command->add_option("--plot", arguments->plot, "Draw the width profiles: .svg .png .pdf.")
-      ->check(a_name())
-      ->option_text("FILE");
-  add_value(*command, "--samples", arguments->samples, "N", in_range(1, most_transects, true),
-            "Steps of a width profile (default: 200), from end to end of the line.");
-  CLI::Option* transects = add_value(*command, "--transects", arguments->transects, "N",
-                                     in_range(1, most_transects, true),
-                                     "N transects along each line, from boundary to boundary.");
-  add_value(*command, "--spacing", arguments->spacing, "D", a_positive_number(),
-            "Transects at this distance from each other, in units of the input.")
-      ->excludes(transects);
-  add_value(*command, "--necks", arguments->necks, "K", in_range(1, most_transects, true),
-            "The N necks that open most on both sides.");
-  add_value(*command, "--widening", arguments->widening, "FACTOR", in_range(1 + 1e-9, 1e9),
-            "A neck opens on both sides to at least this many times its width (default: 1.1).");
+  add_width_options(*command, *arguments);
   add_value(*command, "--disks", arguments->disks, "K", in_range(1, most_measured_disks, true),
-            "The N largest disjoint disks inside the shape, one after another:\n"
-            "measured, not only drawn.");
-  add_path_options(*command, arguments->path);
+            "The K largest disjoint disks inside the shape, one after another: measured,\n"
+            "not only drawn. Asked for by itself, without an axis, in a fraction of the time.");
   add_exterior_options(*command, arguments->options,
                        "Measure the exterior, around the shape, within a rectangle, and in its\n"
                        "holes: bays, gaps and holes. The area is that of the axis's disks.")
@@ -574,6 +644,7 @@ Command make_measure_command(CLI::App& program) {
       "  medial measure river.geojson --project --plot widths.svg -o widths.csv\n"
       "  medial measure roads.gpkg --spacing 25 -o transects.shp\n"
       "  medial measure plan.wkt --necks 10 --disks 5 -o plan.svg\n"
+      "  medial measure plan.wkt --disks 1\n"
       "  medial measure parcels.geojson --json | jq '.features[].mean_width.by_area'");
   return command_of(command, arguments, run_measure);
 }

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "medial/medial.h"
+#include "support/distance_check.h"
 #include "support/generate_arcs.h"
 #include "support/property.h"
 #include "verify/boundary_edge.h"
@@ -413,6 +414,7 @@ TEST(DistanceTreeOfArcs, AgreesWithBruteForce) {
       for (const double guess : {0.0, 0.5 * expected, expected, 2 * expected, 1e300})
         EXPECT_EQ(tree.distance(p, guess), expected);
     }
+    test::expect_distances_on_curves(shape, 8, {0, 0});
   }
 }
 

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "medial/compute.h"
+#include "support/distance_check.h"
 #include "support/generate.h"
 #include "support/hand_made.h"
 #include "support/property.h"
@@ -236,6 +237,19 @@ TEST(VerifyFinds, WrongSite) {
   m = rectangle();
   m.axis.edges[0].site[0] = m.axis.edges[0].site[1];
   expect_failure(m, "1 edges lie between a site and itself; the first is edge 0");
+}
+
+TEST(VerifyFinds, DisksBeyondTheNormalAtAVertex) {
+  // They touch the vertex, as their edge says, but reach over the boundary edge next to it: of
+  // disks behind the normal no such edge is looked at.
+  for (const double off : {1e-6, 1e-3, 0.1}) {
+    HandMade m = ell();
+    Disk& disk = m.axis.nodes[m.axis.edges[1].node[1]].disk;
+    ASSERT_EQ(disk.center, (Vec2{2, 1}));
+    const double radius = 1 + 0.25 * off * off;  // touches (2, 2), and y = 0
+    disk = {{2 + off, radius}, radius};
+    expect_failure(m, "1 nodes have disks that reach over the boundary");
+  }
 }
 
 TEST(VerifyFinds, ForeignSite) {
@@ -501,6 +515,7 @@ TEST(DistanceTree, AgreesWithBruteForce) {
       for (const double guess : {0.0, 0.5 * expected, expected, 2 * expected, 1e300})
         EXPECT_EQ(tree.distance(p, guess), expected);
     }
+    test::expect_distances_on_curves(shape, 8, {1e5, 0});
     for (const double guess : {0.0, 1.0, 1e300}) {
       EXPECT_DOUBLE_EQ(tree.distance({1e100, 0}, guess), 1e100);
       EXPECT_FALSE(tree.distance({1e300, -1e300}, guess) <= 1e200);

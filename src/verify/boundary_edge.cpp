@@ -56,15 +56,6 @@ double carrier_distance(const Directions& directions, const BoundaryEdge& edge, 
 
 }  // namespace
 
-double distance_to_segment(Vec2 p, Vec2 a, Vec2 b) {
-  const Vec2 d = b - a;
-  const Vec2 from_a = p - a, from_b = p - b;
-  const double along_a = dot(from_a, d), along_b = -dot(from_b, d);
-  if (along_a <= 0) return norm(from_a);
-  if (along_b <= 0) return norm(from_b);
-  return std::abs(cross(d, along_a <= along_b ? from_a : from_b)) / norm(d);
-}
-
 double distance_to_carrier(Vec2 p, const BoundaryEdge& edge) {
   if (edge.bulge == 0) {
     const Vec2 d = edge.chord(), u = p - edge.start, v = p - edge.end;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "base/arc.h"
 #include "medial/axis.h"
 
@@ -11,10 +13,30 @@ using BoundaryEdge = BulgeArc;
 
 inline BoundaryEdge edge_of(const Site& site) { return {site.start, site.end, site.bulge}; }
 
-/// Distance from p to the closed segment a b. Coordinates are subtracted before anything is
-/// multiplied, and the nearer end is the origin: the error is below two units in the last place of
-/// half the segment's length plus the distance.
-double distance_to_segment(Vec2 p, Vec2 a, Vec2 b);
+/// A closed segment that distances of many places are measured from. Coordinates are subtracted
+/// before anything is multiplied, and the nearer end is the origin: the error is below two units in
+/// the last place of half the segment's length plus the distance.
+class Segment {
+ public:
+  Segment(Vec2 a, Vec2 b) : a_(a), b_(b), along_(b - a), length_(norm(along_)) {}
+
+  double distance(Vec2 p) const { return std::abs(signed_distance(p)); }
+  /// Negative where p lies on the right.
+  double signed_distance(Vec2 p) const {
+    const Vec2 from_a = p - a_, from_b = p - b_;
+    const double along_a = dot(from_a, along_), along_b = -dot(from_b, along_);
+    const double across = cross(along_, along_a <= along_b ? from_a : from_b);
+    const double sign = across < 0 ? -1 : 1;
+    if (along_a <= 0) return sign * norm(from_a);
+    if (along_b <= 0) return sign * norm(from_b);
+    return across / length_;
+  }
+
+ private:
+  Vec2 a_, b_, along_;
+  double length_;
+};
+inline double distance_to_segment(Vec2 p, Vec2 a, Vec2 b) { return Segment(a, b).distance(p); }
 
 /// Distance from p to the edge's whole line or circle, positive on its left. By the power of the
 /// point: with u and v the vectors from the ends and 2 a half of the arc's angle, the circle is

@@ -23,63 +23,68 @@ struct Stretch {
   double turn = std::numeric_limits<double>::infinity();
 };
 
-/// The stretches of all boundary edges, grouped by edge and ordered along each.
-struct Stretches {
-  std::vector<std::uint32_t> first;  ///< of each boundary edge, in `all`
-  std::vector<Stretch> all;
-};
-
-Stretches collect(const Problem& problem) {
-  const MedialAxis& axis = problem.axis;
-  const std::size_t count = problem.shape.points.size();
-  Stretches out;
-  out.first.assign(count + 1, 0);
-  std::vector<std::uint32_t> before(count);
-  for (std::uint32_t i = 0; i < count; ++i) before[problem.next[i]] = i;
-  for (const Edge& edge : axis.edges)
-    for (const std::uint32_t site : edge.site)
-      if (problem.place[site] != no_index) ++out.first[problem.place[site] + 1];
-  for (std::size_t i = 1; i <= count; ++i) out.first[i] += out.first[i - 1];
-  out.all.resize(out.first[count]);
-  std::vector<std::uint32_t> next(out.first.begin(), out.first.end() - 1);
-  for (const Edge& edge : axis.edges) {
-    for (const std::uint32_t site : edge.site) {
-      const std::uint32_t place = problem.place[site];
-      if (place == no_index) continue;
-      if (axis.sites[site].kind == SiteKind::vertex) {
-        const Vec2 arriving = end_tangent(problem.edge(before[place]));
-        const auto turn = [&](std::uint32_t node) {
-          const Vec2 to = problem.disk(node).center - problem.point(place);
-          const double angle = std::atan2(dot(arriving, to), cross(arriving, to));
-          // What rounding puts before the normal is no full turn behind it.
-          return angle < -0.5 * std::numbers::pi ? angle + 2 * std::numbers::pi : angle;
-        };
-        Stretch stretch{0, 0, edge.node[0], edge.node[1], turn(edge.node[0])};
-        if (turn(edge.node[1]) < stretch.turn)
-          stretch = {0, 0, edge.node[1], edge.node[0], turn(edge.node[1])};
-        out.all[next[place]++] = stretch;
-        continue;
-      }
-      const BoundaryEdge on = problem.edge(place);
-      const auto parameter = [&](std::uint32_t node) {
-        return foot_at(on, problem.disk(node).center);
-      };
-      Stretch stretch{parameter(edge.node[0]), parameter(edge.node[1]), edge.node[0], edge.node[1]};
-      if (stretch.begin > stretch.end) {
-        std::swap(stretch.begin, stretch.end);
-        std::swap(stretch.begin_node, stretch.end_node);
-      }
-      out.all[next[place]++] = stretch;
-    }
+/// The stretch of a boundary edge, or of the vertex it begins in, that an edge of the axis touches
+/// with the site on one of its sides.
+Stretch stretch_of(const Problem& problem, std::uint32_t place, std::uint32_t before,
+                   const Edge& edge, std::size_t side) {
+  const auto [from, to] = edge.node;
+  if (problem.axis.sites[edge.site[side]].kind == SiteKind::vertex) {
+    const Vec2 arriving = end_tangent(problem.edge(before));
+    const auto turn = [&](std::uint32_t node) {
+      const Vec2 off = problem.disk(node).center - problem.point(place);
+      const double angle = std::atan2(dot(arriving, off), cross(arriving, off));
+      // What rounding puts before the normal is no full turn behind it.
+      return angle < -0.5 * std::numbers::pi ? angle + 2 * std::numbers::pi : angle;
+    };
+    const double first = turn(from), last = turn(to);
+    return last < first ? Stretch{0, 0, to, from, last} : Stretch{0, 0, from, to, first};
   }
-  parallel_for(count, [&](std::size_t i) {
-    std::sort(out.all.begin() + out.first[i], out.all.begin() + out.first[i + 1],
-              [](const Stretch& a, const Stretch& b) {
-                return std::tie(a.begin, a.turn, a.end) < std::tie(b.begin, b.turn, b.end);
-              });
-  });
-  return out;
+  const BoundaryEdge on = problem.edge(place);
+  const double first = foot_at(on, problem.disk(from).center);
+  const double last = foot_at(on, problem.disk(to).center);
+  return first > last ? Stretch{last, first, to, from} : Stretch{first, last, from, to};
 }
+
+/// The edges of the axis that touch each boundary edge, or the vertex that it begins in.
+class Touching {
+ public:
+  explicit Touching(const Problem& problem) : problem_(problem) {
+    begin_.assign(problem.shape.points.size() + 1, 0);
+    for_each_contact([&](std::uint32_t, std::uint32_t place) { ++begin_[place + 1]; });
+    for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
+    edges_.resize(begin_.back());
+    std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+    for_each_contact(
+        [&](std::uint32_t edge, std::uint32_t place) { edges_[next[place]++] = edge; });
+  }
+
+  /// The stretches of one boundary edge, in order along it. `before` is the edge before it.
+  void stretches(std::uint32_t place, std::uint32_t before, std::vector<Stretch>& found) const {
+    found.clear();
+    for (std::uint32_t k = begin_[place]; k < begin_[place + 1]; ++k) {
+      const Edge& edge = problem_.axis.edges[edges_[k]];
+      // An edge that touches it with both sites stands here twice.
+      const bool again = k > begin_[place] && edges_[k - 1] == edges_[k];
+      const std::size_t side = problem_.place[edge.site[0]] == place && !again ? 0 : 1;
+      found.push_back(stretch_of(problem_, place, before, edge, side));
+    }
+    std::sort(found.begin(), found.end(), [](const Stretch& a, const Stretch& b) {
+      return std::tie(a.begin, a.turn, a.end) < std::tie(b.begin, b.turn, b.end);
+    });
+  }
+
+ private:
+  template <class Visitor>
+  void for_each_contact(const Visitor& visit) const {
+    for (std::uint32_t i = 0; i < problem_.axis.edges.size(); ++i)
+      for (const std::uint32_t site : problem_.axis.edges[i].site)
+        if (problem_.place[site] != no_index) visit(i, problem_.place[site]);
+  }
+
+  const Problem& problem_;
+  std::vector<std::uint32_t> begin_;  ///< of each boundary edge, in edges_
+  std::vector<std::uint32_t> edges_;
+};
 
 /// How far p lies outside a disk; negative inside.
 double outside(const Disk& disk, Vec2 p) { return distance(disk.center, p) - disk.radius; }
@@ -99,6 +104,7 @@ double uncovered(const Disk& a, const Disk& b, const BoundaryEdge& edge, double 
     const Vec2 p = point_at(edge, length);
     return Outside{outside(a, p), outside(b, p)};
   };
+  if (!(from < to)) return std::max(0.0, outside_at(from).least());
   std::array<double, 6> bound;
   std::size_t bounds = 0;
   bound[bounds++] = from;
@@ -193,15 +199,16 @@ void cross_gap(const Problem& problem, const Foot& from, const Foot& to, bool wr
 
 /// Walks once around a loop, from stretch to stretch. `lone_node` is a node without edges of each
 /// component, or no_index.
-void walk_loop(const Problem& problem, const Stretches& stretches,
+void walk_loop(const Problem& problem, const Touching& touching,
                const std::vector<std::uint32_t>& lone_node, std::size_t loop, Uncovered& worst) {
   const std::uint32_t begin = problem.shape.loop_begin[loop],
                       end = problem.shape.loop_begin[loop + 1];
   bool any = false;
   Foot first{}, reach{};
+  std::vector<Stretch> stretches;
   for (std::uint32_t i = begin; i < end; ++i) {
-    for (std::uint32_t j = stretches.first[i]; j < stretches.first[i + 1]; ++j) {
-      const Stretch& stretch = stretches.all[j];
+    touching.stretches(i, i > begin ? i - 1 : end - 1, stretches);
+    for (const Stretch& stretch : stretches) {
       if (!any) {
         first = {i, stretch.begin, stretch.begin_node};
         any = true;
@@ -235,6 +242,10 @@ class Sum {
     const double next = sum_ + term;
     lost_ += std::abs(sum_) >= std::abs(term) ? (sum_ - next) + term : (term - next) + sum_;
     sum_ = next;
+  }
+  void add(const Sum& other) {
+    add(other.sum_);
+    add(other.lost_);
   }
   double value() const { return sum_ + lost_; }
 
@@ -335,67 +346,121 @@ Extent extent_of(const Problem& problem) {
   return {area.value(), perimeter.value()};
 }
 
-/// An edge's areas, and where its disks touch.
+/// What the edges' disks sweep.
 struct Swept {
-  Sides sides;
-  FootPoints contacts;
+  Sum area;
+  std::size_t backward = 0, first = 0;  ///< edges that run backward along a site
+
+  void add(const Swept& other) {
+    area.add(other.area);
+    if (backward == 0) first = other.first;
+    backward += other.backward;
+  }
 };
-std::vector<Swept> swept_by_edges(const Problem& problem) {
+Swept swept_by_edges(const Problem& problem, double limit) {
   const MedialAxis& axis = problem.axis;
-  std::vector<Swept> edges(axis.edges.size());
-  parallel_for(edges.size(), [&](std::size_t i) {
-    const Edge& edge = axis.edges[i];
-    for (std::size_t side = 0; side < 2; ++side)
-      for (std::size_t end = 0; end < 2; ++end)
-        edges[i].contacts[side][end] =
-            foot_point_of(problem, axis.sites[edge.site[side]], problem.disk(edge.node[end]));
-    edges[i].sides = swept(axis, edge, edges[i].contacts);
-  });
-  return edges;
+  Swept all;
+  for (const Swept& block :
+       in_blocks<Swept>(axis.edges.size(), block_size, [&](std::size_t i, Swept&found) {
+         const Edge& edge = axis.edges[i];
+         FootPoints contacts;
+         double slack = limit;
+         for (std::size_t side = 0; side < 2; ++side) {
+           for (std::size_t end = 0; end < 2; ++end) {
+             const Disk& disk = problem.disk(edge.node[end]);
+             contacts[side][end] = foot_point_of(problem, axis.sites[edge.site[side]], disk);
+             slack += contacts[side][end].slack * disk.radius;
+           }
+         }
+         const Sides sides = swept(axis, edge, contacts);
+         found.area.add(sides.left);
+         found.area.add(sides.right);
+         if (std::min(sides.left, sides.right) < -slack && found.backward++ == 0) found.first = i;
+       }))
+    all.add(block);
+  return all;
 }
 
-/// Adds what the edges leave of the nodes' disks: every spoke of an edge ends one swept area, and
+/// What the edges leave of the nodes' disks: every spoke of an edge ends one swept area, and
 /// the spokes around each node say what lies between.
 ///
 /// What is left of the full angle are slices of the disk, at its contacts with arcs. Or they are
 /// due to rounding: where the axis passes from a segment to the vertex at its end, or several sites
 /// touch within the tolerance, the feet differ a little.
-void add_slices(const Problem& problem, const std::vector<Swept>& edges, Sum& area) {
-  const MedialAxis& axis = problem.axis;
-  const Incidence incidence(axis);
-  std::vector<Spoke> spokes;
-  for (std::uint32_t n = 0; n < axis.nodes.size(); ++n) {
-    const Disk& disk = problem.disk(n);
-    spokes.clear();
-    double angle = 2 * std::numbers::pi;
-    const auto around = incidence.edges(n);
+class Slices {
+ public:
+  explicit Slices(const Problem& problem) : problem_(problem), incidence_(problem.axis) {}
+
+  Sum area() const {
+    struct Findings {
+      Sum area;
+      std::vector<Spoke> spokes;
+    };
+    const auto look = [&](std::size_t i, Findings& found) {
+      const auto node = static_cast<std::uint32_t>(i);
+      const double radius = problem_.disk(node).radius;
+      if (incidence_.degree(node) == 0)
+        found.area.add(std::numbers::pi * radius * radius);
+      else if (!nothing_between(node, found.spokes))
+        found.area.add(0.5 * radius * radius * angle_between(node));
+    };
+    Sum sum;
+    for (const Findings& block : in_blocks<Findings>(problem_.axis.nodes.size(), block_size, look))
+      sum.add(block.area);
+    return sum;
+  }
+
+ private:
+  /// Calls `visit` with each end of an edge that is at a node, and with the feet there.
+  template <class Visitor>
+  void for_each_end(std::uint32_t node, const Visitor& visit) const {
+    const auto around = incidence_.edges(node);
     for (std::size_t k = 0; k < around.size(); ++k) {
-      const Edge& edge = axis.edges[around[k]];
+      const Edge& edge = problem_.axis.edges[around[k]];
       // An edge from the node to itself stands here twice, first with its beginning.
       const bool again = k > 0 && around[k - 1] == around[k];
-      const std::size_t end = edge.node[0] == n && !again ? 0 : 1;
-      // Seen from the centre, an edge's area begins on its right side and ends on its left.
-      const auto& contacts = edges[around[k]].contacts;
+      std::array<Vec2, 2> feet;
       for (std::size_t side = 0; side < 2; ++side)
-        spokes.push_back({contacts[side][end].foot, (side == 1) == (end == 0)});
-      angle -= angle_between_feet(disk.center, contacts[1 - end][end].foot, contacts[end][end].foot,
-                                  problem.disk(edge.node[1 - end]).radius < disk.radius);
+        feet[side] =
+            foot_point_of(problem_, problem_.axis.sites[edge.site[side]], problem_.disk(node)).foot;
+      visit(edge, edge.node[0] == node && !again ? 0 : 1, feet);
     }
-    if (!all_paired(spokes)) area.add(0.5 * disk.radius * disk.radius * angle);
-    if (around.empty()) area.add(std::numbers::pi * disk.radius * disk.radius);
   }
-}
+  /// Whether swept areas meet all around a node. Seen from there, an edge's area begins on its
+  /// right side and ends on its left.
+  bool nothing_between(std::uint32_t node, std::vector<Spoke>& spokes) const {
+    spokes.clear();
+    for_each_end(node, [&](const Edge&, std::size_t end, const std::array<Vec2, 2>& feet) {
+      for (std::size_t side = 0; side < 2; ++side)
+        spokes.push_back({feet[side], (side == 1) == (end == 0)});
+    });
+    return all_paired(spokes);
+  }
+  /// What they leave of the full angle.
+  double angle_between(std::uint32_t node) const {
+    const Disk& disk = problem_.disk(node);
+    double angle = 2 * std::numbers::pi;
+    for_each_end(node, [&](const Edge& edge, std::size_t end, const std::array<Vec2, 2>& feet) {
+      angle -= angle_between_feet(disk.center, feet[1 - end], feet[end],
+                                  problem_.disk(edge.node[1 - end]).radius < disk.radius);
+    });
+    return angle;
+  }
+
+  const Problem& problem_;
+  Incidence incidence_;
+};
 
 }  // namespace
 
 double check_coverage(const Problem& problem, Certificate& certificate) {
-  const Stretches stretches = collect(problem);
+  const Touching touching(problem);
   std::vector<std::uint32_t> lone_node(problem.shape.component_count(), no_index);
   for (std::uint32_t i = 0; i < problem.axis.nodes.size(); ++i)
     if (problem.degree[i] == 0) lone_node[problem.axis.nodes[i].component] = i;
   Uncovered worst;
   for (std::size_t i = 0; i < problem.shape.loop_count(); ++i)
-    walk_loop(problem, stretches, lone_node, i, worst);
+    walk_loop(problem, touching, lone_node, i, worst);
   certificate.largest_uncovered = worst.value;
   // A foot may lie the tolerance outside its disk; between the feet of different nodes a gap of
   // width g, which rises by g^2 / (8 r) over their disks, may add as much again.
@@ -409,27 +474,14 @@ double check_coverage(const Problem& problem, Certificate& certificate) {
 }
 
 void check_area(const Problem& problem, double open, Certificate& certificate) {
-  const MedialAxis& axis = problem.axis;
   if (problem.shape.points.empty()) return;
 
   const Extent extent = extent_of(problem);
   certificate.shape_area = extent.area;
-  const std::vector<Swept> edges = swept_by_edges(problem);
   const double limit = 4 * problem.tolerance * extent.perimeter;
-  Sum all;
-  std::size_t backward = 0, first = 0;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const Sides& sides = edges[i].sides;
-    all.add(sides.left);
-    all.add(sides.right);
-    double slack = limit;
-    for (const auto& side : edges[i].contacts)
-      for (std::size_t end = 0; end < 2; ++end)
-        slack += side[end].slack * problem.disk(axis.edges[i].node[end]).radius;
-    if (std::min(sides.left, sides.right) < -slack && backward++ == 0) first = i;
-  }
-  add_slices(problem, edges, all);
-  certificate.disks_area = all.value();
+  Swept edges = swept_by_edges(problem, limit);
+  edges.area.add(Slices(problem).area());
+  certificate.disks_area = edges.area.value();
 
   // Neighbouring areas share their spokes, so only the feet's rounding, a part of the tolerance
   // along the whole boundary, is left in the sum, on either side of it; and as much again for the
@@ -441,12 +493,12 @@ void check_area(const Problem& problem, double open, Certificate& certificate) {
                  "by %.3g, over "
                  "%.3g.",
                  certificate.disks_area, certificate.shape_area, difference, limit));
-  if (backward > 0)
+  if (edges.backward > 0)
     certificate.failures.push_back(
         sentence("%zu edges run backward along a site: what they sweep there has a negative area; "
                  "the first is "
                  "edge %zu.",
-                 backward, first));
+                 edges.backward, edges.first));
 }
 
 }  // namespace medial::verify_detail

@@ -199,6 +199,7 @@ void read_boundary(Problem& problem, double corner_angle, Certificate& certifica
   const Shape& shape = problem.shape;
   const auto count = static_cast<std::uint32_t>(shape.points.size());
   problem.next.resize(count);
+  problem.previous.resize(count);
   problem.component.resize(count);
   problem.joint.resize(count);
   if (!shape.bulges.empty()) problem.blunt_angle.assign(count, 0);
@@ -207,6 +208,7 @@ void read_boundary(Problem& problem, double corner_angle, Certificate& certifica
     const std::uint32_t begin = shape.loop_begin[i], end = shape.loop_begin[i + 1];
     for (std::uint32_t j = begin; j < end; ++j) {
       problem.next[j] = j + 1 < end ? j + 1 : begin;
+      problem.previous[j] = j > begin ? j - 1 : end - 1;
       problem.component[j] = shape.component[i];
     }
     for (std::uint32_t j = begin; j < end; ++j) {

@@ -98,7 +98,7 @@ class VoronoiCheck {
       edges.push_back(edge_of(diagram_.sites[i]));
       arcs = arcs || edges.back().bulge != 0;
     }
-    const DistanceTree tree(edges, enclosure_, arcs);
+    const DistanceTree tree(std::move(edges), enclosure_, arcs);
     struct Findings {
       Worst residual, contact, off_enclosure;
       std::uint64_t disks = 0;

@@ -30,6 +30,7 @@ struct Problem {
   double tolerance = 0;
 
   std::vector<std::uint32_t> next;       ///< of each point: the following one of its loop
+  std::vector<std::uint32_t> previous;   ///< and the one before it
   std::vector<std::uint32_t> component;  ///< of each point
   std::vector<Joint> joint;              ///< at each point; smooth where straight edges go on
   std::vector<double> blunt_angle;       ///< at each point where it is blunt, else 0; or empty
@@ -44,6 +45,7 @@ struct Problem {
   BoundaryEdge edge(std::uint32_t i) const {
     return {shape.points[i], shape.points[next[i]], shape.bulge(i)};
   }
+  std::uint32_t before(std::uint32_t i) const { return previous[i]; }
   bool is_blunt(std::uint32_t i) const { return joint[i] == Joint::blunt; }
   const Disk& disk(std::uint32_t node) const { return axis.nodes[node].disk; }
 };

@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 #include "base/spatial_order.h"
 #include "base/threads.h"
-
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
 
 namespace medial::verify_detail {
 namespace {
@@ -60,6 +59,35 @@ void for_each_piece(const BoundaryEdge& edge, const Visitor& visit) {
   }
 }
 
+/// Two numbers, worked on at once where the machine can.
+using Pair = double __attribute__((vector_size(16)));
+inline Pair both(double value) { return Pair{value, value}; }
+inline Pair pair_at(const double* place) {
+  Pair pair;
+  std::memcpy(&pair, place, sizeof pair);
+  return pair;
+}
+inline Pair larger(Pair a, Pair b) { return a > b ? a : b; }
+
+inline Pair smaller(Pair a, Pair b) { return a < b ? a : b; }
+using Pairwise = decltype(Pair{} < Pair{});  // -1 where it holds
+inline bool all(Pairwise what) { return (what[0] & what[1]) != 0; }
+
+std::vector<std::uint32_t> order_of(const std::vector<BoundaryEdge>& pieces) {
+  std::vector<Vec2> middle;
+  middle.reserve(pieces.size());
+  for (const BoundaryEdge& piece : pieces) middle.push_back(midpoint(piece.start, piece.end));
+  return spatial_order(middle, fan_out);
+}
+
+std::vector<BoundaryEdge> in_order(const std::vector<BoundaryEdge>& edges,
+                                   const std::vector<std::uint32_t>& order) {
+  std::vector<BoundaryEdge> ordered;
+  ordered.reserve(order.size());
+  for (const std::uint32_t i : order) ordered.push_back(edges[i]);
+  return ordered;
+}
+
 std::vector<BoundaryEdge> edges_of(const Shape& shape) {
   std::vector<BoundaryEdge> edges;
   edges.reserve(shape.points.size());
@@ -77,39 +105,40 @@ std::vector<BoundaryEdge> edges_of(const Shape& shape) {
 DistanceTree::DistanceTree(const Shape& shape)
     : DistanceTree(edges_of(shape), bounding_box(shape), !shape.bulges.empty()) {}
 
-DistanceTree::DistanceTree(std::span<const BoundaryEdge> edges, const Box& box, bool arcs) {
-  if (edges.size() <= brute_force) {
-    edges_.assign(edges.begin(), edges.end());
-    return;
-  }
-  // Where there are arcs: the edge of each piece.
-  std::vector<BoundaryEdge> pieces, wholes;
-  std::vector<Vec2> middle;
-  pieces.reserve(edges.size());
-  middle.reserve(edges.size());
-  for (const BoundaryEdge& edge : edges) {
-    for_each_piece(edge, [&](const BoundaryEdge& piece) {
-      pieces.push_back(piece);
-      if (arcs) wholes.push_back(edge);
-      middle.push_back(midpoint(piece.start, piece.end));
-    });
-  }
-  const std::vector<std::uint32_t> order = spatial_order(middle, fan_out);
-  const auto in_order = [&](const std::vector<BoundaryEdge>& unordered) {
-    std::vector<BoundaryEdge> ordered;
-    ordered.reserve(unordered.size());
-    for (const std::uint32_t i : order) ordered.push_back(unordered[i]);
-    return ordered;
-  };
-  pieces = in_order(pieces);
-  if (arcs) edges_ = in_order(wholes);
-
-  origin_ = box.low;
-  slack_ = 16 * machine_epsilon * diagonal(box);
+DistanceTree::DistanceTree(std::vector<BoundaryEdge> edges, const Box& box, bool arcs)
+    : origin_(box.low), slack_(16 * machine_epsilon * diagonal(box)), arcs_(arcs) {
   // The ends of an arc's pieces are rounded.
   if (arcs)
     for (const double c : {box.low.x, box.low.y, box.high.x, box.high.y})
       slack_ = std::max(slack_, 16 * machine_epsilon * std::abs(c));
+  if (edges.size() <= brute_force) {
+    std::vector<std::uint32_t> index(edges.size());
+    std::iota(index.begin(), index.end(), 0U);
+    runs_ = runs_of(edges, index);
+    return;
+  }
+  // Where there are arcs: the edge of each piece.
+  std::vector<BoundaryEdge> pieces;
+  std::vector<std::uint32_t> whole;
+  if (arcs) {
+    pieces.reserve(edges.size());
+    for (std::uint32_t i = 0; i < edges.size(); ++i) {
+      for_each_piece(edges[i], [&](const BoundaryEdge& piece) {
+        pieces.push_back(piece);
+        whole.push_back(i);
+      });
+    }
+  } else {
+    pieces = std::move(edges);
+  }
+  std::vector<std::uint32_t> order = order_of(pieces);
+  pieces = in_order(pieces, order);
+  if (arcs) {
+    for (std::uint32_t& i : order) i = whole[i];
+    edges = in_order(edges, order);
+  }
+  runs_ = runs_of(arcs ? edges : pieces, order);
+
   std::size_t run = fan_out;  // edges below one bound
   while (true) {
     const std::size_t bounds = (pieces.size() + run - 1) / run;
@@ -123,7 +152,25 @@ DistanceTree::DistanceTree(std::span<const BoundaryEdge> edges, const Box& box, 
     if (bounds <= fan_out) break;
     run *= fan_out;
   }
-  if (!arcs) edges_ = std::move(pieces);
+}
+
+void DistanceTree::Run::set(std::size_t i, const BoundaryEdge& edge, std::uint32_t its_index) {
+  start_x[i] = edge.start.x;
+  start_y[i] = edge.start.y;
+  end_x[i] = edge.end.x;
+  end_y[i] = edge.end.y;
+  bulge[i] = edge.bulge;
+  index[i] = its_index;
+}
+
+std::vector<DistanceTree::Run> DistanceTree::runs_of(const std::vector<BoundaryEdge>& edges,
+                                                     const std::vector<std::uint32_t>& index) {
+  std::vector<Run> runs((edges.size() + fan_out - 1) / fan_out);
+  for (std::size_t i = 0; i < runs.size() * fan_out; ++i) {
+    const std::size_t from = std::min(i, edges.size() - 1);
+    runs[i / fan_out].set(i % fan_out, edges[from], index[from]);
+  }
+  return runs;
 }
 
 /// Bounds edges, or pieces of them; nothing is near to an empty set.
@@ -168,35 +215,19 @@ inline void DistanceTree::squared_bounds(const Visit& visit, Vec2 p,
                                          double (&squared)[fan_out]) const {
   const Bounds& bounds = levels_[visit.level][visit.index];
   const Vec2 q = p - origin_;
-#if defined(__SSE2__)
-  const __m128d zero = _mm_setzero_pd();
-  const __m128d px = _mm_set1_pd(p.x), py = _mm_set1_pd(p.y);
-  const __m128d qx = _mm_set1_pd(q.x), qy = _mm_set1_pd(q.y);
+  const Pair px = both(p.x), py = both(p.y), qx = both(q.x), qy = both(q.y);
   // How far two numbers lie outside two intervals.
-  const auto outside = [zero](const double* low, const double* high, __m128d at) {
-    return _mm_max_pd(
-        _mm_max_pd(_mm_sub_pd(_mm_loadu_pd(low), at), _mm_sub_pd(at, _mm_loadu_pd(high))), zero);
+  const auto outside = [](const double* low, const double* high, Pair at) {
+    return larger(larger(pair_at(low) - at, at - pair_at(high)), both(0));
   };
   for (std::size_t j = 0; j < fan_out; j += 2) {
-    const __m128d x = outside(bounds.low_x + j, bounds.high_x + j, px);
-    const __m128d y = outside(bounds.low_y + j, bounds.high_y + j, py);
-    const __m128d along = _mm_add_pd(_mm_mul_pd(_mm_loadu_pd(bounds.normal_x + j), qx),
-                                     _mm_mul_pd(_mm_loadu_pd(bounds.normal_y + j), qy));
-    const __m128d across = outside(bounds.slab_low + j, bounds.slab_high + j, along);
-    _mm_storeu_pd(squared + j, _mm_max_pd(_mm_add_pd(_mm_mul_pd(x, x), _mm_mul_pd(y, y)),
-                                          _mm_mul_pd(across, across)));
+    const Pair x = outside(bounds.low_x + j, bounds.high_x + j, px);
+    const Pair y = outside(bounds.low_y + j, bounds.high_y + j, py);
+    const Pair along = pair_at(bounds.normal_x + j) * qx + pair_at(bounds.normal_y + j) * qy;
+    const Pair across = outside(bounds.slab_low + j, bounds.slab_high + j, along);
+    const Pair nearest = larger(x * x + y * y, across * across);
+    std::memcpy(squared + j, &nearest, sizeof nearest);
   }
-#else
-  for (std::size_t j = 0; j < fan_out; ++j) {
-    const auto larger = [](double a, double b) { return a > b ? a : b; };
-    const double x = larger(larger(bounds.low_x[j] - p.x, p.x - bounds.high_x[j]), 0);
-    const double y = larger(larger(bounds.low_y[j] - p.y, p.y - bounds.high_y[j]), 0);
-    const double along = bounds.normal_x[j] * q.x + bounds.normal_y[j] * q.y;
-    const double beside = larger(bounds.slab_low[j] - along, along - bounds.slab_high[j]);
-    const double across = larger(beside, 0);
-    squared[j] = larger(x * x + y * y, across * across);
-  }
-#endif
 }
 
 /// Bounds round as well: a square this much larger loses no edge.
@@ -224,9 +255,8 @@ bool DistanceTree::search(Vec2 p, double& best) const {
     for (std::uint32_t j = 0; j < fan_out; ++j) {
       if (!(squared[j] <= limit)) continue;
       if (visit.level == 0) {
-        const std::size_t begin = std::size_t{child + j} * fan_out;
-        for (std::size_t i = begin; i < std::min(begin + fan_out, edges_.size()); ++i) {
-          const double d = distance_to_edge(p, edges_[i]);
+        for (std::size_t i = 0; i < fan_out; ++i) {
+          const double d = distance_to_edge(p, runs_[child + j].edge(i));
           if (d <= best) {
             best = d;
             found = true;
@@ -245,18 +275,108 @@ bool DistanceTree::search(Vec2 p, double& best) const {
   return found;
 }
 
-void DistanceTree::near(Vec2 p, double reach, std::size_t most,
-                        std::vector<std::uint32_t>& found) const {
-  found.clear();
-  if (levels_.empty()) return;
-  const double limit = limit_for(reach);
+/// All disks that are expected around some places, with room for rounding.
+class DistanceTree::Hull {
+ public:
+  Hull(const Places& places, double slack, bool arcs)
+      : center_(places.place(places.size / 2)), reach_(0), arcs_(arcs) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec2 to = places.hull[i].center - center_;
+      const double radius = (1 + 8 * machine_epsilon) *
+                            (std::max(0.0, places.hull[i].radius) + places.tolerance + slack);
+      corner_[i] = {both(to.x), both(to.y), both(radius)};
+      reach_ = std::max(reach_, norm(to) + radius);
+    }
+  }
+  Vec2 center() const { return center_; }
+  /// The radius of a disk around the centre that holds all of them.
+  double reach() const { return reach_; }
+
+  /// Of two edges of a run, whether no disk reaches it. Of an edge, all but the height of an arc
+  /// lies behind the line through the point of its chord nearest to the centre, or through its
+  /// nearer end, that is perpendicular to the way there.
+  Pairwise misses(const Run& run, std::size_t i) const {
+    const Pair start_x = pair_at(run.start_x + i), start_y = pair_at(run.start_y + i);
+    const Pair from_x = both(center_.x) - start_x, from_y = both(center_.y) - start_y;
+    const Pair along_x = pair_at(run.end_x + i) - start_x;
+    const Pair along_y = pair_at(run.end_y + i) - start_y;
+    const Pair square = along_x * along_x + along_y * along_y;
+    // An edge without length is a point.
+    const Pair place = (from_x * along_x + from_y * along_y) / larger(square, both(smallest));
+    const Pair t = smaller(larger(place, both(0)), both(1));
+    const Pair off_x = from_x - t * along_x, off_y = from_y - t * along_y;
+    const Pair distance_2 = off_x * off_x + off_y * off_y;
+    const Pair to_start = off_x * from_x + off_y * from_y;
+    const Pair behind = smaller(to_start, to_start - (off_x * along_x + off_y * along_y));
+    const auto misses_by = [&](const Corner& corner, Pair height) {
+      const Pair ahead = larger(behind + off_x * corner.x + off_y * corner.y, both(0));
+      const Pair reach = corner.radius + height;
+      return ahead * ahead > reach * reach * distance_2;
+    };
+    const auto misses_all = [&](Pair height) {
+      return misses_by(corner_[0], height) & misses_by(corner_[1], height) &
+             misses_by(corner_[2], height);
+    };
+    if (!arcs_) return misses_all(both(0));
+    const Pair bulge = pair_at(run.bulge + i);
+    const Pair size = larger(along_x, -along_x) + larger(along_y, -along_y);
+    return misses_all(both(0.5) * larger(bulge, -bulge) * size);  // at least the height
+  }
+
+ private:
+  static constexpr double smallest = std::numeric_limits<double>::min();
+
+  Vec2 center_;
+  double reach_;
+  bool arcs_;  ///< whether any edge is not straight
+  struct Corner {
+    Pair x, y;  ///< from the centre
+    Pair radius;
+  };
+  std::array<Corner, 3> corner_;
+};
+
+/// Lowers the distances of places to those from an edge.
+void DistanceTree::lower(Places& places, const Run& run, std::size_t i) const {
+  const std::uint32_t index = run.index[i];
+  if (index == places.known[0] || index == places.known[1] || index == places.known[2] ||
+      index == places.known[3])
+    return;
+  const BoundaryEdge edge = run.edge(i);
+  const Vec2 chord = edge.chord();
+  const double length = norm(chord);
+  const Vec2 along = length > 0 ? (1 / length) * chord : chord;
+  const double room = slack_ + 0.5 * std::abs(edge.bulge) * length;  // an arc's height
+  for (std::size_t k = 0; k < places.size; k += 2) {
+    const Pair from_x = pair_at(&places.x[k]) - both(edge.start.x);
+    const Pair from_y = pair_at(&places.y[k]) - both(edge.start.y);
+    const Pair place = both(along.x) * from_x + both(along.y) * from_y;
+    const Pair across = both(along.x) * from_y - both(along.y) * from_x;
+    const Pair beyond = larger(larger(-place, place - both(length)), both(0));
+    const Pair reach = both(1 + 8 * machine_epsilon) * (pair_at(&places.distance[k]) + both(room));
+    const Pairwise beyond_reach = across * across + beyond * beyond > reach * reach;
+    if (all(beyond_reach)) continue;
+    for (std::size_t j = 0; j < 2; ++j)
+      if (beyond_reach[j] == 0)
+        places.distance[k + j] =
+            std::min(places.distance[k + j], distance_to_edge(places.place(k + j), edge));
+  }
+}
+
+/// Lowers the distances of places to those from all edges within the expected ones; false if it
+/// gave up.
+bool DistanceTree::find_in(const Hull& hull, Places& places) const {
+  constexpr int most_visits = 256, most_near = 16;
+  const double limit = limit_for(hull.reach());
   std::array<Visit, 64> stack;
   std::size_t size = 0;
   stack[size++] = {static_cast<std::uint32_t>(levels_.size() - 1), 0, 0};
-  while (size > 0) {
+  int near = 0;
+  for (int visits = 0; size > 0; ++visits) {
+    if (visits == most_visits || near > most_near) return false;
     const Visit visit = stack[--size];
     double squared[fan_out];
-    squared_bounds(visit, p, squared);
+    squared_bounds(visit, hull.center(), squared);
     for (std::uint32_t j = 0; j < fan_out; ++j) {
       if (!(squared[j] <= limit)) continue;
       const auto child = static_cast<std::uint32_t>(visit.index * fan_out) + j;
@@ -264,12 +384,32 @@ void DistanceTree::near(Vec2 p, double reach, std::size_t most,
         stack[size++] = {visit.level - 1, child, squared[j]};
         continue;
       }
-      const std::size_t begin = std::size_t{child} * fan_out;
-      for (std::size_t i = begin; i < std::min(begin + fan_out, edges_.size()); ++i)
-        if (distance_to_edge(p, edges_[i]) <= reach + slack_)
-          found.push_back(static_cast<std::uint32_t>(i));
-      if (found.size() > most) return found.clear();
+      const Run& run = runs_[child];
+      for (std::size_t i = 0; i < fan_out; i += 2) {
+        const Pairwise missed = hull.misses(run, i);
+        for (std::size_t k = 0; k < 2; ++k) {
+          if (missed[k] != 0) continue;
+          lower(places, run, i + k);
+          ++near;
+        }
+      }
     }
+  }
+  return true;
+}
+
+void DistanceTree::find_distances(Places& places) const {
+  if (places.size == 0) return;
+  if (levels_.empty()) {
+    for (const Run& run : runs_)
+      for (std::size_t i = 0; i < fan_out; ++i) lower(places, run, i);
+    return;
+  }
+  const bool found = find_in(Hull(places, slack_, arcs_), places);
+  for (std::size_t i = 0; i < places.size; ++i) {
+    const double expected = places.expected(i);
+    if (!found || !(places.distance[i] <= expected))
+      places.distance[i] = distance(places.place(i), std::min(places.distance[i], expected));
   }
 }
 
@@ -290,7 +430,7 @@ double DistanceTree::some_distance(Vec2 p) const {
     }
     index = index * static_cast<std::uint32_t>(fan_out) + best;
   }
-  return distance_to_edge(p, edges_[std::min(index * fan_out, edges_.size() - 1)]);
+  return distance_to_edge(p, runs_[std::min<std::size_t>(index, runs_.size() - 1)].edge(0));
 }
 
 double DistanceTree::distance(Vec2 p, double expected) const {
@@ -302,14 +442,10 @@ double DistanceTree::distance(Vec2 p, double expected) const {
     return best;
   }
   best = endless;
-  for (const BoundaryEdge& edge : edges_) best = std::min(best, distance_to_edge(p, edge));
+  for (const Run& run : runs_)
+    for (std::size_t i = 0; i < fan_out; ++i)
+      best = std::min(best, distance_to_edge(p, run.edge(i)));
   return best;
-}
-
-double DistanceTree::distance(Vec2 p, double expected, std::span<const std::uint32_t> near) const {
-  double best = endless;
-  for (const std::uint32_t i : near) best = std::min(best, distance_to_edge(p, edges_[i]));
-  return best <= expected ? best : distance(p, expected);
 }
 
 }  // namespace medial::verify_detail

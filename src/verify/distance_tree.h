@@ -1,13 +1,37 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "medial/axis.h"
 #include "medial/shape.h"
 #include "verify/boundary_edge.h"
 
 namespace medial::verify_detail {
+
+/// Places beside each other, whose distances are asked for together: the centres of disks on one
+/// rational Bézier curve, whose radii are expected.
+struct Places {
+  static constexpr std::size_t most = 16;
+  static constexpr std::uint32_t no_edge = 0xFFFFFFFF;
+
+  Vec2 place(std::size_t i) const { return {x[i], y[i]}; }
+  double expected(std::size_t i) const { return std::max(0.0, radius[i]) + tolerance; }
+
+  /// The disks are convex combinations of these, in x, y and radius.
+  std::array<Disk, 3> hull;
+  double tolerance;
+  /// Edges that are no nearer than what is known: two sites, or the edges next to a vertex; or
+  /// no_edge.
+  std::array<std::uint32_t, 4> known;
+  std::size_t size = 0;
+  std::array<double, most> x{}, y{}, radius{};
+  /// At first the distance to the nearer one of the sites, or infinite; then to the nearest edge.
+  std::array<double, most> distance{};
+};
 
 /// The nearest boundary edge of a shape: a tree over the edges in spatial order (the engines search
 /// along the boundary instead). Few edges are simply all looked at.
@@ -15,16 +39,13 @@ class DistanceTree {
  public:
   explicit DistanceTree(const Shape& shape);
   /// Of edges anywhere; those without length are points. `arcs`: whether any edge is not straight.
-  DistanceTree(std::span<const BoundaryEdge> edges, const Box& box, bool arcs);
+  DistanceTree(std::vector<BoundaryEdge> edges, const Box& box, bool arcs);
 
   /// Distance from p to the nearest edge. `expected` is a guess at it: a query is fast where the
   /// guess is not much too large and not too small. O(log n) expected then.
   double distance(Vec2 p, double expected) const;
-  /// The same where `near` holds all edges within `expected` of p, as near() finds them: sooner for
-  /// places beside each other.
-  double distance(Vec2 p, double expected, std::span<const std::uint32_t> near) const;
-  /// All edges within `reach` of p and maybe some more; none if they are more than `most`.
-  void near(Vec2 p, double reach, std::size_t most, std::vector<std::uint32_t>& found) const;
+  /// Finds the distances of places, sooner than one by one.
+  void find_distances(Places& places) const;
 
  private:
   /// Bounds of four sets of edges side by side, so that a compiler can compare them at once. Each
@@ -39,17 +60,33 @@ class DistanceTree {
     std::uint32_t level, index;
     double squared;
   };
+  class Hull;
+  /// Four edges side by side.
+  struct Run {
+    double start_x[4], start_y[4], end_x[4], end_y[4], bulge[4];
+    std::uint32_t index[4];  ///< among the shape's
+    void set(std::size_t i, const BoundaryEdge& edge, std::uint32_t its_index);
+    BoundaryEdge edge(std::size_t i) const {
+      return {{start_x[i], start_y[i]}, {end_x[i], end_y[i]}, bulge[i]};
+    }
+  };
 
   void squared_bounds(const Visit& visit, Vec2 p, double (&squared)[4]) const;
   double limit_for(double distance) const;
   void bound(std::span<const BoundaryEdge> edges, Bounds& bounds, std::size_t place) const;
   bool search(Vec2 p, double& best) const;
   double some_distance(Vec2 p) const;
+  static std::vector<Run> runs_of(const std::vector<BoundaryEdge>& edges,
+                                  const std::vector<std::uint32_t>& index);
+  bool find_in(const Hull& hull, Places& places) const;
+  void lower(Places& places, const Run& run, std::size_t i) const;
 
-  std::vector<BoundaryEdge> edges_;          ///< an arc as often as the tree has pieces of it
-  std::vector<std::vector<Bounds>> levels_;  ///< levels_[0] bounds runs of four edges
+  /// An arc as often as the tree has pieces of it; the last edge again where fewer are left.
+  std::vector<Run> runs_;
+  std::vector<std::vector<Bounds>> levels_;  ///< levels_[0] bounds the runs; none of few edges
   Vec2 origin_;
-  double slack_ = 0;  ///< what rounding may add to the distance from a slab
+  double slack_;  ///< what rounding may add to the distance from a slab
+  bool arcs_;
 };
 
 }  // namespace medial::verify_detail

@@ -78,11 +78,37 @@ class Centreline(CommandLine):
 
 
 class Measure(CommandLine):
+    def test_disks_alone_need_no_axis(self):
+        self.write("rectangle.wkt", RECTANGLE)
+        disks = ["measure", "rectangle.wkt", "--disks", "3"]
+        all_of_it = json.loads(self.succeed(*disks, "--necks", "5", "--json").stdout)["features"][0]
+        done = json.loads(self.succeed(*disks, "--json", "--stats").stdout)
+        self.assertEqual(done["features"], [{"attributes": {}, "disks": all_of_it["disks"]}])
+        self.assertNotIn("axis", done["seconds"])
+        rows = self.succeed(*disks).stdout.decode().splitlines()
+        self.assertEqual([row.split()[-5] for row in rows], ["r"] * 3)
+        self.succeed(*disks, "-o", "alone.geojson")
+        self.succeed(*disks, "--widening", "1.1", "-o", "whole.geojson")
+        alone, whole = (json.loads(self.read(name + ".geojson"))["features"] for name in ("alone", "whole"))
+        self.assertEqual(len(alone), 3)
+        self.assertEqual(alone, whole)
+        for extension in ("gpkg", "wkt", "svg", "pdf", "png"):
+            self.succeed(*disks, "-o", "alone." + extension)
+        # Each of these asks for more.
+        for more in (["--samples", "9"], ["--transects", "2"], ["--spacing", "1"], ["--necks", "1"], ["--trim", "0"],
+                     ["--widening", "2"], ["--route", "shortest"], ["--from", "0,0", "--to", "4,2"],
+                     ["--widest", "0,0", "4,2"], ["--plot", "plot.svg"], ["-o", "profile.csv"]):  # fmt: skip
+            self.assertIn("area", json.loads(self.succeed(*disks, "--json", *more).stdout)["features"][0], more)
+        self.write("two.wkt", RECTANGLE + "\n" + RECTANGLE)
+        table = self.succeed("measure", "two.wkt", "--disks", "3").stdout.decode().splitlines()
+        self.assertEqual([row.split()[:2] for row in table],
+                         [["feature", "rank"]] + [[str(i), str(k)] for i in range(2) for k in range(3)])
+
     def test_measure(self):
         self.write("rectangle.wkt", RECTANGLE)
         table = self.succeed("measure", "rectangle.wkt").stdout.decode()
         self.assertIn("widest", table)
-        report = json.loads(self.succeed("measure", "rectangle.wkt", "--disks", "3", "--json").stdout)["features"][0]
+        report = json.loads(self.succeed("measure", "rectangle.wkt", "--disks", "3", "--necks", "5", "--json").stdout)["features"][0]
         self.assertAlmostEqual(report["area"], 8)
         self.assertAlmostEqual(report["mean_width"]["by_length"], 2)
         self.assertEqual([round(disk["r"], 6) for disk in report["disks"]], [1, 1, 0.25])

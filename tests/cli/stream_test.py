@@ -93,6 +93,9 @@ class Stream(CommandLine):
             self.assert_same(output)
         said = self.both_ways("f.wkt", text, "", "--quiet", command="measure")
         self.assertEqual((said[0], said[1].count("\n")), (0, 2501))
+        said = self.both_ways("f.wkt", text, "wkt", "--disks", "2", command="measure")
+        self.assertEqual((said[0], said[1].count("\n")), (0, 5001))
+        self.assert_same("wkt")
         # One after another, layers of a text cannot go part by part.
         self.both_ways("f.wkt", text, "geojson", "--necks", "1", "--disks", "1", command="measure")
         self.assert_same("geojson")

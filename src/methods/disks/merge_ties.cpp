@@ -310,12 +310,13 @@ class Merger {
     });
   }
 
-  /// What edges that are near enough connect, as new groups.
-  void find_groups(const std::vector<std::uint32_t>& open, const Nearness& nearness) {
+  /// What edges that are near enough connect, as new groups; leaves those edges in `open`: what is
+  /// too far apart now is so for the next pair.
+  void find_groups(std::vector<std::uint32_t>& open, const Nearness& nearness) {
+    std::erase_if(open, [&](std::uint32_t e) { return !is_near(graph_.edges[e], nearness); });
     DisjointSets sets(nodes_.size());
     std::vector<std::uint32_t> places;
     for (const std::uint32_t e : open) {
-      if (!is_near(graph_.edges[e], nearness)) continue;
       const auto [from, to] = graph_.edges[e].node;
       places.insert(places.end(), {place_of(from), place_of(to)});
       sets.join(places.back(), places[places.size() - 2]);
