@@ -675,6 +675,16 @@ TEST(CurveAxis, FollowsOutlinesWhoseCurvatureJumps) {
   }
 }
 
+/// Where a junction is sought next to a tip, the nearest zero of (14) may have two feet in one.
+TEST(CurveAxis, JunctionsHaveThreeFeet) {
+  for (const std::uint64_t seed :
+       {20261127700626, 20261127700803, 20261127701430, 20261127701848, 20261127910001013,
+        20261127910001037, 20261127910001495, 20261127910001817}) {
+    SCOPED_TRACE(seed);
+    expect_the_exact_axis({smooth_outline(seed)}, 1e-6);
+  }
+}
+
 /// Loops around holes are entered through disks that touch two loops.
 TEST(CurveAxis, FollowsLoopsAroundHoles) {
   expect_the_exact_axis({ellipse(9, 6), ellipse(2, 1, 0, {-4, 0.3}), ellipse(1, 1.5, 1, {2, 2}),

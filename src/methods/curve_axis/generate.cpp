@@ -56,6 +56,13 @@ Symmetry symmetry(const BoundaryPoint& l, const BoundaryPoint& r) {
           -r.along * dot(r.tangent, sum) + r.turn * dot(chord, r.normal())};
 }
 
+/// Whether two feet are one, the trivial zero of (14): a disk has one point for each normal. Steps
+/// towards that zero end with normals up to some 1e-7 apart; those of junctions are 1e-4 or more.
+bool are_one(const BoundaryPoint& a, const BoundaryPoint& b) {
+  constexpr double same_normal = 1e-5;
+  return norm(a.tangent - b.tangent) < same_normal;
+}
+
 }  // namespace
 
 AxisPoint Generator::point_of(const BoundaryPoint& left, const BoundaryPoint& right) const {
@@ -239,6 +246,7 @@ std::optional<Generator::Junction> Generator::junction(double left, double middl
     const double largest = std::max({std::abs(da), std::abs(db), std::abs(dc)});
     if (!(largest < boundary_.size())) break;
     if (convergence.reached(largest)) {
+      if (are_one(a, b) || are_one(b, c)) break;
       // The middle one of three radii of one disk: from the pair that is farthest apart.
       const AxisPoint whole = point_of(a, c), first = point_of(a, b), second = point_of(b, c);
       const double ab_apart = distance(a.point, b.point), bc_apart = distance(b.point, c.point);
