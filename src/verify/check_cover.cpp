@@ -330,19 +330,21 @@ double angle_between_feet(Vec2 center, Vec2 right, Vec2 left, bool shrinks) {
   return angle < 0 ? angle + 2 * std::numbers::pi : angle;
 }
 
-/// A shape's own area and perimeter, from a point of it.
+/// A shape's own area and perimeter. Each loop's area is seen from a point of it: what lies far
+/// from a small loop would add more rounding than the loop has area.
 struct Extent {
   double area = 0, perimeter = 0;
 };
 Extent extent_of(const Problem& problem) {
-  const Vec2 origin = problem.point(0);
+  const std::vector<std::uint32_t>& begin = problem.shape.loop_begin;
   Sum area, perimeter;
-  for (std::uint32_t i = 0; i < problem.shape.points.size(); ++i) {
-    const BoundaryEdge edge = problem.edge(i);
-    area.add(0.5 * doubled_triangle(origin, edge.start, edge.end));
-    if (edge.bulge != 0) area.add(area_beside_chord(edge));
-    perimeter.add(length_of(edge));
-  }
+  for (std::size_t loop = 0; loop < problem.shape.loop_count(); ++loop)
+    for (std::uint32_t i = begin[loop]; i < begin[loop + 1]; ++i) {
+      const BoundaryEdge edge = problem.edge(i);
+      area.add(0.5 * doubled_triangle(problem.point(begin[loop]), edge.start, edge.end));
+      if (edge.bulge != 0) area.add(area_beside_chord(edge));
+      perimeter.add(length_of(edge));
+    }
   return {area.value(), perimeter.value()};
 }
 

@@ -101,6 +101,15 @@ struct Boundary {
     if (elements[i] != elements[i + 1]) return true;
     return elements[i] == Element::edge && joint(i) == site::Joint::smooth;
   }
+  /// What stands on the other side of the bridge at a place, next to which a site stands: another
+  /// piece of that site, or another copy of that vertex. The site itself where the boundary ends.
+  std::uint32_t across(std::uint32_t bridge, std::uint32_t site) const {
+    const auto [first, second] = bridge_places[originals[bridge]];
+    if (first == second) return site;
+    const bool on_hole = site > first && site < second;
+    if (bridge == first) return on_hole ? second - 1 : second + 1;
+    return on_hole ? first + 1 : first - 1;
+  }
   site::SmoothPlace smooth_place(std::uint32_t before, std::uint32_t after) const {
     return site::smooth_place(sites[before], sites[after]);
   }

@@ -55,10 +55,10 @@ std::uint32_t Contacts::owner(std::uint32_t i, Vec2 center, const Span& span) co
     // An outer loop without a convex corner may begin with a vertex, which no bridge stands before.
     if (copy > 0 && element(copy - 1) == Element::bridge &&
         cross(bridge_direction(copy, copy - 1), to) > 0)
-      next = other_copy(copy - 1, copy);
+      next = boundary_.across(copy - 1, copy);
     else if (copy + 1 < boundary_.sites.size() && element(copy + 1) == Element::bridge &&
              cross(to, bridge_direction(copy, copy + 1)) > 0)
-      next = other_copy(copy + 1, copy);
+      next = boundary_.across(copy + 1, copy);
     if (next == copy) break;
     copy = next;
   }
@@ -68,15 +68,6 @@ std::uint32_t Contacts::owner(std::uint32_t i, Vec2 center, const Span& span) co
 /// From a vertex towards the centre of the bridge beside it.
 Vec2 Contacts::bridge_direction(std::uint32_t vertex, std::uint32_t bridge) const {
   return context_.bridges[boundary_.originals[bridge]].disk.center - site(vertex).point;
-}
-
-/// The copy of a vertex on the other side of the bridge at place `bridge`, next to which it stands.
-std::uint32_t Contacts::other_copy(std::uint32_t bridge, std::uint32_t vertex) const {
-  const auto [first, second] = boundary_.bridge_places[boundary_.originals[bridge]];
-  if (first == second) return vertex;  // the boundary ends there
-  const bool on_hole = vertex > first && vertex < second;
-  if (bridge == first) return on_hole ? second - 1 : second + 1;
-  return on_hole ? first + 1 : first - 1;
 }
 
 bool Contacts::touches(std::uint32_t i, const Disk& disk, double slack) const {

@@ -183,7 +183,6 @@ class Contacts {
   }
   std::uint32_t facing(std::uint32_t i, Vec2 center, const Span& span) const;
   Vec2 bridge_direction(std::uint32_t vertex, std::uint32_t bridge) const;
-  std::uint32_t other_copy(std::uint32_t bridge, std::uint32_t vertex) const;
 
   /// Feet further apart than so many tolerances are not two copies of one place.
   static constexpr double distinct_feet = 16;

@@ -203,13 +203,32 @@ class Merger {
     });
   }
 
+  /// Of a site that bridges divide, the piece that is nearest to a disk: an edge that leads across a
+  /// bridge is named after a piece on one side of it.
+  std::uint32_t nearest_piece(std::uint32_t site, const Disk& disk) const {
+    if (boundary_.bridge_places.empty()) return site;
+    const auto away = [&](std::uint32_t i) {
+      return site::squared_distance(boundary_.sites[i], disk.center);
+    };
+    for (const bool forward : {true, false})
+      for (;;) {
+        const std::uint32_t beside = forward ? site + 1 : site - 1;
+        if (beside >= boundary_.sites.size() || boundary_.elements[beside] != Element::bridge) break;
+        const std::uint32_t next = boundary_.across(beside, site);
+        if (boundary_.originals[next] != boundary_.originals[site] || !(away(next) < away(site)))
+          break;
+        site = next;
+      }
+    return site;
+  }
+
   /// Whether something holds for all sites that are touched in a node: those of its edges and, at a
   /// leaf, those on the way around it from one side of its edge to the other.
   template <class Holds>
   bool all_contacts(std::uint32_t node, const Holds& holds) const {
     for (const std::uint32_t end : ends_at(node))
       for (const std::uint32_t site : graph_.edges[end / 2].site)
-        if (!holds(site)) return false;
+        if (!holds(nearest_piece(site, graph_.nodes[node].disk))) return false;
     if (ends_at(node).size() > 1) return true;
     const std::uint32_t end = ends_at(node)[0];
     auto [left, right] = graph_.edges[end / 2].site;
@@ -258,6 +277,12 @@ class Merger {
       });
       sort_unique(contacts);
     }
+  }
+  /// Contacts of several nodes as those of one disk.
+  void join(const Disk& disk, std::vector<Touch>& contacts) const {
+    for (Touch& contact : contacts)
+      if (contact.part == Touch::Part::site) contact.site = nearest_piece(contact.site, disk);
+    sort_unique(contacts);
   }
   static void sort_unique(std::vector<Touch>& contacts) {
     std::sort(contacts.begin(), contacts.end());
@@ -341,8 +366,9 @@ class Merger {
     const std::vector<Touch>&at_from = contacts_[place_of(from)], &at_to = contacts_[place_of(to)];
     std::vector<Touch> both = at_from;
     both.insert(both.end(), at_to.begin(), at_to.end());
-    sort_unique(both);
-    TieFit fit(tie_sites_, at_from.size() >= at_to.size() ? a : b);
+    const Disk& start = at_from.size() >= at_to.size() ? a : b;
+    join(start, both);
+    TieFit fit(tie_sites_, start);
     return fit.fits(both, nearness.level * tolerance_);
   }
 
@@ -418,9 +444,10 @@ class Merger {
     if (boundary_.has_arcs &&
         ranges::none_of(group.nodes, [&](std::uint32_t node) { return is_branching(node); }))
       return false;
-    sort_unique(contacts);
     const double share = 1 / static_cast<double>(group.nodes.size());
-    TieFit fit(tie_sites_, {share * mean.center, share * mean.radius});
+    mean = {share * mean.center, share * mean.radius};
+    join(mean, contacts);
+    TieFit fit(tie_sites_, mean);
     if (!fit.fits(contacts, nearnesses[0].level * tolerance_)) return false;
     if (!boundary_.has_arcs) fit.settle(contacts);
     group.disk = fit.disk;
@@ -476,22 +503,25 @@ class Merger {
     const Disk &start = disk_of(edge.node[0]), &end = disk_of(edge.node[1]);
     const Vec2 from = start.center, to = end.center;
     const site::Control control = site::control_of(left, right, start, end);
-    // Where an end is off a curved bisector by much against its length, the curve would fold back.
+    // Where an end is off a curved bisector by much against its length, the curve would fold back,
+    // by more than the rounding of a control point that is one of the ends.
+    constexpr double rounding = 0x1p-10;
     const Vec2 chord = to - from, bend = control.point.center - from;
-    if (!(dot(bend, chord) >= 0 && dot(bend, chord) <= squared_norm(chord))) return false;
+    const double most = squared_norm(chord), along = dot(bend, chord);
+    if (!(along >= -rounding * most && along <= (1 + rounding) * most)) return false;
     const double share = 0.5 / (1 + control.weight), middle = control.weight / (1 + control.weight);
     const Vec2 halfway = share * (from + to) + middle * control.point.center;
     const double radius = share * (start.radius + end.radius) + middle * control.point.radius;
     for (const Site& site : {left, right})
       if (!(std::abs(site::carrier_distance(site, halfway) - radius) <= tolerance_)) return false;
     if (!is_empty({halfway, radius}, graph_.nodes[edge.node[0]].component)) return false;
-    const auto step = [](const Site& site, Vec2 a, Vec2 b) {
+    const auto moves_forward = [&](const Site& site, Vec2 a, Vec2 b) {
       if (!site.is_vertex())
-        return site::carrier_parameter(site, b) - site::carrier_parameter(site, a);
+        return site::carrier_parameter(site, b) - site::carrier_parameter(site, a) >= -slack;
       // Round a vertex, normals turn to the right.
-      return cross(b - site.point, a - site.point) / distance(site.point, a);
+      return cross(b - site.point, a - site.point) >= -slack * distance(site.point, a);
     };
-    return step(right, from, to) >= -slack && step(left, to, from) >= -slack;
+    return moves_forward(right, from, to) && moves_forward(left, to, from);
   }
 
   /// Takes the contracted edges and the nodes that became others out of the graph; the last ones
