@@ -203,8 +203,8 @@ class Merger {
     });
   }
 
-  /// Of a site that bridges divide, the piece that is nearest to a disk: an edge that leads across a
-  /// bridge is named after a piece on one side of it.
+  /// Of a site that bridges divide, the piece that is nearest to a disk: an edge that leads across
+  /// a bridge is named after a piece on one side of it.
   std::uint32_t nearest_piece(std::uint32_t site, const Disk& disk) const {
     if (boundary_.bridge_places.empty()) return site;
     const auto away = [&](std::uint32_t i) {
@@ -213,7 +213,8 @@ class Merger {
     for (const bool forward : {true, false})
       for (;;) {
         const std::uint32_t beside = forward ? site + 1 : site - 1;
-        if (beside >= boundary_.sites.size() || boundary_.elements[beside] != Element::bridge) break;
+        if (beside >= boundary_.sites.size() || boundary_.elements[beside] != Element::bridge)
+          break;
         const std::uint32_t next = boundary_.across(beside, site);
         if (boundary_.originals[next] != boundary_.originals[site] || !(away(next) < away(site)))
           break;
