@@ -182,10 +182,7 @@ Result<MedialAxis> attempt(const Problem& problem, bool two_sided, const Way& wa
   Boundary boundary = loops_boundary(problem, *numbers, two_sided);
   const double near = near_circle * problem.fine_tolerance;
   findings.in_centers = way.in_centers;
-  findings.too_coarse =
-      !way.in_centers && !two_sided && is_near_circle(boundary, problem.local_box(), near);
   axis.statistics.seconds_sites = watch.lap();
-  if (findings.too_coarse) return axis;
 
   const double share = walk_share(boundary, findings.in_centers);
   auto graph = graph_of(problem, *numbers, share * problem.fine_tolerance, way, boundary,
