@@ -29,7 +29,7 @@ namespace {
 /// The walk separates contacts to a share of the tolerance, so fine between segments, and where
 /// arcs are within some tolerances of one circle, that it asks for rounding only. What remains of
 /// a tie is merged at the end. Among other arcs ties are known to the tolerance only, since their
-/// bulges round, too; in planar graphs with arcs double decides.
+/// bulges round, too.
 constexpr double planar_share = 0.25, near_circle = 1 << 12;
 
 #ifdef MEDIAL_HAS_EXACT
@@ -75,6 +75,19 @@ void find_lost(const Chunk& chunk, std::vector<std::uint32_t>& lost) {
   for (const auto& child : chunk.children) find_lost(*child, lost);
 }
 
+/// These sites with all pieces that bridges divide them into: an edge that leads across a bridge is
+/// named after one of them.
+std::vector<std::uint32_t> all_pieces(const Boundary& boundary,
+                                      const std::vector<std::uint32_t>& sites) {
+  std::vector<bool> named(boundary.originals.size());
+  for (const std::uint32_t site : sites) named[boundary.originals[site]] = true;
+  std::vector<std::uint32_t> pieces;
+  for (std::uint32_t i = 0; i < boundary.sites.size(); ++i)
+    if (boundary.elements[i] != Element::bridge && named[boundary.originals[i]])
+      pieces.push_back(i);
+  return pieces;
+}
+
 /// Connects the holes of the boundary, walks it, and joins what the walk finds. Nothing where the
 /// caller cancels, where sites of a polygon are lost, and where contacts are separated too
 /// coarsely.
@@ -114,7 +127,9 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   Graph graph = collect(chunks, bridges.size(), spare_nodes);
   const double tolerance = problem.local_tolerance();
   merge_ties(boundary, tree, takes_exact ? &sites : nullptr, tolerance, graph);
-  if (!findings.lost.empty() && is_right_around(boundary, tree, graph, findings.lost, tolerance))
+  // Edges may be right beside others that are missing: a planar graph's diagram is not measured.
+  if (!findings.lost.empty() && !boundary.two_sided &&
+      is_right_around(boundary, tree, graph, all_pieces(boundary, findings.lost), tolerance))
     findings.lost.clear();
   statistics.seconds_collect = watch.lap();
   return graph;
@@ -168,10 +183,7 @@ Result<MedialAxis> attempt(const Problem& problem, const SiteNumbers& own_number
   Boundary boundary = loops_boundary(problem, *numbers, two_sided);
   const double near = near_circle * problem.fine_tolerance;
   findings.in_centers = way.in_centers;
-  findings.too_coarse =
-      !way.in_centers && !two_sided && is_near_circle(boundary, problem.local_box(), near);
   axis.statistics.seconds_sites = watch.lap();
-  if (findings.too_coarse) return axis;
 
   const double share = walk_share(boundary, findings.in_centers);
   auto graph = graph_of(problem, *numbers, share * problem.fine_tolerance, way, boundary,
@@ -184,7 +196,7 @@ Result<MedialAxis> attempt(const Problem& problem, const SiteNumbers& own_number
     if (problem.is_cancelled()) return axis;
     return Error{ErrorCode::internal, "the walk lost its way: please report this shape", {}};
   }
-  findings.too_coarse = !two_sided && !findings.in_centers && is_in_centers(boundary, *graph, near);
+  findings.too_coarse = !findings.in_centers && is_in_centers(boundary, *graph, near);
   watch.lap();
   constexpr double loose = 0x1p-20;  // of the size: no near tie is that far off
   const double slack = std::max(loose * diagonal(problem.box), 4 * axis.tolerance);
@@ -329,12 +341,16 @@ template <class E>
 TwoSided run_two_sided(const Problem& problem, std::vector<E>& edges) {
   Attempts attempts;
   Way way;
-  way.in_double = !has_exact || has_arcs(problem.shape);
+  way.in_double = !has_exact;
   for (;;) {
     edges.clear();
     Findings findings;
     Result<MedialAxis> axis = attempt(problem, problem.numbers(), true, way, edges, findings);
-    if (axis) return {std::move(*axis), !way.in_double};
+    if (findings.too_coarse) {
+      way.in_centers = true;
+      continue;
+    }
+    if (axis && findings.lost.empty()) return {std::move(*axis), !way.in_double};
     way = *next_way(problem, way, findings.lost, attempts);
   }
 }

@@ -24,8 +24,7 @@ Result<MedialAxis> run(const Problem& problem);
 Result<std::optional<MedialAxis>> run_in_parts(const Problem& problem, const AxisSink& sink,
                                                std::size_t part_nodes = 1 << 14);
 
-/// An axis, and whether all decisions about its graph are certain. Next to arcs they are made in
-/// double.
+/// An axis, and whether the decisions about its graph were made with certainty, not in double.
 struct TwoSided {
   MedialAxis axis;
   bool is_certain = false;

@@ -29,17 +29,6 @@ bool ends_in_several_arcs(const Boundary& boundary, std::uint32_t first, std::ui
 
 }  // namespace
 
-bool is_near_circle(const Boundary& boundary, const Box& box, double slack) {
-  if (!boundary.has_arcs || boundary.runs.size() != 1) return false;
-  const Vec2 center = midpoint(box.low, box.high);
-  const double radius = 0.5 * (box.high.x - box.low.x);
-  return ranges::all_of(boundary.sites, [&](const site::Site& site) {
-    const bool convex = site.is_vertex() || site.curvature > 0;
-    return convex && std::abs(distance(site.point, center) - radius) <= slack &&
-           std::abs(distance(site.at(0.5 * site.length), center) - radius) <= slack;
-  });
-}
-
 bool is_in_centers(const Boundary& boundary, const Graph& graph, double slack) {
   if (!boundary.has_arcs) return false;
   return ranges::any_of(graph.edges, [&](const Edge& edge) {

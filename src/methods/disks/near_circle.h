@@ -9,10 +9,6 @@ namespace medial::disks {
 /// on both sides of an apex, as curves have them, are small, and not that much alike.
 bool is_own_circle(const site::Site& site, const Disk& disk, double slack);
 
-/// Whether all of the boundary is one loop of arcs that lie within `slack` of one circle. `box` is
-/// the boundary's. O(n), and mostly O(1) where it is not so.
-bool is_near_circle(const Boundary& boundary, const Box& box, double slack);
-
 /// Whether disks of the axis are, within `slack`, the own circles of several arcs at once: an edge
 /// that lies in the centre of an arc, or ends there with other arcs inside. Rounding may then
 /// decide what the axis is. O(edges).
