@@ -236,7 +236,7 @@ TEST(PotentialField, TheTreeKeepsItsBound) {
     const Vec2 p{random.between(20, 200), random.between(20, 200)};
     const double distance = evaluator.place(p).distance;
     if (distance < 0.1) continue;
-    for (const double order : {1.0, 2.0, 5.0}) {
+    for (const double order : {1.0, 2.0, 2.5, 5.0, 12.0, 24.0, 40.0}) {
       Force sum;
       // One piece after another has no far field.
       for (const Charge& piece : pieces) {
@@ -244,12 +244,36 @@ TEST(PotentialField, TheTreeKeepsItsBound) {
         Evaluator alone(one);
         const double ratio = distance / alone.place(p).distance;
         const Force f = alone.force(order);
-        sum.force = sum.force + std::pow(ratio, order) * f.force;
+        const double scale = std::pow(ratio, order);
+        sum.force = sum.force + scale * f.force;
+        sum.xx += scale * ratio * f.xx;
+        sum.xy += scale * ratio * f.xy;
+        sum.yy += scale * ratio * f.yy;
       }
-      EXPECT_LT(medial::distance(evaluator.force(order).force, sum.force),
-                2 * Evaluator::far_field);
+      const Force found = evaluator.force(order);
+      EXPECT_LT(medial::distance(found.force, sum.force), 2 * Evaluator::far_field) << order;
+      for (const auto derivative : {&Force::xx, &Force::xy, &Force::yy})
+        EXPECT_NEAR(found.*derivative, sum.*derivative, 10 * Evaluator::far_field) << order;
     }
   }
+}
+
+/// What lies far away adds as moments, so few of the charges are summed one by one.
+TEST(PotentialField, AForceCostsLessThanAllCharges) {
+  const Charges charges(border_of(maze(16000)));
+  Evaluator evaluator(charges);
+  Random random(5);
+  std::uint64_t work = 0;
+  int forces = 0;
+  while (forces < 100) {
+    if (evaluator.place({random.between(20, 100), random.between(20, 100)}).distance < 0.3)
+      continue;
+    const std::uint64_t before = evaluator.work();
+    evaluator.force(1);
+    work += evaluator.work() - before;
+    ++forces;
+  }
+  EXPECT_LT(static_cast<double>(work) / forces, 0.4 * static_cast<double>(charges.size()));
 }
 
 TEST(PotentialField, ThePotentialMatchesItsDefinition) {

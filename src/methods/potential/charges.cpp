@@ -44,22 +44,18 @@ std::uint32_t Charges::build(std::uint32_t begin, std::uint32_t end) {
   }
   node.center = (1 / node.length) * moment;
   for (std::uint32_t i = begin; i < end; ++i) {
-    const Vec2 t = tangent(i);
     const Vec2 a = start(i) - node.center;
-    const Vec2 middle = a + 0.5 * lengths[i] * t;
-    const double own = lengths[i] * lengths[i] / 12;
-    node.radius = std::max({node.radius, norm(a), norm(a + lengths[i] * t)});
-    node.xx += lengths[i] * (middle.x * middle.x + own * t.x * t.x);
-    node.xy += lengths[i] * (middle.x * middle.y + own * t.x * t.y);
-    node.yy += lengths[i] * (middle.y * middle.y + own * t.y * t.y);
+    node.radius = std::max({node.radius, norm(a), norm(a + lengths[i] * tangent(i))});
+    if (end - begin <= leaf_size) node.moments.add(a, tangent(i), lengths[i]);
   }
-  node.logarithm = std::log(node.radius);
   if (end - begin > leaf_size) {
     // Whole blocks go to the left, so that most leaves are full.
     const std::uint32_t blocks = (end - begin + leaf_size - 1) / leaf_size;
     const std::uint32_t middle = begin + leaf_size * ((blocks + 1) / 2);
-    build(begin, middle);
+    const std::uint32_t left = build(begin, middle);
     node.right = build(middle, end);
+    for (const std::uint32_t child : {left, node.right})
+      node.moments.add(nodes[child].moments, nodes[child].center - node.center);
   }
   nodes[index] = node;
   return index;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "medial/shape.h"
+#include "methods/potential/moments.h"
 
 namespace medial::potential {
 
@@ -28,11 +29,10 @@ class Charges {
     std::uint32_t begin = 0, end = 0;  ///< pieces
     std::uint32_t right = 0;           ///< second child, the first follows; 0: a leaf
     Box box;
-    double length = 0;              ///< the charge
-    Vec2 center;                    ///< of the charge
-    double radius = 0;              ///< of a disk around `center` that holds all of it
-    double logarithm = 0;           ///< of `radius`
-    double xx = 0, xy = 0, yy = 0;  ///< second moments about `center`
+    double length = 0;  ///< the charge
+    Vec2 center;        ///< of the charge
+    double radius = 0;  ///< of a disk around `center` that holds all of it
+    Moments moments;    ///< about `center`
   };
 
   struct Nearest {

@@ -35,8 +35,8 @@ struct Force {
 /// recurrence is stable upward while |y| is not small against the distance to the nearest charge;
 /// other pieces are passed sideways (they lie on the point's own line, nearly), and have J(n) from
 /// SteepTail, and so have all that it takes at one order of 12 or more alone. Pieces far away add
-/// as moments (charge and quadrupole about its centre) or not at all, as their bounds allow: what
-/// that changes is below `far_field` in the units of Force. Keeps a reference to the charges and
+/// as moments or not at all, as their bounds allow: what that changes is below `far_field` in the
+/// units of Force. Keeps a reference to the charges and
 /// scratch memory of its own: one evaluator a thread.
 class Evaluator {
  public:
@@ -59,9 +59,10 @@ class Evaluator {
   static constexpr double far_field = 1e-7;
 
   /// What all forces have cost: the charges that were summed one by one, and as much as
-  /// `cost_of_force` of them for each force. The same on every machine.
+  /// `cost_of_force` of them for each force and `cost_of_set` for each set that adds as moments.
+  /// The same on every machine.
   std::uint64_t work() const { return work_; }
-  static constexpr std::uint64_t cost_of_force = 16;
+  static constexpr std::uint64_t cost_of_force = 16, cost_of_set = 12;
 
  private:
   /// Which pieces to sum one by one, and which sets by their moments, for orders in [low, high].
@@ -87,8 +88,12 @@ class Evaluator {
   std::optional<SteepTail> tail_;  ///< of the last order that came alone
   std::optional<HighOrder> high_;
   std::uint64_t work_ = 0;
+  struct Far {
+    std::uint32_t node;
+    std::size_t degree;  ///< of the moments that suffice
+  };
   std::vector<Range> near_;
-  std::vector<std::uint32_t> far_;
+  std::vector<Far> far_;
 };
 
 }  // namespace medial::potential

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "medial/geometry.h"
+
+namespace medial::potential {
+
+/// The product of two complex numbers.
+constexpr Vec2 product(Vec2 a, Vec2 b) { return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x}; }
+constexpr Vec2 conjugate(Vec2 a) { return {a.x, -a.y}; }
+
+/// Moments of a set of charges about a point, as complex numbers: with w from the point to a
+/// charge, the sums of w^j conj(w)^k for j + k up to the degree. They hold for forces of any order.
+class Moments {
+ public:
+  static constexpr std::size_t degree = 8, count = 25;
+  /// Where those with each difference of j and k begin in a list of all.
+  static constexpr std::array<std::size_t, degree + 1> row{0, 5, 9, 13, 16, 19, 21, 23, 24};
+
+  /// That of j = k + more; with j and k swapped it is the conjugate. Requires
+  /// more + 2 k <= degree.
+  Vec2 operator()(std::size_t more, std::size_t k) const { return values_[row[more] + k]; }
+
+  /// Adds a charged segment, from `start` along its unit tangent.
+  void add(Vec2 start, Vec2 tangent, double length);
+  /// Adds charges whose moments are known about a point that lies `shift` away.
+  void add(const Moments& other, Vec2 shift);
+
+ private:
+  std::array<Vec2, count> values_{};
+};
+
+}  // namespace medial::potential
