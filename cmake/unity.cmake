@@ -8,10 +8,6 @@ function(medial_compile_together target size)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  # Above a size that several sources together reach, GCC inlines less: 7 % more instructions.
-  math(EXPR insns "10000 * ${size}")
-  target_compile_options(${target} PRIVATE
-    $<$<AND:$<CXX_COMPILER_ID:GNU>,$<CONFIG:Release>>:--param=large-unit-insns=${insns}>)
   get_target_property(sources ${target} SOURCES)
   set(folders "")
   foreach(source ${sources})
