@@ -504,12 +504,9 @@ class Merger {
     const Disk &start = disk_of(edge.node[0]), &end = disk_of(edge.node[1]);
     const Vec2 from = start.center, to = end.center;
     const site::Control control = site::control_of(left, right, start, end);
-    // Where an end is off a curved bisector by much against its length, the curve would fold back,
-    // by more than the rounding of a control point that is one of the ends.
-    constexpr double rounding = 0x1p-10;
+    // Where an end is off a curved bisector by much against its length, the curve would fold back.
     const Vec2 chord = to - from, bend = control.point.center - from;
-    const double most = squared_norm(chord), along = dot(bend, chord);
-    if (!(along >= -rounding * most && along <= (1 + rounding) * most)) return false;
+    if (!(dot(bend, chord) >= 0 && dot(bend, chord) <= squared_norm(chord))) return false;
     const double share = 0.5 / (1 + control.weight), middle = control.weight / (1 + control.weight);
     const Vec2 halfway = share * (from + to) + middle * control.point.center;
     const double radius = share * (start.radius + end.radius) + middle * control.point.radius;
