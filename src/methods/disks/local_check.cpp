@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
+
+#include "base/compat.h"
 
 #include "site/bisector.h"
 
@@ -18,19 +21,26 @@ class LocalCheck {
   bool holds_around(std::span<const std::uint32_t> sites) {
     std::vector<bool> named(boundary_.sites.size(), false);
     for (const std::uint32_t site : sites) named[site] = true;
-    degree_.assign(graph_.nodes.size(), 0);
-    for (const Edge& link : graph_.edges)
-      for (const std::uint32_t node : link.node) ++degree_[node];
-    bool checked = false;
+    std::vector<bool> at_end(graph_.nodes.size(), false);
     for (const Edge& link : graph_.edges) {
       if (!named[link.site[0]] && !named[link.site[1]]) continue;
       if (!is_right(link)) return false;
-      checked = true;
+      at_end[link.node[0]] = at_end[link.node[1]] = true;
     }
-    return checked;
+    std::vector<Way> ways;
+    for (const Edge& link : graph_.edges)
+      for (const std::size_t end : {0, 1})
+        if (at_end[link.node[end]])
+          ways.push_back({link.node[end], link.site[1 - end], link.site[end]});
+    return !ways.empty() && are_all_ways(ways);
   }
 
  private:
+  /// An edge as it leaves a node.
+  struct Way {
+    std::uint32_t node, right, left;
+  };
+
   const site::Site& site(std::uint32_t i) const { return boundary_.sites[i]; }
   const Disk& disk(std::uint32_t node) const { return graph_.nodes[node].disk; }
 
@@ -41,8 +51,7 @@ class LocalCheck {
     const Boundary::SiteRange& run = boundary_.runs[graph_.nodes[link.node[0]].component];
     for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0})
       if (!is_maximal(at(from, control, to, t), link, run)) return false;
-    return feet_advance(link, from.center, to.center) && leaf_is_right(link, 0, run) &&
-           leaf_is_right(link, 1, run);
+    return feet_advance(link, from.center, to.center);
   }
 
   /// The point of the edge's curve at parameter t.
@@ -81,17 +90,43 @@ class LocalCheck {
     return advances(site(link.site[1]), from, to) && advances(site(link.site[0]), to, from);
   }
 
-  /// Whether the disk at an end from which no other edge leads touches all that is ahead, arcs
-  /// all along, or is a point in a convex corner.
-  bool leaf_is_right(const Edge& link, std::size_t end, const Boundary::SiteRange& run) const {
-    const Disk& leaf = disk(link.node[end]);
-    if (degree_[link.node[end]] != 1) return true;
-    const std::uint32_t first = link.site[end], last = link.site[1 - end];
-    if (!(leaf.radius > 0)) return is_corner(first, last, run);
-    for (std::uint32_t i = first; i != last; i = i == run.last ? run.first : i + 1)
-      if (i != first && boundary_.elements[i] != Element::bridge &&
-          !touches_all(site(i), leaf, 2 * tolerance_))
+  /// Whether no edge is missing at the nodes of these ways, all of theirs: counter-clockwise round a
+  /// node, nothing is left to walk between the left site of one and the right site of the next.
+  bool are_all_ways(std::vector<Way>& ways) const {
+    ranges::sort(ways, [](const Way& a, const Way& b) {
+      return std::pair(a.node, a.right) < std::pair(b.node, b.right);
+    });
+    for (auto first = ways.begin(); first != ways.end();) {
+      const auto last = std::find_if(first, ways.end(),
+                                     [&](const Way& way) { return way.node != first->node; });
+      for (auto way = first; way != last; ++way) {
+        const auto next = way + 1 != last ? way + 1 : first;
+        if (!nothing_between(way->left, next->right, graph_.nodes[way->node])) return false;
+      }
+      first = last;
+    }
+    return true;
+  }
+
+  /// Whether a node's disk touches all from a site that it touches to the next such site, or is a
+  /// point in a convex corner.
+  bool nothing_between(std::uint32_t first, std::uint32_t last, const Node& node) const {
+    if (boundary_.originals[first] == boundary_.originals[last]) return true;
+    const Boundary::SiteRange& run = boundary_.runs[node.component];
+    if (!(node.disk.radius > 0)) return is_corner(first, last, run);
+    const double slack = 2 * tolerance_;
+    const auto is_on_disk = [&](Vec2 p) {
+      return std::abs(distance(p, node.disk.center) - node.disk.radius) <= slack;
+    };
+    for (std::uint32_t i = first; i != last;) {
+      const bool blunt = boundary_.joint(i) == site::Joint::blunt;
+      if (boundary_.elements[i] != Element::bridge && !blunt && !is_on_disk(site(i).end()))
         return false;
+      i = i == run.last ? run.first : i + 1;
+      if (i != last && boundary_.elements[i] != Element::bridge &&
+          !touches_all(site(i), node.disk, slack))
+        return false;
+    }
     return true;
   }
 
@@ -115,7 +150,6 @@ class LocalCheck {
   const site::BoundaryTree& tree_;
   const Graph& graph_;
   const double tolerance_;
-  std::vector<std::uint32_t> degree_;
 };
 
 }  // namespace
