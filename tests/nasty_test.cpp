@@ -169,14 +169,15 @@ TEST_P(TiesOfPolygons, AreContractedAlikeUnderAllSymmetries) {
   EXPECT_EQ(finding.fault, Fault::none) << finding.words;
 }
 
-/// Of the groups: one with a tie beside a bridge, one with an edge that ends in a vertex, and two
-/// small parts far from each other.
-constexpr std::array<Seeded, 6> ties{{{"slits", 20261127000809},
+/// Of the groups: one with a tie beside a bridge, one with an edge that ends in a vertex, two small
+/// parts far from each other, and a gap through which the radius shrinks and grows again.
+constexpr std::array<Seeded, 7> ties{{{"slits", 20261127000809},
                                       {"rings", 20261127001358},
                                       {"splinters", 20261127000354},
                                       {"groups", 20261127920001377},
                                       {"groups", 20261127920001482},
-                                      {"groups", 20261127920001672}}};
+                                      {"groups", 20261127920001672},
+                                      {"groups", 20261128000000355}}};
 
 INSTANTIATE_TEST_SUITE_P(Cases, TiesOfPolygons, testing::ValuesIn(ties), [](const auto& tested) {
   return std::string(tested.param.name) + std::to_string(tested.param.seed % 10000);

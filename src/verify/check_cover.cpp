@@ -319,8 +319,8 @@ bool all_paired(std::vector<Spoke>& spokes) {
 }
 
 /// The angle at an edge's end between its feet, on the side of the edge, in [0, 2 pi]. Feet that
-/// nearly coincide lie ahead of the edge where the radius shrinks along it, and behind where it
-/// grows.
+/// nearly coincide lie ahead of the edge where the radius shrinks as the edge leaves that end, and
+/// behind where it grows.
 double angle_between_feet(Vec2 center, Vec2 right, Vec2 left, bool shrinks) {
   constexpr double near = 1e-3;
   const double sine = doubled_triangle(center, right, left);
@@ -443,8 +443,9 @@ class Slices {
     const Disk& disk = problem_.disk(node);
     double angle = 2 * std::numbers::pi;
     for_each_end(node, [&](const Edge& edge, std::size_t end, const std::array<Vec2, 2>& feet) {
+      // Through a gap the radius shrinks and grows again: the control point tells its tangent.
       angle -= angle_between_feet(disk.center, feet[1 - end], feet[end],
-                                  problem_.disk(edge.node[1 - end]).radius < disk.radius);
+                                  edge.control.radius < disk.radius);
     });
     return angle;
   }
