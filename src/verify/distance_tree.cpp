@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "base/spatial_order.h"
@@ -149,6 +151,7 @@ DistanceTree::DistanceTree(std::vector<BoundaryEdge> edges, const Box& box, bool
             i % fan_out);
     });
     levels_.push_back(std::move(level));
+    clearances_.push_back(clearances_of(pieces, run, diagonal(box)));
     if (bounds <= fan_out) break;
     run *= fan_out;
   }
@@ -210,6 +213,52 @@ void DistanceTree::bound(std::span<const BoundaryEdge> edges, Bounds& bounds,
   bounds.slab_high[place] = high;
 }
 
+/// The centre of the circle through three points of a set, moved back until that shows beside what
+/// other points are off the circle by. None of a set that is hardly rounder than a slab says, and of
+/// one that bends round too far to be seen from behind its centre.
+std::optional<Vec2> DistanceTree::centre_behind(std::span<const BoundaryEdge> edges, double size) {
+  constexpr double far_behind = 4, furthest = 0x1p-6;
+  const Vec2 first = edges.front().start, middle = edges[edges.size() / 2].start,
+             last = edges.back().end;
+  const Vec2 a = first - middle, b = last - middle;
+  const Vec2 to =
+      (0.5 / cross(a, b)) * left_of(squared_norm(b) * a - squared_norm(a) * b);  // the centre
+  const double radius = norm(to), chord = norm(last - first);
+  if (!(chord <= radius && radius <= size)) return std::nullopt;
+  const Vec2 centre = middle + to;
+  double off = machine_epsilon * radius;
+  for (const BoundaryEdge& edge : edges)
+    off = std::max(off, std::abs(medial::distance(centre, edge.start) - radius));
+  const double angle = 0.5 * chord / radius, behind = far_behind * off / (angle * angle);
+  if (!(behind <= furthest * radius)) return std::nullopt;
+  return centre + (behind / radius) * to;
+}
+
+/// The clearances of sets of `run` edges each; none where few sets are round.
+std::vector<DistanceTree::Clearances> DistanceTree::clearances_of(
+    const std::vector<BoundaryEdge>& edges, std::size_t run, double size) {
+  const std::size_t sets = (edges.size() + run - 1) / run;
+  if (run > largest_slab) return {};
+  std::vector<Clearances> level((sets + fan_out - 1) / fan_out);
+  std::atomic<std::size_t> round = 0;
+  parallel_for(level.size() * fan_out, [&](std::size_t i) {
+    const std::size_t begin = i * run;
+    if (begin >= edges.size()) return;
+    const std::span set{edges.data() + begin, std::min(run, edges.size() - begin)};
+    const std::optional<Vec2> centre = centre_behind(set, size);
+    if (!centre) return;
+    double nearest = endless;
+    for (const BoundaryEdge& edge : set) nearest = std::min(nearest, distance_to_edge(*centre, edge));
+    Clearances& clearances = level[i / fan_out];
+    clearances.x[i % fan_out] = centre->x;
+    clearances.y[i % fan_out] = centre->y;
+    clearances.radius[i % fan_out] = (1 - 16 * machine_epsilon) * nearest;
+    ++round;
+  });
+  if (4 * round < sets) level.clear();
+  return level;
+}
+
 /// Lower bounds of the squared distances from p to the four sets of edges.
 inline void DistanceTree::squared_bounds(const Visit& visit, Vec2 p,
                                          double (&squared)[fan_out]) const {
@@ -227,6 +276,17 @@ inline void DistanceTree::squared_bounds(const Visit& visit, Vec2 p,
     const Pair across = outside(bounds.slab_low + j, bounds.slab_high + j, along);
     const Pair nearest = larger(x * x + y * y, across * across);
     std::memcpy(squared + j, &nearest, sizeof nearest);
+  }
+}
+
+/// Raises lower bounds by the clearances of the sets.
+inline void DistanceTree::raise(const Visit& visit, Vec2 p, double (&squared)[fan_out]) const {
+  if (clearances_[visit.level].empty()) return;
+  const Clearances& clearances = clearances_[visit.level][visit.index];
+  for (std::size_t j = 0; j < fan_out; ++j) {
+    const double x = p.x - clearances.x[j], y = p.y - clearances.y[j];
+    const double least = std::max(0.0, clearances.radius[j] - std::sqrt(x * x + y * y));
+    squared[j] = std::max(squared[j], least * least);
   }
 }
 
@@ -249,6 +309,7 @@ bool DistanceTree::search(Vec2 p, double& best) const {
     if (visit.squared > limit) continue;
     double squared[fan_out];
     squared_bounds(visit, p, squared);
+    raise(visit, p, squared);
     // The nearest child goes on top.
     const auto child = static_cast<std::uint32_t>(visit.index * fan_out);
     const std::size_t base = size;

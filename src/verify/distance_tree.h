@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -56,6 +57,13 @@ class DistanceTree {
     double normal_x[4], normal_y[4], slab_low[4], slab_high[4];
   };
 
+  /// Beside each of four sets a disk that no edge of it reaches into, about a place behind the
+  /// centre that the set bends round. Next to the centre of very many edges, where every box and
+  /// slab is in reach, this says which of them are nearest.
+  struct Clearances {
+    double x[4]{}, y[4]{}, radius[4]{};
+  };
+
   struct Visit {
     std::uint32_t level, index;
     double squared;
@@ -72,8 +80,12 @@ class DistanceTree {
   };
 
   void squared_bounds(const Visit& visit, Vec2 p, double (&squared)[4]) const;
+  void raise(const Visit& visit, Vec2 p, double (&squared)[4]) const;
   double limit_for(double distance) const;
   void bound(std::span<const BoundaryEdge> edges, Bounds& bounds, std::size_t place) const;
+  static std::optional<Vec2> centre_behind(std::span<const BoundaryEdge> edges, double size);
+  static std::vector<Clearances> clearances_of(const std::vector<BoundaryEdge>& edges,
+                                               std::size_t run, double size);
   bool search(Vec2 p, double& best) const;
   double some_distance(Vec2 p) const;
   static std::vector<Run> runs_of(const std::vector<BoundaryEdge>& edges,
@@ -84,6 +96,7 @@ class DistanceTree {
   /// An arc as often as the tree has pieces of it; the last edge again where fewer are left.
   std::vector<Run> runs_;
   std::vector<std::vector<Bounds>> levels_;  ///< levels_[0] bounds the runs; none of few edges
+  std::vector<std::vector<Clearances>> clearances_;  ///< of levels_, or empty: few sets are round
   Vec2 origin_;
   double slack_;  ///< what rounding may add to the distance from a slab
   bool arcs_;
