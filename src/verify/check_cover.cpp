@@ -23,6 +23,16 @@ struct Stretch {
   double turn = std::numeric_limits<double>::infinity();
 };
 
+/// Where one disk touches a boundary edge. Next to the centre of an arc, rounding alone decides where
+/// the foot lies, and the disk is as near to all that it may be.
+Stretch touched_by(const Problem& problem, const BoundaryEdge& on, std::uint32_t node) {
+  const Vec2 center = problem.disk(node).center;
+  const double foot = foot_at(on, center);
+  if (on.bulge == 0) return {foot, foot, node, node};
+  const double slack = foot_slack(on, center, problem.tolerance);
+  return {std::max(0.0, foot - slack), std::min(length_of(on), foot + slack), node, node};
+}
+
 /// The stretch of a boundary edge, or of the vertex it begins in, that an edge of the axis touches
 /// with the site on one of its sides.
 Stretch stretch_of(const Problem& problem, std::uint32_t place, std::uint32_t before,
@@ -40,9 +50,17 @@ Stretch stretch_of(const Problem& problem, std::uint32_t place, std::uint32_t be
     return last < first ? Stretch{0, 0, to, from, last} : Stretch{0, 0, from, to, first};
   }
   const BoundaryEdge on = problem.edge(place);
-  const double first = foot_at(on, problem.disk(from).center);
-  const double last = foot_at(on, problem.disk(to).center);
-  return first > last ? Stretch{last, first, to, from} : Stretch{first, last, from, to};
+  Stretch all = touched_by(problem, on, from);
+  const Stretch other = touched_by(problem, on, to);
+  if (other.begin < all.begin) {
+    all.begin = other.begin;
+    all.begin_node = to;
+  }
+  if (other.end >= all.end) {
+    all.end = other.end;
+    all.end_node = to;
+  }
+  return all;
 }
 
 /// The edges of the axis that touch each boundary edge, or the vertex that it begins in.

@@ -39,11 +39,18 @@ std::uint32_t Contacts::facing(std::uint32_t i, Vec2 center, const Span& span) c
 std::uint32_t Contacts::owner(std::uint32_t i, Vec2 center, const Span& span) const {
   if (boundary_.two_sided) return facing(i, center, span);
   if (element(i) == Element::edge) {
-    // At an end that is a vertex site or a smooth joint, what goes on from there is touched.
+    // At an end that is a vertex site or a smooth joint, what goes on from there is touched, but for
+    // an arc whose own circle is smaller: all of that but its end is still ahead.
     const double s = site::foot_parameter(site(i), center);
-    if (s <= 0 && i - 1 > span.right && boundary_.is_smooth(i - 1))
+    const auto takes = [&](std::uint32_t next) {
+      if (next <= span.right || next >= span.left || !boundary_.is_smooth(std::min(i, next)))
+        return false;
+      const double bend = site(next).curvature;
+      return !(bend > 0 && bend * bend * site::squared_distance(site(i), center) > 1);
+    };
+    if (s <= 0 && takes(i - 1))
       --i;
-    else if (s >= site(i).length && i + 1 < span.left && boundary_.is_smooth(i))
+    else if (s >= site(i).length && takes(i + 1))
       ++i;
   }
   if (element(i) != Element::vertex || context_.bridges.empty()) return i;

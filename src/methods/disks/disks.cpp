@@ -181,7 +181,6 @@ Result<MedialAxis> attempt(const Problem& problem, const SiteNumbers& own_number
   }
 #endif
   Boundary boundary = loops_boundary(problem, *numbers, two_sided);
-  const double near = near_circle * problem.fine_tolerance;
   findings.in_centers = way.in_centers;
   axis.statistics.seconds_sites = watch.lap();
 
@@ -196,7 +195,6 @@ Result<MedialAxis> attempt(const Problem& problem, const SiteNumbers& own_number
     if (problem.is_cancelled()) return axis;
     return Error{ErrorCode::internal, "the walk lost its way: please report this shape", {}};
   }
-  findings.too_coarse = !findings.in_centers && is_in_centers(boundary, *graph, near);
   watch.lap();
   constexpr double loose = 0x1p-20;  // of the size: no near tie is that far off
   const double slack = std::max(loose * diagonal(problem.box), 4 * axis.tolerance);
@@ -329,7 +327,7 @@ Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbe
 Result<MedialAxis> run(const Problem& problem) {
   if (!has_arcs(problem.shape)) return run_in_place(problem, problem.numbers());
   const Pose pose(problem.shape);
-  Problem posed(pose.shape(), problem.options, {}, pose.to_image(problem.box));
+  Problem posed(pose.shape(), problem.options);  // a box of arcs rounds: it is the image's
   posed.joint_tolerance = problem.joint_tolerance;
   const SiteNumbers numbers = pose.to_image(problem.numbers());
   auto axis = run_in_place(posed, numbers);

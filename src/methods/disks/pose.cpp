@@ -154,12 +154,6 @@ Pose::Pose(const Shape& shape) {
   }
 }
 
-Box Pose::to_image(const Box& box) const {
-  Box image = Box::nothing();
-  for (const Vec2 p : {box.low, box.high}) image.add(map_.to_image(p));
-  return image;
-}
-
 site::SiteNumbers Pose::to_image(const site::SiteNumbers& numbers) const {
   site::SiteNumbers image;
   image.edge.resize(point_.size());

@@ -36,7 +36,6 @@ class Pose {
   explicit Pose(const Shape& shape);
 
   const Shape& shape() const { return image_; }
-  Box to_image(const Box& box) const;
   /// The numbers of the image's sites: joints are alike.
   site::SiteNumbers to_image(const site::SiteNumbers& numbers) const;
   /// The axis of the image, whose sites have these numbers, as one of the shape.

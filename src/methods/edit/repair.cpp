@@ -84,8 +84,6 @@ class Repairer {
 #ifdef MEDIAL_HAS_EXACT
     sites = &sites_;
 #endif
-    if (disks::is_in_centers(boundary_, part, near_circle * measures_.fine_tolerance))
-      return std::nullopt;
     disks::merge_ties(boundary_, tree, sites, measures_.tolerance, part);
     return result(part, doubtful);
   }
