@@ -204,6 +204,27 @@ INSTANTIATE_TEST_SUITE_P(Cases, GraphsWithArcs, testing::ValuesIn(graphs_with_ar
                                   std::to_string(tested.param.seed % 1000);
                          });
 
+class ShapesOfArcs : public testing::TestWithParam<Seeded> {};
+
+TEST_P(ShapesOfArcs, HaveOneAxisUnderAllSymmetries) {
+  const Finding finding = examine_nasty(class_of(GetParam().name), GetParam().seed, false, {});
+  EXPECT_EQ(finding.fault, Fault::none) << finding.words;
+}
+
+/// A disk touches the end of an arc that it is too large for; `verify` put the foot of an arc's
+/// centre at its wrong end; the box of a mirror image was rounded otherwise; and a step on a short
+/// way was taken to be certain that had passed a vertex.
+constexpr std::array<Seeded, 4> shapes_of_arcs{{{"tangents", 20261128400000783},
+                                                {"bars", 20261128200001004},
+                                                {"bars", 20261128200001158},
+                                                {"circles", 20261128300000162}}};
+
+INSTANTIATE_TEST_SUITE_P(Cases, ShapesOfArcs, testing::ValuesIn(shapes_of_arcs),
+                         [](const auto& tested) {
+                           return std::string(tested.param.name) +
+                                  std::to_string(tested.param.seed % 10000);
+                         });
+
 /// A triangle with an arc beside an edge of some roundings.
 struct ArcBesideASplinter {
   std::string_view name;

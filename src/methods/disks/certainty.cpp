@@ -54,7 +54,9 @@ Certainty::Certainty(const Boundary& boundary, double tolerance, const Span& spa
     for (const std::uint32_t i : {span.right, fourth, span.left})
       if (!fits(i, tolerance)) return;
   certain_ = error_ <= well_known * to_.radius || touches(fourth, tolerance);
-  if (!certain_ || moves_forward() || comes_before(fourth)) return;
+  // Next to arcs nobody looks ahead for what a disk on a short way may have missed by its error.
+  const bool misses_little = !boundary.has_arcs || error_ <= tolerance;
+  if (!certain_ || moves_forward() || (misses_little && comes_before(fourth))) return;
   tie_ = true;
   certain_ = boundary.has_arcs && ties && is_one_tie(0.5 * tolerance);
 }
