@@ -81,7 +81,7 @@ bool Contacts::touches(std::uint32_t i, const Disk& disk, double slack) const {
   if (std::abs(std::sqrt(site::squared_distance(site(i), disk.center)) - disk.radius) > slack)
     return false;
   if (site(i).is_vertex() || touches_all(i, disk)) return true;
-  const double s = site::carrier_parameter(site(i), disk.center);
+  const double s = site::foot_parameter(site(i), disk.center);
   if (s > 0 && s < site(i).length) return true;
   // At a smooth joint both touch.
   const std::uint32_t end = s > 0 ? i : i - 1;
