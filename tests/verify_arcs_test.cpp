@@ -418,6 +418,39 @@ TEST(DistanceTreeOfArcs, AgreesWithBruteForce) {
   }
 }
 
+/// Next to the centre of one circle, every edge is nearly as near as the nearest one.
+TEST(DistanceTreeOfArcs, AgreesWithBruteForceNextToACentre) {
+  constexpr std::size_t count = 3000;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (const double noise : {0.0, 1e-14, 1e-12, 1e-9, 1e-6}) {
+    for (const bool arcs : {false, true}) {
+      std::vector<verify_detail::BoundaryEdge> edges;
+      Box box = Box::nothing();
+      const auto point = [&](std::size_t i) {
+        const double angle = 2 * std::numbers::pi * static_cast<double>(i) / count;
+        const double r = 1 + noise * unit(random);
+        return Vec2{3 + r * std::cos(angle), r * std::sin(angle) - 5};
+      };
+      for (std::size_t i = 0; i < count; ++i) {
+        const double bulge = arcs ? std::tan(0.5 * std::numbers::pi / count) : 0;
+        edges.push_back({point(i), point(i + 1), bulge * (1 + noise * unit(random))});
+        box.add(edges.back().start);
+      }
+      const verify_detail::DistanceTree tree(edges, box, arcs);
+      for (int i = 0; i < 100; ++i) {
+        const double off = std::max(noise, 1e-15) * std::pow(10, 2 * unit(random));
+        const Vec2 p{3 + off * unit(random), off * unit(random) - 5};
+        double expected = std::numeric_limits<double>::infinity();
+        for (const auto& edge : edges)
+          expected = std::min(expected, verify_detail::distance_to_edge(p, edge));
+        for (const double guess : {0.5, expected, 1.5})
+          EXPECT_EQ(tree.distance(p, guess), expected) << noise << " " << arcs;
+      }
+    }
+  }
+}
+
 /// Far from their nearest edge in the tree's order, all queries took time by the number of rings.
 TEST(DistanceTreeOfArcs, ConcentricCirclesAreExact) {
   constexpr int rings = 2000;

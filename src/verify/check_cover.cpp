@@ -23,8 +23,8 @@ struct Stretch {
   double turn = std::numeric_limits<double>::infinity();
 };
 
-/// Where one disk touches a boundary edge. Next to the centre of an arc, rounding alone decides where
-/// the foot lies, and the disk is as near to all that it may be.
+/// Where one disk touches a boundary edge. Next to the centre of an arc, rounding alone decides
+/// where the foot lies, and the disk is as near to all that it may be.
 Stretch touched_by(const Problem& problem, const BoundaryEdge& on, std::uint32_t node) {
   const Vec2 center = problem.disk(node).center;
   const double foot = foot_at(on, center);
@@ -461,7 +461,7 @@ class Slices {
     const Disk& disk = problem_.disk(node);
     double angle = 2 * std::numbers::pi;
     for_each_end(node, [&](const Edge& edge, std::size_t end, const std::array<Vec2, 2>& feet) {
-      // Through a gap the radius shrinks and grows again: the control point tells its tangent.
+      // Through a gap the radius shrinks and grows again: its tangent points to the control point.
       angle -= angle_between_feet(disk.center, feet[1 - end], feet[end],
                                   edge.control.radius < disk.radius);
     });

@@ -214,8 +214,8 @@ void DistanceTree::bound(std::span<const BoundaryEdge> edges, Bounds& bounds,
 }
 
 /// The centre of the circle through three points of a set, moved back until that shows beside what
-/// other points are off the circle by. None of a set that is hardly rounder than a slab says, and of
-/// one that bends round too far to be seen from behind its centre.
+/// other points are off the circle by. None of a set that is hardly rounder than a slab says, and
+/// of one that bends round too far to be seen from behind its centre.
 std::optional<Vec2> DistanceTree::centre_behind(std::span<const BoundaryEdge> edges, double size) {
   constexpr double far_behind = 4, furthest = 0x1p-6;
   const Vec2 first = edges.front().start, middle = edges[edges.size() / 2].start,
@@ -248,7 +248,8 @@ std::vector<DistanceTree::Clearances> DistanceTree::clearances_of(
     const std::optional<Vec2> centre = centre_behind(set, size);
     if (!centre) return;
     double nearest = endless;
-    for (const BoundaryEdge& edge : set) nearest = std::min(nearest, distance_to_edge(*centre, edge));
+    for (const BoundaryEdge& edge : set)
+      nearest = std::min(nearest, distance_to_edge(*centre, edge));
     Clearances& clearances = level[i / fan_out];
     clearances.x[i % fan_out] = centre->x;
     clearances.y[i % fan_out] = centre->y;

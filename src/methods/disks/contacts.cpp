@@ -39,8 +39,8 @@ std::uint32_t Contacts::facing(std::uint32_t i, Vec2 center, const Span& span) c
 std::uint32_t Contacts::owner(std::uint32_t i, Vec2 center, const Span& span) const {
   if (boundary_.two_sided) return facing(i, center, span);
   if (element(i) == Element::edge) {
-    // At an end that is a vertex site or a smooth joint, what goes on from there is touched, but for
-    // an arc whose own circle is smaller: all of that but its end is still ahead.
+    // At an end that is a vertex site or a smooth joint, what goes on from there is touched, but
+    // for an arc whose own circle is smaller: all of that but its end is still ahead.
     const double s = site::foot_parameter(site(i), center);
     const auto takes = [&](std::uint32_t next) {
       if (next <= span.right || next >= span.left || !boundary_.is_smooth(std::min(i, next)))

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "base/compat.h"
-
 #include "site/bisector.h"
 
 namespace medial::disks {
@@ -90,15 +89,15 @@ class LocalCheck {
     return advances(site(link.site[1]), from, to) && advances(site(link.site[0]), to, from);
   }
 
-  /// Whether no edge is missing at the nodes of these ways, all of theirs: counter-clockwise round a
-  /// node, nothing is left to walk between the left site of one and the right site of the next.
+  /// Whether no edge is missing at the nodes of these ways, all of theirs: counter-clockwise round
+  /// a node, nothing is left to walk between the left site of one and the right site of the next.
   bool are_all_ways(std::vector<Way>& ways) const {
     ranges::sort(ways, [](const Way& a, const Way& b) {
       return std::pair(a.node, a.right) < std::pair(b.node, b.right);
     });
     for (auto first = ways.begin(); first != ways.end();) {
-      const auto last = std::find_if(first, ways.end(),
-                                     [&](const Way& way) { return way.node != first->node; });
+      const auto last =
+          std::find_if(first, ways.end(), [&](const Way& way) { return way.node != first->node; });
       for (auto way = first; way != last; ++way) {
         const auto next = way + 1 != last ? way + 1 : first;
         if (!nothing_between(way->left, next->right, graph_.nodes[way->node])) return false;
