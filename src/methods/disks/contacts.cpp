@@ -83,9 +83,10 @@ bool Contacts::touches(std::uint32_t i, const Disk& disk, double slack) const {
   if (site(i).is_vertex() || touches_all(i, disk)) return true;
   const double s = site::foot_parameter(site(i), disk.center);
   if (s > 0 && s < site(i).length) return true;
-  // At a smooth joint both touch.
+  // At a smooth joint both touch, but for an arc whose own circle is smaller: see owner().
   const std::uint32_t end = s > 0 ? i : i - 1;
-  return boundary_.has_arcs && element(end) == element(end + 1) && boundary_.is_smooth(end);
+  return boundary_.has_arcs && element(end) == element(end + 1) && boundary_.is_smooth(end) &&
+         !(site(i).curvature * disk.radius > 1);
 }
 
 bool Contacts::touches_all(std::uint32_t i, const Disk& disk) const {
