@@ -126,7 +126,9 @@ class EventSearch {
   std::optional<Event> contact_over_gap(const site::Site& touched, std::uint32_t third,
                                         double high) const;
   /// An event that rounding put behind the node happens at the node.
-  Event not_behind(Event event) const;
+  Event not_behind(const Event& event) const {
+    return event.position < low_ ? Event{event.kind, event.site, from_, low_} : event;
+  }
   /// Brings a disk's residual below the tolerance: by Newton's method, and where that fails in
   /// higher precision.
   void polish(Disk& disk, const site::Site& third);
@@ -152,8 +154,8 @@ class EventSearch {
   /// the tolerance, although each three of them ask for another one. Looking from beyond finds the
   /// sites that settle the position.
   Event beyond(const Event& contact) const;
-  /// How fast, along the walk, the disk grows over a third site.
-  double closing(const Disk& disk, const site::Site& third) const;
+  /// How fast the disk grows over a third site on its way in the direction `along`.
+  double closing(const Disk& disk, const site::Site& third, Vec2 along) const;
   /// A contact with the intruder of a disk that comes earlier: with its carrier, with its neighbour
   /// where the carrier is touched short of it, or with a point of it.
   std::optional<Event> contact_before(const Event& intruded);

@@ -128,10 +128,15 @@ class Merger {
     std::vector<bool> listed(graph_.nodes.size());
     for (const std::uint32_t e : edges)
       for (const std::uint32_t node : graph_.edges[e].node) listed[node] = true;
+    const std::vector<std::uint32_t> around = filter(graph_.edges.size(), [&](std::size_t e) {
+      const auto [from, to] = graph_.edges[e].node;
+      return listed[from] | listed[to];
+    });
     const auto for_ends = [&](const auto& use) {
-      for (std::uint32_t end = 0; end < 2 * graph_.edges.size(); ++end)
-        if (const std::uint32_t node = graph_.edges[end / 2].node[end % 2]; listed[node])
-          use(node, end);
+      for (const std::uint32_t e : around)
+        for (const std::uint32_t end : {2 * e, 2 * e + 1})
+          if (const std::uint32_t node = graph_.edges[e].node[end % 2]; listed[node])
+            use(node, end);
     };
     ends_begin_ = large_vector<std::uint32_t>(graph_.nodes.size() + 1);
     for_ends([&](std::uint32_t node, std::uint32_t) { ++ends_begin_[node]; });
