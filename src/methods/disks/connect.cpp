@@ -400,7 +400,7 @@ std::vector<Bridge> connecting_disks(const Shape& shape, const Boundary& loops, 
   const site::FirstTouch first_touch(loops.sites, edges, components);
 
   std::vector<Bridge> bridges(holes.size());
-  constexpr std::size_t together = 16;
+  constexpr std::size_t together = 8;
   parallel_ranges(holes.size(), 4 * together, [&](std::size_t begin, std::size_t last) {
     Connector connector(shape, loops, first_touch, furthest, typical, tolerance, exact, in_precise);
     for (; begin < last; begin += together) {

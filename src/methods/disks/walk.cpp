@@ -97,9 +97,9 @@ class Walker {
   /// Follows the bisectors from one node until the axis branches or ends.
   void follow(Step step) {
     if (!is_open(step.span, step.is_proposed)) return;
+    Disk from = chunk_.nodes[step.span.node];
     while (step.is_open) {
       if (is_exact_ && joins_pieces(step.span) && !is_open(step.span)) return;
-      const Disk from = chunk_.nodes[step.span.node];
       if (!step.is_proposed) propose(step, from);
       const bool in_double = step.is_certain;
       if (!in_double) decide(step, from);
@@ -112,6 +112,7 @@ class Walker {
       const bool stays = step.event.kind == Event::Kind::at_node;
       const std::uint32_t node = stays ? step.span.node : arrive(step.span, from, step.event.disk);
       for (Step& part : parts_) part.span.node = node;
+      if (node != step.span.node) from = step.event.disk;
       if (parts_.size() == 1) {
         step = parts_[0];
         step.is_open = is_open(step.span, step.is_proposed);
