@@ -53,7 +53,7 @@ std::vector<Placed> place(const std::vector<std::unique_ptr<Chunk>>& chunks, std
 /// How the two ends of the axis that meet at each bridge are joined: two edges become one, or a
 /// node takes the other's place.
 struct Gluing {
-  std::vector<std::uint32_t> number;  ///< of each node: which one of the axis it becomes
+  WorkVector<std::uint32_t> number;  ///< of each node: which one of the axis it becomes
   std::vector<bool> node_stays;       ///< of those that become one, one
   std::vector<bool> edge_stays;
   std::size_t nodes = 0, edges = 0;  ///< that stay
@@ -65,7 +65,7 @@ Gluing glue(const std::vector<Placed>& placed, std::size_t bridge_count, std::ui
     std::uint32_t node = none, edge = none;
     std::uint32_t before = none;  ///< the node that the edge comes from
   };
-  auto ends = large_vector<std::array<End, 2>>(bridge_count);
+  WorkVector<std::array<End, 2>> ends(bridge_count);
   for (const Placed& p : placed) {
     for (const BridgeEnd& end : p.chunk->bridge_ends) {
       auto& pair = ends[end.bridge];
@@ -77,8 +77,8 @@ Gluing glue(const std::vector<Placed>& placed, std::size_t bridge_count, std::ui
     }
   }
   Gluing result;
-  std::vector<std::uint32_t>& moved = result.number;
-  moved = large_vector<std::uint32_t>(node_count);
+  WorkVector<std::uint32_t>& moved = result.number;
+  moved.resize(node_count);
   std::iota(moved.begin(), moved.end(), 0U);
   const auto target = [&](std::uint32_t node) {
     while (moved[node] != node) node = moved[node] = moved[moved[node]];
@@ -103,7 +103,7 @@ Gluing glue(const std::vector<Placed>& placed, std::size_t bridge_count, std::ui
   }
   for (std::uint32_t i = 0; i < node_count; ++i) moved[i] = target(i);
   result.node_stays.resize(node_count);
-  auto number = large_vector<std::uint32_t>(node_count);
+  WorkVector<std::uint32_t> number(node_count);
   std::uint32_t kept = 0;
   for (std::uint32_t i = 0; i < node_count; ++i) {
     if (moved[i] != i) continue;
@@ -207,7 +207,7 @@ std::vector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& 
     edge.weight = control.weight;
   };
   std::vector<std::vector<std::uint32_t>> doubtful;
-  std::vector<std::uint8_t> degree(graph.nodes.size());
+  WorkVector<std::uint8_t> degree(graph.nodes.size());
   const auto fill_edges = [&] {
     doubtful = in_blocks<std::vector<std::uint32_t>>(graph.edges.size(), 4096, fill_edge);
   };

@@ -76,12 +76,14 @@ class Merger {
   /// Short edges between branching nodes whose two sites and one more contact of each end could be
   /// touched by one disk. A necessary condition for contraction, and nearly always false.
   std::vector<std::uint32_t> candidates() {
-    std::vector<std::uint32_t> edges = short_edges();
-    if (edges.empty()) return edges;
+    const WorkVector<std::uint32_t> edges = short_edges();
+    if (edges.empty()) return {};
     link_ends(edges);
-    std::vector<std::uint32_t> kept = filter(
-        edges.size(), [&](std::size_t i) { return could_be_contracted(graph_.edges[edges[i]]); });
-    for (std::uint32_t& i : kept) i = edges[i];
+    std::vector<std::uint32_t> kept;
+    for (const std::uint32_t i : filter(edges.size(), [&](std::size_t k) {
+           return could_be_contracted(graph_.edges[edges[k]]);
+         }))
+      kept.push_back(edges[i]);
     return kept;
   }
 
@@ -91,7 +93,7 @@ class Merger {
 
   /// The numbers below `count` for which `holds` is true, increasing.
   template <class Holds>
-  static std::vector<std::uint32_t> filter(std::size_t count, Holds&& holds) {
+  static WorkVector<std::uint32_t> filter(std::size_t count, Holds&& holds) {
     constexpr std::size_t block = 1 << 12;
     std::vector<std::vector<std::uint32_t>> found((count + block - 1) / block);
     parallel_for(found.size(), [&](std::size_t i) {
@@ -103,7 +105,10 @@ class Merger {
       }
       found[i].assign(some.begin(), some.begin() + static_cast<std::ptrdiff_t>(size));
     });
-    std::vector<std::uint32_t> all;
+    std::size_t size = 0;
+    for (const auto& some : found) size += some.size();
+    WorkVector<std::uint32_t> all;
+    all.reserve(size);
     for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
     return all;
   }
@@ -115,7 +120,7 @@ class Merger {
     return squared_norm(b.center - a.center) < furthest * furthest;
   }
   /// The edges that are short, or may be so but for the rounding of their nodes.
-  std::vector<std::uint32_t> short_edges() const {
+  WorkVector<std::uint32_t> short_edges() const {
     const double rounding = boundary_.has_arcs ? 0 : 0x1p-50;
     return filter(graph_.edges.size(), [&](std::size_t e) {
       const auto [from, to] = graph_.edges[e].node;
@@ -124,11 +129,11 @@ class Merger {
   }
 
   /// Lists the ends of all edges at the nodes of these ones, the last edge first.
-  void link_ends(const std::vector<std::uint32_t>& edges) {
+  void link_ends(const WorkVector<std::uint32_t>& edges) {
     std::vector<bool> listed(graph_.nodes.size());
     for (const std::uint32_t e : edges)
       for (const std::uint32_t node : graph_.edges[e].node) listed[node] = true;
-    const std::vector<std::uint32_t> around = filter(graph_.edges.size(), [&](std::size_t e) {
+    const WorkVector<std::uint32_t> around = filter(graph_.edges.size(), [&](std::size_t e) {
       const auto [from, to] = graph_.edges[e].node;
       return listed[from] | listed[to];
     });
@@ -138,7 +143,7 @@ class Merger {
           if (const std::uint32_t node = graph_.edges[e].node[end % 2]; listed[node])
             use(node, end);
     };
-    ends_begin_ = large_vector<std::uint32_t>(graph_.nodes.size() + 1);
+    ends_begin_.resize(graph_.nodes.size() + 1);
     for_ends([&](std::uint32_t node, std::uint32_t) { ++ends_begin_[node]; });
     std::partial_sum(ends_begin_.begin(), ends_begin_.end(), ends_begin_.begin());
     ends_.resize(ends_begin_.back());
@@ -559,7 +564,7 @@ class Merger {
   double tolerance_;
   Graph& graph_;
   /// Of each node, where its ends begin in `ends_`.
-  std::vector<std::uint32_t> ends_begin_, ends_;
+  WorkVector<std::uint32_t> ends_begin_, ends_;
   std::vector<std::uint32_t> nodes_;          ///< of candidates, increasing
   std::vector<std::vector<Touch>> contacts_;  ///< of each of nodes_
   std::vector<std::uint32_t> group_;          ///< of each of nodes_
