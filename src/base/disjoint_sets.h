@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+
 #include "base/memory.h"
 
 namespace medial {

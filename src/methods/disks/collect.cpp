@@ -54,7 +54,7 @@ std::vector<Placed> place(const std::vector<std::unique_ptr<Chunk>>& chunks, std
 /// node takes the other's place.
 struct Gluing {
   WorkVector<std::uint32_t> number;  ///< of each node: which one of the axis it becomes
-  std::vector<bool> node_stays;       ///< of those that become one, one
+  std::vector<bool> node_stays;      ///< of those that become one, one
   std::vector<bool> edge_stays;
   std::size_t nodes = 0, edges = 0;  ///< that stay
 };

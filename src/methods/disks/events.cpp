@@ -207,9 +207,8 @@ std::optional<Event> EventSearch::contact_with(const Site& touched, std::uint32_
         !(contacts_.reaches(span_.right, disk) && contacts_.reaches(span_.left, disk)))
       violation = slack();
     // Of two, the one where the disk begins to reach over the site, not where it ceases to.
-    const bool better = violation != best_violation
-                            ? violation < best_violation
-                            : speed_at(disk) > speed_at(best.disk);
+    const bool better = violation != best_violation ? violation < best_violation
+                                                    : speed_at(disk) > speed_at(best.disk);
     if (better) {
       best_violation = violation;
       best = {Event::Kind::contact, third, disk, position};
