@@ -176,8 +176,8 @@ std::optional<Disk> EventSearch::circle_of_apex(std::uint32_t next, std::uint32_
 
 std::optional<Event> EventSearch::contact_at_joint(std::uint32_t third) const {
   for (const bool on_right : {true, false}) {
-    const std::uint32_t own = on_right ? span_.right : span_.left;
-    if (third != (on_right ? own + 1 : own - 1) || !boundary_.is_smooth(std::min(own, third)))
+    if (third != (on_right ? span_.right + 1 : span_.left - 1) ||
+        !boundary_.is_smooth(on_right ? span_.right : third))
       continue;
     const auto joint = disk_at_joint(on_right);
     if (!joint || !joint->fits) continue;

@@ -58,7 +58,8 @@ class EventSearch {
   /// Where the node's disk is larger than the own circle of an arc, the end in which it touches it:
   /// next to a joint that is smooth but for some tolerances.
   std::optional<site::Site> pinned_end(std::uint32_t i) const {
-    if (!(overreach(site(i), from_.radius) > 0.5 * context_.tolerance)) return std::nullopt;
+    if (!boundary_.has_arcs || !(overreach(site(i), from_.radius) > 0.5 * context_.tolerance))
+      return std::nullopt;
     return site::make_vertex(site::foot(site(i), from_.center));
   }
   /// By how much a disk that touches a convex arc at one end reaches over it, at most.
