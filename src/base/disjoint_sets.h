@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
-#include <vector>
+
+#include "base/memory.h"
 
 namespace medial {
 
@@ -35,7 +36,7 @@ class DisjointSets {
   }
 
  private:
-  std::vector<std::uint32_t> parent_;
+  WorkVector<std::uint32_t> parent_;
   std::size_t count_;
 };
 

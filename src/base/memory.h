@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 namespace medial {
@@ -22,10 +23,32 @@ void reserve_large(std::vector<T>& elements, std::size_t count) {
 }
 
 /// Frees all memory of a vector: to assign {} only clears it.
-template <class T>
-void free_memory(std::vector<T>& elements) {
-  std::vector<T>().swap(elements);
+template <class T, class Allocator>
+void free_memory(std::vector<T, Allocator>& elements) {
+  std::vector<T, Allocator>().swap(elements);
 }
+
+/// Allocates large pages, and gives pages back as they are freed.
+template <class T>
+struct WorkAllocator : std::allocator<T> {
+  template <class Other>
+  struct rebind {
+    using other = WorkAllocator<Other>;
+  };
+  T* allocate(std::size_t count) {
+    T* const begin = std::allocator<T>::allocate(count);
+    prefer_large_pages(begin, count * sizeof(T));
+    return begin;
+  }
+  void deallocate(T* begin, std::size_t count) {
+    give_back_pages(begin, count * sizeof(T));
+    std::allocator<T>::deallocate(begin, count);
+  }
+};
+
+/// A vector that is freed before the result is whole: an allocator would keep its memory beside.
+template <class T>
+using WorkVector = std::vector<T, WorkAllocator<T>>;
 
 /// A vector of `count` equal elements, with large pages.
 template <class T>

@@ -315,9 +315,11 @@ double Bisector::last_position(const Disk& near, double limit) const {
 }
 
 Control control_of(const Site& a, const Site& b, const Disk& from, const Disk& to) {
-  if (const auto end = pinned_end(a, from, to)) return control_of(*end, b, from, to);
-  if (const auto end = pinned_end(b, from, to)) return control_of(a, *end, from, to);
-  if (a.is_arc() || b.is_arc()) return control_with_arc(a, b, from, to);
+  if (a.is_arc() || b.is_arc()) {
+    if (const auto end = pinned_end(a, from, to)) return control_of(*end, b, from, to);
+    if (const auto end = pinned_end(b, from, to)) return control_of(a, *end, from, to);
+    return control_with_arc(a, b, from, to);
+  }
   if (!a.is_vertex() && !b.is_vertex()) return {middle_of(from, to), 1};
   const Control control = a.is_vertex() && b.is_vertex()
                               ? control_of_vertices(a.point, b.point, from, to)

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/memory.h"
 #include "base/threads.h"
 
 namespace medial::site {
@@ -51,7 +50,7 @@ BoundaryTree::BoundaryTree(std::span<const Site> sites, Chords chords)
   const auto nodes_over = [](std::size_t count) { return (count + fan - 1) / fan; };
   constexpr std::size_t grain = 1024;
 
-  levels_.push_back(large_vector<Boxes>(nodes_over((sites.size() + block_size - 1) / block_size)));
+  levels_.emplace_back(nodes_over((sites.size() + block_size - 1) / block_size));
   parallel_ranges(levels_[0].size(), grain, [&](std::size_t node, std::size_t last) {
     for (; node < last; ++node) {
       for (std::size_t lane = 0; lane < fan; ++lane) {
@@ -65,8 +64,8 @@ BoundaryTree::BoundaryTree(std::span<const Site> sites, Chords chords)
     }
   });
   while (levels_.back().size() > 1) {
-    const std::vector<Boxes>& lower = levels_.back();
-    auto upper = large_vector<Boxes>(nodes_over(lower.size()));
+    const WorkVector<Boxes>& lower = levels_.back();
+    WorkVector<Boxes> upper(nodes_over(lower.size()));
     parallel_ranges(lower.size(), grain, [&](std::size_t child, std::size_t last) {
       for (; child < last; ++child) upper[child / fan].set(child % fan, lower[child]);
     });
@@ -80,7 +79,7 @@ void BoundaryTree::build_chord_boxes(bool of_8_sites) {
        ++level) {
     const std::size_t span = std::size_t{block_size} << (2 * level);
     const std::size_t nodes = levels_[level].size();
-    std::vector<ChordBoxes>& boxes = chords_.emplace_back();
+    WorkVector<ChordBoxes>& boxes = chords_.emplace_back();
     if (level == 0 && !of_8_sites) continue;
     const std::size_t rare = rare_of(level);
     // Where few of a sample fit, the level takes no memory.
@@ -92,7 +91,7 @@ void BoundaryTree::build_chord_boxes(bool of_8_sites) {
         fitting += set_chord_boxes(node, span, some);
       if (fitting * sampled * rare * span < sites_.size()) continue;
     }
-    boxes = large_vector<ChordBoxes>(nodes);
+    boxes.resize(nodes);
     std::atomic<std::size_t> count = 0;
     parallel_ranges(nodes, 256, [&](std::size_t node, std::size_t last) {
       std::size_t fitting = 0;

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/memory.h"
 #include "site/lanes.h"
 #include "site/site.h"
 
@@ -77,8 +78,8 @@ class BoundaryTree {
 
   std::span<const site::Site> sites_;
   bool has_arcs_;
-  std::vector<std::vector<Boxes>> levels_;       ///< levels_[0] holds the boxes of blocks
-  std::vector<std::vector<ChordBoxes>> chords_;  ///< of the lowest levels; empty where rare
+  std::vector<WorkVector<Boxes>> levels_;       ///< levels_[0] holds the boxes of blocks
+  std::vector<WorkVector<ChordBoxes>> chords_;  ///< of the lowest levels; empty where rare
 };
 
 }  // namespace medial::site

@@ -35,7 +35,7 @@ FirstTouch::FirstTouch(std::span<const Site> sites, std::span<const std::uint32_
     : groups_(groups) {
   std::vector<std::uint32_t> order;
   {
-    std::vector<Vec2> middle(indices.size());
+    WorkVector<Vec2> middle(indices.size());
     std::transform(indices.begin(), indices.end(), middle.begin(),
                    [&](std::uint32_t i) { return midpoint(sites[i].point, sites[i].end()); });
     order = z_order(middle);
@@ -61,8 +61,8 @@ FirstTouch::Slabs::Slabs() {
 /// The level whose lanes bound `run` entries each, above the last one.
 void FirstTouch::build_level(std::size_t run) {
   const std::size_t sets = (entries_.size() + run - 1) / run;
-  const std::vector<Bounds>* lower = levels_.empty() ? nullptr : &levels_.back();
-  std::vector<Bounds> level(std::max<std::size_t>(1, (sets + fan - 1) / fan));
+  const WorkVector<Bounds>* lower = levels_.empty() ? nullptr : &levels_.back();
+  WorkVector<Bounds> level(std::max<std::size_t>(1, (sets + fan - 1) / fan));
   parallel_ranges(sets, 256, [&](std::size_t set, std::size_t last) {
     for (; set < last; ++set) {
       Bounds& bounds = level[set / fan];
@@ -222,7 +222,7 @@ std::optional<FirstTouch::Touch> FirstTouch::find(Vec2 foot, Vec2 direction, dou
                                                   std::uint32_t last, Region& region) const {
   Search search{foot, direction, group, first, last, largest, foot + largest * direction};
   const auto foot_x = static_cast<float>(foot.x), foot_y = static_cast<float>(foot.y);
-  const std::vector<Bounds>& lowest = levels_.front();
+  const WorkVector<Bounds>& lowest = levels_.front();
   auto& waiting = region.waiting_;
   waiting.clear();
   const auto lanes_near = [&](const Bounds& bounds, Lanes& squared) {

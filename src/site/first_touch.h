@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/memory.h"
 #include "site/lanes.h"
 #include "site/site.h"
 
@@ -99,8 +100,8 @@ class FirstTouch {
 
   std::span<const std::uint32_t> groups_;
   bool has_arcs_ = false;
-  std::vector<Entry> entries_;               ///< in spatial order
-  std::vector<std::vector<Bounds>> levels_;  ///< levels_[0] bounds blocks of entries
+  WorkVector<Entry> entries_;               ///< in spatial order
+  std::vector<WorkVector<Bounds>> levels_;  ///< levels_[0] bounds blocks of entries
 };
 
 template <class Visit>

@@ -58,6 +58,7 @@ struct Worst {
   std::uint64_t over = 0;  ///< how many are over the tolerance
 
   void add(double amount, double tolerance, Vec2 point, std::size_t i = 0) {
+    if (amount <= std::min(value, tolerance)) return;  // nearly always
     // What cannot even be computed is as wrong as can be.
     if (std::isnan(amount)) amount = std::numeric_limits<double>::infinity();
     if (amount > tolerance) ++over;

@@ -36,14 +36,14 @@ class Originals {
     return static_cast<std::uint32_t>(number < count_ ? number : number - count_);
   }
   std::size_t size() const { return stored_.empty() ? count_ : stored_.size(); }
-  void reserve(std::size_t count) { reserve_large(stored_, count); }
+  void reserve(std::size_t count) { stored_.reserve(count); }
   void push_back(std::uint32_t original) { stored_.push_back(original); }
-  void assign(std::vector<std::uint32_t> originals) { stored_ = std::move(originals); }
+  void assign(WorkVector<std::uint32_t> originals) { stored_ = std::move(originals); }
   /// Gives memory back where they are the numbers in turn.
   void compress();
 
  private:
-  std::vector<std::uint32_t> stored_;
+  WorkVector<std::uint32_t> stored_;
   std::size_t first_ = 0, count_ = 0;
 };
 
@@ -58,9 +58,9 @@ struct Boundary {
     bool at_corner = true;  ///< whether it begins and ends at a convex corner
   };
 
-  std::vector<site::Site> sites;
-  std::vector<Element> elements;    ///< of each site
-  std::vector<site::Joint> joints;  ///< of an edge with the next one; empty: all are corners
+  WorkVector<site::Site> sites;
+  WorkVector<Element> elements;    ///< of each site
+  WorkVector<site::Joint> joints;  ///< of an edge with the next one; empty: all are corners
   Originals originals;
   std::vector<SiteRange> runs;  ///< of each component
   /// Of each bridge, its two places in the order: before and after the hole. Of a disk at which a
@@ -72,7 +72,7 @@ struct Boundary {
   bool two_sided = false;
 
   void reserve(std::size_t count) {
-    reserve_large(sites, count);
+    sites.reserve(count);
     elements.reserve(count);
     originals.reserve(count);
     if (has_arcs) joints.reserve(count);

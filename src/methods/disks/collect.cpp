@@ -53,8 +53,8 @@ std::vector<Placed> place(const std::vector<std::unique_ptr<Chunk>>& chunks, std
 /// How the two ends of the axis that meet at each bridge are joined: two edges become one, or a
 /// node takes the other's place.
 struct Gluing {
-  std::vector<std::uint32_t> number;  ///< of each node: which one of the axis it becomes
-  std::vector<bool> node_stays;       ///< of those that become one, one
+  WorkVector<std::uint32_t> number;  ///< of each node: which one of the axis it becomes
+  std::vector<bool> node_stays;      ///< of those that become one, one
   std::vector<bool> edge_stays;
   std::size_t nodes = 0, edges = 0;  ///< that stay
 };
@@ -65,7 +65,7 @@ Gluing glue(const std::vector<Placed>& placed, std::size_t bridge_count, std::ui
     std::uint32_t node = none, edge = none;
     std::uint32_t before = none;  ///< the node that the edge comes from
   };
-  auto ends = large_vector<std::array<End, 2>>(bridge_count);
+  WorkVector<std::array<End, 2>> ends(bridge_count);
   for (const Placed& p : placed) {
     for (const BridgeEnd& end : p.chunk->bridge_ends) {
       auto& pair = ends[end.bridge];
@@ -77,8 +77,8 @@ Gluing glue(const std::vector<Placed>& placed, std::size_t bridge_count, std::ui
     }
   }
   Gluing result;
-  std::vector<std::uint32_t>& moved = result.number;
-  moved = large_vector<std::uint32_t>(node_count);
+  WorkVector<std::uint32_t>& moved = result.number;
+  moved.resize(node_count);
   std::iota(moved.begin(), moved.end(), 0U);
   const auto target = [&](std::uint32_t node) {
     while (moved[node] != node) node = moved[node] = moved[moved[node]];
@@ -103,7 +103,7 @@ Gluing glue(const std::vector<Placed>& placed, std::size_t bridge_count, std::ui
   }
   for (std::uint32_t i = 0; i < node_count; ++i) moved[i] = target(i);
   result.node_stays.resize(node_count);
-  auto number = large_vector<std::uint32_t>(node_count);
+  WorkVector<std::uint32_t> number(node_count);
   std::uint32_t kept = 0;
   for (std::uint32_t i = 0; i < node_count; ++i) {
     if (moved[i] != i) continue;
@@ -115,17 +115,44 @@ Gluing glue(const std::vector<Placed>& placed, std::size_t bridge_count, std::ui
   return result;
 }
 
-/// Whether a disk touches two sites from their insides, give or take `slack`.
-bool touches_both(const Disk& disk, const site::Site& left, const site::Site& right, double slack) {
-  const double least = std::max(0.0, disk.radius - slack), most = disk.radius + slack;
-  const auto touches = [&](const site::Site& site) {
-    const double squared = site::squared_distance(site, disk.center);
-    // Nor does it lie behind the site, where it gets through a gap that rounding has closed.
-    if (!site.is_arc() && cross(site.direction, disk.center - site.point) < -slack) return false;
-    return squared >= least * least && squared <= most * most;  // false for no number, too
-  };
-  return touches(left) && touches(right);
-}
+/// Two numbers, worked on at once where the machine can.
+using Pair = double __attribute__((vector_size(16)));
+
+/// The disks at both ends of an edge.
+struct EndDisks {
+  EndDisks(const Disk& from, const Disk& to, double a_slack) : ends{&from, &to}, slack(a_slack) {
+    x = Pair{from.center.x, to.center.x};
+    y = Pair{from.center.y, to.center.y};
+    const Pair radius{from.radius, to.radius}, least = radius - slack, most = radius + slack;
+    squared_least = least > 0 ? least * least : Pair{};
+    squared_most = most * most;
+  }
+
+  /// Whether both touch a site from its inside, give or take the slack.
+  bool touch(const site::Site& site) const {
+    if (site.is_arc()) return touches_arc(site, 0) && touches_arc(site, 1);
+    const Pair dx = x - site.point.x, dy = y - site.point.y;
+    const Pair along = site.direction.x * dx + site.direction.y * dy;
+    const Pair height = site.direction.x * dy - site.direction.y * dx;
+    const Pair length{site.length, site.length};
+    const Pair ahead = along > 0 ? along : Pair{}, foot = ahead < length ? ahead : length;
+    const Pair beside_x = dx - foot * site.direction.x, beside_y = dy - foot * site.direction.y;
+    const Pair squared = beside_x * beside_x + beside_y * beside_y;
+    // Nor do they lie behind the site, where they get through a gap that rounding has closed.
+    const auto right = (squared >= squared_least) & (squared <= squared_most) & (height >= -slack);
+    return (right[0] & right[1]) != 0;  // false for no number, too
+  }
+
+ private:
+  bool touches_arc(const site::Site& arc, int end) const {
+    const double squared = site::squared_distance(arc, ends[end]->center);
+    return squared >= squared_least[end] && squared <= squared_most[end];
+  }
+
+  const Disk* ends[2];
+  double slack;
+  Pair x, y, squared_least, squared_most;
+};
 
 }  // namespace
 
@@ -171,16 +198,16 @@ std::vector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& 
     Edge& edge = graph.edges[i];
     const site::Site &left = boundary.sites[edge.site[0]], &right = boundary.sites[edge.site[1]];
     const Disk &from = graph.nodes[edge.node[0]].disk, &to = graph.nodes[edge.node[1]].disk;
-    if (!boundary.two_sided &&
-        !(touches_both(from, left, right, slack) && touches_both(to, left, right, slack)))
-      doubtful.push_back(static_cast<std::uint32_t>(i));
+    if (!boundary.two_sided)
+      if (const EndDisks ends(from, to, slack); !ends.touch(left) || !ends.touch(right))
+        doubtful.push_back(static_cast<std::uint32_t>(i));
     const site::Control control = site::control_of(left, right, from, to);
     edge.site = {boundary.originals[edge.site[0]], boundary.originals[edge.site[1]]};
     edge.control = {frame.to_input(control.point.center), frame.inverse * control.point.radius};
     edge.weight = control.weight;
   };
   std::vector<std::vector<std::uint32_t>> doubtful;
-  std::vector<std::uint8_t> degree(graph.nodes.size());
+  WorkVector<std::uint8_t> degree(graph.nodes.size());
   const auto fill_edges = [&] {
     doubtful = in_blocks<std::vector<std::uint32_t>>(graph.edges.size(), 4096, fill_edge);
   };

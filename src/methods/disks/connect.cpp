@@ -374,14 +374,14 @@ std::vector<Bridge> connecting_disks(const Shape& shape, const Boundary& loops, 
     furthest = std::max(furthest, dot(outreach, site.point));
     if (site.is_arc()) furthest = std::max(furthest, dot(outreach, site.apex()));
   }
-  std::vector<std::uint32_t> components(loops.sites.size());
+  WorkVector<std::uint32_t> components(loops.sites.size());
   for (std::uint32_t loop = 0; loop < loops.runs.size(); ++loop)
     std::fill(components.begin() + loops.runs[loop].first,
               components.begin() + loops.runs[loop].last + 1, shape.component[loop]);
   // Between that many holes spread evenly over a square of side 1.
   const double typical = 1 / std::sqrt(static_cast<double>(holes.size()));
   // A vertex ends an edge, so edges are enough, but for vertices without any.
-  std::vector<std::uint32_t> edges;
+  WorkVector<std::uint32_t> edges;
   edges.reserve(loops.sites.size());
   for (const Boundary::SiteRange& run : loops.runs) {
     // Of a loose segment or arc, one side is enough, too: a run of two ends and two sides.
@@ -400,7 +400,7 @@ std::vector<Bridge> connecting_disks(const Shape& shape, const Boundary& loops, 
   const site::FirstTouch first_touch(loops.sites, edges, components);
 
   std::vector<Bridge> bridges(holes.size());
-  constexpr std::size_t together = 16;
+  constexpr std::size_t together = 8;
   parallel_ranges(holes.size(), 4 * together, [&](std::size_t begin, std::size_t last) {
     Connector connector(shape, loops, first_touch, furthest, typical, tolerance, exact, in_precise);
     for (; begin < last; begin += together) {

@@ -101,13 +101,13 @@ bool Contacts::touches_all(std::uint32_t i, const Disk& disk) const {
 
 bool Contacts::is_reflex_chain(const Span& span) const {
   if (span.left - span.right > longest_flat_chain || site(span.right).curvature > 0) return false;
+  for (std::uint32_t i = span.right; i < span.left; ++i)
+    if (!boundary_.is_smooth(i) || site(i + 1).curvature > 0) return false;
   constexpr double almost_half = 3;  // of a turn: pi, less room for rounding
   double turned = 0;
   Vec2 before = site(span.right).end_normal();
   for (std::uint32_t i = span.right; i < span.left; ++i) {
-    if (!boundary_.is_smooth(i)) return false;
     const site::Site& next = site(i + 1);
-    if (next.curvature > 0) return false;
     if (next.is_vertex()) continue;
     if (!site(span.right).is_vertex() || i > span.right) turned += turn(before, next.normal());
     before = next.end_normal();

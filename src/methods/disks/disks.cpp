@@ -137,7 +137,7 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
 
 /// The sites of a boundary get the names that the axis has for them.
 void rename(const std::vector<std::uint32_t>& names, Boundary& boundary) {
-  std::vector<std::uint32_t> renamed;
+  WorkVector<std::uint32_t> renamed;
   for (std::size_t i = 0; i < boundary.originals.size(); ++i) {
     const std::uint32_t own = boundary.originals[i];
     renamed.push_back(boundary.elements[i] == Element::bridge ? own : names[own]);

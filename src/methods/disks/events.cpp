@@ -64,10 +64,13 @@ Event EventSearch::event_at_smooth_joint(bool on_right) {
   const double position = bisector_.position(joint->disk.center);
   // On a parabola the foot's normal may turn that far only on the way back.
   if (is_behind(position)) return event;
-  event = {on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, joint->disk,
-           position};
-  if (!joint->fits) event.kind = Event::Kind::far;
-  return not_behind(event);
+  event.kind = !joint->fits ? Event::Kind::far
+               : on_right   ? Event::Kind::pass_right
+                            : Event::Kind::pass_left;
+  const bool behind = position < low_;
+  event.disk = behind ? from_ : joint->disk;
+  event.position = behind ? low_ : position;
+  return event;
 }
 
 Event EventSearch::event_across_bridge(bool on_right) {
@@ -150,7 +153,8 @@ std::optional<EventSearch::JointDisk> EventSearch::disk_at_joint(bool on_right) 
   const std::uint32_t own = on_right ? span_.right : span_.left;
   const std::uint32_t next = on_right ? own + 1 : own - 1;
   const std::uint32_t other = on_right ? span_.left : span_.right;
-  if (const auto circle = circle_of_apex(next, other)) return JointDisk{*circle};
+  if (boundary_.has_arcs)
+    if (const auto circle = circle_of_apex(next, other)) return JointDisk{*circle};
   const auto [foot, normal] = boundary_.smooth_place(std::min(own, next), std::max(own, next));
   const double radius = site::tangent_radius(foot, normal, site(other));
   if (!(radius <= context_.radius_limit)) return std::nullopt;
@@ -172,8 +176,8 @@ std::optional<Disk> EventSearch::circle_of_apex(std::uint32_t next, std::uint32_
 
 std::optional<Event> EventSearch::contact_at_joint(std::uint32_t third) const {
   for (const bool on_right : {true, false}) {
-    const std::uint32_t own = on_right ? span_.right : span_.left;
-    if (third != (on_right ? own + 1 : own - 1) || !boundary_.is_smooth(std::min(own, third)))
+    if (third != (on_right ? span_.right + 1 : span_.left - 1) ||
+        !boundary_.is_smooth(on_right ? span_.right : third))
       continue;
     const auto joint = disk_at_joint(on_right);
     if (!joint || !joint->fits) continue;
@@ -188,6 +192,9 @@ std::optional<Event> EventSearch::contact_with(const Site& touched, std::uint32_
   ++statistics_.apollonius;
   if (bisector_.is_straight) return contact_over_gap(touched, third, high);
   const site::TangentDisks disks = site::tangent_disks(bisector_.right, bisector_.left, touched);
+  const auto speed_at = [&](const Disk& disk) {
+    return closing(disk, touched, bisector_.tangent(disk.center));
+  };
   Event best;
   double best_violation = nowhere;
   for (std::size_t i = 0; i < static_cast<std::size_t>(disks.count); ++i) {
@@ -200,9 +207,8 @@ std::optional<Event> EventSearch::contact_with(const Site& touched, std::uint32_
         !(contacts_.reaches(span_.right, disk) && contacts_.reaches(span_.left, disk)))
       violation = slack();
     // Of two, the one where the disk begins to reach over the site, not where it ceases to.
-    const bool better = violation != best_violation
-                            ? violation < best_violation
-                            : closing(disk, touched) > closing(best.disk, touched);
+    const bool better = violation != best_violation ? violation < best_violation
+                                                    : speed_at(disk) > speed_at(best.disk);
     if (better) {
       best_violation = violation;
       best = {Event::Kind::contact, third, disk, position};
@@ -286,23 +292,17 @@ std::optional<Event> EventSearch::contact_over_gap(const Site& touched, std::uin
   return not_behind({Event::Kind::contact, third, disk, position});
 }
 
-Event EventSearch::not_behind(Event event) const {
-  if (event.position < low_) {
-    event.disk = from_;
-    event.position = low_;
-  }
-  return event;
-}
-
 void EventSearch::polish(Disk& disk, const Site& third) {
   site::polish(disk, bisector_.right, bisector_.left, third, 0.25 * context_.tolerance,
                context_.tolerance, statistics_.precision_retries);
 }
 
 Event EventSearch::next() {
-  if (is_at_apex()) return at_node(span_.right + 1);
-  if (const auto passed = pass_over_circle()) return *passed;
-  if (const auto passed = pass_pinned()) return *passed;
+  if (boundary_.has_arcs) {
+    if (is_at_apex()) return at_node(span_.right + 1);
+    if (const auto passed = pass_over_circle()) return *passed;
+    if (const auto passed = pass_pinned()) return *passed;
+  }
   if (at_narrow_gap_)
     if (const auto passed = pass_into_gap()) return *passed;
   // A foot that passes on smoothly is found at little cost, and makes most corners' events
@@ -338,7 +338,6 @@ bool EventSearch::is_at_apex() const {
 }
 
 std::optional<Event> EventSearch::pass_over_circle() const {
-  if (!boundary_.has_arcs) return std::nullopt;
   for (const bool on_right : {true, false}) {
     const std::uint32_t own = on_right ? span_.right : span_.left;
     if (!(site(own).curvature > 0) || !boundary_.is_smooth(on_right ? own : own - 1)) continue;
@@ -427,12 +426,12 @@ Event EventSearch::short_of_point(Event event) {
 }
 
 Event EventSearch::beyond(const Event& contact) const {
-  const double speed = closing(contact.disk, site(contact.site));
+  const Vec2 along = bisector_.tangent(contact.disk.center);
+  const double speed = closing(contact.disk, site(contact.site), along);
   const double furthest = widest_window * contact.disk.radius;
   const double step = speed > 0 ? std::min(furthest, 0.5 * context_.tolerance / speed) : 0;
   Event event = contact;
   if (!(step > 0)) return event;
-  const Vec2 along = bisector_.tangent(contact.disk.center);
   event.disk.center = contact.disk.center + step * along;
   event.disk.radius = std::min(site::carrier_distance(bisector_.right, event.disk.center),
                                site::carrier_distance(bisector_.left, event.disk.center));
@@ -440,9 +439,9 @@ Event EventSearch::beyond(const Event& contact) const {
   return event;
 }
 
-double EventSearch::closing(const Disk& disk, const Site& third) const {
+double EventSearch::closing(const Disk& disk, const Site& third, Vec2 along) const {
   return dot(site::outward(bisector_.right, disk.center) - site::outward(third, disk.center),
-             bisector_.tangent(disk.center));
+             along);
 }
 
 std::optional<Event> EventSearch::contact_before(const Event& intruded) {

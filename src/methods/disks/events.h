@@ -58,7 +58,8 @@ class EventSearch {
   /// Where the node's disk is larger than the own circle of an arc, the end in which it touches it:
   /// next to a joint that is smooth but for some tolerances.
   std::optional<site::Site> pinned_end(std::uint32_t i) const {
-    if (!(overreach(site(i), from_.radius) > 0.5 * context_.tolerance)) return std::nullopt;
+    if (!boundary_.has_arcs || !(overreach(site(i), from_.radius) > 0.5 * context_.tolerance))
+      return std::nullopt;
     return site::make_vertex(site::foot(site(i), from_.center));
   }
   /// By how much a disk that touches a convex arc at one end reaches over it, at most.
@@ -126,7 +127,9 @@ class EventSearch {
   std::optional<Event> contact_over_gap(const site::Site& touched, std::uint32_t third,
                                         double high) const;
   /// An event that rounding put behind the node happens at the node.
-  Event not_behind(Event event) const;
+  Event not_behind(const Event& event) const {
+    return event.position < low_ ? Event{event.kind, event.site, from_, low_} : event;
+  }
   /// Brings a disk's residual below the tolerance: by Newton's method, and where that fails in
   /// higher precision.
   void polish(Disk& disk, const site::Site& third);
@@ -152,8 +155,8 @@ class EventSearch {
   /// the tolerance, although each three of them ask for another one. Looking from beyond finds the
   /// sites that settle the position.
   Event beyond(const Event& contact) const;
-  /// How fast, along the walk, the disk grows over a third site.
-  double closing(const Disk& disk, const site::Site& third) const;
+  /// How fast the disk grows over a third site on its way in the direction `along`.
+  double closing(const Disk& disk, const site::Site& third, Vec2 along) const;
   /// A contact with the intruder of a disk that comes earlier: with its carrier, with its neighbour
   /// where the carrier is touched short of it, or with a point of it.
   std::optional<Event> contact_before(const Event& intruded);

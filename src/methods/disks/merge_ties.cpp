@@ -76,12 +76,14 @@ class Merger {
   /// Short edges between branching nodes whose two sites and one more contact of each end could be
   /// touched by one disk. A necessary condition for contraction, and nearly always false.
   std::vector<std::uint32_t> candidates() {
-    std::vector<std::uint32_t> edges = short_edges();
-    if (edges.empty()) return edges;
+    const WorkVector<std::uint32_t> edges = short_edges();
+    if (edges.empty()) return {};
     link_ends(edges);
-    std::vector<std::uint32_t> kept = filter(
-        edges.size(), [&](std::size_t i) { return could_be_contracted(graph_.edges[edges[i]]); });
-    for (std::uint32_t& i : kept) i = edges[i];
+    std::vector<std::uint32_t> kept;
+    for (const std::uint32_t i : filter(edges.size(), [&](std::size_t k) {
+           return could_be_contracted(graph_.edges[edges[k]]);
+         }))
+      kept.push_back(edges[i]);
     return kept;
   }
 
@@ -91,7 +93,7 @@ class Merger {
 
   /// The numbers below `count` for which `holds` is true, increasing.
   template <class Holds>
-  static std::vector<std::uint32_t> filter(std::size_t count, Holds&& holds) {
+  static WorkVector<std::uint32_t> filter(std::size_t count, Holds&& holds) {
     constexpr std::size_t block = 1 << 12;
     std::vector<std::vector<std::uint32_t>> found((count + block - 1) / block);
     parallel_for(found.size(), [&](std::size_t i) {
@@ -103,7 +105,10 @@ class Merger {
       }
       found[i].assign(some.begin(), some.begin() + static_cast<std::ptrdiff_t>(size));
     });
-    std::vector<std::uint32_t> all;
+    std::size_t size = 0;
+    for (const auto& some : found) size += some.size();
+    WorkVector<std::uint32_t> all;
+    all.reserve(size);
     for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
     return all;
   }
@@ -115,7 +120,7 @@ class Merger {
     return squared_norm(b.center - a.center) < furthest * furthest;
   }
   /// The edges that are short, or may be so but for the rounding of their nodes.
-  std::vector<std::uint32_t> short_edges() const {
+  WorkVector<std::uint32_t> short_edges() const {
     const double rounding = boundary_.has_arcs ? 0 : 0x1p-50;
     return filter(graph_.edges.size(), [&](std::size_t e) {
       const auto [from, to] = graph_.edges[e].node;
@@ -124,24 +129,49 @@ class Merger {
   }
 
   /// Lists the ends of all edges at the nodes of these ones, the last edge first.
-  void link_ends(const std::vector<std::uint32_t>& edges) {
-    std::vector<bool> listed(graph_.nodes.size());
+  void link_ends(const WorkVector<std::uint32_t>& edges) {
+    places_.assign(graph_.nodes.size(), not_listed);
     for (const std::uint32_t e : edges)
-      for (const std::uint32_t node : graph_.edges[e].node) listed[node] = true;
-    const auto for_ends = [&](const auto& use) {
-      for (std::uint32_t end = 0; end < 2 * graph_.edges.size(); ++end)
-        if (const std::uint32_t node = graph_.edges[end / 2].node[end % 2]; listed[node])
-          use(node, end);
-    };
-    ends_begin_ = large_vector<std::uint32_t>(graph_.nodes.size() + 1);
-    for_ends([&](std::uint32_t node, std::uint32_t) { ++ends_begin_[node]; });
+      for (const std::uint32_t node : graph_.edges[e].node) places_[node] = 0;
+    std::uint32_t count = 0;
+    for (std::size_t node = 0; node < places_.size(); ++node) {
+      if (node % together == 0) first_places_.push_back(count);
+      if (places_[node] == not_listed) continue;
+      places_[node] = static_cast<std::uint8_t>(count++ - first_places_.back());
+    }
+    ends_begin_.resize(count + 1);
+    for_listed_ends([&](std::uint32_t place, std::uint32_t) { ++ends_begin_[place]; });
     std::partial_sum(ends_begin_.begin(), ends_begin_.end(), ends_begin_.begin());
     ends_.resize(ends_begin_.back());
-    for_ends([&](std::uint32_t node, std::uint32_t end) { ends_[--ends_begin_[node]] = end; });
+    for_listed_ends(
+        [&](std::uint32_t place, std::uint32_t end) { ends_[--ends_begin_[place]] = end; });
+  }
+  /// Calls use(place, end) for all ends of edges at listed nodes, with the places of these.
+  template <class Use>
+  void for_listed_ends(const Use& use) const {
+    constexpr std::size_t block = 1 << 10;
+    std::array<std::uint32_t, block> around;
+    const auto is_listed = [&](std::uint32_t node) { return places_[node] != not_listed; };
+    for (std::size_t begin = 0; begin < graph_.edges.size(); begin += block) {
+      std::size_t size = 0;
+      for (std::size_t e = begin; e < std::min(begin + block, graph_.edges.size()); ++e) {
+        const auto [from, to] = graph_.edges[e].node;
+        around[size] = static_cast<std::uint32_t>(e);
+        size += is_listed(from) | is_listed(to) ? 1 : 0;  // without a branch, as above
+      }
+      for (std::size_t k = 0; k < size; ++k)
+        for (const std::uint32_t end : {2 * around[k], 2 * around[k] + 1})
+          if (const std::uint32_t node = graph_.edges[around[k]].node[end % 2]; is_listed(node))
+            use(place_among_listed(node), end);
+    }
+  }
+  std::uint32_t place_among_listed(std::uint32_t node) const {
+    return first_places_[node / together] + places_[node];
   }
   /// The ends of edges at a node of a short one: end 2 e + k is node[k] of edge e.
   std::span<const std::uint32_t> ends_at(std::uint32_t node) const {
-    return std::span(ends_).subspan(ends_begin_[node], ends_begin_[node + 1] - ends_begin_[node]);
+    const std::uint32_t* const begin = &ends_begin_[place_among_listed(node)];
+    return std::span(ends_).subspan(begin[0], begin[1] - begin[0]);
   }
   bool is_branching(std::uint32_t node) const { return ends_at(node).size() > 2; }
   /// The node at the other end of an edge.
@@ -553,8 +583,14 @@ class Merger {
   TieSites tie_sites_;
   double tolerance_;
   Graph& graph_;
-  /// Of each node, where its ends begin in `ends_`.
-  std::vector<std::uint32_t> ends_begin_, ends_;
+  /// Of each node of a short edge, its place among them, counted from the first of `together`
+  /// nodes.
+  static constexpr std::size_t together = 128;
+  static constexpr std::uint8_t not_listed = 255;
+  WorkVector<std::uint8_t> places_;
+  WorkVector<std::uint32_t> first_places_;
+  /// Of each of these nodes, where its ends begin in `ends_`.
+  WorkVector<std::uint32_t> ends_begin_, ends_;
   std::vector<std::uint32_t> nodes_;          ///< of candidates, increasing
   std::vector<std::vector<Touch>> contacts_;  ///< of each of nodes_
   std::vector<std::uint32_t> group_;          ///< of each of nodes_

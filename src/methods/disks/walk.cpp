@@ -27,7 +27,8 @@ class Walker {
         boundary_(context.boundary),
         tasks_(tasks),
         chunk_(chunk),
-        contacts_(context, chunk.statistics) {}
+        contacts_(context, chunk.statistics),
+        is_exact_(context.exact != nullptr && context.exact->always(chunk.component)) {}
 
   /// Walks all of a run: from the convex corner between its last and first site, or from a disk
   /// that touches the boundary where the two join smoothly.
@@ -96,9 +97,9 @@ class Walker {
   /// Follows the bisectors from one node until the axis branches or ends.
   void follow(Step step) {
     if (!is_open(step.span, step.is_proposed)) return;
+    Disk from = chunk_.nodes[step.span.node];
     while (step.is_open) {
-      if (is_exact() && joins_pieces(step.span) && !is_open(step.span)) return;
-      const Disk from = chunk_.nodes[step.span.node];
+      if (is_exact_ && joins_pieces(step.span) && !is_open(step.span)) return;
       if (!step.is_proposed) propose(step, from);
       const bool in_double = step.is_certain;
       if (!in_double) decide(step, from);
@@ -111,6 +112,7 @@ class Walker {
       const bool stays = step.event.kind == Event::Kind::at_node;
       const std::uint32_t node = stays ? step.span.node : arrive(step.span, from, step.event.disk);
       for (Step& part : parts_) part.span.node = node;
+      if (node != step.span.node) from = step.event.disk;
       if (parts_.size() == 1) {
         step = parts_[0];
         step.is_open = is_open(step.span, step.is_proposed);
@@ -162,7 +164,7 @@ class Walker {
 
   /// What double takes for the events after the parts' node.
   void look_ahead(const Disk& disk) {
-    if (!contacts_.is_certain() || is_exact()) return;
+    if (!contacts_.is_certain() || is_exact_) return;
     for (Step& part : parts_) {
       part.is_open = needs_walk(part.span);
       if (part.is_open) propose(part, disk);
@@ -187,7 +189,7 @@ class Walker {
   bool decide(Step& step, const Disk& from) {
     using Kind = Event::Kind;
     Event& event = step.event;
-    if (contacts_.is_certain() && !is_exact() && event.kind == Kind::contact) {
+    if (contacts_.is_certain() && !is_exact_ && event.kind == Kind::contact) {
       const auto disk = contacts_.clean_tie(step.span, event.disk, event.site);
       if (disk && distance(disk->center, from.center) > spread * context_.tolerance) {
         event.disk = *disk;
@@ -223,10 +225,6 @@ class Walker {
       return i < boundary_.sites.size() && is_own_circle(site(i), from, context_.near) &&
              is_own_circle(site(i), to, context_.near);
     });
-  }
-
-  bool is_exact() const {
-    return context_.exact != nullptr && context_.exact->always(chunk_.component);
   }
 
   /// Passes on to the last piece of an arc that the boundary has in several, which are one site of
@@ -270,7 +268,7 @@ class Walker {
   /// What ends the edge of a step's span, in double, and whether that is certain.
   void propose(Step& step, const Disk& from) {
     step.is_proposed = true;
-    if (is_exact()) return;
+    if (is_exact_) return;
     const Span& span = step.span;
     step.event = EventSearch(context_, contacts_, chunk_.statistics, span, from).next();
     step.is_certain = context_.exact == nullptr;
@@ -298,7 +296,7 @@ class Walker {
     }
     Span asked = span;
     joins_pieces(asked);
-    const bool from_exact = is_exact() || (span.is_exact && !boundary_.has_arcs);
+    const bool from_exact = is_exact_ || (span.is_exact && !boundary_.has_arcs);
     const std::uint32_t hint = event.kind == Event::Kind::pass_right  ? span.right + 1
                                : event.kind == Event::Kind::pass_left ? span.left - 1
                                                                       : event.site;
@@ -313,7 +311,7 @@ class Walker {
     Span ahead = span;
     stay_on_pieces(asked, found->disk.center, ahead);
     const bool passes = ahead.right != span.right || ahead.left != span.left;
-    if (passes && !is_exact() && stays_on_arc(span, event)) return false;
+    if (passes && !is_exact_ && stays_on_arc(span, event)) return false;
     span = ahead;
     step.error = Certainty::rounding + found->error;
     event.disk = found->disk;
@@ -360,7 +358,7 @@ class Walker {
 
   /// Whether double leaves open what the disk touches that grows where a run begins.
   bool is_uncertain(const Boundary::SiteRange& run, std::uint32_t touched, const Disk& disk) const {
-    if (is_exact()) return true;
+    if (is_exact_) return true;
     return context_.exact != nullptr && touched != Hit::none &&
            !(Certainty::error_at_joint(boundary_, run.last, run.first, touched, disk) <=
              spread * context_.tolerance);
@@ -373,7 +371,7 @@ class Walker {
     count(found);
     if (!found) {
       lose(whole, hint);
-      return is_exact();
+      return is_exact_;
     }
     const std::uint32_t node = add_node(found->disk);
     push({{whole.right, found->site, node, whole.left, Certainty::rounding, true}},
@@ -396,7 +394,7 @@ class Walker {
     const bool at_bridge = is_at_bridge(span);
     const bool ends =
         between == 1 || (!at_bridge && !is_proposed && contacts_.is_reflex_chain(span));
-    if (ends && boundary_.has_arcs && context_.exact != nullptr && !is_exact() &&
+    if (ends && boundary_.has_arcs && context_.exact != nullptr && !is_exact_ &&
         !Certainty::ends(boundary_, context_.tolerance, span, chunk_.nodes[span.node]))
       lose(span, span.left);
     if (between == 1) {
@@ -525,6 +523,7 @@ class Walker {
   TaskGroup& tasks_;
   Chunk& chunk_;
   Contacts contacts_;
+  const bool is_exact_;        ///< double is never asked
   bool starts_blunt_ = false;  ///< the run begins at a blunt joint, node 0
   std::vector<Step> stack_;
   std::vector<Step> parts_;
