@@ -7,6 +7,7 @@ export class Relief {
   constructor(canvas, studio) {
     this.canvas = canvas;
     this.studio = studio;
+    new ResizeObserver(() => this.#grid && this.#draw()).observe(canvas); // a panel that opens gives it its size
     let last = null;
     canvas.addEventListener("pointerdown", (event) => {
       last = event.clientX;

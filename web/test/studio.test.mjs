@@ -525,6 +525,27 @@ test("code in four languages", async () => {
   await page.click("#code .primary");
 });
 
+test("menus by the keyboard", async () => {
+  const is_open = () => page.isVisible("#examples-menu");
+  const focused = () => page.evaluate(() => document.activeElement.id || document.activeElement.textContent);
+  await page.focus("[data-menu=examples-menu]");
+  await page.keyboard.press("Enter");
+  assert.ok(await is_open());
+  await page.keyboard.press("Escape");
+  assert.deepEqual([await is_open(), await focused()], [false, "Examples"]);
+  await page.keyboard.press("Enter");
+  await page.keyboard.press("End");
+  await page.keyboard.press("Tab");
+  assert.equal(await is_open(), false);
+  await page.focus("[data-menu=examples-menu]");
+  await page.keyboard.press("Enter");
+  await page.keyboard.press("ArrowDown");
+  await page.keyboard.press("Enter");
+  await settled();
+  assert.deepEqual([await is_open(), await focused()], [false, "plane"]);
+  assert.match(await page.textContent("#live"), /^Bow tie: \d+ vertices/);
+});
+
 test("the tour shows every paper", async () => {
   await page.click("#tour-open");
   const seen = [];
@@ -532,6 +553,8 @@ test("the tour shows every paper", async () => {
     await settled();
     seen.push(await page.evaluate(() => studio.axis.method));
     assert.equal(await page.evaluate(() => studio.scene.error), null, seen.at(-1));
+    // Curves are followed themselves: no branch ends where a chord of theirs would.
+    if (seen.at(-1) === "curve-axis") assert.equal(await page.evaluate(() => studio.axis.branchCount), 7);
     await page.click("#tour-next");
   }
   assert.deepEqual(seen, ["disks", "ridge", "lee", "biarc-dc", "potential", "curve-axis", "disks"]);
