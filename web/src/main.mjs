@@ -45,9 +45,12 @@ async function first() {
   studio.fit();
   return !hash || Boolean(linked);
 }
+const page_read = () =>
+  document.readyState === "loading" ? new Promise((done) => addEventListener("DOMContentLoaded", done)) : null;
+
 /** Waits for the second part of the module. */
 async function all_read() {
-  if (document.readyState === "loading") await new Promise((done) => addEventListener("DOMContentLoaded", done));
+  await page_read();
   read_second();
   await medial.complete();
 }
@@ -57,6 +60,9 @@ studio.resize(innerWidth, innerHeight); // before the observer comes to it
 const is_read = await first();
 studio.frame();
 performance.mark("first axis", { detail: studio.scene.error?.code });
+await new Promise((done) => requestAnimationFrame(() => setTimeout(done))); // it is shown before more is laid out
+await page_read();
+document.body.append($("page").content);
 await all_read();
 if (studio.scene.error?.code === "incomplete") studio.ask("axis");
 
