@@ -80,6 +80,7 @@ function tell(text, bad = false) {
   $("toast").textContent = text;
   $("toast").classList.toggle("bad", bad);
   $("toast").hidden = false;
+  $("hint").hidden = true;
   clearTimeout(toast_ends);
   toast_ends = setTimeout(() => ($("toast").hidden = true), 4000);
 }
@@ -245,6 +246,7 @@ studio.addEventListener("tool", ({ detail }) => {
   tool_buttons.forEach((button) => button.setAttribute("aria-pressed", String(button.dataset.tool === tools.tool)));
   $("hint").textContent = detail;
   $("hint").hidden = false;
+  $("toast").hidden = true;
   clearTimeout(tools.hint_ends);
   tools.hint_ends = setTimeout(() => ($("hint").hidden = true), 3500);
 });

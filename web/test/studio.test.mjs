@@ -596,7 +596,30 @@ test("a phone", async () => {
   const own = await open({ viewport: { width: 390, height: 780 }, hasTouch: true, isMobile: true });
   const wide = await own.evaluate(() => document.documentElement.scrollWidth);
   assert.equal(wide, 390);
+  await own.evaluate(() => {
+    const slider = document.getElementById("carve");
+    slider.value = 60;
+    slider.dispatchEvent(new Event("input"));
+  });
   await own.tap("#panel-toggle");
   assert.ok(await own.isVisible("#method"));
+  // What was cut while the panel was closed is drawn once it is open.
+  await own.waitForFunction(() => {
+    const { width, height } = document.getElementById("relief");
+    if (!width || !height) return false;
+    return document.getElementById("relief").getContext("2d").getImageData(0, 0, width, height).data.some((value) => value > 0);
+  });
+  await own.close();
+});
+
+test("a tablet: the tour leaves room for its figure", async () => {
+  const own = await open({ viewport: { width: 834, height: 1112 } });
+  await own.click("#tour-open");
+  const [wide, low, top] = await own.evaluate(() => {
+    const at = studio.rings[0].xy.reduce((all, _, k, xy) => (k % 2 ? all : [...all, studio.camera.toScreen(xy[k], xy[k + 1])]), []);
+    const [x, y] = [0, 1].map((d) => at.map((point) => point[d]));
+    return [Math.max(...x) - Math.min(...x), Math.max(...y), document.getElementById("tour").getBoundingClientRect().top];
+  });
+  assert.ok(wide > 350 && low < top, `${wide} wide, down to ${low}, the tour from ${top}`);
   await own.close();
 });
