@@ -221,6 +221,14 @@ function show_code(language) {
   for (const tab of document.querySelectorAll("[data-code]")) tab.setAttribute("aria-selected", tab.dataset.code === language);
 }
 document.querySelector(".tabs").addEventListener("click", (event) => event.target.dataset.code && show_code(event.target.dataset.code));
+document.querySelector(".tabs").addEventListener("keydown", ({ key, target }) => {
+  const by = { ArrowLeft: -1, ArrowRight: 1 }[key];
+  if (!by) return;
+  const tabs = [...document.querySelectorAll("[data-code]")];
+  const to = tabs[(tabs.indexOf(target) + by + tabs.length) % tabs.length];
+  to.focus();
+  show_code(to.dataset.code);
+});
 $("code-copy").addEventListener("click", async () => {
   await navigator.clipboard.writeText($("code-text").textContent).catch(() => {});
   tell("Code copied");

@@ -524,6 +524,8 @@ test("code in four languages", async () => {
     await page.click(`[data-code=${language}]`);
     assert.ok((await page.textContent("#code-text")).includes(text), language);
   }
+  await page.keyboard.press("ArrowRight"); // from the last one to the first
+  assert.match(await page.textContent("#code-text"), /^import medial\n/);
   await page.click("#code .primary");
 });
 
@@ -582,10 +584,17 @@ test("a thousand edits keep the memory flat", async () => {
 });
 
 for (const colorScheme of ["light", "dark"])
-  test(`axe-core finds nothing (${colorScheme})`, async () => {
+  test(`axe-core finds nothing, and the cut is turned by keys (${colorScheme})`, async () => {
     const own = await open({ colorScheme });
     await own.addScriptTag({ path: npm.resolve("axe-core") });
     const check = () => own.evaluate(async () => (await axe.run()).violations.map(({ id, nodes }) => `${id}: ${nodes[0].html.slice(0, 120)}`));
+    assert.deepEqual(await check(), []);
+    await own.locator("#carve").fill("60");
+    await own.focus("#relief");
+    const cut = () => own.evaluate(() => document.getElementById("relief").toDataURL());
+    const before = await cut();
+    await own.keyboard.press("ArrowRight");
+    assert.notEqual(await cut(), before);
     assert.deepEqual(await check(), []);
     await own.click("#help-open");
     assert.deepEqual(await check(), []);
