@@ -1,4 +1,4 @@
-// What an axis and its edits call, for tools/wasm.sh, which divides the module by it.
+// What an axis calls, for tools/wasm.sh, which divides the module by it.
 //
 //   node js/profile.mjs MODULE PROFILE DATA     MODULE: made by wasm-split --instrument
 
@@ -30,22 +30,7 @@ for (const input of [leaf, [drawn], [Float64Array.of(0, 0, 3, 0, 3, 2, 0, 2)], .
   const place = axis.placeAt([50, 50]);
   axis.diskAt(place.edge, place.t);
   axis.clearance([[50, 50]]);
-  const editor = new medial.Editor(shape);
-  const beside = (v) => editor.vertex(v).map((x, k) => x * (1 + 1e-3 * (k + 1)));
-  const edits = [["move", 2, beside(2)], ["move", 2, editor.vertex(2)], ["setBulge", 1, 0.1], ["insert", 2, beside(2)], ["remove", 3], ["undo"]];
-  for (const [edit, ...given] of edits) {
-    try {
-      const change = editor[edit](...given);
-      editor.edges(change.addedEdges);
-      editor.nodes(change.addedNodes);
-    } catch (error) {
-      if (!(error instanceof medial.MedialError)) throw error; // refused: that, too, is called
-    }
-    const followed = editor.axis;
-    read(followed);
-    followed.free();
-  }
-  [given, axis, shape, editor].forEach((one) => one.free());
+  [given, axis, shape].forEach((one) => one.free());
 }
 
 const module = loaded();

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "methods/edit/rings.h"
 #include "support/computed.h"
 #include "support/edits.h"
 #include "support/environment.h"
@@ -89,6 +90,27 @@ Count edit_shapes(EditKinds kinds, std::uint64_t seeds) {
     mirror.expect(*editor);
   }
   return count;
+}
+
+// A vertex that jumps over its neighbour into edges that it would cross: that is refused without
+// the shape's being built again.
+TEST(Editor, CrossingsAreSeenWhateverElseIsUnclear) {
+  const Shape shape = shape_of({{{{0, 0}, {10, 0}, {10, 10}, {5, 3}, {0, 10}}}});
+  const auto number = [&](Vec2 p) {
+    const auto at = std::find(shape.points.begin(), shape.points.end(), p);
+    return static_cast<std::uint32_t>(at - shape.points.begin());
+  };
+  const edit::Rings rings(shape, frame_of(bounding_box(shape)), {1e-13, 0.1});
+  edit::Edit jump;
+  jump.before = number({10, 0});
+  jump.after = number({5, 3});
+  jump.old = jump.fresh = number({10, 10});
+  jump.place = {1, 4};
+  EXPECT_EQ(rings.judge(jump).verdict, edit::Rings::Verdict::unclear);
+  jump.place = {-3, 3};
+  const auto judgement = rings.judge(jump);
+  EXPECT_EQ(judgement.verdict, edit::Rings::Verdict::crosses);
+  EXPECT_EQ(judgement.edge, number({0, 10}));
 }
 
 TEST(Editor, HasTheAxisOfComputeAfterEveryEdit) {

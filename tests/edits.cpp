@@ -1,7 +1,8 @@
 // medial_edits: many random edits of 20 shapes by medial::Editor, of vertices, of loops and of
 // arcs, compared with what compute() makes of the edited shape: of small shapes after every edit,
 // of large ones after every thousandth. Random moves let a shape grow without end: once it is a
-// hundred times as large as in the beginning, the first shape is taken again.
+// hundred times as large as in the beginning, the first shape is taken again. Times are those of
+// the processor.
 //
 //   medial_edits [EDITS] [FIRST] [COUNT] [KINDS] [SEED]
 //
@@ -14,7 +15,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <string>
+#include <vector>
 
 #include "medial/editor.h"
 #include "support/generate.h"
@@ -74,6 +77,14 @@ Case shape_of_case(std::uint64_t i) {
   }
 }
 
+/// What at most this share of the edits took, in milliseconds.
+double milliseconds_at(std::vector<std::clock_t>& ticks, double share) {
+  const auto at =
+      ticks.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(ticks.size() - 1));
+  std::nth_element(ticks.begin(), at, ticks.end());
+  return 1e3 * static_cast<double>(*at) / CLOCKS_PER_SEC;
+}
+
 /// Whether all went well.
 bool run(std::uint64_t number, int count, test::EditKinds kinds, std::uint64_t seed) {
   const Case one = shape_of_case(number);
@@ -93,8 +104,11 @@ bool run(std::uint64_t number, int count, test::EditKinds kinds, std::uint64_t s
   std::uint32_t vertices = first_vertices;
   int repaired = 0, whole = 0, refused = 0, compared = 0, restarts = 0;
   std::string fault;
+  std::vector<std::clock_t> ticks;
   for (int i = 1; i <= count && fault.empty(); ++i) {
+    const std::clock_t begin = std::clock();
     const auto change = edits.next(*editor, vertices);
+    ticks.push_back(std::clock() - begin);
     if (!change && change.error().code == ErrorCode::internal) fault = to_string(change.error());
     ++(!change ? refused : change->everything ? whole : repaired);
     if ((change || interval > 1) && (i % interval == 0 || i == count) && fault.empty()) {
@@ -109,9 +123,10 @@ bool run(std::uint64_t number, int count, test::EditKinds kinds, std::uint64_t s
     if (!fault.empty()) fault = "edit " + std::to_string(i) + ": " + fault;
   }
   constexpr const char* names[] = {"vertices", "loops", "arcs"};
-  std::printf("| %s | %s | %zu | %d | %d | %d | %d | %d | %s |\n", one.name,
+  std::printf("| %s | %s | %zu | %d | %d | %d | %d | %d | %.3f | %.3f | %s |\n", one.name,
               names[static_cast<std::size_t>(kinds)], shape->points.size(), repaired, whole,
-              refused, compared, restarts, fault.empty() ? "none" : fault.c_str());
+              refused, compared, restarts, milliseconds_at(ticks, 0.5),
+              milliseconds_at(ticks, 0.99), fault.empty() ? "none" : fault.c_str());
   std::fflush(stdout);
   return fault.empty();
 }
@@ -126,8 +141,8 @@ int main(int argc, char** argv) {
   const int count = number(1, 100000), first = number(2, 0), last = first + number(3, shapes);
   std::printf(
       "| shape | edits of | vertices | repaired | all computed | refused | compared | restarts | "
-      "differences |\n"
-      "|---|---|--:|--:|--:|--:|--:|--:|---|\n");
+      "median, ms | 99 %% | differences |\n"
+      "|---|---|--:|--:|--:|--:|--:|--:|--:|--:|---|\n");
   bool is_right = true;
   const int only = number(4, -1);
   const auto seed = static_cast<std::uint64_t>(number(5, 0));

@@ -18,16 +18,11 @@ const { build } = createRequire(join(npm, "/"))("esbuild");
 
 const text = (path) => readFile(path, "utf8");
 
-/** Shapes of data/ that a page can hold, and one drawn for it. */
+/** Shapes of data/ that a page can hold. */
 async function examples() {
-  const drawn = {
-    name: "Leaf", note: "curves, drawn by hand",
-    text: "M 3 52 C 12 18 44 0 78 6 C 96 9 112 22 118 44 C 104 38 96 40 90 46 C 98 50 104 58 104 70 C 94 62 84 60 76 64 C 72 84 50 96 24 86 C 34 82 38 76 36 70 C 26 70 10 66 3 52 Z",
-  };
   const spanner = /<path[^>]*\sd="([^"]+)"/s.exec(await text(join(data, "spanner.svg")))?.[1];
   const read = async (name) => (await text(join(data, name))).trim();
   return [
-    drawn,
     { name: "Bow tie", note: "two bumps of one size, after Volkmann and St. Clair", text: await read("bumps.wkt") },
     { name: "Spanner", note: "arcs and cubic curves", text: spanner },
     { name: "Plan", note: "one storey of a building", text: await read("plan.wkt") },
@@ -37,6 +32,9 @@ async function examples() {
   ];
 }
 
+/** Text that the page holds and does not run. */
+const held = (id, content) => `<script type="text/plain" id="${id}">${content.replaceAll("</script", "<\\/script")}</script>`;
+
 /** Readers of files, which the page holds as text until one is opened. */
 const later = ["opentype.js", "dxf-parser"];
 const later_only = new RegExp(`^(${later.join("|")})$`);
@@ -44,17 +42,13 @@ async function later_script(name) {
   const contents = `import * as all from "${name}"; export default all.default ?? all;`;
   const options = { bundle: true, format: "esm", minify: true, write: false, legalComments: "inline", nodePaths: [npm] };
   const { outputFiles } = await build({ ...options, stdin: { contents, resolveDir: npm } });
-  return `<script type="text/plain" id="${name}">${outputFiles[0].text.replaceAll("</script", "<\\/script")}</script>`;
+  return held(name, outputFiles[0].text);
 }
 
 /** The modules of the page that are made here. */
-const made = (list) => ({
+const made = {
   name: "made",
   setup(builder) {
-    builder.onResolve({ filter: /examples\.mjs$/ }, () => ({ path: "examples", namespace: "made" }));
-    builder.onLoad({ filter: /.*/, namespace: "made" }, () => ({
-      contents: `export const examples = ${JSON.stringify(list)};`,
-    }));
     builder.onResolve({ filter: later_only }, ({ path }) => ({ path, namespace: "later" }));
     builder.onLoad({ filter: /.*/, namespace: "later" }, ({ path }) => ({
       contents: `const code = new Blob([document.getElementById("${path}").textContent], { type: "text/javascript" });
@@ -66,31 +60,33 @@ const made = (list) => ({
     }));
     builder.onResolve({ filter: /^node:/ }, ({ path }) => ({ path, external: true }));
   },
-});
+};
 
 const bundle = await build({
   entryPoints: [join(web, "src/main.mjs")],
   bundle: true, format: "esm", target: "es2022", minify: true, write: false, legalComments: "inline",
-  define: { "import.meta.url": "document.baseURI" }, nodePaths: [npm], plugins: [made(await examples())], logLevel: "warning",
+  define: { "import.meta.url": "document.baseURI" }, nodePaths: [npm], plugins: [made], logLevel: "warning",
 });
-const [style, start] = await Promise.all(
-  ["style.css", "src/start.js"].map((name) => build({ entryPoints: [join(web, name)], minify: true, write: false })),
-);
+const style = await build({ entryPoints: [join(web, "style.css")], minify: true, write: false });
 
-/** A part of the module, packed, as text that the page does not run; the second part, if there is one, comes last. */
-async function packed(part) {
-  const path = join(tree, `package/lib/${part}.wasm`);
-  if (!existsSync(path)) return "";
-  return `<script type="text/plain" id="${part}">${gzipSync(await readFile(path), { level: 9 }).toString("base64")}</script>`;
+/** A part of the module: the first one as it is, so that it is compiled at once, the second one packed. */
+async function part(name, packed) {
+  const path = join(tree, `package/lib/${name}.wasm`);
+  return existsSync(path) ? held(name, packed(await readFile(path)).toString("base64")) : "";
 }
-// Not as a module: that would wait for the page to be painted.
+// Not as a module: that would wait for the whole page.
 const script = `(async()=>{"use strict";${bundle.outputFiles[0].text}})()`.replaceAll("</script", "<\\/script");
-const parts = await Promise.all(["medial", "medial-rest"].map(packed));
-const readers = await Promise.all(later.map(later_script));
+const first = await part("medial", (bytes) => bytes);
+const later_parts = [
+  await part("medial-rest", (bytes) => gzipSync(bytes, { level: 9 })),
+  held("examples", JSON.stringify(await examples())),
+  ...(await Promise.all(later.map(later_script))),
+];
 const page = (await text(join(web, "index.html")))
   .replace('<link rel="stylesheet" href="style.css">', () => `<style>${style.outputFiles[0].text}</style>`)
-  .replace("</head>", () => `${parts[0]}\n<script>${start.outputFiles[0].text}</script>\n</head>`)
-  .replace('<script type="module" src="src/main.mjs"></script>', () => `<script>${script}</script>\n${parts[1]}\n${readers.join("\n")}`);
+  .replace("</head>", () => `${first}\n</head>`)
+  .replace('<script type="module" src="src/main.mjs"></script>', () => `<script>${script}</script>`)
+  .replace("</body>", () => `${later_parts.join("\n")}\n</body>`);
 
 /** The licences of what is in the page besides the project's own. */
 async function licences() {

@@ -20,7 +20,7 @@ let is_incomplete = false; // whether a function of the second part was called t
 
 /**
  * Compiles the module, once; from other places if the sources give bytes, a URL, or it compiled. It has two
- * parts: what an axis and its edits need, and everything else.
+ * parts: what an axis needs, and everything else.
  */
 export async function init(source, second) {
   await begin(source, second);
@@ -48,7 +48,7 @@ export async function complete() {
 async function start(source, second) {
   const compiled = await compile(await source);
   const needed = WebAssembly.Module.imports(compiled);
-  const { exports } = await WebAssembly.instantiate(compiled, imports(needed));
+  const { exports } = new WebAssembly.Instance(compiled, imports(needed));
   exports._initialize();
   module = exports;
   if (!needed.some((one) => one.module === "placeholder")) return;
@@ -58,7 +58,7 @@ async function start(source, second) {
 
 /** Its functions take the places of the placeholders in the module's table. */
 async function add_second(source) {
-  await WebAssembly.instantiate(await compile(await source), { primary: module });
+  new WebAssembly.Instance(await compile(await source), { primary: module });
 }
 
 async function compile(source) {

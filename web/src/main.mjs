@@ -3,11 +3,11 @@
 import * as medial from "medial-axis/lazy.mjs";
 
 import { code_for } from "./code.mjs";
-import { examples } from "./examples.mjs";
 import { geojson_of, rings_of_file, rings_of_text, rings_of_words, save, svg_of } from "./files.mjs";
 import { packed, unpacked } from "./link.mjs";
 import { count_of } from "./model.mjs";
 import { connect_panel } from "./panel.mjs";
+import { first_part, second_part } from "./parts.mjs";
 import { Player } from "./player.mjs";
 import { Studio } from "./studio.mjs";
 import { Tools } from "./tools.mjs";
@@ -15,13 +15,15 @@ import { start_tour } from "./tour.mjs";
 
 const $ = (id) => document.getElementById(id);
 
-// The module has two parts. An axis takes only the first one: it is drawn before the second part is read and compiled
-// and the page is connected. start.js has begun to compile it.
+// This runs when the page is read up to the canvas. An axis takes only the first part of the module: it is drawn
+// before the rest of the page and of the module is read.
 
-let compile_second;
-const second = new Promise((use) => (compile_second = use)).then(() => $("medial-rest") && compiled("medial-rest"));
+const LEAF = "M 3 52 C 12 18 44 0 78 6 C 96 9 112 22 118 44 C 104 38 96 40 90 46 C 98 50 104 58 104 70 C 94 62 84 60 76 64 C 72 84 50 96 24 86 C 34 82 38 76 36 70 C 26 70 10 66 3 52 Z";
+
+let read_second;
+const second = new Promise((use) => (read_second = use)).then(() => $("medial-rest") && second_part());
 try {
-  await medial.begin(first_part, second);
+  await medial.begin(first_part(), second);
 } catch (error) {
   $("toast").textContent = `The studio cannot start in this browser: ${error.message}`;
   $("toast").hidden = false;
@@ -39,19 +41,28 @@ async function first() {
     linked = await unpacked(hash).catch(() => null);
   }
   Object.assign(studio.settings, linked?.settings);
-  studio.change(linked?.rings ?? rings_of_text(examples[0].text));
+  studio.change(linked?.rings ?? rings_of_text(LEAF));
   studio.fit();
   return !hash || Boolean(linked);
 }
+const page_read = () =>
+  document.readyState === "loading" ? new Promise((done) => addEventListener("DOMContentLoaded", done)) : null;
+
 /** Waits for the second part of the module. */
 async function all_read() {
-  if (document.readyState === "loading") await new Promise((done) => addEventListener("DOMContentLoaded", done));
-  compile_second();
+  await page_read();
+  read_second();
   await medial.complete();
 }
+const is_small = innerWidth <= 760;
+document.body.classList.toggle("no-panel", is_small);
+studio.resize(innerWidth, innerHeight); // before the observer comes to it
 const is_read = await first();
 studio.frame();
 performance.mark("first axis", { detail: studio.scene.error?.code });
+await new Promise((done) => requestAnimationFrame(() => setTimeout(done))); // it is shown before more is laid out
+await page_read();
+document.body.append($("page").content);
 await all_read();
 if (studio.scene.error?.code === "incomplete") studio.ask("axis");
 
@@ -69,12 +80,13 @@ function tell(text, bad = false) {
   $("toast").textContent = text;
   $("toast").classList.toggle("bad", bad);
   $("toast").hidden = false;
+  $("hint").hidden = true;
   clearTimeout(toast_ends);
   toast_ends = setTimeout(() => ($("toast").hidden = true), 4000);
 }
 
 function show(rings, name) {
-  if (!rings.length) return tell("There is no closed shape in it", true);
+  if (!rings.length) return tell("It holds no closed shape", true);
   studio.change(rings);
   studio.fit();
   if (name) say(`${name}: ${count_of(rings)} vertices`);
@@ -106,7 +118,10 @@ for (const button of document.querySelectorAll("[data-menu]")) {
     button.setAttribute("aria-expanded", String(closed));
     if (closed) items()[0]?.focus();
   });
-  menu.addEventListener("click", () => close(false));
+  menu.addEventListener("click", () => {
+    close(false);
+    studio.canvas.focus();
+  });
   menu.addEventListener("keydown", (event) => {
     const at = items().indexOf(document.activeElement);
     const to = { ArrowDown: at + 1, ArrowUp: at - 1, Home: 0, End: -1 }[event.key];
@@ -115,6 +130,7 @@ for (const button of document.querySelectorAll("[data-menu]")) {
     event.preventDefault();
     items().at(to % items().length).focus();
   });
+  menu.addEventListener("focusout", ({ relatedTarget: to }) => to && !menu.contains(to) && to !== button && close(false));
   document.addEventListener("pointerdown", (event) => {
     if (!menu.hidden && !menu.contains(event.target) && event.target.closest("[data-menu]") !== button) close(false);
   });
@@ -152,11 +168,11 @@ function with_axis(work) {
 
 async function copy_link() {
   const hash = await packed(studio.rings, changed_settings());
-  if (hash.length > 60_000) return tell("The shape is too large for an address; save a file instead", true);
+  if (hash.length > 60_000) return tell("The shape is too large for a link; save a file instead", true);
   history.replaceState(null, "", `#${hash}`);
   try {
     await navigator.clipboard.writeText(location.href);
-    tell("The link is copied");
+    tell("Link copied");
   } catch {
     tell("The link is in the address bar");
   }
@@ -172,7 +188,8 @@ $("file").addEventListener("change", () => {
   $("file").value = "";
 });
 
-for (const { name, note, text } of examples) {
+const leaf = { name: "Leaf", note: "curves, drawn by hand", text: LEAF };
+for (const { name, note, text } of [leaf, ...JSON.parse($("examples").textContent)]) {
   const button = document.createElement("button");
   button.setAttribute("role", "menuitem");
   button.innerHTML = `<span>${name}<small>${note}</small></span>`;
@@ -187,7 +204,7 @@ $("paste").addEventListener("close", () => {
   try {
     show(rings_of_text($("paste-text").value));
   } catch (error) {
-    tell(`This is no shape: ${error.text ?? error.message}`, true);
+    tell(`This is not a shape: ${error.text ?? error.message}`, true);
   }
 });
 $("text").addEventListener("close", async () => {
@@ -204,15 +221,23 @@ function show_code(language) {
   for (const tab of document.querySelectorAll("[data-code]")) tab.setAttribute("aria-selected", tab.dataset.code === language);
 }
 document.querySelector(".tabs").addEventListener("click", (event) => event.target.dataset.code && show_code(event.target.dataset.code));
+document.querySelector(".tabs").addEventListener("keydown", ({ key, target }) => {
+  const by = { ArrowLeft: -1, ArrowRight: 1 }[key];
+  if (!by) return;
+  const tabs = [...document.querySelectorAll("[data-code]")];
+  const to = tabs[(tabs.indexOf(target) + by + tabs.length) % tabs.length];
+  to.focus();
+  show_code(to.dataset.code);
+});
 $("code-copy").addEventListener("click", async () => {
   await navigator.clipboard.writeText($("code-text").textContent).catch(() => {});
-  tell("The code is copied");
+  tell("Code copied");
 });
 
 const KEYS = [
   ["V P R C F H", "choose a tool"], ["G", "snap"], ["0", "show all"], ["+  −", "zoom"], ["Ctrl Z", "undo"],
-  ["Ctrl Shift Z", "redo"], ["Tab", "next vertex"], ["arrows", "move vertex, or the view"], ["Shift arrows", "ten times as far"],
-  ["I", "insert a vertex"], ["Delete", "remove the vertex"], ["Enter", "close the polygon"], ["Esc", "let go"],
+  ["Ctrl Shift Z", "redo"], ["Tab, Shift Tab", "next, previous vertex"], ["arrows", "move the vertex, or the view"], ["Shift arrows", "ten times as far"],
+  ["I", "insert a vertex"], ["Delete", "remove the vertex"], ["Enter", "close the polygon"], ["Esc", "deselect"], ["N", "new drawing"],
   ["B", "fire"], ["L", "roll"], ["Ctrl O", "open"], ["Ctrl V", "paste a shape"], ["wheel, pinch", "zoom"], ["space, right button", "pan"],
 ];
 $("keys").innerHTML = KEYS.map(([key, what]) => `<p><span>${what}</span><b>${key}</b></p>`).join("");
@@ -229,6 +254,7 @@ studio.addEventListener("tool", ({ detail }) => {
   tool_buttons.forEach((button) => button.setAttribute("aria-pressed", String(button.dataset.tool === tools.tool)));
   $("hint").textContent = detail;
   $("hint").hidden = false;
+  $("toast").hidden = true;
   clearTimeout(tools.hint_ends);
   tools.hint_ends = setTimeout(() => ($("hint").hidden = true), 3500);
 });
@@ -249,11 +275,7 @@ $("panel-toggle").addEventListener("click", () => {
   const closed = document.body.classList.toggle("no-panel");
   $("panel-toggle").setAttribute("aria-expanded", String(!closed));
 });
-if (innerWidth <= 760) {
-  document.body.classList.add("no-panel");
-  studio.fit();
-  $("panel-toggle").setAttribute("aria-expanded", "false");
-}
+$("panel-toggle").setAttribute("aria-expanded", String(!is_small));
 
 const letters = { v: "select", p: "polygon", r: "rectangle", c: "circle", f: "freehand", h: "hand" };
 addEventListener("keydown", (event) => {
@@ -286,7 +308,7 @@ addEventListener("paste", (event) => {
   try {
     show(rings_of_text(text));
   } catch {
-    tell("What was pasted is no shape", true);
+    tell("The clipboard holds no shape", true);
   }
 });
 
@@ -327,7 +349,7 @@ studio.addEventListener("derived", () => {
 });
 studio.addEventListener("drawn", () => {
   const zoom = studio.camera.magnification;
-  $("zoom-out").textContent = zoom < 1e4 ? `${Math.round(100 * zoom)} %` : `${zoom.toExponential(1)} ×`;
+  $("zoom-out").textContent = zoom < 1e4 ? `${Math.round(100 * zoom)}%` : `${zoom.toExponential(1)} ×`;
 });
 studio.addEventListener("hover", ({ detail }) => {
   if (player.running) return;
@@ -349,7 +371,7 @@ for (const name of ["computed", "derived", "changed"]) studio.emit(name);
 studio.ask("theme");
 panel.read();
 
-const check_link = (is_read) => is_read || tell("The address holds no drawing that can be read", true);
+const check_link = (is_read) => is_read || tell("The link holds no drawing that can be read", true);
 check_link(is_read);
 addEventListener("hashchange", async () => {
   check_link(await first());

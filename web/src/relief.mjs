@@ -7,6 +7,7 @@ export class Relief {
   constructor(canvas, studio) {
     this.canvas = canvas;
     this.studio = studio;
+    new ResizeObserver(() => this.#grid && this.#draw()).observe(canvas); // a panel that opens gives it its size
     let last = null;
     canvas.addEventListener("pointerdown", (event) => {
       last = event.clientX;
@@ -14,11 +15,21 @@ export class Relief {
     });
     canvas.addEventListener("pointermove", (event) => {
       if (last === null) return;
-      this.#turn += (event.clientX - last) / 90;
+      this.#turn_by((event.clientX - last) / 90);
       last = event.clientX;
-      this.#draw();
     });
     canvas.addEventListener("pointerup", () => (last = null));
+    canvas.addEventListener("keydown", (event) => {
+      const by = { ArrowLeft: -0.1, ArrowRight: 0.1 }[event.key];
+      if (!by) return;
+      event.preventDefault();
+      this.#turn_by(by);
+    });
+  }
+
+  #turn_by(angle) {
+    this.#turn += angle;
+    this.#draw();
   }
 
   show(shown) {

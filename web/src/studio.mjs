@@ -40,7 +40,7 @@ export class Studio extends EventTarget {
     this.painter = new Painter(() => this.ask());
     this.context = canvas.getContext("2d", { alpha: false });
     this.medial = medial;
-    new ResizeObserver(() => this.resize()).observe(canvas);
+    new ResizeObserver(([{ contentRect: { width, height } }]) => this.resize(width, height)).observe(canvas);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.ask("theme"));
   }
 
@@ -181,26 +181,33 @@ export class Studio extends EventTarget {
     const whole = ["method", "exact", "exterior", "compare"].includes(name);
     this.ask(whole ? "axis" : "derived");
   }
+  /** Shows all, clear of what lies over the canvas. */
   fit() {
     const wide = innerWidth > 760;
     const panel = !document.body.classList.contains("no-panel");
-    const tour = !document.getElementById("tour").hidden;
-    const low = wide ? 66 : panel ? innerHeight * 0.46 + 80 : tour ? innerHeight * 0.5 : 76;
-    this.camera.fit(bounds_of(this.rings), [66, wide && panel ? 296 : 12, low, wide ? (tour ? 460 : 66) : 60]);
+    const right = wide && panel ? 296 : 12;
+    const tour = document.getElementById("tour");
+    let [low, left] = [wide ? 66 : panel ? innerHeight * 0.46 + 80 : 76, wide ? 66 : 60];
+    if (tour?.hidden === false) {
+      const box = tour.getBoundingClientRect();
+      if (innerWidth - box.right - right > 400) left = box.right + 12;
+      else low = innerHeight - box.top + 12;
+    }
+    this.camera.fit(bounds_of(this.rings), [66, right, low, left]);
     this.ask();
   }
   emit(name, detail) {
     this.dispatchEvent(new CustomEvent(name, { detail }));
   }
 
-  resize() {
-    const { width, height } = this.canvas.getBoundingClientRect();
-    this.scene.ratio = Math.min(devicePixelRatio || 1, 3);
-    this.canvas.width = Math.round(width * this.scene.ratio);
-    this.canvas.height = Math.round(height * this.scene.ratio);
-    const first = this.camera.width === 1;
-    Object.assign(this.camera, { width, height });
-    if (first) this.fit();
+  resize(width, height) {
+    const ratio = Math.min(devicePixelRatio || 1, 3);
+    const { camera, canvas, scene } = this;
+    if (camera.width === width && camera.height === height && scene.ratio === ratio) return;
+    Object.assign(camera, { width, height });
+    scene.ratio = ratio;
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(height * ratio);
     this.ask();
   }
 
@@ -267,7 +274,8 @@ export class Studio extends EventTarget {
     const { medial, settings } = this;
     if (this.#follows) return { live: new Live(medial, rings) };
     const { method, exact, exterior } = settings;
-    const shape = method === "curve-axis" ? this.#smooth_shape(rings) : this.#shape_of(rings);
+    const { x, options } = input_of(rings, medial);
+    const shape = new medial.Shape(x, { ...options, keepContours: method === "curve-axis" || undefined });
     try {
       const given = { method, exact: exact || undefined, exterior: exterior || undefined };
       return { shape, axis: medial.axis(shape, own_options(given)) };
@@ -275,17 +283,6 @@ export class Studio extends EventTarget {
       shape.free();
       throw error;
     }
-  }
-
-  #shape_of(rings) {
-    const { x, options } = input_of(rings, this.medial);
-    return new this.medial.Shape(x, options);
-  }
-  /** What `curve-axis` follows: a curve without jumps of its curvature, near to the drawing. */
-  #smooth_shape(rings) {
-    const [x0, y0, x1, y1] = bounds_of(rings);
-    const fit = 0.004 * Math.hypot(x1 - x0, y1 - y0);
-    return new this.medial.Shape(rings.map((ring) => outline(ring).flat()), { keepContours: true, fit });
   }
 
   #replace(next) {

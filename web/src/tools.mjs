@@ -10,8 +10,8 @@ import { smooth_ring } from "./freehand.mjs";
 const HINTS = {
   select: "Drag a vertex, an edge, or the dot that bends it; double-click inserts or removes a vertex",
   polygon: "Click the vertices; Enter, or a click on the first one, closes the polygon",
-  rectangle: "Drag from corner to corner; inside of a shape it becomes a hole",
-  circle: "Drag from the centre; inside of a shape it becomes a hole",
+  rectangle: "Drag from corner to corner; inside a shape it becomes a hole",
+  circle: "Drag from the centre; inside a shape it becomes a hole",
   freehand: "Draw a closed line; it becomes a smooth curve",
   hand: "Drag the plane",
 };

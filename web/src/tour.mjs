@@ -17,7 +17,7 @@ const STEPS = [
   {
     title: "Ridges on a grid",
     cite: "Volkmann and St. Clair, 1987",
-    text: "<p>Compute the distance to the nearest edge at each pixel, and follow the ridge: where two pieces of the boundary are equally near. The report also asks how much a branch matters: both bumps of the bow tie have one size, yet its eye sees one shape.</p><p>Turn <b>Beside it</b> off and on to compare the pixels with the exact axis, and pull the pruning slider.</p>",
+    text: "<p>Compute the distance to the nearest edge at each pixel, and follow the ridge: where two pieces of the boundary are equally near. The report also asks how much a branch matters: both bumps of the bow tie are the same size.</p><p>Turn <b>Compare with</b> off and on to see the exact axis beside that of the pixels, and pull the pruning slider.</p>",
     shape: BOW, settings: { method: "ridge", compare: "disks" },
   },
   {
@@ -29,19 +29,19 @@ const STEPS = [
   {
     title: "Divide by disks",
     cite: "Aichholzer, Aigner, Aurenhammer, Hackl, Jüttler and Rabl, 2009",
-    text: "<p>Curves become arcs within an error that is certain. Then any maximal disk cuts the shape in two, whose axes are computed apart and joined in its centre. So the graph is right whatever rounding does.</p><p>Each disk under the pointer is such a cut. Roll one along all branches.</p>",
+    text: "<p>Curves become arcs within a known error. Any maximal disk then cuts the shape in two: the axes of the parts are computed separately and joined at its centre. So the graph is right whatever rounding does.</p><p>Each disk under the pointer is such a cut. Roll one along all branches.</p>",
     shape: ARCS, settings: { method: "biarc-dc" }, play: "roll",
   },
   {
     title: "Valleys of a potential",
     cite: "Ahuja and Chuang, 1997",
-    text: "<p>Charge the border and let a particle go: it is pushed towards the middle and runs along the valleys of the potential 1 / r<sup>n</sup>, integrated along the border. The higher the order n, the closer the valleys come to the axis.</p><p>Bright is low. Thinner beside it: the exact axis.</p>",
+    text: "<p>Charge the border and let a particle go: it is pushed towards the middle and runs along the valleys of the potential 1 / r<sup>n</sup>, integrated along the border. The higher the order n, the closer the valleys come to the axis.</p><p>Bright is low. The thinner line is the exact axis.</p>",
     shape: ROOMS.replace(/, \(18.*\)\)/, ")"), settings: { method: "potential", field: true, compare: "disks" },
   },
   {
     title: "The curve axis",
     cite: "Shaked and Bruckstein, 1996",
-    text: "<p>On a smooth curve every branch begins in the centre of the osculating circle at a maximum of curvature. From there two feet run along the boundary, steered so that one disk touches at both.</p><p>Drag a control point: where a new maximum of curvature appears, a branch grows.</p>",
+    text: "<p>On a smooth curve every branch begins at the centre of the osculating circle at a maximum of curvature. From there two feet run along the boundary, steered so that one disk touches at both.</p><p>Drag a control point: where a new maximum of curvature appears, a branch grows.</p>",
     shape: SMOOTH, settings: { method: "curve-axis", compare: "disks" },
   },
   {

@@ -206,13 +206,12 @@ Rings::Judgement Rings::judge_straight(const Edit& edit) const {
     return unclear;
 
   // What the edges sweep while the vertex moves straight to its place, from or to an edge's inside.
+  const bool is_moving = has_old && has_fresh;
   std::vector<Triangle> swept;
-  if (has_old && has_fresh) {
+  if (is_moving)
     swept = {{{p, v, x}}, {{v, n, x}}};
-    if (swept[0].has(n) || swept[1].has(p)) return unclear;
-  } else {
+  else
     swept = {{{p, has_old ? v : x, n}}};
-  }
   struct NewEdge {
     Vec2 from, to;
     std::uint32_t start, end;
@@ -227,6 +226,7 @@ Rings::Judgement Rings::judge_straight(const Edit& edit) const {
   if (has_old) query.add(v);
   if (has_fresh) query.add(x);
   Judgement result;
+  if (is_moving && (swept[0].has(n) || swept[1].has(p))) result.verdict = Verdict::unclear;
   boxes_.find(query, [&](std::uint32_t s) {
     if (result.verdict == Verdict::crosses) return;
     const std::uint32_t t = vertices_[s].next;
@@ -241,7 +241,6 @@ Rings::Judgement Rings::judge_straight(const Edit& edit) const {
       if (how == Meeting::touch) result.verdict = Verdict::unclear;
     }
     if (result.verdict == Verdict::crosses) return;
-    const bool is_moving = has_old && has_fresh;
     if (is_moving && meeting(v, x, a, b) != Meeting::none) result.verdict = Verdict::unclear;
     if (s == edit.after) return;
     for (const Triangle& triangle : swept)
