@@ -150,6 +150,7 @@ class ForceLines::Walk {
           lines_.settle(here_.p, here_.radius, here_.force, direction_)))
       return false;
     settled_ = true;
+    before_ = {};
     if (climbing_ && dot(direction_, before) < 0) direction_ = -direction_;
     record(ValleyPoint::Kind::valley);
     scale_ = 0.4;
@@ -186,9 +187,11 @@ class ForceLines::Walk {
   /// second order that stays in narrow valleys, too, BDF2. If the force goes on turning as it did,
   /// the step ends where its first look is.
   Ahead ahead() const {
-    constexpr double straight = 0.98;  // the cosine of the sharpest turn
+    constexpr double straight = 0.98;    // the cosine of the sharpest turn
+    constexpr double largest_ratio = 2;  // of steps: stable below 1 + sqrt(2)
     const Vec2 now = downward(here_), before = downward(before_), last = here_.p - before_.p;
-    if (dot(now, direction_) < straight || dot(now, before) < straight)
+    const bool is_even = step() <= largest_ratio * norm(last);
+    if (!is_even || dot(now, direction_) < straight || dot(now, before) < straight)
       return {here_.p, direction_, step()};
     const double ratio = step() / norm(last), share = 1 / (1 + 2 * ratio);
     const Vec2 next = unit(now + ratio * cross(before, now) * left_of(now));
@@ -260,6 +263,7 @@ class ForceLines::Walk {
     trail_.points.push_back({saddle.place, saddle.radius, direction_, ValleyPoint::Kind::valley});
     here_.p = saddle.place + 0.25 * lines_.reach(saddle.radius) * direction_;
     here_.force = lines_.force_at(here_.p, here_.radius);
+    before_ = {};
     record(ValleyPoint::Kind::valley);
   }
 
@@ -291,7 +295,8 @@ class ForceLines::Walk {
   ForceLines& lines_;
   const double share_;
   Trail trail_;
-  Spot before_, here_, there_;  ///< there: the end of the step; before: where the last one began
+  Spot before_, here_,
+      there_;  ///< there: the end of the step; before: where the last began, if any
   Vec2 direction_;
   Vec2 moved_;              ///< the direction of the step
   double turn_ = 1;         ///< between it and the last one's: the cosine
