@@ -242,6 +242,28 @@ TEST(Potential, StartsOnTheExactAxisWhereLinesCostTooMuch) {
 }
 
 /// Where algorithm Successor ends, the force turns from one side of the valley to the other.
+/// Most steps end where their first look is, no minimum is sought far down a level valley, and no
+/// line follows a neck that one has passed: before, two of these took 14.0 and 13.1 forces an edge.
+/// Lines make the third one, too, where steps end at saddles and on floors all along.
+TEST(Potential, LinesOfFixedOrdersTakeFewForces) {
+  struct Case {
+    std::uint64_t seed;
+    std::uint32_t pixels;
+    double order, most;
+  };
+  for (const auto& [seed, pixels, order, most] :
+       {Case{20261128000000100, 2500, 1, 10}, Case{20261127910100, 2500, 8, 10},
+        Case{20261128020000007, 1900, 24, 13}}) {
+    const Shape shape = *build_shape(*pixel_outline(silhouette(seed, pixels).image));
+    const auto axis = compute(shape, {.method = method::Potential{.order = order}});
+    ASSERT_TRUE(axis.ok()) << seed;
+    EXPECT_TRUE(verify(shape, *axis).passed) << seed;
+    const auto edges = static_cast<double>(shape.points.size());
+    EXPECT_GT(axis->statistics.queries, 0U) << seed;
+    EXPECT_LT(static_cast<double>(axis->statistics.queries) / edges, most) << seed;
+  }
+}
+
 TEST(Potential, SuccessorsLieWhereTheForceTurns) {
   Random random(20261127);
   std::size_t moved = 0;
@@ -386,13 +408,17 @@ Vec2 direction_in_rectangle(Vec2 p, double order) {
   return (1 / norm(force)) * force;
 }
 
-/// The mean distance from the n-skeleton of that rectangle to its axis, over the size: a force line
-/// from a corner (all four are alike) by Runge and Kutta's rule in short steps, and from where it
-/// has come to the middle line, that.
+/// How near to the rectangle's middle line its lines are taken for one: some merge there, and some
+/// later.
+constexpr double beside_middle = 0.01;
+
+/// The mean distance from the n-skeleton of that rectangle to its axis, over the size, but for the
+/// middle line: a force line from a corner (all four are alike) by Runge and Kutta's rule in short
+/// steps.
 double mean_of_rectangle(double order) {
   Vec2 p{1e-3, 1e-3};
   double length = 0, moment = 0;
-  while (p.y < 5 - 1e-5) {
+  while (p.y < 5 - beside_middle) {
     const double h = std::min(0.04, 0.5 * p.y);
     const Vec2 k1 = direction_in_rectangle(p, order);
     const Vec2 k2 = direction_in_rectangle(p + 0.5 * h * k1, order);
@@ -405,7 +431,7 @@ double mean_of_rectangle(double order) {
     moment += distance(p, q) * std::min(middle.x + middle.y < 10 ? aside : below, below);
     p = q;
   }
-  return 2 * moment / (2 * length + 10 - p.x) / 20;
+  return moment / length / 20;
 }
 
 /// From order 1 to 2 the skeleton of a rectangle goes away from the axis. That is the field's own.
@@ -423,10 +449,11 @@ TEST(Potential, LowOrdersAreAsFarFromTheAxisAsTheirField) {
     for (const Edge& edge : axis->edges) {
       const Vec2 a = axis->nodes[edge.node[0]].disk.center;
       const Vec2 b = axis->nodes[edge.node[1]].disk.center;
+      if (std::abs(midpoint(a, b).y - 5) < beside_middle) continue;
       length += distance(a, b);
       moment += distance(a, b) * locator.nearest(midpoint(a, b)).distance;
     }
-    EXPECT_NEAR(moment / length / 20, own[i], 5e-5) << order;
+    EXPECT_NEAR(moment / length / 20, own[i], 4e-6) << order;
   }
   EXPECT_GT(own[1], own[0] + 3e-4);
   EXPECT_LT(own[2], own[0] - 3e-4);

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
 #include <optional>
-#include <unordered_map>
+#include <span>
 #include <vector>
 
 #include "axis/node_kinds.h"
@@ -171,21 +172,27 @@ constexpr double tie_reach = 64;
 /// A disk as large as an arc's own circle, but for this, has its foot on the arc anywhere.
 constexpr double same_circle = 1e-7;
 
+/// A site that a node's disk touches, or ought to.
+struct Touch {
+  std::uint32_t node, site;
+  friend auto operator<=>(const Touch&, const Touch&) = default;
+};
+
 /// The disk nearest to touching all of some sites, by least squares: moving the centre by (x, y)
 /// and the radius by z makes the gap to a site larger by outward.x x + outward.y y - z. None if it
 /// misses one by more than `tolerance`.
-std::optional<Disk> disk_touching(const Context& context, const std::vector<std::uint32_t>& sites,
+std::optional<Disk> disk_touching(const Context& context, std::span<const Touch> touches,
                                   const Disk& near, double tolerance) {
   const auto gap_of = [&](std::uint32_t site, const Disk& disk) {
     return std::sqrt(site::squared_distance(context.outline.sites[site], disk.center)) -
            disk.radius;
   };
   std::array<std::array<double, 4>, 3> sum{};
-  for (const std::uint32_t i : sites) {
-    const Site& site = context.outline.sites[i];
+  for (const Touch& touch : touches) {
+    const Site& site = context.outline.sites[touch.site];
     if (std::abs(site.curvature * near.radius - 1) <= same_circle) return std::nullopt;
     const Vec2 outward = site::outward(site, near.center);
-    const std::array<double, 4> term{outward.x, outward.y, -1, -gap_of(i, near)};
+    const std::array<double, 4> term{outward.x, outward.y, -1, -gap_of(touch.site, near)};
     for (std::size_t row = 0; row < 3; ++row)
       for (std::size_t column = 0; column < 4; ++column)
         sum[row][column] += term[row] * term[column];
@@ -199,8 +206,8 @@ std::optional<Disk> disk_touching(const Context& context, const std::vector<std:
   if (!(all > 0)) return std::nullopt;
   const Disk disk{near.center + (1 / all) * Vec2{determinant(3, 1, 2), determinant(0, 3, 2)},
                   near.radius + determinant(0, 1, 3) / all};
-  const bool touches_all = std::all_of(sites.begin(), sites.end(), [&](std::uint32_t site) {
-    return std::abs(gap_of(site, disk)) <= tolerance;
+  const bool touches_all = std::all_of(touches.begin(), touches.end(), [&](const Touch& touch) {
+    return std::abs(gap_of(touch.site, disk)) <= tolerance;
   });
   return touches_all ? std::optional(disk) : std::nullopt;
 }
@@ -237,31 +244,39 @@ void join_ties(const Context& context, Skeleton& skeleton) {
     if (is_suspect[i] != 0) suspects.push_back(skeleton.edges[i]);
   if (suspects.empty()) return;
   Nodes nodes(skeleton.nodes.size());
-  std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> sites_of;
   for (const Bone& edge : suspects)
     if (is_short(edge)) nodes.join(edge.from, edge.to);
+  std::vector<std::uint8_t> is_tie(skeleton.nodes.size());
   for (const Bone& edge : suspects)
     for (const std::uint32_t node : {edge.from, edge.to})
-      if (is_short(edge) || misses_site(edge, skeleton.nodes[node])) sites_of[nodes.find(node)];
+      if (is_short(edge) || misses_site(edge, skeleton.nodes[node])) is_tie[nodes.find(node)] = 1;
+  std::vector<Touch> touches;
   for (const Bone& edge : skeleton.edges)
-    for (const std::uint32_t node : {edge.from, edge.to}) {
-      const auto tie = sites_of.find(nodes.find(node));
-      if (tie != sites_of.end()) tie->second.insert(tie->second.end(), {edge.right, edge.left});
+    for (const std::uint32_t end : {edge.from, edge.to})
+      if (const std::uint32_t node = nodes.find(end); is_tie[node] != 0)
+        touches.insert(touches.end(), {{node, edge.right}, {node, edge.left}});
+  std::sort(touches.begin(), touches.end());
+  touches.erase(std::unique(touches.begin(), touches.end()), touches.end());
+  std::vector<std::size_t> begins;  // of each tie
+  for (std::size_t i = 0; i < touches.size(); ++i)
+    if (i == 0 || touches[i].node != touches[i - 1].node) begins.push_back(i);
+  begins.push_back(touches.size());
+  constexpr std::size_t few = 64;
+  parallel_ranges(begins.size() - 1, few, [&](std::size_t i, std::size_t end) {
+    for (; i < end; ++i) {
+      const auto own = std::span(touches).subspan(begins[i], begins[i + 1] - begins[i]);
+      const std::uint32_t node = own.front().node;
+      const auto disk = disk_touching(context, own, skeleton.nodes[node], context.tolerance);
+      if (disk) skeleton.nodes[node] = *disk;
+      is_tie[node] = disk ? 1 : 0;
     }
-  for (auto tie = sites_of.begin(); tie != sites_of.end();) {
-    std::sort(tie->second.begin(), tie->second.end());
-    tie->second.erase(std::unique(tie->second.begin(), tie->second.end()), tie->second.end());
-    Disk& own = skeleton.nodes[tie->first];
-    const auto disk = disk_touching(context, tie->second, own, context.tolerance);
-    if (disk) own = *disk;
-    tie = disk ? std::next(tie) : sites_of.erase(tie);
-  }
+  });
   std::erase_if(skeleton.edges, [&](Bone& edge) {
     const std::uint32_t one = nodes.find(edge.from);
-    return one == nodes.find(edge.to) && sites_of.contains(one);
+    return one == nodes.find(edge.to) && is_tie[one] != 0;
   });
   for (std::uint32_t i = 0; i < skeleton.nodes.size(); ++i)
-    if (nodes.find(i) != i && sites_of.contains(nodes.find(i))) skeleton.component[i] = none;
+    if (nodes.find(i) != i && is_tie[nodes.find(i)] != 0) skeleton.component[i] = none;
   for (Bone& edge : skeleton.edges)
     for (std::uint32_t* const node : {&edge.from, &edge.to})
       if (skeleton.component[*node] == none) *node = nodes.find(*node);

@@ -43,35 +43,35 @@ class Divider {
     context_.statistics = {};
   }
 
-  /// Divides the last sub-shape of the list until none is left; those of at most `small` elements
-  /// are passed on. False where rounding leaves a sub-shape that no disk divides.
-  bool divide(Parts& list, std::size_t small, Parts* passed_on, const std::atomic<bool>* cancel) {
+  /// Divides the last sub-shape of the list until none is left. False where rounding leaves a
+  /// sub-shape that no disk divides.
+  bool divide(Parts& list, const std::atomic<bool>* cancel) {
     while (!list.empty()) {
       if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) return true;
-      const Subshape subshape = list.back();
-      if (subshape.size() <= small) {
-        passed_on->begin(subshape.component);
-        passed_on->add(subshape.elements);
-        list.pop_back();
-        continue;
-      }
-      const auto base = base_shape_of(subshape, context_.outline, disks_, context_.tolerance);
-      if (!base && !find_parts(subshape)) {
-        const Element& element = subshape.elements.front();
-        stuck = context_.site(element).at(element.from);
-        return false;
-      }
-      if (!base) division.divided_elements += subshape.size();
+      if (!cut(list.back())) return false;
       list.pop_back();
-      if (!base)
-        list.append(parts_);
-      else if (base->base_case == BaseCase::cap)
-        ++division.caps;
-      else
-        division.base_shapes.push_back(*base);
+      list.append(parts_);
     }
     return true;
   }
+  /// Divides a sub-shape once, into parts(); a base case has none. False as above.
+  bool cut(const Subshape& subshape) {
+    parts_.clear();
+    const auto base = base_shape_of(subshape, context_.outline, disks_, context_.tolerance);
+    if (base && base->base_case == BaseCase::cap) {
+      ++division.caps;
+    } else if (base) {
+      division.base_shapes.push_back(*base);
+    } else if (find_parts(subshape)) {
+      division.divided_elements += subshape.size();
+    } else {
+      const Element& element = subshape.elements.front();
+      stuck = context_.site(element).at(element.from);
+      return false;
+    }
+    return true;
+  }
+  const Parts& parts() const { return parts_; }
 
   /// The result, once there is nothing left to divide.
   Division division;
@@ -238,12 +238,18 @@ Parts whole_shape(const SiteOutline& outline) {
   return parts;
 }
 
-/// Appends what a task made of its sub-shapes. The disks that it knew are the first `known` ones.
-void append(Division& part, const std::vector<Disk>& disks, std::size_t known, Division& all) {
-  const auto shift = static_cast<std::uint32_t>(all.disks.size() - known);
-  const auto renumber = [&](std::uint32_t& disk) {
+/// Where the disks of a task are that follow the first `known` ones, in the list of all.
+struct Renumbering {
+  std::size_t known;
+  std::uint32_t shift;
+  void operator()(std::uint32_t& disk) const {
     if (disk != none && disk >= known) disk += shift;
-  };
+  }
+};
+
+/// Appends what a task made of its sub-shapes.
+void append(Division& part, const std::vector<Disk>& disks, const Renumbering& renumber,
+            Division& all) {
   for (auto& [one, other] : part.equal) {
     renumber(one);
     renumber(other);
@@ -278,6 +284,43 @@ std::vector<std::size_t> task_begins(const Parts& parts) {
   return begins;
 }
 
+/// Divides parts side by side, each with random numbers of its own.
+class Round {
+ public:
+  Round(Context& context, Division& all, std::size_t count)
+      : context_(context), all_(all), known_(all.disks), tasks_(count) {}
+
+  /// Calls divide(divider, task) for each task; false where one of them is.
+  template <class Divide>
+  bool run(std::uint64_t seed, const Divide& divide) {
+    std::atomic<bool> failed = false;
+    parallel_for(tasks_.size(), [&](std::size_t t) {
+      Divider& divider = tasks_[t].emplace(context_, known_, Random(seed + t).next());
+      if (failed || !divide(divider, t)) failed = true;
+    });
+    for (const auto& task : tasks_)
+      if (!context_.stuck) context_.stuck = task->stuck;
+    return !failed;
+  }
+  /// Appends the results of all tasks, and calls take(parts, renumbering) for the parts of each.
+  template <class Take>
+  void collect(const Take& take) {
+    for (auto& task : tasks_) {
+      const Renumbering renumber{known_.size(),
+                                 static_cast<std::uint32_t>(all_.disks.size() - known_.size())};
+      append(task->division, task->disks(), renumber, all_);
+      context_.statistics += task->statistics();
+      take(task->parts(), renumber);
+    }
+  }
+
+ private:
+  Context& context_;
+  Division& all_;
+  const std::vector<Disk> known_;
+  std::vector<std::optional<Divider>> tasks_;
+};
+
 }  // namespace
 
 std::optional<Division> divide(Context& context, std::uint64_t seed, const Options& options) {
@@ -286,36 +329,42 @@ std::optional<Division> divide(Context& context, std::uint64_t seed, const Optio
   all.disks = outline.cutting_disks;
   all.component = outline.component;
 
-  Parts large = whole_shape(outline), small;
-  Divider first(context, outline.cutting_disks, seed);
-  bool divided = first.divide(large, task_size, &small, options.cancel);
-  append(first.division, first.disks(), all.disks.size(), all);
-  context.statistics += first.statistics();
+  Parts large, small;
+  const auto take = [&](const Parts& parts, const Renumbering& renumber) {
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      Parts& to = parts[i].size() > task_size ? large : small;
+      to.begin(parts[i].component);
+      to.add(parts[i].elements);
+      for (std::size_t k = 0; k < parts[i].size(); ++k) renumber(to.of_last(k).disk_after);
+    }
+  };
+  const auto is_cancelled = [&] { return options.cancel != nullptr && options.cancel->load(); };
+  take(whole_shape(outline), {0, 0});
+  while (!large.empty() && !is_cancelled()) {
+    const Parts parts = std::exchange(large, {});
+    Round round(context, all, parts.size());
+    if (!round.run(seed, [&](Divider& divider, std::size_t t) { return divider.cut(parts[t]); }))
+      return std::nullopt;
+    seed += parts.size();
+    round.collect(take);
+  }
 
   const std::vector<std::size_t> begins = task_begins(small);
-  std::vector<std::optional<Divider>> tasks(begins.size() - 1);
   std::atomic<std::size_t> finished = 0;
-  const std::vector<Disk> known = all.disks;
-  std::atomic<bool> failed = !divided;
-  parallel_for(tasks.size(), [&](std::size_t t) {
-    Divider& divider = tasks[t].emplace(context, known, Random(seed + t).next());
+  Round round(context, all, begins.size() - 1);
+  const bool divided = round.run(seed, [&](Divider& divider, std::size_t t) {
     Parts list;
     for (std::size_t i = begins[t]; i < begins[t + 1]; ++i) {
       list.begin(small[i].component);
       list.add(small[i].elements);
     }
-    if (failed || !divider.divide(list, 0, nullptr, options.cancel)) failed = true;
+    const bool done = divider.divide(list, options.cancel);
     if (options.progress)
-      options.progress(static_cast<double>(++finished) / static_cast<double>(tasks.size()));
+      options.progress(static_cast<double>(++finished) / static_cast<double>(begins.size() - 1));
+    return done;
   });
-  context.stuck = first.stuck;
-  for (const auto& task : tasks)
-    if (!context.stuck) context.stuck = task->stuck;
-  if (failed) return std::nullopt;
-  for (auto& task : tasks) {
-    append(task->division, task->disks(), known.size(), all);
-    context.statistics += task->statistics();
-  }
+  if (!divided) return std::nullopt;
+  round.collect([](const Parts&, const Renumbering&) {});
   return all;
 }
 

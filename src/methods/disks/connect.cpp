@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "base/numbers.h"
 #include "base/threads.h"
@@ -418,7 +419,7 @@ Boundary connect(const Shape& shape, const Boundary& loops, const std::vector<Br
 }
 
 Boundary connected_boundary(const Problem& problem, std::vector<Bridge>& bridges) {
-  const Boundary loops = loops_boundary(problem, problem.numbers(), false);
+  Boundary loops = loops_boundary(problem, problem.numbers(), false);
 #ifdef MEDIAL_HAS_EXACT
   const ExactSites sites(problem, problem.numbers(), loops);
   const ExactSites* exact = &sites;
@@ -427,7 +428,7 @@ Boundary connected_boundary(const Problem& problem, std::vector<Bridge>& bridges
 #endif
   std::uint64_t queries = 0;
   bridges = connecting_disks(problem.shape, loops, problem.fine_tolerance, exact, {}, queries);
-  return connect(problem.shape, loops, bridges);
+  return bridges.empty() ? std::move(loops) : connect(problem.shape, loops, bridges);
 }
 
 }  // namespace medial::disks

@@ -61,7 +61,8 @@ bool ForceLines::advance(Vec2 p, Vec2 direction, double step, Vec2& q, Force& fo
   return false;
 }
 
-std::optional<ValleyPoint> ForceLines::critical_point(Vec2 p, bool minimum) {
+std::optional<ValleyPoint> ForceLines::critical_point(Vec2 p, bool minimum, double furthest) {
+  const Vec2 start = p;
   for (int i = 0; i < 60; ++i) {
     double radius = 0;
     const Force force = force_at(p, radius);
@@ -89,6 +90,8 @@ std::optional<ValleyPoint> ForceLines::critical_point(Vec2 p, bool minimum) {
     }
     p = p + move;
     if (!minimum && i > 40) return std::nullopt;
+    // Down a level valley there is none for a long way.
+    if (distance(p, start) > furthest) return std::nullopt;
   }
   return std::nullopt;
 }
@@ -147,6 +150,7 @@ class ForceLines::Walk {
           lines_.settle(here_.p, here_.radius, here_.force, direction_)))
       return false;
     settled_ = true;
+    before_ = {};
     if (climbing_ && dot(direction_, before) < 0) direction_ = -direction_;
     record(ValleyPoint::Kind::valley);
     scale_ = 0.4;
@@ -155,8 +159,9 @@ class ForceLines::Walk {
 
   /// A step along the force, or a shorter one; an explicit one at last.
   Next propose() {
+    const auto [from, direction, length] = ahead();
     const bool good =
-        lines_.advance(here_.p, direction_, step(), there_.p, there_.force, there_.radius);
+        lines_.advance(from, direction, length, there_.p, there_.force, there_.radius);
     if (!good && scale_ > least) {
       scale_ = std::max(scale_ / 2, least);
       if (!climbing_ && (!begins_ || norm(here_.force.force) > 1e-9))
@@ -172,6 +177,28 @@ class ForceLines::Walk {
     }
     return Next::on;
   }
+
+  /// Where an implicit step begins, its direction and its length.
+  struct Ahead {
+    Vec2 from, direction;
+    double length;
+  };
+  /// By the last two places, where the force turns little from one to the next: the formula of
+  /// second order that stays in narrow valleys, too, BDF2. If the force goes on turning as it did,
+  /// the step ends where its first look is.
+  Ahead ahead() const {
+    constexpr double straight = 0.98;    // the cosine of the sharpest turn
+    constexpr double largest_ratio = 2;  // of steps: stable below 1 + sqrt(2)
+    const Vec2 now = downward(here_), before = downward(before_), last = here_.p - before_.p;
+    const bool is_even = step() <= largest_ratio * norm(last);
+    if (!is_even || dot(now, direction_) < straight || dot(now, before) < straight)
+      return {here_.p, direction_, step()};
+    const double ratio = step() / norm(last), share = 1 / (1 + 2 * ratio);
+    const Vec2 next = unit(now + ratio * cross(before, now) * left_of(now));
+    return {here_.p + ratio * ratio * share * last, next, (1 + ratio) * share * step()};
+  }
+  /// The direction of the force, or against it while the line climbs.
+  Vec2 downward(const Spot& spot) const { return (climbing_ ? -1 : 1) * unit(spot.force.force); }
 
   /// False on the border.
   bool step_explicitly() {
@@ -196,8 +223,8 @@ class ForceLines::Walk {
   /// The force has turned: a minimum or a saddle lies near, or the step was too long.
   Next meet_turned_force() {
     if (there_.force.determinant() > 0 || here_.force.determinant() > 0) {
-      const auto minimum =
-          lines_.critical_point(there_.force.determinant() > 0 ? there_.p : here_.p, true);
+      const auto minimum = lines_.critical_point(
+          there_.force.determinant() > 0 ? there_.p : here_.p, true, furthest());
       if (minimum && is_near(*minimum)) {
         trail_.end = lines_.graph_.minimum_at(*minimum);
         return Next::ended;
@@ -208,7 +235,7 @@ class ForceLines::Walk {
       return Next::again;
     }
     constexpr int most_stalls = 40;
-    const auto saddle = lines_.critical_point(here_.p, false);
+    const auto saddle = lines_.critical_point(here_.p, false, furthest());
     if (saddle && is_near(*saddle) && stalls_ < most_stalls) {
       ++stalls_;
       pass(*saddle);
@@ -225,6 +252,8 @@ class ForceLines::Walk {
   bool is_near(const ValleyPoint& point) const {
     return distance(point.place, here_.p) <= 2 * lines_.reach(here_.radius);
   }
+  /// From either end of a step to all that is near.
+  double furthest() const { return 3 * lines_.reach(here_.radius); }
 
   /// The line all but meets a saddle: on, to the side that the line is on.
   void pass(const ValleyPoint& saddle) {
@@ -234,6 +263,7 @@ class ForceLines::Walk {
     trail_.points.push_back({saddle.place, saddle.radius, direction_, ValleyPoint::Kind::valley});
     here_.p = saddle.place + 0.25 * lines_.reach(saddle.radius) * direction_;
     here_.force = lines_.force_at(here_.p, here_.radius);
+    before_ = {};
     record(ValleyPoint::Kind::valley);
   }
 
@@ -241,6 +271,7 @@ class ForceLines::Walk {
   Next go() {
     if (scale_ >= 0.15) settled_ = false;
     const Vec2 way = there_.p - here_.p;
+    before_ = here_;
     here_ = there_;
     direction_ = unit(way);
     record(ValleyPoint::Kind::valley);
@@ -264,7 +295,8 @@ class ForceLines::Walk {
   ForceLines& lines_;
   const double share_;
   Trail trail_;
-  Spot here_, there_;  ///< there: the end of the step
+  Spot before_, here_,
+      there_;  ///< there: the end of the step; before: where the last began, if any
   Vec2 direction_;
   Vec2 moved_;              ///< the direction of the step
   double turn_ = 1;         ///< between it and the last one's: the cosine

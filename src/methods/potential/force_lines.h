@@ -62,8 +62,10 @@ class ForceLines {
   /// narrow valleys. False where no such point is found.
   bool advance(Vec2 p, Vec2 direction, double step, Vec2& q, Force& force, double& radius);
 
-  /// The minimum (or the saddle) that Newton's method finds from p.
-  std::optional<ValleyPoint> critical_point(Vec2 p, bool minimum);
+  /// The minimum (or the saddle) that Newton's method finds from p, without ever leaving the disk
+  /// of this radius around it.
+  std::optional<ValleyPoint> critical_point(
+      Vec2 p, bool minimum, double furthest = std::numeric_limits<double>::infinity());
 
   /// Moves p straight to the floor of a narrow valley, and turns the direction along it. False
   /// where the valley is not narrow.

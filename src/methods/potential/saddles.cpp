@@ -217,9 +217,10 @@ void SaddleSearch::pass_necks(const Charges& charges) {
       const Vec2 middle = after.start + 0.5 * across;
       const double radius = lines_.distance_at(middle);
       if (!(radius > 0 && radius >= as_near * 0.5 * norm(across))) continue;
-      const Vec2 tangent = left_of(unit(across));
-      if (graph_.joined(middle, radius, tangent, 2 * ForceLines::merge_share, true) != no_point)
+      // The valleys through a neck that is wide beside a step need not pass its middle.
+      if (graph_.crossed(middle - 0.25 * across, middle + 0.25 * across, radius) != no_point)
         continue;
+      const Vec2 tangent = left_of(unit(across));
       pass({middle, radius, tangent, ValleyPoint::Kind::saddle}, ForceLines::Start::either);
     }
   }
