@@ -173,22 +173,22 @@ constexpr double tie_reach = 64;
 constexpr double same_circle = 1e-7;
 
 /// A site that a node's disk touches, or ought to.
-struct Touch {
+struct TieContact {
   std::uint32_t node, site;
-  friend auto operator<=>(const Touch&, const Touch&) = default;
+  friend auto operator<=>(const TieContact&, const TieContact&) = default;
 };
 
 /// The disk nearest to touching all of some sites, by least squares: moving the centre by (x, y)
 /// and the radius by z makes the gap to a site larger by outward.x x + outward.y y - z. None if it
 /// misses one by more than `tolerance`.
-std::optional<Disk> disk_touching(const Context& context, std::span<const Touch> touches,
+std::optional<Disk> disk_touching(const Context& context, std::span<const TieContact> touches,
                                   const Disk& near, double tolerance) {
   const auto gap_of = [&](std::uint32_t site, const Disk& disk) {
     return std::sqrt(site::squared_distance(context.outline.sites[site], disk.center)) -
            disk.radius;
   };
   std::array<std::array<double, 4>, 3> sum{};
-  for (const Touch& touch : touches) {
+  for (const TieContact& touch : touches) {
     const Site& site = context.outline.sites[touch.site];
     if (std::abs(site.curvature * near.radius - 1) <= same_circle) return std::nullopt;
     const Vec2 outward = site::outward(site, near.center);
@@ -206,9 +206,9 @@ std::optional<Disk> disk_touching(const Context& context, std::span<const Touch>
   if (!(all > 0)) return std::nullopt;
   const Disk disk{near.center + (1 / all) * Vec2{determinant(3, 1, 2), determinant(0, 3, 2)},
                   near.radius + determinant(0, 1, 3) / all};
-  const bool touches_all = std::all_of(touches.begin(), touches.end(), [&](const Touch& touch) {
-    return std::abs(gap_of(touch.site, disk)) <= tolerance;
-  });
+  const bool touches_all = std::all_of(
+      touches.begin(), touches.end(),
+      [&](const TieContact& touch) { return std::abs(gap_of(touch.site, disk)) <= tolerance; });
   return touches_all ? std::optional(disk) : std::nullopt;
 }
 
@@ -250,7 +250,7 @@ void join_ties(const Context& context, Skeleton& skeleton) {
   for (const Bone& edge : suspects)
     for (const std::uint32_t node : {edge.from, edge.to})
       if (is_short(edge) || misses_site(edge, skeleton.nodes[node])) is_tie[nodes.find(node)] = 1;
-  std::vector<Touch> touches;
+  std::vector<TieContact> touches;
   for (const Bone& edge : skeleton.edges)
     for (const std::uint32_t end : {edge.from, edge.to})
       if (const std::uint32_t node = nodes.find(end); is_tie[node] != 0)
