@@ -214,7 +214,8 @@ TEST_P(ShapesOfArcs, HaveOneAxisUnderAllSymmetries) {
 /// A disk touches the end of an arc that it is too large for, beside a smooth joint and a blunt
 /// one; `verify` put the foot of an arc's centre at its wrong end; the box of a mirror image was
 /// rounded otherwise; and a step on a short way was taken to be certain that had passed a vertex.
-constexpr std::array<Seeded, 6> shapes_of_arcs{{{"tangents", 20261128400000783},
+constexpr std::array<Seeded, 7> shapes_of_arcs{{{"tangents", 20261128400000783},
+                                                {"bars", 20261128650028511},
                                                 {"bars", 20261128600002097},
                                                 {"bars", 20261128500002378},
                                                 {"bars", 20261128200001004},

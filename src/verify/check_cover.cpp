@@ -337,14 +337,13 @@ bool all_paired(std::vector<Spoke>& spokes) {
 }
 
 /// The angle at an edge's end between its feet, on the side of the edge, in [0, 2 pi]. Feet that
-/// nearly coincide lie ahead of the edge where the radius shrinks as the edge leaves that end, and
-/// behind where it grows.
-double angle_between_feet(Vec2 center, Vec2 right, Vec2 left, bool shrinks) {
+/// nearly coincide lie ahead of the edge or behind it.
+double angle_between_feet(Vec2 center, Vec2 right, Vec2 left, bool ahead) {
   constexpr double near = 1e-3;
   const double sine = doubled_triangle(center, right, left);
   const double cosine = dot(right - center, left - center);
   const double angle = std::atan2(sine, cosine);
-  if (std::abs(angle) < near) return shrinks ? angle : angle + 2 * std::numbers::pi;
+  if (std::abs(angle) < near) return ahead ? angle : angle + 2 * std::numbers::pi;
   return angle < 0 ? angle + 2 * std::numbers::pi : angle;
 }
 
@@ -456,14 +455,31 @@ class Slices {
     });
     return all_paired(spokes);
   }
+  /// Whether feet of an edge's end that nearly coincide lie ahead of the edge. They do where the
+  /// boundary passes on from the right one to the left one, and elsewhere where the radius shrinks
+  /// along the tangent, which points to the control point: through a gap it shrinks and grows
+  /// again.
+  bool leads_to_feet(const Edge& edge, std::size_t end, double radius) const {
+    const std::uint32_t right = edge.site[1 - end], left = edge.site[end];
+    const bool forward = passes_on(right, left), backward = passes_on(left, right);
+    return forward != backward ? forward : edge.control.radius < radius;
+  }
+  /// Whether one edge of the boundary follows another without a corner.
+  bool passes_on(std::uint32_t site, std::uint32_t next) const {
+    for (const std::uint32_t i : {site, next})
+      if (problem_.axis.sites[i].kind == SiteKind::vertex || problem_.place[i] == no_index)
+        return false;
+    const std::uint32_t point = problem_.place[next];
+    return problem_.next[problem_.place[site]] == point &&
+           (problem_.joint[point] == Joint::smooth || problem_.joint[point] == Joint::blunt);
+  }
   /// What they leave of the full angle.
   double angle_between(std::uint32_t node) const {
     const Disk& disk = problem_.disk(node);
     double angle = 2 * std::numbers::pi;
     for_each_end(node, [&](const Edge& edge, std::size_t end, const std::array<Vec2, 2>& feet) {
-      // Through a gap the radius shrinks and grows again: its tangent points to the control point.
       angle -= angle_between_feet(disk.center, feet[1 - end], feet[end],
-                                  edge.control.radius < disk.radius);
+                                  leads_to_feet(edge, end, disk.radius));
     });
     return angle;
   }
