@@ -115,7 +115,7 @@ class LocalCheck {
     if (!(node.disk.radius > 0)) return is_corner(first, last, run);
     const double slack = 2 * tolerance_;
     for (std::uint32_t i = first; i != last;) {
-      // No leaf leads into a blunt joint, and a disk that touches both its edges may miss its point.
+      // No leaf leads into a blunt joint: a disk that touches both its edges may miss its point.
       const bool blunt = boundary_.joint(i) == site::Joint::blunt;
       if (boundary_.elements[i] != Element::bridge && !blunt &&
           !is_on(node.disk, site(i).end(), slack))
