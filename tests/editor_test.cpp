@@ -93,7 +93,7 @@ Count edit_shapes(EditKinds kinds, std::uint64_t seeds) {
 }
 
 // A vertex that jumps over its neighbour into edges that it would cross: that is refused without
-// the shape's being built again.
+// building the shape again.
 TEST(Editor, CrossingsAreSeenWhateverElseIsUnclear) {
   const Shape shape = shape_of({{{{0, 0}, {10, 0}, {10, 10}, {5, 3}, {0, 10}}}});
   const auto number = [&](Vec2 p) {

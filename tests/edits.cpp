@@ -1,8 +1,8 @@
 // medial_edits: many random edits of 20 shapes by medial::Editor, of vertices, of loops and of
 // arcs, compared with what compute() makes of the edited shape: of small shapes after every edit,
 // of large ones after every thousandth. Random moves let a shape grow without end: once it is a
-// hundred times as large as in the beginning, the first shape is taken again. Times are those of
-// the processor.
+// hundred times as large as in the beginning, the first shape is taken again. Times are
+// processor times.
 //
 //   medial_edits [EDITS] [FIRST] [COUNT] [KINDS] [SEED]
 //
@@ -77,7 +77,7 @@ Case shape_of_case(std::uint64_t i) {
   }
 }
 
-/// What at most this share of the edits took, in milliseconds.
+/// The milliseconds that this share of the edits takes at most.
 double milliseconds_at(std::vector<std::clock_t>& ticks, double share) {
   const auto at =
       ticks.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(ticks.size() - 1));

@@ -241,7 +241,6 @@ TEST(Potential, StartsOnTheExactAxisWhereLinesCostTooMuch) {
     EXPECT_EQ(three->nodes[i].disk.center, axis->nodes[i].disk.center);
 }
 
-/// Where algorithm Successor ends, the force turns from one side of the valley to the other.
 /// Most steps end where their first look is, no minimum is sought far down a level valley, and no
 /// line follows a neck that one has passed: before, two of these took 14.0 and 13.1 forces an edge.
 /// Lines make the third one, too, where steps end at saddles and on floors all along.
@@ -264,6 +263,7 @@ TEST(Potential, LinesOfFixedOrdersTakeFewForces) {
   }
 }
 
+/// Where algorithm Successor ends, the force turns from one side of the valley to the other.
 TEST(Potential, SuccessorsLieWhereTheForceTurns) {
   Random random(20261127);
   std::size_t moved = 0;

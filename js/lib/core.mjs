@@ -48,7 +48,7 @@ export async function complete() {
 async function start(source, second) {
   const compiled = await compile(await source);
   const needed = WebAssembly.Module.imports(compiled);
-  const { exports } = new WebAssembly.Instance(compiled, imports(needed));
+  const { exports } = await WebAssembly.instantiate(compiled, imports(needed));
   exports._initialize();
   module = exports;
   if (!needed.some((one) => one.module === "placeholder")) return;
@@ -58,7 +58,7 @@ async function start(source, second) {
 
 /** Its functions take the places of the placeholders in the module's table. */
 async function add_second(source) {
-  new WebAssembly.Instance(await compile(await source), { primary: module });
+  await WebAssembly.instantiate(await compile(await source), { primary: module });
 }
 
 async function compile(source) {

@@ -28,7 +28,7 @@ void free_memory(std::vector<T, Allocator>& elements) {
   std::vector<T, Allocator>().swap(elements);
 }
 
-/// Allocates large pages, and gives pages back as they are freed.
+/// Asks for large pages, and gives pages back as they are freed.
 template <class T>
 struct WorkAllocator : std::allocator<T> {
   template <class Other>
@@ -46,7 +46,8 @@ struct WorkAllocator : std::allocator<T> {
   }
 };
 
-/// A vector that is freed before the result is whole: an allocator would keep its memory beside.
+/// A vector that is freed before the result is whole. An ordinary one would leave its memory with
+/// the allocator, and the result would take more beside it.
 template <class T>
 using WorkVector = std::vector<T, WorkAllocator<T>>;
 

@@ -8,14 +8,10 @@ namespace medial {
 
 Problem::Problem(const Shape& a_shape, const Options& some_options,
                  std::span<const Contour> some_contours)
-    : Problem(a_shape, some_options, some_contours, bounding_box(a_shape)) {}
-
-Problem::Problem(const Shape& a_shape, const Options& some_options,
-                 std::span<const Contour> some_contours, const Box& a_box)
     : shape(a_shape),
       options(some_options),
       contours(some_contours),
-      box(a_box),
+      box(bounding_box(a_shape)),
       frame(frame_of(box)),
       tolerance(tolerance_for(box, options.tolerance)),
       joint_tolerance(tolerance_for(box, 0)),

@@ -19,9 +19,6 @@ namespace medial {
 struct Problem {
   Problem(const Shape& a_shape, const Options& some_options,
           std::span<const Contour> some_contours = {});
-  /// With the shape's bounding box, where the caller knows it.
-  Problem(const Shape& a_shape, const Options& some_options, std::span<const Contour> some_contours,
-          const Box& a_box);
 
   const Shape& shape;
   const Options& options;

@@ -213,9 +213,11 @@ void DistanceTree::bound(std::span<const BoundaryEdge> edges, Bounds& bounds,
   bounds.slab_high[place] = high;
 }
 
-/// The centre of the circle through three points of a set, moved back until that shows beside what
-/// other points are off the circle by. None of a set that is hardly rounder than a slab says, and
-/// of one that bends round too far to be seen from behind its centre.
+/// A place behind the centre of the circle through three points of a set. From the centre all sets
+/// around it are equally far in every direction; from behind it, a clearance says where its own set
+/// lies. It is so far behind that the bend of the set shows beside what its points are off the
+/// circle by. None of a set that bends round by more than a radius, which is seen from no such
+/// place, and of one so flat or so uneven that the place would be far away.
 std::optional<Vec2> DistanceTree::centre_behind(std::span<const BoundaryEdge> edges, double size) {
   constexpr double far_behind = 4, furthest = 0x1p-6;
   const Vec2 first = edges.front().start, middle = edges[edges.size() / 2].start,
@@ -237,8 +239,8 @@ std::optional<Vec2> DistanceTree::centre_behind(std::span<const BoundaryEdge> ed
 /// The clearances of sets of `run` edges each; none where few sets are round.
 std::vector<DistanceTree::Clearances> DistanceTree::clearances_of(
     const std::vector<BoundaryEdge>& edges, std::size_t run, double size) {
-  const std::size_t sets = (edges.size() + run - 1) / run;
   if (run > largest_slab) return {};
+  const std::size_t sets = (edges.size() + run - 1) / run;
   std::vector<Clearances> level((sets + fan_out - 1) / fan_out);
   std::atomic<std::size_t> round = 0;
   parallel_for(level.size() * fan_out, [&](std::size_t i) {
@@ -256,7 +258,7 @@ std::vector<DistanceTree::Clearances> DistanceTree::clearances_of(
     clearances.radius[i % fan_out] = (1 - 16 * machine_epsilon) * nearest;
     ++round;
   });
-  if (4 * round < sets) level.clear();
+  if (4 * round < sets) return {};
   return level;
 }
 

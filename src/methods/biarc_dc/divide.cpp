@@ -290,17 +290,22 @@ class Round {
   Round(Context& context, Division& all, std::size_t count)
       : context_(context), all_(all), known_(all.disks), tasks_(count) {}
 
-  /// Calls divide(divider, task) for each task; false where one of them is.
+  /// Calls divide(divider, task) for each task; false where one of them is. Tasks after that are
+  /// left out, none before: so the place where it is stuck does not depend on the threads.
   template <class Divide>
   bool run(std::uint64_t seed, const Divide& divide) {
-    std::atomic<bool> failed = false;
+    std::atomic<std::size_t> failed = tasks_.size();
     parallel_for(tasks_.size(), [&](std::size_t t) {
+      std::size_t first = failed;
+      if (t > first) return;
       Divider& divider = tasks_[t].emplace(context_, known_, Random(seed + t).next());
-      if (failed || !divide(divider, t)) failed = true;
+      if (divide(divider, t)) return;
+      while (t < first && !failed.compare_exchange_weak(first, t)) {
+      }
     });
-    for (const auto& task : tasks_)
-      if (!context_.stuck) context_.stuck = task->stuck;
-    return !failed;
+    if (failed == tasks_.size()) return true;
+    context_.stuck = tasks_[failed]->stuck;
+    return false;
   }
   /// Appends the results of all tasks, and calls take(parts, renumbering) for the parts of each.
   template <class Take>

@@ -65,8 +65,7 @@ struct Way {
 /// What an attempt has found out beside the axis.
 struct Findings {
   std::vector<std::uint32_t> lost;  ///< sites where the walk found that a step before was wrong
-  bool in_centers = false;          ///< disks are the own circles of several arcs
-  bool too_coarse = false;          ///< and contacts have not been separated so
+  bool too_coarse = false;          ///< in the centres of arcs, for how contacts are separated
 };
 
 /// Adds the sites, as the boundary has them, where the walk found that a step before was wrong.
@@ -111,11 +110,10 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   std::atomic<std::uint64_t> finished = 0;
   std::atomic<bool> in_centers = false;
   const ExactEvents exact(sites, boundary, tree, way.in_precise);
-  auto chunks =
-      walk({boundary, bridges, tree, walk_tolerance, problem.radius_limit,
-            takes_exact ? &exact : nullptr, problem.options.cancel,
-            findings.in_centers ? nullptr : &in_centers, near_circle * problem.fine_tolerance,
-            reporter(problem.options, boundary, finished)});
+  auto chunks = walk({boundary, bridges, tree, walk_tolerance, problem.radius_limit,
+                      takes_exact ? &exact : nullptr, problem.options.cancel,
+                      way.in_centers ? nullptr : &in_centers, near_circle * problem.fine_tolerance,
+                      reporter(problem.options, boundary, finished)});
   statistics.seconds_walk = watch.lap();
   if (problem.is_cancelled()) return std::nullopt;
   findings.too_coarse = in_centers;
@@ -181,10 +179,9 @@ Result<MedialAxis> attempt(const Problem& problem, const SiteNumbers& own_number
   }
 #endif
   Boundary boundary = loops_boundary(problem, *numbers, two_sided);
-  findings.in_centers = way.in_centers;
   axis.statistics.seconds_sites = watch.lap();
 
-  const double share = walk_share(boundary, findings.in_centers);
+  const double share = walk_share(boundary, way.in_centers);
   auto graph = graph_of(problem, *numbers, share * problem.fine_tolerance, way, boundary,
                         axis.statistics, findings);
 #ifdef MEDIAL_HAS_EXACT
@@ -310,7 +307,7 @@ Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbe
     if (axis) {
       axis->edges = std::move(edges);
       const bool is_certain = findings.lost.empty() &&
-                              (!findings.in_centers || touches_all_sites(*axis)) &&
+                              (!way->in_centers || touches_all_sites(*axis)) &&
                               (is_first || (!way->in_double && !has_arcs(problem.shape)));
       if (is_certain || problem.is_cancelled()) return axis;
     }

@@ -114,12 +114,11 @@ class LocalCheck {
     const Boundary::SiteRange& run = boundary_.runs[node.component];
     if (!(node.disk.radius > 0)) return is_corner(first, last, run);
     const double slack = 2 * tolerance_;
-    const auto is_on_disk = [&](Vec2 p) {
-      return std::abs(distance(p, node.disk.center) - node.disk.radius) <= slack;
-    };
     for (std::uint32_t i = first; i != last;) {
+      // No leaf leads into a blunt joint: a disk that touches both its edges may miss its point.
       const bool blunt = boundary_.joint(i) == site::Joint::blunt;
-      if (boundary_.elements[i] != Element::bridge && !blunt && !is_on_disk(site(i).end()))
+      if (boundary_.elements[i] != Element::bridge && !blunt &&
+          !is_on(node.disk, site(i).end(), slack))
         return false;
       i = i == run.last ? run.first : i + 1;
       if (i != last && boundary_.elements[i] != Element::bridge &&
@@ -135,13 +134,14 @@ class LocalCheck {
     return after == before + 1 && boundary_.is_corner(before);
   }
 
+  static bool is_on(const Disk& disk, Vec2 p, double slack) {
+    return std::abs(distance(p, disk.center) - disk.radius) <= slack;
+  }
+
   static bool touches_all(const site::Site& site, const Disk& disk, double slack) {
-    const auto is_on_disk = [&](double s) {
-      return std::abs(distance(site.at(s), disk.center) - disk.radius) <= slack;
-    };
-    if (site.curvature > 0 &&
-        !(is_on_disk(0) && is_on_disk(0.5 * site.length) && is_on_disk(site.length)))
-      return false;
+    if (site.curvature > 0)
+      for (const Vec2 p : {site.at(0), site.at(0.5 * site.length), site.at(site.length)})
+        if (!is_on(disk, p, slack)) return false;
     return touches(site, disk, slack);
   }
 

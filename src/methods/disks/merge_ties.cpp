@@ -583,8 +583,8 @@ class Merger {
   TieSites tie_sites_;
   double tolerance_;
   Graph& graph_;
-  /// Of each node of a short edge, its place among them, counted from the first of `together`
-  /// nodes.
+  /// Of each node of a short edge, its place among them, counted from that of the first one in its
+  /// group of `together` nodes: a byte is enough, of all nodes, too.
   static constexpr std::size_t together = 128;
   static constexpr std::uint8_t not_listed = 255;
   WorkVector<std::uint8_t> places_;

@@ -185,11 +185,11 @@ class ForceLines::Walk {
   };
   /// By the last two places, where the force turns little from one to the next: the formula of
   /// second order that stays in narrow valleys, too, BDF2. If the force goes on turning as it did,
-  /// the step ends where its first look is.
+  /// the first place that is tried is the step's end.
   Ahead ahead() const {
     constexpr double straight = 0.98;    // the cosine of the sharpest turn
     constexpr double largest_ratio = 2;  // of steps: stable below 1 + sqrt(2)
-    const Vec2 now = downward(here_), before = downward(before_), last = here_.p - before_.p;
+    const Vec2 now = heading(here_), before = heading(before_), last = here_.p - before_.p;
     const bool is_even = step() <= largest_ratio * norm(last);
     if (!is_even || dot(now, direction_) < straight || dot(now, before) < straight)
       return {here_.p, direction_, step()};
@@ -198,7 +198,7 @@ class ForceLines::Walk {
     return {here_.p + ratio * ratio * share * last, next, (1 + ratio) * share * step()};
   }
   /// The direction of the force, or against it while the line climbs.
-  Vec2 downward(const Spot& spot) const { return (climbing_ ? -1 : 1) * unit(spot.force.force); }
+  Vec2 heading(const Spot& spot) const { return (climbing_ ? -1 : 1) * unit(spot.force.force); }
 
   /// False on the border.
   bool step_explicitly() {
@@ -295,8 +295,9 @@ class ForceLines::Walk {
   ForceLines& lines_;
   const double share_;
   Trail trail_;
-  Spot before_, here_,
-      there_;  ///< there: the end of the step; before: where the last began, if any
+  Spot before_;  ///< where the last step began, if the line goes on from it
+  Spot here_;
+  Spot there_;  ///< the end of the step
   Vec2 direction_;
   Vec2 moved_;              ///< the direction of the step
   double turn_ = 1;         ///< between it and the last one's: the cosine
