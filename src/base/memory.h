@@ -31,6 +31,7 @@ void free_memory(std::vector<T, Allocator>& elements) {
 /// Asks for large pages, and gives pages back as they are freed.
 template <class T>
 struct WorkAllocator : std::allocator<T> {
+  using std::allocator<T>::allocator;
   template <class Other>
   struct rebind {
     using other = WorkAllocator<Other>;

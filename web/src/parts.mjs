@@ -9,8 +9,18 @@ function bytes_of(part) {
   return bytes;
 }
 
-/** The first part. It is compiled on the spot: to wait for other threads would take longer. */
-export const first_part = () => new WebAssembly.Module(bytes_of("medial"));
+/**
+ * The first part. It is compiled on the spot: to wait for other threads would take longer. Browsers that refuse
+ * to compile that much at once get the bytes.
+ */
+export function first_part() {
+  const bytes = bytes_of("medial");
+  try {
+    return new WebAssembly.Module(bytes);
+  } catch {
+    return bytes;
+  }
+}
 
 /** The second part, which is packed. */
 export function second_part() {

@@ -115,15 +115,14 @@ class LocalCheck {
     if (!(node.disk.radius > 0)) return is_corner(first, last, run);
     const double slack = 2 * tolerance_;
     for (std::uint32_t i = first; i != last;) {
+      const bool at_bridge = boundary_.elements[i] == Element::bridge;
       // No leaf leads into a blunt joint: a disk that touches both its edges may miss its point.
       const bool blunt = boundary_.joint(i) == site::Joint::blunt;
-      if (boundary_.elements[i] != Element::bridge && !blunt &&
-          !is_on(node.disk, site(i).end(), slack))
-        return false;
+      if (!at_bridge && !blunt && !is_on(node.disk, site(i).end(), slack)) return false;
       i = i == run.last ? run.first : i + 1;
-      if (i != last && boundary_.elements[i] != Element::bridge &&
-          !touches_all(site(i), node.disk, slack))
-        return false;
+      if (boundary_.elements[i] == Element::bridge) continue;
+      if (at_bridge && !is_on(node.disk, site(i).point, slack)) return false;
+      if (i != last && !touches_all(site(i), node.disk, slack)) return false;
     }
     return true;
   }
