@@ -13,6 +13,7 @@
 #include "medial/query.h"
 #include "ops/routes.h"
 #include "support/computed.h"
+#include "support/generate.h"
 #include "support/random_shapes.h"
 
 namespace medial {
@@ -413,6 +414,30 @@ TEST(LargestDisjointDisks, AgreeWithADenseGrid) {
                   disks[i].radius + disks[j].radius - 1e-9 * size);
   }
   EXPECT_GT(compared, 0U);
+}
+
+/// What the largest disk leaves of a circle of many arcs is thinner than any square that holds much
+/// of it.
+TEST(LargestDisjointDisks, OfANearCircle) {
+  constexpr int arcs = 60;
+  test::Random random(7);
+  Ring ring;
+  for (int i = 0; i < arcs; ++i) {
+    const double angle = 2 * std::numbers::pi * i / arcs, r = 1 + 1e-12 * random.between(-1, 1);
+    ring.points.push_back({r * std::cos(angle), r * std::sin(angle)});
+    ring.bulges.push_back(std::tan(0.5 * std::numbers::pi / arcs) *
+                          (1 + 1e-10 * random.between(-1, 1)));
+  }
+  const auto shape = build_shape(std::vector<Ring>{ring});
+  ASSERT_TRUE(shape) << to_string(shape.error());
+  const std::vector<Disk> disks = largest_disjoint_disks(*shape, 3);
+  ASSERT_EQ(disks.size(), 3);
+  EXPECT_NEAR(disks[0].radius, 1, 1e-9);
+  for (std::size_t i = 1; i < disks.size(); ++i) {
+    EXPECT_GT(disks[i].radius, 0);
+    EXPECT_LT(disks[i].radius, 1e-9);
+    EXPECT_GE(distance(disks[i].center, disks[0].center), disks[0].radius);
+  }
 }
 
 }  // namespace

@@ -418,6 +418,21 @@ TEST(DistanceTreeOfArcs, AgreesWithBruteForce) {
   }
 }
 
+/// At a leaf the feet on both arcs nearly coincide, beside an edge of 1e-6; the arcs join
+/// elsewhere.
+TEST(VerifyArcs, FeetThatNearlyCoincideLieWhereTheBoundaryPassesOn) {
+  Ring ring;
+  ring.points = {{-4.5, 0}, {-6, 0}, {-4.5, -1e-6}};
+  ring.bulges = {0.999999, 1, 0};
+  const auto shape = build_shape(std::vector<Ring>{ring});
+  ASSERT_TRUE(shape) << to_string(shape.error());
+  const auto axis = compute(*shape, {.threads = 1});
+  ASSERT_TRUE(axis) << to_string(axis.error());
+  const Certificate certificate = verify(*shape, *axis, {.threads = 1});
+  EXPECT_TRUE(certificate.passed) << certificate.failures.front();
+  EXPECT_NEAR(certificate.disks_area, certificate.shape_area, 1e-6);  // a joint is blunt
+}
+
 /// Next to the centre of one circle, every edge is nearly as near as the nearest one.
 TEST(DistanceTreeOfArcs, AgreesWithBruteForceNextToACentre) {
   constexpr std::size_t count = 3000;

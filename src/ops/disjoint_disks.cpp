@@ -370,9 +370,7 @@ class Search {
     if (square.half <= finest) return settle(i, bound, {square.center, clearance});
     const bool is_small = clearance > square.reach();
     if (is_small) bound = std::min(bound, bound_by_feet(square, foot, to_boundary));
-    // Around larger squares lie too many sites to count, but for shapes of few edges.
-    if ((is_small || region_.is_simple()) &&
-        region_.carriers(square, clearance + 2 * square.reach(), carriers_))
+    if (region_.carriers(square, clearance + 2 * square.reach(), carriers_))
       return settle(i, bound, LocalMaxima(region_, square, to_boundary, carriers_).deepest());
     candidates_[i].bound = bound;
     candidates_[i].quarters = static_cast<std::uint32_t>(candidates_.size());

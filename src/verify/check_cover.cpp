@@ -336,14 +336,16 @@ bool all_paired(std::vector<Spoke>& spokes) {
   return true;
 }
 
+/// Feet nearly coincide that are seen under a smaller angle from the disk's centre.
+constexpr double nearly_one = 1e-3;
+
 /// The angle at an edge's end between its feet, on the side of the edge, in [0, 2 pi]. Feet that
 /// nearly coincide lie ahead of the edge or behind it.
 double angle_between_feet(Vec2 center, Vec2 right, Vec2 left, bool ahead) {
-  constexpr double near = 1e-3;
   const double sine = doubled_triangle(center, right, left);
   const double cosine = dot(right - center, left - center);
   const double angle = std::atan2(sine, cosine);
-  if (std::abs(angle) < near) return ahead ? angle : angle + 2 * std::numbers::pi;
+  if (std::abs(angle) < nearly_one) return ahead ? angle : angle + 2 * std::numbers::pi;
   return angle < 0 ? angle + 2 * std::numbers::pi : angle;
 }
 
@@ -459,27 +461,34 @@ class Slices {
   /// boundary passes on from the right one to the left one, and elsewhere where the radius shrinks
   /// along the tangent, which points to the control point: through a gap it shrinks and grows
   /// again.
-  bool leads_to_feet(const Edge& edge, std::size_t end, double radius) const {
+  bool leads_to_feet(const Edge& edge, std::size_t end, const Disk& disk) const {
     const std::uint32_t right = edge.site[1 - end], left = edge.site[end];
-    const bool forward = passes_on(right, left), backward = passes_on(left, right);
-    return forward != backward ? forward : edge.control.radius < radius;
+    const bool forward = passes_on(right, left, disk), backward = passes_on(left, right, disk);
+    return forward != backward ? forward : edge.control.radius < disk.radius;
   }
-  /// Whether one edge of the boundary follows another without a corner.
-  bool passes_on(std::uint32_t site, std::uint32_t next) const {
-    for (const std::uint32_t i : {site, next})
+  /// Whether the boundary leads from one edge to another past few vertices, which all lie where the
+  /// disk's feet on the two nearly coincide.
+  bool passes_on(std::uint32_t site, std::uint32_t other, const Disk& disk) const {
+    constexpr int most_vertices = 4;
+    for (const std::uint32_t i : {site, other})
       if (problem_.axis.sites[i].kind == SiteKind::vertex || problem_.place[i] == no_index)
         return false;
-    const std::uint32_t point = problem_.place[next];
-    return problem_.next[problem_.place[site]] == point &&
-           (problem_.joint[point] == Joint::smooth || problem_.joint[point] == Joint::blunt);
+    const Vec2 foot = foot_point_of(problem_, problem_.axis.sites[site], disk).foot;
+    std::uint32_t point = problem_.place[site];
+    for (int k = 0; k < most_vertices; ++k) {
+      point = problem_.next[point];
+      if (!(distance(problem_.point(point), foot) <= nearly_one * disk.radius)) return false;
+      if (point == problem_.place[other]) return true;
+    }
+    return false;
   }
   /// What they leave of the full angle.
   double angle_between(std::uint32_t node) const {
     const Disk& disk = problem_.disk(node);
     double angle = 2 * std::numbers::pi;
     for_each_end(node, [&](const Edge& edge, std::size_t end, const std::array<Vec2, 2>& feet) {
-      angle -= angle_between_feet(disk.center, feet[1 - end], feet[end],
-                                  leads_to_feet(edge, end, disk.radius));
+      angle -=
+          angle_between_feet(disk.center, feet[1 - end], feet[end], leads_to_feet(edge, end, disk));
     });
     return angle;
   }

@@ -212,6 +212,26 @@ std::optional<Disk> disk_touching(const Context& context, std::span<const TieCon
   return touches_all ? std::optional(disk) : std::nullopt;
 }
 
+/// Moves the node of each tie to the disk that touches all its sites, and marks whether there is
+/// one. `touches`: sorted.
+void fit_ties(const Context& context, const std::vector<TieContact>& touches, Skeleton& skeleton,
+              std::vector<std::uint8_t>& is_tie) {
+  std::vector<std::size_t> begins;  // of each tie
+  for (std::size_t i = 0; i < touches.size(); ++i)
+    if (i == 0 || touches[i].node != touches[i - 1].node) begins.push_back(i);
+  begins.push_back(touches.size());
+  constexpr std::size_t few = 64;
+  parallel_ranges(begins.size() - 1, few, [&](std::size_t i, std::size_t end) {
+    for (; i < end; ++i) {
+      const auto own = std::span(touches).subspan(begins[i], begins[i + 1] - begins[i]);
+      const std::uint32_t node = own.front().node;
+      const auto disk = disk_touching(context, own, skeleton.nodes[node], context.tolerance);
+      if (disk) skeleton.nodes[node] = *disk;
+      is_tie[node] = disk ? 1 : 0;
+    }
+  });
+}
+
 /// Makes one node of several that are some tolerances apart where one disk touches all their sites
 /// (regular polygons): each of them saw the sites of its sub-shape only. So may a single node whose
 /// dividing disk misses a site of another sub-shape by some tolerances; it moves to all its sites.
@@ -257,20 +277,7 @@ void join_ties(const Context& context, Skeleton& skeleton) {
         touches.insert(touches.end(), {{node, edge.right}, {node, edge.left}});
   std::sort(touches.begin(), touches.end());
   touches.erase(std::unique(touches.begin(), touches.end()), touches.end());
-  std::vector<std::size_t> begins;  // of each tie
-  for (std::size_t i = 0; i < touches.size(); ++i)
-    if (i == 0 || touches[i].node != touches[i - 1].node) begins.push_back(i);
-  begins.push_back(touches.size());
-  constexpr std::size_t few = 64;
-  parallel_ranges(begins.size() - 1, few, [&](std::size_t i, std::size_t end) {
-    for (; i < end; ++i) {
-      const auto own = std::span(touches).subspan(begins[i], begins[i + 1] - begins[i]);
-      const std::uint32_t node = own.front().node;
-      const auto disk = disk_touching(context, own, skeleton.nodes[node], context.tolerance);
-      if (disk) skeleton.nodes[node] = *disk;
-      is_tie[node] = disk ? 1 : 0;
-    }
-  });
+  fit_ties(context, touches, skeleton, is_tie);
   std::erase_if(skeleton.edges, [&](Bone& edge) {
     const std::uint32_t one = nodes.find(edge.from);
     return one == nodes.find(edge.to) && is_tie[one] != 0;
