@@ -49,7 +49,6 @@ class Region {
 
   double tolerance() const { return tolerance_; }
   void take(const Disk& disk) { taken_.push_back(disk); }
-  bool is_simple() const { return edges_.size() <= 4 * few_carriers; }
 
   /// The largest disk around a point.
   struct Room {
