@@ -160,11 +160,15 @@ struct Seeded {
 };
 void PrintTo(const Seeded& shape, std::ostream* out) { *out << shape.name << shape.seed; }
 
-class TiesOfPolygons : public testing::TestWithParam<Seeded> {};
+std::string name_of_seeded(const testing::TestParamInfo<Seeded>& tested) {
+  return std::string(tested.param.name) + std::to_string(tested.param.seed % 10000);
+}
+
+class SeededShapes : public testing::TestWithParam<Seeded> {};
 
 /// From which end the walk comes to an edge, in which order contacts are found, and how centres are
 /// rounded does not matter.
-TEST_P(TiesOfPolygons, AreContractedAlikeUnderAllSymmetries) {
+TEST_P(SeededShapes, HaveOneAxisUnderAllSymmetries) {
   const Finding finding = examine_nasty(class_of(GetParam().name), GetParam().seed, false, {});
   EXPECT_EQ(finding.fault, Fault::none) << finding.words;
 }
@@ -179,9 +183,7 @@ constexpr std::array<Seeded, 7> ties{{{"slits", 20261127000809},
                                       {"groups", 20261127920001672},
                                       {"groups", 20261128000000355}}};
 
-INSTANTIATE_TEST_SUITE_P(Cases, TiesOfPolygons, testing::ValuesIn(ties), [](const auto& tested) {
-  return std::string(tested.param.name) + std::to_string(tested.param.seed % 10000);
-});
+INSTANTIATE_TEST_SUITE_P(TiesOfPolygons, SeededShapes, testing::ValuesIn(ties), name_of_seeded);
 
 class GraphsWithArcs : public testing::TestWithParam<Seeded> {};
 
@@ -199,17 +201,7 @@ constexpr std::array<Seeded, 5> graphs_with_arcs{{{"circles", 20261127920000229}
                                                   {"tangents", 20261127920000030}}};
 
 INSTANTIATE_TEST_SUITE_P(Cases, GraphsWithArcs, testing::ValuesIn(graphs_with_arcs),
-                         [](const auto& tested) {
-                           return std::string(tested.param.name) +
-                                  std::to_string(tested.param.seed % 1000);
-                         });
-
-class ShapesOfArcs : public testing::TestWithParam<Seeded> {};
-
-TEST_P(ShapesOfArcs, HaveOneAxisUnderAllSymmetries) {
-  const Finding finding = examine_nasty(class_of(GetParam().name), GetParam().seed, false, {});
-  EXPECT_EQ(finding.fault, Fault::none) << finding.words;
-}
+                         name_of_seeded);
 
 /// A disk touches the end of an arc that it is too large for, beside a smooth joint and a blunt
 /// one; `verify` put the foot of an arc's centre at its wrong end; the box of a mirror image was
@@ -222,11 +214,7 @@ constexpr std::array<Seeded, 7> shapes_of_arcs{{{"tangents", 20261128400000783},
                                                 {"bars", 20261128200001158},
                                                 {"circles", 20261128300000162}}};
 
-INSTANTIATE_TEST_SUITE_P(Cases, ShapesOfArcs, testing::ValuesIn(shapes_of_arcs),
-                         [](const auto& tested) {
-                           return std::string(tested.param.name) +
-                                  std::to_string(tested.param.seed % 10000);
-                         });
+INSTANTIATE_TEST_SUITE_P(Arcs, SeededShapes, testing::ValuesIn(shapes_of_arcs), name_of_seeded);
 
 /// A triangle with an arc beside an edge of some roundings.
 struct ArcBesideASplinter {

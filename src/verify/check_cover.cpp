@@ -24,7 +24,7 @@ struct Stretch {
 };
 
 /// Where one disk touches a boundary edge. Next to the centre of an arc, rounding alone decides
-/// where the foot lies, and the disk is as near to all that it may be.
+/// where the foot lies: the disk touches all of the arc where it may lie.
 Stretch touched_by(const Problem& problem, const BoundaryEdge& on, std::uint32_t node) {
   const Vec2 center = problem.disk(node).center;
   const double foot = foot_at(on, center);

@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/pair.h"
 #include "base/spatial_order.h"
 #include "base/threads.h"
 
@@ -61,17 +62,11 @@ void for_each_piece(const BoundaryEdge& edge, const Visitor& visit) {
   }
 }
 
-/// Two numbers, worked on at once where the machine can.
-using Pair = double __attribute__((vector_size(16)));
-inline Pair both(double value) { return Pair{value, value}; }
 inline Pair pair_at(const double* place) {
   Pair pair;
   std::memcpy(&pair, place, sizeof pair);
   return pair;
 }
-inline Pair larger(Pair a, Pair b) { return a > b ? a : b; }
-
-inline Pair smaller(Pair a, Pair b) { return a < b ? a : b; }
 using Pairwise = decltype(Pair{} < Pair{});  // -1 where it holds
 inline bool all(Pairwise what) { return (what[0] & what[1]) != 0; }
 

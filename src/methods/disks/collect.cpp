@@ -10,6 +10,7 @@
 #include "axis/statistics.h"
 #include "base/memory.h"
 #include "base/numbers.h"
+#include "base/pair.h"
 #include "base/threads.h"
 #include "medial/query.h"
 #include "site/bisector.h"
@@ -115,16 +116,13 @@ Gluing glue(const std::vector<Placed>& placed, std::size_t bridge_count, std::ui
   return result;
 }
 
-/// Two numbers, worked on at once where the machine can.
-using Pair = double __attribute__((vector_size(16)));
-
 /// The disks at both ends of an edge.
 struct EndDisks {
   EndDisks(const Disk& from, const Disk& to, double a_slack) : ends{&from, &to}, slack(a_slack) {
     x = Pair{from.center.x, to.center.x};
     y = Pair{from.center.y, to.center.y};
     const Pair radius{from.radius, to.radius}, least = radius - slack, most = radius + slack;
-    squared_least = least > 0 ? least * least : Pair{};
+    squared_least = larger(least, both(0)) * larger(least, both(0));
     squared_most = most * most;
   }
 
@@ -134,8 +132,7 @@ struct EndDisks {
     const Pair dx = x - site.point.x, dy = y - site.point.y;
     const Pair along = site.direction.x * dx + site.direction.y * dy;
     const Pair height = site.direction.x * dy - site.direction.y * dx;
-    const Pair length{site.length, site.length};
-    const Pair ahead = along > 0 ? along : Pair{}, foot = ahead < length ? ahead : length;
+    const Pair foot = smaller(larger(along, both(0)), both(site.length));
     const Pair beside_x = dx - foot * site.direction.x, beside_y = dy - foot * site.direction.y;
     const Pair squared = beside_x * beside_x + beside_y * beside_y;
     // Nor do they lie behind the site, where they get through a gap that rounding has closed.
