@@ -1,13 +1,13 @@
 // The classes of shapes on which rounding decides, by the thousand: a table of what goes wrong.
 //
-//   medial_nasty [--class NAME] [--count N] [--from SEED] [--seconds N] [--oracle K] [--planar 1]
+//   medial_nasty [--class NAME] [--count N] [--from SEED] [--seconds N] [--oracle K] [--planar 1|2]
 //                [--threads N] [--method NAME] [--save FOLDER]
 //
 // Each shape is computed and verified, and so are its mirror image, its image under a quarter turn,
 // under a power of two, and from another start, and with two threads: all must have one graph.
 // --oracle K: every K-th shape is a small one, and if all its edges are straight its graph is
 // compared with the true one (support/true_graph.h). --planar 1: planar graphs of the same edges,
-// of which some are left out, and their Voronoi diagrams. --seconds: for each class. --save: writes
+// of which some are left out, and their Voronoi diagrams; 2: with points beside edges. --seconds: for each class. --save: writes
 // the first failures of each kind, made smaller. Exit status 1 if anything goes wrong.
 
 #include <array>
@@ -82,7 +82,7 @@ void save(const Switches& switches, const NastyClass& one, std::uint64_t seed, b
 
 /// One class: the number of shapes of each fault.
 Faults run(const Switches& switches, const NastyClass& one) {
-  NastyOptions options{.planar = switches.planar != 0};
+  NastyOptions options{.planar = switches.planar != 0, .points = switches.planar > 1};
   if (!switches.method.empty()) options.method = *method_from(switches.method);
   Faults faults;
   std::map<Fault, int> saved;
@@ -174,7 +174,7 @@ int main(int count, char** arguments) {
   if (!medial::test::parse(count, arguments, switches)) {
     std::fprintf(stderr,
                  "usage: medial_nasty [--class NAME] [--count N] [--from SEED] [--seconds N]\n"
-                 "                    [--oracle K] [--planar 1] [--threads N] [--method NAME]\n"
+                 "                    [--oracle K] [--planar 1|2] [--threads N] [--method NAME]\n"
                  "                    [--save FOLDER]\n");
     return 2;
   }

@@ -19,14 +19,22 @@ bool is_vertex(const MedialAxis& axis, std::uint32_t own) {
   return axis.sites[own].kind == SiteKind::vertex;
 }
 
-/// A site seen from an origin; of an arc longer than a quarter of a circle, the half next to a
-/// place.
-site::Site seen_from(const Site& site, Vec2 origin, Vec2 near) {
-  if (site.kind == SiteKind::vertex) return site::make_vertex(site.start - origin);
-  const site::Pieces pieces = site::pieces_of(site.start - origin, site.end - origin, site.bulge);
+/// A site seen from an origin, in a unit of its own; of an arc longer than a quarter of a circle,
+/// the half next to a place.
+site::Site seen_from(const Site& site, Vec2 origin, double unit, Vec2 near) {
+  const auto seen = [&](Vec2 p) { return unit * (p - origin); };
+  if (site.kind == SiteKind::vertex) return site::make_vertex(seen(site.start));
+  const site::Pieces pieces = site::pieces_of(seen(site.start), seen(site.end), site.bulge);
   const bool first = pieces.count == 1 || site::squared_distance(pieces.first(), near) <=
                                               site::squared_distance(pieces.last(), near);
   return first ? pieces.first() : pieces.last();
+}
+
+/// How far the foot on a site moves between two centres, up to a factor.
+double foot_way(const Site& site, Vec2 from, Vec2 to) {
+  const double size = distance(site.start, from);
+  const site::Site seen = seen_from(site, from, size > 0 ? 1 / size : 1, {0, 0});
+  return site::carrier_parameter(seen, (1 / size) * (to - from)) - site::carrier_parameter(seen, {0, 0});
 }
 
 /// The disk through a point that grows in a direction until it touches an arc, if rounding leaves
@@ -57,11 +65,15 @@ void add_piece(const MedialAxis& axis, std::vector<E>& edges, std::size_t e, boo
 }  // namespace
 
 void take_control(const Site& left, const Site& right, ConicEdge& part) {
-  const Vec2 origin = part.from.center, middle = midpoint({0, 0}, part.to.center - origin);
-  const site::Control control =
-      site::control_of(seen_from(left, origin, middle), seen_from(right, origin, middle),
-                       {{0, 0}, part.from.radius}, {part.to.center - origin, part.to.radius});
-  part.control = {control.point.center + origin, control.point.radius};
+  // Rounding is measured against a size of about one.
+  const Vec2 origin = part.from.center, way = part.to.center - origin;
+  const double size = std::max({norm(way), part.from.radius, part.to.radius});
+  const double unit = size > 0 ? std::exp2(-std::ilogb(size)) : 1;
+  const Vec2 middle = midpoint({0, 0}, unit * way);
+  const site::Control control = site::control_of(
+      seen_from(left, origin, unit, middle), seen_from(right, origin, unit, middle),
+      {{0, 0}, unit * part.from.radius}, {unit * way, unit * part.to.radius});
+  part.control = {origin + (1 / unit) * control.point.center, control.point.radius / unit};
   part.weight = control.weight;
 }
 
@@ -83,8 +95,13 @@ Status split_long_edges(MedialAxis& axis, std::vector<E>& edges, bool parabolas)
     // way around.
     const double sign = side == 1 ? -1 : 1;
     double turn = sign * std::atan2(cross(from, to), dot(from, to));
-    constexpr double backward = 1e-6;  // by rounding
-    if (turn < -backward) turn += 2 * std::numbers::pi;
+    // Along one part of a bisector both feet go forward, or by rounding both backward: where only
+    // the one around the vertex seems to go backward, it goes all around.
+    constexpr double backward = 1e-6;
+    const double onward = sign * foot_way(other, axis.nodes[edge.node[0]].disk.center,
+                                          axis.nodes[edge.node[1]].disk.center);
+    if (turn < -backward || (turn < 0 && onward > 0) || edge.node[0] == edge.node[1])
+      turn += 2 * std::numbers::pi;
     const double pieces = std::ceil(turn / (0.5 * std::numbers::pi));
     std::uint32_t last = edge.node[0];
     for (double k = 1; k < pieces; ++k) {

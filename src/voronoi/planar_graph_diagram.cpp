@@ -59,6 +59,7 @@ class Assembly {
     const auto broken = [](const char* text) { return Error{ErrorCode::internal, text, {}}; };
     make_own_sites(numbers);
     if (!make_chains()) return broken("a Voronoi face is not connected");
+    turn_cycles();
     if (!find_ends()) return broken("a Voronoi face has no edge");
     if (!make_spokes()) return broken("a Voronoi face has a gap");
     make_nodes();
@@ -205,6 +206,46 @@ class Assembly {
       }
       if (l > 0) visit(first, own, l);
     }
+  }
+
+  /// Whether the edges along an own site make a cycle: around a lone point, or along an edge around
+  /// the cell of a point that is next to it.
+  bool is_cycle(std::uint32_t own) const {
+    return chain_begin_[own + 1] - chain_begin_[own] > 1 && first_[own] == last_[own];
+  }
+
+  /// Makes an own site's cycle begin where its neighbours in the loop end and begin; of two cycles,
+  /// in a node of both.
+  void turn_cycle(std::uint32_t own, std::uint32_t before, std::uint32_t after) {
+    const std::span<Step> steps = chain(own);
+    const auto begins_at = [&](std::uint32_t node) {
+      return ranges::find_if(steps, [&](const Step& step) { return step.from == node; });
+    };
+    auto begin = steps.end();
+    if (!is_cycle(before)) begin = begins_at(last_[before]);
+    if (begin == steps.end() && !is_cycle(after)) begin = begins_at(first_[after]);
+    if (begin == steps.end())
+      for (const Step& step : chain(before))
+        if (begin == steps.end()) begin = begins_at(step.from);
+    if (begin == steps.end()) return;
+    std::rotate(steps.begin(), begin, steps.end());
+    first_[own] = last_[own] = steps.front().from;
+  }
+
+  void turn_cycles() {
+    for_each_loop([&](std::uint32_t first, std::uint32_t last, std::size_t) {
+      if (last - first == 1) return;  // a lone point
+      const auto has_edges = [&](std::uint32_t own) { return !chain(own).empty(); };
+      for (std::uint32_t own = first; own < last; ++own) {
+        if (!is_cycle(own)) continue;
+        std::uint32_t before = own, after = own;
+        do before = before == first ? last - 1 : before - 1;
+        while (!has_edges(before));
+        do after = after + 1 == last ? first : after + 1;
+        while (!has_edges(after));
+        turn_cycle(own, before, after);
+      }
+    });
   }
 
   /// Of own sites without edges, the node that they are touched in: that of the site before. False

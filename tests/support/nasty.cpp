@@ -364,4 +364,26 @@ std::vector<Chain> nasty_chains(const NastyClass& one, std::uint64_t seed, bool 
   return chains;
 }
 
+std::vector<Chain> nasty_chains_and_points(const NastyClass& one, std::uint64_t seed, bool small) {
+  Random random(seed ^ 0x27d4eb2f);
+  std::vector<Chain> chains = nasty_chains(one, seed, small);
+  Box box = Box::nothing();
+  for (const Chain& chain : chains)
+    for (const Vec2 p : chain.points) box.add(p);
+  const double size = distance(box.low, box.high);
+  for (std::size_t i = 0, count = chains.size(); i < count; ++i)
+    for (std::size_t k = 0; k + 1 < chains[i].points.size(); ++k) {
+      if (!random.chance(0.3)) continue;
+      const Vec2 a = chains[i].points[k], chord = chains[i].points[k + 1] - a;
+      const double angle = chains[i].bulges.empty() ? 0 : 2 * std::atan(chains[i].bulges[k]);
+      const double t = random.between(0, 1), away = size * random.power_of_ten(-15, -12.5);
+      const Vec2 on = angle == 0 ? a + t * chord
+                                 : a + std::sin(t * angle) / std::sin(angle) *
+                                           turned(chord, (t - 1) * angle);
+      const Vec2 normal = turned(left_of(chord), (2 * t - 1) * angle);
+      chains.push_back({{on + (random.chance(0.5) ? away : -away) / norm(normal) * normal}});
+    }
+  return chains;
+}
+
 }  // namespace medial::test

@@ -139,7 +139,8 @@ Finding examine_nasty(const std::vector<Chain>& chains, const NastyOptions&) {
 
 Finding examine_nasty(const NastyClass& one, std::uint64_t seed, bool small,
                       const NastyOptions& options) {
-  Finding finding = options.planar ? examine_nasty(nasty_chains(one, seed, small), options)
+  const auto chains = options.points ? nasty_chains_and_points : nasty_chains;
+  Finding finding = options.planar ? examine_nasty(chains(one, seed, small), options)
                                    : examine_nasty(nasty_shape(one, seed, small), options);
   if (finding.fault > Fault::refused)
     finding.words = "seed " + std::to_string(seed) + (small ? ", small: " : ": ") + finding.words;

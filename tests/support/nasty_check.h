@@ -38,6 +38,7 @@ struct NastyOptions {
   Method method = method::Disks{};
   bool oracle = false;  ///< compare with true_graph(): a polygon of few sites
   bool planar = false;  ///< planar graphs of the same edges, and their diagrams
+  bool points = false;  ///< beside their edges as well
 };
 
 Finding examine_nasty(const Rings& rings, const NastyOptions& options);
