@@ -14,9 +14,9 @@ namespace {
 using site::Site;
 
 /// What rounding may add to the distance of a disk's centre from a site, for local coordinates
-/// below 2 and distances below 4, and to the end of a site; sites this much further away are looked
-/// at as well.
-constexpr double rounding = 0x1p-48;
+/// below 2 and distances below 4, and to the end of a site, and by how much more it may be where
+/// radii are not apart; sites this much further away are looked at as well.
+constexpr double rounding = 0x1p-48 + 2 * FirstTouch::apart;
 
 /// What single precision (u = 2^-24) may add to the distance of a disk's centre from a box or a
 /// slab, for radii below 4. The centre lies below 8 and rounds by 4 u in each coordinate; the
@@ -126,10 +126,12 @@ void FirstTouch::search_block(std::uint32_t block, Search& search) const {
     if (entry.index >= search.first && entry.index <= search.last) return;
     if (groups_[entry.index] != search.group) return;
     const double smaller = site::touching_radius(search.foot, search.direction, entry.site);
+    if (search.found && std::abs(smaller - search.radius) <= apart) ++search.found->count;
     if (!(smaller < search.radius)) return;
+    const bool ties = search.found && smaller >= search.radius - apart;
     search.radius = smaller;
     search.center = search.foot + smaller * search.direction;
-    search.found = {entry.index, smaller};
+    search.found = {entry.index, smaller, ties ? search.found->count : 1};
   };
   std::size_t i = block * block_size;
   const std::size_t end = std::min(i + block_size, entries_.size());

@@ -27,7 +27,10 @@ class FirstTouch {
   struct Touch {
     std::uint32_t site = 0;
     double radius = 0;
+    std::uint32_t count = 1;  ///< of sites that it reaches there, but for `apart`
   };
+  /// Radii that differ by more do so however they round.
+  static constexpr double apart = 0x1p-46;
   /// The first site that the disk of radius r around foot + r direction reaches, from either side,
   /// while r grows from 0 to `largest`, of all sites of the group but those from first to last,
   /// both included; none where it reaches none. Of sites that it reaches at the same radius, any.

@@ -54,9 +54,7 @@ Certainty::Certainty(const Boundary& boundary, double tolerance, const Span& spa
     for (const std::uint32_t i : {span.right, fourth, span.left})
       if (!fits(i, tolerance)) return;
   certain_ = error_ <= well_known * to_.radius || touches(fourth, tolerance);
-  // Next to arcs nobody looks ahead for what a disk on a short way may have missed by its error.
-  const bool misses_little = !boundary.has_arcs || error_ <= tolerance;
-  if (!certain_ || moves_forward() || (misses_little && comes_before(fourth))) return;
+  if (!certain_ || moves_forward() || comes_before(fourth)) return;
   tie_ = true;
   certain_ = boundary.has_arcs && ties && is_one_tie(0.5 * tolerance);
 }
@@ -97,6 +95,8 @@ bool Certainty::touches(std::uint32_t third, double slack) const {
 
 bool Certainty::is_one_tie(double slack) const {
   if (span_.third >= boundary_.sites.size()) return false;
+  // Where a foot has just passed a joint, any disk that touches there touches both sites.
+  if (span_.third + 1 == span_.right || span_.third == span_.left + 1) return false;
   const Contact other = contact(span_.third);
   return std::abs(other.residual) + other.unsure <= slack;
 }

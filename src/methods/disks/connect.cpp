@@ -139,19 +139,34 @@ class Connector {
       touch = first_touch_.find(foot, outreach, radius, component, own.first, own.last);
     }
     if (touch) radius = touch->radius;
-    const bool is_precise = !in_precise_.empty() && in_precise_[component];
-    if (exact_ != nullptr && (is_precise || radius <= exact_bridges))
-      if (const auto bridge = exact_bridge(hole, foot, radius)) return *bridge;
-    found_.push_back(radius);
     Bridge bridge{{foot + radius * outreach, radius}, hole, touch ? touch->site : own.first};
     if (loops_.two_sided && touch)
       bridge.site = facing_site(loops_, first_touch_, component, bridge.site, bridge.disk.center);
     bridge.site =
         owner_of_foot(loops_, run_of(loops_, bridge.site), bridge.site, bridge.disk.center);
+    const bool is_precise = !in_precise_.empty() && in_precise_[component];
+    const bool is_clear =
+        radius > exact_bridges && touch && (loops_.two_sided || touches_alone(bridge, touch->count));
+    if (exact_ != nullptr && (is_precise || !is_clear))
+      if (const auto exact = exact_bridge(hole, foot, radius)) return *exact;
+    found_.push_back(radius);
     return bridge;
   }
 
  private:
+  /// Whether nothing but a bridge's site is touched, as far as double can tell: one edge of `count`
+  /// that the disk reaches, or the vertex between two of them, away from where either begins.
+  bool touches_alone(const Bridge& bridge, std::uint32_t count) const {
+    constexpr double rounding = site::FirstTouch::apart;
+    const std::uint32_t site = bridge.site;
+    if (loops_.elements[site] == Element::edge) return count == 1;
+    const Boundary::SiteRange run = run_of(loops_, site);
+    const Site& before = loops_.sites[site == run.first ? run.last : site - 1];
+    const Site& after = loops_.sites[site == run.last ? run.first : site + 1];
+    const Vec2 center = bridge.disk.center;
+    return count == 2 && site::carrier_parameter(before, center) >= before.length + rounding &&
+           site::carrier_parameter(after, center) <= -rounding;
+  }
   /// The bridge among all sites that a disk from `foot` nearly reaches, which has about this radius
   /// in double. Where it touches none of them after all, among those that larger ones reach.
   std::optional<Bridge> exact_bridge(std::uint32_t hole, Vec2 foot, double radius) const {

@@ -105,7 +105,7 @@ class Walker {
       if (!in_double) decide(step, from);
       find_parts(step, from);
       // What double leaves open next to its disk may have come before it.
-      if (in_double && contacts_.is_certain() && !are_certain(parts_) && decide(step, from))
+      if (in_double && looks_ahead() && !are_certain(parts_) && decide(step, from))
         find_parts(step, from);
       step.is_open = false;
       if (parts_.empty()) return;
@@ -162,9 +162,11 @@ class Walker {
     look_ahead(event.disk);
   }
 
+  bool looks_ahead() const { return context_.exact != nullptr && !is_exact_; }
+
   /// What double takes for the events after the parts' node.
   void look_ahead(const Disk& disk) {
-    if (!contacts_.is_certain() || is_exact_) return;
+    if (!looks_ahead()) return;
     for (Step& part : parts_) {
       part.is_open = needs_walk(part.span);
       if (part.is_open) propose(part, disk);
