@@ -210,8 +210,9 @@ INSTANTIATE_TEST_SUITE_P(Cases, GraphsWithArcs, testing::ValuesIn(graphs_with_ar
 /// A disk touches the end of an arc that it is too large for, beside a smooth joint and a blunt
 /// one; `verify` put the foot of an arc's centre at its wrong end; the box of a mirror image was
 /// rounded otherwise; a step on a short way was taken to be certain that had passed a vertex; and
-/// what a disk had missed by its error came before it.
-constexpr std::array<Seeded, 11> shapes_of_arcs{{{"tangents", 20261128400000783},
+/// what a disk had missed by its error came before it; or the exact disk came before one in a tie with its
+/// node.
+constexpr std::array<Seeded, 13> shapes_of_arcs{{{"tangents", 20261128400000783},
                                                 {"bars", 20261128650028511},
                                                 {"bars", 20261128600002097},
                                                 {"bars", 20261128500002378},
@@ -221,6 +222,8 @@ constexpr std::array<Seeded, 11> shapes_of_arcs{{{"tangents", 20261128400000783}
                                                 {"bars", 20261129100039077},
                                                 {"bars", 20261129100053364},
                                                 {"bars", 20261129100054138},
+                                                {"bars", 20261129100009610},
+                                                {"bars", 20261129100015314},
                                                 {"circles", 20261129100035737}}};
 
 INSTANTIATE_TEST_SUITE_P(Arcs, SeededShapes, testing::ValuesIn(shapes_of_arcs), name_of_seeded);

@@ -56,6 +56,7 @@ class Walker {
     bool is_proposed = false;
     bool is_certain = false;
     bool is_tie = false;  ///< the event's disk touches several sites
+    bool joins_node = false;  ///< the event is certain as one tie with the span's node
   };
 
   /// Walks all of a run from a disk that touches its ends.
@@ -104,8 +105,9 @@ class Walker {
       const bool in_double = step.is_certain;
       if (!in_double) decide(step, from);
       find_parts(step, from);
-      // What double leaves open next to its disk may have come before it.
-      if (in_double && looks_ahead() && !are_certain(parts_) && decide(step, from))
+      // What double leaves open next to its disk may have come before it; but among arcs all that a
+      // node touches within the tolerance is one tie.
+      if (in_double && looks_ahead(step) && !are_certain(parts_) && decide(step, from))
         find_parts(step, from);
       step.is_open = false;
       if (parts_.empty()) return;
@@ -137,7 +139,7 @@ class Walker {
     parts_.clear();
     if (step.is_tie) {
       split(span, event.disk, event.site, false);
-      look_ahead(event.disk);
+      look_ahead(step);
       return;
     }
     const bool moves = event.disk.center != from.center || event.disk.radius != from.radius;
@@ -159,14 +161,17 @@ class Walker {
         parts_.push_back({{event.site, span.left, span.node, span.right, step.error, moves}});
         parts_.push_back({{span.right, event.site, span.node, span.left, step.error, moves}});
     }
-    look_ahead(event.disk);
+    look_ahead(step);
   }
 
-  bool looks_ahead() const { return context_.exact != nullptr && !is_exact_; }
+  bool looks_ahead(const Step& step) const {
+    return context_.exact != nullptr && !is_exact_ && !(boundary_.has_arcs && step.joins_node);
+  }
 
   /// What double takes for the events after the parts' node.
-  void look_ahead(const Disk& disk) {
-    if (!looks_ahead()) return;
+  void look_ahead(const Step& step) {
+    if (!looks_ahead(step)) return;
+    const Disk& disk = step.event.disk;
     for (Step& part : parts_) {
       part.is_open = needs_walk(part.span);
       if (part.is_open) propose(part, disk);
@@ -277,6 +282,7 @@ class Walker {
     if (step.is_certain) return;
     const Certainty certainty(boundary_, context_.tolerance, span, from, step.event);
     step.error = certainty.error();
+    step.joins_node = certainty.is_tie();
     step.is_certain =
         certainty.is_certain() && (boundary_.has_arcs || is_settled(step, from, certainty));
     if (step.is_certain) ++chunk_.statistics.exact_filtered;
