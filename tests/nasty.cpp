@@ -7,8 +7,9 @@
 // under a power of two, and from another start, and with two threads: all must have one graph.
 // --oracle K: every K-th shape is a small one, and if all its edges are straight its graph is
 // compared with the true one (support/true_graph.h). --planar 1: planar graphs of the same edges,
-// of which some are left out, and their Voronoi diagrams; 2: with points beside edges. --seconds: for each class. --save: writes
-// the first failures of each kind, made smaller. Exit status 1 if anything goes wrong.
+// of which some are left out, and their Voronoi diagrams; 2: with points beside edges. --seconds:
+// for each class. --save: writes the first failures of each kind, made smaller. Exit status 1 if
+// anything goes wrong.
 
 #include <array>
 #include <atomic>

@@ -177,15 +177,15 @@ TEST_P(SeededShapes, HaveOneAxisUnderAllSymmetries) {
 /// parts far from each other, a gap through which the radius shrinks and grows again, and three
 /// bridges to one of two vertices that double does not tell apart.
 constexpr std::array<Seeded, 10> ties{{{"slits", 20261127000809},
-                                      {"rings", 20261127001358},
-                                      {"splinters", 20261127000354},
-                                      {"groups", 20261127920001377},
-                                      {"groups", 20261127920001482},
-                                      {"groups", 20261127920001672},
-                                      {"groups", 20261128000000355},
-                                      {"groups", 20261129100017374},
-                                      {"groups", 20261129100055343},
-                                      {"groups", 20261129100097366}}};
+                                       {"rings", 20261127001358},
+                                       {"splinters", 20261127000354},
+                                       {"groups", 20261127920001377},
+                                       {"groups", 20261127920001482},
+                                       {"groups", 20261127920001672},
+                                       {"groups", 20261128000000355},
+                                       {"groups", 20261129100017374},
+                                       {"groups", 20261129100055343},
+                                       {"groups", 20261129100097366}}};
 
 INSTANTIATE_TEST_SUITE_P(TiesOfPolygons, SeededShapes, testing::ValuesIn(ties), name_of_seeded);
 
@@ -210,21 +210,21 @@ INSTANTIATE_TEST_SUITE_P(Cases, GraphsWithArcs, testing::ValuesIn(graphs_with_ar
 /// A disk touches the end of an arc that it is too large for, beside a smooth joint and a blunt
 /// one; `verify` put the foot of an arc's centre at its wrong end; the box of a mirror image was
 /// rounded otherwise; a step on a short way was taken to be certain that had passed a vertex; and
-/// what a disk had missed by its error came before it; or the exact disk came before one in a tie with its
-/// node.
+/// what a disk had missed by its error came before it; or the exact disk came before one in a tie
+/// with its node.
 constexpr std::array<Seeded, 13> shapes_of_arcs{{{"tangents", 20261128400000783},
-                                                {"bars", 20261128650028511},
-                                                {"bars", 20261128600002097},
-                                                {"bars", 20261128500002378},
-                                                {"bars", 20261128200001004},
-                                                {"bars", 20261128200001158},
-                                                {"circles", 20261128300000162},
-                                                {"bars", 20261129100039077},
-                                                {"bars", 20261129100053364},
-                                                {"bars", 20261129100054138},
-                                                {"bars", 20261129100009610},
-                                                {"bars", 20261129100015314},
-                                                {"circles", 20261129100035737}}};
+                                                 {"bars", 20261128650028511},
+                                                 {"bars", 20261128600002097},
+                                                 {"bars", 20261128500002378},
+                                                 {"bars", 20261128200001004},
+                                                 {"bars", 20261128200001158},
+                                                 {"circles", 20261128300000162},
+                                                 {"bars", 20261129100039077},
+                                                 {"bars", 20261129100053364},
+                                                 {"bars", 20261129100054138},
+                                                 {"bars", 20261129100009610},
+                                                 {"bars", 20261129100015314},
+                                                 {"circles", 20261129100035737}}};
 
 INSTANTIATE_TEST_SUITE_P(Arcs, SeededShapes, testing::ValuesIn(shapes_of_arcs), name_of_seeded);
 

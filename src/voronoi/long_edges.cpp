@@ -34,7 +34,8 @@ site::Site seen_from(const Site& site, Vec2 origin, double unit, Vec2 near) {
 double foot_way(const Site& site, Vec2 from, Vec2 to) {
   const double size = distance(site.start, from);
   const site::Site seen = seen_from(site, from, size > 0 ? 1 / size : 1, {0, 0});
-  return site::carrier_parameter(seen, (1 / size) * (to - from)) - site::carrier_parameter(seen, {0, 0});
+  return site::carrier_parameter(seen, (1 / size) * (to - from)) -
+         site::carrier_parameter(seen, {0, 0});
 }
 
 /// The disk through a point that grows in a direction until it touches an arc, if rounding leaves

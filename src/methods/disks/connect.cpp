@@ -145,8 +145,8 @@ class Connector {
     bridge.site =
         owner_of_foot(loops_, run_of(loops_, bridge.site), bridge.site, bridge.disk.center);
     const bool is_precise = !in_precise_.empty() && in_precise_[component];
-    const bool is_clear =
-        radius > exact_bridges && touch && (loops_.two_sided || touches_alone(bridge, touch->count));
+    const bool is_clear = radius > exact_bridges && touch &&
+                          (loops_.two_sided || touches_alone(bridge, touch->count));
     if (exact_ != nullptr && (is_precise || !is_clear))
       if (const auto exact = exact_bridge(hole, foot, radius)) return *exact;
     found_.push_back(radius);

@@ -124,7 +124,7 @@ class ExactEvents::Search {
   /// No two points of the local frame are further apart.
   static constexpr double furthest = 8;
   /// In the centre of more arcs of one circle up to rounding, 256 bits take too long.
-  static constexpr std::size_t most_around = 1024;
+  static constexpr std::size_t most_around = 1 << 14;
   /// An event nearer to the node than what this leaves of the way is touched by the node's disk.
   static constexpr int most_halvings = 128;
 

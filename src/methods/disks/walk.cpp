@@ -55,7 +55,7 @@ class Walker {
     bool is_open = true;  ///< a walk is needed there
     bool is_proposed = false;
     bool is_certain = false;
-    bool is_tie = false;  ///< the event's disk touches several sites
+    bool is_tie = false;      ///< the event's disk touches several sites
     bool joins_node = false;  ///< the event is certain as one tie with the span's node
   };
 
