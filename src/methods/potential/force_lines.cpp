@@ -74,8 +74,18 @@ bool ForceLines::advance(Vec2 p, Vec2 direction, double step, Vec2& q, Force& fo
       force = force_at(q, radius);
       return radius > 0;
     }
-    t -= g / slope;
+    const double change = -g / slope;
+    t += change;
     if (!(std::abs(t) <= 0.6 * step)) return false;
+    // The force so near by follows from its derivatives; the next term of Taylor's series is less
+    // than a quarter of the sine that counts.
+    if (std::abs(change) <= std::sqrt(0.5 * sine_enough) / (options_.order + 2) * radius) {
+      q = q + change * aside;
+      const double before = radius;
+      radius = distance_at(q);
+      force = force.moved((change / before) * aside, radius / before, options_.order);
+      return radius > 0;
+    }
   }
   return false;
 }
