@@ -203,8 +203,8 @@ TEST(BiarcDc, NodesOfHighDegreeAreOneDisk) {
   }
 }
 
-/// Disks that one disk stands for lie as near to each other as their radius allows: before, 17, 58
-/// and 24 of these were refused.
+/// Disks that one disk stands for, and what they touch, are as near as their radius allows: before,
+/// 17, 58 and 24 of these were refused.
 TEST(BiarcDc, TiesOfNarrowShapesAreAsNearAsTheirDisks) {
   std::map<std::string_view, int> refused;
   for (const NastyClass& one : nasty_classes()) {
@@ -220,7 +220,7 @@ TEST(BiarcDc, TiesOfNarrowShapesAreAsNearAsTheirDisks) {
     }
   }
   EXPECT_EQ(refused["strips"], 0);
-  EXPECT_LE(refused["slits"], 20);
+  EXPECT_LE(refused["slits"], 12);
   EXPECT_EQ(refused["rings"], 0);
 }
 
