@@ -28,8 +28,8 @@ std::vector<AxisWay> ways_between(const Skeleton& axis, const Skeleton& skeleton
   std::vector<std::vector<std::uint32_t>> links(count);
   for (std::uint32_t i = 0; i < axis.links.size(); ++i)
     for (const std::uint32_t end : axis.links[i]) links[end].push_back(i);
-  // Breadth first from all points at once: each link that no point is reached by ends a way.
   std::vector<AxisWay> ways;
+  // Breadth first from all points at once: each link that no point is reached by is in a way.
   std::vector<std::uint32_t> seed(count, none), reached_by(count, none), queue;
   for (const std::uint32_t point : points) {
     const std::uint32_t start = seen_from(axis, skeleton.points[point].place);
