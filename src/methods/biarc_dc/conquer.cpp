@@ -236,9 +236,12 @@ void fit_ties(const Context& context, const std::vector<TieContact>& touches, Sk
 /// (regular polygons): each of them saw the sites of its sub-shape only. So may a single node whose
 /// dividing disk misses a site of another sub-shape by some tolerances; it moves to all its sites.
 void join_ties(const Context& context, Skeleton& skeleton) {
-  const double reach = tie_reach * context.tolerance;
   const auto is_short = [&](const Bone& edge) {
     const Disk &a = skeleton.nodes[edge.from], &b = skeleton.nodes[edge.to];
+    // Where two disks that touch a site are d apart, those between them reach over it by some
+    // d^2 / radius: no more than the tolerance.
+    const double reach = std::min(tie_reach * context.tolerance,
+                                  std::sqrt(context.tolerance * std::min(a.radius, b.radius)));
     return a.radius > 0 && b.radius > 0 && distance(a.center, b.center) <= reach &&
            std::abs(a.radius - b.radius) <= reach;
   };

@@ -28,7 +28,10 @@ std::optional<Touch> touch_of(const Context& context, const Subshape& subshape, 
   // A disk as large as an arc's circle that touches the arc covers all of it.
   constexpr double same_circle = 1e-7;
   const Disk& disk = maximal.disk;
-  const double reach = disk.radius + context.tolerance;
+  // What a disk of some tolerances misses by a share of its radius is for another disk to touch.
+  constexpr double largest_share = 0x1p-7;
+  const double reach =
+      disk.radius + std::clamp(largest_share * disk.radius, context.rounding(), context.tolerance);
   const Element& element = subshape.elements[i];
   const Site& site = context.site(element);
   const auto contacts = maximal.contacts();

@@ -70,8 +70,8 @@ std::optional<Polygon> approximation(const Region& region, double tolerance) {
     for (std::size_t k = 0; k < kept.size(); ++k) {
       const Vec2 before = points[kept[(k + kept.size() - 1) % kept.size()]];
       const Vec2 here = points[kept[k]], next = points[kept[(k + 1) % kept.size()]];
-      if (cross(here - before, next - here) > 0)
-        result.corners.push_back(static_cast<std::uint32_t>(result.pieces.size()));
+      (cross(here - before, next - here) > 0 ? result.corners : result.reflex)
+          .push_back(static_cast<std::uint32_t>(result.pieces.size()));
       result.pieces.push_back({here, next, region.pieces[loop.begin + kept[k]].site});
       ring.points.push_back(here);
     }
@@ -88,15 +88,21 @@ std::optional<Polygon> approximation(const Region& region, double tolerance) {
 /// By force lines, or in the limit of high orders; nothing where neither gives one.
 std::optional<Skeleton> first_skeleton(const Polygon& polygon, const Charges& charges,
                                        const SkeletonOptions& options) {
+  std::vector<Skeleton> limits;
+  SkeletonOptions own = options;
+  own.axis = [&]() -> const Skeleton* {
+    const auto exact = compute(polygon.shape, {.cancel = options.cancel});
+    if (!exact) return nullptr;
+    limits =
+        limits_of(*exact, {&polygon.region, 1}, LocalFrame{}, options.step / polygon.region.size);
+    return &limits.front();
+  };
   if (options.order <= line_order) {
-    Skeleton traced = trace_valleys(polygon.region, charges, options);
+    Skeleton traced = trace_valleys(polygon.region, charges, own);
     if (traced.whole) return traced;
   }
-  const auto exact = compute(polygon.shape, {.cancel = options.cancel});
-  if (!exact) return std::nullopt;
-  Skeleton limit = std::move(
-      limits_of(*exact, {&polygon.region, 1}, LocalFrame{}, options.step / polygon.region.size)
-          .front());
+  if (limits.empty() && own.axis() == nullptr) return std::nullopt;
+  Skeleton limit = std::move(limits.front());
   if (options.order >= limit_order) return limit;
   SuccessorOptions search;
   search.order = options.order;

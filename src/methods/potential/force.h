@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -25,6 +26,12 @@ struct Force {
   double potential(double order) const { return -(xx + yy) / order; }
   double determinant() const { return xx * yy - xy * xy; }
   Vec2 derivative(Vec2 v) const { return {xx * v.x + xy * v.y, xy * v.x + yy * v.y}; }
+  /// That at a place `way` from here, in units of the distance to the nearest charge, which is
+  /// there `ratio` times what it is here: to first order, the derivatives as here.
+  Force moved(Vec2 way, double ratio, double order) const {
+    const double scale = std::pow(ratio, order), steep = scale * ratio;
+    return {scale * (force + derivative(way)), steep * xx, steep * xy, steep * yy};
+  }
 };
 
 /// Forces of all charges together ([ahuja1997], (5), (6), (8), (9)).

@@ -6,6 +6,25 @@
 namespace medial::potential {
 namespace {
 
+/// The step of Newton's method to where there is no force, in units of the distance to the border.
+Vec2 newton(const Force& force) {
+  const Vec2 f = force.force;
+  return (-1 / force.determinant()) *
+         Vec2{force.yy * f.x - force.xy * f.y, force.xx * f.y - force.xy * f.x};
+}
+
+/// The same, but downhill where the potential bends down: straight to a valley's floor, and along
+/// it. The force falls as fast in one of two directions at least.
+Vec2 downhill(const Force& force) {
+  const double angle = 0.5 * std::atan2(2 * force.xy, force.xx - force.yy);
+  const Vec2 along{std::cos(angle), std::sin(angle)}, across = left_of(along);
+  const auto step = [&](Vec2 way) {
+    const double slope = std::abs(dot(way, force.derivative(way)));
+    return slope > 0 ? (dot(force.force, way) / slope) * way : Vec2{};
+  };
+  return step(along) + step(across);
+}
+
 Vec2 blend(Vec2 direction, Vec2 force) {
   const Vec2 sum = direction + unit(force);
   return norm(sum) > 0.2 ? unit(sum) : unit(force);
@@ -55,8 +74,18 @@ bool ForceLines::advance(Vec2 p, Vec2 direction, double step, Vec2& q, Force& fo
       force = force_at(q, radius);
       return radius > 0;
     }
-    t -= g / slope;
+    const double change = -g / slope;
+    t += change;
     if (!(std::abs(t) <= 0.6 * step)) return false;
+    // The force so near by follows from its derivatives; the next term of Taylor's series is less
+    // than a quarter of the sine that counts.
+    if (std::abs(change) <= std::sqrt(0.5 * sine_enough) / (options_.order + 2) * radius) {
+      q = q + change * aside;
+      const double before = radius;
+      radius = distance_at(q);
+      force = force.moved((change / before) * aside, radius / before, options_.order);
+      return radius > 0;
+    }
   }
   return false;
 }
@@ -68,27 +97,19 @@ std::optional<ValleyPoint> ForceLines::critical_point(Vec2 p, bool minimum, doub
     const Force force = force_at(p, radius);
     if (!(radius > 0)) return std::nullopt;
     const double determinant = force.determinant();
-    Vec2 move;
-    if (minimum ? determinant > 0 : determinant < 0) {
-      move = {-radius * (force.yy * force.force.x - force.xy * force.force.y) / determinant,
-              -radius * (force.xx * force.force.y - force.xy * force.force.x) / determinant};
-    } else if (minimum) {
-      move = 0.3 * radius * unit(force.force);
-    } else {
-      return std::nullopt;
-    }
+    if (!minimum && !(determinant < 0)) return std::nullopt;
+    const Vec2 move = minimum ? radius * downhill(force) : radius * newton(force);
     const double size = norm(move);
     const double longest = 0.4 * reach(radius);
-    if (size > longest) move = (longest / size) * move;
     // Back and forth: a valley floor too flat for the arithmetic.
-    if (i > 30) move = 0.5 * move;
+    const double share = (i > 30 ? 0.5 : 1) * std::min(1.0, longest / size);
     if (size <= 1e-8 * radius || (i == 59 && size <= 0.01 * radius)) {
       if (minimum ? determinant > 0 : determinant < 0)
         return ValleyPoint{p, radius, valley_direction(force, options_.order),
                            minimum ? ValleyPoint::Kind::minimum : ValleyPoint::Kind::saddle};
       return std::nullopt;
     }
-    p = p + move;
+    p = p + share * move;
     if (!minimum && i > 40) return std::nullopt;
     // Down a level valley there is none for a long way.
     if (distance(p, start) > furthest) return std::nullopt;
@@ -257,8 +278,6 @@ class ForceLines::Walk {
 
   /// The line all but meets a saddle: on, to the side that the line is on.
   void pass(const ValleyPoint& saddle) {
-    trail_.weakest = 0;
-    trail_.place = saddle.place;
     direction_ = dot(here_.force.force, saddle.tangent) < 0 ? -saddle.tangent : saddle.tangent;
     trail_.points.push_back({saddle.place, saddle.radius, direction_, ValleyPoint::Kind::valley});
     here_.p = saddle.place + 0.25 * lines_.reach(saddle.radius) * direction_;
@@ -275,10 +294,6 @@ class ForceLines::Walk {
     here_ = there_;
     direction_ = unit(way);
     record(ValleyPoint::Kind::valley);
-    if (here_.force.determinant() < 0 && norm(here_.force.force) < trail_.weakest) {
-      trail_.weakest = norm(here_.force.force);
-      trail_.place = here_.p;
-    }
     if (share_ > 0 && joins(way)) return Next::ended;
     if (turn_ > 0.98) scale_ = std::min(longest, scale_ * 1.6);
     return Next::on;
@@ -330,26 +345,16 @@ bool ForceLines::settle(Vec2& p, double& radius, Force& force, Vec2& direction) 
   return false;
 }
 
-Label ForceLines::label_of(const Trail& trail) const {
-  if (trail.end == no_point) return {};
-  if (graph_.labels[trail.end].minimum != trail.end) return graph_.labels[trail.end];
-  const Vec2 valley = graph_.skeleton.points[trail.end].tangent;
-  const Vec2 last = trail.points.empty() ? Vec2{} : trail.points.back().tangent;
-  return {trail.end, dot(valley, last) > 0};
-}
-
-Label ForceLines::keep(std::uint32_t from, const Trail& trail) {
-  const Label label = label_of(trail);
+void ForceLines::keep(std::uint32_t from, const Trail& trail) {
   std::uint32_t last = from;
   for (const ValleyPoint& point : trail.points) {
     // A minimum may be made of the last point.
     if (trail.end != no_point && point.place == graph_.skeleton.points[trail.end].place) break;
-    const std::uint32_t index = graph_.add_point(point, label);
+    const std::uint32_t index = graph_.add_point(point);
     graph_.add_link(last, index);
     last = index;
   }
   if (trail.end != no_point) graph_.add_link(last, trail.end);
-  return label;
 }
 
 }  // namespace medial::potential

@@ -15,8 +15,6 @@ namespace medial::potential {
 struct Trail {
   std::vector<ValleyPoint> points;
   std::uint32_t end = no_point;  ///< a point of the skeleton; none: it ends nowhere
-  Vec2 place;                    ///< of a possible saddle: where the force was weakest on a ridge
-  double weakest = std::numeric_limits<double>::infinity();
 };
 
 /// v / |v|; (0, 0) for that.
@@ -79,9 +77,8 @@ class ForceLines {
   /// it comes as near to a known valley, in units of a step.
   Trail follow(Vec2 p, Vec2 direction, double share, Start start = Start::downward);
 
-  Label label_of(const Trail& trail) const;
   /// Makes a line part of the skeleton; `from` is the point that it leaves.
-  Label keep(std::uint32_t from, const Trail& trail);
+  void keep(std::uint32_t from, const Trail& trail);
 
   static constexpr double merge_share = 0.25;
 

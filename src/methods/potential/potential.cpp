@@ -294,7 +294,7 @@ class Tracing {
                             Statistics& statistics) {
     const Region& region = regions_[component];
     if (way == Way::lines) {
-      const std::optional<Skeleton> skeleton = traced(region, charges);
+      const std::optional<Skeleton> skeleton = traced(component, charges);
       if (skeleton) {
         std::optional<Refined> points =
             own_.order == skeleton->order
@@ -306,19 +306,23 @@ class Tracing {
         }
       }
     }
-    if (limits_.empty()) {
-      const Options& options = problem_.options;
-      const auto exact = compute(problem_.shape, {.corner_angle = options.corner_angle,
-                                                  .threads = options.threads,
-                                                  .cancel = options.cancel});
-      if (!exact) return exact.error();
-      limits_ = limits_of(*exact, regions_, problem_.frame, own_.step);
-    }
+    if (const auto error = find_limits()) return *error;
     const Skeleton limit = wanted(component, charges);
     if (way == Way::unmoved) return joined(unmoved(limit));
     if (own_.order > 0 && own_.order < limit_order)
       return joined(unmoved(descended(limit, charges, search(region, limit))));
     return joined(*successors_of(limit, charges, search(region, limit), unlimited));
+  }
+
+  std::optional<Error> find_limits() {
+    if (!limits_.empty()) return std::nullopt;
+    const Options& options = problem_.options;
+    const auto exact = compute(problem_.shape, {.corner_angle = options.corner_angle,
+                                                .threads = options.threads,
+                                                .cancel = options.cancel});
+    if (!exact) return exact.error();
+    limits_ = limits_of(*exact, regions_, problem_.frame, own_.step);
+    return std::nullopt;
   }
 
   /// The order of the first force lines.
@@ -329,8 +333,10 @@ class Tracing {
 
   /// By force lines, or from coarse to fine; nothing where these do not connect all. Between
   /// parallel sides low orders have a force where higher ones have none left.
-  std::optional<Skeleton> traced(const Region& region, const Charges& charges) {
+  std::optional<Skeleton> traced(std::uint32_t component, const Charges& charges) {
+    const Region& region = regions_[component];
     SkeletonOptions options;
+    options.axis = [&] { return find_limits() ? nullptr : &limits_[component]; };
     options.order = lines_order();
     options.step = own_.step * region.size;
     options.cancel = problem_.options.cancel;

@@ -81,6 +81,8 @@ std::vector<Region> regions_of(const Problem& problem, double chord) {
         const auto here = numbers.joints[loop.begin() + i];
         if (here == site::Joint::corner)
           region.corners.push_back(static_cast<std::uint32_t>(region.pieces.size()));
+        if (here == site::Joint::reflex)
+          region.reflex.push_back(static_cast<std::uint32_t>(region.pieces.size()));
         if (arc.bulge > 0) {
           const auto curvature_of = [&](std::uint32_t j) {
             return loop.bulge(j) == 0

@@ -25,6 +25,7 @@ struct Region {
   std::vector<Charge> pieces;
   std::vector<PieceLoop> loops;
   std::vector<std::uint32_t> corners;  ///< pieces that begin at a convex corner, ascending
+  std::vector<std::uint32_t> reflex;   ///< those that begin at a reflex one
   std::vector<Bend> bends;
   double chord = 0;  ///< how far chords are from their arcs at most
   double bend = 0;   ///< half of the largest turn between chords of one arc

@@ -1,8 +1,13 @@
 #include "methods/potential/saddles.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "methods/potential/axis_ways.h"
 
 namespace medial::potential {
 namespace {
@@ -113,58 +118,32 @@ class Circle {
   std::vector<Look> looks_;
 };
 
-/// Whether p lies inside of a polygon.
-bool encloses(const std::vector<Vec2>& polygon, Vec2 p) {
-  bool inside = false;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-    if ((a.y > p.y) == (b.y > p.y)) continue;
-    if (a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) > p.x) inside = !inside;
-  }
-  return inside;
-}
-
 }  // namespace
 
-Label SaddleSearch::probe(std::uint32_t piece, double share, Trail& trail) {
-  const Charge& charge = region_.pieces[piece];
-  const Vec2 along = charge.end - charge.start;
-  const Vec2 foot = charge.start + share * along;
-  const Vec2 inward = unit(left_of(along));
-  double height = std::min(0.1 * lines_.reach(std::numeric_limits<double>::infinity()),
-                           0.2 * std::min(share, 1 - share) * norm(along));
-  for (int i = 0; i < 40; ++i, height /= 2) {
-    const double radius = lines_.distance_at(foot + height * inward);
-    if (radius >= 0.999 * height) break;
-  }
-  trail = lines_.follow(foot + height * inward, inward, 0.1);
-  return lines_.label_of(trail);
+SaddleSearch::SaddleSearch(const Region& region, ValleyGraph& graph, ForceLines& lines)
+    : region_(region), graph_(graph), lines_(lines), holes_(region.holes()) {
+  std::iota(holes_.begin(), holes_.end(), 0U);
+  std::sort(holes_.begin(), holes_.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return region.loops[a + 1].inside.y < region.loops[b + 1].inside.y;
+  });
 }
 
-const SaddleSearch::Pass& SaddleSearch::pass_at(const ValleyPoint& saddle) {
-  for (const Pass& known : saddles_) {
-    if (distance(known.place, saddle.place) <= 0.2 * lines_.reach(saddle.radius)) return known;
-  }
-  pass(saddle, ForceLines::Start::downward);
-  return saddles_.back();
-}
-
-bool SaddleSearch::wanted(std::uint32_t from, std::span<const ValleyPoint> between,
-                          std::uint32_t to) {
-  if (from == no_point || to == no_point || from == to) return false;
-  if (!graph_.connected(from, to)) return true;
-  if (graph_.cycles() >= region_.holes()) return false;
-  std::vector<Vec2> cycle = graph_.way(to, from);
-  for (const ValleyPoint& point : between) cycle.push_back(point.place);
-  Box box{cycle.front(), cycle.front()};
-  for (const Vec2 p : cycle) {
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
-  }
+std::vector<bool> SaddleSearch::new_cycle(std::uint32_t from, std::span<const Vec2> between,
+                                          std::uint32_t to) {
   std::vector<bool> around(region_.holes());
-  for (std::size_t i = 0; i < around.size(); ++i) {
-    const Vec2 inside = region_.loops[i + 1].inside;
-    around[i] = contains(box, inside) && encloses(cycle, inside);
+  if (graph_.cycles() >= region_.holes()) return around;
+  std::vector<Vec2> cycle = graph_.way(to, from);
+  cycle.insert(cycle.end(), between.begin(), between.end());
+  const auto inside = [&](std::uint32_t hole) { return region_.loops[hole + 1].inside; };
+  for (std::size_t i = 0; i < cycle.size(); ++i) {
+    Vec2 a = cycle[i], b = cycle[(i + 1) % cycle.size()];
+    if (a.y > b.y) std::swap(a, b);
+    auto hole = std::partition_point(holes_.begin(), holes_.end(),
+                                     [&](std::uint32_t h) { return inside(h).y < a.y; });
+    for (; hole != holes_.end() && inside(*hole).y < b.y; ++hole) {
+      const Vec2 p = inside(*hole);
+      if (a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) > p.x) around[*hole] = !around[*hole];
+    }
   }
   // Less the cycles that are known, as sets: what is left must be a new one.
   for (const std::vector<bool>& known : cycles_) {
@@ -172,8 +151,22 @@ bool SaddleSearch::wanted(std::uint32_t from, std::span<const ValleyPoint> betwe
     if (!around[static_cast<std::size_t>(pivot)]) continue;
     for (std::size_t i = 0; i < around.size(); ++i) around[i] = around[i] != known[i];
   }
-  if (std::find(around.begin(), around.end(), true) == around.end()) return false;
-  cycles_.push_back(std::move(around));
+  return around;
+}
+
+bool SaddleSearch::is_new(std::uint32_t from, std::span<const Vec2> between, std::uint32_t to) {
+  if (from == no_point || to == no_point || (from == to && between.empty())) return false;
+  if (!graph_.connected(from, to)) return true;
+  const std::vector<bool> cycle = new_cycle(from, between, to);
+  return std::find(cycle.begin(), cycle.end(), true) != cycle.end();
+}
+
+bool SaddleSearch::wanted(std::uint32_t from, std::span<const ValleyPoint> between,
+                          std::uint32_t to) {
+  std::vector<Vec2> places;
+  for (const ValleyPoint& point : between) places.push_back(point.place);
+  if (!is_new(from, places, to)) return false;
+  if (graph_.connected(from, to)) cycles_.push_back(new_cycle(from, places, to));
   return true;
 }
 
@@ -207,115 +200,128 @@ void SaddleSearch::traverse() {
 void SaddleSearch::pass_necks(const Charges& charges) {
   // What is as near as the corner to the middle of the way is no nearer than rounding.
   constexpr double as_near = 0.999;
-  for (const Region::PieceLoop& loop : region_.loops) {
-    for (std::uint32_t i = loop.begin; i < loop.end && !complete() && !lines_.exhausted(); ++i) {
-      const Charge& before = region_.pieces[i == loop.begin ? loop.end - 1 : i - 1];
-      const Charge& after = region_.pieces[i];
-      const Vec2 out = after.end - after.start, back = before.start - before.end;
-      if (!(cross(out, back) < 0)) continue;
-      const Vec2 across = charges.nearest_ahead(after.start, out, back) - after.start;
-      const Vec2 middle = after.start + 0.5 * across;
-      const double radius = lines_.distance_at(middle);
-      if (!(radius > 0 && radius >= as_near * 0.5 * norm(across))) continue;
-      // The valleys through a neck that is wide beside a step need not pass its middle.
-      if (graph_.crossed(middle - 0.25 * across, middle + 0.25 * across, radius) != no_point)
-        continue;
-      const Vec2 tangent = left_of(unit(across));
-      pass({middle, radius, tangent, ValleyPoint::Kind::saddle}, ForceLines::Start::either);
-    }
+  for (const std::uint32_t piece : region_.reflex) {
+    if (complete() || lines_.exhausted()) return;
+    const Charge &before = region_.pieces[region_.before(piece)], &after = region_.pieces[piece];
+    const Vec2 out = after.end - after.start, back = before.start - before.end;
+    const Vec2 across = charges.nearest_ahead(after.start, out, back) - after.start;
+    const Vec2 middle = after.start + 0.5 * across;
+    const double radius = lines_.distance_at(middle);
+    if (!(radius > 0 && radius >= as_near * 0.5 * norm(across))) continue;
+    // The valleys through a neck that is wide beside a step need not pass its middle.
+    if (graph_.crossed(middle - 0.25 * across, middle + 0.25 * across, radius) != no_point)
+      continue;
+    const Vec2 tangent = left_of(unit(across));
+    pass({middle, radius, tangent, ValleyPoint::Kind::saddle});
   }
 }
 
-void SaddleSearch::pass(const ValleyPoint& point, ForceLines::Start start) {
-  const Trail one = lines_.follow(point.place, point.tangent, ForceLines::merge_share, start);
-  const Trail two = lines_.follow(point.place, -point.tangent, ForceLines::merge_share, start);
-  saddles_.push_back({point.place, lines_.label_of(one), lines_.label_of(two)});
+void SaddleSearch::pass(const ValleyPoint& point) {
+  const auto line = [&](Vec2 direction) {
+    return lines_.follow(point.place, direction, ForceLines::merge_share,
+                         ForceLines::Start::either);
+  };
+  const Trail one = line(point.tangent);
+  keep(point, one, line(-point.tangent));
+}
+
+void SaddleSearch::keep(const ValleyPoint& point, const Trail& one, const Trail& two) {
   std::vector<ValleyPoint> between(one.points.rbegin(), one.points.rend());
   between.push_back(point);
   between.insert(between.end(), two.points.begin(), two.points.end());
   if (!wanted(one.end, between, two.end)) return;
   const std::uint32_t index = graph_.add_point(point);
   ++graph_.skeleton.saddles;
-  graph_.labels[index] = lines_.keep(index, one);
+  lines_.keep(index, one);
   lines_.keep(index, two);
 }
 
-/// Looks for saddles between two places of a loop, the second one further on.
-void SaddleSearch::part_lines(const Region::PieceLoop& loop, const Sample& first,
-                              const Sample& second, bool sides, int depth) {
-  const bool same_minimum = first.label.minimum == second.label.minimum;
-  if (first.label.minimum == no_point || second.label.minimum == no_point || complete()) return;
-  if (lines_.exhausted()) return;
-  if (sides ? first.label == second.label
-            : same_minimum || graph_.connected(first.label.minimum, second.label.minimum))
-    return;
-  // Two lines that arrive from both sides may have nothing but their minimum in between.
-  if (depth > (same_minimum ? 14 : 44)) return;
-  Trail trail;
-  Sample middle{0.5 * (first.place + second.place), {}};
-  middle.label = probe_at(loop, middle.place, trail);
-  if (std::isfinite(trail.weakest)) {
-    const auto saddle = lines_.critical_point(trail.place, false);
-    if (saddle && distance(saddle->place, trail.place) <= 4 * lines_.reach(saddle->radius)) {
-      const Pass& pass = pass_at(*saddle);
-      if ((pass.one == first.label && pass.two == second.label) ||
-          (pass.two == first.label && pass.one == second.label))
-        return;
-    }
-  }
-  part_lines(loop, first, middle, sides, depth + 1);
-  part_lines(loop, middle, second, sides, depth + 1);
+Trail SaddleSearch::line_from(Vec2 place) {
+  double radius = 0;
+  const Vec2 direction = unit(lines_.force_at(place, radius).force);
+  Trail line = lines_.follow(place, direction, ForceLines::merge_share);
+  line.points.insert(line.points.begin(), {place, radius, direction, ValleyPoint::Kind::valley});
+  return line;
 }
 
-Label SaddleSearch::probe_at(const Region::PieceLoop& loop, double place, Trail& trail) {
-  const double count = loop.end - loop.begin;
-  double local = place - loop.begin;
-  if (local >= count) local -= count;
-  const double whole = std::min(std::floor(local), count - 1);
-  const double share = std::clamp(local - whole, 1e-9, 1 - 1e-9);
-  return probe(loop.begin + static_cast<std::uint32_t>(whole), share, trail);
-}
-
-void SaddleSearch::connect(const std::vector<Label>& corner_labels) {
-  if (graph_.skeleton.points.empty()) return;
-  // Ever more places of the border, until all is connected.
-  for (const int round : {0, 1, 2}) {
-    if (complete()) return;
-    for (std::size_t l = 0; l < region_.loops.size() && !complete(); ++l) {
-      const Region::PieceLoop& loop = region_.loops[l];
-      std::vector<Sample> samples = samples_of(l, round, corner_labels);
-      if (samples.empty()) continue;
-      samples.push_back(samples.front());
-      samples.back().place += loop.end - loop.begin;
-      for (std::size_t i = 0; i + 1 < samples.size(); ++i)
-        part_lines(loop, samples[i], samples[i + 1], round > 0, 0);
+void SaddleSearch::connect(const Skeleton& axis) {
+  std::vector<std::uint32_t> parts;  // a point of each, a minimum where there is one
+  std::vector<std::uint32_t> number(graph_.skeleton.points.size(), no_point);
+  for (std::uint32_t i = 0; i < number.size(); ++i) {
+    std::uint32_t& part = number[graph_.part(i)];
+    if (part == no_point) {
+      part = static_cast<std::uint32_t>(parts.size());
+      parts.push_back(i);
+    } else if (graph_.skeleton.points[i].kind == ValleyPoint::Kind::minimum) {
+      parts[part] = i;
     }
   }
+  for (const AxisWay& way : ways_between(axis, graph_.skeleton, parts))
+    part_lines(way.places, Trail{{}, way.from}, Trail{{}, way.to});
 }
 
-/// The convex corners of a loop, and as many places between them as the round asks for.
-std::vector<SaddleSearch::Sample> SaddleSearch::samples_of(
-    std::size_t l, int round, const std::vector<Label>& corner_labels) {
-  const Region::PieceLoop& loop = region_.loops[l];
-  std::vector<Sample> samples;
-  for (std::size_t i = 0; i < region_.corners.size(); ++i) {
-    const std::uint32_t piece = region_.corners[i];
-    if (piece >= loop.begin && piece < loop.end && corner_labels[i].minimum != no_point)
-      samples.push_back({static_cast<double>(piece), corner_labels[i]});
+bool SaddleSearch::lead_apart(std::span<const Vec2> way, const Trail& first, const Trail& last) {
+  if (complete() || lines_.exhausted()) return false;
+  std::vector<Vec2> between;
+  for (const ValleyPoint& point : first.points) between.push_back(point.place);
+  std::reverse(between.begin(), between.end());
+  between.insert(between.end(), way.begin(), way.end());
+  for (const ValleyPoint& point : last.points) between.push_back(point.place);
+  return is_new(first.end, between, last.end);
+}
+
+/// Where lines from both ends of a way lead to places that are not connected, or around a hole,
+/// those from some place in between part at a saddle.
+void SaddleSearch::part_lines(std::span<const Vec2> way, const Trail& first, const Trail& last) {
+  if (!lead_apart(way, first, last)) return;
+  std::array<Vec2, 3> halved{way.front(), midpoint(way.front(), way.back()), way.back()};
+  if (way.size() == 2) {
+    constexpr double near = 1.0 / 64;
+    const ValleyPoint& one = graph_.skeleton.points[first.end];
+    const ValleyPoint& two = graph_.skeleton.points[last.end];
+    // On a floor without slope each line ends where it begins.
+    if (distance(one.place, two.place) <= lines_.reach(std::min(one.radius, two.radius)) &&
+        wanted(first.end, {}, last.end))
+      return graph_.add_link(first.end, last.end);
+    if (distance(way[0], way[1]) <= near * lines_.reach(lines_.distance_at(halved[1])))
+      return join(way.front(), first, way.back(), last);
+    way = halved;
   }
-  const std::uint32_t count = loop.end - loop.begin;
-  const std::uint32_t wanted_probes = round == 2 ? count : round == 1 ? 16 : l == 0 ? 0 : 4;
-  if (samples.size() < wanted_probes || round == 2) {
-    const std::uint32_t stride = std::max(1U, count / std::max(1U, wanted_probes));
-    for (std::uint32_t i = 0; i < count; i += stride) {
-      Trail trail;
-      const double place = loop.begin + i + 0.5;
-      samples.push_back({place, probe_at(loop, place, trail)});
-    }
+  const std::size_t middle = way.size() / 2;
+  const Trail line = line_from(way[middle]);
+  part_lines(way.first(middle + 1), first, line);
+  part_lines(way.subspan(middle), line, last);
+}
+
+void SaddleSearch::join(Vec2 at_one, Trail one, Vec2 at_two, Trail two) {
+  constexpr double beside = 0.5;
+  const auto add_start = [](Trail& line, Vec2 place) {
+    if (line.points.empty()) line.points.push_back({place, 0, {}, ValleyPoint::Kind::valley});
+  };
+  add_start(one, at_one);
+  add_start(two, at_two);
+  std::size_t of_one = 0, of_two = 0;
+  for (std::size_t i = 0, k = 0; i < one.points.size(); ++i) {
+    const auto away = [&](std::size_t at) {
+      return distance(one.points[i].place, two.points[at].place);
+    };
+    while (k + 1 < two.points.size() && away(k + 1) < away(k)) ++k;
+    if (away(k) > beside * lines_.reach(one.points[i].radius)) break;
+    of_one = i, of_two = k;
   }
-  std::sort(samples.begin(), samples.end(),
-            [](const Sample& a, const Sample& b) { return a.place < b.place; });
-  return samples;
+  const Vec2 place = midpoint(one.points[of_one].place, two.points[of_two].place);
+  const double radius = lines_.distance_at(place);
+  const auto saddle = lines_.critical_point(place, false, lines_.reach(radius));
+  const Vec2 along = unit(two.points.back().place - one.points.back().place);
+  const ValleyPoint middle =
+      saddle ? *saddle : ValleyPoint{place, radius, along, ValleyPoint::Kind::saddle};
+  const auto cut = [](Trail& line, std::size_t last) {
+    line.points.erase(line.points.begin(),
+                      line.points.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+  };
+  cut(one, of_one);
+  cut(two, of_two);
+  keep(middle, one, two);
 }
 
 }  // namespace medial::potential

@@ -79,12 +79,14 @@ class Tracer {
   void trace_lines() {
     trace_corners();
     trace_bends();
-    if (!graph_.skeleton.points.empty()) return;
-    Trail trail;
-    saddles_.probe(0, 0.5, trail);
+    if (graph_.skeleton.points.empty()) trace_side();
   }
 
-  void connect() { saddles_.connect(corner_labels_); }
+  /// Along the exact axis, which is asked for only where lines leave something apart.
+  void connect() {
+    if (complete() || lines_.exhausted() || !options_.axis) return;
+    if (const Skeleton* axis = options_.axis()) saddles_.connect(*axis);
+  }
   void traverse() {
     saddles_.traverse();
     saddles_.pass_necks(charges_);
@@ -122,9 +124,7 @@ class Tracer {
   }
 
   void trace_corners() {
-    corner_labels_.resize(region_.corners.size());
-    for (std::size_t i = 0; i < region_.corners.size(); ++i) {
-      const std::uint32_t piece = region_.corners[i];
+    for (const std::uint32_t piece : region_.corners) {
       const Vec2 corner = region_.pieces[piece].start;
       Vec2 p, direction;
       const bool found = corner_start(piece, p, direction);
@@ -133,9 +133,18 @@ class Tracer {
       double radius = lines_.distance_at(p);
       trail.points.insert(trail.points.begin(), {p, radius, direction, ValleyPoint::Kind::valley});
       const std::uint32_t leaf = graph_.add_point({corner, 0, {}, ValleyPoint::Kind::corner});
-      corner_labels_[i] = lines_.keep(leaf, trail);
-      graph_.labels[leaf] = corner_labels_[i];
+      lines_.keep(leaf, trail);
     }
+  }
+
+  /// From the middle of the first piece.
+  void trace_side() {
+    const Charge& side = region_.pieces.front();
+    const Vec2 foot = midpoint(side.start, side.end);
+    const Vec2 inward = unit(left_of(side.end - side.start));
+    double height = std::min(0.1 * options_.step, 0.1 * distance(side.start, side.end));
+    while (height > 0 && lines_.distance_at(foot + height * inward) < 0.999 * height) height /= 2;
+    lines_.follow(foot + height * inward, inward, 0.1);
   }
 
   /// By the side of what is nearest.
@@ -155,7 +164,7 @@ class Tracer {
       const Trail trail = lines_.follow(center, unit(force.force), ForceLines::merge_share);
       const std::uint32_t leaf =
           graph_.add_point({center, radius, unit(force.force), ValleyPoint::Kind::valley});
-      graph_.labels[leaf] = lines_.keep(leaf, trail);
+      lines_.keep(leaf, trail);
     }
   }
 
@@ -165,7 +174,6 @@ class Tracer {
   ValleyGraph graph_;
   ForceLines lines_;
   SaddleSearch saddles_;
-  std::vector<Label> corner_labels_;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -50,6 +51,9 @@ struct SkeletonOptions {
   /// Of bends that lines start from, in radians. One that turns by less than a quarter is the end
   /// of no valley of low order, but may be the end of a branch of the axis.
   double least_turn = 0.25;
+  /// The exact axis, as the limit of high orders, along which what lines leave apart is connected;
+  /// without it that stays so. Called at most once.
+  std::function<const Skeleton*()> axis = nullptr;
   /// What forces may cost; what is not connected then stays so.
   std::uint64_t most_work = std::numeric_limits<std::uint64_t>::max();
   const std::atomic<bool>* cancel = nullptr;  ///< ends the work early: the skeleton is not whole
@@ -58,9 +62,8 @@ struct SkeletonOptions {
 /// MAT-Newtonian-Polygon ([ahuja1997], Section 4.1.3): force lines from the convex corners down to
 /// the minima of the potential, and from the saddles between the minima down to both sides. The
 /// potential has no maxima, so minima and saddles make a connected graph with one cycle for each
-/// hole: the paper's traversal from every minimum, taken from the other end, where following the
-/// force is stable. Saddles are sought where neighbouring places of the border belong to different
-/// minima.
+/// hole: the paper's traversal from every minimum. What that leaves apart is connected through the
+/// saddles at which lines from neighbouring places of the exact axis part.
 Skeleton trace_valleys(const Region& region, const Charges& charges,
                        const SkeletonOptions& options);
 

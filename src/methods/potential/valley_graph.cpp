@@ -48,9 +48,8 @@ void LinkIndex::near(Vec2 p, double reach, double scale, const Take& take) const
   }
 }
 
-std::uint32_t ValleyGraph::add_point(const ValleyPoint& point, Label label) {
+std::uint32_t ValleyGraph::add_point(const ValleyPoint& point) {
   skeleton.points.push_back(point);
-  labels.push_back(label);
   first_.push_back(no_point);
   return parts_.add();
 }
@@ -95,7 +94,6 @@ std::uint32_t ValleyGraph::minimum_at(const ValleyPoint& point) {
       return known;
   }
   const std::uint32_t index = add_point(point);
-  labels[index].minimum = index;
   minima_.push_back(index);
   ++skeleton.minima;
   return index;

@@ -13,13 +13,6 @@ namespace medial::potential {
 
 constexpr std::uint32_t no_point = std::numeric_limits<std::uint32_t>::max();
 
-/// To what a place of the border belongs: a minimum, and the side on which its line arrives.
-struct Label {
-  std::uint32_t minimum = no_point;
-  bool side = false;
-  friend bool operator==(const Label&, const Label&) = default;
-};
-
 /// Links of a skeleton near a place: a hash of cells whose size follows the distance to the border,
 /// because steps do.
 class LinkIndex {
@@ -44,7 +37,7 @@ class ValleyGraph {
   /// How long a step is where the border is `radius` away.
   double reach(double radius) const { return std::min(limit_, radius); }
 
-  std::uint32_t add_point(const ValleyPoint& point, Label label = {});
+  std::uint32_t add_point(const ValleyPoint& point);
   void add_link(std::uint32_t from, std::uint32_t to);
   /// The minimum at this place, known or new.
   std::uint32_t minimum_at(const ValleyPoint& point);
@@ -58,12 +51,12 @@ class ValleyGraph {
 
   /// The places along a way between two connected points, both ends included. O(points).
   std::vector<Vec2> way(std::uint32_t from, std::uint32_t to) const;
+  std::uint32_t part(std::uint32_t point) { return parts_.find(point); }
   bool connected(std::uint32_t a, std::uint32_t b) { return parts_.find(a) == parts_.find(b); }
   std::size_t parts() const { return parts_.count(); }
   std::size_t cycles() const { return skeleton.links.size() + parts() - skeleton.points.size(); }
 
   Skeleton skeleton;
-  std::vector<Label> labels;  ///< of each point
 
  private:
   double limit_;
