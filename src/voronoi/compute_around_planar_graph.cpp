@@ -178,30 +178,19 @@ Result<MedialAxis> run_around(const PlanarGraph& planar_graph, const Problem& su
   return std::move(axis);
 }
 
-/// With all corners, however flat: a joint without a branch would have a straight spoke. Where the
-/// walk loses its way among flat ones, as the options have it: spokes are off by less. Of shapes
-/// with arcs, the axis has its sites.
+/// With all corners, however flat, next to arcs: a joint without a branch would have a straight
+/// spoke. Of shapes with arcs, the axis has its sites.
 Result<MedialAxis> run_with_corners(const PlanarGraph& planar_graph, const Shape& surroundings,
                                     const Options& options, std::vector<VoronoiEdge>& edges,
                                     site::SiteNumbers& numbers) {
-  const auto run = [&](const Options& own) {
-    edges.clear();
-    Problem problem(surroundings, own);
-    auto axis = run_around(planar_graph, problem, edges);
-    if (axis && !surroundings.bulges.empty()) axis->sites = problem.result_sites();
-    numbers = std::move(problem).numbers();
-    return axis;
-  };
-  if (surroundings.bulges.empty()) return run(options);
+  const bool has_arcs = !surroundings.bulges.empty();
   Options all = options;
-  all.corner_angle = 0;
-  auto axis = run(all);
-  const auto touches = [&](const Edge& edge) {  // but for far more than rounding
-    return disks::touches_its_sites(*axis, edge, 0x1p20 * axis->tolerance);
-  };
-  const bool misled =
-      axis ? !ranges::all_of(edges, touches) : axis.error().code == ErrorCode::internal;
-  return misled ? run(options) : std::move(axis);
+  if (has_arcs) all.corner_angle = 0;
+  Problem problem(surroundings, all);
+  auto axis = run_around(planar_graph, problem, edges);
+  if (axis && has_arcs) axis->sites = problem.result_sites();
+  numbers = std::move(problem).numbers();
+  return axis;
 }
 
 /// An internal error where points are so near to others that they may have misled the walk, as an

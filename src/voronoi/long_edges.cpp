@@ -19,6 +19,13 @@ bool is_vertex(const MedialAxis& axis, std::uint32_t own) {
   return axis.sites[own].kind == SiteKind::vertex;
 }
 
+/// Whether no edge begins at a vertex: of others, a planar graph has at most a half turn as a site.
+bool is_lone_point(const MedialAxis& axis, std::uint32_t own) {
+  if (own + 1 == axis.sites.size()) return true;
+  const Site& next = axis.sites[own + 1];
+  return next.kind == SiteKind::vertex || next.start != axis.sites[own].start;
+}
+
 /// A site seen from an origin, in a unit of its own; of an arc longer than a quarter of a circle,
 /// the half next to a place.
 site::Site seen_from(const Site& site, Vec2 origin, double unit, Vec2 near) {
@@ -97,11 +104,14 @@ Status split_long_edges(MedialAxis& axis, std::vector<E>& edges, bool parabolas)
     const double sign = side == 1 ? -1 : 1;
     double turn = sign * std::atan2(cross(from, to), dot(from, to));
     // Along one part of a bisector both feet go forward, or by rounding both backward: where only
-    // the one around the vertex seems to go backward, it goes all around.
+    // the one around a lone point seems to go backward, it goes all around.
     constexpr double backward = 1e-6;
-    const double onward = sign * foot_way(other, axis.nodes[edge.node[0]].disk.center,
-                                          axis.nodes[edge.node[1]].disk.center);
-    if (turn < -backward || (turn < 0 && onward > 0) || edge.node[0] == edge.node[1])
+    const auto goes_around = [&] {
+      const Vec2 begin = axis.nodes[edge.node[0]].disk.center;
+      const Vec2 end = axis.nodes[edge.node[1]].disk.center;
+      return edge.node[0] == edge.node[1] || (turn < 0 && sign * foot_way(other, begin, end) > 0);
+    };
+    if (turn < -backward || (is_lone_point(axis, edge.site[side]) && goes_around()))
       turn += 2 * std::numbers::pi;
     const double pieces = std::ceil(turn / (0.5 * std::numbers::pi));
     std::uint32_t last = edge.node[0];
