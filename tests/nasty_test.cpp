@@ -207,6 +207,26 @@ constexpr std::array<Seeded, 5> graphs_with_arcs{{{"circles", 20261127920000229}
 INSTANTIATE_TEST_SUITE_P(Cases, GraphsWithArcs, testing::ValuesIn(graphs_with_arcs),
                          name_of_seeded);
 
+class GraphsWithPoints : public testing::TestWithParam<std::string_view> {};
+
+/// Points 1e-15 to 1e-9 of the size beside arcs: an edge leads all around such a point, an arc's
+/// edges around its cell, and what is too near is refused.
+TEST_P(GraphsWithPoints, HaveADiagramOrAreRefused) {
+  constexpr std::uint64_t first = 20261129700000000, count = 60;
+  std::uint64_t right = 0;
+  for (std::uint64_t seed = first; seed < first + count; ++seed) {
+    const Finding finding =
+        examine_nasty(class_of(GetParam()), seed, false, {.planar = true, .points = true});
+    const bool is_right = finding.fault == Fault::none || finding.fault == Fault::loose;
+    EXPECT_TRUE(is_right || finding.fault == Fault::unsupported) << seed << ": " << finding.words;
+    right += is_right ? 1 : 0;
+  }
+  EXPECT_GE(right, 5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Classes, GraphsWithPoints, testing::Values("circles", "bars", "tangents"),
+                         [](const auto& tested) { return std::string(tested.param); });
+
 /// A disk touches the end of an arc that it is too large for, beside a smooth joint and a blunt
 /// one; `verify` put the foot of an arc's centre at its wrong end; the box of a mirror image was
 /// rounded otherwise; a step on a short way was taken to be certain that had passed a vertex; and

@@ -65,7 +65,7 @@ std::optional<Error> refuse(const PlanarGraph& planar_graph, const Options& opti
 
 /// In tolerances: what is nearer to each other may be one for some disks; and what may at least
 /// have misled a walk that failed.
-constexpr double told_apart = 64, doubtful = 0x1p20;
+constexpr double told_apart = 16, doubtful = 0x1p20;
 
 /// The ends of an edge, the lower one in the direction that it mostly runs in first.
 std::array<std::uint32_t, 2> ends_by_place(const PlanarGraph& planar_graph,

@@ -376,7 +376,7 @@ std::vector<Chain> nasty_chains_and_points(const NastyClass& one, std::uint64_t 
       if (!random.chance(0.3)) continue;
       const Vec2 a = chains[i].points[k], chord = chains[i].points[k + 1] - a;
       const double angle = chains[i].bulges.empty() ? 0 : 2 * std::atan(chains[i].bulges[k]);
-      const double t = random.between(0, 1), away = size * random.power_of_ten(-15, -12.5);
+      const double t = random.between(0, 1), away = size * random.power_of_ten(-15, -9);
       const Vec2 on =
           angle == 0 ? a + t * chord
                      : a + std::sin(t * angle) / std::sin(angle) * turned(chord, (t - 1) * angle);

@@ -39,7 +39,7 @@ std::span<const NastyClass> nasty_classes();
 Rings nasty_shape(const NastyClass& one, std::uint64_t seed, bool small);
 /// The same with some of the edges left out.
 std::vector<Chain> nasty_chains(const NastyClass& one, std::uint64_t seed, bool small);
-/// The same, and beside some of the edges points, up to 100 tolerances away.
+/// The same, and beside some of the edges points, 1e-15 to 1e-9 of the size away.
 std::vector<Chain> nasty_chains_and_points(const NastyClass& one, std::uint64_t seed, bool small);
 
 /// Slots, strips, wedges and rings as near to each other as 1e-14 to 1e-6 of the size.
