@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "base/box_tree.h"
-#include "base/compat.h"
 #include "base/in_flight.h"
 #include "base/numbers.h"
 #include "base/spatial_order.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -26,6 +27,11 @@ bool is_lone_point(const MedialAxis& axis, std::uint32_t own) {
   return next.kind == SiteKind::vertex || next.start != axis.sites[own].start;
 }
 
+/// A power of two that makes a size about one.
+double unit_for(double size) {
+  return std::exp2(-std::ilogb(std::max(size, std::numeric_limits<double>::min())));
+}
+
 /// A site seen from an origin, in a unit of its own; of an arc longer than a quarter of a circle,
 /// the half next to a place.
 site::Site seen_from(const Site& site, Vec2 origin, double unit, Vec2 near) {
@@ -39,10 +45,9 @@ site::Site seen_from(const Site& site, Vec2 origin, double unit, Vec2 near) {
 
 /// How far the foot on a site moves between two centres, up to a factor.
 double foot_way(const Site& site, Vec2 from, Vec2 to) {
-  const double size = distance(site.start, from);
-  const site::Site seen = seen_from(site, from, size > 0 ? 1 / size : 1, {0, 0});
-  return site::carrier_parameter(seen, (1 / size) * (to - from)) -
-         site::carrier_parameter(seen, {0, 0});
+  const double unit = unit_for(distance(site.start, from));
+  const site::Site seen = seen_from(site, from, unit, {0, 0});
+  return site::carrier_parameter(seen, unit * (to - from)) - site::carrier_parameter(seen, {0, 0});
 }
 
 /// The disk through a point that grows in a direction until it touches an arc, if rounding leaves
@@ -75,8 +80,7 @@ void add_piece(const MedialAxis& axis, std::vector<E>& edges, std::size_t e, boo
 void take_control(const Site& left, const Site& right, ConicEdge& part) {
   // Rounding is measured against a size of about one.
   const Vec2 origin = part.from.center, way = part.to.center - origin;
-  const double size = std::max({norm(way), part.from.radius, part.to.radius});
-  const double unit = size > 0 ? std::exp2(-std::ilogb(size)) : 1;
+  const double unit = unit_for(std::max({norm(way), part.from.radius, part.to.radius}));
   const Vec2 middle = midpoint({0, 0}, unit * way);
   const site::Control control = site::control_of(
       seen_from(left, origin, unit, middle), seen_from(right, origin, unit, middle),

@@ -17,14 +17,15 @@ struct Bridge {
 
 class ExactSites;
 
-/// Where double decides which site a bridge touches: with a radius above this.
+/// Smaller bridges are never left to double.
 constexpr double exact_bridges = 0x1p-24;
 
 /// One bridge for each hole (docs/disks.md, step 3). The disk at the furthest point lies beyond it,
 /// where the hole has no other point; the loop that it touches has a point further out than the
 /// hole has, so no cycle of holes can arise and all loops of a component get connected. `queries`
-/// counts nearest-site queries. With `exact`, bridges with radii up to `exact_bridges` are decided
-/// in 256 bits, and all bridges of components that are `in_precise`. O(h log n) expected.
+/// counts nearest-site queries. With `exact`, bridges are decided in 256 bits where double leaves
+/// open which of several sites they touch, where their radii are up to `exact_bridges`, and in all
+/// components that are `in_precise`. O(h log n) expected.
 std::vector<Bridge> connecting_disks(const Shape& shape, const Boundary& loops, double tolerance,
                                      const ExactSites* exact, const std::vector<bool>& in_precise,
                                      std::uint64_t& queries);
@@ -32,8 +33,8 @@ std::vector<Bridge> connecting_disks(const Shape& shape, const Boundary& loops, 
 /// The boundary with all holes spliced in: one run for each component.
 Boundary connect(const Shape& shape, const Boundary& loops, const std::vector<Bridge>& bridges);
 
-/// The boundary of a problem with all holes spliced in; of straight edges, small bridges are
-/// decided in 256 bits where the build has them.
+/// The boundary of a problem with all holes spliced in; of straight edges, bridges that double
+/// leaves open are decided in 256 bits where the build has them.
 Boundary connected_boundary(const Problem& problem, std::vector<Bridge>& bridges);
 
 }  // namespace medial::disks

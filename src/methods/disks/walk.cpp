@@ -164,6 +164,7 @@ class Walker {
     look_ahead(step);
   }
 
+  /// Whether what a step's disk may have missed is searched for before it is taken.
   bool looks_ahead(const Step& step) const {
     return context_.exact != nullptr && !is_exact_ && !(boundary_.has_arcs && step.joins_node);
   }
