@@ -232,7 +232,7 @@ INSTANTIATE_TEST_SUITE_P(Classes, GraphsWithPoints, testing::Values("circles", "
 /// rounded otherwise; a step on a short way was taken to be certain that had passed a vertex; and
 /// what a disk had missed by its error came before it; or the exact disk came before one in a tie
 /// with its node.
-constexpr std::array<Seeded, 13> shapes_of_arcs{{{"tangents", 20261128400000783},
+constexpr std::array<Seeded, 14> shapes_of_arcs{{{"tangents", 20261128400000783},
                                                  {"bars", 20261128650028511},
                                                  {"bars", 20261128600002097},
                                                  {"bars", 20261128500002378},
@@ -244,6 +244,7 @@ constexpr std::array<Seeded, 13> shapes_of_arcs{{{"tangents", 20261128400000783}
                                                  {"bars", 20261129100054138},
                                                  {"bars", 20261129100009610},
                                                  {"bars", 20261129100015314},
+                                                 {"bars", 20261129800046876},
                                                  {"circles", 20261129100035737}}};
 
 INSTANTIATE_TEST_SUITE_P(Arcs, SeededShapes, testing::ValuesIn(shapes_of_arcs), name_of_seeded);

@@ -56,7 +56,8 @@ Certainty::Certainty(const Boundary& boundary, double tolerance, const Span& spa
   certain_ = error_ <= well_known * to_.radius || touches(fourth, tolerance);
   if (!certain_ || moves_forward() || comes_before(fourth)) return;
   tie_ = true;
-  certain_ = boundary.has_arcs && ties && is_one_tie(0.5 * tolerance);
+  const bool known = error_ <= tolerance;  // else four contacts may leave the place open
+  certain_ = boundary.has_arcs && ties && known && is_one_tie(0.5 * tolerance);
 }
 
 Certainty::Contact Certainty::contact_of(const site::Site& s, const Disk& disk) {
