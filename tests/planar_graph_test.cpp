@@ -727,4 +727,21 @@ TEST(PlanarGraph, ThreadsChangeNothing) {
 }
 
 }  // namespace
+/// Far from the origin, the ends of an edge of a few roundings seem to go backward around the
+/// point.
+TEST(PlanarGraph, HasShortEdgesBesideArcsFarFromTheOrigin) {
+  constexpr double bulge = 0.29052685673191647;
+  const std::vector<Chain> chains{{{{280.2525890042105, 9686.25500671918},
+                                    {280.0675227832862, 9686.546624420755},
+                                    {279.7248618334865, 9686.503336275948},
+                                    {279.61813218150525, 9686.174856183117}},
+                                   {bulge, bulge, bulge}},
+                                  {{{280.43029790915637, 9686.75500671918}}}};
+  const auto planar_graph = build_planar_graph(chains);
+  ASSERT_TRUE(planar_graph) << to_string(planar_graph.error());
+  const auto diagram = voronoi_diagram(*planar_graph);
+  ASSERT_TRUE(diagram) << to_string(diagram.error());
+  EXPECT_TRUE(verify(*planar_graph, *diagram).passed);
+}
+
 }  // namespace medial::test

@@ -107,14 +107,15 @@ Status split_long_edges(MedialAxis& axis, std::vector<E>& edges, bool parabolas)
     // way around.
     const double sign = side == 1 ? -1 : 1;
     double turn = sign * std::atan2(cross(from, to), dot(from, to));
-    // Along one part of a bisector both feet go forward, or by rounding both backward: where only
-    // the one around a lone point seems to go backward, it goes all around. Of the bisectors, an
-    // ellipse does.
+    // Along one part of a bisector both feet go forward. Where only the one around a lone point
+    // goes backward, by more than the rounding of both ends, an ellipse leads all around.
     constexpr double backward = 1e-6;
+    const double rounding = 2 * axis.tolerance / std::min(norm(from), norm(to));
     const auto goes_around = [&] {
       const Vec2 begin = axis.nodes[edge.node[0]].disk.center;
       const Vec2 end = axis.nodes[edge.node[1]].disk.center;
-      return edge.node[0] == edge.node[1] || (turn < 0 && sign * foot_way(other, begin, end) > 0);
+      return edge.node[0] == edge.node[1] ||
+             (turn < -rounding && sign * foot_way(other, begin, end) > 0);
     };
     if (turn < -backward ||
         (is_arc(other) && is_lone_point(axis, edge.site[side]) && goes_around()))
