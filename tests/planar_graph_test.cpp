@@ -726,7 +726,6 @@ TEST(PlanarGraph, ThreadsChangeNothing) {
   EXPECT_EQ(numbers_of(*one), numbers_of(*four));
 }
 
-}  // namespace
 /// Far from the origin, the ends of an edge of a few roundings seem to go backward around the
 /// point.
 TEST(PlanarGraph, HasShortEdgesBesideArcsFarFromTheOrigin) {
@@ -744,4 +743,28 @@ TEST(PlanarGraph, HasShortEdgesBesideArcsFarFromTheOrigin) {
   EXPECT_TRUE(verify(*planar_graph, *diagram).passed);
 }
 
+/// Loops are connected where they lie furthest in the direction of the angle 0.6 + pi; here a joint
+/// lies there up to rounding.
+TEST(PlanarGraph, RoundEndsMayBeginAtTheirJoints) {
+  for (const double turn : {0.0, std::numbers::pi / 2})
+    for (const double off : {0.0, 1e-16, -1e-16, 1e-13, -1e-13, 1e-10, -1e-10, 1e-8, -1e-8}) {
+      const double angle = 0.6 + std::numbers::pi + turn + off;
+      const auto at = [&](double x, double y) {
+        return Vec2{x * std::cos(angle) - y * std::sin(angle),
+                    x * std::sin(angle) + y * std::cos(angle)};
+      };
+      const Chain slot{{at(-1, -0.4), at(1, -0.4), at(1, 0.4), at(-1, 0.4)}, {0, 1, 0, 1}, true};
+      const Chain circle{{at(1, 0), at(-1, 0)}, {1, 1}, true};
+      const Chain arc{{at(1, 0), at(-1, 0)}, {1}};
+      for (const Chain& chain : {slot, circle, arc}) {
+        const auto planar_graph = build_planar_graph({{chain}});
+        ASSERT_TRUE(planar_graph) << to_string(planar_graph.error());
+        const auto diagram = voronoi_diagram(*planar_graph);
+        ASSERT_TRUE(diagram) << off << ": " << to_string(diagram.error());
+        EXPECT_TRUE(verify(*planar_graph, *diagram).passed) << off;
+      }
+    }
+}
+
+}  // namespace
 }  // namespace medial::test

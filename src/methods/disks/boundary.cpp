@@ -70,13 +70,18 @@ Start start_of_outer(const LoopEdges& loop, const SiteNumbers& numbers, bool has
   return start;
 }
 
-/// Whether the boundary faces `outreach` where two edges join, or looks the other way, as it does
-/// on the far side of edges that lie across that direction: there it is as far out up to
-/// rounding.
-bool faces_out(const LoopEdges& loop, std::uint32_t i) {
+/// Whether a disk that reaches out in the direction `outreach` may touch the boundary where two
+/// edges join. At a reflex vertex that looks the other way it may not, as on the far side of edges
+/// that lie across that direction: there it is as far out up to rounding. At a smooth joint it may
+/// where both edges lead less far out: beside one that is hardly less far than a place within an
+/// edge, the disk would touch that place.
+bool can_reach_out(const LoopEdges& loop, const SiteNumbers& numbers, std::uint32_t i) {
   if (loop.size() == 1) return true;
   const Vec2 before = loop.edge(loop.before(i)).last().end_normal();
-  return dot(before + loop.edge(i).first().normal(), outreach) > -1;
+  const Vec2 after = loop.edge(i).first().normal();
+  if (numbers.joints[loop.begin() + i] != Joint::smooth) return dot(before + after, outreach) > -1;
+  constexpr double rounding = 0x1p-50;
+  return cross(before, outreach) <= rounding && cross(after, outreach) >= -rounding;
 }
 
 /// Whether a place lies further in the direction `outreach` than another one: decided with twice
@@ -97,7 +102,7 @@ Start start_of_hole(const LoopEdges& loop, const SiteNumbers& numbers, bool has_
   std::optional<Vec2> furthest;
   const auto consider = [&](Vec2 place, const Start& candidate) {
     if (furthest && !is_further_out(place, *furthest)) return;
-    if (!candidate.inside && !faces_out(loop, candidate.point)) return;
+    if (!candidate.inside && !can_reach_out(loop, numbers, candidate.point)) return;
     start = candidate;
     furthest = place;
   };

@@ -118,8 +118,8 @@ struct Boundary {
 /// The boundary before holes are connected: every loop a run of its own in the order of the shape's
 /// loops (so `runs` are per loop here). An outer loop begins at a convex corner if it has one, or
 /// else at the joint where its curvature is smallest; a hole at its furthest point in the direction
-/// `outreach`: a reflex vertex, or a place inside an arc, which is divided there. A loop of one
-/// point is a vertex with the shape all around it, and without a neighbour.
+/// `outreach`: a reflex vertex, a smooth joint, or a place inside an arc, which is divided there. A
+/// loop of one point is a vertex with the shape all around it, and without a neighbour.
 Boundary loops_boundary(const Problem& problem, const SiteNumbers& numbers, bool two_sided);
 
 /// The angle from one direction to another, clockwise, in [0, 2 pi).

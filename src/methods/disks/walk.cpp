@@ -415,14 +415,21 @@ class Walker {
       return false;
     }
     if (at_bridge) {
-      end_at_bridge(span, boundary_.originals[span.right + 1]);
+      end_at_bridge(span);
       finished(2);
       return false;
     }
     return !ends;
   }
 
-  void end_at_bridge(const Span& span, std::uint32_t bridge) {
+  /// A bridge's disk is a node where a hole begins and ends at a smooth joint: its two sides touch
+  /// different sites there.
+  void end_at_bridge(const Span& span) {
+    const std::uint32_t place = span.right + 1, bridge = boundary_.originals[place];
+    const auto goes_on = [&](std::uint32_t i) {
+      return boundary_.originals[boundary_.across(place, i)] == boundary_.originals[i];
+    };
+    const bool is_node = !goes_on(span.right) || !goes_on(span.left);
     const Disk& disk = context_.bridges[bridge].disk;
     if (coincide(chunk_.nodes[span.node], disk)) {
       chunk_.bridge_ends.push_back({bridge, span.node, BridgeEnd::no_edge});
@@ -432,7 +439,7 @@ class Walker {
     const std::uint32_t node = add_node(disk);
     add_edge(span, node);
     const bool added = chunk_.links.size() > edge;
-    chunk_.bridge_ends.push_back({bridge, node, added ? edge : BridgeEnd::no_edge});
+    chunk_.bridge_ends.push_back({bridge, node, added && !is_node ? edge : BridgeEnd::no_edge});
   }
 
   bool coincide(const Disk& a, const Disk& b) const {

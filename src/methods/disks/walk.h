@@ -79,9 +79,8 @@ struct Link {
 struct BridgeEnd {
   static constexpr std::uint32_t no_edge = ~std::uint32_t{0};
   std::uint32_t bridge = 0;
-  std::uint32_t node = 0;  ///< of the chunk: at the bridge's centre
-  std::uint32_t edge =
-      no_edge;  ///< the edge that leads there; none: the node is a node of the axis
+  std::uint32_t node = 0;        ///< of the chunk: at the bridge's centre
+  std::uint32_t edge = no_edge;  ///< that leads there; none: the node is a node of the axis
 };
 
 /// What one task of the walk found. Node 0 stands for the node of the parent at which the task
