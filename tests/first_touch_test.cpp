@@ -70,6 +70,31 @@ TEST(FirstTouch, FindsWhatLookingAtEverySiteFinds) {
   }
 }
 
+/// How many edges a disk may touch that grows from the origin along the x axis.
+std::uint32_t touched(const std::vector<site::Site>& sites) {
+  const std::vector<std::uint32_t> groups(sites.size());
+  std::vector<std::uint32_t> all(sites.size());
+  std::iota(all.begin(), all.end(), 0U);
+  constexpr std::uint32_t nothing = ~std::uint32_t{0};
+  const auto touch =
+      site::FirstTouch(sites, all, groups).find({0, 0}, {1, 0}, 1, 0, nothing, nothing);
+  return touch ? touch->count : 0;
+}
+
+TEST(FirstTouch, CountsTheEdgesThatMayBeTouched) {
+  const auto segment = [](Vec2 a, Vec2 b) { return site::make_segment(a, b); };
+  const auto above = segment({0.7, 0.4}, {0.2, 0.4}), below = segment({0.2, -0.4}, {0.7, -0.4});
+  EXPECT_EQ(touched({above}), 1U);
+  EXPECT_EQ(touched({above, site::reversed(above)}), 1U);
+  EXPECT_EQ(touched({above, below}), 2U);
+  EXPECT_EQ(touched({above, segment({0.2, -0.4 - 1e-12}, {0.7, -0.4 - 1e-12})}), 1U);
+  EXPECT_EQ(touched({above, segment({0.2, -0.4 - 1e-16}, {0.7, -0.4 - 1e-16})}), 2U);
+  // The end of two edges is touched.
+  EXPECT_EQ(touched({segment({0.8, 0.1}, {0.5, 0}), segment({0.5, 0}, {0.8, -0.1})}), 2U);
+  // A line nearly along the disk's tangent at the origin leaves the radius open.
+  EXPECT_EQ(touched({segment({-0.0050125, -1}, {0.005, 1})}), site::FirstTouch::many);
+}
+
 TEST(ZOrder, IsAPermutationThatKeepsNeighboursTogether) {
   EXPECT_TRUE(z_order({}).empty());
   EXPECT_EQ(z_order(std::vector<Vec2>(3, Vec2{1e-100, 2})), (std::vector<std::uint32_t>{0, 1, 2}));

@@ -14,9 +14,13 @@ namespace {
 using site::Site;
 
 /// What rounding may add to the distance of a disk's centre from a site, for local coordinates
-/// below 2 and distances below 4, and to the end of a site, and by how much more it may be where
-/// radii are not apart; sites this much further away are looked at as well.
-constexpr double rounding = 0x1p-48 + 2 * FirstTouch::apart;
+/// below 2 and distances below 4, and to the end of a site.
+constexpr double rounding = 0x1p-48;
+
+/// A radius that is further off is not known. A disk's distance from a site changes by up to twice
+/// as much as its radius: sites that are so near to it are looked at as well.
+constexpr double largest_error = 0x1p-40;
+constexpr double looked_at = rounding + 2 * largest_error;
 
 /// What single precision (u = 2^-24) may add to the distance of a disk's centre from a box or a
 /// slab, for radii below 4. The centre lies below 8 and rounds by 4 u in each coordinate; the
@@ -120,22 +124,60 @@ std::uint32_t FirstTouch::beside(const Slabs& slabs, float x, float y, float rea
 #endif
 }
 
+bool FirstTouch::Search::is_within(const Entry& entry, double reach) const {
+  return site::squared_distance(entry.site, center) < (radius + reach) * (radius + reach);
+}
+
+/// Shrinks the disk to one that a site touches, and notes the sites that it may touch.
+void FirstTouch::Search::look_at(const Entry& entry) {
+  const double smaller = site::touching_radius(foot, direction, entry.site);
+  if (smaller < radius) {
+    radius = smaller;
+    center = foot + smaller * direction;
+    found = &entry;
+  }
+  if (count == many) {
+    const auto end = std::remove_if(near.begin(), near.end(), [&](const Entry* other) {
+      return !is_within(*other, looked_at);
+    });
+    count = static_cast<std::uint32_t>(end - near.begin());
+  }
+  if (count < many) near[count] = &entry;
+  count = std::min(count + 1, many + 1);
+}
+
+/// While the disk grows, its distance from the site falls by 1 - cos(angle) of the radius, the
+/// angle between its directions of growth and of contact: by as much less than the rounding of the
+/// distance, the radius is off by more. To second order this holds where the error is a small part
+/// of the radius, and of how far the centre is from that of an arc.
+std::optional<FirstTouch::Touch> FirstTouch::Search::touch() const {
+  if (found == nullptr) return std::nullopt;
+  constexpr double part = 0x1p-6;
+  const Site& site = found->site;
+  const Vec2 at = site.at(std::clamp(site::carrier_parameter(site, center), 0.0, site.length));
+  const double rate = 0.5 * squared_norm(direction - 1 / radius * (center - at));
+  const double room = radius * std::min(1.0, std::abs(1 - radius * std::abs(site.curvature)));
+  Touch touch{found->index, radius, rounding / rate, many};
+  if (count > many || !(touch.error <= std::min(largest_error, part * room))) return touch;
+  const double reach = rounding + 2 * touch.error;
+  touch.count = 0;
+  for (std::uint32_t i = 0; i < count; ++i)
+    if (is_within(*near[i], reach) &&
+        std::none_of(near.begin(), near.begin() + i,
+                     [&](const Entry* other) { return are_two_sides(near[i]->site, other->site); }))
+      ++touch.count;
+  return touch;
+}
+
 /// Shrinks the disk until it keeps clear of the sites of a block.
 void FirstTouch::search_block(std::uint32_t block, Search& search) const {
   const auto look_at = [&](const Entry& entry) {
     if (entry.index >= search.first && entry.index <= search.last) return;
-    if (groups_[entry.index] != search.group) return;
-    const double smaller = site::touching_radius(search.foot, search.direction, entry.site);
-    if (search.found && std::abs(smaller - search.radius) <= apart) ++search.found->count;
-    if (!(smaller < search.radius)) return;
-    const bool ties = search.found && smaller >= search.radius - apart;
-    search.radius = smaller;
-    search.center = search.foot + smaller * search.direction;
-    search.found = {entry.index, smaller, ties ? search.found->count : 1};
+    if (groups_[entry.index] == search.group) search.look_at(entry);
   };
   std::size_t i = block * block_size;
   const std::size_t end = std::min(i + block_size, entries_.size());
-  const auto limit = [&] { return (search.radius + rounding) * (search.radius + rounding); };
+  const auto limit = [&] { return (search.radius + looked_at) * (search.radius + looked_at); };
   if (!has_arcs_) {
     for (; i + 1 < end; i += 2) {
       if (!one_is_nearer(entries_[i].site, entries_[i + 1].site, search.center, limit())) continue;
@@ -186,7 +228,7 @@ std::optional<FirstTouch::Touch> FirstTouch::find(Vec2 foot, Vec2 direction, dou
       stack[at] = waiting;
     }
   }
-  return search.found;
+  return search.touch();
 }
 
 void FirstTouch::look_around(const Extent& box, Region& region) const {
@@ -251,7 +293,7 @@ std::optional<FirstTouch::Touch> FirstTouch::find(Vec2 foot, Vec2 direction, dou
     if ((lanes_near(lowest[block.index / fan], from_center) >> block.index % fan & 1U) != 0)
       search_block(block.index, search);
   }
-  return search.found;
+  return search.touch();
 }
 
 }  // namespace medial::site

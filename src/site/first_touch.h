@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -27,10 +28,10 @@ class FirstTouch {
   struct Touch {
     std::uint32_t site = 0;
     double radius = 0;
-    std::uint32_t count = 1;  ///< of sites that it reaches there, but for `apart`
+    double error = 0;         ///< how far the radius may be from that of the exact disk
+    std::uint32_t count = 1;  ///< of edges that the exact disk may touch: the two sides of one once
   };
-  /// Radii that differ by more do so however they round.
-  static constexpr double apart = 0x1p-46;
+  static constexpr std::uint32_t many = 8;  ///< the count where double cannot tell
   /// The first site that the disk of radius r around foot + r direction reaches, from either side,
   /// while r grows from 0 to `largest`, of all sites of the group but those from first to last,
   /// both included; none where it reaches none. Of sites that it reaches at the same radius, any.
@@ -87,13 +88,19 @@ class FirstTouch {
     Slabs slabs;
   };
 
-  /// A search under way: the disk so far, and the site that it touches.
+  /// A search under way: the disk so far, the site that it touches, and those near to it.
   struct Search {
     Vec2 foot, direction;
     std::uint32_t group, first, last;
     double radius;
     Vec2 center;
-    std::optional<Touch> found = {};
+    const Entry* found = nullptr;
+    std::array<const Entry*, many> near = {};
+    std::uint32_t count = 0;  ///< of those in `near`; beyond that, they were too many
+
+    void look_at(const Entry& entry);
+    std::optional<Touch> touch() const;
+    bool is_within(const Entry& entry, double reach) const;
   };
 
   void build_level(std::size_t run);

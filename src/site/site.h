@@ -94,6 +94,12 @@ inline bool is_same_place(Vec2 end, Vec2 point) {
   return std::abs(gap.x) <= same_point && std::abs(gap.y) <= same_point;
 }
 
+/// Whether two edges are the two sides of one.
+inline bool are_two_sides(const Site& a, const Site& b) {
+  return a.length == b.length && a.curvature == -b.curvature && is_same_place(a.point, b.end()) &&
+         is_same_place(a.end(), b.point);
+}
+
 /// Whether edge `before` ends where edge `after` begins.
 inline bool meets(const Site& before, const Site& after) {
   return is_same_place(before.end(), after.point);

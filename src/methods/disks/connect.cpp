@@ -145,8 +145,7 @@ class Connector {
     bridge.site =
         owner_of_foot(loops_, run_of(loops_, bridge.site), bridge.site, bridge.disk.center);
     const bool is_precise = !in_precise_.empty() && in_precise_[component];
-    const bool is_clear = radius > exact_bridges && touch &&
-                          (loops_.two_sided || touches_alone(bridge, touch->count));
+    const bool is_clear = radius > exact_bridges && touch && touches_alone(bridge, *touch);
     if (exact_ != nullptr && (is_precise || !is_clear))
       if (const auto exact = exact_bridge(hole, foot, radius)) return *exact;
     found_.push_back(radius);
@@ -154,18 +153,20 @@ class Connector {
   }
 
  private:
-  /// Whether nothing but a bridge's site is touched, as far as double can tell: one edge of `count`
-  /// that the disk reaches, or the vertex between two of them, away from where either begins.
-  bool touches_alone(const Bridge& bridge, std::uint32_t count) const {
-    constexpr double rounding = site::FirstTouch::apart;
+  /// Whether nothing but a bridge's site is touched, as far as double can tell: one edge, or the
+  /// vertex where all edges end that the disk reaches, away from where these begin.
+  bool touches_alone(const Bridge& bridge, const site::FirstTouch::Touch& touch) const {
     const std::uint32_t site = bridge.site;
-    if (loops_.elements[site] == Element::edge) return count == 1;
     const Boundary::SiteRange run = run_of(loops_, site);
+    if (loops_.elements[site] == Element::edge || run.first == run.last) return touch.count == 1;
     const Site& before = loops_.sites[site == run.first ? run.last : site - 1];
     const Site& after = loops_.sites[site == run.last ? run.first : site + 1];
+    const bool is_loose_end = site::are_two_sides(before, after);
+    const double slack = 0x1p-48 + 2 * touch.error;
     const Vec2 center = bridge.disk.center;
-    return count == 2 && site::carrier_parameter(before, center) >= before.length + rounding &&
-           site::carrier_parameter(after, center) <= -rounding;
+    return touch.count == (is_loose_end ? 1 : 2) &&
+           site::carrier_parameter(before, center) >= before.length + slack &&
+           site::carrier_parameter(after, center) <= -slack;
   }
   /// The bridge among all sites that a disk from `foot` nearly reaches, which has about this radius
   /// in double. Where it touches none of them after all, among those that larger ones reach.
