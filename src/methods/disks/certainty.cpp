@@ -56,7 +56,8 @@ Certainty::Certainty(const Boundary& boundary, double tolerance, const Span& spa
   certain_ = error_ <= well_known * to_.radius || touches(fourth, tolerance);
   if (!certain_ || moves_forward() || comes_before(fourth)) return;
   tie_ = true;
-  const bool known = error_ <= tolerance;  // else four contacts may leave the place open
+  // Else four contacts may leave open where they are, or where the node is.
+  const bool known = error_ + span.error <= tolerance;
   certain_ = boundary.has_arcs && ties && known && is_one_tie(0.5 * tolerance);
 }
 

@@ -56,7 +56,7 @@ class Walker {
     bool is_proposed = false;
     bool is_certain = false;
     bool is_tie = false;      ///< the event's disk touches several sites
-    bool joins_node = false;  ///< the event is certain as one tie with the span's node
+    bool joins_node = false;  ///< double is certain that it is one tie with the span's node
   };
 
   /// Walks all of a run from a disk that touches its ends.
@@ -105,8 +105,8 @@ class Walker {
       const bool in_double = step.is_certain;
       if (!in_double) decide(step, from);
       find_parts(step, from);
-      // What double leaves open next to its disk may have come before it; but among arcs all that a
-      // node touches within the tolerance is one tie.
+      // What double leaves open next to its disk may have come before it; but not beside arcs where
+      // the disk and the node are one tie.
       if (in_double && looks_ahead(step) && !are_certain(parts_) && decide(step, from))
         find_parts(step, from);
       step.is_open = false;
@@ -283,9 +283,9 @@ class Walker {
     if (step.is_certain) return;
     const Certainty certainty(boundary_, context_.tolerance, span, from, step.event);
     step.error = certainty.error();
-    step.joins_node = certainty.is_tie();
     step.is_certain =
         certainty.is_certain() && (boundary_.has_arcs || is_settled(step, from, certainty));
+    step.joins_node = step.is_certain && certainty.is_tie();
     if (step.is_certain) ++chunk_.statistics.exact_filtered;
   }
 
@@ -322,6 +322,7 @@ class Walker {
     const bool passes = ahead.right != span.right || ahead.left != span.left;
     if (passes && !is_exact_ && stays_on_arc(span, event)) return false;
     span = ahead;
+    step.joins_node = false;
     step.error = Certainty::rounding + found->error;
     event.disk = found->disk;
     event.site = found->site;
