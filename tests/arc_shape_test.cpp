@@ -280,6 +280,20 @@ TEST(ArcCleaning, VerticesThatDifferByLessThanTheSweepResolvesAreOne) {
   }
 }
 
+TEST(ArcParts, TurnByNoMoreThanTheArc) {
+  for (const double bulge : {1.0, -1.0, 0.4, -0.4}) {
+    const BulgeArc arc{{0, 0}, {1, 0}, bulge};
+    // Ends that lie beside the arc by rounding: all of it, and a part that leads backward.
+    for (const Vec2 off : {Vec2{2e-13, 1e-13}, Vec2{-2e-13, 1e-13}, Vec2{-1e-13, -2e-13}}) {
+      EXPECT_LE(std::abs(partial_bulge(arc, arc.start, arc.end + off)), std::abs(bulge));
+      EXPECT_LE(std::abs(partial_bulge(arc, arc.start, arc.start + off)), 1e-12);
+    }
+    const Vec2 middle = apex(arc);
+    EXPECT_NEAR(partial_bulge(arc, arc.start, middle), half_bulge(bulge), 1e-15);
+    EXPECT_NEAR(partial_bulge(arc, middle, arc.end), half_bulge(bulge), 1e-15);
+  }
+}
+
 TEST(ArcMeasures, AreaAndBox) {
   EXPECT_NEAR(area(built({circle({5, 7}, 2, 0.3)})), 4 * pi, 1e-14);
   EXPECT_NEAR(area(built({circle({0, 0}, 2), circle({0.5, 0.1}, 1, 1)})), 3 * pi, 1e-14);

@@ -3,6 +3,7 @@
 // Circular arcs by their end points and bulge (see Ring). No centre and no radius is needed, so
 // that nearly straight arcs are as well-conditioned as others.
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -84,12 +85,17 @@ inline double bulge_of(Vec2 tangent, Vec2 chord) {
   return cross(tangent, chord) / (norm(chord) + dot(tangent, chord));
 }
 
-/// The bulge of the part of the arc between two of its points, which follow each other on it.
+/// The bulge of the part of an arc of at most a half circle between two of its points, which follow
+/// each other on it, or nearly. A short part turns as its length asks for, since its direction may
+/// be rounding, and none by more than the whole arc.
 inline double partial_bulge(const BulgeArc& arc, Vec2 from, Vec2 to) {
   if (arc.bulge == 0) return 0;
+  const double sine = 0.5 * curvature(arc) * norm(to - from);  // of half the angle of its turn
+  if (sine * sine <= 0.5) return sine / (1 + std::sqrt(1 - sine * sine));
   // The tangent turns in proportion to the way: T(p) = T(start) + curvature * left_of(p - start).
   const Vec2 tangent = start_tangent(arc) + curvature(arc) * left_of(from - arc.start);
-  return bulge_of(tangent, to - from);
+  const double whole = std::abs(arc.bulge);
+  return std::clamp(bulge_of(tangent, to - from), -whole, whole);
 }
 
 /// The point in the arc's inside where its tangent is parallel to `direction` (a unit vector).
