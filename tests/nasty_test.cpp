@@ -421,7 +421,7 @@ TEST_P(NastyShapes, HaveTheTrueGraphUnderAllSymmetries) {
       << found.first.find(Fault::loose)->second;
 }
 
-constexpr std::array<Mended, 13> shapes{{{"strips", 0, 0},
+constexpr std::array<Mended, 15> shapes{{{"strips", 0, 0},
                                          {"slits", 0, 0},
                                          {"stretched", 0, 0},
                                          {"needles", 0, 0},
@@ -433,7 +433,9 @@ constexpr std::array<Mended, 13> shapes{{{"strips", 0, 0},
                                          {"groups", 0, 20},
                                          {"circles", 5},
                                          {"bars"},
-                                         {"tangents"}}};
+                                         {"tangents"},
+                                         {"gears"},
+                                         {"plates"}}};
 
 INSTANTIATE_TEST_SUITE_P(Classes, NastyShapes, testing::ValuesIn(shapes),
                          [](const auto& tested) { return std::string(tested.param.name); });

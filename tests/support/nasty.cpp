@@ -266,9 +266,68 @@ Rings tangent_arcs(Random& random, bool small) {
   return rings;
 }
 
+// ---- Parts of machines.
+
+/// Moves all vertices, for a tenth of the shapes not at all.
+void jitter(Random& random, Rings& rings) {
+  const double size = slip(random);
+  for (Ring& ring : rings)
+    for (Vec2& p : ring.points) p = p + size * Vec2{random.between(-1, 1), random.between(-1, 1)};
+}
+
+/// A circle of two to five arcs, or a slot. Half of the circles have a joint where holes are
+/// connected, up to rounding.
+Ring round_hole(Random& random, Vec2 center, double radius) {
+  if (random.chance(0.3)) {
+    const Vec2 half = turned({0.5 * radius, 0}, random.between(0, two_pi));
+    return stadium(center - half, center + half, 0.5 * radius);
+  }
+  constexpr double outreach = 0.6 + 0.5 * two_pi;
+  const double start = random.chance(0.5)
+                           ? outreach + random.power_of_ten(-17, -6) * random.between(-1, 1)
+                           : random.between(0, two_pi);
+  Ring ring = arcs_of_circle(1 + static_cast<int>(up_to(random, 4)));
+  for (Vec2& p : ring.points) p = center + turned(radius * p, start);
+  return ring;
+}
+
+/// Holes in a row or around a circle, as many as there is room for; in the middle one, sometimes.
+void add_holes(Random& random, double radius, bool small, Rings& rings) {
+  const std::size_t n = up_to(random, small ? 2 : 12);
+  const double middle = random.chance(0.5) ? 0.25 * radius : 0;
+  if (middle > 0) rings.push_back(round_hole(random, {0, 0}, middle));
+  const double start = random.between(0, two_pi);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double share = two_pi / static_cast<double>(std::max<std::size_t>(n, 3));
+    const double size = radius * std::min(0.2, 0.55 * std::sin(0.5 * share));
+    rings.push_back(round_hole(
+        random, turned({0.65 * radius, 0}, start + share * static_cast<double>(i)), size));
+  }
+}
+
+Rings gear_shape(Random& random, bool small) {
+  const double root = random.between(0.4, 0.95);
+  Rings rings{gear(2 + up_to(random, small ? 2 : 30), root)};
+  if (random.chance(0.5)) add_holes(random, root, small, rings);
+  rings = turned(std::move(rings), random.between(0, two_pi));
+  jitter(random, rings);
+  return rings;
+}
+
+Rings plate_shape(Random& random, bool small) {
+  Rings rings;
+  if (random.chance(0.5))
+    rings = {arcs_of_circle(2 + static_cast<int>(up_to(random, 4)))};
+  else
+    rings = {regular_polygon(3 + up_to(random, small ? 2 : 7))[0]};
+  add_holes(random, 0.45, small, rings);
+  jitter(random, rings);
+  return rings;
+}
+
 Rings group_shape(Random& random, bool small);
 
-constexpr std::array<NastyClass, 13> classes{{{"strips", strip_shape},
+constexpr std::array<NastyClass, 15> classes{{{"strips", strip_shape},
                                               {"slits", slit_shape},
                                               {"stretched", stretched_shape},
                                               {"needles", needle_shape},
@@ -280,7 +339,9 @@ constexpr std::array<NastyClass, 13> classes{{{"strips", strip_shape},
                                               {"groups", group_shape},
                                               {"circles", arc_circle, true},
                                               {"bars", bar_shape, true},
-                                              {"tangents", tangent_arcs, true}}};
+                                              {"tangents", tangent_arcs, true},
+                                              {"gears", gear_shape, true},
+                                              {"plates", plate_shape, true}}};
 
 // ---- Several of one class.
 

@@ -256,6 +256,14 @@ class Walker {
       if (i < boundary_.sites.size() && element(i) != Element::bridge) chunk_.lost.push_back(i);
   }
 
+  /// Whether an exact disk reaches over the site that a span has left, by more than what counts as
+  /// touched: then the exact axis has no edge in the span.
+  bool reaches_over(std::uint32_t third, const Disk& disk) const {
+    if (third >= boundary_.sites.size() || element(third) == Element::bridge) return false;
+    const double reach = disk.radius - context_.tolerance;
+    return reach > 0 && site::squared_distance(site(third), disk.center) < reach * reach;
+  }
+
   /// Of the sites of two spans that differ by pieces of one arc, those on which the foot lies.
   void stay_on_pieces(const Span& last, Vec2 center, Span& span) const {
     while (span.right < last.right &&
@@ -321,6 +329,7 @@ class Walker {
     stay_on_pieces(asked, found->disk.center, ahead);
     const bool passes = ahead.right != span.right || ahead.left != span.left;
     if (passes && !is_exact_ && stays_on_arc(span, event)) return false;
+    if (boundary_.has_arcs && reaches_over(span.third, found->disk)) lose(span, span.third);
     span = ahead;
     step.joins_node = false;
     step.error = Certainty::rounding + found->error;
