@@ -115,7 +115,7 @@ Result<int> run_nearest(const FileArguments& arguments, const NearestArguments& 
   for (Answer& answer : answers) {
     answer.nearest = locator.nearest(answer.place);
     const Site& site = sites[answer.nearest.site];
-    answer.kind = site.kind;
+    answer.kind = site.kind();
     answer.feature = pieces->feature[site.ring];
   }
   phases.end("search");

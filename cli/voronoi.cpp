@@ -82,7 +82,8 @@ Result<int> finish_voronoi(const Diagrams& diagrams, const VoronoiArguments& arg
   std::uint64_t segments = 0, vertices = 0, edges = 0, spokes = 0, points = 0;
   for (const io::VoronoiItem& item : file.items) {
     const VoronoiDiagram& diagram = item.diagram;
-    for (const Site& site : diagram.sites) ++(site.kind == SiteKind::vertex ? vertices : segments);
+    for (const Site& site : diagram.sites)
+      ++(site.kind() == SiteKind::vertex ? vertices : segments);
     edges += diagram.edges.size();
     for (const VoronoiEdge& edge : diagram.edges) spokes += edge.spoke ? 1 : 0;
     for (const Node& node : diagram.nodes) points += node.disk.radius > 0 ? 1 : 0;

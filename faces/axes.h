@@ -131,10 +131,8 @@ inline Result<MedialAxis> sound(MedialAxis axis) {
            known(edge.site[0]) && known(edge.site[1]) && finite(edge.control) && edge.weight > 0 &&
            std::isfinite(edge.weight);
   };
-  const auto good_site = [](const Site& site) { return site.kind <= SiteKind::arc; };
   if (!std::all_of(axis.nodes.begin(), axis.nodes.end(), good_node) ||
-      !std::all_of(axis.edges.begin(), axis.edges.end(), good_edge) ||
-      !std::all_of(axis.sites.begin(), axis.sites.end(), good_site))
+      !std::all_of(axis.edges.begin(), axis.edges.end(), good_edge))
     return Error{ErrorCode::malformed, "the arrays of the axis do not fit together", {}};
   return axis;
 }

@@ -114,12 +114,7 @@ double distance_to(const PlanarGraph& planar_graph, Vec2 p) {
   double least = HUGE_VAL;
   for (const Vec2 q : planar_graph.points) least = std::min(least, distance(p, q));
   for (const PlanarGraphEdge& edge : planar_graph.edges) {
-    const Site site{planar_graph.points[edge.from],
-                    planar_graph.points[edge.to],
-                    0,
-                    0,
-                    edge.bulge == 0 ? SiteKind::segment : SiteKind::arc,
-                    edge.bulge};
+    const Site site{planar_graph.points[edge.from], planar_graph.points[edge.to], 0, 0, edge.bulge};
     least = std::min(least, distance(p, foot(site, p)));
   }
   return least;

@@ -401,8 +401,8 @@ TEST(ClosedForm, ParabolaOfANotch) {
   ASSERT_TRUE(axis);
   int parabolas = 0;
   for (const Edge& edge : axis->edges) {
-    const SiteKind left = axis->sites[edge.site[0]].kind;
-    const SiteKind right = axis->sites[edge.site[1]].kind;
+    const SiteKind left = axis->sites[edge.site[0]].kind();
+    const SiteKind right = axis->sites[edge.site[1]].kind();
     if (left == SiteKind::segment && right == SiteKind::segment) continue;
     ++parabolas;
     EXPECT_EQ(edge.weight, 1);

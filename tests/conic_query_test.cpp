@@ -193,17 +193,17 @@ TEST(Conic, AreaBesideTheChord) {
 }
 
 TEST(Foot, OfAnArc) {
-  const Site half{{1, 0}, {-1, 0}, 0, 0, SiteKind::arc, 1};
+  const Site half{{1, 0}, {-1, 0}, 0, 0, 1};
   const auto near = [](Vec2 a, Vec2 b) { return distance(a, b) <= 4e-16; };
   EXPECT_TRUE(near(foot(half, {0, 0.5}), {0, 1}));
   EXPECT_TRUE(near(foot(half, {3, 4}), {0.6, 0.8}));
   EXPECT_EQ(foot(half, {3, -1}), (Vec2{1, 0}));
   EXPECT_EQ(foot(half, {-0.1, -1}), (Vec2{-1, 0}));
   // The other way round, and as flat as can be.
-  const Site back{{-1, 0}, {1, 0}, 0, 0, SiteKind::arc, -1};
+  const Site back{{-1, 0}, {1, 0}, 0, 0, -1};
   EXPECT_TRUE(near(foot(back, {3, 4}), {0.6, 0.8}));
   for (const double bulge : {1e-9, 1e-18, 1e-100, 1e-300}) {
-    const Site flat{{0, 0}, {4, 0}, 0, 0, SiteKind::arc, bulge};
+    const Site flat{{0, 0}, {4, 0}, 0, 0, bulge};
     EXPECT_TRUE(near(foot(flat, {1, 0.5}), {1 - 0.5 * bulge, -1.5 * bulge})) << bulge;
     EXPECT_EQ(foot(flat, {-1, 0.5}), (Vec2{0, 0}));
   }

@@ -81,7 +81,6 @@ TEST(Faces, StoredAxesHaveToFitTogether) {
   EXPECT_TRUE(refused([](MedialAxis& a) { a.nodes[0].disk.radius = -1; }));
   EXPECT_TRUE(refused(
       [](MedialAxis& a) { a.nodes[0].disk.center.x = std::numeric_limits<double>::infinity(); }));
-  EXPECT_TRUE(refused([](MedialAxis& a) { a.sites[0].kind = static_cast<SiteKind>(9); }));
 }
 
 TEST(Faces, LinesFollowBranches) {

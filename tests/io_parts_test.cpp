@@ -182,7 +182,7 @@ TEST_F(InParts, GraphsAreThoseOfTheWhole) {
       for (std::size_t k = 0; k < a.axis.sites.size(); ++k) {
         const Site &x = a.axis.sites[k], &y = b.axis.sites[k];
         ASSERT_TRUE(x.start == y.start && x.end == y.end && x.ring == y.ring &&
-                    x.vertex == y.vertex && x.kind == y.kind)
+                    x.vertex == y.vertex && x.kind() == y.kind())
             << format << ' ' << k;
       }
       EXPECT_TRUE(graph_of(a.axis) == graph_of(b.axis)) << format << ' ' << i;

@@ -21,7 +21,7 @@ namespace {
 /// Where along its site an edge's disk of one node touches: the parameter of a segment, in units of
 /// length; around a reflex vertex no foot moves.
 double foot_parameter(const Site& site, Vec2 center) {
-  if (site.kind == SiteKind::vertex) return 0;
+  if (site.kind() == SiteKind::vertex) return 0;
   const Vec2 d = site.end - site.start;
   return dot(center - site.start, d) / norm(d);
 }
@@ -80,7 +80,7 @@ std::string check_diagram(const Shape& shape, const VoronoiDiagram& diagram) {
   }
   const auto reflex = static_cast<std::size_t>(
       std::count_if(diagram.sites.begin(), diagram.sites.end(),
-                    [](const Site& site) { return site.kind == SiteKind::vertex; }));
+                    [](const Site& site) { return site.kind() == SiteKind::vertex; }));
   if (spokes != 4 * reflex) return "a reflex vertex does not have two spokes";
   return "";
 }

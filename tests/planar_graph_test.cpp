@@ -525,7 +525,7 @@ TEST(PlanarGraph, NearestSiteIsTheOneByDistance) {
   }
   const NearestSite end = locator.nearest({3, 0});
   ASSERT_NE(end.site, no_site);
-  EXPECT_EQ(diagram.sites[end.site].kind, SiteKind::vertex) << "of a tie, the point";
+  EXPECT_EQ(diagram.sites[end.site].kind(), SiteKind::vertex) << "of a tie, the point";
   EXPECT_EQ(SiteLocator({}).nearest({0, 0}).site, no_site);
 }
 

@@ -70,11 +70,11 @@ TEST(DiskAt, IsExactlyTheNodeAtTheEnds) {
 }
 
 TEST(Foot, OfSegmentAndVertex) {
-  const Site segment{{0, 0}, {4, 0}, 0, 0, SiteKind::segment};
+  const Site segment{{0, 0}, {4, 0}, 0, 0};
   EXPECT_EQ(foot(segment, {1, 3}), (Vec2{1, 0}));
   EXPECT_EQ(foot(segment, {-2, 3}), (Vec2{0, 0}));
   EXPECT_EQ(foot(segment, {9, 3}), (Vec2{4, 0}));
-  const Site vertex{{1e7, 2}, {1e7, 2}, 0, 0, SiteKind::vertex};
+  const Site vertex{{1e7, 2}, {1e7, 2}, 0, 0};
   EXPECT_EQ(foot(vertex, {1, 3}), (Vec2{1e7, 2}));
 }
 

@@ -42,7 +42,7 @@ MedialAxis axis_of(const Disk& from, const Disk& control, const Disk& to, double
 }
 
 double curvature_of(const Site& site) {
-  return site.kind == SiteKind::arc
+  return site.kind() == SiteKind::arc
              ? 4 * site.bulge / (distance(site.start, site.end) * (1 + site.bulge * site.bulge))
              : 0;
 }
@@ -60,7 +60,7 @@ TEST(Sides, OfExactEdgesAreTheirSites) {
           const Site& site = axis.sites[edge.site[side == Side::left ? 0 : 1]];
           const BoundaryJet boundary = boundary_at(jet, side);
           EXPECT_LE(distance(boundary.point, foot(site, jet.disk.center)), 1e-9 * size);
-          if (site.kind == SiteKind::vertex) {
+          if (site.kind() == SiteKind::vertex) {
             EXPECT_NEAR(boundary.rate, 0, 1e-4);
           } else if (boundary.rate > 1e-3) {
             EXPECT_NEAR(boundary.curvature * size, curvature_of(site) * size,

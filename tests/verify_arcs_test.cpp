@@ -30,8 +30,7 @@ struct HandMadeArcs {
     const auto n = static_cast<std::uint32_t>(points.size());
     for (std::uint32_t i = 0; i < n; ++i) {
       shape.sources.push_back({0, i});
-      const SiteKind kind = bulges[i] == 0 ? SiteKind::segment : SiteKind::arc;
-      axis.sites.push_back({points[i], points[(i + 1) % n], 0, i, kind, bulges[i]});
+      axis.sites.push_back({points[i], points[(i + 1) % n], 0, i, bulges[i]});
     }
     shape.points = std::move(points);
     shape.bulges = std::move(bulges);
@@ -205,7 +204,7 @@ TEST(VerifyArcsFinds, WrongSites) {
   m.axis.sites[0].bulge *= 1 + 1e-15;
   EXPECT_NE(joined(verify(m.shape, m.axis)).find("1 sites are neither an edge"), std::string::npos);
   m = lens();
-  m.axis.sites[0].kind = SiteKind::segment;
+  m.axis.sites[0].bulge = 0;
   EXPECT_NE(joined(verify(m.shape, m.axis)).find("1 sites are neither an edge"), std::string::npos);
 }
 
@@ -321,7 +320,7 @@ TEST(VerifyArcs, NeverCrashesOnRandomDamage) {
           site.bulge = number;
           break;
         case 6:
-          site.kind = static_cast<SiteKind>(below(3));
+          site.bulge = 0;
           break;
         case 7:
           m.shape.bulges[below(m.shape.bulges.size())] = number;

@@ -264,7 +264,7 @@ TEST(VerifyFinds, MissingReflexVertex) {
   HandMade m = notch();
   for (Edge& edge : m.axis.edges)
     for (std::uint32_t& site : edge.site)
-      if (m.axis.sites[site].kind == SiteKind::vertex) site = m.segment_site[5];
+      if (m.axis.sites[site].kind() == SiteKind::vertex) site = m.segment_site[5];
   // Both neighbours' disks still touch the vertex, so it counts as touched; the edge does not fit.
   expect_failure(m, "do not touch a site");
 }
@@ -446,7 +446,7 @@ TEST(Verify, NeverCrashesOnRandomDamage) {
           site.start.x = number;
           break;
         case 8:
-          site.kind = static_cast<SiteKind>(below(3));
+          site.bulge = number;
           break;
         default:
           site.end = site.start;

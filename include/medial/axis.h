@@ -21,8 +21,11 @@ enum class SiteKind : std::uint8_t {
 struct Site {
   Vec2 start, end;                     ///< interior on the left; equal for a vertex
   std::uint32_t ring = 0, vertex = 0;  ///< where `start` is in the input
-  SiteKind kind = SiteKind::segment;
-  double bulge = 0;  ///< of an arc: see Ring
+  double bulge = 0;                    ///< of an arc: see Ring
+
+  SiteKind kind() const {
+    return bulge != 0 ? SiteKind::arc : start == end ? SiteKind::vertex : SiteKind::segment;
+  }
 };
 
 enum class NodeKind : std::uint8_t {

@@ -15,12 +15,18 @@ const LAYOUT = {
     u8: {},
   },
   site: {
-    size: 56,
-    f64: { startX: 0, startY: 8, endX: 16, endY: 24, bulge: 48 },
+    size: 48,
+    f64: { startX: 0, startY: 8, endX: 16, endY: 24, bulge: 40 },
     u32: { ring: 32, vertex: 36 },
-    u8: { kind: 40 },
+    u8: {},
+    made: { kind: kinds_of_sites },
   },
 };
+/** Of each site, the index of SITE_KINDS: an arc has a bulge, a vertex equal ends. */
+function kinds_of_sites({ length, startX, startY, endX, endY, bulge }) {
+  const kind = (_, i) => (bulge[i] !== 0 ? 2 : startX[i] === endX[i] && startY[i] === endY[i] ? 1 : 0);
+  return Uint8Array.from({ length }, kind);
+}
 const TYPES = { f64: [Float64Array, 8], u32: [Uint32Array, 4], u8: [Uint8Array, 1] };
 
 /** A table whose columns are typed arrays; each is copied when it is first asked for. */
@@ -34,12 +40,11 @@ export class Records {
     this.#bytes = bytes;
     this.#layout = LAYOUT[kind];
     this.length = length;
+    const define = (name, make) =>
+      Object.defineProperty(this, name, { enumerable: true, get: () => (this.#columns[name] ??= make()) });
     for (const type of Object.keys(TYPES))
-      for (const name of Object.keys(this.#layout[type]))
-        Object.defineProperty(this, name, {
-          enumerable: true,
-          get: () => (this.#columns[name] ??= this.#column(type, name)),
-        });
+      for (const name of Object.keys(this.#layout[type])) define(name, () => this.#column(type, name));
+    for (const [name, make] of Object.entries(this.#layout.made ?? {})) define(name, () => make(this));
   }
 
   /** The records as they lie in the module's memory, until the memory next grows or is freed. */
@@ -59,7 +64,7 @@ export class Records {
 
   /** Record i as an object. */
   at(i) {
-    const names = Object.keys(TYPES).flatMap((type) => Object.keys(this.#layout[type]));
+    const names = [...Object.keys(TYPES), "made"].flatMap((type) => Object.keys(this.#layout[type] ?? {}));
     return Object.fromEntries(names.map((name) => [name, this[name][i]]));
   }
 
@@ -70,11 +75,11 @@ export class Records {
 
 /** The bytes of records from objects with the fields above. */
 export function packed(kind, rows) {
-  const { size, ...fields } = LAYOUT[kind];
+  const { size, f64, u32, u8 } = LAYOUT[kind];
   const bytes = new DataView(new ArrayBuffer(Math.max(1, rows.length) * size));
   rows.forEach((row, i) => {
     const set = { f64: "setFloat64", u32: "setUint32", u8: "setUint8" };
-    for (const [type, names] of Object.entries(fields))
+    for (const [type, names] of Object.entries({ f64, u32, u8 }))
       for (const [name, at] of Object.entries(names)) bytes[set[type]](i * size + at, row[name], true);
   });
   return bytes;

@@ -73,7 +73,7 @@ MEDIAL_JS AxisOf* medial_axis(const ShapeOf* of, const char* given) {
 MEDIAL_JS int medial_axis_numbers(const AxisOf* of) {
   return answered([&] {
     const MedialAxis& axis = of->axis;
-    static_assert(sizeof(Node) == 32 && sizeof(Edge) == 48 && sizeof(Site) == 56);
+    static_assert(sizeof(Node) == 32 && sizeof(Edge) == 48 && sizeof(Site) == 48);
     answer().tables = {{address_of(axis.nodes.data()), number(axis.nodes.size()),
                         address_of(axis.edges.data()), number(axis.edges.size()),
                         address_of(axis.sites.data()), number(axis.sites.size()), axis.tolerance,

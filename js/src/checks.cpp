@@ -159,7 +159,7 @@ MEDIAL_JS int medial_voronoi(const double* coordinates, const std::uint32_t* beg
     std::vector<Disk> lines;
     std::vector<Vec2> faces;
     for (const Site& s : diagram.sites) {
-      sites.insert(sites.end(), {number(s.kind), s.start.x, s.start.y, s.end.x, s.end.y,
+      sites.insert(sites.end(), {number(s.kind()), s.start.x, s.start.y, s.end.x, s.end.y,
                                  number(s.ring), number(s.vertex), s.bulge});
       const auto outline = face_outline(diagram, face_begin.size() - 1, chord);
       faces.insert(faces.end(), outline.begin(), outline.end());

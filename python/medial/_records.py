@@ -1,4 +1,4 @@
-"""The records of the library as NumPy arrays, without a copy."""
+"""The records of the library as NumPy arrays, of sites a copy, which also has their kinds."""
 
 from __future__ import annotations
 
@@ -34,6 +34,7 @@ EDGE = np.dtype(
         "itemsize": 48,
     }
 )
+_STORED_SITE = np.dtype([("start", "f8", 2), ("end", "f8", 2), ("ring", "u4"), ("vertex", "u4"), ("bulge", "f8")])
 SITE = np.dtype(
     {
         "names": ["start", "end", "ring", "vertex", "kind", "bulge"],
@@ -49,7 +50,18 @@ NEAREST = np.dtype(
 
 def records(data: npt.NDArray[np.uint8], dtype: np.dtype[np.void]) -> Records:
     """Bytes as records."""
-    return data.view(dtype)
+    return _sites(data.view(_STORED_SITE)) if dtype is SITE else data.view(dtype)
+
+
+def _sites(stored: Records) -> Records:
+    """Sites with their kinds: an arc has a bulge, a vertex equal ends."""
+    result = np.zeros(stored.shape, SITE)
+    for name in _STORED_SITE.names or ():
+        result[name] = stored[name]
+    is_vertex = (stored["start"] == stored["end"]).all(axis=1)
+    result["kind"] = np.where(stored["bulge"] != 0, 2, is_vertex)
+    result.flags.writeable = stored.flags.writeable
+    return result
 
 
 def packed(values: Records) -> Records:
@@ -62,8 +74,9 @@ def packed(values: Records) -> Records:
 def unpacked(values: npt.ArrayLike, dtype: np.dtype[np.void]) -> npt.NDArray[np.uint8]:
     """Records as bytes in the layout of the library, gaps set to 0."""
     source = np.asarray(values)
-    result = np.zeros(source.shape, dtype)
-    for name in dtype.names or ():
+    stored = _STORED_SITE if dtype is SITE else dtype
+    result = np.zeros(source.shape, stored)
+    for name in stored.names or ():
         result[name] = source[name]
     return result.view(np.uint8).reshape(-1)
 

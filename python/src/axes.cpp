@@ -235,7 +235,7 @@ void bind_axes(nb::module_& module) {
         return std::array{disk.center.x, disk.center.y, disk.radius};
       });
   module.def("clearances", &clearances);
-  static_assert(sizeof(Node) == 32 && sizeof(Edge) == 48 && sizeof(Site) == 56);
+  static_assert(sizeof(Node) == 32 && sizeof(Edge) == 48 && sizeof(Site) == 48);
   bind_compute(module);
 }
 

@@ -34,13 +34,7 @@ class SignedDistance {
       const std::uint32_t begin = shape.loop_begin[i], end = shape.loop_begin[i + 1];
       for (std::uint32_t k = begin; k < end; ++k) {
         const std::uint32_t next = k + 1 < end ? k + 1 : begin;
-        const double bulge = shape.bulge(k);
-        sites[k] = {shape.points[k],
-                    shape.points[next],
-                    0,
-                    k,
-                    bulge == 0 ? SiteKind::segment : SiteKind::arc,
-                    bulge};
+        sites[k] = {shape.points[k], shape.points[next], 0, k, shape.bulge(k)};
         before_[next] = k;
         after_[k] = next;
       }
@@ -49,7 +43,7 @@ class SignedDistance {
   }
   static bool is_left(const Site& site, Vec2 p) {
     const Vec2 chord = site.end - site.start;
-    if (site.kind == SiteKind::segment) return cross(chord, p - site.start) > 0;
+    if (site.kind() == SiteKind::segment) return cross(chord, p - site.start) > 0;
     const double across = (1 - site.bulge * site.bulge) / (4 * site.bulge);
     const Vec2 center = midpoint(site.start, site.end) + across * left_of(chord);
     const bool inside = distance(p, center) < distance(site.start, center);
@@ -59,7 +53,7 @@ class SignedDistance {
   double at_vertex(Vec2 p, std::uint32_t first, const NearestSite& found) const {
     const Site &a = sites_[first], &b = sites_[after_[first]];
     if (found.distance == 0) return 0;
-    if (a.kind == SiteKind::arc || b.kind == SiteKind::arc) return clearance(shape_, p);
+    if (a.kind() == SiteKind::arc || b.kind() == SiteKind::arc) return clearance(shape_, p);
     const bool reflex = cross(a.end - a.start, b.end - b.start) < 0;
     return reflex ? found.distance : -found.distance;
   }

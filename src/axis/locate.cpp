@@ -147,7 +147,7 @@ double clearance(const Shape& shape, Vec2 p) {
       if (along <= 0) distance_to_edge = norm(q);
       if (along >= size * size) distance_to_edge = norm(p - b);
       const double bulge = shape.bulge(shape.loop_begin[i] + j);
-      if (bulge != 0) distance_to_edge = distance(foot({a, b, 0, 0, SiteKind::arc, bulge}, p), p);
+      if (bulge != 0) distance_to_edge = distance(foot({a, b, 0, 0, bulge}, p), p);
       best = std::min(best, distance_to_edge);
       if (is_crossed(a, b, bulge, p)) inside = !inside;
     }

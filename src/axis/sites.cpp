@@ -103,12 +103,12 @@ medial::Site result_site(const Shape& shape, const SiteNumbers& numbers, std::ui
                          std::size_t point) {
   const auto [ring, vertex] = shape.sources[point];
   const Vec2 p = shape.points[point];
-  if (site < numbers.edge[point]) return {p, p, ring, vertex, SiteKind::vertex};
+  if (site < numbers.edge[point]) return {p, p, ring, vertex};
   const auto& begin = shape.loop_begin;
   const auto loop = std::upper_bound(begin.begin(), begin.end(), point);
   const Vec2 q = shape.points[point + 1 == *loop ? *(loop - 1) : point + 1];
   const double bulge = shape.bulge(point);
-  return {p, q, ring, vertex, bulge == 0 ? SiteKind::segment : SiteKind::arc, bulge};
+  return {p, q, ring, vertex, bulge};
 }
 
 std::vector<medial::Site> result_sites(const Shape& shape, const SiteNumbers& numbers,
@@ -123,9 +123,9 @@ std::vector<medial::Site> result_sites(const Shape& shape, const SiteNumbers& nu
     const Vec2 p = shape.points[i], q = shape.points[i + 1 == end ? begin : i + 1];
     const auto [ring, vertex] = shape.sources[i];
     const double bulge = shape.bulge(i);
-    if (numbers.is_site(i)) sites.push_back({p, p, ring, vertex, SiteKind::vertex});
+    if (numbers.is_site(i)) sites.push_back({p, p, ring, vertex});
     if (end - begin == 1) continue;
-    sites.push_back({p, q, ring, vertex, bulge == 0 ? SiteKind::segment : SiteKind::arc, bulge});
+    sites.push_back({p, q, ring, vertex, bulge});
   }
   return sites;
 }
@@ -141,7 +141,7 @@ namespace {
 
 /// A site of the result in a frame; of an arc in two pieces the one that is nearer to a disk.
 site::Site local_site(const Site& own, const LocalFrame& frame, Vec2 center) {
-  if (own.kind == SiteKind::vertex) return site::make_vertex(frame.to_local(own.start));
+  if (own.kind() == SiteKind::vertex) return site::make_vertex(frame.to_local(own.start));
   const site::Pieces pieces =
       site::pieces_of(frame.to_local(own.start), frame.to_local(own.end), own.bulge);
   const bool is_first =

@@ -67,7 +67,7 @@ Status add_diagram(TableSink& sink, const VoronoiItem& item, std::size_t feature
     std::vector<std::vector<Vec2>> parts{ring_of_face(diagram, k, chord)};
     if (parts[0].empty()) continue;
     const Site& site = diagram.sites[k];
-    const std::vector<Value> values{whole(feature), whole(k), std::string(name_of(site.kind)),
+    const std::vector<Value> values{whole(feature), whole(k), std::string(name_of(site.kind())),
                                     whole(site.ring), whole(site.vertex)};
     if (Status added = sink.add(0, values, attributes, parts); !added) return added;
   }

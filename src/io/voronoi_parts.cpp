@@ -38,7 +38,7 @@ std::vector<Vec2> ring_of_face(const VoronoiDiagram& diagram, std::uint32_t k, d
     if (edge.site[1] != k) std::ranges::reverse(line);
     for (std::size_t p = 1; p < line.size(); ++p) ring.push_back(line[p].center);
   }
-  if (site.kind == SiteKind::segment) ring.push_back(site.start);
+  if (site.kind() == SiteKind::segment) ring.push_back(site.start);
   return ring;
 }
 

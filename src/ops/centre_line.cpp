@@ -41,13 +41,13 @@ class Boundary {
 double hit(const Site& site, Vec2 p, Vec2 direction, double least) {
   const Vec2 chord = site.end - site.start, to = site.start - p;
   double first = infinity;
-  if (site.kind == SiteKind::segment) {
+  if (site.kind() == SiteKind::segment) {
     const double slope = cross(direction, chord);
     const double along = cross(to, chord) / slope, share = cross(to, direction) / slope;
     if (share >= 0 && share <= 1 && along > least) first = along;
     return first;
   }
-  if (site.kind != SiteKind::arc) return first;
+  if (site.kind() != SiteKind::arc) return first;
   // |p + s direction - centre| = radius, and on the arc's side of its chord.
   const BulgeArc arc{site.start, site.end, site.bulge};
   const double bend = curvature(arc);

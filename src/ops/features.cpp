@@ -65,7 +65,7 @@ struct Way {
 
 Way way_between(const Site* site, Vec2 from, Vec2 to) {
   const double chord = distance(from, to);
-  if (site == nullptr || site->kind != SiteKind::arc || !(chord > 0)) return {chord, 0};
+  if (site == nullptr || site->kind() != SiteKind::arc || !(chord > 0)) return {chord, 0};
   const BulgeArc whole{site->start, site->end, site->bulge};
   const BulgeArc part{from, to, partial_bulge(whole, from, to)};
   return {arc_length(chord, part.bulge), area_beside_chord(part)};

@@ -201,7 +201,7 @@ std::array<Vec2, 2> feet_at(const MedialAxis& axis, const Edge& edge, double t, 
 }
 
 Vec2 touch_of(const MedialAxis& axis, const Site& site, Vec2 center, bool ends) {
-  if (site.kind == SiteKind::arc && site.bulge > 0) {
+  if (site.kind() == SiteKind::arc && site.bulge > 0) {
     const BulgeArc arc{site.start, site.end, site.bulge};
     const Vec2 middle = arc.start + (1 / curvature(arc)) * left_of(start_tangent(arc));
     if (distance(middle, center) <= 64 * axis.tolerance) return ends ? site.end : site.start;

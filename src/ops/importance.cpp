@@ -114,7 +114,7 @@ void Importance::add_sides(std::uint32_t e, double t0, double t1, Beyond& sum) c
     double bulge = 0;
     // From the centre of an arc to its centre: nothing of it was passed.
     if (exact && curve.origin == curve.end) return;
-    if (exact && site < axis_.sites.size() && axis_.sites[site].kind == SiteKind::arc &&
+    if (exact && site < axis_.sites.size() && axis_.sites[site].kind() == SiteKind::arc &&
         !(a == b)) {
       const Site& arc = axis_.sites[site];
       // On the left the boundary runs against the edge.

@@ -14,7 +14,7 @@ namespace {
 
 /// Whether a disk lies in the circle of an arc, to `slack`.
 bool touches_all_of(const Site& site, const Disk& disk, double slack) {
-  if (site.kind != SiteKind::arc || !(site.bulge > 0)) return false;
+  if (site.kind() != SiteKind::arc || !(site.bulge > 0)) return false;
   const BulgeArc arc{site.start, site.end, site.bulge};
   const double radius = 1 / curvature(arc);
   const Vec2 center = arc.start + radius * left_of(start_tangent(arc));
@@ -37,7 +37,7 @@ BulgeArc arc_of(const Site& site) { return {site.start, site.end, site.bulge}; }
 /// bisector and across it, that leaves a quadratic in s, of which this is the smaller root. Nothing
 /// is divided by the angle, so that it may be as small as it likes.
 std::optional<Vec2> beside_joint(const Site& before, const Site& after, double d) {
-  if (before.kind == SiteKind::vertex || after.kind == SiteKind::vertex) return std::nullopt;
+  if (before.kind() == SiteKind::vertex || after.kind() == SiteKind::vertex) return std::nullopt;
   const BulgeArc one = arc_of(before), other = arc_of(after);
   const Vec2 n1 = left_of(end_tangent(one)), n2 = left_of(start_tangent(other));
   const double cosine = norm(n1 + n2) / 2, sine = cross(n1, n2) / (2 * cosine);
@@ -70,14 +70,14 @@ class LevelWalk::RingBuilder {
   /// step is less than a half turn then.
   void pass(Vec2 towards) {
     const Site& site = axis_.sites[site_];
-    if (site.kind != SiteKind::vertex) return;
+    if (site.kind() != SiteKind::vertex) return;
     turn_ += clockwise(last_ - site.start, towards - site.start);
     last_ = towards;
   }
   void end(Vec2 point) {
     if (site_ == no_site) return;  // no walk has started
     const Site& site = axis_.sites[site_];
-    switch (site.kind) {
+    switch (site.kind()) {
       case SiteKind::segment:
         return add(point, 0);
       case SiteKind::vertex:
@@ -105,7 +105,7 @@ class LevelWalk::RingBuilder {
       const Vec2 center = arc.start + (1 / round) * left_of(start_tangent(arc));
       return add(point, std::tan(clockwise(first_ - center, point - center) / 4));
     }
-    const Site site{arc.start, arc.end, 0, 0, SiteKind::arc, arc.bulge};
+    const Site site{arc.start, arc.end, 0, 0, arc.bulge};
     const Vec2 a = foot(site, first_), b = foot(site, point);
     add(point, a == b ? 0 : partial_bulge(arc, a, b));
   }
@@ -260,7 +260,7 @@ bool LevelWalk::pass_joints(std::uint32_t before, std::uint32_t after, double le
     const Site &a = sites[chain[i - 1]], &b = sites[chain[i]];
     const auto met = beside_joint(a, b, level);
     const Vec2 tangent =
-        a.kind == SiteKind::vertex ? start_tangent(arc_of(b)) : end_tangent(arc_of(a));
+        a.kind() == SiteKind::vertex ? start_tangent(arc_of(b)) : end_tangent(arc_of(a));
     const Vec2 point = met ? *met : a.end + level * left_of(tangent);
     builder.end(point);
     builder.begin(chain[i], point);

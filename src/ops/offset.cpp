@@ -153,7 +153,7 @@ Surroundings surroundings_of(const Shape& shape, const Exterior& exterior, const
   std::size_t point = 0;
   for (const Site& site : axis.sites) {
     around.of_site.push_back(component_at(point));
-    if (site.kind != SiteKind::vertex) ++point;
+    if (site.kind() != SiteKind::vertex) ++point;
   }
   around.of_part.resize(exterior.shape.component_count());
   for (std::size_t i = 0; i < exterior.shape.loop_count(); ++i) {

@@ -98,8 +98,8 @@ class BoundaryWalk {
   bool goes_on(std::uint32_t before, std::uint32_t after) const {
     const Site &a = axis_.sites[before], &b = axis_.sites[after];
     if (!(a.end == b.start)) return false;
-    if (a.kind == SiteKind::vertex || b.kind == SiteKind::vertex) return true;
-    if (a.kind != SiteKind::arc && b.kind != SiteKind::arc) return false;
+    if (a.kind() == SiteKind::vertex || b.kind() == SiteKind::vertex) return true;
+    if (a.kind() != SiteKind::arc && b.kind() != SiteKind::arc) return false;
     const site::Joint joint = site::joint_of({a.start, a.end, a.bulge}, {b.start, b.end, b.bulge},
                                              axis_.tolerance, corner_angle_);
     return joint == site::Joint::smooth || joint == site::Joint::blunt;
@@ -116,7 +116,7 @@ class BoundaryWalk {
     // by the other, next to it or behind a vertex.
     std::uint32_t from = before, to = after;
     const auto is_vertex = [&](std::uint32_t site) {
-      return site < axis_.sites.size() && axis_.sites[site].kind == SiteKind::vertex;
+      return site < axis_.sites.size() && axis_.sites[site].kind() == SiteKind::vertex;
     };
     if (is_vertex(before + 1) && joined(before, before + 1)) ++from;
     if (is_vertex(after - 1) && joined(after - 1, after)) --to;
@@ -178,7 +178,7 @@ class BoundaryWalk {
       if (piece.begin == piece.end && piece.angle < half_turn) continue;
       if (piece.angle > 0) {
         ops::add_arc(piece.disk, piece.begin, piece.end, piece.angle, contour);
-      } else if (piece.site != no_site && axis_.sites[piece.site].kind == SiteKind::arc) {
+      } else if (piece.site != no_site && axis_.sites[piece.site].kind() == SiteKind::arc) {
         const Site& site = axis_.sites[piece.site];
         const bool whole = piece.begin == site.start && piece.end == site.end;
         contour.arc_to(piece.end, whole ? site.bulge

@@ -20,8 +20,8 @@ namespace {
 
 /// The direction in which disks leave the boundary at a foot; 0 where a vertex leaves it open.
 Vec2 inward_at(const Site& site, Vec2 foot, Vec2 p) {
-  if (site.kind == SiteKind::vertex) return p - foot;
-  if (site.kind == SiteKind::segment) return left_of(site.end - site.start);
+  if (site.kind() == SiteKind::vertex) return p - foot;
+  if (site.kind() == SiteKind::segment) return left_of(site.end - site.start);
   const BulgeArc arc{site.start, site.end, site.bulge};
   return left_of(start_tangent(arc) + curvature(arc) * left_of(foot - site.start));
 }
@@ -184,9 +184,9 @@ std::pair<std::uint32_t, Vec2> nearest_site(const MedialAxis& axis, Vec2 p) {
   for (std::uint32_t i = 0; i < axis.sites.size(); ++i) {
     const Vec2 q = foot(axis.sites[i], p);
     const double d = distance(p, q);
-    const bool vertex = axis.sites[i].kind == SiteKind::vertex;
+    const bool vertex = axis.sites[i].kind() == SiteKind::vertex;
     const bool after_vertex =
-        nearest < infinity && axis.sites[best.first].kind == SiteKind::vertex && !vertex;
+        nearest < infinity && axis.sites[best.first].kind() == SiteKind::vertex && !vertex;
     if (after_vertex ? d * rounding < nearest : d < nearest * (vertex ? rounding : 1)) {
       nearest = d;
       best = {i, q};

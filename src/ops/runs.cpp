@@ -29,8 +29,8 @@ bool is_linear(const MedialAxis& axis, const Edge& edge) {
   if (axis.resolution > 0) return true;
   const std::size_t count = axis.sites.size();
   if (edge.site[0] >= count || edge.site[1] >= count) return false;
-  return axis.sites[edge.site[0]].kind == SiteKind::segment &&
-         axis.sites[edge.site[1]].kind == SiteKind::segment;
+  return axis.sites[edge.site[0]].kind() == SiteKind::segment &&
+         axis.sites[edge.site[1]].kind() == SiteKind::segment;
 }
 
 /// Whether an edge's second derivatives may change their sign inside: not on lines and parabolas.
@@ -40,8 +40,8 @@ bool is_conic(const Edge& edge, bool straight) { return edge.weight != 1 && !str
 bool is_straight(const MedialAxis& axis, const Edge& edge, const Curve& curve) {
   const std::size_t count = axis.sites.size();
   if (edge.site[0] < count && edge.site[1] < count &&
-      axis.sites[edge.site[0]].kind == SiteKind::vertex &&
-      axis.sites[edge.site[1]].kind == SiteKind::vertex)
+      axis.sites[edge.site[0]].kind() == SiteKind::vertex &&
+      axis.sites[edge.site[1]].kind() == SiteKind::vertex)
     return true;
   return curve.straight();
 }

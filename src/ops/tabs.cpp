@@ -55,7 +55,7 @@ class SitePlaces {
       const Site& site = axis.sites[i];
       loop_[i] = loop;
       begin_[i] = lengths_[loop];
-      if (site.kind == SiteKind::vertex) continue;  // it comes before the edge that begins there
+      if (site.kind() == SiteKind::vertex) continue;  // it comes before the edge that begins there
       lengths_[loop] += arc_length(distance(site.start, site.end), site.bulge);
       ++point;
     }
@@ -65,7 +65,7 @@ class SitePlaces {
   /// Of a point of the site: the length of its loop up to there.
   double along(std::uint32_t site, Vec2 p) const {
     const Site& on = axis_.sites[site];
-    if (on.kind == SiteKind::vertex || p == on.start) return begin_[site];
+    if (on.kind() == SiteKind::vertex || p == on.start) return begin_[site];
     const BulgeArc edge{on.start, on.end, on.bulge};
     return begin_[site] + arc_length(distance(on.start, p), partial_bulge(edge, on.start, p));
   }
@@ -93,7 +93,7 @@ std::vector<TabPlace> places_of(const Shape& shape, const MedialAxis& axis,
                           sites.loop(there),
                           sites.along(here, from),
                           disk.radius,
-                          axis.sites[here].kind == SiteKind::vertex,
+                          axis.sites[here].kind() == SiteKind::vertex,
                           {from, disk.center, foot(axis.sites[there], disk.center)}});
       }
     }

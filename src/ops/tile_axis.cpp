@@ -104,7 +104,7 @@ class TileAxis {
       for (const std::uint32_t i : edge.site) {
         const Site& site = axis_.sites[i];
         if (site.ring == no_index) continue;
-        if (site.kind == SiteKind::vertex)
+        if (site.kind() == SiteKind::vertex)
           touched_point[site.ring] = true;
         else
           touched[tile_.edge_of(site.vertex)] = true;
@@ -160,7 +160,7 @@ class TileAxis {
     const std::uint32_t half_edge = site.vertex;
     const TileEdge& edge = edges_[tile_.edge_of(half_edge)];
     if (!(tile_.graph.points[start_of(tile_.graph, half_edge)] == edge.from)) return outside;
-    return 2 * edge.number + (site.kind == SiteKind::vertex ? 1 : 0);
+    return 2 * edge.number + (site.kind() == SiteKind::vertex ? 1 : 0);
   }
 
   /// Names and degrees of the nodes. A name is made of the sites on both sides of each edge that

@@ -38,7 +38,7 @@ Stretch touched_by(const Problem& problem, const BoundaryEdge& on, std::uint32_t
 Stretch stretch_of(const Problem& problem, std::uint32_t place, std::uint32_t before,
                    const Edge& edge, std::size_t side) {
   const auto [from, to] = edge.node;
-  if (problem.axis.sites[edge.site[side]].kind == SiteKind::vertex) {
+  if (problem.axis.sites[edge.site[side]].kind() == SiteKind::vertex) {
     const Vec2 arriving = end_tangent(problem.edge(before));
     const auto turn = [&](std::uint32_t node) {
       const Vec2 off = problem.disk(node).center - problem.point(place);
@@ -279,7 +279,7 @@ struct FootPoint {
 };
 
 FootPoint foot_point_of(const Problem& problem, const Site& site, const Disk& disk) {
-  if (site.kind != SiteKind::arc || site.start == site.end) return {foot(site, disk.center)};
+  if (site.kind() != SiteKind::arc || site.start == site.end) return {foot(site, disk.center)};
   const BoundaryEdge arc = edge_of(site);
   const double at = foot_at(arc, disk.center);
   return {point_at(arc, at), at, foot_slack(arc, disk.center, problem.tolerance)};
@@ -287,7 +287,7 @@ FootPoint foot_point_of(const Problem& problem, const Site& site, const Disk& di
 
 /// The area between the boundary and the chord from one contact forward to another.
 double area_beside(const Site& site, const FootPoint& from, const FootPoint& to) {
-  if (site.kind != SiteKind::arc || from.foot == to.foot) return 0;
+  if (site.kind() != SiteKind::arc || from.foot == to.foot) return 0;
   const double angle = (to.at - from.at) * curvature(edge_of(site));
   return area_beside_chord({from.foot, to.foot, std::tan(0.25 * angle)});
 }
@@ -471,7 +471,7 @@ class Slices {
   bool passes_on(std::uint32_t site, std::uint32_t other, const Disk& disk) const {
     constexpr int most_vertices = 4;
     for (const std::uint32_t i : {site, other})
-      if (problem_.axis.sites[i].kind == SiteKind::vertex || problem_.place[i] == no_index)
+      if (problem_.axis.sites[i].kind() == SiteKind::vertex || problem_.place[i] == no_index)
         return false;
     const Vec2 foot = foot_point_of(problem_, problem_.axis.sites[site], disk).foot;
     std::uint32_t point = problem_.place[site];

@@ -142,7 +142,7 @@ double turned_by(const Problem& problem, const Edge& edge, const Curve& curve) {
   const double speed = norm(tangent);
   double slack = problem.tolerance;
   for (const Site& site : {left, right})
-    if (site.kind == SiteKind::arc)
+    if (site.kind() == SiteKind::arc)
       slack = std::max(slack, foot_slack(edge_of(site), center, problem.tolerance));
   if (speed <= few * problem.tolerance || norm(chord) <= few * slack) return 0;
   return -cross(tangent, chord) / speed;
@@ -168,7 +168,7 @@ class EdgeCheck {
       const std::uint32_t place = problem.place[edge_.site[side]];
       on_boundary_[side] = place != no_index;
       if (!on_boundary_[side]) continue;
-      if (problem.axis.sites[edge_.site[side]].kind != SiteKind::vertex) {
+      if (problem.axis.sites[edge_.site[side]].kind() != SiteKind::vertex) {
         places_.known[side] = place;
         continue;
       }

@@ -57,7 +57,7 @@ struct Corner {
 bool ends_at_arc(const Problem& problem, const Edge& edge, std::size_t end, std::size_t& budget) {
   const auto place = [&](std::size_t side) { return problem.place[edge.site[side]]; };
   const auto is_vertex = [&](std::size_t side) {
-    return problem.axis.sites[edge.site[side]].kind == SiteKind::vertex;
+    return problem.axis.sites[edge.site[side]].kind() == SiteKind::vertex;
   };
   // Ahead of the end, the boundary runs from the site on the right to the one on the left.
   const std::size_t right = end, left = 1 - end;
@@ -244,11 +244,9 @@ class PlaceFinder {
  private:
   bool fits(const Site& site, std::uint32_t i) const {
     if (!(shape_.points[i] == site.start)) return false;
-    if (site.kind == SiteKind::vertex)
-      return site.end == site.start &&
-             (problem_.joint[i] == Joint::reflex || problem_.joint[i] == Joint::smooth);
-    return shape_.points[problem_.next[i]] == site.end && shape_.bulge(i) == site.bulge &&
-           (site.bulge != 0) == (site.kind == SiteKind::arc);
+    if (site.kind() == SiteKind::vertex)
+      return problem_.joint[i] == Joint::reflex || problem_.joint[i] == Joint::smooth;
+    return shape_.points[problem_.next[i]] == site.end && shape_.bulge(i) == site.bulge;
   }
 
   std::uint32_t look_up(const Site& site) {
@@ -476,7 +474,7 @@ std::vector<bool> touched_points(const Problem& problem) {
     for (const std::uint32_t site : edge.site) {
       const std::uint32_t place = problem.place[site];
       if (place == no_index) continue;
-      if (axis.sites[site].kind == SiteKind::vertex) {
+      if (axis.sites[site].kind() == SiteKind::vertex) {
         touched[place] = true;
         continue;
       }

@@ -72,13 +72,11 @@ class VoronoiCheck {
     for (std::size_t i = 0; same && i < diagram_.sites.size(); ++i) {
       const Site& site = diagram_.sites[i];
       if (i < points) {
-        same = site.kind == SiteKind::vertex && site.start == planar_graph_.points[i] &&
-               site.end == planar_graph_.points[i];
+        same = site.kind() == SiteKind::vertex && site.start == planar_graph_.points[i];
         continue;
       }
       const PlanarGraphEdge& edge = planar_graph_.edges[i - points];
-      same = site.kind == (edge.bulge == 0 ? SiteKind::segment : SiteKind::arc) &&
-             site.start == planar_graph_.points[edge.from] &&
+      same = site.start == planar_graph_.points[edge.from] &&
              site.end == planar_graph_.points[edge.to] && site.bulge == edge.bulge;
     }
     if (!same) fail("The sites are not those of the input.");

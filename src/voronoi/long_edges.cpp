@@ -17,14 +17,14 @@ namespace medial::voronoi {
 namespace {
 
 bool is_vertex(const MedialAxis& axis, std::uint32_t own) {
-  return axis.sites[own].kind == SiteKind::vertex;
+  return axis.sites[own].kind() == SiteKind::vertex;
 }
 
 /// Whether no edge begins at a vertex: of others, a planar graph has at most a half turn as a site.
 bool is_lone_point(const MedialAxis& axis, std::uint32_t own) {
   if (own + 1 == axis.sites.size()) return true;
   const Site& next = axis.sites[own + 1];
-  return next.kind == SiteKind::vertex || next.start != axis.sites[own].start;
+  return next.kind() == SiteKind::vertex || next.start != axis.sites[own].start;
 }
 
 /// A power of two that makes a size about one.
@@ -36,7 +36,7 @@ double unit_for(double size) {
 /// the half next to a place.
 site::Site seen_from(const Site& site, Vec2 origin, double unit, Vec2 near) {
   const auto seen = [&](Vec2 p) { return unit * (p - origin); };
-  if (site.kind == SiteKind::vertex) return site::make_vertex(seen(site.start));
+  if (site.kind() == SiteKind::vertex) return site::make_vertex(seen(site.start));
   const site::Pieces pieces = site::pieces_of(seen(site.start), seen(site.end), site.bulge);
   const bool first = pieces.count == 1 || site::squared_distance(pieces.first(), near) <=
                                               site::squared_distance(pieces.last(), near);
@@ -91,7 +91,7 @@ void take_control(const Site& left, const Site& right, ConicEdge& part) {
 
 template <class E>
 Status split_long_edges(MedialAxis& axis, std::vector<E>& edges, bool parabolas) {
-  const auto is_arc = [](const Site& site) { return site.kind == SiteKind::arc; };
+  const auto is_arc = [](const Site& site) { return site.kind() == SiteKind::arc; };
   if (!parabolas && ranges::none_of(axis.sites, is_arc)) return success();
   const std::size_t count = edges.size();
   for (std::size_t e = 0; e < count; ++e) {
@@ -99,7 +99,7 @@ Status split_long_edges(MedialAxis& axis, std::vector<E>& edges, bool parabolas)
     const std::size_t side = is_vertex(axis, edge.site[0]) ? 0 : 1;
     const Site& other = axis.sites[edge.site[1 - side]];
     if (!is_vertex(axis, edge.site[side]) || !(is_arc(other) || parabolas)) continue;
-    if (other.kind == SiteKind::vertex) continue;
+    if (other.kind() == SiteKind::vertex) continue;
     const Vec2 point = axis.sites[edge.site[side]].start;
     const Vec2 from = axis.nodes[edge.node[0]].disk.center - point;
     const Vec2 to = axis.nodes[edge.node[1]].disk.center - point;

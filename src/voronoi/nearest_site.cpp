@@ -33,7 +33,7 @@ SiteLocator::SiteLocator(std::span<const Site> sites) {
   for (const Site& site : sites) {
     const double reach = distance(site.start, site.end);  // of an arc, at most half beside it
     for (const Vec2 p : {site.start, site.end}) {
-      const double pad = site.kind == SiteKind::arc ? reach : 0;
+      const double pad = site.kind() == SiteKind::arc ? reach : 0;
       box.add({{p.x - pad, p.y - pad}, {p.x + pad, p.y + pad}});
     }
     middle.push_back(midpoint(site.start, site.end));
@@ -44,7 +44,7 @@ SiteLocator::SiteLocator(std::span<const Site> sites) {
   for (const std::uint32_t i : z_order(middle)) {
     const Site& site = sites[i];
     const Vec2 from = index.frame.to_local(site.start), to = index.frame.to_local(site.end);
-    if (site.kind == SiteKind::vertex) {
+    if (site.kind() == SiteKind::vertex) {
       index.pieces.push_back(site::make_vertex(from));
       index.site_of.push_back(i);
       continue;

@@ -516,15 +516,11 @@ Site site_of_planar_graph(const PlanarGraph& planar_graph, std::uint32_t site) {
   if (site < planar_graph.points.size()) {
     const Vec2 p = planar_graph.points[site];
     const auto [ring, vertex] = planar_graph.point_sources[site];
-    return {p, p, ring, vertex, SiteKind::vertex};
+    return {p, p, ring, vertex};
   }
   const PlanarGraphEdge& edge = planar_graph.edges[site - planar_graph.points.size()];
-  return {planar_graph.points[edge.from],
-          planar_graph.points[edge.to],
-          edge.source.ring,
-          edge.source.vertex,
-          edge.bulge == 0 ? SiteKind::segment : SiteKind::arc,
-          edge.bulge};
+  return {planar_graph.points[edge.from], planar_graph.points[edge.to], edge.source.ring,
+          edge.source.vertex, edge.bulge};
 }
 
 void set_kinds(VoronoiDiagram& diagram) {

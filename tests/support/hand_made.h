@@ -30,10 +30,10 @@ struct HandMade {
         vertex_site.push_back(0);
         if (cross(point - before, after - point) < 0) {
           vertex_site.back() = static_cast<std::uint32_t>(axis.sites.size());
-          axis.sites.push_back({point, point, ring, i, SiteKind::vertex});
+          axis.sites.push_back({point, point, ring, i});
         }
         segment_site.push_back(static_cast<std::uint32_t>(axis.sites.size()));
-        axis.sites.push_back({point, after, ring, i, SiteKind::segment});
+        axis.sites.push_back({point, after, ring, i});
       }
       shape.loop_begin.push_back(static_cast<std::uint32_t>(shape.points.size()));
       shape.component.push_back(0);
@@ -52,7 +52,7 @@ struct HandMade {
     const Site& s = axis.sites[left];
     const Site& t = axis.sites[right];
     Edge out{{from, to}, {left, right}, {}, 1};
-    const bool s_vertex = s.kind == SiteKind::vertex, t_vertex = t.kind == SiteKind::vertex;
+    const bool s_vertex = s.kind() == SiteKind::vertex, t_vertex = t.kind() == SiteKind::vertex;
     if (s_vertex && t_vertex) {
       // Homogeneous coordinates of a hyperbola: the control point is where the end tangents meet,
       // and the weight follows from the disk over the middle of the two ends' angles.

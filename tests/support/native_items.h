@@ -53,7 +53,7 @@ inline AxisItem rectangle() {
   axis.tolerance = 1e-15;
   const auto& p = item.shape.points;
   for (std::uint32_t i = 0; i < 4; ++i) {
-    axis.sites.push_back({p[i], p[(i + 1) % 4], 0, i, SiteKind::segment});
+    axis.sites.push_back({p[i], p[(i + 1) % 4], 0, i});
     axis.nodes.push_back({{p[i], 0}, 0, NodeKind::leaf});
   }
   axis.nodes.push_back({{{1, 1}, 1}, 0, NodeKind::branching});
@@ -80,8 +80,8 @@ inline AxisItem parabola() {
   item.shape = shape_of({{{-2, 0}, {2, 0}, {2, 2}, {0, 1}, {-2, 2}}});
   MedialAxis& axis = item.axis;
   axis.method = "hand";
-  axis.sites.push_back({{-2, 0}, {2, 0}, 0, 0, SiteKind::segment});
-  axis.sites.push_back({{0, 1}, {0, 1}, 0, 3, SiteKind::vertex});
+  axis.sites.push_back({{-2, 0}, {2, 0}, 0, 0});
+  axis.sites.push_back({{0, 1}, {0, 1}, 0, 3});
   axis.nodes.push_back({{{-1, 1}, 1}, 0, NodeKind::site_change});
   axis.nodes.push_back({{{1, 1}, 1}, 0, NodeKind::site_change});
   axis.edges.push_back({{0, 1}, {1, 0}, {{0, 0}, 0}, 1});
@@ -122,7 +122,7 @@ inline void expect_same(const AxisItem& a, const AxisItem& b) {
     const Site& s = a.axis.sites[i];
     const Site& t = b.axis.sites[i];
     EXPECT_TRUE(same(s.start, t.start) && same(s.end, t.end));
-    EXPECT_TRUE(s.ring == t.ring && s.vertex == t.vertex && s.kind == t.kind);
+    EXPECT_TRUE(s.ring == t.ring && s.vertex == t.vertex && s.kind() == t.kind());
   }
   ASSERT_EQ(a.axis.nodes.size(), b.axis.nodes.size());
   for (std::size_t i = 0; i < a.axis.nodes.size(); ++i) {

@@ -24,7 +24,7 @@ bool same(const Disk& a, const Disk& b) {
 }
 bool same(const Site& a, const Site& b) {
   return same(a.start, b.start) && same(a.end, b.end) && a.ring == b.ring && a.vertex == b.vertex &&
-         a.kind == b.kind;
+         same(a.bulge, b.bulge);
 }
 bool same(const Node& a, const Node& b) {
   return same(a.disk, b.disk) && a.component == b.component && a.kind == b.kind;

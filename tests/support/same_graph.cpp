@@ -74,7 +74,7 @@ std::vector<std::uint32_t> contacts_around(const std::vector<Leaving>& leaving,
   };
   const auto is_corner = [&](std::uint32_t site) {
     const Site &before = sites[site], &after = sites[next[site]];
-    return before.kind == SiteKind::segment && after.kind == SiteKind::segment &&
+    return before.kind() == SiteKind::segment && after.kind() == SiteKind::segment &&
            orientation(before.start, before.end, after.end) > 0;
   };
   std::vector<std::uint32_t> contacts;
@@ -108,12 +108,12 @@ std::map<SiteKey, std::uint32_t> sites_by_place(const Shape& shape, std::span<co
   std::map<SiteKey, std::uint32_t> places;
   for (std::uint32_t i = 0; i < sites.size(); ++i) {
     std::vector<Vec2> points{sites[i].start, sites[i].end};
-    if (sites[i].kind == SiteKind::vertex)
+    if (sites[i].kind() == SiteKind::vertex)
       points = {sites[before[i]].start, sites[i].start, sites[next[i]].end};
     if (mirrored) std::reverse(points.begin(), points.end());
     std::vector<std::pair<double, double>> place;
     for (const Vec2 p : points) place.emplace_back(symmetry(p).x, symmetry(p).y);
-    places.emplace(SiteKey{sites[i].kind, place}, i);
+    places.emplace(SiteKey{sites[i].kind(), place}, i);
   }
   return places;
 }
@@ -215,7 +215,7 @@ std::vector<std::uint32_t> next_sites(const Shape& shape, std::span<const Site> 
     const std::uint32_t first = site;
     for (std::size_t edges = shape.loop(loop).size(); edges > 0 && site < sites.size(); ++site) {
       next[site] = site + 1;
-      if (sites[site].kind != SiteKind::vertex) --edges;
+      if (sites[site].kind() != SiteKind::vertex) --edges;
     }
     if (site > first) next[site - 1] = first;
   }

@@ -93,7 +93,7 @@ class BruteForce {
     origin_ = {Real(box.low.x), Real(box.low.y)};
     for (const Site& site : sites) {
       Place<Real> place{
-          site.kind == SiteKind::vertex, local(site.start), local(site.end), {}, {}, {}};
+          site.kind() == SiteKind::vertex, local(site.start), local(site.end), {}, {}, {}};
       const Vector<Real> chord = place.end - place.start;
       place.length = sqrt(dot(chord, chord));
       if (!place.vertex) place.along = Real(1 / place.length) * chord;
@@ -409,8 +409,8 @@ SiteGraph computed_with(const Shape& shape, std::span<const Site> sites, int zer
 SiteGraph true_graph(const Shape& shape, std::span<const Site> sites) {
   std::size_t edges = 0;
   for (const Site& site : sites) {
-    if (site.kind == SiteKind::arc) return {.failure = "brute force: no arcs"};
-    edges += site.kind == SiteKind::segment ? 1 : 0;
+    if (site.kind() == SiteKind::arc) return {.failure = "brute force: no arcs"};
+    edges += site.kind() == SiteKind::segment ? 1 : 0;
   }
   if (edges != shape.points.size()) return {.failure = "the sites are not the shape's"};
   std::uint64_t zeros = 0;

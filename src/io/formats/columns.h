@@ -65,7 +65,8 @@ void visit_short_tables(AnyTables& t, const Visit& visit) {
   visit("attributes", t.attribute_text);
 }
 
-/// A column of the items' own rows: their vector in an item, and the numbers of a row.
+/// A column of the items' own rows: their vector in an item, and the numbers of a row: references,
+/// or what follows from the other columns.
 template <class Rows, class Numbers>
 struct Column {
   const char* name;
@@ -114,7 +115,7 @@ void visit_columns(const Visit& visit) {
                [](auto& edge) { return std::tie(edge.node[0], edge.node[1]); }});
   visit(Column{"edge_sites", &Tables::edges, edges,
                [](auto& edge) { return std::tie(edge.site[0], edge.site[1]); }});
-  visit(Column{"site_kind", &Tables::sites, sites, [](auto& s) { return std::tie(s.kind); }});
+  visit(Column{"site_kind", &Tables::sites, sites, [](auto& s) { return std::tuple(s.kind()); }});
   visit(Column{"node_kind", &Tables::nodes, nodes, [](auto& n) { return std::tie(n.kind); }});
 }
 

@@ -115,7 +115,11 @@ void read_column(const ColumnFile& reader, const Tables& tables, const C& column
       next += sizeof numbers;
       ColumnFile::check(numbers);
       const T* number = numbers.data();
-      std::apply([&](auto&... into) { ((into = *number++), ...); }, column.numbers(row));
+      auto known = column.numbers(row);
+      if constexpr (std::is_same_v<decltype(known), std::tuple<T>>)
+        demand(std::get<0>(known) == *number, "a site is not of its kind");
+      else
+        std::apply([&](auto&... into) { ((into = *number++), ...); }, known);
     }
   }
 }

@@ -43,8 +43,8 @@ void write_spline(DxfDrawing& drawing, const MedialAxis& axis, const Edge& edge,
 /// Whether an edge is straight in the plane, whatever its radius does.
 bool is_straight(const MedialAxis& axis, const Edge& edge) {
   if (axis.resolution > 0) return true;
-  const SiteKind kind = axis.sites[edge.site[0]].kind;
-  return kind == axis.sites[edge.site[1]].kind && kind != SiteKind::arc;
+  const SiteKind kind = axis.sites[edge.site[0]].kind();
+  return kind == axis.sites[edge.site[1]].kind() && kind != SiteKind::arc;
 }
 
 void write_branch(DxfDrawing& drawing, const MedialAxis& axis, const Branch& branch,

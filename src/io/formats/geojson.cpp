@@ -215,7 +215,7 @@ void put_face(Collection& collection, OutputStream& out, std::size_t item,
   collection.member("\"feature\"", item);
   collection.member("\"part\"", "face");
   collection.member("\"site\"", k);
-  collection.member("\"kind\"", name_of(site.kind));
+  collection.member("\"kind\"", name_of(site.kind()));
   collection.member("\"ring\"", site.ring);
   collection.member("\"vertex\"", site.vertex);
   collection.geometry("Polygon");

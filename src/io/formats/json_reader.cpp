@@ -80,26 +80,28 @@ void read_shape(json::value value, Shape& shape) {
 /// Sites that are given by a vertex of the shape are completed when the shape is known, because the
 /// members of an object may stand in any order.
 struct Unresolved {
-  std::vector<std::uint32_t> site;
-  std::vector<std::uint32_t> vertex;
+  struct OfVertex {
+    std::uint32_t site, vertex;
+    SiteKind kind;
+  };
+  std::vector<OfVertex> sites;
   std::vector<std::uint32_t> plain_edges;
 };
 
 void read_site(json::value element, MedialAxis& axis, Unresolved& unresolved) {
   Row row(element);
-  Site site;
-  site.kind = site_kind(row.index<std::uint32_t>());
+  const SiteKind kind = site_kind(row.index<std::uint32_t>());
   const double first = row.real();
   if (row.more()) {
-    read_site(row, first, site);
+    axis.sites.push_back(read_site(row, kind, first));
   } else {
     demand(first >= 0 && first < std::numeric_limits<std::uint32_t>::max() &&
                first == std::floor(first),
            "a vertex has no whole number");
-    unresolved.site.push_back(static_cast<std::uint32_t>(axis.sites.size()));
-    unresolved.vertex.push_back(static_cast<std::uint32_t>(first));
+    unresolved.sites.push_back(
+        {static_cast<std::uint32_t>(axis.sites.size()), static_cast<std::uint32_t>(first), kind});
+    axis.sites.emplace_back();
   }
-  axis.sites.push_back(site);
 }
 
 void read_edge(json::value element, MedialAxis& axis, Unresolved& unresolved) {
@@ -158,15 +160,15 @@ void resolve(const Shape& shape, MedialAxis& axis, const Unresolved& unresolved)
       next[k] = k + 1 == shape.loop_begin[i + 1] ? shape.loop_begin[i] : k + 1;
     }
   }
-  for (std::size_t i = 0; i < unresolved.site.size(); ++i) {
-    const std::uint32_t vertex = unresolved.vertex[i];
+  for (const auto& [number, vertex, kind] : unresolved.sites) {
     demand(vertex < next.size(), "a site's vertex out of range");
-    Site& site = axis.sites[unresolved.site[i]];
+    Site& site = axis.sites[number];
     site.start = shape.points[vertex];
-    site.end = shape.points[site.kind == SiteKind::vertex ? vertex : next[vertex]];
-    if (site.kind == SiteKind::arc) site.bulge = shape.bulge(vertex);
+    site.end = shape.points[kind == SiteKind::vertex ? vertex : next[vertex]];
+    if (kind == SiteKind::arc) site.bulge = shape.bulge(vertex);
     site.ring = shape.sources[vertex].ring;
     site.vertex = shape.sources[vertex].vertex;
+    demand(site.kind() == kind, "a site is not of its kind");
   }
   for (const std::uint32_t i : unresolved.plain_edges) {
     Edge& edge = axis.edges[i];
@@ -275,7 +277,6 @@ Document<AxisItem> read_file(json::document& document) {
 }  // namespace
 
 void check_item(const AxisItem& item) {
-  for (const Site& site : item.axis.sites) site_kind(static_cast<std::uint32_t>(site.kind));
   for (const Node& node : item.axis.nodes) {
     node_kind(static_cast<std::uint32_t>(node.kind));
     demand(node.disk.radius >= 0, "a node's radius is negative");

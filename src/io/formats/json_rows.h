@@ -175,14 +175,17 @@ inline NodeKind node_kind(std::uint32_t code) {
   return static_cast<NodeKind>(code);
 }
 
-/// The rest of the row of a site behind its kind, of which `first` is the first number.
-inline void read_site(Row& row, double first, Site& site) {
+/// The rest of the row of a site of this kind, of which `first` is the first number.
+inline Site read_site(Row& row, SiteKind kind, double first) {
+  Site site;
   site.start = {first, row.real()};
   site.end = row.point();
   site.ring = row.index<std::uint32_t>();
   site.vertex = row.index<std::uint32_t>();
-  if (site.kind == SiteKind::arc) site.bulge = row.real();
+  if (kind == SiteKind::arc) site.bulge = row.real();
   row.end();
+  demand(site.kind() == kind, "a site is not of its kind");
+  return site;
 }
 
 inline Node read_node(json::value value) {

@@ -10,11 +10,9 @@ constexpr int newest_version = 1;
 
 Site read_voronoi_site(json::value value) {
   Row row(value);
-  Site site;
-  site.kind = site_kind(row.index<std::uint32_t>());
+  const SiteKind kind = site_kind(row.index<std::uint32_t>());
   const double first = row.real();
-  read_site(row, first, site);
-  return site;
+  return read_site(row, kind, first);
 }
 
 VoronoiEdge read_voronoi_edge(json::value value) {

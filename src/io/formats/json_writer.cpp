@@ -51,8 +51,8 @@ class SiteNames {
            std::signbit(a.y) == std::signbit(b.y);
   }
   bool fits(std::uint32_t vertex, const Site& site) const {
-    const Vec2 end = shape_.points[site.kind == SiteKind::vertex ? vertex : next_[vertex]];
-    if (site.kind == SiteKind::arc && site.bulge != shape_.bulge(vertex)) return false;
+    const Vec2 end = shape_.points[site.kind() == SiteKind::vertex ? vertex : next_[vertex]];
+    if (site.kind() == SiteKind::arc && site.bulge != shape_.bulge(vertex)) return false;
     return shape_.sources[vertex].ring == site.ring &&
            shape_.sources[vertex].vertex == site.vertex &&
            same(shape_.points[vertex], site.start) && same(end, site.end);
@@ -105,7 +105,7 @@ void put_attributes_and_shape(OutputStream& out, const Attributes& attributes, c
 
 void put_site(OutputStream& out, const Site& site, SiteNames& names) {
   if (const auto vertex = names.vertex_of(site))
-    put_row(out, site.kind, *vertex);
+    put_row(out, site.kind(), *vertex);
   else
     put_site(out, site);
 }
@@ -283,10 +283,11 @@ std::unique_ptr<AxisWriter> grow_json(Target& target, const GrowingFrame& frame)
 
 void put_site(OutputStream& out, const Site& site) {
   const Vec2 a = site.start, b = site.end;
-  if (site.kind == SiteKind::arc)
-    put_row(out, site.kind, a.x, a.y, b.x, b.y, site.ring, site.vertex, site.bulge);
+  const SiteKind kind = site.kind();
+  if (kind == SiteKind::arc)
+    put_row(out, kind, a.x, a.y, b.x, b.y, site.ring, site.vertex, site.bulge);
   else
-    put_row(out, site.kind, a.x, a.y, b.x, b.y, site.ring, site.vertex);
+    put_row(out, kind, a.x, a.y, b.x, b.y, site.ring, site.vertex);
 }
 
 void put_node(OutputStream& out, const Node& node) {

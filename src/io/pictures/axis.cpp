@@ -48,8 +48,8 @@ class Curve {
 
 bool runs_straight(const MedialAxis& axis, const Edge& edge) {
   if (axis.resolution > 0) return true;
-  const SiteKind kind = axis.sites[edge.site[0]].kind;
-  return kind == axis.sites[edge.site[1]].kind && kind != SiteKind::arc;
+  const SiteKind kind = axis.sites[edge.site[0]].kind();
+  return kind == axis.sites[edge.site[1]].kind() && kind != SiteKind::arc;
 }
 
 /// Cuts an edge where its radius passes from shade to shade, about: take(shade, piece).

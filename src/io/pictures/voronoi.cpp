@@ -24,8 +24,8 @@ Color pastel(double hue) {
 
 bool runs_straight(const VoronoiDiagram& diagram, const VoronoiEdge& edge) {
   if (edge.spoke || edge.on_enclosure) return true;
-  const SiteKind kind = diagram.sites[edge.site[0]].kind;
-  return kind == diagram.sites[edge.site[1]].kind && kind != SiteKind::arc;
+  const SiteKind kind = diagram.sites[edge.site[0]].kind();
+  return kind == diagram.sites[edge.site[1]].kind() && kind != SiteKind::arc;
 }
 
 /// Goes along an edge of a diagram, from its node[0] or from its node[1].
@@ -47,7 +47,7 @@ void draw_faces(Canvas& canvas, const Document<VoronoiItem>& file) {
   for (const VoronoiItem& item : file.items) {
     const VoronoiDiagram& diagram = item.diagram;
     for (std::uint32_t site = 0; site < diagram.sites.size(); ++site) {
-      const bool vertex = diagram.sites[site].kind == SiteKind::vertex;
+      const bool vertex = diagram.sites[site].kind() == SiteKind::vertex;
       constexpr Color grey{0.82, 0.82, 0.84};
       canvas.color(vertex ? grey : pastel(std::fmod(hue_step * site, 1.0)));
       if (diagram.face(site).empty()) continue;
@@ -82,7 +82,7 @@ void draw_sites(Canvas& canvas, const Document<VoronoiItem>& file) {
     for (const VoronoiItem& item : file.items) {
       if (!item.diagram.enclosure) continue;
       for (const Site& site : item.diagram.sites) {
-        if ((site.kind == SiteKind::vertex) != points) continue;
+        if ((site.kind() == SiteKind::vertex) != points) continue;
         if (points) {
           canvas.dot(viewport(site.start), canvas.thickness(2));
         } else {

@@ -238,7 +238,7 @@ bool touches_its_sites(const MedialAxis& axis, const Edge& edge, double slack) {
   };
   const auto touches = [&](const Disk& disk, const Site& site) {
     const Vec2 along = site.end - site.start;
-    if (site.kind == SiteKind::segment &&
+    if (site.kind() == SiteKind::segment &&
         cross(along, disk.center - site.start) < -slack * norm(along))
       return false;
     return std::abs(std::sqrt(squared_distance(site, disk.center)) - disk.radius) <= slack;

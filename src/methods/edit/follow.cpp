@@ -330,7 +330,7 @@ std::optional<edit::Repair> Editor::Parts::axis_of_loop(std::uint32_t loop) cons
   repair.old_nodes.assign(repair.disks.size(), none);
   const auto number_of = [&](std::uint32_t i) {
     const Site& site = axis->sites[i];
-    return 2 * vertices[site.vertex] + (site.kind == SiteKind::vertex ? 0 : 1);
+    return 2 * vertices[site.vertex] + (site.kind() == SiteKind::vertex ? 0 : 1);
   };
   for (const medial::Edge& edge : axis->edges)
     repair.edges.push_back(

@@ -40,7 +40,7 @@ std::vector<std::uint32_t> site_numbers(const MedialAxis& axis, const Shape& sha
   sites.reserve(axis.sites.size());
   for (const Site& site : axis.sites)
     sites.push_back(2 * (is_first ? site.vertex : shape.sources[site.vertex].vertex) +
-                    (site.kind == SiteKind::vertex ? 0 : 1));
+                    (site.kind() == SiteKind::vertex ? 0 : 1));
   return sites;
 }
 
@@ -89,11 +89,7 @@ Status Editor::Parts::start(const Shape& shape, bool is_first) {
     apart = axis->sites;
     for (Site& site : apart) {
       const VertexSource source = shape.sources[site.vertex];
-      site = {frame.to_input(site.start),
-              frame.to_input(site.end),
-              source.ring,
-              source.vertex,
-              site.kind,
+      site = {frame.to_input(site.start), frame.to_input(site.end), source.ring, source.vertex,
               site.bulge};
     }
     apart_shape = shape;
@@ -191,9 +187,9 @@ Site Editor::Parts::site(std::uint32_t number) const {
   if (!apart.empty()) return apart[number];
   const Rings::Vertex& vertex = rings[number / 2];
   const bool is_edge = Rings::is_edge(number);
-  if (!is_edge) return {vertex.point, vertex.point, vertex.loop, number / 2, SiteKind::vertex};
-  return {vertex.point, rings[rings.corner_after(number / 2)].point,           vertex.loop,
-          number / 2,   vertex.bulge == 0 ? SiteKind::segment : SiteKind::arc, vertex.bulge};
+  if (!is_edge) return {vertex.point, vertex.point, vertex.loop, number / 2};
+  const Vec2 end = rings[rings.corner_after(number / 2)].point;
+  return {vertex.point, end, vertex.loop, number / 2, vertex.bulge};
 }
 
 }  // namespace medial
