@@ -148,7 +148,7 @@ certain: setup  ## test shapes on which rounding decides, against brute force: m
 	@cmake --preset release >/dev/null
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial_nasty
 	@$(RELEASE)/tests/medial_nasty --from $(FROM) --count 100000 --seconds $(SECONDS) --oracle 10 --threads $(JOBS); shapes=$$?; \
-	  $(RELEASE)/tests/medial_nasty --from $(FROM) --count 100000 --seconds $(SECONDS) --planar 1 --threads $(JOBS) && exit $$shapes
+	  $(RELEASE)/tests/medial_nasty --from $(FROM) --count 100000 --seconds $(SECONDS) --planar edges --threads $(JOBS) && exit $$shapes
 
 corpus: setup   ## verify the axes of every file below DATA and every glyph below FONTS: tables
 	@cmake --preset release

@@ -1,15 +1,16 @@
 // The classes of shapes on which rounding decides, by the thousand: a table of what goes wrong.
 //
-//   medial_nasty [--class NAME] [--count N] [--from SEED] [--seconds N] [--oracle K] [--planar 1|2]
+//   medial_nasty [--class NAME] [--count N] [--from SEED] [--seconds N] [--oracle K] [--planar
+//   edges|points]
 //                [--threads N] [--method NAME] [--save FOLDER]
 //
 // Each shape is computed and verified, and so are its mirror image, its image under a quarter turn,
 // under a power of two, and from another start, and with two threads: all must have one graph.
 // --oracle K: every K-th shape is a small one, and if all its edges are straight its graph is
-// compared with the true one (support/true_graph.h). --planar 1: planar graphs of the same edges,
-// of which some are left out, and their Voronoi diagrams; 2: with points beside edges. --seconds:
-// for each class. --save: writes the first failures of each kind, made smaller. Exit status 1 if
-// anything goes wrong.
+// compared with the true one (support/true_graph.h). --planar edges: planar graphs of the same
+// edges, of which some are left out, and their Voronoi diagrams; points: with points beside them.
+// --seconds: for each class. --save: writes the first failures of each kind, made smaller. Exit
+// status 1 if anything goes wrong.
 
 #include <array>
 #include <atomic>
@@ -36,8 +37,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 struct Switches {
-  std::string_view only, method, save;
-  std::uint64_t from = 0, count = 1000, seconds = 1U << 30U, oracle = 0, planar = 0;
+  std::string_view only, method, save, planar;
+  std::uint64_t from = 0, count = 1000, seconds = 1U << 30U, oracle = 0;
   std::uint64_t threads = 1;
 };
 
@@ -83,7 +84,7 @@ void save(const Switches& switches, const NastyClass& one, std::uint64_t seed, b
 
 /// One class: the number of shapes of each fault.
 Faults run(const Switches& switches, const NastyClass& one) {
-  NastyOptions options{.planar = switches.planar != 0, .points = switches.planar > 1};
+  NastyOptions options{.planar = !switches.planar.empty(), .points = switches.planar == "points"};
   if (!switches.method.empty()) options.method = *method_from(switches.method);
   Faults faults;
   std::map<Fault, int> saved;
@@ -134,13 +135,13 @@ bool parse(int count, char** arguments, Switches& switches) {
     std::string_view* word = name == "--class"    ? &switches.only
                              : name == "--method" ? &switches.method
                              : name == "--save"   ? &switches.save
+                             : name == "--planar" ? &switches.planar
                                                   : nullptr;
     std::uint64_t* value = name == "--from"      ? &switches.from
                            : name == "--count"   ? &switches.count
                            : name == "--seconds" ? &switches.seconds
                            : name == "--threads" ? &switches.threads
                            : name == "--oracle"  ? &switches.oracle
-                           : name == "--planar"  ? &switches.planar
                                                  : nullptr;
     if (word != nullptr) {
       *word = text;
@@ -151,6 +152,7 @@ bool parse(int count, char** arguments, Switches& switches) {
     if (read.ec != std::errc{} || read.ptr != text.data() + text.size()) return false;
   }
   return switches.threads > 0 && switches.threads <= 1024 &&
+         (switches.planar.empty() || switches.planar == "edges" || switches.planar == "points") &&
          (switches.method.empty() || method_from(switches.method));
 }
 
@@ -173,10 +175,11 @@ int run_all(const Switches& switches) {
 int main(int count, char** arguments) {
   medial::test::Switches switches;
   if (!medial::test::parse(count, arguments, switches)) {
-    std::fprintf(stderr,
-                 "usage: medial_nasty [--class NAME] [--count N] [--from SEED] [--seconds N]\n"
-                 "                    [--oracle K] [--planar 1|2] [--threads N] [--method NAME]\n"
-                 "                    [--save FOLDER]\n");
+    std::fprintf(
+        stderr,
+        "usage: medial_nasty [--class NAME] [--count N] [--from SEED] [--seconds N]\n"
+        "                    [--oracle K] [--planar edges|points] [--threads N] [--method NAME]\n"
+        "                    [--save FOLDER]\n");
     return 2;
   }
   return medial::test::run_all(switches);

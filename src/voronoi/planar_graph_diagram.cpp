@@ -215,7 +215,7 @@ class Assembly {
   }
 
   /// Makes an own site's cycle begin where its neighbours in the loop end and begin; of two cycles,
-  /// in a node of both.
+  /// in a node of both. Where there is no such node, make_spokes() finds a gap.
   void turn_cycle(std::uint32_t own, std::uint32_t before, std::uint32_t after) {
     const std::span<Step> steps = chain(own);
     const auto begins_at = [&](std::uint32_t node) {
@@ -235,16 +235,21 @@ class Assembly {
   void turn_cycles() {
     for_each_loop([&](std::uint32_t first, std::uint32_t last, std::size_t) {
       if (last - first == 1) return;  // a lone point
-      const auto has_edges = [&](std::uint32_t own) { return !chain(own).empty(); };
-      for (std::uint32_t own = first; own < last; ++own) {
-        if (!is_cycle(own)) continue;
-        std::uint32_t before = own, after = own;
-        do before = before == first ? last - 1 : before - 1;
-        while (!has_edges(before));
-        do after = after + 1 == last ? first : after + 1;
-        while (!has_edges(after));
-        turn_cycle(own, before, after);
-      }
+      // Ends at a site with a cycle at the latest.
+      const auto before = [&](std::uint32_t own) {
+        do {
+          own = (own == first ? last : own) - 1;
+        } while (chain(own).empty());
+        return own;
+      };
+      const auto after = [&](std::uint32_t own) {
+        do {
+          own = own + 1 == last ? first : own + 1;
+        } while (chain(own).empty());
+        return own;
+      };
+      for (std::uint32_t own = first; own < last; ++own)
+        if (is_cycle(own)) turn_cycle(own, before(own), after(own));
     });
   }
 
