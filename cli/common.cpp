@@ -325,6 +325,12 @@ void add_picture_options(CLI::App& command, io::WriteOptions& write) {
   command.add_flag("!--no-shape", write.shape, "Leave out the shape.");
 }
 
+void add_fit_option(CLI::App& command, InputOptions& input) {
+  add_value(command, "--fit", input.source.load.fit, "D", a_positive_number(),
+            "First replace every boundary by a smooth curve within this distance, in units\n"
+            "of the input: a least-squares spline with few knots.");
+}
+
 void add_simplify_option(CLI::App& command, io::WriteOptions& write) {
   add_value(command, "--simplify", write.simplify, "E", a_positive_number(),
             "Simplify lines in GIS formats, .wkt and graphs within E, in units of the input,\n"

@@ -184,7 +184,7 @@ TEST(VerifyFinds, AnyDroppedEdge) {
   HandMade m = rectangle();
   m.axis.edges.erase(m.axis.edges.begin());
   m.finish();
-  expect_failure(m, "The graph has 2 connected parts for 1 components; component 0 has 2 of them");
+  expect_failure(m, "The graph has 2 connected parts for 1 component; component 0 has 2 of them");
   expect_failure(m, "A stretch of the boundary is touched by no disk");
 }
 
