@@ -255,8 +255,9 @@ void add_potential_options(CLI::App& command, method::Potential& options) {
       ->option_text("SHARE");
   command
       .add_option("--coarse", options.coarse,
-                  "Start with a polygon within this share of the size of the boundary, and refine\n"
-                  "its axis on finer ones: small teeth then have no branches.")
+                  "Leave out small bumps and notches: take the axis of a polygon within this\n"
+                  "distance of the boundary, and refine it step by step. A share of the longer\n"
+                  "side of the bounding box.")
       ->option_text("SHARE");
 }
 
