@@ -300,9 +300,9 @@ Command make_axis_command(CLI::App& program) {
   add_potential_options(*command, arguments->methods.of<method::Potential>());
   add_curve_options(*command, *arguments);
   command->add_flag("--exact", arguments->options.exact,
-                    "Decide exactly which sites a disk touches, and which nodes an edge joins.\n"
-                    "--stats counts how each was decided. Sites that share a disk only within\n"
-                    "the tolerance get separate nodes.");
+                    "Keep apart nodes that are closer than the tolerance, and make lee and\n"
+                    "biarc-dc decide exactly, too, which sites a disk touches and which nodes an\n"
+                    "edge joins. --stats counts the decisions.");
   add_simplify_option(*command, arguments->write);
   add_picture_options(*command, arguments->write);
   add_common_options(*command, arguments->common);
