@@ -50,7 +50,6 @@ struct MethodArguments {
 struct AxisArguments : FileArguments {
   Options options;
   MethodArguments methods;
-  double fit = 0;      ///< for curve-axis: smooths polygons within this distance; 0: no
   bool mask = false;   ///< write an image of the input's size
   bool parts = false;  ///< write in parts, however small
   const CLI::App* command = nullptr;
@@ -122,8 +121,7 @@ Result<int> run_axis(const AxisArguments& arguments) {
   InputOptions input = arguments.input;
   if (is_of_pixels(name_of(options.method))) input.source.read.smooth_contour = input.whole_smooth;
   input.source.load.keep_contours = info_of(options.method).contours;
-  input.source.load.fit = arguments.fit;
-  if (auto* own = std::get_if<method::CurveAxis>(&options.method)) own->fit = arguments.fit;
+  if (auto* own = std::get_if<method::CurveAxis>(&options.method)) own->fit = input.source.load.fit;
   const bool in_parts = allows_parts(arguments, options);
   if (arguments.parts && !in_parts)
     return invalid_option(
@@ -152,7 +150,6 @@ Result<int> run_axis(const AxisArguments& arguments) {
   return exit_success;
 }
 
-/// The method, and the seed of its random choices.
 void add_method_options(CLI::App& command, MethodArguments& arguments) {
   std::string help = "The method; `medial methods` shows what each supports:";
   std::vector<std::string> names;
@@ -166,9 +163,13 @@ void add_method_options(CLI::App& command, MethodArguments& arguments) {
           [&arguments](const std::string& name) { arguments.chosen = *method_from(name); }, help)
       ->check(CLI::IsMember(names))
       ->option_text("NAME");
-  add_value(command, "--seed", arguments.of<method::BiarcDc>().seed, "N", a_whole_number(),
-            "Seed of the random choices of biarc-dc (default: 1). The same seed gives the\n"
-            "same result, byte for byte.");
+}
+
+void add_random_options(CLI::App& command, method::BiarcDc& options) {
+  const OptionGroup group(command, "Random choices (--method biarc-dc)");
+  add_value(command, "--seed", options.seed, "N", a_whole_number(),
+            "Seed of the random choices (default: 1). The same seed gives the same result,\n"
+            "byte for byte.");
 }
 
 /// The options of sampled methods.
@@ -254,8 +255,9 @@ void add_potential_options(CLI::App& command, method::Potential& options) {
       ->option_text("SHARE");
   command
       .add_option("--coarse", options.coarse,
-                  "Start with a polygon within this share of the size of the boundary, and refine\n"
-                  "its axis on finer ones: small teeth then have no branches.")
+                  "Leave out small bumps and notches: take the axis of a polygon within this\n"
+                  "distance of the boundary, and refine it step by step. A share of the longer\n"
+                  "side of the bounding box.")
       ->option_text("SHARE");
 }
 
@@ -265,9 +267,7 @@ void add_curve_options(CLI::App& command, AxisArguments& arguments) {
   add_value(command, "--curve-step", arguments.methods.of<method::CurveAxis>().step, "SHARE",
             in_range(1e-6, 0.1),
             "The step from point to point, as a share of the diagonal (default: 0.001).");
-  add_value(command, "--fit", arguments.fit, "D", a_positive_number(),
-            "First replace the boundary by a smooth curve within this distance, in units\n"
-            "of the input: a least-squares spline with few knots.");
+  add_fit_option(command, arguments.input);
 }
 
 }  // namespace
@@ -295,13 +295,14 @@ Command make_axis_command(CLI::App& program) {
   add_exterior_options(
       *command, arguments->options,
       "The axis of the exterior: around the shape, within a rectangle, and in holes.");
+  add_random_options(*command, arguments->methods.of<method::BiarcDc>());
   add_grid_options(*command, arguments->methods);
   add_potential_options(*command, arguments->methods.of<method::Potential>());
   add_curve_options(*command, *arguments);
   command->add_flag("--exact", arguments->options.exact,
-                    "Decide exactly which sites a disk touches, and which nodes an edge joins.\n"
-                    "--stats counts how each was decided. Sites that share a disk only within\n"
-                    "the tolerance get separate nodes.");
+                    "Keep apart nodes that are closer than the tolerance, and make lee and\n"
+                    "biarc-dc decide exactly, too, which sites a disk touches and which nodes an\n"
+                    "edge joins. --stats counts the decisions.");
   add_simplify_option(*command, arguments->write);
   add_picture_options(*command, arguments->write);
   add_common_options(*command, arguments->common);

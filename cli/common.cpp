@@ -299,7 +299,7 @@ void add_common_options(CLI::App& command, CommonOptions& common) {
             "1e-14, or what the spacing of coordinates allows).");
   add_value(command, "--corner-angle", common.corner_angle, "A", in_range(0, 10),
             "Convex joints with an arc are smooth, not corners, below this angle, in\n"
-            "degrees, at most 10 (default: 1 for fonts and .svg, else 0.01).");
+            "degrees, at most 10 (default: 4 for fonts, 1 for .svg, else 0.01).");
   add_value(command, "--chord", common.chord, "C", in_range(smallest_chord, 1),
             "Where curves are written as points: the largest distance of chords, as a\n"
             "fraction of the diagonal of the bounding box (default: 1e-3).");
@@ -323,6 +323,12 @@ void add_picture_options(CLI::App& command, io::WriteOptions& write) {
   command.add_flag("--nodes", write.nodes,
                    "Draw the nodes, by kind; .gpkg and graphs also get those inside branches.");
   command.add_flag("!--no-shape", write.shape, "Leave out the shape.");
+}
+
+void add_fit_option(CLI::App& command, InputOptions& input) {
+  add_value(command, "--fit", input.source.load.fit, "D", a_positive_number(),
+            "First replace every boundary by a smooth curve within this distance, in units\n"
+            "of the input: a least-squares spline with few knots.");
 }
 
 void add_simplify_option(CLI::App& command, io::WriteOptions& write) {

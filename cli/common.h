@@ -87,6 +87,8 @@ void add_picture_options(CLI::App& command, io::WriteOptions& write);
 void add_simplify_option(CLI::App& command, io::WriteOptions& write);
 /// --width alone. Its help gives the default, which is what `width` holds.
 void add_width_option(CLI::App& command, double& width);
+/// --fit, which replaces boundaries by smooth curves as they are read.
+void add_fit_option(CLI::App& command, InputOptions& input);
 /// --exterior, with this help, and --margin. Returns the former.
 CLI::Option* add_exterior_options(CLI::App& command, Options& options, const std::string& help);
 

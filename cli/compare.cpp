@@ -20,7 +20,6 @@ namespace {
 
 struct CompareArguments : FileArguments {
   std::string methods = "all";
-  double fit = 0;   ///< smooths boundaries within this distance; 0: no
   Options options;  ///< exterior and margin
 };
 
@@ -186,9 +185,8 @@ Result<int> run_compare(const CompareArguments& arguments) {
   InputOptions input = arguments.input;
   input.source.load.keep_contours = std::any_of(
       methods->begin(), methods->end(), [](const Method& one) { return info_of(one).contours; });
-  input.source.load.fit = arguments.fit;
   for (Method& one : *methods)
-    if (auto* own = std::get_if<method::CurveAxis>(&one)) own->fit = arguments.fit;
+    if (auto* own = std::get_if<method::CurveAxis>(&one)) own->fit = input.source.load.fit;
   auto loaded = load_shapes(input, common);
   if (!loaded) return std::move(loaded).error();
   const Document<ShapeItem>& file = loaded->file;
@@ -239,9 +237,7 @@ Command make_compare_command(CLI::App& program) {
       ->option_text("NAMES");
   add_output_option(*command, arguments->output, "PICTURE",
                     "A picture of the first feature's axes side by side: .svg .pdf .png .ps");
-  add_value(*command, "--fit", arguments->fit, "D", a_positive_number(),
-            "First replace every boundary by a smooth curve within D of it, which\n"
-            "curve-axis needs.");
+  add_fit_option(*command, arguments->input);
   add_exterior_options(*command, arguments->options,
                        "The axes of what lies around the shape and in its holes, within a\n"
                        "rectangle.");

@@ -92,39 +92,62 @@ void add_verdict(Rows& rows, const std::vector<std::string>& failures, bool pass
   rows.add("verdict", passed ? "passed" : "FAILED");
 }
 
-std::string verdict_table(const Certificate& c, std::size_t features, bool part) {
+/// What the axes of a file have in common.
+struct Kind {
+  bool part = false;      ///< pruned, cut or smoothed
+  bool exterior = false;  ///< of what lies around the shapes
+  bool pixels = false;    ///< of pixels, if sampled
+  bool whole() const { return !part && !exterior; }
+};
+
+Kind kind_of(const Document<AxisItem>& file) {
+  Kind kind;
+  for (const AxisItem& item : file.items) {
+    kind.part = kind.part || item.part;
+    kind.exterior = kind.exterior || item.axis.exterior > 0;
+    kind.pixels = kind.pixels || is_of_pixels(item.axis.method);
+  }
+  return kind;
+}
+
+std::string verdict_table(const Certificate& c, std::size_t features, const Kind& kind) {
   Rows rows(24);
   const auto length = [](double value) { return fmt::format("{:.3g}", value); };
   const bool exact = c.resolution == 0;
   rows.add("features", features);
-  if (part)
+  if (kind.part)
     rows.add("part", "pruned, cut or smoothed: leaves, corners, coverage and area are not checked");
+  if (kind.exterior)
+    rows.add("exterior", "without the edges at the enclosure: disks are checked, counts are not");
   rows.add("disks checked", c.disks_checked);
   if (!exact)
     rows.add("sampled",
-             fmt::format("pixels of side {:.6g}; judged by half a diagonal", c.resolution));
+             fmt::format("{} {:.6g}; radii may be off by 0.71 of that",
+                         kind.pixels ? "pixels of side" : "steps of at most", c.resolution));
   rows.add("tolerance", length(c.tolerance));
   rows.add("largest |distance - r|", worst_text(c.largest_residual, c.worst.x, c.worst.y));
   rows.add("largest intrusion", length(c.largest_intrusion));
   if (exact) {
     rows.add("largest contact gap", length(c.largest_contact_gap));
-    if (!part) {
+    if (kind.whole()) {
       rows.add("largest uncovered", length(c.largest_uncovered));
       rows.add("area", fmt::format("{:.10g} of the disks, {:.10g} of the shape", c.disks_area,
                                    c.shape_area));
     }
   }
-  rows.add("connected parts",
-           fmt::format("{} for {}", c.graph_parts, counted(c.components, "component")));
-  rows.add("cycles", fmt::format("{} for {}", c.cycles, counted(c.holes, "hole")));
-  if (exact && !part)
+  rows.add("connected parts", kind.exterior ? std::to_string(c.graph_parts)
+                                            : fmt::format("{} for {}", c.graph_parts,
+                                                          counted(c.components, "component")));
+  rows.add("cycles", kind.exterior ? std::to_string(c.cycles)
+                                   : fmt::format("{} for {}", c.cycles, counted(c.holes, "hole")));
+  if (exact && kind.whole())
     rows.add("convex corners",
              fmt::format("{}, {} without a leaf", c.convex_corners, c.corners_without_leaf));
   if (c.curvature_leaves > 0) rows.add("leaves at arcs", c.curvature_leaves);
   if (c.blunt_joints > 0)
     rows.add("blunt joints",
              fmt::format("{}, up to {:.3g} degrees", c.blunt_joints, c.largest_blunt_angle));
-  if (exact && !part)
+  if (exact && kind.whole())
     rows.add("reflex vertices",
              fmt::format("{}, {} without a contact", c.reflex_vertices, c.reflex_without_contact));
   add_verdict(rows, c.failures, c.passed);
@@ -273,17 +296,17 @@ Result<int> run_verify(const VerifyArguments& arguments) {
   const Certificate all = merge(*certificates);
   if (!all.passed && !common.quiet && are_other_shapes(*stored, shapes))
     say("medial: {}: note: its axes are of other shapes than the input; give verify the options "
-        "that they were made with, such as --pixel-outline or --repair\n",
+        "that they were made with, such as --fit, --pixel-outline or --repair\n",
         axis_path);
   Json object = {{"input", input.path}, {"axis", axis_path}, {"features", count}};
-  const bool part =
-      std::ranges::any_of(stored->items, [](const AxisItem& item) { return item.part; });
-  object["part"] = part;
+  const Kind kind = kind_of(*stored);
+  object["part"] = kind.part;
+  object["exterior"] = kind.exterior;
   object.update(json_of(all));
   object["certificates"] = Json::array();
   for (const Certificate& one : *certificates) object["certificates"].push_back(json_of(one));
   return finish(common, std::move(object), loaded->phases,
-                common.quiet ? std::string() : verdict_table(all, count, part), {},
+                common.quiet ? std::string() : verdict_table(all, count, kind), {},
                 all.passed ? exit_success : exit_failed_verdict);
 }
 
@@ -295,6 +318,7 @@ Command make_verify_command(CLI::App& program) {
   add_input_options(*command, arguments->input, "AXIS",
                     "Axes, or a Voronoi diagram of loose pieces, in medial's own .json format.",
                     arguments->axis_path);
+  add_fit_option(*command, arguments->input);
   add_value(*command, "--samples", arguments->samples, "N", in_range(0, most_samples),
             fmt::format("Points to check inside every edge (default: {}).", arguments->samples));
   add_common_options(*command, arguments->common);
@@ -306,17 +330,20 @@ Command make_verify_command(CLI::App& program) {
       "cycle per hole, whether every convex corner has its leaf and every boundary point\n"
       "its disk, and both areas. Lengths are in the units of the input. For an axis that was\n"
       "pruned, cut or smoothed, it checks what holds for every part: disks, contacts, and no\n"
-      "more cycles than holes.\n"
+      "more cycles than holes. For an axis of the exterior, which lacks the edges at the\n"
+      "enclosure, it checks disks and contacts.\n"
       "For a diagram of `medial voronoi`: samples of every edge against the nearest of all\n"
       "sites, faces closed and oriented consistently, and their areas against that of the\n"
       "enclosure.\n"
-      "Give the same --layer, --where, --repair, --project and options of curves as for the\n"
-      "axis.\n"
+      "Give the options that say which shape is read, as for the axis: --fit, --repair,\n"
+      "--pixel-outline, --layer, --project and the like.\n"
       "\n"
       "Exit status: 0 passed, 1 failed, 2 an error.\n"
       "\n"
       "Examples:\n"
       "  medial axis plan.geojson -o plan.json && medial verify plan.geojson plan.json\n"
+      "  medial axis leaf.png --method curve-axis --fit 1 -o leaf.json\n"
+      "  medial verify leaf.png leaf.json --fit 1\n"
       "  medial voronoi roads.geojson -o v.json && medial verify roads.geojson v.json\n"
       "  medial verify --json --quiet maze.wkt.gz maze.json");
   return command_of(command, arguments, run_verify);

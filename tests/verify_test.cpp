@@ -184,7 +184,7 @@ TEST(VerifyFinds, AnyDroppedEdge) {
   HandMade m = rectangle();
   m.axis.edges.erase(m.axis.edges.begin());
   m.finish();
-  expect_failure(m, "The graph has 2 connected parts for 1 components; component 0 has 2 of them");
+  expect_failure(m, "The graph has 2 connected parts for 1 component; component 0 has 2 of them");
   expect_failure(m, "A stretch of the boundary is touched by no disk");
 }
 
@@ -202,13 +202,13 @@ TEST(VerifyFinds, BrokenCycle) {
   HandMade m = square_with_hole();
   m.axis.edges.erase(m.axis.edges.begin() + 1);  // along the hole's lower side
   m.finish();
-  expect_failure(m, "component 0 has 0 cycles and 1 holes");
+  expect_failure(m, "Component 0 has 0 independent cycles for 1 hole");
 }
 
 TEST(VerifyFinds, ExtraCycle) {
   HandMade m = rectangle();
   m.axis.edges.push_back(m.axis.edges[0]);
-  expect_failure(m, "component 0 has 1 cycles and 0 holes");
+  expect_failure(m, "Component 0 has 1 independent cycle for 0 holes");
   expect_failure(m, "The disks cover an area of");
 }
 

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <fmt/format.h>
+
+#include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "medial/document.h"
@@ -37,6 +41,21 @@ inline Result<Document<Feature>> read_to_end(FeatureReader& reader) {
     if (!more) return std::move(more).error();
     if (!*more) return document;
   }
+}
+
+/// Of a file with so many geometries, none of which is a polygon.
+inline Error without_polygons(std::uint64_t others) {
+  return {ErrorCode::unsupported,
+          fmt::format("no polygons, only {} other geometr{}: points and lines are for `medial "
+                      "voronoi` and `medial offset --loose`",
+                      others, others == 1 ? "y" : "ies"),
+          {}};
+}
+
+/// Of a file with polygons and so many other geometries.
+inline std::string note_of_others(std::uint64_t others) {
+  return others == 1 ? std::string("1 geometry is not a polygon and was left out")
+                     : fmt::format("{} geometries are not polygons and were left out", others);
 }
 
 inline std::size_t point_count(const Feature& feature) {

@@ -67,7 +67,11 @@ bool is_consistent(const Shape& shape) {
 std::optional<Error> refuse_untaken(const Options& options) {
   const MethodInfo& takes = info_of(options.method);
   if (options.exact && !takes.exact())
-    return Error{ErrorCode::invalid_option, "exact decisions are for exact methods only", {}};
+    return Error{
+        ErrorCode::invalid_option,
+        std::string("exact decisions are for the methods disks, biarc-dc, lee and auto, not ") +
+            takes.name,
+        {}};
   if (takes.exterior || !options.exterior) return std::nullopt;
   return Error{ErrorCode::unsupported,
                std::string("the method ") + takes.name + " takes no exterior: use the method disks",

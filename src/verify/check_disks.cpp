@@ -291,7 +291,7 @@ void check_sampled_disks(const Problem& problem, Certificate& certificate) {
   certificate.largest_intrusion = nodes.intrusion.value;
   const Worst& worst = nodes.residual;
   report_worst(worst, "nodes have a radius that is not the distance to the boundary", "node",
-               sentence(", over half a pixel's diagonal, %.3g", problem.tolerance), certificate);
+               sentence(", over the tolerance, %.3g", problem.tolerance), certificate);
 }
 
 void check_disks(const Problem& problem, int samples_per_edge, Certificate& certificate) {

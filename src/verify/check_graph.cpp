@@ -22,6 +22,8 @@ struct Offences {
   }
 };
 
+const char* plural_s(std::uint64_t count) { return count == 1 ? "" : "s"; }
+
 bool before(Vec2 a, Vec2 b) { return lexicographic_less(a, b); }
 
 /// By how much the boundary turns to the left between two edges.
@@ -129,7 +131,7 @@ void check_claims(const Shape& shape, const MedialAxis& axis, Certificate& certi
   const Box box = bounding_box(shape);
   if (!(axis.resolution >= 0 && axis.resolution <= diagonal(box)))
     certificate.failures.push_back(
-        sentence("The axis claims pixels of side %.3g, larger than the shape.", axis.resolution));
+        sentence("The axis claims a resolution of %.3g, larger than the shape.", axis.resolution));
   // A tolerance is at most what a user may ask compute() for, or what the coordinates' spacing
   // asks.
   if (!(axis.tolerance >= 0 &&
@@ -379,18 +381,21 @@ void check_graph(const Problem& problem, bool part, Certificate& certificate) {
   const std::size_t before = failures.size();
   if (torn.count > 0 && axis.exterior == 0)
     failures.push_back(sentence(
-        "%she graph has %llu connected parts for %llu components; component %zu has %llu of them.",
+        "%she graph has %llu connected parts for %llu component%s; component %zu has %llu of them.",
         beginning.c_str(), static_cast<unsigned long long>(certificate.graph_parts),
-        static_cast<unsigned long long>(certificate.components), torn.first,
-        static_cast<unsigned long long>(counts[torn.first].parts)));
+        static_cast<unsigned long long>(certificate.components), plural_s(counts.size()),
+        torn.first, static_cast<unsigned long long>(counts[torn.first].parts)));
   if (cycles.count > 0 && axis.exterior == 0) {
     const Count& count = counts[cycles.first];
+    const std::string others =
+        cycles.count == 1 ? std::string()
+                          : sentence(", and %zu more component%s too few or too many",
+                                     cycles.count - 1, cycles.count == 2 ? " has" : "s have");
     failures.push_back(sentence(
-        "%s%zu components do not have one independent cycle for each hole; component %zu has %llu "
-        "cycles and %llu holes.",
-        sampled.c_str(), cycles.count, cycles.first,
-        static_cast<unsigned long long>(count.cycles()),
-        static_cast<unsigned long long>(count.holes)));
+        "%somponent %zu has %llu independent cycle%s for %llu hole%s%s.",
+        (axis.resolution > 0 ? sampled + "c" : "C").c_str(), cycles.first,
+        static_cast<unsigned long long>(count.cycles()), plural_s(count.cycles()),
+        static_cast<unsigned long long>(count.holes), plural_s(count.holes), others.c_str()));
   }
   if (axis.resolution > 0) certificate.unresolved = failures.size() - before;
   if (strangers.count > 0)

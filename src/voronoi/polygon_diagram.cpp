@@ -12,9 +12,11 @@ Result<VoronoiDiagram> voronoi_diagram(const Shape& shape, const Options& option
     own.method = method::Lee{};
     if (auto error = refuse(shape, own)) return std::move(*error);
     if (has_arcs(shape))
-      return Error{ErrorCode::unsupported,
-                   "the diagram inside of polygons takes no arcs: use the one within an enclosure",
-                   {}};
+      return Error{
+          ErrorCode::unsupported,
+          "the diagrams of lee take no arcs: use the method disks, which computes one within "
+          "an enclosure",
+          {}};
     const Problem problem(shape, own);
     auto diagram = on_threads(own.threads, [&] { return lee::voronoi_diagram(problem); });
     if (!diagram) return diagram;

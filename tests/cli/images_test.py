@@ -45,6 +45,14 @@ class Images(CommandLine):
         self.refuse("invalid_option", "info", "l.pbm", "--layer", "a")
         self.refuse("invalid_option", "info", "l.pbm", "--repair")
 
+    def test_a_dark_shape_on_light_ground_is_noted(self):
+        self.write("dark.pgm", "P2\n5 5\n255\n" + "\n".join(
+            " ".join("0" if 1 <= x < 4 and 1 <= y < 4 else "255" for x in range(5)) for y in range(5)))
+        for command in ("axis", "distance"):
+            self.assertIn(b"add --invert", self.succeed(command, "dark.pgm").stderr)
+            self.assertNotIn(b"--invert", self.succeed(command, "dark.pgm", "--invert").stderr)
+            self.assertNotIn(b"--invert", self.succeed(command, "dark.pgm", "--threshold", "9").stderr)
+
     def test_default_is_what_a_person_would_draw(self):
         """Of a disk of pixels with a bar: one line, not the branches of its stairs."""
         inside = lambda x, y: (x - 30) ** 2 + (y - 30) ** 2 < 625 or (30 <= x < 110 and 24 <= y < 36)

@@ -258,6 +258,10 @@ class Inputs(CommandLine):
         self.assertEqual(json.loads(self.succeed("axis", "-", "--json", given=given).stdout)["sites"], 4)
         self.write("wells.csv", "id,x,y,name\n1,0,0,a\n2,4,0,b\n3,4,2,c\n")
         self.assertEqual(json.loads(self.succeed("voronoi", "wells.csv", "--json").stdout)["points"], 3)
-        self.assertIn("no polygons", self.refuse("unsupported", "axis", "wells.csv"))
+        self.write("line.wkt", "LINESTRING (0 0, 5 0, 5 5)")
+        for lines in ("wells.csv", "line.wkt"):
+            error = self.refuse("unsupported", "axis", lines)
+            self.assertIn("no polygons", error)
+            self.assertIn("medial voronoi", error)
         self.write("names.txt", "x y\nwords only\n")
         self.refuse("malformed", "axis", "names.txt")

@@ -86,7 +86,9 @@ class Methods(CommandLine):
         self.write("touching.wkt", "POLYGON ((0 0, 10 0, 10 10, 0 10), (0 5, 3 7, 3 3))")
         self.succeed("axis", "touching.wkt", "--exterior", "-o", "around.json")
         self.succeed("verify", "touching.wkt", "around.json")
-        self.refuse("invalid_option", "axis", "frame.wkt", "--method", "brushfire", "--exact")
+        self.assertIn("not brushfire",
+                      self.refuse("invalid_option", "axis", "frame.wkt", "--method", "brushfire", "--exact"))
+        self.refuse("invalid_option", "axis", "frame.wkt", "--seed", "7")
         self.refuse("too_large", "axis", "frame.wkt", "--method", "ridge", "--resolution", "1e-9")
         self.refuse("invalid_option", "axis", "frame.wkt", "--method", "ridge", "--pixels", "9", "--resolution", "1")
         self.refuse("invalid_option", "axis", "frame.wkt", "--exterior", "--margin", "0")

@@ -46,6 +46,22 @@ class Verify(CommandLine):
         self.assertFalse(verdict["certificates"][0]["passed"])
         self.assertTrue(verdict["certificates"][1]["passed"])
 
+    def test_a_fitted_axis_needs_the_same_fit(self):
+        self.write("gear.svg", '<svg><path d="M0,0L8,0L8,1L14,1L14,7L0,7Z"/></svg>')
+        self.succeed("axis", "gear.svg", "--method", "curve-axis", "--fit", "0.5", "-o", "fit.json")
+        self.succeed("verify", "gear.svg", "fit.json", "--fit", "0.5")
+        done = self.run_medial("verify", "gear.svg", "fit.json")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(b"--fit", done.stderr)
+
+    def test_what_of_an_exterior_is_checked(self):
+        self.succeed("axis", "shapes.wkt", "--exterior", "-o", "around.json")
+        table = self.succeed("verify", "shapes.wkt", "around.json").stdout.decode()
+        self.assertIn("exterior ", table)
+        self.assertNotIn("area", table)
+        self.assertNotIn("component", table)
+        self.assertTrue(json.loads(self.succeed("verify", "shapes.wkt", "around.json", "--json").stdout)["exterior"])
+
     def test_errors(self):
         self.write("one.wkt", FRAME)
         self.refuse("malformed", "verify", "one.wkt", "axes.json")

@@ -98,13 +98,8 @@ class WktReader final : public FeatureReader {
  private:
   Result<bool> finish() {
     if (source_->failure()) return *source_->failure();
-    if (others_ > 0 && !polygons_)
-      return Error{ErrorCode::unsupported,
-                   fmt::format("no polygons, only other geometries ({} of them)", others_),
-                   {}};
-    if (others_ > 0)
-      dataset_->notes.push_back(
-          fmt::format("{} geometries are not polygons and were left out", others_));
+    if (others_ > 0 && !polygons_) return without_polygons(others_);
+    if (others_ > 0) dataset_->notes.push_back(note_of_others(others_));
     return false;
   }
 

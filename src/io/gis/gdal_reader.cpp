@@ -223,19 +223,13 @@ class GdalReader final : public FeatureReader {
   Status finish() {
     if (!any_) {
       if (counts_.others > 0) {
-        return error(
-            ErrorCode::unsupported,
-            fmt::format("no polygons, only other geometries ({} of them); points and lines are for "
-                        "`medial voronoi` and `medial offset --loose`",
-                        counts_.others));
+        const Error none = without_polygons(counts_.others);
+        return error(none.code, none.text);
       }
       return error(ErrorCode::empty, options_.where.empty() ? "no feature with a geometry"
                                                             : "no feature passes the filter");
     }
-    if (counts_.others > 0) {
-      common_.notes.push_back(
-          fmt::format("{} geometries are not polygons and were left out", counts_.others));
-    }
+    if (counts_.others > 0) common_.notes.push_back(note_of_others(counts_.others));
     if (without_geometry_ > 0) {
       common_.notes.push_back(
           without_geometry_ == 1

@@ -465,6 +465,15 @@ Result<ImageFile> read_pixels(const Input& input, const ImageOptions& options, L
   return read(file.name());
 }
 
+/// Whether most pixels at the edge of the image are foreground, as around a dark shape.
+bool surrounds(const Image& image) {
+  const std::int64_t width = image.width(), height = image.height();
+  std::int64_t inside = 0;
+  for (std::int64_t x = 0; x < width; ++x) inside += image.at(x, 0) + image.at(x, height - 1);
+  for (std::int64_t y = 0; y < height; ++y) inside += image.at(0, y) + image.at(width - 1, y);
+  return inside > width + height;
+}
+
 /// An image with a foreground.
 Result<ImageFile> read_foreground(const Input& input, const ImageOptions& options, Labels& labels) {
   return guarded(input.path, [&]() -> Result<ImageFile> {
@@ -476,6 +485,11 @@ Result<ImageFile> read_foreground(const Input& input, const ImageOptions& option
                                     "--threshold chooses another, --labels takes each value for a "
                                     "feature",
                    {}};
+    const bool chosen = options.threshold || options.invert || options.labels;
+    if (file && !chosen && surrounds(file->image))
+      file->notes.emplace_back(
+          "most pixels at the edge of the image are foreground; if the shape is the rest, add "
+          "--invert");
     return file;
   });
 }

@@ -79,9 +79,7 @@ Status Control::run() {
   Place place;
   if (any_ >= 0) place.point = last(any_).right.point;
   return Error{ErrorCode::unsupported,
-               "the curve axis reaches no end here: fit a smooth curve to the outline, or use the "
-               "method disks",
-               place};
+               "curve-axis goes astray here: use the method disks or a smoother boundary", place};
 }
 
 std::vector<int> Control::in_use() const {

@@ -77,8 +77,7 @@ Error with_fit_that_does(Error error, Polygons polygons, const method::CurveAxis
   const std::string fit =
       is_fit ? next_fit(polygons, options, cancel) : closest_fit(polygons, options, cancel);
   if (cancel != nullptr && *cancel) return Error{ErrorCode::cancelled, "cancelled", {}};
-  if (!fit.empty())
-    error.text += "; curve-axis follows a spline within " + fit + " (--fit " + fit + ")";
+  if (!fit.empty()) error.text += "; --fit " + fit + " works";
   return error;
 }
 

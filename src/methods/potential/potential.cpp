@@ -427,7 +427,7 @@ std::optional<Error> refuse(const Problem& problem) {
   const auto is_order = [](double n) { return n >= 1 && n <= largest_order; };
   if (!(options.order == 0 || is_order(options.order)) ||
       !(options.base_order == 0 || is_order(options.base_order)))
-    return invalid("the order of the potential must be in [1, 4096]");
+    return invalid("orders of the potential must be 0 or in [1, 4096]");
   if (!(options.step >= 1e-4 && options.step <= 0.1))
     return invalid("the step must be in [1e-4, 0.1]");
   if (!(options.coarse >= 0 && options.coarse <= 0.2))
