@@ -90,11 +90,11 @@ inline double bulge_of(Vec2 tangent, Vec2 chord) {
 /// be rounding, and none by more than the whole arc.
 inline double partial_bulge(const BulgeArc& arc, Vec2 from, Vec2 to) {
   if (arc.bulge == 0) return 0;
+  const double whole = std::abs(arc.bulge);
   const double sine = 0.5 * curvature(arc) * norm(to - from);  // of half the angle of its turn
-  if (sine * sine <= 0.5) return sine / (1 + std::sqrt(1 - sine * sine));
+  if (sine * sine <= 0.5) return std::clamp(sine / (1 + std::sqrt(1 - sine * sine)), -whole, whole);
   // The tangent turns in proportion to the way: T(p) = T(start) + curvature * left_of(p - start).
   const Vec2 tangent = start_tangent(arc) + curvature(arc) * left_of(from - arc.start);
-  const double whole = std::abs(arc.bulge);
   return std::clamp(bulge_of(tangent, to - from), -whole, whole);
 }
 

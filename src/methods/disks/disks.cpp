@@ -319,28 +319,16 @@ Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbe
   return std::move(*error);
 }
 
-}  // namespace
-
-Result<MedialAxis> run(const Problem& problem) {
-  if (!has_arcs(problem.shape)) return run_in_place(problem, problem.numbers());
-  const Pose pose(problem.shape);
-  Problem posed(pose.shape(), problem.options);  // a box of arcs rounds: it is the image's
-  posed.joint_tolerance = problem.joint_tolerance;
-  const SiteNumbers numbers = pose.to_image(problem.numbers());
-  auto axis = run_in_place(posed, numbers);
-  if (axis) return pose.to_input(problem, numbers, std::move(axis).value());
-  return pose.to_input(axis.error());
-}
-
 template <class E>
-TwoSided run_two_sided(const Problem& problem, std::vector<E>& edges) {
+TwoSided run_two_sided_in_place(const Problem& problem, const SiteNumbers& numbers,
+                                std::vector<E>& edges) {
   Attempts attempts;
   Way way;
   way.in_double = !has_exact;
   for (;;) {
     edges.clear();
     Findings findings;
-    Result<MedialAxis> axis = attempt(problem, problem.numbers(), true, way, edges, findings);
+    Result<MedialAxis> axis = attempt(problem, numbers, true, way, edges, findings);
     if (findings.too_coarse) {
       way.in_centers = true;
       continue;
@@ -348,6 +336,38 @@ TwoSided run_two_sided(const Problem& problem, std::vector<E>& edges) {
     if (axis && findings.lost.empty()) return {std::move(*axis), !way.in_double};
     way = *next_way(problem, way, findings.lost, attempts);
   }
+}
+
+/// The image in which a shape with arcs is walked.
+struct Posed {
+  Pose pose;
+  Problem problem;  ///< a box of arcs rounds: it is the image's
+  SiteNumbers numbers;
+
+  explicit Posed(const Problem& own)
+      : pose(own.shape), problem(pose.shape(), own.options), numbers(pose.to_image(own.numbers())) {
+    problem.joint_tolerance = own.joint_tolerance;
+  }
+};
+
+}  // namespace
+
+Result<MedialAxis> run(const Problem& problem) {
+  if (!has_arcs(problem.shape)) return run_in_place(problem, problem.numbers());
+  const Posed posed(problem);
+  auto axis = run_in_place(posed.problem, posed.numbers);
+  if (!axis) return posed.pose.to_input(axis.error());
+  posed.pose.to_input(problem, posed.numbers, *axis, axis->edges);
+  return axis;
+}
+
+template <class E>
+TwoSided run_two_sided(const Problem& problem, std::vector<E>& edges) {
+  if (!has_arcs(problem.shape)) return run_two_sided_in_place(problem, problem.numbers(), edges);
+  const Posed posed(problem);
+  TwoSided result = run_two_sided_in_place(posed.problem, posed.numbers, edges);
+  posed.pose.to_input(problem, posed.numbers, result.axis, edges);
+  return result;
 }
 
 template TwoSided run_two_sided(const Problem&, std::vector<Edge>&);

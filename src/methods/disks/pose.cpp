@@ -1,6 +1,7 @@
 #include "methods/disks/pose.h"
 
 #include <algorithm>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -27,7 +28,8 @@ void keep_least(std::vector<QuarterMap>& maps, const Key& key) {
   maps.resize(kept);
 }
 
-/// The maps by which the image has the lowest first point: mostly one.
+/// The maps by which the image has the lowest first point, and the lowest one inside its box, as
+/// the box may be a frame around all else: mostly one.
 std::vector<QuarterMap> best_maps(const Shape& shape) {
   std::vector<QuarterMap> maps = quarter_maps();
   Box box = Box::nothing();
@@ -35,12 +37,20 @@ std::vector<QuarterMap> best_maps(const Shape& shape) {
   keep_least(maps, [&](const QuarterMap& map) {
     return std::pair(std::min(map.to_image(box.low).x, map.to_image(box.high).x), 0.0);
   });
-  keep_least(maps, [&](const QuarterMap& map) {
-    Vec2 lowest = map.to_image(shape.points[0]);
-    for (const Vec2 p : shape.points)
-      if (const Vec2 q = map.to_image(p); lexicographic_less(q, lowest)) lowest = q;
-    return std::pair(lowest.x, lowest.y);
-  });
+  const auto keep_lowest = [&](const auto& counts) {
+    keep_least(maps, [&](const QuarterMap& map) {
+      constexpr double none = std::numeric_limits<double>::infinity();
+      Vec2 lowest{none, none};
+      for (const Vec2 p : shape.points)
+        if (const Vec2 q = map.to_image(p); lexicographic_less(q, lowest) && counts(p)) lowest = q;
+      return std::pair(lowest.x, lowest.y);
+    });
+  };
+  keep_lowest([](Vec2) { return true; });
+  if (maps.size() > 1)
+    keep_lowest([&](Vec2 p) {
+      return p.x > box.low.x && p.x < box.high.x && p.y > box.low.y && p.y < box.high.y;
+    });
   return maps;
 }
 
@@ -163,26 +173,34 @@ site::SiteNumbers Pose::to_image(const site::SiteNumbers& numbers) const {
   return image;
 }
 
-MedialAxis Pose::to_input(const Problem& problem, const site::SiteNumbers& numbers,
-                          MedialAxis axis) const {
+template <class E>
+void Pose::to_input(const Problem& problem, const site::SiteNumbers& numbers, MedialAxis& axis,
+                    std::vector<E>& edges) const {
   const site::SiteNumbers& own = problem.numbers();
   std::vector<std::uint32_t> site(numbers.count);
-  for (std::size_t i = 0; i < point_.size(); ++i) {
-    if (numbers.is_site(i)) site[numbers.edge[i] - 1] = own.edge[point_[i]] - 1;
-    site[numbers.edge[i]] = own.edge[edge_[i]];
+  for (std::size_t loop = 0; loop < image_.loop_count(); ++loop) {
+    const std::size_t begin = image_.loop_begin[loop], end = image_.loop_begin[loop + 1];
+    for (std::size_t i = begin; i < end; ++i) {
+      if (numbers.is_site(i)) site[numbers.edge[i] - 1] = own.edge[point_[i]] - 1;
+      if (end - begin > 1) site[numbers.edge[i]] = own.edge[edge_[i]];  // a lone point has none
+    }
   }
   for (Node& node : axis.nodes) {
     node.disk.center = map_.to_input(node.disk.center);
     node.component = component_[node.component];
   }
-  for (Edge& edge : axis.edges) {
+  for (E& edge : edges) {
     edge.control.center = map_.to_input(edge.control.center);
     edge.site = {site[edge.site[0]], site[edge.site[1]]};
     if (map_.mirrors()) std::swap(edge.site[0], edge.site[1]);
   }
   if (!axis.sites.empty()) axis.sites = problem.result_sites();
-  return axis;
 }
+
+template void Pose::to_input(const Problem&, const site::SiteNumbers&, MedialAxis&,
+                             std::vector<Edge>&) const;
+template void Pose::to_input(const Problem&, const site::SiteNumbers&, MedialAxis&,
+                             std::vector<VoronoiEdge>&) const;
 
 Error Pose::to_input(Error error) const {
   if (error.place.point) error.place.point = map_.to_input(*error.place.point);

@@ -38,9 +38,11 @@ class Pose {
   const Shape& shape() const { return image_; }
   /// The numbers of the image's sites: joints are alike.
   site::SiteNumbers to_image(const site::SiteNumbers& numbers) const;
-  /// The axis of the image, whose sites have these numbers, as one of the shape.
-  MedialAxis to_input(const Problem& problem, const site::SiteNumbers& numbers,
-                      MedialAxis axis) const;
+  /// Makes the axis of the image, whose sites have these numbers, and its edges, which may stand
+  /// apart, those of the shape.
+  template <class E>
+  void to_input(const Problem& problem, const site::SiteNumbers& numbers, MedialAxis& axis,
+                std::vector<E>& edges) const;
   Error to_input(Error error) const;
 
  private:
