@@ -45,7 +45,7 @@ Command make_draw_command(CLI::App& program) {
   add_common_options(*command, arguments->common);
   command->footer(
       "INPUT may be shapes, whose axes are then computed, or medial's own .json, whose\n"
-      "axes are drawn.  The axis is coloured by radius. Vector pictures hold exact\n"
+      "axes are drawn. The axis is coloured by radius. Vector pictures hold exact\n"
       "curves.\n"
       "\n"
       "Examples:\n"

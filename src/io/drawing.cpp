@@ -78,7 +78,7 @@ class Unfolded {
       if (depth > 0) copied_ += curve.contour.points.size();
       if (copied_ > most_copied)
         return Error{ErrorCode::too_large,
-                     fmt::format("blocks unfold to more than {} points", most_copied),
+                     fmt::format("blocks expand to more than {} points", most_copied),
                      {}};
       Layer& target = layer_of(own(curve.layer));
       (curve.closed ? target.closed : target.open)
@@ -141,7 +141,7 @@ class Features {
       for (const Unfolded::Layer& layer : unfolded.layers)
         names += (names.empty() ? "" : ", ") + layer.name;
       return Error{ErrorCode::invalid_option,
-                   fmt::format("there is no layer '{}', but: {}", wanted, names),
+                   fmt::format("there is no layer '{}'; the layers are: {}", wanted, names),
                    {}};
     }
     if (dataset_.items.empty()) take_cells();

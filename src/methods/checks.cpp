@@ -74,7 +74,8 @@ std::optional<Error> refuse_untaken(const Options& options) {
         {}};
   if (takes.exterior || !options.exterior) return std::nullopt;
   return Error{ErrorCode::unsupported,
-               std::string("the method ") + takes.name + " takes no exterior: use the method disks",
+               std::string("the method ") + takes.name +
+                   " does not compute the exterior: use the method disks",
                {}};
 }
 

@@ -317,7 +317,8 @@ Result<MedialAxis> join_tiles(const Shape& shape, std::vector<TileAxisEdge> edge
     axis.sites = problem.result_sites();
     const auto lacking = add_edges(shape, problem.numbers(), edges, axis);
     if (join_ties(lacking, axis) || !has_right_topology(shape, axis.nodes, axis.edges))
-      return Error{ErrorCode::internal, "the tiles make no whole axis, as if one were missing", {}};
+      return Error{
+          ErrorCode::internal, "the tiles do not make a whole axis: one seems to be missing", {}};
     set_node_kinds(axis);
     return axis;
   } catch (...) {

@@ -61,7 +61,7 @@ std::optional<Error> Noding::too_small() const {
   if (nodes_.empty() || size_ >= least_size * tolerance_) return std::nullopt;
   return error_at(
       ErrorCode::unsupported,
-      "the edges are too small against their coordinates to differ by more than rounding: move "
+      "the edges are too small for their coordinates to differ by more than rounding: move "
       "them nearer to the origin",
       nodes_[0].source, nodes_[0].original);
 }

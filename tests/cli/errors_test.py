@@ -144,7 +144,7 @@ class Errors(CommandLine):
             layer = f"0\nLWPOLYLINE\n8\n{name}\n90\n4\n70\n1\n{square}"
             self.write("a.dxf", f"0\nSECTION\n2\nENTITIES\n{layer}0\nENDSEC\n0\nEOF\n")
             report = self.refuse("invalid_option", "info", "a.dxf", "--layer", "c")
-            self.assertRegex(report, "but: a[^\\x00-\\x1f\\x7f-\\x9f]*b \\[")
+            self.assertRegex(report, "the layers are: a[^\\x00-\\x1f\\x7f-\\x9f]*b \\[")
         self.write("b.dxf", b"\xff\n")
         self.assertIn("'\ufffd' is not a group code", self.refuse("malformed", "info", "b.dxf"))
 

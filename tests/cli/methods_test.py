@@ -20,7 +20,7 @@ class Methods(CommandLine):
             self.assertIn(f"| {method['name']} |", table)
             if not method["exterior"]:
                 text = self.refuse("unsupported", "axis", "plain.wkt", "--exterior", "--method", method["name"])
-                self.assertIn(f"the method {method['name']} takes no exterior", text)
+                self.assertIn(f"the method {method['name']} does not compute the exterior", text)
             if not method["exact"]:
                 self.refuse("invalid_option", "axis", "plain.wkt", "--exact", "--method", method["name"])
 

@@ -62,7 +62,7 @@ class ColumnFile {
     if (checksums_.is_object() && checksums_.contains(name)) {
       std::uint32_t sum = 0;
       add_to_checksum(sum, found_bytes);
-      need(checksums_[name] == sum, "is damaged: its checksum is another");
+      need(checksums_[name] == sum, "is damaged: its checksum does not match");
     }
     return found_bytes;
   }

@@ -144,7 +144,7 @@ class Filter {
     double number = 0;
     const auto [stop, problem] = fast_float::from_chars(begin, end, number);
     if (problem != std::errc() || stop != end || begin == end) {
-      return error(ErrorCode::malformed, fmt::format("'{}' is no number", shown(value)));
+      return error(ErrorCode::malformed, fmt::format("'{}' is not a number", shown(value)));
     }
     if (!std::isfinite(number)) {
       return error(ErrorCode::not_finite, fmt::format("'{}' is not finite", shown(value)));

@@ -86,7 +86,7 @@ class Element : public SvgPath {
     }
     if (copied_ && ++drawing_.copies > most_copies) {
       refuse(ErrorCode::too_large,
-             fmt::format("'use' unfolds to more than {} elements", most_copies));
+             fmt::format("'use' expands to more than {} elements", most_copies));
     }
   }
 
@@ -154,7 +154,7 @@ class Element : public SvgPath {
     drawing_.copied_points += step_count();
     if (drawing_.copied_points > most_copied)
       refuse(ErrorCode::too_large,
-             fmt::format("'use' unfolds to more than {} points", most_copied));
+             fmt::format("'use' expands to more than {} points", most_copied));
   }
 
  private:

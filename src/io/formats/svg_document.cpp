@@ -144,7 +144,7 @@ Result<SvgDocument> SvgDocument::read(TextSource& source) {
       return error(ErrorCode::out_of_memory, "there is not enough memory", 0);
     }
     std::string text =
-        problem != nullptr && problem->message != nullptr ? problem->message : "this is no XML";
+        problem != nullptr && problem->message != nullptr ? problem->message : "this is not XML";
     while (!text.empty() && (text.back() == '\n' || text.back() == '.')) text.pop_back();
     return error(ErrorCode::malformed, text,
                  problem != nullptr ? static_cast<std::uint64_t>(std::max(problem->line, 0)) : 0);

@@ -155,14 +155,15 @@ class GdalReader final : public FeatureReader {
     if (!options_.layer.empty()) {
       OGRLayer* layer = source.GetLayerByName(options_.layer.c_str());
       if (layer != nullptr) return layer;
-      return error(ErrorCode::invalid_option, fmt::format("there is no layer '{}', but: {}",
-                                                          options_.layer, layer_names(source)));
+      return error(ErrorCode::invalid_option,
+                   fmt::format("there is no layer '{}'; the layers are: {}", options_.layer,
+                               layer_names(source)));
     }
     OGRLayer* layer = source.GetLayer(0);
     if (layer == nullptr) return error(ErrorCode::malformed, "the first layer cannot be read");
     if (source.GetLayerCount() > 1) {
-      common_.notes.push_back(fmt::format("layer '{}' was read, out of: {}", utf8(layer->GetName()),
-                                          layer_names(source)));
+      common_.notes.push_back(fmt::format("layer '{}' was read; the file has the layers {}",
+                                          utf8(layer->GetName()), layer_names(source)));
     }
     return layer;
   }

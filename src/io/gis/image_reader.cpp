@@ -425,7 +425,7 @@ Result<ImageFile> read_raster(const std::string& name, const ImageOptions& optio
   if (dataset->GetGeoTransform(placement.data()) == CE_None) {
     if (!std::ranges::all_of(placement, [](double t) { return std::isfinite(t); }) ||
         placement[1] * placement[5] == placement[2] * placement[4])
-      return Error{ErrorCode::malformed, "its pixels lie nowhere: the placement is degenerate", {}};
+      return Error{ErrorCode::malformed, "the placement of its pixels is degenerate", {}};
     file.placement = placement;
   }
   if (const OGRSpatialReference* reference = dataset->GetSpatialRef()) {

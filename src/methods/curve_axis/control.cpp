@@ -74,7 +74,7 @@ Status Control::run() {
                  {}};
   if (points_ > most_points)
     return Error{ErrorCode::too_large,
-                 "the axis has more points than fit the memory: take longer steps",
+                 "the axis has more points than fit into memory: take longer steps",
                  {}};
   Place place;
   if (any_ >= 0) place.point = last(any_).right.point;

@@ -412,7 +412,7 @@ Status check_disks(const Boundary& boundary, const MedialAxis& axis) {
               [&](std::uint32_t i) { reached = reached || distance(points[i], center) < reach; });
     if (!reached) continue;
     Error error{ErrorCode::unsupported,
-                "the curve axis has gone astray here, where the boundary reaches into a disk: use "
+                "curve-axis goes astray here, where the boundary reaches into a disk: use "
                 "the method disks",
                 {}};
     error.place.point = center;
@@ -542,7 +542,7 @@ Status check_cycles(const MedialAxis& axis, std::size_t holes) {
   for (const Edge& edge : axis.edges) parts.join(edge.node[0], edge.node[1]);
   if (parts.count() == 1 && axis.edges.size() + 1 == axis.nodes.size() + holes) return success();
   Error error{ErrorCode::unsupported,
-              "the curve axis has gone astray: it does not go once around each hole; use the "
+              "curve-axis goes astray: it does not go once around each hole; use the "
               "method disks",
               {}};
   if (!axis.nodes.empty()) error.place.point = axis.nodes.front().disk.center;

@@ -89,7 +89,8 @@ std::optional<Error> Editor::Parts::refuse(const edit::Edit& edit) const {
     return error_of(ErrorCode::not_finite, not_finite, shown);
   const std::uint32_t fewest = edit.bulge[0] == 0 && !rings.has_arcs() ? 3 : 2;
   if (edit.fresh == none && rings.loop_size(rings[edit.before].loop) <= fewest)
-    return error_of(ErrorCode::too_few_points, "a loop keeps three vertices, with arcs two", shown);
+    return error_of(ErrorCode::too_few_points, "a loop needs three vertices, or two with arcs",
+                    shown);
   return std::nullopt;
 }
 

@@ -495,11 +495,10 @@ Status certify(const Problem& problem, bool part_joints, MedialAxis& axis) {
                 "the axis could not be made certain here: please report this shape",
                 {}};
     if (has_arcs)
-      error = {
-          ErrorCode::unsupported,
-          "the axis could not be made certain here, as it happens where arcs are of one circle "
-          "up to rounding; it can be computed without `exact`",
-          {}};
+      error = {ErrorCode::unsupported,
+               "the axis could not be made certain here, because arcs lie on one circle "
+               "up to rounding; it can be computed without `exact`",
+               {}};
     error.place.point = place;
     return error;
   };
