@@ -6,6 +6,7 @@
 
 #include "methods/disks/boundary.h"
 #include "site/bisector.h"
+#include "site/smooth_place.h"
 #include "site/tangent_disk.h"
 
 namespace medial::biarc_dc {
@@ -150,15 +151,14 @@ std::optional<EndDisk> disk_at_end(const Context& context, const Subshape& subsh
   const bool passes = context.joins_smoothly(before_end);
   Vec2 foot = own.point, normal;
   double largest = std::max(0.0, own.curvature);
-  if (!own.is_vertex()) {
+  if (passes) {
+    const auto place = forward ? site::smooth_place(own, next) : site::smooth_place(next, own);
+    foot = place.point;
+    normal = place.normal;
+  } else if (!own.is_vertex()) {
     const double end = forward ? element.to : element.from;
     foot = own.at(end);
     normal = own.normal_at(end);
-    // The directions of an arc whose length is some roundings are known to little: at a smooth
-    // joint the longer edge decides.
-    if (passes && next.length > own.length) normal = forward ? next.normal() : next.end_normal();
-  } else if (passes) {
-    normal = forward ? next.normal() : next.end_normal();
   } else {
     const Vec2 to_center = disks[before_end.disk_after].center - foot;
     normal = (1 / norm(to_center)) * to_center;
@@ -305,17 +305,20 @@ struct DiskAtPlace {
 
   DiskAtPlace(Context& a_context, const Subshape& a_subshape, const Place& a_place)
       : context(a_context), subshape(a_subshape), place(a_place) {
-    std::size_t base = place.element;  // the arc whose normal the disk has
-    double parameter = place.parameter;
+    const Site& own = context.site(subshape.elements[place.element]);
+    double bend = own.curvature;
     if (place.at_joint) {
-      if (context.site(subshape.elements[base]).is_vertex()) base = subshape.next(base);
-      parameter = base == place.element ? context.site(subshape.elements[base]).length : 0;
+      const Site& next = context.site(subshape.elements[subshape.next(place.element)]);
+      const auto joint = site::smooth_place(own, next);
+      foot = joint.point;
+      normal = joint.normal;
+      bend = std::max(bend, next.curvature);
+    } else {
+      foot = own.at(place.parameter);
+      normal = own.normal_at(place.parameter);
     }
-    const Site& arc = context.site(subshape.elements[base]);
-    foot = arc.at(parameter);
-    normal = arc.normal_at(parameter);
     const double largest = context.radius_limit;
-    set(arc.curvature > 0 ? std::min(largest, 1 / arc.curvature) : largest);
+    set(bend > 0 ? std::min(largest, 1 / bend) : largest);
   }
   void set(double radius) { disk = {foot + radius * normal, radius}; }
 
