@@ -41,12 +41,22 @@ std::optional<Touch> touch_of(const Context& context, const Subshape& subshape, 
     return is_far(site, disk.center, reach) ||
            site::squared_distance(site, disk.center) > reach * reach;
   };
+  // Where two elements join at a convex angle, a disk touches them inside, or nearly so: what it
+  // touches in the joint alone is for the disk that touches both.
+  const auto ends_at_corner = [&](const Touch& touch) {
+    const Element& before = subshape.elements[subshape.before(i)];
+    const bool is_convex =
+        (touch.parameter <= 0 && before.is_joined() && !context.joins_smoothly(before)) ||
+        (touch.parameter >= site.length && element.is_joined() && !context.joins_smoothly(element));
+    return is_convex && std::abs(site::carrier_distance(site, disk.center) - disk.radius) >
+                            reach - disk.radius;
+  };
   if (!is_sure && is_beyond()) return std::nullopt;
   Touch touch{i, 0, 0, false};
   if (!site.is_vertex())
     touch.parameter = std::clamp(site::foot_parameter(site, disk.center), element.from, element.to);
   touch.distance = distance(site.at(touch.parameter), disk.center);
-  if (!is_sure && touch.distance > reach) return std::nullopt;
+  if (!is_sure && (touch.distance > reach || ends_at_corner(touch))) return std::nullopt;
   if (std::abs(site.curvature * disk.radius - 1) <= same_circle) {
     const auto on_circle = [&](double s) {
       return std::abs(distance(site.at(s), disk.center) - disk.radius) <= context.tolerance;

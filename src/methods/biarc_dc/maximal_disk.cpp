@@ -434,6 +434,10 @@ struct BranchWalk {
   bool passes_right = context.joins_smoothly(subshape.elements[right]);
   bool passes_left = context.joins_smoothly(subshape.elements[before]);
 
+  bool reaches_over_carrier(const Disk& disk, const Site& site) const {
+    return site::carrier_distance(site, disk.center) < disk.radius - context.rounding();
+  }
+
   /// As long as both feet are on their elements, disks further on reach over all that the disks
   /// before them do; so the scan begins where the first foot gets to its end. At a joint it passes
   /// on to the neighbour there; elsewhere only rounding lets the disk reach over no neighbour.
@@ -444,9 +448,21 @@ struct BranchWalk {
       const auto at_end = disk_at_end(context, subshape, own, forward,
                                       context.site(subshape.elements[other]), disks);
       if (!at_end) return;
-      const double there = bisector.position(at_end->disk.center);
-      if (there < low - slack(context, bisector, from) || !(there < stop.position)) return;
-      stop = {there < low ? from : at_end->disk, std::max(there, low), {}};
+      Disk disk = at_end->disk;
+      double there = bisector.position(disk.center);
+      if (there < low - slack(context, bisector, from)) return;
+      // At a convex joint the disk reaches over the neighbour, which a disk before it touches.
+      // Beside the centre of an arc only the arc's circle shows that.
+      const Site& neighbor = context.site(subshape.elements[forward ? after : before]);
+      const bool is_convex = subshape.elements[forward ? right : before].is_joined() &&
+                             !(forward ? passes_right : passes_left);
+      if (is_convex && there > low && reaches_over_carrier(disk, neighbor)) {
+        const auto earlier = contact_with_carrier(context, bisector, from, there, neighbor);
+        if (earlier) disk = *earlier;
+        there = bisector.position(disk.center);
+      }
+      if (!(there < stop.position)) return;
+      stop = {there < low ? from : disk, std::max(there, low), {}};
       if (at_end->fits) stop.third = place;
     };
     bound_by(right, left, true, Place{passes_right ? right : after, passes_right, 0});
