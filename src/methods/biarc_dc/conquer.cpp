@@ -11,7 +11,6 @@
 #include "axis/node_kinds.h"
 #include "axis/statistics.h"
 #include "base/threads.h"
-#include "methods/disks/tie_fit.h"
 #include "site/bisector.h"
 #include "site/tangent_disk.h"
 
@@ -179,19 +178,42 @@ struct TieContact {
   friend auto operator<=>(const TieContact&, const TieContact&) = default;
 };
 
-/// A disk that touches all of some sites within a tolerance, if there is one near by: the given one,
-/// if it does, as contacts on both sides of a channel leave open where along it a disk is.
+/// The disk nearest to touching all of some sites: the given one, if it misses none by more than
+/// `tolerance`, as contacts on both sides of a channel leave open where along it a disk is; or else
+/// by least squares: moving the centre by (x, y) and the radius by z makes the gap to a site larger
+/// by outward.x x + outward.y y - z. None if that misses one.
 std::optional<Disk> disk_touching(const Context& context, std::span<const TieContact> touches,
                                   const Disk& near, double tolerance) {
-  std::vector<disks::Touch> contacts;
+  const auto gap_of = [&](std::uint32_t site, const Disk& disk) {
+    return std::sqrt(site::squared_distance(context.outline.sites[site], disk.center)) -
+           disk.radius;
+  };
+  const auto touches_all = [&](const Disk& disk) {
+    return std::all_of(touches.begin(), touches.end(), [&](const TieContact& touch) {
+      return std::abs(gap_of(touch.site, disk)) <= tolerance;
+    });
+  };
+  if (touches_all(near)) return near;
+  std::array<std::array<double, 4>, 3> sum{};
   for (const TieContact& touch : touches) {
     const Site& site = context.outline.sites[touch.site];
     if (std::abs(site.curvature * near.radius - 1) <= same_circle) return std::nullopt;
-    contacts.push_back({touch.site});
+    const Vec2 outward = site::outward(site, near.center);
+    const std::array<double, 4> term{outward.x, outward.y, -1, -gap_of(touch.site, near)};
+    for (std::size_t row = 0; row < 3; ++row)
+      for (std::size_t column = 0; column < 4; ++column)
+        sum[row][column] += term[row] * term[column];
   }
-  const disks::TieSites sites{context.outline.sites};
-  disks::TieFit fit(sites, near);
-  return fit.fits(contacts, tolerance) ? std::optional(fit.disk) : std::nullopt;
+  const auto determinant = [&](std::size_t a, std::size_t b, std::size_t c) {
+    return sum[0][a] * (sum[1][b] * sum[2][c] - sum[1][c] * sum[2][b]) -
+           sum[0][b] * (sum[1][a] * sum[2][c] - sum[1][c] * sum[2][a]) +
+           sum[0][c] * (sum[1][a] * sum[2][b] - sum[1][b] * sum[2][a]);
+  };
+  const double all = determinant(0, 1, 2);
+  if (!(all > 0)) return std::nullopt;
+  const Disk disk{near.center + (1 / all) * Vec2{determinant(3, 1, 2), determinant(0, 3, 2)},
+                  near.radius + determinant(0, 1, 3) / all};
+  return touches_all(disk) ? std::optional(disk) : std::nullopt;
 }
 
 /// Moves the node of each tie to the disk that touches all its sites, and marks whether there is
