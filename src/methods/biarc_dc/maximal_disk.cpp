@@ -434,8 +434,11 @@ struct BranchWalk {
   bool passes_right = context.joins_smoothly(subshape.elements[right]);
   bool passes_left = context.joins_smoothly(subshape.elements[before]);
 
-  bool reaches_over_carrier(const Disk& disk, const Site& site) const {
-    return site::carrier_distance(site, disk.center) < disk.radius - context.rounding();
+  /// Whether a disk that reaches over no part of an element does so over its arc's circle.
+  bool reaches_over_circle(const Disk& disk, std::size_t element) const {
+    const Site& site = context.site(subshape.elements[element]);
+    return site.is_arc() && !overlaps(disk, site, context.rounding()) &&
+           site::carrier_distance(site, disk.center) < disk.radius - context.rounding();
   }
 
   /// As long as both feet are on their elements, disks further on reach over all that the disks
@@ -453,11 +456,12 @@ struct BranchWalk {
       if (there < low - slack(context, bisector, from)) return;
       // At a convex joint the disk reaches over the neighbour, which a disk before it touches.
       // Beside the centre of an arc only the arc's circle shows that.
-      const Site& neighbor = context.site(subshape.elements[forward ? after : before]);
+      const std::size_t neighbor = forward ? after : before;
       const bool is_convex = subshape.elements[forward ? right : before].is_joined() &&
-                             !(forward ? passes_right : passes_left);
-      if (is_convex && there > low && reaches_over_carrier(disk, neighbor)) {
-        const auto earlier = contact_with_carrier(context, bisector, from, there, neighbor);
+                             !(forward ? passes_right : passes_left) && neighbor != other;
+      if (is_convex && there > low && reaches_over_circle(disk, neighbor)) {
+        const auto earlier = contact_with_carrier(context, bisector, from, there,
+                                                  context.site(subshape.elements[neighbor]));
         if (earlier) disk = *earlier;
         there = bisector.position(disk.center);
       }
