@@ -41,20 +41,29 @@ std::optional<Touch> touch_of(const Context& context, const Subshape& subshape, 
     return is_far(site, disk.center, reach) ||
            site::squared_distance(site, disk.center) > reach * reach;
   };
-  // Where two elements join at a convex angle, a disk touches them inside, or nearly so: what it
-  // touches in the joint alone is for the disk that touches both.
+  // What touches the end of an edge is for the vertex there.
+  const auto ends_at_vertex = [&](double s) {
+    const Element& before = subshape.elements[subshape.before(i)];
+    return (s <= 0 && before.is_joined() && context.site(before).is_vertex()) ||
+           (s >= site.length && element.is_joined() &&
+            context.site(subshape.elements[subshape.next(i)]).is_vertex());
+  };
+  // What touches an arc in a convex joint alone is for the disk that touches its circle, too.
   const auto ends_at_corner = [&](const Touch& touch) {
     const Element& before = subshape.elements[subshape.before(i)];
     const bool is_convex =
         (touch.parameter <= 0 && before.is_joined() && !context.joins_smoothly(before)) ||
         (touch.parameter >= site.length && element.is_joined() && !context.joins_smoothly(element));
-    return is_convex && std::abs(site::carrier_distance(site, disk.center) - disk.radius) >
-                            reach - disk.radius;
+    return site.is_arc() && is_convex &&
+           std::abs(site::carrier_distance(site, disk.center) - disk.radius) > reach - disk.radius;
   };
   if (!is_sure && is_beyond()) return std::nullopt;
   Touch touch{i, 0, 0, false};
-  if (!site.is_vertex())
-    touch.parameter = std::clamp(site::foot_parameter(site, disk.center), element.from, element.to);
+  if (!site.is_vertex()) {
+    const double s = site::foot_parameter(site, disk.center);
+    if (!is_sure && ends_at_vertex(s)) return std::nullopt;
+    touch.parameter = std::clamp(s, element.from, element.to);
+  }
   touch.distance = distance(site.at(touch.parameter), disk.center);
   if (!is_sure && (touch.distance > reach || ends_at_corner(touch))) return std::nullopt;
   if (std::abs(site.curvature * disk.radius - 1) <= same_circle) {
