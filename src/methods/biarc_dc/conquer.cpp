@@ -242,8 +242,9 @@ void fit_ties(const Context& context, const std::vector<TieContact>& touches, Sk
 void join_ties(const Context& context, Skeleton& skeleton) {
   const auto is_short = [&](const Bone& edge) {
     const Disk &a = skeleton.nodes[edge.from], &b = skeleton.nodes[edge.to];
-    // Where two disks that touch a site are d apart, those between them reach over it by some
-    // d^2 / radius: no more than the tolerance.
+    // Where two disks around d apart touch a vertex, those between them reach over it by
+    // d^2 / (8 radius): an eighth of the tolerance at most. In a row of short edges that adds up,
+    // so they are no more than candidates: one disk must touch all their sites.
     const double reach = std::min(tie_reach * context.tolerance,
                                   std::sqrt(context.tolerance * std::min(a.radius, b.radius)));
     return a.radius > 0 && b.radius > 0 && distance(a.center, b.center) <= reach &&
