@@ -178,15 +178,22 @@ struct TieContact {
   friend auto operator<=>(const TieContact&, const TieContact&) = default;
 };
 
-/// The disk nearest to touching all of some sites, by least squares: moving the centre by (x, y)
-/// and the radius by z makes the gap to a site larger by outward.x x + outward.y y - z. None if it
-/// misses one by more than `tolerance`.
+/// The disk nearest to touching all of some sites: the given one, if it misses none by more than
+/// `tolerance`, as contacts on both sides of a channel leave open where along it a disk is; or else
+/// by least squares: moving the centre by (x, y) and the radius by z makes the gap to a site larger
+/// by outward.x x + outward.y y - z. None if that misses one.
 std::optional<Disk> disk_touching(const Context& context, std::span<const TieContact> touches,
                                   const Disk& near, double tolerance) {
   const auto gap_of = [&](std::uint32_t site, const Disk& disk) {
     return std::sqrt(site::squared_distance(context.outline.sites[site], disk.center)) -
            disk.radius;
   };
+  const auto touches_all = [&](const Disk& disk) {
+    return std::all_of(touches.begin(), touches.end(), [&](const TieContact& touch) {
+      return std::abs(gap_of(touch.site, disk)) <= tolerance;
+    });
+  };
+  if (touches_all(near)) return near;
   std::array<std::array<double, 4>, 3> sum{};
   for (const TieContact& touch : touches) {
     const Site& site = context.outline.sites[touch.site];
@@ -206,10 +213,7 @@ std::optional<Disk> disk_touching(const Context& context, std::span<const TieCon
   if (!(all > 0)) return std::nullopt;
   const Disk disk{near.center + (1 / all) * Vec2{determinant(3, 1, 2), determinant(0, 3, 2)},
                   near.radius + determinant(0, 1, 3) / all};
-  const bool touches_all = std::all_of(
-      touches.begin(), touches.end(),
-      [&](const TieContact& touch) { return std::abs(gap_of(touch.site, disk)) <= tolerance; });
-  return touches_all ? std::optional(disk) : std::nullopt;
+  return touches_all(disk) ? std::optional(disk) : std::nullopt;
 }
 
 /// Moves the node of each tie to the disk that touches all its sites, and marks whether there is
@@ -238,8 +242,9 @@ void fit_ties(const Context& context, const std::vector<TieContact>& touches, Sk
 void join_ties(const Context& context, Skeleton& skeleton) {
   const auto is_short = [&](const Bone& edge) {
     const Disk &a = skeleton.nodes[edge.from], &b = skeleton.nodes[edge.to];
-    // Where two disks that touch a site are d apart, those between them reach over it by some
-    // d^2 / radius: no more than the tolerance.
+    // Where two disks around d apart touch a vertex, those between them reach over it by
+    // d^2 / (8 radius): an eighth of the tolerance at most. In a row of short edges that adds up,
+    // so they are no more than candidates: one disk must touch all their sites.
     const double reach = std::min(tie_reach * context.tolerance,
                                   std::sqrt(context.tolerance * std::min(a.radius, b.radius)));
     return a.radius > 0 && b.radius > 0 && distance(a.center, b.center) <= reach &&

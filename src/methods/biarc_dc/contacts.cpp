@@ -28,10 +28,14 @@ std::optional<Touch> touch_of(const Context& context, const Subshape& subshape, 
   // A disk as large as an arc's circle that touches the arc covers all of it.
   constexpr double same_circle = 1e-7;
   const Disk& disk = maximal.disk;
-  // What a disk of some tolerances misses by a share of its radius is for another disk to touch.
-  constexpr double largest_share = 0x1p-7;
+  // What a disk misses by e a disk touches that is e / c further on, where the gap closes c times as
+  // fast as the disk moves. Both are one where that is less than the root of the tolerance times
+  // the radius (see join_ties()); with this e they are for c of an eleventh and more, and e is the
+  // tolerance from 128 of them on.
+  constexpr double share = 0x1p-7;
   const double reach =
-      disk.radius + std::clamp(largest_share * disk.radius, context.rounding(), context.tolerance);
+      disk.radius + std::clamp(std::sqrt(share * context.tolerance * disk.radius),
+                               context.rounding(), context.tolerance);
   const Element& element = subshape.elements[i];
   const Site& site = context.site(element);
   const auto contacts = maximal.contacts();
@@ -41,12 +45,31 @@ std::optional<Touch> touch_of(const Context& context, const Subshape& subshape, 
     return is_far(site, disk.center, reach) ||
            site::squared_distance(site, disk.center) > reach * reach;
   };
+  // What touches the end of an edge is for the vertex there.
+  const auto ends_at_vertex = [&](double s) {
+    const Element& before = subshape.elements[subshape.before(i)];
+    return (s <= 0 && before.is_joined() && context.site(before).is_vertex()) ||
+           (s >= site.length && element.is_joined() &&
+            context.site(subshape.elements[subshape.next(i)]).is_vertex());
+  };
+  // What touches an arc in a convex joint alone is for the disk that touches its circle, too.
+  const auto ends_at_corner = [&](const Touch& touch) {
+    const Element& before = subshape.elements[subshape.before(i)];
+    const bool is_convex =
+        (touch.parameter <= 0 && before.is_joined() && !context.joins_smoothly(before)) ||
+        (touch.parameter >= site.length && element.is_joined() && !context.joins_smoothly(element));
+    return site.is_arc() && is_convex &&
+           std::abs(site::carrier_distance(site, disk.center) - disk.radius) > reach - disk.radius;
+  };
   if (!is_sure && is_beyond()) return std::nullopt;
   Touch touch{i, 0, 0, false};
-  if (!site.is_vertex())
-    touch.parameter = std::clamp(site::foot_parameter(site, disk.center), element.from, element.to);
+  if (!site.is_vertex()) {
+    const double s = site::foot_parameter(site, disk.center);
+    if (!is_sure && ends_at_vertex(s)) return std::nullopt;
+    touch.parameter = std::clamp(s, element.from, element.to);
+  }
   touch.distance = distance(site.at(touch.parameter), disk.center);
-  if (!is_sure && touch.distance > reach) return std::nullopt;
+  if (!is_sure && (touch.distance > reach || ends_at_corner(touch))) return std::nullopt;
   if (std::abs(site.curvature * disk.radius - 1) <= same_circle) {
     const auto on_circle = [&](double s) {
       return std::abs(distance(site.at(s), disk.center) - disk.radius) <= context.tolerance;

@@ -6,6 +6,7 @@
 
 #include "methods/disks/boundary.h"
 #include "site/bisector.h"
+#include "site/smooth_place.h"
 #include "site/tangent_disk.h"
 
 namespace medial::biarc_dc {
@@ -150,15 +151,14 @@ std::optional<EndDisk> disk_at_end(const Context& context, const Subshape& subsh
   const bool passes = context.joins_smoothly(before_end);
   Vec2 foot = own.point, normal;
   double largest = std::max(0.0, own.curvature);
-  if (!own.is_vertex()) {
+  if (passes) {
+    const auto place = forward ? site::smooth_place(own, next) : site::smooth_place(next, own);
+    foot = place.point;
+    normal = place.normal;
+  } else if (!own.is_vertex()) {
     const double end = forward ? element.to : element.from;
     foot = own.at(end);
     normal = own.normal_at(end);
-    // The directions of an arc whose length is some roundings are known to little: at a smooth
-    // joint the longer edge decides.
-    if (passes && next.length > own.length) normal = forward ? next.normal() : next.end_normal();
-  } else if (passes) {
-    normal = forward ? next.normal() : next.end_normal();
   } else {
     const Vec2 to_center = disks[before_end.disk_after].center - foot;
     normal = (1 / norm(to_center)) * to_center;
@@ -305,17 +305,20 @@ struct DiskAtPlace {
 
   DiskAtPlace(Context& a_context, const Subshape& a_subshape, const Place& a_place)
       : context(a_context), subshape(a_subshape), place(a_place) {
-    std::size_t base = place.element;  // the arc whose normal the disk has
-    double parameter = place.parameter;
+    const Site& own = context.site(subshape.elements[place.element]);
+    double bend = own.curvature;
     if (place.at_joint) {
-      if (context.site(subshape.elements[base]).is_vertex()) base = subshape.next(base);
-      parameter = base == place.element ? context.site(subshape.elements[base]).length : 0;
+      const Site& next = context.site(subshape.elements[subshape.next(place.element)]);
+      const auto joint = site::smooth_place(own, next);
+      foot = joint.point;
+      normal = joint.normal;
+      bend = std::max(bend, next.curvature);
+    } else {
+      foot = own.at(place.parameter);
+      normal = own.normal_at(place.parameter);
     }
-    const Site& arc = context.site(subshape.elements[base]);
-    foot = arc.at(parameter);
-    normal = arc.normal_at(parameter);
     const double largest = context.radius_limit;
-    set(arc.curvature > 0 ? std::min(largest, 1 / arc.curvature) : largest);
+    set(bend > 0 ? std::min(largest, 1 / bend) : largest);
   }
   void set(double radius) { disk = {foot + radius * normal, radius}; }
 
@@ -431,6 +434,13 @@ struct BranchWalk {
   bool passes_right = context.joins_smoothly(subshape.elements[right]);
   bool passes_left = context.joins_smoothly(subshape.elements[before]);
 
+  /// Whether a disk that reaches over no part of an element does so over its arc's circle.
+  bool reaches_over_circle(const Disk& disk, std::size_t element) const {
+    const Site& site = context.site(subshape.elements[element]);
+    return site.is_arc() && !overlaps(disk, site, context.rounding()) &&
+           site::carrier_distance(site, disk.center) < disk.radius - context.rounding();
+  }
+
   /// As long as both feet are on their elements, disks further on reach over all that the disks
   /// before them do; so the scan begins where the first foot gets to its end. At a joint it passes
   /// on to the neighbour there; elsewhere only rounding lets the disk reach over no neighbour.
@@ -441,9 +451,22 @@ struct BranchWalk {
       const auto at_end = disk_at_end(context, subshape, own, forward,
                                       context.site(subshape.elements[other]), disks);
       if (!at_end) return;
-      const double there = bisector.position(at_end->disk.center);
-      if (there < low - slack(context, bisector, from) || !(there < stop.position)) return;
-      stop = {there < low ? from : at_end->disk, std::max(there, low), {}};
+      Disk disk = at_end->disk;
+      double there = bisector.position(disk.center);
+      if (there < low - slack(context, bisector, from)) return;
+      // At a convex joint the disk reaches over the neighbour, which a disk before it touches.
+      // Beside the centre of an arc only the arc's circle shows that.
+      const std::size_t neighbor = forward ? after : before;
+      const bool is_convex = subshape.elements[forward ? right : before].is_joined() &&
+                             !(forward ? passes_right : passes_left) && neighbor != other;
+      if (is_convex && there > low && reaches_over_circle(disk, neighbor)) {
+        const auto earlier = contact_with_carrier(context, bisector, from, there,
+                                                  context.site(subshape.elements[neighbor]));
+        if (earlier) disk = *earlier;
+        there = bisector.position(disk.center);
+      }
+      if (!(there < stop.position)) return;
+      stop = {there < low ? from : disk, std::max(there, low), {}};
       if (at_end->fits) stop.third = place;
     };
     bound_by(right, left, true, Place{passes_right ? right : after, passes_right, 0});

@@ -26,8 +26,7 @@ class Checker {
   }
   bool is_right(const Skeleton::Bone& edge) const {
     const Disk &from = skeleton_.nodes[edge.from], &to = skeleton_.nodes[edge.to];
-    if (!touches_both(edge, from) || !touches_both(edge, to) || !is_inside(edge, from))
-      return false;
+    if (!touches_both(edge, from) || !touches_both(edge, to) || !feet_advance(edge)) return false;
     // Two disks near to each other cover those between them, but for slivers.
     if (distance(from.center, to.center) < 0.5 * std::min(from.radius, to.radius)) return true;
     const Disk middle = middle_of(edge);
@@ -40,11 +39,22 @@ class Checker {
   }
 
  private:
-  bool is_inside(const Skeleton::Bone& edge, const Disk& disk) const {
-    const auto lies_on_left = [&](const site::Site& one) {
-      return one.is_vertex() || site::carrier_distance(one, disk.center) >= -slack_;
+  /// Whether the feet move forward on the right site and backward on the left one, but for what the
+  /// tolerance leaves open.
+  bool feet_advance(const Skeleton::Bone& edge) const {
+    const auto advances = [&](const site::Site& site, Vec2 a, Vec2 b) {
+      const double open = 4 * slack_;
+      // Round a vertex, normals turn to the right.
+      if (site.is_vertex())
+        return cross(b - site.point, a - site.point) >= -open * distance(site.point, a);
+      // Next to an arc's centre, feet are less certain than centres.
+      const double size =
+          std::min(site::view_of_arc(site, a).size, site::view_of_arc(site, b).size);
+      return (site::carrier_parameter(site, b) - site::carrier_parameter(site, a)) * size >= -open;
     };
-    return lies_on_left(outline_.sites[edge.right]) && lies_on_left(outline_.sites[edge.left]);
+    const Vec2 from = skeleton_.nodes[edge.from].center, to = skeleton_.nodes[edge.to].center;
+    return advances(outline_.sites[edge.right], from, to) &&
+           advances(outline_.sites[edge.left], to, from);
   }
   /// The disk in the middle of an edge.
   Disk middle_of(const Skeleton::Bone& edge) const {
@@ -55,16 +65,16 @@ class Checker {
     return {scale * (from.center + to.center + inner * control.point.center),
             scale * (from.radius + to.radius + inner * control.point.radius)};
   }
+  /// From the inside. Edges at one part of a cut site may have grown into the other.
   bool touches_both(const Skeleton::Bone& edge, const Disk& disk) const {
-    for (const std::uint32_t site : {edge.right, edge.left}) {
+    const auto touches = [&](std::uint32_t site) {
       const site::Site& own = outline_.sites[site];
-      // Edges at one part of a cut site may have grown into the other.
-      const double away = outline_.is_cut(site)
-                              ? site::carrier_distance(own, disk.center)
-                              : std::sqrt(site::squared_distance(own, disk.center));
-      if (!(std::abs(away - disk.radius) <= slack_)) return false;
-    }
-    return true;
+      const auto is_radius = [&](double away) { return std::abs(away - disk.radius) <= slack_; };
+      return is_radius(site::carrier_distance(own, disk.center)) &&
+             (outline_.is_cut(site) ||
+              is_radius(std::sqrt(site::squared_distance(own, disk.center))));
+    };
+    return touches(edge.right) && touches(edge.left);
   }
   bool lies_on(const Disk& disk, std::uint32_t first, std::uint32_t last) const {
     constexpr int most_steps = 64;

@@ -111,11 +111,15 @@ Start start_of_hole(const LoopEdges& loop, const SiteNumbers& numbers, bool has_
     if (joint == Joint::reflex || joint == Joint::smooth) consider(loop.local(i), {i, {}, 0});
     if (!has_arcs || loop.bulge(i) == 0) continue;
     const Pieces pieces = loop.edge(i);
+    bool is_past = false;
     for (std::size_t piece = 0; piece < pieces.count; ++piece) {
       const site::Site& arc = pieces.site[piece];
       const double s =
           -2 * dot(arc.direction, outreach) / (arc.curvature * (1 + dot(arc.normal(), outreach)));
-      if (s > 0 && s < arc.length) consider(arc.at(s), {i, s, piece});
+      // Rounding may leave a place between two pieces of an arc in neither.
+      if ((s > 0 || (is_past && s <= 0)) && s < arc.length)
+        consider(arc.at(std::max(s, 0.0)), {i, std::max(s, 0.0), piece});
+      is_past = s >= arc.length;
     }
   }
   return start;
@@ -142,6 +146,7 @@ void add_loop(const LoopEdges& loop, const SiteNumbers& numbers, const Start& st
       const site::Site& site = pieces.site[piece];
       const bool begins_here = piece == from_piece && from > 0;
       const bool ends_here = piece == to_piece && to < site.length;
+      if (ends_here && to == 0) return;
       const bool last = piece + 1 == pieces.count;
       const Joint joint =
           last && !ends_here ? numbers.joints[loop.begin() + loop.next(i)] : Joint::smooth;

@@ -126,17 +126,15 @@ bool ArcContacts::add_at_joint(const Three& three, Disks& found) const {
     return true;
   }
   const std::uint32_t rounder = site(a).curvature < site(b).curvature ? b : a;
-  double limit = limits_.radius_limit;
-  if (elements_.is_convex_arc(rounder)) {
-    const Disk own = own_circle(rounder);
-    limit = std::min(limit, own.radius);
-    if (is_tied(c, own)) {
-      found.add(own);
-      return true;
-    }
-  }
-  if (const auto disk = disk_at(joint_of(a, b), c, limit))
-    if (touches(c, *disk)) found.add(*disk);
+  const bool is_convex = elements_.is_convex_arc(rounder);
+  const Disk own = is_convex ? own_circle(rounder) : Disk{};
+  const double limit =
+      is_convex ? std::min(limits_.radius_limit, own.radius) : limits_.radius_limit;
+  const auto disk = disk_at(joint_of(a, b), c, limit);
+  if (disk && touches(c, *disk))
+    found.add(*disk);
+  else if (is_convex && is_tied(c, own))
+    found.add(own);
   return true;
 }
 

@@ -114,11 +114,19 @@ class Numbers {
   std::vector<std::uint32_t> number_;
 };
 
-/// The two edges that begin at the disk of a bridge, which are one: outward along the first, from
-/// where the second one ends.
+/// The two edges that begin at the disk of a bridge, mostly pieces of one: outward along the first,
+/// from where the second one ends.
 struct Bridged {
   std::uint32_t edge = none, other = none;
   std::uint32_t component = 0;
+
+  /// Whether they are. Where the bridge touches a joint its disk is a node, and they are two edges.
+  bool are_one(const Graph& graph) const {
+    const std::vector<std::uint32_t>& originals = graph.elements().originals;
+    const auto& [i, j] = graph[edge].element;
+    const auto& [k, l] = graph[other].element;
+    return std::minmax(originals[i], originals[j]) == std::minmax(originals[k], originals[l]);
+  }
 };
 
 std::vector<Bridged> bridged_edges(const Graph& graph) {
@@ -304,8 +312,10 @@ void complete(const Graph& graph, const LocalFrame& frame, VoronoiDiagram& diagr
       std::uint32_t from = faces.from(edge);
       if (graph.begins_at_bridge(edge)) {
         const std::uint32_t bridge = elements.passage_from(graph[edge].element[0]).bridge;
-        from = graph.to(bridged[bridge].other);
-        if (edge == bridged[bridge].other) number = number_of[bridge];
+        const Bridged& one = bridged[bridge];
+        const bool are_one = one.are_one(graph);
+        from = are_one ? graph.to(one.other) : one.edge;
+        if (are_one && edge == one.other) number = number_of[bridge];
         number_of[bridge] = number;
       }
       faces.add(graph[edge].element, number);
@@ -355,10 +365,12 @@ double complete(Graph& graph, const LocalFrame& frame, double tolerance, MedialA
     --kept;
   }
   std::vector<Bridged> bridged = bridged_edges(graph);
-  const auto has_no_length = [&](const Bridged& one) {
-    const std::uint32_t from = end_of(one.other), to = end_of(one.edge);
+  const auto become_one = [&](std::uint32_t from, std::uint32_t to, const Bridged& one) {
     return from != to && is_one(graph.disk(from), graph.disk(to), tolerance) &&
            numbers.unite(from, to, one.component);
+  };
+  const auto has_no_length = [&](const Bridged& one) {
+    return become_one(end_of(one.other), end_of(one.edge), one);
   };
   bridged.erase(std::remove_if(bridged.begin(), bridged.end(), has_no_length), bridged.end());
   double largest_residual = 0, in_middle = 0;
@@ -392,7 +404,15 @@ double complete(Graph& graph, const LocalFrame& frame, double tolerance, MedialA
     if (axis.edges.size() == before && inside != none)
       numbers.of_end(end_of(inside), loop.component);
   }
-  for (const Bridged& one : bridged) add(one.edge, end_of(one.other), one.component);
+  for (const Bridged& one : bridged) {
+    if (one.are_one(graph)) {
+      add(one.edge, end_of(one.other), one.component);
+      continue;
+    }
+    numbers.unite(one.edge, one.other, one.component);
+    for (const std::uint32_t edge : {one.edge, one.other})
+      if (!become_one(edge, end_of(edge), one)) add(edge, edge, one.component);
+  }
   if (!elements.passages.empty()) set_node_kinds(axis);
   axis.statistics.largest_residual = frame.inverse * largest_residual;
   return in_middle;

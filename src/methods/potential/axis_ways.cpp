@@ -1,7 +1,6 @@
 #include "methods/potential/axis_ways.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <utility>
 

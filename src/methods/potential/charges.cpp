@@ -22,13 +22,16 @@ Charges::Charges(const std::vector<Charge>& pieces) {
     site.push_back(piece.site);
   }
   nodes.reserve(4 * pieces.size() / leaf_size + 2);
+  moments.reserve(nodes.capacity());
   build(0, static_cast<std::uint32_t>(pieces.size()));
 }
 
 std::uint32_t Charges::build(std::uint32_t begin, std::uint32_t end) {
   const auto index = static_cast<std::uint32_t>(nodes.size());
   nodes.emplace_back();
+  moments.emplace_back();
   Node node;
+  Moments own;
   node.begin = begin;
   node.end = end;
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -46,7 +49,7 @@ std::uint32_t Charges::build(std::uint32_t begin, std::uint32_t end) {
   for (std::uint32_t i = begin; i < end; ++i) {
     const Vec2 a = start(i) - node.center;
     node.radius = std::max({node.radius, norm(a), norm(a + lengths[i] * tangent(i))});
-    if (end - begin <= leaf_size) node.moments.add(a, tangent(i), lengths[i]);
+    if (end - begin <= leaf_size) own.add(a, tangent(i), lengths[i]);
   }
   if (end - begin > leaf_size) {
     // Whole blocks go to the left, so that most leaves are full.
@@ -55,9 +58,10 @@ std::uint32_t Charges::build(std::uint32_t begin, std::uint32_t end) {
     const std::uint32_t left = build(begin, middle);
     node.right = build(middle, end);
     for (const std::uint32_t child : {left, node.right})
-      node.moments.add(nodes[child].moments, nodes[child].center - node.center);
+      own.add(moments[child], nodes[child].center - node.center);
   }
   nodes[index] = node;
+  moments[index] = own;
   return index;
 }
 

@@ -32,7 +32,6 @@ class Charges {
     double length = 0;  ///< the charge
     Vec2 center;        ///< of the charge
     double radius = 0;  ///< of a disk around `center` that holds all of it
-    Moments moments;    ///< about `center`
   };
 
   struct Nearest {
@@ -61,7 +60,8 @@ class Charges {
   std::vector<double> tangent_x, tangent_y;  ///< its unit tangent,
   std::vector<double> lengths;               ///< its length
   std::vector<std::uint32_t> site;
-  std::vector<Node> nodes;  ///< the root is the first
+  std::vector<Node> nodes;       ///< the root is the first
+  std::vector<Moments> moments;  ///< of each node about its centre; apart, as most are only passed
 
  private:
   /// Leaves that lie nearer than the root of `limit`, which may shrink meanwhile; about in order.

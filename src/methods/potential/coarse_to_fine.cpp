@@ -89,19 +89,20 @@ std::optional<Polygon> approximation(const Region& region, double tolerance) {
 std::optional<Skeleton> first_skeleton(const Polygon& polygon, const Charges& charges,
                                        const SkeletonOptions& options) {
   std::vector<Skeleton> limits;
+  bool is_asked_for = false;
   SkeletonOptions own = options;
   own.axis = [&]() -> const Skeleton* {
-    const auto exact = compute(polygon.shape, {.cancel = options.cancel});
-    if (!exact) return nullptr;
-    limits =
-        limits_of(*exact, {&polygon.region, 1}, LocalFrame{}, options.step / polygon.region.size);
-    return &limits.front();
+    if (!std::exchange(is_asked_for, true))
+      if (const auto exact = compute(polygon.shape, {.cancel = options.cancel}))
+        limits = limits_of(*exact, {&polygon.region, 1}, LocalFrame{},
+                           options.step / polygon.region.size);
+    return limits.empty() ? nullptr : &limits.front();
   };
   if (options.order <= line_order) {
     Skeleton traced = trace_valleys(polygon.region, charges, own);
     if (traced.whole) return traced;
   }
-  if (limits.empty() && own.axis() == nullptr) return std::nullopt;
+  if (own.axis() == nullptr) return std::nullopt;
   Skeleton limit = std::move(limits.front());
   if (options.order >= limit_order) return limit;
   SuccessorOptions search;

@@ -289,9 +289,10 @@ struct FourComplex {
 
 /// Sets of charges far away, side by side; one that is not there has no moments.
 struct FarSets {
-  void load(std::size_t i, const Charges::Node& node, std::size_t needed, Vec2 place,
-            double inverse) {
-    const Vec2 way = place - node.center, z = inverse * way;
+  void load(std::size_t i, const Charges& charges, std::uint32_t node, std::size_t needed,
+            Vec2 place, double inverse) {
+    const Moments& own = charges.moments[node];
+    const Vec2 way = place - charges.nodes[node].center, z = inverse * way;
     const double square = squared_norm(way);
     to_place.x[i] = z.x;
     to_place.y[i] = z.y;
@@ -303,8 +304,8 @@ struct FarSets {
     degree = std::max(degree, needed);
     for (std::size_t l = 0; l <= needed; ++l)
       for (std::size_t k = 0; l + 2 * k <= needed; ++k) {
-        moments[Moments::row[l] + k].x[i] = node.moments(l, k).x;
-        moments[Moments::row[l] + k].y[i] = node.moments(l, k).y;
+        moments[Moments::row[l] + k].x[i] = own(l, k).x;
+        moments[Moments::row[l] + k].y[i] = own(l, k).y;
       }
   }
 
@@ -363,6 +364,9 @@ struct FarSets {
   std::array<FourComplex, Moments::count> moments{};
 };
 
+/// Up to here the recurrence is short, and charges far away add much.
+constexpr double least_alone = 12;
+
 }  // namespace
 
 Charges::Nearest Evaluator::place(Vec2 p) {
@@ -378,7 +382,7 @@ void Evaluator::gather(double low, double high) {
   work_ += cost_of_force;
   // What a unit of charge may be off, and from where on it adds less than that to any of the
   // orders.
-  const double share = far_field / (charges_.length() * inverse_);
+  const double share = error_ / (charges_.length() * inverse_);
   const double reach = std::pow(share, -1 / (low + 1));
   // The remainder of Taylor's expansion to the degree p, of 1 / (1 - x)^(n + 1), is at most
   // (n + p + 1 over p + 1) x^(p + 1) / (1 - x)^(n + p + 2).
@@ -434,7 +438,7 @@ void Evaluator::add_far(double order, Force& total) const {
     const std::size_t count = std::min(four, far_.size() - begin);
     for (std::size_t i = 0; i < count; ++i) {
       const auto& [node, degree] = far_[begin + i];
-      sets.load(i, charges_.nodes[node], degree, place_, inverse_);
+      sets.load(i, charges_, node, degree, place_, inverse_);
     }
     sets.add_force(h, c, total);
   }
@@ -506,7 +510,7 @@ void Evaluator::sum_one(double order, Force& total) {
   if (!is_high && start != 0 && start != 1 && !(start_ && start_->order() == start))
     start_.emplace(start);
   // What lies further away than the square root of this adds less than the far field may.
-  const double nothing = std::pow(charges_.length() * inverse_ / far_field, 2 / (order + 1));
+  const double nothing = std::pow(charges_.length() * inverse_ / error_, 2 / (order + 1));
   Block block;
   LaneForces lanes;
   Lanes squares, steep;
@@ -537,8 +541,6 @@ void Evaluator::sum_one(double order, Force& total) {
 Force Evaluator::force(double order) {
   Force result;
   gather(order, order);
-  // Up to here the recurrence is short.
-  constexpr double least_alone = 12;
   if (order >= least_alone) {
     sum_one(order, result);
   } else {
@@ -546,6 +548,14 @@ Force Evaluator::force(double order) {
   }
   add_far(order, result);
   return result;
+}
+
+Force Evaluator::direction(double order) {
+  if (order >= least_alone) return force(order);
+  error_ = rough_field;
+  const Force rough = force(order);
+  error_ = far_field;
+  return rough_share * norm(rough.force) >= rough_field ? rough : force(order);
 }
 
 void Evaluator::forces(int first, std::span<Force> forces) {

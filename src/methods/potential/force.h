@@ -54,6 +54,8 @@ class Evaluator {
 
   /// The n-force at the place. Requires a place on no charge and order in [1, largest_order].
   Force force(double order);
+  /// The same where its direction matters: off by rough_share of its size at most.
+  Force direction(double order);
   /// Those of the whole orders first, first + 1, ... as many as `forces` holds. One pass for all.
   void forces(int first, std::span<Force> forces);
   struct Field {
@@ -64,6 +66,7 @@ class Evaluator {
   Field field(double order);
 
   static constexpr double far_field = 1e-7;
+  static constexpr double rough_field = 3e-5, rough_share = 2e-3;
 
   /// What all forces have cost: the charges that were summed one by one, and as much as
   /// `cost_of_force` of them for each force and `cost_of_set` for each set that adds as moments.
@@ -91,6 +94,7 @@ class Evaluator {
   const Charges& charges_;
   Vec2 place_;
   double inverse_ = 1;             ///< of the distance to the nearest charge
+  double error_ = far_field;       ///< that the far field may add
   std::optional<LowOrder> start_;  ///< of the recurrence at orders that are no whole numbers
   std::optional<SteepTail> tail_;  ///< of the last order that came alone
   std::optional<HighOrder> high_;

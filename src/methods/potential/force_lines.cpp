@@ -77,13 +77,18 @@ bool ForceLines::advance(Vec2 p, Vec2 direction, double step, Vec2& q, Force& fo
     const double change = -g / slope;
     t += change;
     if (!(std::abs(t) <= 0.6 * step)) return false;
-    // The force so near by follows from its derivatives; the next term of Taylor's series is less
-    // than a quarter of the sine that counts.
-    if (std::abs(change) <= std::sqrt(0.5 * sine_enough) / (options_.order + 2) * radius) {
+    // The force near by follows from its derivatives where the rest of Taylor's series is less than
+    // half of the sine that counts. A charge's force r^-(n + 1) has second derivatives of up to
+    // (n + 1) (n + 2) r^-(n + 3), in units of the distance; together they are no more than the
+    // potential times these, up to a quarter for r that falls by less than 0.2 / (n + 3).
+    const double near = std::abs(change) / radius, n = options_.order;
+    const double rest = 0.5 * 1.25 * (n + 1) * (n + 2) * near * near * force.potential(n);
+    const Vec2 there = force.force + force.derivative((change / radius) * aside);
+    if (near <= 0.2 / (n + 3) && rest <= 0.5 * sine_enough * norm(there)) {
       q = q + change * aside;
       const double before = radius;
       radius = distance_at(q);
-      force = force.moved((change / before) * aside, radius / before, options_.order);
+      force = force.moved((change / before) * aside, radius / before, n);
       return radius > 0;
     }
   }

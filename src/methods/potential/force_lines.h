@@ -38,7 +38,7 @@ class ForceLines {
   Force force_at(Vec2 p, double& radius) {
     ++graph_.skeleton.forces;
     radius = evaluator_.place(p).distance;
-    return evaluator_.force(options_.order);
+    return evaluator_.direction(options_.order);
   }
   std::uint64_t work() const { return evaluator_.work(); }
   double distance_at(Vec2 p) { return evaluator_.place(p).distance; }

@@ -314,15 +314,18 @@ class Tracing {
     return joined(*successors_of(limit, charges, search(region, limit), unlimited));
   }
 
+  /// Asks for the exact axis once, whether there is one or not.
   std::optional<Error> find_limits() {
-    if (!limits_.empty()) return std::nullopt;
+    if (!limits_.empty() || no_limits_) return no_limits_;
     const Options& options = problem_.options;
     const auto exact = compute(problem_.shape, {.corner_angle = options.corner_angle,
                                                 .threads = options.threads,
                                                 .cancel = options.cancel});
-    if (!exact) return exact.error();
-    limits_ = limits_of(*exact, regions_, problem_.frame, own_.step);
-    return std::nullopt;
+    if (exact)
+      limits_ = limits_of(*exact, regions_, problem_.frame, own_.step);
+    else
+      no_limits_ = exact.error();
+    return no_limits_;
   }
 
   /// The order of the first force lines.
@@ -407,6 +410,7 @@ class Tracing {
   const SiteNames names_;
   std::vector<Region> regions_;
   std::vector<Skeleton> limits_;  ///< of all components, once they are needed
+  std::optional<Error> no_limits_;
   /// For force lines to the axis, unless these were asked for.
   std::uint64_t work_left_ = own_.base_order > 0 || own_.coarse > 0 ? unlimited : most_work;
 };

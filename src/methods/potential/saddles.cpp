@@ -154,10 +154,12 @@ std::vector<bool> SaddleSearch::new_cycle(std::uint32_t from, std::span<const Ve
   return around;
 }
 
-bool SaddleSearch::is_new(std::uint32_t from, std::span<const Vec2> between, std::uint32_t to) {
+bool SaddleSearch::is_new(std::uint32_t from, std::span<const Vec2> between, std::uint32_t to,
+                          std::vector<bool>& cycle) {
+  cycle.clear();
   if (from == no_point || to == no_point || (from == to && between.empty())) return false;
   if (!graph_.connected(from, to)) return true;
-  const std::vector<bool> cycle = new_cycle(from, between, to);
+  cycle = new_cycle(from, between, to);
   return std::find(cycle.begin(), cycle.end(), true) != cycle.end();
 }
 
@@ -165,8 +167,9 @@ bool SaddleSearch::wanted(std::uint32_t from, std::span<const ValleyPoint> betwe
                           std::uint32_t to) {
   std::vector<Vec2> places;
   for (const ValleyPoint& point : between) places.push_back(point.place);
-  if (!is_new(from, places, to)) return false;
-  if (graph_.connected(from, to)) cycles_.push_back(new_cycle(from, places, to));
+  std::vector<bool> cycle;
+  if (!is_new(from, places, to, cycle)) return false;
+  if (!cycle.empty()) cycles_.push_back(std::move(cycle));
   return true;
 }
 
@@ -212,7 +215,7 @@ void SaddleSearch::pass_necks(const Charges& charges) {
     if (graph_.crossed(middle - 0.25 * across, middle + 0.25 * across, radius) != no_point)
       continue;
     const Vec2 tangent = left_of(unit(across));
-    pass({middle, radius, tangent, ValleyPoint::Kind::saddle});
+    pass({middle, radius, tangent, ValleyPoint::Kind::valley});
   }
 }
 
@@ -231,7 +234,6 @@ void SaddleSearch::keep(const ValleyPoint& point, const Trail& one, const Trail&
   between.insert(between.end(), two.points.begin(), two.points.end());
   if (!wanted(one.end, between, two.end)) return;
   const std::uint32_t index = graph_.add_point(point);
-  ++graph_.skeleton.saddles;
   lines_.keep(index, one);
   lines_.keep(index, two);
 }
@@ -267,7 +269,8 @@ bool SaddleSearch::lead_apart(std::span<const Vec2> way, const Trail& first, con
   std::reverse(between.begin(), between.end());
   between.insert(between.end(), way.begin(), way.end());
   for (const ValleyPoint& point : last.points) between.push_back(point.place);
-  return is_new(first.end, between, last.end);
+  std::vector<bool> cycle;
+  return is_new(first.end, between, last.end, cycle);
 }
 
 /// Where lines from both ends of a way lead to places that are not connected, or around a hole,
@@ -287,8 +290,12 @@ void SaddleSearch::part_lines(std::span<const Vec2> way, const Trail& first, con
       return join(way.front(), first, way.back(), last);
     way = halved;
   }
-  const std::size_t middle = way.size() / 2;
-  const Trail line = line_from(way[middle]);
+  // From the place in the middle, or else from the next one whose line ends somewhere.
+  std::size_t middle = way.size() / 2;
+  Trail line = line_from(way[middle]);
+  for (std::size_t i = 1; line.end == no_point && i + 1 < way.size() && !lines_.exhausted(); ++i)
+    if (i != way.size() / 2) line = line_from(way[middle = i]);
+  if (line.end == no_point) return join(way.front(), first, way.back(), last);
   part_lines(way.first(middle + 1), first, line);
   part_lines(way.subspan(middle), line, last);
 }
@@ -314,7 +321,7 @@ void SaddleSearch::join(Vec2 at_one, Trail one, Vec2 at_two, Trail two) {
   const auto saddle = lines_.critical_point(place, false, lines_.reach(radius));
   const Vec2 along = unit(two.points.back().place - one.points.back().place);
   const ValleyPoint middle =
-      saddle ? *saddle : ValleyPoint{place, radius, along, ValleyPoint::Kind::saddle};
+      saddle ? *saddle : ValleyPoint{place, radius, along, ValleyPoint::Kind::valley};
   const auto cut = [](Trail& line, std::size_t last) {
     line.points.erase(line.points.begin(),
                       line.points.begin() + static_cast<std::ptrdiff_t>(last) + 1);

@@ -34,7 +34,9 @@ class SaddleSearch {
  private:
   /// Whether a line between two points of the skeleton would connect what was not, or close a cycle
   /// around a hole, or some, that no others make up.
-  bool is_new(std::uint32_t from, std::span<const Vec2> between, std::uint32_t to);
+  /// `cycle`: in the latter case around which holes.
+  bool is_new(std::uint32_t from, std::span<const Vec2> between, std::uint32_t to,
+              std::vector<bool>& cycle);
   /// Around which holes such a cycle leads that others do not make up; none set: it is none.
   std::vector<bool> new_cycle(std::uint32_t from, std::span<const Vec2> between, std::uint32_t to);
   /// The same. Requires that the line is kept if so.

@@ -37,7 +37,6 @@ struct Skeleton {
   std::vector<ValleyPoint> points;
   std::vector<std::array<std::uint32_t, 2>> links;  ///< from the higher potential to the lower
   std::uint64_t minima = 0;
-  std::uint64_t saddles = 0;
   std::uint64_t forces = 0;  ///< computed
   std::uint64_t work = 0;    ///< what they cost: Evaluator::work()
   double order = 1;          ///< of the potential
