@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/arc.h"
+#include "base/pair.h"
 #include "medial/axis.h"
 
 namespace medial::verify_detail {
@@ -21,6 +22,16 @@ class Segment {
   Segment(Vec2 a, Vec2 b) : a_(a), b_(b), along_(b - a), length_(norm(along_)) {}
 
   double distance(Vec2 p) const { return std::abs(signed_distance(p)); }
+  /// signed_distance() of two places, where both lie beside the segment; false elsewhere.
+  bool signed_distances(Pair x, Pair y, Pair& distances) const {
+    const Pair from_a_x = x - a_.x, from_a_y = y - a_.y, from_b_x = x - b_.x, from_b_y = y - b_.y;
+    const Pair along_a = from_a_x * along_.x + from_a_y * along_.y;
+    const Pair along_b = -(from_b_x * along_.x + from_b_y * along_.y);
+    const Pair nearer_x = along_a <= along_b ? from_a_x : from_b_x;
+    const Pair nearer_y = along_a <= along_b ? from_a_y : from_b_y;
+    distances = (along_.x * nearer_y - along_.y * nearer_x) / length_;
+    return all((along_a > 0) & (along_b > 0));
+  }
   /// Negative where p lies on the right.
   double signed_distance(Vec2 p) const {
     const Vec2 from_a = p - a_, from_b = p - b_;

@@ -18,8 +18,8 @@ namespace {
 struct Stretch {
   double begin, end;                   ///< parameters along the boundary edge, in units of length
   std::uint32_t begin_node, end_node;  ///< whose disks touch there
-  /// Of disks around a vertex, which touch it one after the other: the clockwise angle of the first
-  /// from the normal where the vertex is arrived at; an edge's come after them.
+  /// Of disks around a vertex, which touch it one after the other: turn_of() the clockwise angle of
+  /// the first from the normal where the vertex is arrived at; an edge's come after them.
   double turn = std::numeric_limits<double>::infinity();
 };
 
@@ -33,6 +33,15 @@ Stretch touched_by(const Problem& problem, const BoundaryEdge& on, std::uint32_t
   return {std::max(0.0, foot - slack), std::min(length_of(on), foot + slack), node, node};
 }
 
+/// Grows with the angle that has this sine and cosine, times one number, in [-1, 3): 1 for a
+/// quarter. What rounding puts before 0 is no full turn behind it.
+double turn_of(double sine, double cosine) {
+  const double size = std::abs(sine) + std::abs(cosine);
+  const double beside = size > 0 ? cosine / size : 1;
+  if (sine >= 0) return 1 - beside;
+  return cosine >= 0 ? beside - 1 : beside + 3;
+}
+
 /// The stretch of a boundary edge, or of the vertex it begins in, that an edge of the axis touches
 /// with the site on one of its sides.
 Stretch stretch_of(const Problem& problem, std::uint32_t place, std::uint32_t before,
@@ -42,9 +51,7 @@ Stretch stretch_of(const Problem& problem, std::uint32_t place, std::uint32_t be
     const Vec2 arriving = end_tangent(problem.edge(before));
     const auto turn = [&](std::uint32_t node) {
       const Vec2 off = problem.disk(node).center - problem.point(place);
-      const double angle = std::atan2(dot(arriving, off), cross(arriving, off));
-      // What rounding puts before the normal is no full turn behind it.
-      return angle < -0.5 * std::numbers::pi ? angle + 2 * std::numbers::pi : angle;
+      return turn_of(dot(arriving, off), cross(arriving, off));
     };
     const double first = turn(from), last = turn(to);
     return last < first ? Stretch{0, 0, to, from, last} : Stretch{0, 0, from, to, first};
@@ -321,6 +328,20 @@ struct Spoke {
 /// Whether all spokes stand in pairs on both sides of one foot, so that nothing lies between the
 /// swept areas around a node. That is the rule. (Spokes of one site have one foot.) O(k log k).
 bool all_paired(std::vector<Spoke>& spokes) {
+  constexpr std::size_t few = 8;
+  if (spokes.size() <= few) {
+    while (!spokes.empty()) {
+      const Spoke last = spokes.back();
+      spokes.pop_back();
+      const auto other = ranges::find_if(spokes, [&](const Spoke& spoke) {
+        return spoke.foot == last.foot && spoke.counter_clockwise != last.counter_clockwise;
+      });
+      if (other == spokes.end()) return false;
+      *other = spokes.back();
+      spokes.pop_back();
+    }
+    return true;
+  }
   // By their bits feet have an order, whatever numbers they are; -0 becomes 0.
   const auto place = [](const Spoke& spoke) {
     return std::pair(bit_cast<std::uint64_t>(spoke.foot.x + 0.0),

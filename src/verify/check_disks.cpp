@@ -31,6 +31,14 @@ struct Measured {
   Worst residual, intrusion, negative;
   std::uint64_t disks = 0;
 
+  /// Whether two disks are no worse than what is known.
+  bool are_better(const Problem& problem, Pair radius, Pair distance) const {
+    const auto within = [&](Pair amount, const Worst& worst) {
+      return amount <= both(std::min(worst.value, problem.tolerance));
+    };
+    return all(within(size_of(distance - radius), residual) & within(radius - distance, intrusion) &
+               within(-radius, negative));
+  }
   void add(const Problem& problem, const Disk& disk, double distance, std::size_t index) {
     ++disks;
     residual.add(std::abs(distance - disk.radius), problem.tolerance, disk.center, index);
@@ -65,6 +73,11 @@ class NearSite {
       : edge_(edge_of(site)), segment_(site.start, site.end), is_point_(site.start == site.end) {}
 
   /// Negative where p lies behind an edge, seen from the interior.
+  Pair signed_distances(const Pair& x, const Pair& y) const {
+    Pair within;
+    if (!is_point_ && edge_.bulge == 0 && segment_.signed_distances(x, y, within)) return within;
+    return Pair{signed_distance({x[0], y[0]}), signed_distance({x[1], y[1]})};
+  }
   double signed_distance(Vec2 p) const {
     if (is_point_) return distance(edge_.start, p);
     if (edge_.bulge == 0) return segment_.signed_distance(p);
@@ -90,41 +103,111 @@ void measure_node(const Problem& problem, const DistanceTree& boundary, std::siz
                node);
 }
 
-/// Curve::derivatives(), by fewer steps where the curve is a polynomial.
-Curve::Derivatives derivatives_of(const Curve& curve, double t) {
-  if (curve.weight != 1) return curve.derivatives(t);
-  const double s = 1 - t, q1 = curve.r1 - curve.r0, q2 = curve.r2 - curve.r0;
-  return {2 * (s - t) * curve.p1 + 2 * t * curve.p2, 2 * (curve.p2 - 2 * curve.p1),
-          2 * (s - t) * q1 + 2 * t * q2, 2 * (q2 - 2 * q1)};
+/// Two disks of an edge.
+struct DiskPair {
+  Pair x, y, radius;
+
+  Disk operator[](std::size_t i) const { return {{x[i], y[i]}, radius[i]}; }
+};
+
+/// An edge's curve at two parameters at once.
+class PairOnCurve {
+ public:
+  PairOnCurve(const Curve& curve, Pair at) : curve_(curve), t_(at), s_(1 - at) {
+    scale_ = s_ * s_ + 2 * s_ * t_ * curve.weight + t_ * t_;
+    b0_ = s_ * s_ / scale_;
+    b1_ = 2 * s_ * t_ * curve.weight / scale_;
+    b2_ = t_ * t_ / scale_;
+    // From the nearer end.
+    const Vec2 p1 = curve.p1, p2 = curve.p2, back = p2 - p1;
+    x_ = t_ <= 0.5 ? b1_ * p1.x + b2_ * p2.x : b0_ * p2.x + b1_ * back.x;
+    y_ = t_ <= 0.5 ? b1_ * p1.y + b2_ * p2.y : b0_ * p2.y + b1_ * back.y;
+  }
+
+  DiskPair disks() const {
+    return {t_ <= 0.5 ? curve_.origin.x + x_ : curve_.end.x - x_,
+            t_ <= 0.5 ? curve_.origin.y + y_ : curve_.end.y - y_,
+            b0_ * curve_.r0 + b1_ * curve_.r1 + b2_ * curve_.r2};
+  }
+
+  /// The first and second derivatives of a coordinate with these control points relative to the
+  /// first one, which has this value: see Curve::derivatives().
+  std::array<Pair, 2> derivatives(double c1, double c2, Pair value) const {
+    const double w = curve_.weight;
+    if (w == 1) return {2 * (s_ - t_) * c1 + 2 * t_ * c2, both(2 * (c2 - 2 * c1))};
+    const Pair scale_first = 2 * (w - 1) * (s_ - t_);
+    const Pair first = (2 * (s_ - t_) * w * c1 + 2 * t_ * c2 - scale_first * value) / scale_;
+    const double second = -4 * w * c1 + 2 * c2;
+    return {first, (second - 2 * scale_first * first - 4 * (1 - w) * value) / scale_};
+  }
+  std::array<Pair, 2> x() const {
+    return derivatives(curve_.p1.x, curve_.p2.x, t_ <= 0.5 ? x_ : curve_.p2.x - x_);
+  }
+  std::array<Pair, 2> y() const {
+    return derivatives(curve_.p1.y, curve_.p2.y, t_ <= 0.5 ? y_ : curve_.p2.y - y_);
+  }
+  std::array<Pair, 2> radius() const {
+    const double q1 = curve_.r1 - curve_.r0, q2 = curve_.r2 - curve_.r0;
+    return derivatives(q1, q2, b1_ * q1 + b2_ * q2);
+  }
+
+ private:
+  const Curve& curve_;
+  Pair t_, s_;
+  Pair scale_;         ///< the sum of the weighted Bernstein polynomials
+  Pair b0_, b1_, b2_;  ///< these, divided by it
+  Pair x_, y_;
+};
+
+/// The derivatives of an edge's curve at two parameters.
+struct Derivatives {
+  std::array<Pair, 2> x, y, radius;  ///< first, second
+  Pair square;                       ///< of the speed
+  Pair cross, along;                 ///< of the first and the second ones
+
+  explicit Derivatives(const PairOnCurve& curve)
+      : x(curve.x()), y(curve.y()), radius(curve.radius()) {
+    square = x[0] * x[0] + y[0] * y[0];
+    cross = x[0] * y[1] - y[0] * x[1];
+    along = x[0] * x[1] + y[0] * y[1];
+  }
+};
+
+/// Whether illegality() is 0, by its main terms, multiplied by powers of the speed.
+bool is_legal(const Derivatives& d, Pair radius, double delta) {
+  const Pair speed = root_of(d.square), slope = d.radius[0], first_error = both(8 * delta);
+  const Pair rest = d.square - slope * slope, height = larger(rest, both(0));
+  const Pair bend = d.square * d.radius[1] - slope * d.along;
+  const Pair bound = d.square * (rest + 4 * first_error * speed) - radius * bend;
+  const Pair turn = d.cross * radius;
+  return all((size_of(slope) <= speed + first_error) & (bound > 0) &
+             (turn * turn * height < bound * bound));
 }
 
 /// By how much an edge breaks Shaked and Bruckstein's conditions (9) and (10),
 ///   |R'| <= 1   and   1 - R'^2 - R R'' >= |K| R sqrt(1 - R'^2),
-/// with the derivatives by arc length and the curvature K at parameter t, beyond what the tolerance
+/// with the derivatives by arc length and the curvature K at a parameter, beyond what the tolerance
 /// leaves open.
 ///
 /// At a vertex (10) is an equation, so what remains is rounding: control points that are `delta`
 /// off change R' by about delta / speed, and R'' and K by delta / speed^2. Where that is not small
 /// against 1, the edge is too short for its derivatives to mean anything.
-double illegality(const Curve& curve, double t, double radius, double delta) {
-  const Curve::Derivatives d = derivatives_of(curve, t);
-  const double speed = norm(d.first);
-  if (!(speed > 0)) return 0;
-  const double first_error = 8 * delta / speed;
-  const double second_error = 8 * delta / (speed * speed);
-  const double slope = d.radius_first / speed;
+Pair illegality(const Derivatives& d, Pair radius, double delta) {
+  const Pair speed = root_of(d.square), first_error = 8 * delta / speed;
+  const Pair second_error = 8 * delta / (speed * speed);
+  const Pair slope = d.radius[0] / speed;
   // The root is the less certain the closer it is to 0: sqrt(x + e) - sqrt(x) <= sqrt(e).
-  const double root_error = std::sqrt(4 * first_error);
-  const double root = std::sqrt(std::max(0.0, (1 - slope) * (1 + slope)));
-  const double curvature = std::abs(cross(d.first, d.second)) / (speed * speed * speed);
-  const double error = 4 * first_error + 2 * radius * second_error +
-                       curvature * radius * std::min(root_error, 4 * first_error / root);
-  if (!(error < 0.1)) return 0;
-  const double along = dot(d.first, d.second) / speed;
-  const double bend = (d.radius_second - slope * along) / (speed * speed);
-  const double cauchy = std::abs(slope) - 1;
-  const double balance = curvature * radius * root - ((1 - slope) * (1 + slope) - radius * bend);
-  return std::max({0.0, cauchy - first_error, balance - error});
+  const Pair root_error = root_of(4 * first_error);
+  const Pair root = root_of(larger((1 - slope) * (1 + slope), both(0)));
+  const Pair curvature = size_of(d.cross) / (speed * speed * speed);
+  const Pair error = 4 * first_error + 2 * radius * second_error +
+                     curvature * radius * smaller(4 * first_error / root, root_error);
+  const Pair along = d.along / speed;
+  const Pair bend = (d.radius[1] - slope * along) / (speed * speed);
+  const Pair cauchy = size_of(slope) - 1;
+  const Pair balance = curvature * radius * root - ((1 - slope) * (1 + slope) - radius * bend);
+  const Pair worse = larger(balance - error, larger(cauchy - first_error, both(0)));
+  return (speed > 0) & (error < 0.1) ? worse : both(0);
 }
 
 /// Whether the feet lie on the sides that the edge says, seen from its middle: how far the left
@@ -134,7 +217,7 @@ double illegality(const Curve& curve, double t, double radius, double delta) {
 double turned_by(const Problem& problem, const Edge& edge, const Curve& curve) {
   constexpr double few = 64;
   const double t = 0.5;
-  const Vec2 tangent = derivatives_of(curve, t).first;
+  const Vec2 tangent = curve.derivatives(t).first;
   const Vec2 center = curve.at(t).center;
   const Site& left = problem.axis.sites[edge.site[0]];
   const Site& right = problem.axis.sites[edge.site[1]];
@@ -180,18 +263,26 @@ class EdgeCheck {
   }
 
   void run(int samples, const std::vector<std::uint32_t>& first_edge) {
+    const Disk &from = problem_.disk(edge_.node[0]), &to = problem_.disk(edge_.node[1]);
+    const DiskPair ends{
+        {from.center.x, to.center.x}, {from.center.y, to.center.y}, {from.radius, to.radius}};
+    const Pair known = measure_contacts(ends);
     for (std::size_t end = 0; end < 2; ++end) {
       const std::uint32_t node = edge_.node[end];
-      const double known = measure_contacts(problem_.disk(node));
       const bool is_first = first_edge[node] == index_ && (end == 0 || node != edge_.node[0]);
-      if (is_first) add(problem_.disk(node), known, node);
+      if (is_first) add(ends, known, end, node);
     }
-    for (int k = 1; k <= samples; ++k) {
-      const double t = static_cast<double>(k) / (samples + 1);
-      const Disk disk = curve_.at(t);
-      add(disk, measure_contacts(disk), no_index);
-      findings_.legality.add(illegality(curve_, t, disk.radius, problem_.tolerance), 0, disk.center,
-                             index_);
+    const auto parts = static_cast<double>(samples + 1);
+    for (int k = 1; k <= samples; k += 2) {
+      const bool two = k < samples;
+      const Pair t = Pair{static_cast<double>(k), static_cast<double>(k + (two ? 1 : 0))} / parts;
+      const PairOnCurve place(curve_, t);
+      const DiskPair disks = place.disks();
+      const Pair nearest = measure_contacts(disks);
+      if (const Derivatives d(place); !is_legal(d, disks.radius, problem_.tolerance))
+        add_worst(findings_.legality, illegality(d, disks.radius, problem_.tolerance), 0, disks);
+      add(disks, nearest, 0, no_index);
+      if (two) add(disks, nearest, 1, no_index);
     }
     measure_places();
     findings_.turned.add(turned_by(problem_, edge_, curve_), problem_.tolerance,
@@ -208,30 +299,40 @@ class EdgeCheck {
            });
   }
 
-  /// Measures a disk against both sites. The distance to the nearer one on the boundary.
-  double measure_contacts(const Disk& disk) {
-    double nearest = std::numeric_limits<double>::infinity();
+  void add_worst(Worst& worst, Pair amount, double tolerance, const DiskPair& disks) {
+    if (all(amount <= both(std::min(worst.value, tolerance)))) return;  // nearly always
+    for (std::size_t i = 0; i < 2; ++i) worst.add(amount[i], tolerance, disks[i].center, index_);
+  }
+  /// Measures disks against both sites. The distances to the nearer one on the boundary.
+  Pair measure_contacts(const DiskPair& disks) {
+    Pair nearest = both(std::numeric_limits<double>::infinity());
     for (std::size_t side = 0; side < 2; ++side) {
-      const double distance = sites_[side].signed_distance(disk.center);
-      findings_.contact.add(std::abs(distance - disk.radius), problem_.tolerance, disk.center,
-                            index_);
-      if (on_boundary_[side]) nearest = std::min(nearest, std::abs(distance));
+      const Pair distance = sites_[side].signed_distances(disks.x, disks.y);
+      add_worst(findings_.contact, size_of(distance - disks.radius), problem_.tolerance, disks);
+      if (on_boundary_[side]) nearest = smaller(size_of(distance), nearest);
     }
     return nearest;
   }
-  void add(const Disk& disk, double known, std::uint32_t node) {
+  void add(const DiskPair& disks, Pair known, std::size_t which, std::uint32_t node) {
     if (places_.size == Places::most) measure_places();
     const std::size_t i = places_.size++;
-    places_.x[i] = disk.center.x;
-    places_.y[i] = disk.center.y;
-    places_.radius[i] = disk.radius;
-    places_.distance[i] = known;
+    places_.x[i] = disks.x[which];
+    places_.y[i] = disks.y[which];
+    places_.radius[i] = disks.radius[which];
+    places_.distance[i] = known[which];
     node_[i] = node;
   }
   void measure_places() {
     boundary_.find_distances(places_);
     for (std::size_t i = 0; i < places_.size; ++i) {
-      const bool inside = node_[i] == no_index;
+      const bool inside = node_[i] == no_index, two = inside && i + 1 < places_.size;
+      if (two && node_[i + 1] == no_index &&
+          findings_.inside.are_better(problem_, pair_at(&places_.radius[i]),
+                                      pair_at(&places_.distance[i]))) {
+        findings_.inside.disks += 2;
+        ++i;
+        continue;
+      }
       (inside ? findings_.inside : findings_.nodes)
           .add(problem_, {places_.place(i), places_.radius[i]}, places_.distance[i],
                inside ? index_ : node_[i]);

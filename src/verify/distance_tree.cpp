@@ -62,14 +62,6 @@ void for_each_piece(const BoundaryEdge& edge, const Visitor& visit) {
   }
 }
 
-inline Pair pair_at(const double* place) {
-  Pair pair;
-  std::memcpy(&pair, place, sizeof pair);
-  return pair;
-}
-using Pairwise = decltype(Pair{} < Pair{});  // -1 where it holds
-inline bool all(Pairwise what) { return (what[0] & what[1]) != 0; }
-
 std::vector<std::uint32_t> order_of(const std::vector<BoundaryEdge>& pieces) {
   std::vector<Vec2> middle;
   middle.reserve(pieces.size());
@@ -351,6 +343,32 @@ class DistanceTree::Hull {
   /// The radius of a disk around the centre that holds all of them.
   double reach() const { return reach_; }
 
+  /// Whether no disk reaches a set in a box: all of it lies behind the line through the place of
+  /// the box nearest to the centre that is perpendicular to the way there.
+  bool misses_box(const Bounds& bounds, std::size_t set) const {
+    const Vec2 to = {
+        std::min(std::max(bounds.low_x[set] - center_.x, 0.0), bounds.high_x[set] - center_.x),
+        std::min(std::max(bounds.low_y[set] - center_.y, 0.0), bounds.high_y[set] - center_.y)};
+    const double square = squared_norm(to);
+    const auto behind = [&](const Corner& corner) {
+      const double ahead = square - (to.x * corner.x[0] + to.y * corner.y[0]);
+      return ahead > 0 && ahead * ahead > corner.radius[0] * corner.radius[0] * square;
+    };
+    return behind(corner_[0]) && behind(corner_[1]) && behind(corner_[2]);
+  }
+
+  /// Whether no disk reaches a set in a slab.
+  bool misses_slab(const Bounds& bounds, std::size_t set, Vec2 origin) const {
+    const Vec2 normal{bounds.normal_x[set], bounds.normal_y[set]};
+    const double along = dot(normal, center_ - origin);
+    const double low = bounds.slab_low[set] - along, high = bounds.slab_high[set] - along;
+    if (!(low > 0 || high < 0)) return false;
+    return std::all_of(corner_.begin(), corner_.end(), [&](const Corner& corner) {
+      const double at = normal.x * corner.x[0] + normal.y * corner.y[0];
+      return (low > 0 ? low - at : at - high) > corner.radius[0];
+    });
+  }
+
   /// Of two edges of a run, whether no disk reaches it. Of an edge, all but the height of an arc
   /// lies behind the line through the point of its chord nearest to the centre, or through its
   /// nearer end, that is perpendicular to the way there.
@@ -425,7 +443,7 @@ void DistanceTree::lower(Places& places, const Run& run, std::size_t i) const {
 /// Lowers the distances of places to those from all edges within the expected ones; false if it
 /// gave up.
 bool DistanceTree::find_in(const Hull& hull, Places& places) const {
-  constexpr int most_visits = 256, most_near = 16;
+  constexpr int most_visits = 256, most_near = 64;
   const double limit = limit_for(hull.reach());
   std::array<Visit, 64> stack;
   std::size_t size = 0;
@@ -438,6 +456,8 @@ bool DistanceTree::find_in(const Hull& hull, Places& places) const {
     squared_bounds(visit, hull.center(), squared);
     for (std::uint32_t j = 0; j < fan_out; ++j) {
       if (!(squared[j] <= limit)) continue;
+      const Bounds& bounds = levels_[visit.level][visit.index];
+      if (hull.misses_box(bounds, j) || hull.misses_slab(bounds, j, origin_)) continue;
       const auto child = static_cast<std::uint32_t>(visit.index * fan_out) + j;
       if (visit.level > 0) {
         stack[size++] = {visit.level - 1, child, squared[j]};
