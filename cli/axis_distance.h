@@ -10,7 +10,7 @@ struct AxisDistance {
   double largest = 0;    ///< from the axis to the exact one
   double mean = 0;       ///< the same, over its length
   double uncovered = 0;  ///< from the exact axis to the axis
-  double away = 0;       ///< `largest` but for what is near a leaf of the exact axis
+  double away = 0;       ///< `largest` without what is near a leaf of the exact axis
 };
 
 /// Samples both axes in steps of `step`. Near a leaf means nearer than `leaf`.

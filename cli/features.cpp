@@ -16,7 +16,7 @@ namespace medial::cli {
 namespace {
 
 struct FeatureArguments : FileArguments {
-  io::FeatureWriteOptions table;  ///< but for `write`
+  io::FeatureWriteOptions table;  ///< except for `write`
   FeatureOptions options;
   Options axis;
 };

@@ -57,7 +57,7 @@ struct Brushfire {
   medial::Brushfire family = medial::Brushfire::simultaneous;
 };
 
-/// Valleys of Ahuja and Chuang's potential (docs/potential.md). Shares are of the box's longer side.
+/// Valleys of Ahuja and Chuang's potential (docs/potential.md). Shares: of the box's longer side.
 struct Potential {
   /// The order n of the force that finds points, real, in [1, 4096]; 0: chosen for each point.
   double order = 0;
@@ -65,13 +65,10 @@ struct Potential {
   /// them. 0: `order`, at most 24; on large shapes higher orders start from the exact axis.
   double base_order = 0;
   double step = 0.01;  ///< the longest step, a share in [1e-4, 0.1]
-  /// If positive, computes from coarse to fine: the skeleton of a polygon within this share (at
-  /// most 0.2) of the border, refined on closer and closer ones. Whole axes only.
-  double coarse = 0;
-  /// theta_min: how far the force may still turn as the order grows, in degrees in (0, 90].
-  double angle = 2.56;
-  /// e_min: how far a point may still move as the order grows, a share in (0, 0.1].
-  double movement = 0.0005;
+  double coarse = 0;   ///< starts on a polygon within this share, at most 0.2; whole axes only
+  // As the order grows:
+  double angle = 2.56;       ///< theta_min: how far the force may still turn, degrees in (0, 90]
+  double movement = 0.0005;  ///< e_min: how far a point may still move, a share in (0, 0.1]
   std::optional<Vec2> from = {};   ///< only the branch to which the force leads from here
   std::optional<Box> within = {};  ///< only the part in this box, connected or not
   bool whole() const { return !from && !within; }

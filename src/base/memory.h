@@ -48,7 +48,7 @@ struct WorkAllocator : std::allocator<T> {
 };
 
 /// A vector that is freed before the result is whole. An ordinary one would leave its memory with
-/// the allocator, and the result would take more beside it.
+/// the allocator, and the result would need more in addition.
 template <class T>
 using WorkVector = std::vector<T, WorkAllocator<T>>;
 

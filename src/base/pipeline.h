@@ -15,7 +15,7 @@ struct PipelineStage {
 
 /// Passes tasks through stages on effective_threads(requested) threads: `next` makes one after
 /// another until it returns null. At most `window` of them are under way: those behind a slow
-/// one go on until the window is full.
+/// one continue until the window is full.
 void run_pipeline(int requested, std::size_t window,
                   const std::function<std::shared_ptr<void>()>& next,
                   std::span<const PipelineStage> stages);

@@ -5,7 +5,7 @@
 namespace medial::curve {
 
 /// fit_smooth_contour() of each polygon. Loops that lie in a disk of radius `tolerance` are left
-/// out, but for the largest loop: without them no part of the shape moves by more either, and
+/// out, except for the largest: that moves no part of the shape by more than the fit may, and
 /// coarse fits of specks would cross their neighbours. Errors: those of fit_smooth_contour().
 Result<std::vector<Contour>> fit_loops(std::span<const std::vector<Vec2>> polygons,
                                        double tolerance);

@@ -348,7 +348,7 @@ bool Converter::is_spiral(const Biarc& biarc, const Station& a, const Station& b
   const double sign = std::copysign(1.0, forward ? a.curvature : b.curvature);
   const double highest = sign * (forward ? a.curvature : b.curvature);
   const double lowest = std::max(0.0, sign * (forward ? b.curvature : a.curvature));
-  // At an apex it is the highest by construction, but for what the joint has slid.
+  // At an apex it is the highest by construction, except for how far the joint has slid.
   const double high =
       demands.apex ? highest : sign * curvature(forward ? biarc.first : biarc.second);
   const double low = sign * curvature(forward ? biarc.second : biarc.first);

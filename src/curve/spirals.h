@@ -70,7 +70,7 @@ struct ArcChain {
 /// The curve is split at its apices, inflections and cusps into spirals, each of these bisected
 /// until the biarc of Algorithm 1 is valid and within the tolerance. Along each spiral the arcs'
 /// curvature is monotone; two spirals that meet in an apex of largest curvature share one arc,
-/// which is their osculating circle there. No allocation but for the result.
+/// which is their osculating circle there. No allocation except for the result.
 double append_spirals(const Bezier& curve, const PieceCoordinates& frame,
                       const SpiralOptions& options, ArcChain& chain);
 

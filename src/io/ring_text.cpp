@@ -15,7 +15,8 @@ Vec2 next_point(const Ring& ring, std::size_t i) {
 }
 
 /// The bulge of the arc from a through m to b: tangent of half the angle by which its chords turn
-/// at m, which is half of the arc's angle. Not a number where a coordinate is none, or overflows.
+/// at m, which is half of the arc's angle. Not a number where a coordinate is not one, or
+/// overflows.
 double bulge_of(Vec2 a, Vec2 m, Vec2 b) {
   const Vec2 u = m - a;
   const Vec2 v = b - m;

@@ -174,7 +174,7 @@ class Describer {
   }
 
   /// The boundary on both sides and the area between: with the spokes to their feet, the edges tile
-  /// the shape, but for sectors of disks that touch an arc all along.
+  /// the shape, except for sectors of disks that touch a whole arc.
   void add_sides(BranchFeatures& out) {
     Feet before, first;
     for (std::size_t i = 0; i < way_.size(); ++i) {

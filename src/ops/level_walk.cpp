@@ -226,8 +226,8 @@ std::vector<OffsetRing> LevelWalk::loops_at(double level, std::size_t k) {
   return loops;
 }
 
-/// Goes on from one site to another past joints that have no branch: one that counts as smooth, or
-/// those at both ends of arcs that a disk touches all along, to the corner angle. False where the
+/// Continues from one site to another past joints without a branch: one that counts as smooth, or
+/// those at both ends of arcs that a disk touches entirely, to the corner angle. False where the
 /// disk's own feet are enough.
 bool LevelWalk::pass_joints(std::uint32_t before, std::uint32_t after, double level,
                             RingBuilder& builder) const {
@@ -268,8 +268,8 @@ bool LevelWalk::pass_joints(std::uint32_t before, std::uint32_t after, double le
   return true;
 }
 
-/// The offset of a site where a disk touches it. A disk that touches an arc all along has no foot
-/// of its own there: what comes before the arc goes on at its start, what comes after it at its
+/// The offset of a site where a disk touches it. A disk that touches a whole arc has no single
+/// foot there: what comes before the arc continues at its start, what comes after it at its
 /// end.
 Vec2 LevelWalk::offset_at(std::uint32_t index, const Disk& disk, double level, Part part) const {
   const Site& site = axis_.sites[index];

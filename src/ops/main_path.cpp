@@ -1,10 +1,10 @@
 // The main path of an axis: between the two ends farthest apart.
 //
-// Leaves are taken off one after another, and every node remembers how far its best two hanging
-// ways reach. That alone finds the best path of a tree. Around holes a core without leaves remains,
-// in which the two ends' distance is the core's: bounded as Takes and Kosters (2011, "Determining
-// the diameter of small world networks") bound eccentricities, by searches from the node that may
-// be farthest from everything.
+// Leaves are taken off one after another, and every node remembers how far the best two removed
+// paths reach from it. That finds the best path of a tree. Around holes a core without leaves
+// remains, in which the two ends' distance is the core's: bounded as Takes and Kosters (2011,
+// "Determining the diameter of small world networks") bound eccentricities, by searches from the
+// node that may be farthest from everything.
 
 #include <algorithm>
 #include <array>
@@ -148,8 +148,8 @@ class MainPaths {
     return steps;
   }
 
-  /// The two nodes of the core whose hanging ways and distance together reach farthest; or `top`
-  /// twice, where the best path is one that hangs.
+  /// The two nodes of the core whose removed paths and distance together reach farthest; or `top`
+  /// twice, if the best path is not in the core.
   std::pair<std::uint32_t, std::uint32_t> farthest(std::uint32_t top, double& gap) {
     constexpr int most_searches = 100;
     constexpr double nothing_more = 1e-12;

@@ -30,7 +30,7 @@ struct BranchTip {
 struct Part {
   const Shape& shape;
   double size = 0;
-  std::vector<Disk> disks;  ///< that cover it but for dents below a thousandth, large ones first
+  std::vector<Disk> disks;  ///< that cover it except for dents below a thousandth, large ones first
   std::vector<Vec2> hull;
   std::vector<BranchTip> bays, peninsulas;
 };

@@ -263,7 +263,7 @@ Ring calmed(const Ring& ring, double step) {
   return out;
 }
 
-/// The nodes whose disks do not lie within that of another such node beside them, but for `slack`.
+/// The nodes whose disks do not lie within that of a neighbour of this kind, up to `slack`.
 std::vector<std::uint32_t> uncovered(const MedialAxis& axis, double slack) {
   const Incidence incidence(axis);
   std::vector<std::uint32_t> order(axis.nodes.size()), kept;

@@ -14,9 +14,9 @@
 
 namespace medial::ops {
 
-/// Takes edges off at nodes where one is left, unless stays(node), until there is none: the outer
-/// ones first. Calls take(edge, leaf, inner node) for each. Returns how many are left at each node.
-/// O(n).
+/// Removes edges at nodes that have one left, unless stays(node), until no such node remains: the
+/// outer ones first. Calls take(edge, leaf, inner node) for each. Returns how many are left at each
+/// node. O(n).
 template <class Stays, class Take>
 std::vector<std::uint32_t> take_off_leaves(const MedialAxis& axis, const Stays& stays,
                                            const Take& take) {

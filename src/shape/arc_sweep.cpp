@@ -153,7 +153,7 @@ class CrossingFinder {
   }
 
   /// Whether two pieces have an end in common and stay within the tolerance of each other from
-  /// there to the point: as good as tangent there, they meet in the end alone. (The order of pieces
+  /// there to the point: nearly tangent there, they meet only in the end. (The order of pieces
   /// at an end follows from where they part, too.)
   bool is_beside_common_end(const Piece& a, const Piece& b, Vec2 point) const {
     for (const std::uint32_t end : a.ends) {

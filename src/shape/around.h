@@ -19,11 +19,11 @@ inline double bulge_of(const PlanarGraph& graph, std::uint32_t half_edge) {
 /// along: one component for each face; the first, unbounded one has the enclosure as
 /// its outer loop.
 ///
-/// This is no shape that build_shape() would make: edges can stand there twice, once for each side,
-/// a segment alone is a loop of two points, and a lone point one of one. The source of a point is
-/// {point of the planar graph, half-edge that begins there}, no_index for what there is none of,
-/// and both for the enclosure. Loops come in spatial order. Requires an enclosure around the planar
-/// graph.
+/// build_shape() would not make this shape: an edge can be in it twice, once for each side, a
+/// segment by itself is a loop of two points, and a lone point a loop of one. The source of a point
+/// is {point of the planar graph, half-edge that begins there}, with no_index for what is missing,
+/// and for both at the enclosure. Loops come in spatial order. Requires an enclosure around the
+/// planar graph.
 Shape around(const PlanarGraph& planar_graph, const Box& enclosure);
 
 }  // namespace medial

@@ -57,7 +57,7 @@ struct MonotoneArc {
     return bulge == 0 || above_chord * bulge <= 0 || std::abs(above_chord) <= tolerance * length;
   }
 
-  /// The point of the arc next to p, if p is on its circle or line but for a small error and on the
+  /// The point of the arc next to p, if p is on its circle or line up to a small error and on the
   /// same side of the chord. (It may lie beyond the ends of a segment.)
   std::optional<Vec2> projected(Vec2 p) const {
     constexpr double small = 1e-6;

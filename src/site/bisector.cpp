@@ -157,7 +157,7 @@ DiskVector tangent_at(const Site& a, const Site& b, const Disk& disk) {
 /// The same control point, where the tangents at both ends meet. Their parts up to there, u and v,
 /// have one product P(u, u) = P(v, v), and the weight is the square root of P(chord, chord) /
 /// (4 P(v, v)). That keeps the digits that the pole loses where centre and radius change almost
-/// alike. None where an end is the centre of an arc, or the tangents are as good as
+/// alike. None where an end is the centre of an arc, or the tangents are nearly
 /// parallel.
 std::optional<Control> meeting_of_tangents(const Site& a, const Site& b, const Disk& from,
                                            const Disk& to) {
@@ -193,8 +193,8 @@ std::optional<Control> meeting_of_tangents(const Site& a, const Site& b, const D
 }
 
 /// The control point of an edge with an arc: the pole, or where that strays, the meeting of
-/// tangents. What is left where that does not help is so nearly straight that a parabola through
-/// the disk halfway does better.
+/// tangents. An edge for which neither helps is so nearly straight that a parabola
+/// through the disk halfway does better.
 Control control_with_arc(const Site& a, const Site& b, const Disk& from, const Disk& to) {
   constexpr double few_roundings = 0x1p-50, long_enough = 0x1p-7, curved = 0x1p-3;
   Control best = pole_of_chord(a, b, from, to);
@@ -203,7 +203,7 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
   if (length < long_enough * focal) return best;
   const bool near_focus = focal < curved * length;
   double strays = deviation(best, a, b, from, to, near_focus);
-  // Where the sites are as good as tangent, all disks beyond the ends touch both as well, and so do
+  // Where the sites are nearly tangent, all disks beyond the ends touch both as well, and so do
   // those of negative radius.
   const Vec2 chord = to.center - from.center;
   const auto is_between = [&](Vec2 center) {

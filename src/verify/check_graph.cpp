@@ -415,8 +415,8 @@ void check_graph(const Problem& problem, bool part, Certificate& certificate) {
 
 namespace {
 
-/// Corners and leaves as sorted lists: what stands in one only is an offence. Where all joints are
-/// blunt, an axis may begin at one of them.
+/// Corners and leaves as sorted lists: what is in only one of them is an offence. Where all joints
+/// are blunt, an axis may begin at one of them.
 void check_leaves(const Problem& problem, Certificate& certificate) {
   const MedialAxis& axis = problem.axis;
   const auto count = static_cast<std::uint32_t>(problem.shape.points.size());

@@ -113,7 +113,7 @@ class Collapse {
   std::size_t steps_ = 0;
 };
 
-/// The cubes that what is kept shuts in give up a square each beside no other cube.
+/// Removes one kept square that belongs to a single cube. Whether there was one.
 bool open_cubes(const CubicalComplex& complex, CubicalComplex& kept) {
   bool opened = false;
   each_voxel(complex, [&](Cell cell) {

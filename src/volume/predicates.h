@@ -19,8 +19,8 @@ constexpr int longest_axis(Vec3 a) {
 /// three neither overflow nor underflow (1e-100 to 1e100 in size, or zero).
 int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
 
-/// Whether the closed triangles a and b have a point in common. Exact in the same range, but for a
-/// triangle without area, where only the sides count.
+/// Whether the closed triangles a and b have a point in common. Exact in the same range, except for
+/// a triangle without area, where only the sides count.
 bool triangles_meet(const Vec3 (&a)[3], const Vec3 (&b)[3]);
 
 /// Whether the closed segment p, q and the closed triangle have a point in common; a triangle

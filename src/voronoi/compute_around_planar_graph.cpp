@@ -157,7 +157,7 @@ std::optional<Error> too_close(const PlanarGraph& planar_graph, double least) {
   return error_of_close_point(planar_graph, first);
 }
 
-/// The axis, but for its edges, which stand apart, and its sites.
+/// The axis without its edges, which are returned apart, and without its sites.
 template <class E>
 Result<MedialAxis> run_around(const PlanarGraph& planar_graph, const Problem& surroundings,
                               std::vector<E>& edges) {

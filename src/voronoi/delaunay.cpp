@@ -145,8 +145,8 @@ class Insertion {
   }
 
   /// All triangles in conflict with a point, from one of them on, and two new ones; and the sides
-  /// of what they cover. They hang together as a tree, since no vertex lies between them. Nothing
-  /// branches on what is in conflict, which nobody can predict.
+  /// of what they cover. They form a tree, since no vertex lies between them. No code branches
+  /// on what is in conflict, which the processor could not predict.
   void find_cavity(Vec2 p, std::uint32_t first) {
     std::size_t inside = 1, sides = 0, open = 3;
     cavity_[0] = first;

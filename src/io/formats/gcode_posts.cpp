@@ -43,7 +43,7 @@ constexpr std::array<std::string_view, 4> part_names{"[start]", "[tool]", "[cut]
 constexpr std::array<std::string_view, 8> value_names{"header",      "units", "tolerance", "safe",
                                                       "description", "tool",  "spindle",   "stop"};
 
-/// A name in braces that is none of the values; empty: there is none.
+/// The first name in braces that is not a value; empty if there is none.
 std::string_view unknown_name(std::string_view text) {
   for (std::size_t open = text.find('{'); open != std::string_view::npos;
        open = text.find('{', open + 1)) {

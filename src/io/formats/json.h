@@ -36,7 +36,7 @@ Document<Feature> dataset_of(Document<AxisItem> file);
 /// A row that reads the shapes of native files.
 Format native_reading(const char* extensions);
 
-// Without loss, but for features.
+// Without loss, except for features.
 Status write_json(Target& target, const AxesOutput& output);
 Status write_json(Target& target, const ShapesOutput& output);
 Status write_json(Target& target, const VoronoiOutput& output);

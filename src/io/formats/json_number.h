@@ -7,7 +7,7 @@
 
 namespace medial::io {
 
-/// The nearest double of a number. Throws simdjson_error where the value is none.
+/// The nearest double of a number. Throws simdjson_error if the value is not a number.
 ///
 /// simdjson 3.0.1 misreads some numbers of more than 18 digits, by any amount; so these are read
 /// once more.

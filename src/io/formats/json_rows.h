@@ -56,7 +56,7 @@ inline std::string text_of(json::value value) {
   return std::string(std::string_view(value.get_string()));
 }
 
-/// Appends the pairs of texts of an array; `otherwise`: the error where one is none.
+/// Appends the pairs of texts of an array; `otherwise`: the error where one is not a pair.
 inline void read_attributes(json::value value, const char* otherwise, Attributes& attributes) {
   for (json::value element : value.get_array()) {
     std::vector<std::string> words;

@@ -86,7 +86,7 @@ void arc_to(cairo_t* context, const BulgeArc& arc) {
 }
 
 void add_circle(cairo_t* context, Vec2 center, double radius) {
-  // Beyond what its fixed point numbers hold, cairo goes around for ever.
+  // Beyond what its fixed point numbers hold, cairo loops for ever.
   if (radius > 1 << 22) return;
   cairo_new_sub_path(context);
   cairo_arc(context, center.x, center.y, radius, 0, 2 * std::numbers::pi);

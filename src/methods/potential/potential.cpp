@@ -281,7 +281,7 @@ class Tracing {
       if (problem_.options.progress)
         problem_.options.progress((component + 1.0) / static_cast<double>(regions_.size()));
     }
-    if (!seeded) return refused("the seed lies outside of the shape");
+    if (!seeded) return refused("the place to start from lies outside the shape");
     if (own_.within && axis.edges.empty()) return refused("none of the axis lies in the box");
     set_node_kinds(axis);
     return axis;
