@@ -286,8 +286,14 @@ void Graph::find_doubtful_edge(std::uint32_t edge) {
 bool Graph::runs_backward(std::uint32_t edge, double slack) const {
   const auto& [first, second] = diagram_.edges[edge].element;
   const Vec2 from = disk(edge).center, end = disk(to(edge)).center;
-  return advance(elements().sites[first], from, end) > slack ||
-         advance(elements().sites[second], from, end) < -slack;
+  const auto forward = [&](const site::Site& site) {
+    if (!site.is_vertex()) return advance(site, from, end);
+    // Around a vertex, normals turn to the right.
+    const Vec2 a = from - site.point, b = end - site.point;
+    const double further = std::sqrt(std::max(squared_norm(a), squared_norm(b)));
+    return further > 0 ? cross(b, a) / further : 0;
+  };
+  return forward(elements().sites[first]) > slack || forward(elements().sites[second]) < -slack;
 }
 
 std::array<std::uint32_t, 2> Graph::loop_around(std::uint32_t element) const {

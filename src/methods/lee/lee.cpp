@@ -47,22 +47,15 @@ class Solution {
     elements_ = std::move(*elements);
     statistics.seconds_sites = watch.lap();
     statistics.bridges = elements_.passages.size() / 2;
-    if (!merge_all(levels) && !problem_.is_cancelled()) {
-      if (elements_.have_arcs()) return undecided();
-      // Of such a boundary, rounding may break the structure, too.
-      if (const auto place = find_smooth_run(elements_)) return too_nearly_round(*place);
-      merge_in_precise();
-    }
+    const bool merged = merge_all(levels);
     if (problem_.is_cancelled()) return success();
-    if (!graph) return broken();
+    if (!merged && elements_.have_arcs()) return undecided();
     statistics.seconds_walk = watch.lap();
-    join_ties(*graph, problem_.local_tolerance());
-    constexpr double slack = 2;
+    if (merged) join_ties(*graph, problem_.local_tolerance());
     if (elements_.have_arcs())
-      is_doubtful_ = !is_right_locally(*graph, slack * problem_.local_tolerance());
-    // The certificate, too, would refuse such an axis.
-    else if (const auto disk = find_overreach(*graph, slack * problem_.local_tolerance()))
-      return too_nearly_round(disk->center);
+      is_doubtful_ = !is_right_locally(*graph, problem_.local_tolerance());
+    else if (Status decided = merged && !overreach() ? success() : decide_in_precise(); !decided)
+      return decided;
     statistics.seconds_collect = watch.lap();
     return success();
   }
@@ -85,6 +78,24 @@ class Solution {
   bool merge_all(std::vector<Level>* levels) {
     diagram_.emplace(elements_, elements_.sites, elements_.disks_of_passages);
     return close(conquer(*diagram_, context(problem_.fine_tolerance), statistics, levels));
+  }
+
+  /// Of a polygon: a disk for which the certificate, too, would refuse the axis.
+  std::optional<Disk> overreach() const {
+    constexpr double slack = 2;
+    return find_overreach(*graph, slack * problem_.local_tolerance());
+  }
+
+  /// What rounding leaves open of a polygon.
+  Status decide_in_precise() {
+    // Of such a boundary, rounding may break the structure, too.
+    if (const auto place = find_smooth_run(elements_)) return too_nearly_round(*place);
+    merge_in_precise();
+    if (problem_.is_cancelled()) return success();
+    if (!graph) return broken();
+    join_ties(*graph, problem_.local_tolerance());
+    if (const auto disk = overreach()) return too_nearly_round(disk->center);
+    return success();
   }
 
   /// The same in 256 bits, from what the shape has: rounded to double at the end.

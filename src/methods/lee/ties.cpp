@@ -185,9 +185,16 @@ std::optional<Disk> find_overreach(const Graph& graph, double slack) {
   constexpr double close = 0.1;            // radii from an element to the next
   constexpr std::uint32_t first_step = 4;  // nearer ones, merges have seen
   const Elements& elements = graph.elements();
+  std::optional<Disk> backward;
+  for (const Elements::ChainLoop& loop : elements.loops)
+    graph.for_edges(loop, [&](std::uint32_t edge) {
+      if (graph.disk(edge).radius > 0 && graph.disk(graph.to(edge)).radius > 0 &&
+          !graph.begins_at_bridge(edge) && graph.runs_backward(edge, slack))
+        backward = graph.disk(edge);
+    });
+  if (backward) return backward;
   for (const std::uint32_t node : graph.doubtful_edges()) {
     const Disk& disk = graph.disk(node);
-    if (graph.runs_backward(node, slack)) return disk;
     const auto touched = graph.touched(node);
     const auto is_far = [&](std::uint32_t element) {
       const double reach = close * disk.radius;
@@ -231,7 +238,7 @@ bool has_large_tie(const Graph& graph, double slack) {
 }  // namespace
 
 bool is_right_locally(const Graph& graph, double slack) {
-  if (has_large_tie(graph, slack)) return false;
+  if (has_large_tie(graph, 2 * slack)) return false;
   const Elements& elements = graph.elements();
   // By how far a disk misses what a node touches; negative where it reaches over.
   const auto reach = [&](std::uint32_t node, const Disk& disk, double& least, double& most) {
