@@ -643,6 +643,7 @@ Result<int> finish(const CommonOptions& common, Json object, const Phases& phase
   Json costs;
   if (common.stats) {
     costs = {{"seconds", phases.by_clock()},
+             {"processor", phases.by_processor()},
              {"threads", effective_threads(common.threads)},
              {"peak_bytes", peak_bytes()}};
     if (!more.is_null()) costs.update(more);

@@ -70,8 +70,7 @@ Json statistics_of(const LoadedAxes& axes, const AxisSummary& summary) {
   const Statistics& counted = axes.axes.statistics;
   const ShapeReport& cleaned = axes.report.shapes;
   const double sites = static_cast<double>(std::max<std::uint64_t>(summary.sites, 1));
-  Json object = {{"processor", axes.phases.by_processor()},
-                 {"phases",
+  Json object = {{"phases",
                   {{"sites", counted.seconds_sites},
                    {"tree", counted.seconds_tree},
                    {"connect", counted.seconds_connect},

@@ -103,8 +103,7 @@ Result<int> run_tiles(const TilesArguments& arguments) {
   object["input"] = arguments.input.path;
   object["levels"] = std::move(list);
   const bool silent = common.quiet || !arguments.output.empty();
-  return finish(common, std::move(object), axes.phases, silent ? std::string() : text,
-                {{"processor", axes.phases.by_processor()}});
+  return finish(common, std::move(object), axes.phases, silent ? std::string() : text);
 }
 
 }  // namespace

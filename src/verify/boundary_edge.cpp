@@ -5,70 +5,36 @@
 #include <numbers>
 
 namespace medial::verify_detail {
-namespace {
 
-/// An edge as its directions say it.
-struct Directions {
-  double length;  ///< of the chord
-  Vec2 half;      ///< cosine and sine of half of its angle
-  Vec2 chord;     ///< unit vector
-  Vec2 start_tangent() const { return turned(chord, half.x, -half.y); }
-  Vec2 end_tangent() const { return turned(chord, half.x, half.y); }
-  double curvature() const { return 2 * half.y / length; }
-};
-
-Directions directions_of(const BoundaryEdge& edge) {
-  const Vec2 d = edge.chord();
-  const double length = norm(d);
-  return {length, half_angle(edge.bulge), (1 / length) * d};
+Arc::Arc(const BoundaryEdge& edge) : edge_(edge), length_(norm(edge.chord())) {
+  const Vec2 half = half_angle(edge.bulge);
+  cosine_ = half.x;
+  sine_ = half.y;
+  chord_ = (1 / length_) * edge.chord();
+  start_tangent_ = turned(chord_, half.x, -half.y);
+  end_tangent_ = turned(chord_, half.x, half.y);
+  curvature_ = 2 * half.y / length_;
 }
 
-/// curvature * (p - centre): from the centre to p, in radii, whatever the radius.
-Vec2 from_center(const Directions& directions, const BoundaryEdge& edge, Vec2 p) {
-  const Vec2 middle = 0.5 * ((p - edge.start) + (p - edge.end));
-  return directions.curvature() * middle - directions.half.x * left_of(directions.chord);
+double Arc::signed_distance(Vec2 p) const {
+  const Vec2 from = from_center(p);
+  const double carrier = carrier_distance(p, from);
+  if (is_beside(p, from)) return carrier;
+  const double end = std::min(medial::distance(p, edge_.start), medial::distance(p, edge_.end));
+  return carrier < 0 ? -end : end;
 }
-
-/// Whether the nearest point of the carrier to p lies on the edge: p between the normals at its
-/// ends and, of an arc, on its side of the centre. Next to the centre of a short arc the normals
-/// alone would leave that side to rounding.
-bool is_beside(const Directions& directions, const BoundaryEdge& edge, Vec2 p) {
-  return dot(directions.start_tangent(), p - edge.start) >= 0 &&
-         dot(directions.end_tangent(), p - edge.end) <= 0 &&
-         dot(left_of(directions.chord), from_center(directions, edge, p)) <= 0;
-}
-
-/// The angle by which the arc's circle has turned, from the start, at the point nearest to p.
-double turned_at(const Directions& directions, const BoundaryEdge& edge, Vec2 p) {
-  const Vec2 tangent = directions.start_tangent();
-  const double sine = directions.curvature() * dot(tangent, p - edge.start);
-  const double cosine = -dot(left_of(tangent), from_center(directions, edge, p));
-  return std::atan2(sine, cosine);
-}
-
-double carrier_distance(const Directions& directions, const BoundaryEdge& edge, Vec2 p) {
-  const Vec2 u = p - edge.start, v = p - edge.end;
-  const double across = cross(directions.chord, squared_norm(u) <= squared_norm(v) ? u : v);
-  const double along = dot((1 / directions.length) * u, v);
-  const double power = directions.half.x * across - directions.half.y * along;
-  return 2 * power / (1 + norm(from_center(directions, edge, p)));
-}
-
-}  // namespace
 
 double distance_to_carrier(Vec2 p, const BoundaryEdge& edge) {
   if (edge.bulge == 0) {
     const Vec2 d = edge.chord(), u = p - edge.start, v = p - edge.end;
     return cross(d, squared_norm(u) <= squared_norm(v) ? u : v) / norm(d);
   }
-  return carrier_distance(directions_of(edge), edge, p);
+  return Arc(edge).carrier_distance(p);
 }
 
 double distance_to_edge(Vec2 p, const BoundaryEdge& edge) {
   if (edge.bulge == 0) return distance_to_segment(p, edge.start, edge.end);
-  const Directions directions = directions_of(edge);
-  if (is_beside(directions, edge, p)) return std::abs(carrier_distance(directions, edge, p));
-  return std::min(distance(p, edge.start), distance(p, edge.end));
+  return Arc(edge).distance(p);
 }
 
 double length_of(const BoundaryEdge& edge) {
@@ -78,17 +44,18 @@ double length_of(const BoundaryEdge& edge) {
 }
 
 double foot_at(const BoundaryEdge& edge, Vec2 p) {
-  const double length = length_of(edge);
-  if (edge.bulge == 0) return std::clamp(dot(edge.chord(), p - edge.start) / length, 0.0, length);
-  const Directions directions = directions_of(edge);
-  if (!is_beside(directions, edge, p))
-    return distance(p, edge.start) <= distance(p, edge.end) ? 0 : length;
-  return std::clamp(turned_at(directions, edge, p) / directions.curvature(), 0.0, length);
+  const double chord = norm(edge.chord());
+  if (edge.bulge == 0) return std::clamp(dot(edge.chord(), p - edge.start) / chord, 0.0, chord);
+  const Arc arc(edge);
+  if (!arc.is_beside(p))
+    return distance(p, edge.start) <= distance(p, edge.end) ? 0 : length_of(edge);
+  const double along = std::max(0.0, arc.turned_at(p) / arc.curvature());
+  return along < chord ? along : std::min(along, length_of(edge));
 }
 
 double opposite_at(const BoundaryEdge& arc, Vec2 p) {
-  const Directions directions = directions_of(arc);
-  const double angle = turned_at(directions, arc, p), curvature = directions.curvature();
+  const Arc on(arc);
+  const double angle = on.turned_at(p), curvature = on.curvature();
   const double opposite = angle * curvature > 0
                               ? angle - std::copysign(std::numbers::pi, angle)
                               : angle + std::copysign(std::numbers::pi, curvature);
@@ -99,22 +66,24 @@ Vec2 point_at(const BoundaryEdge& edge, double length) {
   const double whole = length_of(edge);
   if (length <= 0) return edge.start;
   if (length >= whole) return edge.end;
-  const Directions directions = directions_of(edge);
   const bool from_start = length <= 0.5 * whole;
   const double way = from_start ? length : whole - length;
-  if (edge.bulge == 0)
-    return from_start ? edge.start + way * directions.chord : edge.end - way * directions.chord;
-  const double half = 0.5 * way * directions.curvature();
+  if (edge.bulge == 0) {
+    const Vec2 chord = (1 / norm(edge.chord())) * edge.chord();
+    return from_start ? edge.start + way * chord : edge.end - way * chord;
+  }
+  const Arc arc(edge);
+  const double half = 0.5 * way * arc.curvature();
   const double chord = way * (std::sin(half) / half);
   if (from_start)
-    return edge.start + chord * turned(directions.start_tangent(), std::cos(half), std::sin(half));
-  return edge.end - chord * turned(directions.end_tangent(), std::cos(half), -std::sin(half));
+    return edge.start + chord * turned(arc.start_tangent(), std::cos(half), std::sin(half));
+  return edge.end - chord * turned(arc.end_tangent(), std::cos(half), -std::sin(half));
 }
 
 double foot_slack(const BoundaryEdge& edge, Vec2 p, double slack) {
   if (edge.bulge == 0) return slack;
-  const double radii = norm(from_center(directions_of(edge), edge, p));
-  return std::min(slack / radii, length_of(edge));
+  const double moved = slack / norm(Arc(edge).from_center(p));
+  return moved < norm(edge.chord()) ? moved : std::min(moved, length_of(edge));
 }
 
 }  // namespace medial::verify_detail

@@ -49,6 +49,55 @@ class Segment {
 };
 inline double distance_to_segment(Vec2 p, Vec2 a, Vec2 b) { return Segment(a, b).distance(p); }
 
+/// An arc that distances of many places are measured from, by its directions.
+class Arc {
+ public:
+  explicit Arc(const BoundaryEdge& edge);
+
+  Vec2 start_tangent() const { return start_tangent_; }
+  Vec2 end_tangent() const { return end_tangent_; }
+  double curvature() const { return curvature_; }
+
+  /// curvature() * (p - centre): from the centre to p, in radii, whatever the radius.
+  Vec2 from_center(Vec2 p) const {
+    const Vec2 middle = 0.5 * ((p - edge_.start) + (p - edge_.end));
+    return curvature_ * middle - cosine_ * left_of(chord_);
+  }
+  /// Whether the nearest point of the circle to p lies on the arc.
+  bool is_beside(Vec2 p) const { return is_beside(p, from_center(p)); }
+  /// Of the whole circle, positive on its left: see distance_to_carrier().
+  double carrier_distance(Vec2 p) const { return carrier_distance(p, from_center(p)); }
+  /// The distance from the arc, negative where p lies on the circle's right.
+  double signed_distance(Vec2 p) const;
+  double distance(Vec2 p) const { return std::abs(signed_distance(p)); }
+  /// The angle by which the circle has turned, from the start, at the point nearest to p.
+  double turned_at(Vec2 p) const {
+    const double sine = curvature_ * dot(start_tangent_, p - edge_.start);
+    return std::atan2(sine, -dot(left_of(start_tangent_), from_center(p)));
+  }
+
+ private:
+  /// p lies between the normals at the ends and on the arc's side of the centre. Next to the centre
+  /// of a short arc the normals alone would leave that side to rounding.
+  bool is_beside(Vec2 p, Vec2 from) const {
+    return dot(start_tangent_, p - edge_.start) >= 0 && dot(end_tangent_, p - edge_.end) <= 0 &&
+           dot(left_of(chord_), from) <= 0;
+  }
+  double carrier_distance(Vec2 p, Vec2 from) const {
+    const Vec2 u = p - edge_.start, v = p - edge_.end;
+    const double across = cross(chord_, squared_norm(u) <= squared_norm(v) ? u : v);
+    const double along = dot((1 / length_) * u, v);
+    return 2 * (cosine_ * across - sine_ * along) / (1 + norm(from));
+  }
+
+  BoundaryEdge edge_;
+  double length_;         ///< of the chord
+  Vec2 chord_;            ///< unit vector
+  double cosine_, sine_;  ///< of half of its angle
+  Vec2 start_tangent_, end_tangent_;
+  double curvature_;
+};
+
 /// Distance from p to the edge's whole line or circle, positive on its left. By the power of the
 /// point: with u and v the vectors from the ends and 2 a half of the arc's angle, the circle is
 /// where sin 2a (u.v) = cos 2a (u x v). The error is a few units in the last place of the edge's

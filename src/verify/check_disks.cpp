@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "axis/curve.h"
@@ -70,7 +71,9 @@ struct Findings {
 class NearSite {
  public:
   explicit NearSite(const Site& site)
-      : edge_(edge_of(site)), segment_(site.start, site.end), is_point_(site.start == site.end) {}
+      : edge_(edge_of(site)), segment_(site.start, site.end), is_point_(site.start == site.end) {
+    if (edge_.bulge != 0) arc_.emplace(edge_);
+  }
 
   /// Negative where p lies behind an edge, seen from the interior.
   Pair signed_distances(const Pair& x, const Pair& y) const {
@@ -80,14 +83,13 @@ class NearSite {
   }
   double signed_distance(Vec2 p) const {
     if (is_point_) return distance(edge_.start, p);
-    if (edge_.bulge == 0) return segment_.signed_distance(p);
-    const double d = distance_to_edge(p, edge_);
-    return distance_to_carrier(p, edge_) < 0 ? -d : d;
+    return edge_.bulge == 0 ? segment_.signed_distance(p) : arc_->signed_distance(p);
   }
 
  private:
   BoundaryEdge edge_;
   Segment segment_;
+  std::optional<Arc> arc_;
   bool is_point_;
 };
 

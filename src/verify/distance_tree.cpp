@@ -423,6 +423,7 @@ void DistanceTree::lower(Places& places, const Run& run, std::size_t i) const {
   const Vec2 chord = edge.chord();
   const double length = norm(chord);
   const Vec2 along = length > 0 ? (1 / length) * chord : chord;
+  std::optional<Arc> arc;
   const double room = slack_ + 0.5 * std::abs(edge.bulge) * length;  // an arc's height
   for (std::size_t k = 0; k < places.size; k += 2) {
     const Pair from_x = pair_at(&places.x[k]) - both(edge.start.x);
@@ -433,10 +434,13 @@ void DistanceTree::lower(Places& places, const Run& run, std::size_t i) const {
     const Pair reach = both(1 + 8 * machine_epsilon) * (pair_at(&places.distance[k]) + both(room));
     const Pairwise beyond_reach = across * across + beyond * beyond > reach * reach;
     if (all(beyond_reach)) continue;
-    for (std::size_t j = 0; j < 2; ++j)
-      if (beyond_reach[j] == 0)
-        places.distance[k + j] =
-            std::min(places.distance[k + j], distance_to_edge(places.place(k + j), edge));
+    if (edge.bulge != 0 && !arc) arc.emplace(edge);
+    for (std::size_t j = 0; j < 2; ++j) {
+      if (beyond_reach[j] != 0) continue;
+      const Vec2 p = places.place(k + j);
+      const double distance = arc ? arc->distance(p) : distance_to_edge(p, edge);
+      places.distance[k + j] = std::min(places.distance[k + j], distance);
+    }
   }
 }
 
