@@ -118,10 +118,26 @@ void Rings::set_bulge(std::uint32_t v, double bulge) {
 }
 
 bool Rings::is_flat(std::uint32_t v) const {
+  if (vertices_[v].touches) return false;
   if (vertices_[v].bulge != 0 || vertices_[vertices_[v].before].bulge != 0) return false;
   const Vec2 before = vertices_[vertices_[v].before].point, here = vertices_[v].point,
              after = vertices_[vertices_[v].next].point;
   return orientation(before, here, after) == 0 && strictly_between(before, here, after);
+}
+
+void Rings::find_touches() {
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t v = 0; v < vertices_.size(); ++v)
+    if (has(v)) order.push_back(v);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return lexicographic_less(vertices_[a].point, vertices_[b].point);
+  });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const auto is_at = [&](std::size_t k) {
+      return k < order.size() && vertices_[order[k]].point == vertices_[order[i]].point;
+    };
+    vertices_[order[i]].touches = is_at(i + 1) || is_at(i - 1);
+  }
 }
 
 site::Joint Rings::joint_at(std::uint32_t v) const {
