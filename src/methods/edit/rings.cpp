@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/predicates.h"
@@ -234,10 +235,14 @@ std::uint32_t Rings::arc_of(const Disk& circle) const {
   const double slack = near * joining_.tolerance;
   const Vec2 place = frame_.to_input(circle.center + Vec2{circle.radius, 0});
   std::uint32_t arc = none;
+  double least = std::numeric_limits<double>::infinity();  // that a circle's radius is off by
   boxes_.find({place - Vec2{slack, slack}, place + Vec2{slack, slack}}, [&](std::uint32_t v) {
     const BulgeArc edge = local_edge(v);
     const site::Site piece = site::pieces_of(edge.start, edge.end, edge.bulge).first();
-    if (disks::is_own_circle(piece, circle, frame_.scale * slack)) arc = 2 * v + 1;
+    const double off = std::abs(1 / piece.curvature - circle.radius);
+    if (off >= least || !disks::is_own_circle(piece, circle, frame_.scale * slack)) return;
+    arc = 2 * v + 1;
+    least = off;
   });
   return arc;
 }

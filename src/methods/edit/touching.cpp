@@ -62,34 +62,43 @@ std::uint32_t Touching::edge_at(std::uint32_t of_loops, const Rings& loops) cons
   return rings_.has(end) && rings_[end].next == start ? end : start;
 }
 
+/// No two edges have the same ends: so places tell which edge of the loops is one of the rings.
 std::optional<Edit> Touching::of_vertices(const Edit& edit, const Rings& loops) const {
-  const auto is_there = [&](std::uint32_t v) {
-    return number_of(v) != none && loops.has(number_of(v));
+  const auto number_there = [&](std::uint32_t v) {
+    const std::uint32_t number = number_of(v);
+    return number != none && loops.has(number) ? number : none;
+  };
+  const auto is_at = [&](std::uint32_t of_loops, std::uint32_t of_rings) {
+    return loops[of_loops].point == rings_[of_rings].point;
   };
   const bool has_old = edit.old != none;
-  if (!is_there(edit.before) || !is_there(edit.after) || (has_old && !is_there(edit.old)))
-    return std::nullopt;
   Edit own = edit;
   own.seat.reset();
-  own.before = number_of(edit.before);
-  own.after = number_of(edit.after);
-  own.old = has_old ? number_of(edit.old) : none;
+  bool is_turned = false;
+  if (has_old) {
+    own.old = number_there(edit.old);
+    if (own.old == none) return std::nullopt;
+    own.before = loops[own.old].before;
+    own.after = loops[own.old].next;
+    is_turned = !is_at(own.before, edit.before);
+  } else if (const std::uint32_t before = number_there(edit.before); before != none) {
+    is_turned = !is_at(loops[before].next, edit.after);
+    own.before = is_turned ? loops[before].before : before;
+    own.after = loops[own.before].next;
+  } else if (const std::uint32_t after = number_there(edit.after); after != none) {
+    is_turned = !is_at(loops[after].before, edit.before);
+    own.before = is_turned ? after : loops[after].before;
+    own.after = loops[own.before].next;
+  } else {
+    return std::nullopt;
+  }
+  if (!is_at(own.before, is_turned ? edit.after : edit.before) ||
+      !is_at(own.after, is_turned ? edit.before : edit.after))
+    return std::nullopt;
   if (edit.fresh != none) {
     own.fresh = edit.fresh == edit.old ? own.old : number_of(edit.fresh);
     if (own.fresh == none) own.fresh = loops.unused();
   }
-  const auto is_edge = [&](std::uint32_t from, std::uint32_t to, double bulge) {
-    return loops[from].next == to && loops[from].bulge == bulge;
-  };
-  const std::uint32_t middle = has_old ? own.old : own.after;
-  const double first = rings_[edit.before].bulge, second = has_old ? rings_[edit.old].bulge : 0;
-  if (is_edge(own.before, middle, first) && (!has_old || is_edge(middle, own.after, second)))
-    return own;
-  if (!is_edge(middle, own.before, -first) || (has_old && !is_edge(own.after, middle, -second)))
-    return std::nullopt;
-  std::swap(own.before, own.after);
-  own.bulge = {-edit.bulge[edit.fresh != none ? 1 : 0], -edit.bulge[0]};
-  if (edit.fresh == none) own.bulge[1] = 0;
   return own;
 }
 
@@ -101,8 +110,8 @@ bool Touching::is_loop(const std::vector<Corner>& corners, const Rings& loops) c
     const std::uint32_t after = number_of(corners[i + 1 < corners.size() ? i + 1 : 0].number);
     if (v == none || after == none || !loops.has(v) || !loops.has(after)) return false;
     if (loops[v].touches) return false;  // what touches it may be flat then
-    is_forward = is_forward && loops[v].next == after && loops[v].bulge == corners[i].bulge;
-    is_backward = is_backward && loops[after].next == v && loops[after].bulge == -corners[i].bulge;
+    is_forward = is_forward && loops[v].next == after;
+    is_backward = is_backward && loops[after].next == v;
   }
   return is_forward || is_backward;
 }
