@@ -2,6 +2,7 @@
 
 import { arc_of, next_of, point_of, size_of } from "./model.mjs";
 import { SHADES, add_part, clipped, conic } from "./pieces.mjs";
+import { ramp_of } from "./poster.mjs";
 
 const FAR = 2e4; // pixels beyond which a canvas loses digits
 
@@ -11,13 +12,7 @@ export function read_theme() {
   const get = (name) => style.getPropertyValue(`--${name}`).trim();
   const names = ["paper", "grid", "fill", "ink", "faint", "accent", "warm", "disk", "disk-line", "fire", "offset", "error"];
   const theme = Object.fromEntries(names.map((name) => [name, get(name)]));
-  const stops = get("ramp").split(/\s+/).map((hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16)));
-  theme.ramp = Array.from({ length: SHADES }, (_, i) => {
-    const at = (i / (SHADES - 1)) * (stops.length - 1);
-    const k = Math.min(stops.length - 2, Math.floor(at));
-    const mix = stops[k].map((v, d) => Math.round(v + (at - k) * (stops[k + 1][d] - v)));
-    return `rgb(${mix.join(" ")})`;
-  });
+  theme.ramp = ramp_of(get("ramp"));
   return theme;
 }
 

@@ -9,6 +9,7 @@ import { count_of } from "./model.mjs";
 import { connect_panel } from "./panel.mjs";
 import { first_part, second_part } from "./parts.mjs";
 import { Player } from "./player.mjs";
+import { LEAF } from "./poster.mjs";
 import { Studio } from "./studio.mjs";
 import { Tools } from "./tools.mjs";
 import { start_tour } from "./tour.mjs";
@@ -17,8 +18,6 @@ const $ = (id) => document.getElementById(id);
 
 // This runs when the page is read up to the canvas. An axis takes only the first part of the module: it is drawn
 // before the rest of the page and of the module is read.
-
-const LEAF = "M 3 52 C 12 18 44 0 78 6 C 96 9 112 22 118 44 C 104 38 96 40 90 46 C 98 50 104 58 104 70 C 94 62 84 60 76 64 C 72 84 50 96 24 86 C 34 82 38 76 36 70 C 26 70 10 66 3 52 Z";
 
 let read_second;
 const second = new Promise((use) => (read_second = use)).then(() => $("medial-rest") && second_part());
@@ -59,6 +58,7 @@ document.body.classList.toggle("no-panel", is_small);
 studio.resize(innerWidth, innerHeight); // before the observer comes to it
 const is_read = await first();
 studio.frame();
+$("poster")?.remove();
 performance.mark("first axis", { detail: studio.scene.error?.code });
 await new Promise((done) => requestAnimationFrame(() => setTimeout(done))); // it is shown before more is laid out
 await page_read();
