@@ -174,6 +174,32 @@ test("the first axis needs only the first part of the module", async () => {
   assert.deepEqual(found, [[null, true]]); // no error, and the rest of the page was not read yet
 });
 
+test("the first axis is on the screen before any program runs, where the studio draws it", async () => {
+  for (const viewport of [{ width: 1200, height: 800 }, { width: 390, height: 780 }]) {
+    const still = await browser.newPage({ viewport, javaScriptEnabled: false });
+    await still.goto(address);
+    const shown = await still.locator("#poster .area").boundingBox();
+    assert.ok((await still.locator("#poster [class^=s]").count()) > 30);
+    await still.close();
+    const opened = await open({ viewport });
+    assert.equal(await opened.locator("#poster").count(), 0);
+    const [left, top, right, bottom] = await opened.evaluate(() => {
+      const points = studio.rings[0].xy;
+      const [xs, ys] = [0, 1].map((d) => [...points].filter((_, k) => k % 2 === d));
+      const low = studio.camera.toScreen(Math.min(...xs), Math.min(...ys));
+      const high = studio.camera.toScreen(Math.max(...xs), Math.max(...ys));
+      return [low[0], high[1], high[0], low[1]];
+    });
+    for (const [drawn, painted] of [[left, shown.x], [right, shown.x + shown.width]]) assert.ok(Math.abs(drawn - painted) < 2, `${drawn}, ${painted}`);
+    assert.ok(top > shown.y - 2 && bottom < shown.y + shown.height + 2, `${[top, bottom]}, ${Object.values(shown)}`);
+    await opened.close();
+  }
+  const linked = await browser.newPage();
+  await linked.goto(`${address}#none`);
+  assert.equal(await linked.locator("#poster").count(), 0);
+  await linked.close();
+});
+
 test("a hole of many vertices is dragged, and the axis follows", async () => {
   const round = Array.from({ length: 100 }, (_, k) => [10 + 3 * Math.cos(k * Math.PI / 50), 10 + 3 * Math.sin(k * Math.PI / 50)]);
   const text = [...round, round[0]].map((at) => at.join(" ")).join(", ");
