@@ -237,7 +237,9 @@ $("code-copy").addEventListener("click", async () => {
 const KEYS = [
   ["V P R C F H", "choose a tool"], ["G", "snap"], ["0", "show all"], ["+  −", "zoom"], ["Ctrl Z", "undo"],
   ["Ctrl Shift Z", "redo"], ["Tab, Shift Tab", "next, previous vertex"], ["arrows", "move the vertex, or the view"], ["Shift arrows", "ten times as far"],
-  ["I", "insert a vertex"], ["Delete", "remove the vertex"], ["Enter", "close the polygon"], ["Esc", "deselect"], ["N", "new drawing"],
+  ["Ctrl arrows", "move its ring"],
+  ["I", "insert a vertex"], ["Delete", "remove the vertex"], ["Shift Delete", "remove its ring"], ["[  ]", "bend the edge after it"],
+  ["Q", "a curve, or a line again"], ["Enter", "close the polygon, or draw in the middle"], ["Esc", "deselect"], ["N", "new drawing"],
   ["B", "fire"], ["L", "roll"], ["Ctrl O", "open"], ["Ctrl V", "paste a shape"], ["wheel, pinch", "zoom"], ["space, right button", "pan"],
 ];
 $("keys").innerHTML = KEYS.map(([key, what]) => `<p><span>${what}</span><b>${key}</b></p>`).join("");

@@ -156,6 +156,49 @@ test("vertices are inserted and removed by double clicks, and by keys", async ()
   assert.equal((await rings())[0].xy.length, 8);
 });
 
+test("a shape is drawn, bent, moved and taken away by keys alone", async () => {
+  await page.click("[data-menu=file-menu]");
+  await page.click("[data-do=new]");
+  await page.focus("#plane");
+  const press = async (...keys) => {
+    for (const key of keys) await page.keyboard.press(key);
+    await settled();
+  };
+  const first_edge = () => page.evaluate(() => studio.rings[0].edges.get(0));
+  await press("r", "Enter");
+  assert.equal((await rings())[0].xy.length, 8);
+  assert.equal(await edges(), 4);
+  await press("]", "]");
+  assert.equal(await first_edge(), 0.2);
+  const arc = await page.evaluate(() => studio.axis.length);
+  await press("q");
+  assert.equal((await first_edge()).length, 4);
+  const curve = await page.evaluate(() => studio.axis.length);
+  assert.ok(Math.abs(curve / arc - 1) < 0.01, `${arc}, ${curve}`);
+  await press("q");
+  assert.equal(await first_edge(), undefined);
+  const [{ xy: before }] = await rings();
+  await press("Control+ArrowRight");
+  const [{ xy }] = await rings();
+  for (let k = 0; k < 8; ++k) assert.ok(k % 2 ? xy[k] === before[k] : xy[k] > before[k]);
+  await press("c", "Enter");
+  assert.equal((await rings()).length, 2);
+  await press("Shift+Delete");
+  assert.equal((await rings()).length, 1);
+});
+
+test("a double click on an edge's dot makes it a curve", async () => {
+  await paste(BOX);
+  await page.mouse.move(...(await screen(20, 0)));
+  await settled();
+  await page.mouse.dblclick(...(await screen(20, 0)));
+  await settled();
+  assert.equal((await page.evaluate(() => studio.rings[0].edges.get(0))).length, 4);
+  await page.keyboard.press("Control+z");
+  await settled();
+  assert.equal((await rings())[0].bent, 0);
+});
+
 test("a hole is drawn, and dragged", async () => {
   await paste(BOX);
   await page.click("[data-tool=rectangle]");
