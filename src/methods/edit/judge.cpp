@@ -64,8 +64,7 @@ Meeting meeting(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   return apart ? Meeting::none : Meeting::touch;
 }
 
-/// How two segments meet of which one begins or ends in `shared`, where the other one does: there
-/// only, or along each other.
+/// How two segments with a common end `shared` meet: there only, or along each other.
 Meeting meeting_at(Vec2 shared, Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   const Vec2 one = a == shared ? b : a, other = c == shared ? d : c;
   const bool is_along =
