@@ -447,6 +447,48 @@ TEST(Editor, ChangesLittleOfALargeAxis) {
   EXPECT_EQ(fault_of(editor), "");
 }
 
+/// Teeth of a comb whose tips lie on the other side: each is a loop of its own then.
+TEST(Editor, FollowsEditsWhileEdgesTouch) {
+  Ring bar{{{0, 0}, {100, 0}, {100, 10}}, RingRole::any, {}};
+  for (int i = 24; i > 0; --i)
+    for (const Vec2 p : {Vec2{4.0 * i + 1, 10}, {4.0 * i, 2}, {4.0 * i - 1, 10}})
+      bar.points.push_back(p);
+  bar.points.push_back({0, 10});
+  Editor editor = editor_of({bar});
+  const std::uint32_t flat = editor.insert(vertex_at(editor, {0, 0}), {50, 0})->vertex;
+  ASSERT_TRUE(editor.move(flat, {50, 0}).ok());
+  const std::uint32_t tip = vertex_at(editor, {40, 2}), wall = vertex_at(editor, {52, 2});
+  const auto touching = editor.move(tip, {40, 0});
+  ASSERT_TRUE(touching.ok()) << to_string(touching.error());
+  EXPECT_TRUE(touching->everything);
+  ASSERT_TRUE(editor.move(wall, {50, 0}).ok());  // a corner at the flat vertex
+  EXPECT_EQ(editor.shape().component_count(), 3U);
+  EXPECT_EQ(fault_of(editor), "");
+  Mirror mirror(editor);
+  const auto expect_local = [&](const Result<AxisChange>& change) {
+    ASSERT_TRUE(change.ok()) << to_string(change.error());
+    EXPECT_FALSE(change->everything);
+    mirror.follow(*change);
+    mirror.expect(editor);
+    EXPECT_EQ(fault_of(editor), "");
+    EXPECT_EQ(editor.shape().component_count(), 3U);
+  };
+  const std::uint32_t far = vertex_at(editor, {20, 2}), beside = vertex_at(editor, {41, 10});
+  expect_local(editor.move(far, {20.5, 1}));
+  expect_local(editor.move(beside, {41.5, 9}));  // of an edge that touches
+  const auto inserted = editor.insert(far, {20, 5});
+  expect_local(inserted);
+  expect_local(editor.remove(far));
+  const auto crossing = editor.move(vertex_at(editor, {80, 2}), {80, -1});
+  ASSERT_FALSE(crossing.ok());
+  EXPECT_EQ(crossing.error().code, ErrorCode::crossing);
+  for (int i = 0; i < 4; ++i) expect_local(editor.undo());
+  EXPECT_EQ(editor.vertex(far), (Vec2{20, 2}));
+  for (int i = 0; i < 2; ++i) ASSERT_TRUE(editor.undo().ok());
+  EXPECT_EQ(editor.shape().component_count(), 1U);
+  EXPECT_EQ(fault_of(editor), "");
+}
+
 TEST(Editor, FollowsAVertexThatJumpsAcrossOthers) {
   Ring bar;
   for (int i = 0; i <= 12; ++i) bar.points.push_back({5.0 * i, 0.25 * (i % 2)});

@@ -67,6 +67,13 @@ const bundle = await build({
   bundle: true, format: "esm", target: "es2022", minify: true, write: false, legalComments: "inline",
   define: { "import.meta.url": "document.baseURI" }, nodePaths: [npm], plugins: [made], logLevel: "warning",
 });
+/** A program of the page that runs here. */
+async function run_here(path) {
+  const { outputFiles } = await build({ entryPoints: [join(web, path)], bundle: true, format: "esm", write: false, nodePaths: [npm], plugins: [made] });
+  return import(`data:text/javascript;base64,${Buffer.from(outputFiles[0].text).toString("base64")}`);
+}
+const { poster, poster_style } = await run_here("src/poster.mjs");
+const medial = await import(join(tree, "package/index.mjs"));
 const style = await build({ entryPoints: [join(web, "style.css")], minify: true, write: false });
 
 /** A part of the module: the first one as it is, so that it is compiled at once, the second one packed. */
@@ -83,8 +90,9 @@ const later_parts = [
   ...(await Promise.all(later.map(later_script))),
 ];
 const page = (await text(join(web, "index.html")))
-  .replace('<link rel="stylesheet" href="style.css">', () => `<style>${style.outputFiles[0].text}</style>`)
-  .replace("</head>", () => `${first}\n</head>`)
+  .replace('<link rel="stylesheet" href="style.css">', () => `<style>${style.outputFiles[0].text}${poster_style(style.outputFiles[0].text)}</style>`)
+  // First what is shown; not where the address holds another shape.
+  .replace("<!-- poster -->", () => `${poster(medial)}<script>if(location.hash.length>1)poster.remove()</script>\n${first}`)
   .replace('<script type="module" src="src/main.mjs"></script>', () => `<script>${script}</script>`)
   .replace("</body>", () => `${later_parts.join("\n")}\n</body>`);
 

@@ -2,6 +2,7 @@
 
 import { arc_of, next_of, point_of, size_of } from "./model.mjs";
 import { SHADES, add_part, clipped, conic } from "./pieces.mjs";
+import { ramp_of } from "./poster.mjs";
 
 const FAR = 2e4; // pixels beyond which a canvas loses digits
 
@@ -11,13 +12,7 @@ export function read_theme() {
   const get = (name) => style.getPropertyValue(`--${name}`).trim();
   const names = ["paper", "grid", "fill", "ink", "faint", "accent", "warm", "disk", "disk-line", "fire", "offset", "error"];
   const theme = Object.fromEntries(names.map((name) => [name, get(name)]));
-  const stops = get("ramp").split(/\s+/).map((hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16)));
-  theme.ramp = Array.from({ length: SHADES }, (_, i) => {
-    const at = (i / (SHADES - 1)) * (stops.length - 1);
-    const k = Math.min(stops.length - 2, Math.floor(at));
-    const mix = stops[k].map((v, d) => Math.round(v + (at - k) * (stops[k + 1][d] - v)));
-    return `rgb(${mix.join(" ")})`;
-  });
+  theme.ramp = ramp_of(get("ramp"));
   return theme;
 }
 
@@ -375,7 +370,8 @@ let covered = new Uint8Array(0); // half pixels that have a short piece
 
 /**
  * The edges in a part of the screen by their shades, as numbers of conics on the screen. Of pieces
- * shorter than half a pixel one is drawn in each half pixel.
+ * shorter than half a pixel one is drawn in each half pixel. Of edges that are smaller than a pixel, few
+ * are looked at in each.
  */
 function conics_in(live, camera, part) {
   const [left, top, right, bottom] = part;
@@ -424,7 +420,9 @@ function conics_in(live, camera, part) {
     shades_of.forEach((shade, i) => shades[Math.min(SHADES - 1, Math.max(0, Math.round(shade)))].push(...parts_of.slice(7 * i, 7 * i + 7)));
   };
   const box = box_of(camera, part, 4);
-  if (live.edges.share(box) < 1 / 16) live.edges.find(box, add);
+  const [pixel, few] = [1, 4];
+  if (live.edges.finest * scale < pixel) live.edges.find(box, add, few);
+  else if (live.edges.share(box) < 1 / 16) live.edges.find(box, add);
   else for (let e = 0; e < live.edges.room; ++e) if (live.edges.has(e)) add(e);
   return shades;
 }
@@ -480,6 +478,10 @@ function trace_part(live, camera, part) {
   const found = live.in_box(box_of(camera, part, 4));
   const walk = (first) => {
     for (let v = first; live.take(v); v = next[v]) {
+      if (live.bulge[v] === 0) {
+        add(live.x[v], live.y[v], live.x[next[v]], live.y[next[v]]);
+        continue;
+      }
       const line = live.edge(v, scale);
       for (let k = 0; k + 2 < line.length; k += 2) add(line[k], line[k + 1], line[k + 2], line[k + 3]);
     }

@@ -213,7 +213,7 @@ export async function rings_of_file(file) {
 
 // Out.
 
-const number = (value) => String(+value.toPrecision(12));
+export const number = (value) => String(+value.toPrecision(12));
 
 /** The path data of a ring, with y as in SVG. */
 export function path_data(ring) {
@@ -243,14 +243,20 @@ export function svg_of({ rings, scene, axis, deepest }, ramp) {
   if (scene.regions)
     rows.push(`<path d="${scene.regions.map(path_data).join("")}" fill="none" stroke="#c2571a" stroke-width="${number(width / 3)}"/>`);
   rows.push(`<g fill="none" stroke-linecap="round" stroke-width="${number(width)}"><desc>medial axis; largest radius ${number(deepest)}</desc>`);
-  const { begin, numbers } = scene.pieces ?? new Pieces(axis);
+  for (const [shade, d] of conics_of(scene.pieces ?? new Pieces(axis))) rows.push(`<path d="${d}" stroke="${ramp[shade]}"/>`);
+  return `${rows.join("\n")}\n</g>\n</svg>\n`;
+}
+
+/** The shades that pieces of an axis have, each with its path data. */
+export function conics_of({ begin, numbers }) {
+  const shades = [];
   for (let shade = 0; shade + 1 < begin.length; ++shade) {
     if (begin[shade] === begin[shade + 1]) continue;
     let d = "";
     for (let k = 7 * begin[shade]; k < 7 * begin[shade + 1]; k += 7) d += conic_data(numbers.subarray(k, k + 7));
-    rows.push(`<path d="${d}" stroke="${ramp[shade]}"/>`);
+    shades.push([shade, d]);
   }
-  return `${rows.join("\n")}\n</g>\n</svg>\n`;
+  return shades;
 }
 
 function conic_data([x0, y0, x, y, x1, y1, w]) {

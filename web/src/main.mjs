@@ -9,6 +9,7 @@ import { count_of } from "./model.mjs";
 import { connect_panel } from "./panel.mjs";
 import { first_part, second_part } from "./parts.mjs";
 import { Player } from "./player.mjs";
+import { LEAF } from "./poster.mjs";
 import { Studio } from "./studio.mjs";
 import { Tools } from "./tools.mjs";
 import { start_tour } from "./tour.mjs";
@@ -17,8 +18,6 @@ const $ = (id) => document.getElementById(id);
 
 // This runs when the page is read up to the canvas. An axis takes only the first part of the module: it is drawn
 // before the rest of the page and of the module is read.
-
-const LEAF = "M 3 52 C 12 18 44 0 78 6 C 96 9 112 22 118 44 C 104 38 96 40 90 46 C 98 50 104 58 104 70 C 94 62 84 60 76 64 C 72 84 50 96 24 86 C 34 82 38 76 36 70 C 26 70 10 66 3 52 Z";
 
 let read_second;
 const second = new Promise((use) => (read_second = use)).then(() => $("medial-rest") && second_part());
@@ -59,6 +58,7 @@ document.body.classList.toggle("no-panel", is_small);
 studio.resize(innerWidth, innerHeight); // before the observer comes to it
 const is_read = await first();
 studio.frame();
+$("poster")?.remove();
 performance.mark("first axis", { detail: studio.scene.error?.code });
 await new Promise((done) => requestAnimationFrame(() => setTimeout(done))); // it is shown before more is laid out
 await page_read();
@@ -237,7 +237,9 @@ $("code-copy").addEventListener("click", async () => {
 const KEYS = [
   ["V P R C F H", "choose a tool"], ["G", "snap"], ["0", "show all"], ["+  −", "zoom"], ["Ctrl Z", "undo"],
   ["Ctrl Shift Z", "redo"], ["Tab, Shift Tab", "next, previous vertex"], ["arrows", "move the vertex, or the view"], ["Shift arrows", "ten times as far"],
-  ["I", "insert a vertex"], ["Delete", "remove the vertex"], ["Enter", "close the polygon"], ["Esc", "deselect"], ["N", "new drawing"],
+  ["Ctrl arrows", "move its ring"],
+  ["I", "insert a vertex"], ["Delete", "remove the vertex"], ["Shift Delete", "remove its ring"], ["[  ]", "bend the edge after it"],
+  ["Q", "a curve, or a line again"], ["Enter", "close the polygon, or draw in the middle"], ["Esc", "deselect"], ["N", "new drawing"],
   ["B", "fire"], ["L", "roll"], ["Ctrl O", "open"], ["Ctrl V", "paste a shape"], ["wheel, pinch", "zoom"], ["space, right button", "pan"],
 ];
 $("keys").innerHTML = KEYS.map(([key, what]) => `<p><span>${what}</span><b>${key}</b></p>`).join("");

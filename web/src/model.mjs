@@ -51,6 +51,31 @@ export function with_edge(ring, i, edge) {
   return { xy: ring.xy, edges };
 }
 
+/** A ring whose edge i is a cubic curve instead of a line or an arc, or a line instead of a curve. */
+export function with_curve(ring, i) {
+  const edge = ring.edges.get(i);
+  if (Array.isArray(edge)) return with_edge(ring, i, 0);
+  const [a, b] = [point_of(ring, i), point_of(ring, next_of(ring, i))];
+  if (edge === undefined) return with_edge(ring, i, [1, 2].flatMap((k) => [0, 1].map((d) => a[d] + ((b[d] - a[d]) * k) / 3)));
+  const { begin, angle, radius } = arc_of(a, b, edge);
+  const reach = (4 / 3) * edge * radius;
+  const along = (at, sign) => [-sign * Math.sin(at) * reach, sign * Math.cos(at) * reach];
+  const [from, to] = [along(begin, 1), along(begin + angle, -1)];
+  return with_edge(ring, i, [a[0] + from[0], a[1] + from[1], b[0] + to[0], b[1] + to[1]]);
+}
+
+/** A ring whose edge i is bent further to its right by a share of its length, a negative one to its left. */
+export function with_bend(ring, i, share) {
+  const edge = ring.edges.get(i);
+  if (!Array.isArray(edge)) {
+    const bulge = Math.min(1, Math.max(-1, (edge ?? 0) + 2 * share));
+    return with_edge(ring, i, Math.abs(bulge) < 1e-9 ? 0 : bulge);
+  }
+  const [a, b] = [point_of(ring, i), point_of(ring, next_of(ring, i))];
+  const by = [(b[1] - a[1]) * share, (a[0] - b[0]) * share];
+  return with_edge(ring, i, edge.map((v, k) => v + by[k % 2]));
+}
+
 /** A ring with a vertex more inside of edge i. */
 export function with_vertex(ring, i, [x, y]) {
   const xy = new Float64Array(ring.xy.length + 2);

@@ -69,19 +69,26 @@ export class Quads {
     this.#cell[number] = -1;
   }
 
-  /** Calls visit(number) for each box that may meet the given one, and for some that do not. */
-  find([x0, y0, x1, y1], visit) {
+  /**
+   * Calls visit(number) for each box that may meet the given one, and for some that do not; in cells of the
+   * last level for `most` of them.
+   */
+  find([x0, y0, x1, y1], visit, most = Infinity) {
     for (let level = 0; level < LEVELS; ++level) {
       const first = this.#first[level];
       if (!first) continue;
       const count = 1 << level;
       const half = this.side / count / 2;
-      const [left, right] = [this.#row(x0 - half - this.x, count), this.#row(x1 + half - this.x, count)];
+      const [from, to] = [this.#row(x0 - half - this.x, count), this.#row(x1 + half - this.x, count)];
       const [low, high] = [this.#row(y0 - half - this.y, count), this.#row(y1 + half - this.y, count)];
       for (let row = low; row <= high; ++row)
-        for (let cell = row * count + left; cell <= row * count + right; ++cell)
-          for (let at = first[cell]; at >= 0; at = this.#next[at]) visit(at);
+        for (let cell = row * count + from; cell <= row * count + to; ++cell)
+          for (let at = first[cell], left = level + 1 < LEVELS ? Infinity : most; at >= 0 && left > 0; at = this.#next[at], --left) visit(at);
     }
+  }
+  /** How large a cell of the last level is. */
+  get finest() {
+    return this.side / (1 << (LEVELS - 1));
   }
 
   /** What find() costs less than, about: the share of the whole that a box covers. */

@@ -193,7 +193,8 @@ export class Studio extends EventTarget {
       if (innerWidth - box.right - right > 400) left = box.right + 12;
       else low = innerHeight - box.top + 12;
     }
-    this.camera.fit(bounds_of(this.rings), [66, right, low, left]);
+    const top = !wide && tour?.hidden === false ? 132 : 66; // below what a step of the tour says
+    this.camera.fit(bounds_of(this.rings), [top, right, low, left]);
     this.ask();
   }
   emit(name, detail) {
@@ -375,7 +376,9 @@ export class Studio extends EventTarget {
       const points = outline(ring);
       return [...points, points[0]];
     });
-    const { edges } = this.medial.voronoi({ type: "MultiLineString", coordinates: lines }, { chord: 0.3 / this.camera.scale });
+    const [x0, y0, x1, y1] = bounds_of(this.rings);
+    const margin = 4 * Math.max(x1 - x0, y1 - y0); // beyond what a screen of any form shows
+    const { edges } = this.medial.voronoi({ type: "MultiLineString", coordinates: lines }, { margin, chord: 0.3 / this.camera.scale });
     this.scene.cells = edges.filter((edge) => !edge.onEnclosure).map(({ line }) => line.map(([x, y]) => [x, y]));
   }
   #largest_disks() {

@@ -3,12 +3,12 @@
 import { nice_step } from "./draw.mjs";
 import {
   arc_of, contains, count_of, moved_edge, moved_ring, moved_vertex, next_of, point_of, ring_of, samples, size_of,
-  with_edge, with_vertex, without_vertex,
+  with_bend, with_curve, with_edge, with_vertex, without_vertex,
 } from "./model.mjs";
 import { smooth_ring } from "./freehand.mjs";
 
 const HINTS = {
-  select: "Drag a vertex, an edge, or the dot that bends it; double-click inserts or removes a vertex",
+  select: "Drag a vertex, an edge, or the dot that bends it; double-click inserts or removes a vertex, on a dot it makes a curve",
   polygon: "Click the vertices; Enter, or a click on the first one, closes the polygon",
   rectangle: "Drag from corner to corner; inside a shape it becomes a hole",
   circle: "Drag from the centre; inside a shape it becomes a hole",
@@ -332,7 +332,8 @@ export class Tools {
     const at = this.#place(event);
     const hot = this.#under(at, false);
     if (hot?.kind === "vertex") this.#remove(hot);
-    if (hot?.kind === "edge") this.#insert(hot, this.#plane(at));
+    else if (hot?.handle) this.#reform(hot, with_curve);
+    else if (hot?.kind === "edge") this.#insert(hot, this.#plane(at));
   }
   #insert({ ring, index }, point) {
     if (this.studio.edit([{ kind: "insert", ring, index: index + 1, point }])) {
@@ -350,6 +351,18 @@ export class Tools {
     }
     this.scene.hot = null;
     this.chosen = null;
+  }
+
+  /** Gives an edge another form. */
+  #reform({ ring, index }, form) {
+    const next = form(this.scene.rings[ring], index);
+    const edge = next.edges.get(index) ?? 0;
+    const is_curve = Array.isArray(edge) || Array.isArray(this.scene.rings[ring].edges.get(index));
+    if (!is_curve && this.studio.edit([{ kind: "bend", ring, index, edge }])) this.studio.done();
+    else this.studio.change(this.scene.rings.with(ring, next));
+    const of = { kind: "edge", ring, index };
+    this.scene.hot = { ...of, handles: this.#handles(of) };
+    this.say(Array.isArray(edge) ? "a curve" : edge ? `an arc, bulge ${+edge.toPrecision(3)}` : "a line");
   }
 
   // Zooming.
@@ -383,17 +396,24 @@ export class Tools {
 
   #key(event) {
     const { key, shiftKey } = event;
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    if (key === "Tab" && this.scene.rings.length) {
+    if (event.metaKey || event.altKey) return;
+    if (event.ctrlKey) {
+      if (!this.chosen || !key.startsWith("Arrow")) return;
+      this.#arrow(key, shiftKey ? 10 : 1, true);
+    } else if (key === "Tab" && this.scene.rings.length) {
       if (!this.#step(shiftKey ? -1 : 1)) return;
     } else if (key.startsWith("Arrow")) this.#arrow(key, shiftKey ? 10 : 1);
     else if ((key === "i" || key === "I") && this.chosen) this.#insert_after();
+    else if ((key === "q" || key === "Q") && this.chosen) this.#reform(this.chosen, with_curve);
+    else if ("[]".includes(key) && this.chosen) this.#reform(this.chosen, (ring, i) => with_bend(ring, i, key === "]" ? 0.05 : -0.05));
+    else if (key === "Delete" && shiftKey && this.chosen) this.#remove_ring(this.chosen.ring);
     else if ((key === "Delete" || key === "Backspace") && this.chosen) {
       const { ring, index } = this.chosen;
       this.#remove(this.chosen);
       const still = this.scene.rings[ring];
       if (still) this.#show_chosen({ kind: "vertex", ring, index: index % size_of(still) });
     } else if (key === "Enter" && this.scene.draft?.dots) this.#close();
+    else if (key === "Enter" && this.#in_the_middle()) this.#add_chosen(this.#in_the_middle());
     else if (key === "Escape") {
       this.scene.draft = null;
       this.chosen = null;
@@ -428,14 +448,35 @@ export class Tools {
     const [x, y] = point_of(this.scene.rings[chosen.ring], chosen.index);
     this.say(`ring ${chosen.ring + 1}, vertex ${chosen.index + 1}, at ${+x.toPrecision(6)}, ${+y.toPrecision(6)}`);
   }
-  #arrow(key, factor) {
+  #remove_ring(ring) {
+    this.studio.change(this.scene.rings.toSpliced(ring, 1));
+    this.chosen = null;
+    this.scene.hot = null;
+  }
+  /** What a tool draws without a pointer: a ring in the middle of the view, to be changed by keys. */
+  #in_the_middle() {
+    const { width, height, scale } = this.camera;
+    const center = this.camera.toPlane(width / 2, height / 2);
+    const r = Math.min(width, height) / scale / 8;
+    const at = (x, y) => [center[0] + x * r, center[1] + y * r];
+    if (this.tool === "circle") return circle(center, r);
+    if (this.tool === "rectangle") return rectangle(at(-1, -1), at(1, 1));
+    return this.tool === "polygon" ? ring_of([at(-1, -1), at(1, -1), at(0, 1)]) : null;
+  }
+  #add_chosen(ring) {
+    this.#add(ring);
+    this.#show_chosen({ kind: "vertex", ring: this.scene.rings.length - 1, index: 0 });
+  }
+  /** Moves the vertex that is chosen, its whole ring, or the view. */
+  #arrow(key, factor, of_ring = false) {
     const [dx, dy] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[key];
     if (!this.chosen) return this.camera.pan(-dx * 40 * Math.sqrt(factor), dy * 40 * Math.sqrt(factor));
     const step = (this.snap ? nice_step(this.camera) : 1 / this.camera.scale) * factor;
     const { ring, index } = this.chosen;
     const [x, y] = point_of(this.scene.rings[ring], index);
     const point = [x + dx * step, y + dy * step];
-    if (this.studio.edit([{ kind: "move", ring, index, point }])) this.studio.done();
+    if (of_ring) this.studio.change(this.scene.rings.with(ring, moved_ring(this.scene.rings[ring], dx * step, dy * step)));
+    else if (this.studio.edit([{ kind: "move", ring, index, point }])) this.studio.done();
     else this.studio.change(this.scene.rings.with(ring, moved_vertex(this.scene.rings[ring], index, point)));
     this.#show_chosen(this.chosen);
   }

@@ -156,6 +156,49 @@ test("vertices are inserted and removed by double clicks, and by keys", async ()
   assert.equal((await rings())[0].xy.length, 8);
 });
 
+test("a shape is drawn, bent, moved and taken away by keys alone", async () => {
+  await page.click("[data-menu=file-menu]");
+  await page.click("[data-do=new]");
+  await page.focus("#plane");
+  const press = async (...keys) => {
+    for (const key of keys) await page.keyboard.press(key);
+    await settled();
+  };
+  const first_edge = () => page.evaluate(() => studio.rings[0].edges.get(0));
+  await press("r", "Enter");
+  assert.equal((await rings())[0].xy.length, 8);
+  assert.equal(await edges(), 4);
+  await press("]", "]");
+  assert.equal(await first_edge(), 0.2);
+  const arc = await page.evaluate(() => studio.axis.length);
+  await press("q");
+  assert.equal((await first_edge()).length, 4);
+  const curve = await page.evaluate(() => studio.axis.length);
+  assert.ok(Math.abs(curve / arc - 1) < 0.01, `${arc}, ${curve}`);
+  await press("q");
+  assert.equal(await first_edge(), undefined);
+  const [{ xy: before }] = await rings();
+  await press("Control+ArrowRight");
+  const [{ xy }] = await rings();
+  for (let k = 0; k < 8; ++k) assert.ok(k % 2 ? xy[k] === before[k] : xy[k] > before[k]);
+  await press("c", "Enter");
+  assert.equal((await rings()).length, 2);
+  await press("Shift+Delete");
+  assert.equal((await rings()).length, 1);
+});
+
+test("a double click on an edge's dot makes it a curve", async () => {
+  await paste(BOX);
+  await page.mouse.move(...(await screen(20, 0)));
+  await settled();
+  await page.mouse.dblclick(...(await screen(20, 0)));
+  await settled();
+  assert.equal((await page.evaluate(() => studio.rings[0].edges.get(0))).length, 4);
+  await page.keyboard.press("Control+z");
+  await settled();
+  assert.equal((await rings())[0].bent, 0);
+});
+
 test("a hole is drawn, and dragged", async () => {
   await paste(BOX);
   await page.click("[data-tool=rectangle]");
@@ -172,6 +215,32 @@ test("the first axis needs only the first part of the module", async () => {
     return [detail, startTime < performance.getEntriesByType("navigation")[0].domInteractive];
   }));
   assert.deepEqual(found, [[null, true]]); // no error, and the rest of the page was not read yet
+});
+
+test("the first axis is on the screen before any program runs, where the studio draws it", async () => {
+  for (const viewport of [{ width: 1200, height: 800 }, { width: 390, height: 780 }]) {
+    const still = await browser.newPage({ viewport, javaScriptEnabled: false });
+    await still.goto(address);
+    const shown = await still.locator("#poster .area").boundingBox();
+    assert.ok((await still.locator("#poster [class^=s]").count()) > 30);
+    await still.close();
+    const opened = await open({ viewport });
+    assert.equal(await opened.locator("#poster").count(), 0);
+    const [left, top, right, bottom] = await opened.evaluate(() => {
+      const points = studio.rings[0].xy;
+      const [xs, ys] = [0, 1].map((d) => [...points].filter((_, k) => k % 2 === d));
+      const low = studio.camera.toScreen(Math.min(...xs), Math.min(...ys));
+      const high = studio.camera.toScreen(Math.max(...xs), Math.max(...ys));
+      return [low[0], high[1], high[0], low[1]];
+    });
+    for (const [drawn, painted] of [[left, shown.x], [right, shown.x + shown.width]]) assert.ok(Math.abs(drawn - painted) < 2, `${drawn}, ${painted}`);
+    assert.ok(top > shown.y - 2 && bottom < shown.y + shown.height + 2, `${[top, bottom]}, ${Object.values(shown)}`);
+    await opened.close();
+  }
+  const linked = await browser.newPage();
+  await linked.goto(`${address}#none`);
+  assert.equal(await linked.locator("#poster").count(), 0);
+  await linked.close();
 });
 
 test("a hole of many vertices is dragged, and the axis follows", async () => {

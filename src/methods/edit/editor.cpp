@@ -41,7 +41,8 @@ Result<Editor> Editor::make(const Shape& shape, const Options& options) {
                    {}};
     auto parts = std::make_unique<Parts>();
     parts->options = options;
-    if (auto started = parts->start(shape, true); !started) return std::move(started).error();
+    if (auto started = parts->start(shape, true, false); !started)
+      return std::move(started).error();
     parts->options.progress = {};
     parts->options.cancel = nullptr;
     return Editor(std::move(parts));
@@ -77,7 +78,7 @@ std::array<double, 2> bulges_through(Vec2 start, Vec2 middle, Vec2 end) {
 }  // namespace
 
 Result<AxisChange> Editor::move(std::uint32_t vertex, Vec2 to) {
-  const Rings& rings = parts_->rings;
+  const Rings& rings = parts_->edited();
   if (!rings.has(vertex)) return no_such_vertex(vertex);
   if (rings[vertex].point == to) return unchanged(vertex);
   return guarded<AxisChange>(1, [&] {
@@ -88,7 +89,7 @@ Result<AxisChange> Editor::move(std::uint32_t vertex, Vec2 to) {
 }
 
 Result<AxisChange> Editor::insert(std::uint32_t before, Vec2 point) {
-  const Rings& rings = parts_->rings;
+  const Rings& rings = parts_->edited();
   if (!rings.has(before)) return no_such_vertex(before);
   return guarded<AxisChange>(1, [&] {
     const Rings::Vertex& from = rings[before];
@@ -99,7 +100,7 @@ Result<AxisChange> Editor::insert(std::uint32_t before, Vec2 point) {
 }
 
 Result<AxisChange> Editor::remove(std::uint32_t vertex) {
-  const Rings& rings = parts_->rings;
+  const Rings& rings = parts_->edited();
   if (!rings.has(vertex)) return no_such_vertex(vertex);
   return guarded<AxisChange>(1, [&] {
     const Rings::Vertex& own = rings[vertex];
@@ -109,7 +110,7 @@ Result<AxisChange> Editor::remove(std::uint32_t vertex) {
 }
 
 Result<AxisChange> Editor::set_bulge(std::uint32_t vertex, double bulge) {
-  const Rings& rings = parts_->rings;
+  const Rings& rings = parts_->edited();
   if (!rings.has(vertex)) return no_such_vertex(vertex);
   if (rings[vertex].bulge == bulge) return unchanged(vertex);
   return guarded<AxisChange>(1, [&] {
@@ -133,7 +134,7 @@ Result<AxisChange> Editor::insert_loop(const Ring& ring) {
     for (std::size_t i = 0; i < ring.points.size(); ++i) {
       const Vec2 p = ring.points[i];
       if (p == ring.points[i + 1 < ring.points.size() ? i + 1 : 0]) continue;
-      const auto number = parts_->rings.unused() + static_cast<std::uint32_t>(edit.in.size());
+      const auto number = parts_->edited().unused() + static_cast<std::uint32_t>(edit.in.size());
       edit.in.push_back({number, p, i < ring.bulges.size() ? ring.bulges[i] : 0});
     }
     if (edit.in.size() < 2)
@@ -143,7 +144,7 @@ Result<AxisChange> Editor::insert_loop(const Ring& ring) {
 }
 
 Result<AxisChange> Editor::remove_loop(std::uint32_t vertex) {
-  if (!parts_->rings.has(vertex)) return no_such_vertex(vertex);
+  if (!parts_->edited().has(vertex)) return no_such_vertex(vertex);
   return guarded<AxisChange>(1, [&] {
     edit::Edit edit;
     edit.out = parts_->corners_of(vertex);
@@ -152,15 +153,15 @@ Result<AxisChange> Editor::remove_loop(std::uint32_t vertex) {
 }
 
 Result<AxisChange> Editor::move_loop(std::uint32_t vertex, Vec2 by) {
-  if (!parts_->rings.has(vertex)) return no_such_vertex(vertex);
+  if (!parts_->edited().has(vertex)) return no_such_vertex(vertex);
   if (by == Vec2{}) return unchanged(vertex);
   return guarded<AxisChange>(1, [&] {
     edit::Edit edit;
     edit.out = edit.in = parts_->corners_of(vertex);
     for (edit::Corner& corner : edit.in) corner.point = corner.point + by;
     // Around holes, a loop stays an outer one.
-    const std::uint32_t loop = parts_->rings[vertex].loop;
-    if (parts_->rings.hole_in(loop) != edit::none) edit.seat = parts_->rings.seat_of(loop);
+    const std::uint32_t loop = parts_->edited()[vertex].loop;
+    if (parts_->edited().hole_in(loop) != edit::none) edit.seat = parts_->edited().seat_of(loop);
     return parts_->change(edit);
   });
 }
@@ -170,12 +171,12 @@ Result<AxisChange> Editor::undo() {
 }
 
 std::optional<Vec2> Editor::vertex(std::uint32_t number) const {
-  if (!parts_->rings.has(number)) return std::nullopt;
-  return parts_->rings[number].point;
+  if (!parts_->edited().has(number)) return std::nullopt;
+  return parts_->edited()[number].point;
 }
 std::optional<double> Editor::bulge(std::uint32_t vertex) const {
-  if (!parts_->rings.has(vertex)) return std::nullopt;
-  return parts_->rings[vertex].bulge;
+  if (!parts_->edited().has(vertex)) return std::nullopt;
+  return parts_->edited()[vertex].bulge;
 }
 std::optional<Node> Editor::node(std::uint32_t number) const {
   if (!parts_->graph.has_node(number)) return std::nullopt;
@@ -186,15 +187,16 @@ std::optional<Edge> Editor::edge(std::uint32_t number) const {
   return parts_->edge(number);
 }
 std::optional<Site> Editor::site(std::uint32_t number) const {
-  const bool is_there =
-      parts_->apart.empty() ? parts_->rings.is_site(number) : number < parts_->apart.size();
-  if (!is_there) return std::nullopt;
+  if (!parts_->rings.is_site(number)) return std::nullopt;
   return parts_->site(number);
 }
 
 Shape Editor::shape() const {
-  if (!parts_->apart.empty()) return parts_->apart_shape;
-  return parts_->rings.shape();
+  Shape shape = parts_->rings.shape();
+  if (parts_->touching)
+    for (VertexSource& source : shape.sources)
+      source.vertex = parts_->touching->vertex_at(source.vertex);
+  return shape;
 }
 
 MedialAxis Editor::axis() const {
@@ -210,18 +212,13 @@ MedialAxis Editor::axis() const {
     number[node] = static_cast<std::uint32_t>(axis.nodes.size());
     axis.nodes.push_back(parts.node(node));
     std::uint32_t& component = axis.nodes.back().component;
-    if (parts.apart.empty()) component = components[component];
+    component = components[component];
   }
-  if (!parts.apart.empty()) {
-    axis.sites = parts.apart;
-    for (std::uint32_t i = 0; i < axis.sites.size(); ++i) site_numbers.push_back(i);
-  } else {
-    site_numbers.resize(2 * parts.rings.size(), none);
-    parts.rings.for_sites([&](std::uint32_t site) {
-      site_numbers[site] = static_cast<std::uint32_t>(axis.sites.size());
-      axis.sites.push_back(parts.site(site));
-    });
-  }
+  site_numbers.resize(2 * parts.rings.size(), none);
+  parts.rings.for_sites([&](std::uint32_t site) {
+    site_numbers[site] = static_cast<std::uint32_t>(axis.sites.size());
+    axis.sites.push_back(parts.site(site));
+  });
   for (const std::uint32_t i : edges) {
     Edge edge = parts.edge(i);
     for (std::size_t k = 0; k < 2; ++k) {

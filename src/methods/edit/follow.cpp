@@ -33,11 +33,16 @@ void join(AxisChange& first, const AxisChange& second) {
   join(first.removed_edges, first.added_edges, second.removed_edges, second.added_edges);
 }
 
-Error crossing_error(const Rings::Judgement& judgement) {
-  Error error = error_of(ErrorCode::crossing, "edges would cross", judgement.edge);
+}  // namespace
+
+Error Editor::Parts::crossing_error(const Rings::Judgement& judgement) const {
+  const std::uint32_t edge = touching ? touching->edge_at(judgement.edge, rings) : judgement.edge;
+  Error error = error_of(ErrorCode::crossing, "edges would cross", edge);
   error.place.point = judgement.point;
   return error;
 }
+
+namespace {
 
 /// As build_shape() does.
 void drop_signs_of_zeros(edit::Edit& edit) {
@@ -71,7 +76,7 @@ bool Editor::Parts::fits_frame(const edit::Edit& edit) const {
                      [&](const edit::Corner& corner) { return fits(corner.point); });
 }
 
-std::optional<Error> Editor::Parts::refuse(const edit::Edit& edit) const {
+std::optional<Error> Editor::Parts::refuse(const edit::Edit& edit, const Rings& own) {
   const auto is_finite = [](Vec2 p) { return std::isfinite(p.x) && std::isfinite(p.y); };
   const char* const not_finite = "a coordinate or a bulge is not finite";
   if (edit.is_of_loops()) {
@@ -79,7 +84,7 @@ std::optional<Error> Editor::Parts::refuse(const edit::Edit& edit) const {
       if (!is_finite(corner.point) || !std::isfinite(corner.bulge))
         return error_of(ErrorCode::not_finite, not_finite, corner.number);
     if (edit.out.empty() || !edit.in.empty()) return std::nullopt;
-    const std::uint32_t hole = rings.hole_in(rings[edit.out.front().number].loop);
+    const std::uint32_t hole = own.hole_in(own[edit.out.front().number].loop);
     if (hole == none) return std::nullopt;
     return error_of(ErrorCode::hole_outside, "the hole would not lie inside an outer ring", hole);
   }
@@ -87,8 +92,8 @@ std::optional<Error> Editor::Parts::refuse(const edit::Edit& edit) const {
   if (!std::isfinite(edit.bulge[0]) || !std::isfinite(edit.bulge[1]) ||
       (edit.fresh != none && !is_finite(edit.place)))
     return error_of(ErrorCode::not_finite, not_finite, shown);
-  const std::uint32_t fewest = edit.bulge[0] == 0 && !rings.has_arcs() ? 3 : 2;
-  if (edit.fresh == none && rings.loop_size(rings[edit.before].loop) <= fewest)
+  const std::uint32_t fewest = edit.bulge[0] == 0 && !own.has_arcs() ? 3 : 2;
+  if (edit.fresh == none && own.loop_size(own[edit.before].loop) <= fewest)
     return error_of(ErrorCode::too_few_points, "a loop needs three vertices, or two with arcs",
                     shown);
   return std::nullopt;
@@ -96,14 +101,39 @@ std::optional<Error> Editor::Parts::refuse(const edit::Edit& edit) const {
 
 Result<AxisChange> Editor::Parts::change(edit::Edit edit) {
   drop_signs_of_zeros(edit);
-  if (auto error = refuse(edit)) return std::move(*error);
-  // With arcs, all that comes near touches.
+  if (auto error = refuse(edit, edited())) return std::move(*error);
+  // With arcs, all that comes near touches, and becomes one within the tolerance.
   const bool is_first_arc = !rings.has_arcs() && edit.has_arcs();
-  if (!apart.empty() || is_first_arc || !fits_frame(edit)) return rebuild(edit);
-  const Rings::Judgement judgement = rings.judge(edit);
+  const bool is_merged = touching && (rings.has_arcs() || edited().has_arcs());
+  if (is_first_arc || is_merged || !fits_frame(edit)) return rebuild(edit);
+  const std::optional<edit::Edit> own = touching ? touching->of_loops(edit, rings) : edit;
+  if (!own) return rebuild(edit);
+  const Rings::Judgement judgement = rings.judge(*own);
   if (judgement.verdict == Rings::Verdict::crosses) return crossing_error(judgement);
-  edit::Edit back = rings.inverse(edit);
+  edit::Edit back = edited().inverse(edit);
   edit::make_room(inverse, inverse.size() + 1);
+  if (touching) touching->apply(edit, rings);
+  Result<std::optional<Step>> step = std::optional<Step>();
+  try {
+    step = follow(*own, judgement.verdict);
+  } catch (...) {
+    if (touching) touching->rings().apply(back, false);
+    throw;
+  }
+  if (touching && (!step || !*step)) touching->rings().apply(back, false);
+  if (!step) return std::move(step).error();
+  if (!*step) return rebuild(edit);
+  if (touching) touching->note(edit, *own);
+  inverse.push_back(std::move(back));
+  AxisChange& change = (*step)->change;
+  change.vertex = subject_of(edit);
+  constexpr double shrunk = 16;
+  if (shrunk * diagonal(rings.box()) < diagonal(box)) refine(change);
+  return std::move(change);
+}
+
+/// Makes an edit of the loops. None, and nothing has happened, where all has to be computed again.
+Result<std::optional<Step>> Editor::Parts::follow(const edit::Edit& edit, Rings::Verdict verdict) {
   const Box old_box = box;
   const auto set_box = [&](const Box& other) {
     box = other;
@@ -113,16 +143,10 @@ Result<AxisChange> Editor::Parts::change(edit::Edit edit) {
   rings.add_reach(edit, reach);
   set_box(reach);
   std::optional<Error> refused;
-  auto step =
-      judgement.verdict == Rings::Verdict::unclear ? follow_in_two(edit, refused) : follow(edit);
+  auto step = verdict == Rings::Verdict::unclear ? follow_in_two(edit, refused) : follow(edit);
   if (!step) set_box(old_box);
   if (refused) return std::move(*refused);
-  if (!step) return rebuild(edit);
-  inverse.push_back(std::move(back));
-  step->change.vertex = subject_of(edit);
-  constexpr double shrunk = 16;
-  if (shrunk * diagonal(rings.box()) < diagonal(box)) refine(step->change);
-  return std::move(step->change);
+  return step;
 }
 
 /// Computes all again after a change by which the shape has become much smaller, and the tolerance
@@ -140,12 +164,13 @@ void Editor::Parts::refine(AxisChange& change) {
 
 Result<AxisChange> Editor::Parts::undo() {
   if (inverse.empty()) return AxisChange{};
+  const Rings& own = edited();
   edit::Edit last = inverse.back();
   // build_shape() may have turned the loop round since. Of two vertices, both follow each other.
   const auto is_turned = [&] {
-    const Rings::Vertex& before = rings[last.before];
+    const Rings::Vertex& before = own[last.before];
     return before.next != (last.old != none ? last.old : last.after) ||
-           (rings.loop_size(before.loop) == 2 && before.bulge != last.bulge_before);
+           (own.loop_size(before.loop) == 2 && before.bulge != last.bulge_before);
   };
   if (!last.is_of_loops() && is_turned()) {
     std::swap(last.before, last.after);
@@ -226,7 +251,7 @@ std::optional<Step> Editor::Parts::follow_in_two(const edit::Edit& edit,
   edit::Edit in{edit.before, edit.after, none,    edit.fresh, edit.place,
                 edit.bulge,  {},         edit.in, edit.seat};
   const bool has_two = edit.is_of_loops() ? !edit.out.empty() && !edit.in.empty()
-                                          : edit.old == edit.fresh && !refuse(out);
+                                          : edit.old == edit.fresh && !refuse(out, rings);
   if (!has_two || rings.judge(out).verdict != Rings::Verdict::keeps_form) return std::nullopt;
   const edit::Edit back = rings.inverse(out);
   std::optional<Step> first = follow(out), second;

@@ -64,6 +64,14 @@ Meeting meeting(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   return apart ? Meeting::none : Meeting::touch;
 }
 
+/// How two segments with a common end `shared` meet: there only, or along each other.
+Meeting meeting_at(Vec2 shared, Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+  const Vec2 one = a == shared ? b : a, other = c == shared ? d : c;
+  const bool is_along =
+      orientation(one, shared, other) == 0 && !strictly_between(one, shared, other);
+  return is_along ? Meeting::touch : Meeting::none;
+}
+
 /// Whether segments and arcs of at most a half circle keep further apart than a margin, but for an
 /// end that two share. Says no where that takes long to find out.
 class Apartness {
@@ -227,6 +235,10 @@ Rings::Judgement Rings::judge_straight(const Edit& edit) const {
   if (has_fresh) query.add(x);
   Judgement result;
   if (is_moving && (swept[0].has(n) || swept[1].has(p))) result.verdict = Verdict::unclear;
+  const auto is_shared = [&](Vec2 end) {
+    return (end == p && vertices_[edit.before].touches) ||
+           (end == n && vertices_[edit.after].touches);
+  };
   boxes_.find(query, [&](std::uint32_t s) {
     if (result.verdict == Verdict::crosses) return;
     const std::uint32_t t = vertices_[s].next;
@@ -235,14 +247,18 @@ Rings::Judgement Rings::judge_straight(const Edit& edit) const {
     if (is_own) return;
     for (const NewEdge& edge : edges) {
       if (s == edge.end || t == edge.start) continue;  // they meet there only
-      const Meeting how = meeting(edge.from, edge.to, a, b);
+      const Vec2 end = a == edge.from || a == edge.to ? a : b;
+      const Meeting how = is_shared(end) && (end == edge.from || end == edge.to)
+                              ? meeting_at(end, edge.from, edge.to, a, b)
+                              : meeting(edge.from, edge.to, a, b);
       if (how == Meeting::cross)
         result = {Verdict::crosses, s, crossing_of(edge.from, edge.to, a, b)};
       if (how == Meeting::touch) result.verdict = Verdict::unclear;
     }
     if (result.verdict == Verdict::crosses) return;
     if (is_moving && meeting(v, x, a, b) != Meeting::none) result.verdict = Verdict::unclear;
-    if (s == edit.after) return;
+    // Edges that touch at an end keep clear of what is swept where their other ends do.
+    if (s == edit.after || is_shared(a)) return;
     for (const Triangle& triangle : swept)
       if (triangle.has(a)) result.verdict = Verdict::unclear;
   });

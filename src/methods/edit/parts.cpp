@@ -34,12 +34,13 @@ Result<MedialAxis> local_axis(const Shape& shape, const Options& options, double
 
 namespace {
 
-/// For each site of an axis of the shape's image in the local frame its number.
-std::vector<std::uint32_t> site_numbers(const MedialAxis& axis, const Shape& shape, bool is_first) {
+/// For each site of an axis its number in Rings: with the names of the shape's points, or as these
+/// count.
+std::vector<std::uint32_t> site_numbers(const MedialAxis& axis, const Shape& shape, bool counted) {
   std::vector<std::uint32_t> sites;
   sites.reserve(axis.sites.size());
   for (const Site& site : axis.sites)
-    sites.push_back(2 * (is_first ? site.vertex : shape.sources[site.vertex].vertex) +
+    sites.push_back(2 * (counted ? site.vertex : shape.sources[site.vertex].vertex) +
                     (site.kind() == SiteKind::vertex ? 0 : 1));
   return sites;
 }
@@ -58,8 +59,8 @@ Error from_local(Error error, const Shape& shape, const LocalFrame& frame) {
 }  // namespace
 
 /// Computes the axis of a shape: the first one, or one built from the rings, whose sources name
-/// vertices.
-Status Editor::Parts::start(const Shape& shape, bool is_first) {
+/// vertices; `touches`: edges of it do.
+Status Editor::Parts::start(const Shape& shape, bool is_first, bool touches) {
   if (auto error = medial::refuse(shape, options)) return std::move(*error);
   box = bounding_box(shape);
   const LocalFrame frame = frame_of(box);
@@ -77,29 +78,30 @@ Status Editor::Parts::start(const Shape& shape, bool is_first) {
   tolerance = tolerance_for(box, options.tolerance);
   measures = {frame.scale * tolerance, tolerance_for(local_box, options.tolerance),
               radius_limit(box, frame)};
-  apart.clear();
-  apart_shape = {};
-  apart_components.clear();
-  if (is_first) rings = Rings(shape, frame, joining);
-  if (is_first || rings.adopt(shape, frame, joining)) {
-    graph = AxisGraph(*axis, site_numbers(*axis, shape, is_first));
-  } else {
-    std::vector<std::uint32_t> counted(axis->sites.size());
-    for (std::uint32_t i = 0; i < counted.size(); ++i) counted[i] = i;
-    apart = axis->sites;
-    for (Site& site : apart) {
-      const VertexSource source = shape.sources[site.vertex];
-      site = {frame.to_input(site.start), frame.to_input(site.end), source.ring, source.vertex,
-              site.bulge};
-    }
-    apart_shape = shape;
-    for (const Node& node : axis->nodes) apart_components.push_back(node.component);
-    rings.set_frame(frame);
-    graph = AxisGraph(*axis, counted);
-  }
+  if (is_first)
+    rings = Rings(shape, frame, joining);
+  else
+    set_rings(shape, frame, joining, touches);
+  graph = AxisGraph(*axis, site_numbers(*axis, shape, is_first || touching));
   marks.assign(graph.node_slots() + graph.node_slots() / edit::spare_share, 0);
   mark = 0;
   return success();
+}
+
+/// Takes over the loops of a shape that was built from the rings.
+void Editor::Parts::set_rings(const Shape& shape, const LocalFrame& frame,
+                              const Rings::Joining& joining, bool touches) {
+  if (touching) {
+    rings = std::move(touching->rings());
+    touching.reset();
+  }
+  if (rings.adopt(shape, frame, joining)) {
+    if (touches && !rings.has_arcs()) rings.find_touches();
+    return;
+  }
+  Rings loops(shape, frame, joining);
+  touching.emplace(std::move(rings), shape, loops);
+  rings = std::move(loops);
 }
 
 void Editor::Parts::list_all(std::vector<std::uint32_t>& nodes,
@@ -113,8 +115,9 @@ void Editor::Parts::list_all(std::vector<std::uint32_t>& nodes,
 /// Computes all from the rings, as an edit has left them.
 Status Editor::Parts::start_again() {
   std::vector<std::vector<std::uint32_t>> numbers;
-  const std::vector<Ring> all = rings.rings(numbers);
-  auto shape = build_shape(all);
+  const std::vector<Ring> all = edited().rings(numbers);
+  ShapeReport report;
+  auto shape = build_shape(all, {}, &report);
   if (!shape) {
     Error error = std::move(shape).error();
     if (error.place.ring && error.place.vertex && *error.place.ring < numbers.size() &&
@@ -124,7 +127,7 @@ Status Editor::Parts::start_again() {
     return error;
   }
   for (VertexSource& source : shape->sources) source.vertex = numbers[source.ring][source.vertex];
-  if (auto started = start(*shape, false); !started) {
+  if (auto started = start(*shape, false, report.touching_vertices > 0); !started) {
     Error error = std::move(started).error();
     error.place.ring.reset();  // the vertex has its number
     return error;
@@ -140,8 +143,8 @@ Result<AxisChange> Editor::Parts::rebuild(const edit::Edit& edit) {
   change.everything = true;
   list_all(change.removed_nodes, change.removed_edges);
   Parts next = *this;
-  next.inverse.push_back(rings.inverse(edit));
-  next.rings.apply(edit, false);
+  next.inverse.push_back(edited().inverse(edit));
+  (touching ? next.touching->rings() : next.rings).apply(edit, false);
   if (auto started = next.start_again(); !started) return std::move(started).error();
   next.list_all(change.added_nodes, change.added_edges);
   *this = std::move(next);
@@ -149,11 +152,12 @@ Result<AxisChange> Editor::Parts::rebuild(const edit::Edit& edit) {
 }
 
 std::vector<edit::Corner> Editor::Parts::corners_of(std::uint32_t vertex) const {
+  const Rings& own = edited();
   std::vector<edit::Corner> corners;
   std::uint32_t v = vertex;
   do {
-    corners.push_back({v, rings[v].point, rings[v].bulge});
-    v = rings[v].next;
+    corners.push_back({v, own[v].point, own[v].bulge});
+    v = own[v].next;
   } while (v != vertex);
   return corners;
 }
@@ -161,14 +165,11 @@ std::vector<edit::Corner> Editor::Parts::corners_of(std::uint32_t vertex) const 
 Node Editor::Parts::node(std::uint32_t number) const {
   const LocalFrame& frame = rings.frame();
   const Disk& disk = graph.disk(number);
-  std::uint32_t component = apart.empty() ? 0 : apart_components[number];
-  if (apart.empty()) {
-    std::uint32_t site = none;
-    graph.for_edges_at(number,
-                       [&](std::uint32_t edge, std::size_t) { site = graph.edge(edge).site[0]; });
-    if (site == none) site = rings.arc_of(disk);
-    if (site != none) component = rings.component(rings[site / 2].loop);
-  }
+  std::uint32_t component = 0, site = none;
+  graph.for_edges_at(number,
+                     [&](std::uint32_t edge, std::size_t) { site = graph.edge(edge).site[0]; });
+  if (site == none) site = rings.arc_of(disk);
+  if (site != none) component = rings.component(rings[site / 2].loop);
   return {{frame.to_input(disk.center), frame.inverse * disk.radius},
           component,
           kind_of_degree(graph.degree(number))};
@@ -184,12 +185,12 @@ Edge Editor::Parts::edge(std::uint32_t number) const {
 }
 
 Site Editor::Parts::site(std::uint32_t number) const {
-  if (!apart.empty()) return apart[number];
-  const Rings::Vertex& vertex = rings[number / 2];
-  const bool is_edge = Rings::is_edge(number);
-  if (!is_edge) return {vertex.point, vertex.point, vertex.loop, number / 2};
-  const Vec2 end = rings[rings.corner_after(number / 2)].point;
-  return {vertex.point, end, vertex.loop, number / 2, vertex.bulge};
+  const std::uint32_t v = number / 2;
+  const Rings::Vertex& vertex = rings[v];
+  const std::uint32_t shown = touching ? touching->vertex_at(v) : v;
+  if (!Rings::is_edge(number)) return {vertex.point, vertex.point, vertex.loop, shown};
+  const Vec2 end = rings[rings.corner_after(v)].point;
+  return {vertex.point, end, vertex.loop, shown, vertex.bulge};
 }
 
 }  // namespace medial

@@ -7,6 +7,7 @@
 #include "medial/editor.h"
 #include "methods/edit/repair.h"
 #include "methods/edit/rings.h"
+#include "methods/edit/touching.h"
 #include "methods/edit/window.h"
 
 namespace medial::edit {
@@ -39,26 +40,26 @@ using edit::Step;
 /// What an editor holds. Sources: parts.cpp (all of the axis), follow.cpp (edits that it follows).
 struct Editor::Parts {
   Options options;
-  Box box;  ///< of the shape, and of places where it was
-  Rings rings;
+  Box box;      ///< of the shape, and of places where it was
+  Rings rings;  ///< the loops of the shape
   AxisGraph graph;
   edit::Measures measures;
   double tolerance = 0;  ///< in units of the input
   std::vector<edit::Edit> inverse;
   std::vector<std::uint32_t> marks;  ///< see Spread
   std::uint32_t mark = 0;
-  /// The shape's sites where its edges are not those of the rings, since some touch or vertices lie
-  /// in a straight line; empty: they are.
-  std::vector<Site> apart;
-  Shape apart_shape;
-  std::vector<std::uint32_t> apart_components;  ///< of nodes
+  std::optional<edit::Touching> touching;  ///< where the rings that are edited are not the loops
 
-  Status start(const Shape& shape, bool is_first);
+  /// The rings that are edited.
+  const Rings& edited() const { return touching ? touching->rings() : rings; }
+  Status start(const Shape& shape, bool is_first, bool touches);
+  void set_rings(const Shape& shape, const LocalFrame& frame, const Rings::Joining& joining,
+                 bool touches);
   Status start_again();
   Result<AxisChange> change(edit::Edit edit);
   Result<AxisChange> undo();
 
-  std::optional<Error> refuse(const edit::Edit& edit) const;
+  static std::optional<Error> refuse(const edit::Edit& edit, const Rings& own);
   /// The part of the axis that an edit takes away is found from these sites on.
   struct Seeds {
     std::vector<Rings::Extent> before;  ///< sites that the edit can change
@@ -69,6 +70,8 @@ struct Editor::Parts {
   Seeds seeds_of(const edit::Edit& edit) const;
   void add_seeds_around(Vec2 place, Seeds& seeds) const;
 
+  Result<std::optional<Step>> follow(const edit::Edit& edit, Rings::Verdict verdict);
+  Error crossing_error(const Rings::Judgement& judgement) const;
   std::optional<Step> follow(const edit::Edit& edit);
   std::optional<Step> follow_in_two(const edit::Edit& edit, std::optional<Error>& refused);
   Result<AxisChange> rebuild(const edit::Edit& edit);

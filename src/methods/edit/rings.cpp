@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/predicates.h"
@@ -118,10 +119,26 @@ void Rings::set_bulge(std::uint32_t v, double bulge) {
 }
 
 bool Rings::is_flat(std::uint32_t v) const {
+  if (vertices_[v].touches) return false;
   if (vertices_[v].bulge != 0 || vertices_[vertices_[v].before].bulge != 0) return false;
   const Vec2 before = vertices_[vertices_[v].before].point, here = vertices_[v].point,
              after = vertices_[vertices_[v].next].point;
   return orientation(before, here, after) == 0 && strictly_between(before, here, after);
+}
+
+void Rings::find_touches() {
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t v = 0; v < vertices_.size(); ++v)
+    if (has(v)) order.push_back(v);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return lexicographic_less(vertices_[a].point, vertices_[b].point);
+  });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const auto is_at = [&](std::size_t k) {
+      return k < order.size() && vertices_[order[k]].point == vertices_[order[i]].point;
+    };
+    vertices_[order[i]].touches = is_at(i + 1) || is_at(i - 1);
+  }
 }
 
 site::Joint Rings::joint_at(std::uint32_t v) const {
@@ -218,10 +235,14 @@ std::uint32_t Rings::arc_of(const Disk& circle) const {
   const double slack = near * joining_.tolerance;
   const Vec2 place = frame_.to_input(circle.center + Vec2{circle.radius, 0});
   std::uint32_t arc = none;
+  double least = std::numeric_limits<double>::infinity();  // that a circle's radius is off by
   boxes_.find({place - Vec2{slack, slack}, place + Vec2{slack, slack}}, [&](std::uint32_t v) {
     const BulgeArc edge = local_edge(v);
     const site::Site piece = site::pieces_of(edge.start, edge.end, edge.bulge).first();
-    if (disks::is_own_circle(piece, circle, frame_.scale * slack)) arc = 2 * v + 1;
+    const double off = std::abs(1 / piece.curvature - circle.radius);
+    if (off >= least || !disks::is_own_circle(piece, circle, frame_.scale * slack)) return;
+    arc = 2 * v + 1;
+    least = off;
   });
   return arc;
 }

@@ -70,6 +70,8 @@ class Rings {
     std::uint32_t loop = none;  ///< none: there is no such vertex
     site::Joint joint = site::Joint::corner;
     bool flat = false;
+    bool touches =
+        false;  ///< another vertex lies there: see find_touches(); such a one is not flat
   };
   /// What decides how edges join with arcs: in units of the input, and in degrees.
   struct Joining {
@@ -175,6 +177,8 @@ class Rings {
   Edit inverse(const Edit& edit) const;
   /// The box of all edges.
   Box box() const { return boxes_.all(); }
+  /// Notes at which vertices others lie. O(n log n).
+  void find_touches();
   /// A number for a new vertex.
   std::uint32_t unused() const { return static_cast<std::uint32_t>(vertices_.size()); }
 

@@ -1,0 +1,157 @@
+#include "methods/edit/touching.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "methods/edit/axis_graph.h"
+
+namespace medial::edit {
+
+Touching::Touching(Rings rings, const Shape& shape, Rings& loops)
+    : rings_(std::move(rings)), numbers_(rings_.size(), none) {
+  const auto count = static_cast<std::uint32_t>(shape.points.size());
+  std::vector<bool> is_several(rings_.size(), false);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t v = shape.sources[i].vertex;
+    of_loops_.push_back(v);
+    if (numbers_[v] != none) is_several[v] = true;
+    numbers_[v] = i;
+  }
+  loops.find_touches();
+  for (std::uint32_t v = 0; v < numbers_.size(); ++v)
+    if (is_several[v] || (numbers_[v] != none && !(rings_[v].point == shape.points[numbers_[v]])))
+      numbers_[v] = none;
+  if (!loops.has_arcs()) add_flat_vertices(loops);
+}
+
+/// Those between two corners that follow each other in the loops as well.
+void Touching::add_flat_vertices(Rings& loops) {
+  const auto size = static_cast<std::uint32_t>(rings_.size());
+  for (std::uint32_t from = 0; from < size; ++from) {
+    if (!rings_.has(from) || rings_[from].flat || !rings_[rings_[from].next].flat) continue;
+    const std::uint32_t start = numbers_[from], end = numbers_[rings_.corner_after(from)];
+    if (start == none || end == none) continue;
+    const auto is_edge = [&](std::uint32_t a, std::uint32_t b) {
+      return loops[a].next == b && loops[a].bulge == 0;
+    };
+    const bool is_turned = !is_edge(start, end);
+    if (is_turned && !is_edge(end, start)) continue;
+    std::uint32_t last = start;
+    for (std::uint32_t v = rings_[from].next; rings_[v].flat; v = rings_[v].next) {
+      if (numbers_[v] != none) break;
+      Edit edit;
+      edit.before = is_turned ? end : last;
+      edit.after = is_turned ? last : end;
+      edit.fresh = last = loops.unused();
+      edit.place = rings_[v].point;
+      loops.apply(edit);
+      note(v, last);
+    }
+  }
+}
+
+void Touching::note(std::uint32_t of_rings, std::uint32_t of_loops) {
+  if (of_rings >= numbers_.size()) numbers_.resize(of_rings + 1, none);
+  if (of_loops >= of_loops_.size()) of_loops_.resize(of_loops + 1, none);
+  numbers_[of_rings] = of_loops;
+  of_loops_[of_loops] = of_rings;
+}
+
+std::uint32_t Touching::edge_at(std::uint32_t of_loops, const Rings& loops) const {
+  const std::uint32_t start = vertex_at(of_loops), end = vertex_at(loops[of_loops].next);
+  return rings_.has(end) && rings_[end].next == start ? end : start;
+}
+
+/// No two edges have the same ends: so places tell which edge of the loops is one of the rings.
+std::optional<Edit> Touching::of_vertices(const Edit& edit, const Rings& loops) const {
+  const auto number_there = [&](std::uint32_t v) {
+    const std::uint32_t number = number_of(v);
+    return number != none && loops.has(number) ? number : none;
+  };
+  const auto is_at = [&](std::uint32_t of_loops, std::uint32_t of_rings) {
+    return loops[of_loops].point == rings_[of_rings].point;
+  };
+  const bool has_old = edit.old != none;
+  Edit own = edit;
+  own.seat.reset();
+  bool is_turned = false;
+  if (has_old) {
+    own.old = number_there(edit.old);
+    if (own.old == none) return std::nullopt;
+    own.before = loops[own.old].before;
+    own.after = loops[own.old].next;
+    is_turned = !is_at(own.before, edit.before);
+  } else if (const std::uint32_t before = number_there(edit.before); before != none) {
+    is_turned = !is_at(loops[before].next, edit.after);
+    own.before = is_turned ? loops[before].before : before;
+    own.after = loops[own.before].next;
+  } else if (const std::uint32_t after = number_there(edit.after); after != none) {
+    is_turned = !is_at(loops[after].before, edit.before);
+    own.before = is_turned ? after : loops[after].before;
+    own.after = loops[own.before].next;
+  } else {
+    return std::nullopt;
+  }
+  if (!is_at(own.before, is_turned ? edit.after : edit.before) ||
+      !is_at(own.after, is_turned ? edit.before : edit.after))
+    return std::nullopt;
+  if (edit.fresh != none) {
+    own.fresh = edit.fresh == edit.old ? own.old : number_of(edit.fresh);
+    if (own.fresh == none) own.fresh = loops.unused();
+  }
+  return own;
+}
+
+/// Whether a ring is a loop.
+bool Touching::is_loop(const std::vector<Corner>& corners, const Rings& loops) const {
+  bool is_forward = true, is_backward = true;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const std::uint32_t v = number_of(corners[i].number);
+    const std::uint32_t after = number_of(corners[i + 1 < corners.size() ? i + 1 : 0].number);
+    if (v == none || after == none || !loops.has(v) || !loops.has(after)) return false;
+    if (loops[v].touches) return false;  // what touches it may be flat then
+    is_forward = is_forward && loops[v].next == after;
+    is_backward = is_backward && loops[after].next == v;
+  }
+  return is_forward || is_backward;
+}
+
+std::optional<Edit> Touching::of_loops(const Edit& edit, const Rings& loops) const {
+  if (!edit.is_of_loops()) return of_vertices(edit, loops);
+  if (!edit.out.empty() && !is_loop(edit.out, loops)) return std::nullopt;
+  Edit own = edit;
+  own.seat.reset();
+  std::uint32_t unused = loops.unused();
+  for (std::vector<Corner>* corners : {&own.out, &own.in})
+    for (Corner& corner : *corners) {
+      corner.number = number_of(corner.number);
+      if (corner.number == none) corner.number = unused++;
+    }
+  return own;
+}
+
+void Touching::apply(const Edit& edit, const Rings& loops) {
+  const std::size_t fresh = edit.in.size() + 1;
+  make_room(numbers_, rings_.size() + fresh);
+  make_room(of_loops_, loops.size() + fresh);
+  if (edit.out.empty() || edit.in.empty()) return rings_.apply(edit, false);
+  // One by one, as memory may run out.
+  Edit out = edit, in = edit;
+  out.in.clear();
+  in.out.clear();
+  const Edit back = rings_.inverse(out);
+  rings_.apply(out, false);
+  try {
+    rings_.apply(in, false);
+  } catch (...) {
+    rings_.apply(back, false);
+    throw;
+  }
+}
+
+void Touching::note(const Edit& edit, const Edit& of_loops) {
+  for (std::size_t i = 0; i < edit.in.size(); ++i) note(edit.in[i].number, of_loops.in[i].number);
+  if (edit.fresh != none) note(edit.fresh, of_loops.fresh);
+}
+
+}  // namespace medial::edit
