@@ -393,7 +393,7 @@ TEST(LeeRefuses, QuartersOfACircleThatAreNearlyTied) {
   Random random(5);
   const auto smooth = [](double angle) { return 2e-13 * std::cos(2 * angle); };
   const auto rough = [&](double) { return 2e-13 * random.between(-1, 1); };
-  // 256 bits separate some thousands of sides, as far as the certificate tells.
+  // 256 bits separate some thousands of sides, as far as the certificate says.
   EXPECT_EQ(joined(verify(built(quarters(3000, smooth)),
                           *compute(built(quarters(3000, smooth)), by_lee()))),
             "");

@@ -28,14 +28,13 @@ std::optional<Touch> touch_of(const Context& context, const Subshape& subshape, 
   // A disk as large as an arc's circle that touches the arc covers all of it.
   constexpr double same_circle = 1e-7;
   const Disk& disk = maximal.disk;
-  // What a disk misses by e a disk touches that is e / c further on, where the gap closes c times as
-  // fast as the disk moves. Both are one where that is less than the root of the tolerance times
+  // What a disk misses by e a disk touches that is e / c further on, where the gap closes c times
+  // as fast as the disk moves. Both are one where that is less than the root of the tolerance times
   // the radius (see join_ties()); with this e they are for c of an eleventh and more, and e is the
   // tolerance from 128 of them on.
   constexpr double share = 0x1p-7;
-  const double reach =
-      disk.radius + std::clamp(std::sqrt(share * context.tolerance * disk.radius),
-                               context.rounding(), context.tolerance);
+  const double reach = disk.radius + std::clamp(std::sqrt(share * context.tolerance * disk.radius),
+                                                context.rounding(), context.tolerance);
   const Element& element = subshape.elements[i];
   const Site& site = context.site(element);
   const auto contacts = maximal.contacts();
