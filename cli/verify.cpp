@@ -270,6 +270,10 @@ Result<int> run_verify(const VerifyArguments& arguments) {
   if (io::is_voronoi(axis_path)) return verify_voronoi(arguments);
   auto stored = read_stored(axis_path, io::read_native);
   if (!stored) return std::move(stored).error();
+  if (!stored->items.empty() && std::ranges::all_of(stored->items, [](const AxisItem& item) {
+        return item.axis.method.empty();
+      }))
+    return error_at(ErrorCode::malformed, axis_path, "holds shapes, but no axes");
   InputOptions source = input;
   // Axes of pixels belong to the pixels' own boundary.
   for (const AxisItem& item : stored->items)
@@ -295,8 +299,9 @@ Result<int> run_verify(const VerifyArguments& arguments) {
   loaded->phases.end("verify");
   const Certificate all = merge(*certificates);
   if (!all.passed && !common.quiet && are_other_shapes(*stored, shapes))
-    say("medial: {}: note: its axes are of other shapes than the input; give verify the options "
-        "that they were made with, such as --fit, --pixel-outline or --repair\n",
+    say("medial: {0}: note: its axes are of other shapes than the input; give verify the options "
+        "that they were made with, such as --fit, --pixel-outline or --repair, or check them "
+        "against the shapes that they hold: medial verify {0} {0}\n",
         axis_path);
   Json object = {{"input", input.path}, {"axis", axis_path}, {"features", count}};
   const Kind kind = kind_of(*stored);
@@ -336,7 +341,8 @@ Command make_verify_command(CLI::App& program) {
       "sites, faces closed and oriented consistently, and their areas against that of the\n"
       "enclosure.\n"
       "Give the options that say which shape is read, as for the axis: --fit, --repair,\n"
-      "--pixel-outline, --layer, --project and the like.\n"
+      "--pixel-outline, --layer, --project and the like. Where specks were removed, or to\n"
+      "check a file by itself, give AXIS as INPUT, too: it holds its shapes.\n"
       "\n"
       "Exit status: 0 passed, 1 failed, 2 an error.\n"
       "\n"

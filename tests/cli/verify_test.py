@@ -53,6 +53,10 @@ class Verify(CommandLine):
         done = self.run_medial("verify", "gear.svg", "fit.json")
         self.assertEqual(done.returncode, 1)
         self.assertIn(b"--fit", done.stderr)
+        self.assertIn(b"medial verify fit.json fit.json", done.stderr)
+        self.succeed("verify", "fit.json", "fit.json")
+        self.succeed("rebuild", "fit.json", "-o", "shape.json")
+        self.assertIn("no axes", self.refuse("malformed", "verify", "gear.svg", "shape.json"))
 
     def test_what_of_an_exterior_is_checked(self):
         self.succeed("axis", "shapes.wkt", "--exterior", "-o", "around.json")
