@@ -25,7 +25,7 @@ PORT ?= 8000
 BENCH_BOOST := build/boost-1.81
 SOURCES = $(shell git ls-files '*.h' '*.cpp')
 
-.PHONY: help setup build demo check test papers bench bench-scale bench-spark bench-flo-mat bench-images fuzz edits fuzz-coverage certain silhouettes corpus offsets tsan serial portable python python-leaks spark wheels web frames docs format lint clean install
+.PHONY: help setup build demo check test papers bench bench-scale bench-spark bench-flo-mat bench-images bench-small fuzz edits fuzz-coverage certain silhouettes corpus offsets tsan serial portable python python-leaks spark wheels web frames docs format lint clean install
 .DEFAULT_GOAL := help
 
 help:     ## list the targets
@@ -118,10 +118,19 @@ bench-flo-mat: build    ## compare with flo-mat (npm): see bench/flo_mat/README.
 bench-images: setup    ## compare brushfire with scikit-image and OpenCV (PyPI)
 	@tools/setup.sh bench
 	@cmake --preset release -DMEDIAL_UNITY=$(UNITY) -DMEDIAL_BENCH=ON
-	@cmake --build $(RELEASE) -j $(JOBS) --target medial_bench_images
+	@cmake --build $(RELEASE) -j $(JOBS) --target medial_cli --target medial_bench_images
 	@python3 -m venv $(RELEASE)/python
-	@$(RELEASE)/python/bin/pip install --quiet scikit-image opencv-contrib-python-headless
+	@$(RELEASE)/python/bin/pip install --quiet scikit-image opencv-contrib-python-headless pillow
 	@$(RELEASE)/python/bin/python bench/images/compare.py $(RELEASE)/bench/medial_bench_images out/images
+	@$(RELEASE)/python/bin/python bench/images/pages.py $(RELEASE)/cli/medial out/images
+
+bench-small: setup      ## footprints, glyphs, and points beside delaunator (npm)
+	@tools/setup.sh bench
+	@cmake --preset release -DMEDIAL_UNITY=$(UNITY) -DMEDIAL_BENCH=ON
+	@cmake --build $(RELEASE) -j $(JOBS) --target medial_cli --target medial_bench_small
+	@$(RELEASE)/bench/medial_bench_small /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf
+	@mkdir -p $(RELEASE)/points && cp bench/points.mjs $(RELEASE)/points/
+	@cd $(RELEASE)/points && npm install --no-audit --no-fund --silent delaunator && node points.mjs ../cli/medial
 
 fuzz: setup     ## test random polygons, edits and mutated files, new ones each time: make fuzz SECONDS=60 [FROM=seed]
 	@cmake --preset release
