@@ -11,6 +11,7 @@
 #include <string>
 
 #include "medial/medial.h"
+#include "methods/disks/boundary.h"
 #include "support/generate_arcs.h"
 #include "support/property.h"
 #include "support/random_shapes.h"
@@ -449,6 +450,7 @@ TEST(LeeTies, OfHolesThatNearlyTouchMoveNoFootBackward) {
 /// The disk that connects a hole touches a joint of its arcs, or a place where one is divided: in
 /// the former case it is a node.
 TEST(LeeArcs, HolesMayBeConnectedAtJoints) {
+  const double outreach = std::atan2(disks::outreach.y, disks::outreach.x);
   const Ring square{{{-2, -2}, {2, -2}, {2, 2}, {-2, 2}}};
   for (const int arcs : {2, 3, 4})
     for (const int begin : {0, 1})
@@ -456,8 +458,7 @@ TEST(LeeArcs, HolesMayBeConnectedAtJoints) {
         Ring hole;
         const double turn = 2 * std::numbers::pi / arcs;
         for (int i = 0; i < arcs; ++i) {
-          const double angle =
-              0.6 + std::numbers::pi + std::pow(10.0, -digits) + (i + 0.5 * begin) * turn;
+          const double angle = outreach + std::pow(10.0, -digits) + (i + 0.5 * begin) * turn;
           hole.points.push_back({0.3 + 0.5 * std::cos(angle), 0.1 + 0.5 * std::sin(angle)});
           hole.bulges.push_back(std::tan(0.25 * turn));
         }

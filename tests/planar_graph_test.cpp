@@ -20,6 +20,7 @@
 #include "base/random.h"
 #include "medial/medial.h"
 #include "medial/voronoi.h"
+#include "methods/disks/boundary.h"
 #include "support/random_shapes.h"
 
 namespace medial::test {
@@ -743,12 +744,13 @@ TEST(PlanarGraph, HasShortEdgesBesideArcsFarFromTheOrigin) {
   EXPECT_TRUE(verify(*planar_graph, *diagram).passed);
 }
 
-/// Loops are connected where they lie furthest in the direction of the angle 0.6 + pi; here a joint
-/// lies there up to rounding.
+/// Loops are connected where they lie furthest in one direction; here a joint lies there up to
+/// rounding.
 TEST(PlanarGraph, RoundEndsMayBeginAtTheirJoints) {
+  const double outreach = std::atan2(disks::outreach.y, disks::outreach.x);
   for (const double turn : {0.0, std::numbers::pi / 2})
     for (const double off : {0.0, 1e-16, -1e-16, 1e-13, -1e-13, 1e-10, -1e-10, 1e-8, -1e-8}) {
-      const double angle = 0.6 + std::numbers::pi + turn + off;
+      const double angle = outreach + turn + off;
       const auto at = [&](double x, double y) {
         return Vec2{x * std::cos(angle) - y * std::sin(angle),
                     x * std::sin(angle) + y * std::cos(angle)};

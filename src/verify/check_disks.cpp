@@ -268,7 +268,7 @@ class EdgeCheck {
     const Disk &from = problem_.disk(edge_.node[0]), &to = problem_.disk(edge_.node[1]);
     const DiskPair ends{
         {from.center.x, to.center.x}, {from.center.y, to.center.y}, {from.radius, to.radius}};
-    const Pair known = measure_contacts(ends);
+    const Pair known = measure_contacts(ends, 2);
     for (std::size_t end = 0; end < 2; ++end) {
       const std::uint32_t node = edge_.node[end];
       const bool is_first = first_edge[node] == index_ && (end == 0 || node != edge_.node[0]);
@@ -280,9 +280,11 @@ class EdgeCheck {
       const Pair t = Pair{static_cast<double>(k), static_cast<double>(k + (two ? 1 : 0))} / parts;
       const PairOnCurve place(curve_, t);
       const DiskPair disks = place.disks();
-      const Pair nearest = measure_contacts(disks);
+      const std::size_t count = two ? 2 : 1;
+      const Pair nearest = measure_contacts(disks, count);
       if (const Derivatives d(place); !is_legal(d, disks.radius, problem_.tolerance))
-        add_worst(findings_.legality, illegality(d, disks.radius, problem_.tolerance), 0, disks);
+        add_worst(findings_.legality, illegality(d, disks.radius, problem_.tolerance), 0, disks,
+                  count);
       add(disks, nearest, 0, no_index);
       if (two) add(disks, nearest, 1, no_index);
     }
@@ -301,16 +303,21 @@ class EdgeCheck {
            });
   }
 
-  void add_worst(Worst& worst, Pair amount, double tolerance, const DiskPair& disks) {
+  /// Of the first `count` of two disks.
+  void add_worst(Worst& worst, Pair amount, double tolerance, const DiskPair& disks,
+                 std::size_t count) {
     if (all(amount <= both(std::min(worst.value, tolerance)))) return;  // nearly always
-    for (std::size_t i = 0; i < 2; ++i) worst.add(amount[i], tolerance, disks[i].center, index_);
+    for (std::size_t i = 0; i < count; ++i)
+      worst.add(amount[i], tolerance, disks[i].center, index_);
   }
-  /// Measures disks against both sites. The distances to the nearer one on the boundary.
-  Pair measure_contacts(const DiskPair& disks) {
+  /// Measures the first `count` of two disks against both sites. The distances to the nearer one on
+  /// the boundary.
+  Pair measure_contacts(const DiskPair& disks, std::size_t count) {
     Pair nearest = both(std::numeric_limits<double>::infinity());
     for (std::size_t side = 0; side < 2; ++side) {
       const Pair distance = sites_[side].signed_distances(disks.x, disks.y);
-      add_worst(findings_.contact, size_of(distance - disks.radius), problem_.tolerance, disks);
+      add_worst(findings_.contact, size_of(distance - disks.radius), problem_.tolerance, disks,
+                count);
       if (on_boundary_[side]) nearest = smaller(size_of(distance), nearest);
     }
     return nearest;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "methods/disks/boundary.h"
 #include "support/generate_arcs.h"
 #include "support/generate_parts.h"
 
@@ -282,7 +283,7 @@ Ring round_hole(Random& random, Vec2 center, double radius) {
     const Vec2 half = turned({0.5 * radius, 0}, random.between(0, two_pi));
     return stadium(center - half, center + half, 0.5 * radius);
   }
-  constexpr double outreach = 0.6 + 0.5 * two_pi;
+  const double outreach = std::atan2(disks::outreach.y, disks::outreach.x);
   const double start = random.chance(0.5)
                            ? outreach + random.power_of_ten(-17, -6) * random.between(-1, 1)
                            : random.between(0, two_pi);

@@ -29,9 +29,9 @@ std::optional<Touch> touch_of(const Context& context, const Subshape& subshape, 
   constexpr double same_circle = 1e-7;
   const Disk& disk = maximal.disk;
   // What a disk misses by e a disk touches that is e / c further on, where the gap closes c times
-  // as fast as the disk moves. Both are one where that is less than the root of the tolerance times
-  // the radius (see join_ties()); with this e they are for c of an eleventh and more, and e is the
-  // tolerance from 128 of them on.
+  // as fast as the disk moves. Both may be one where that is less than the root of the tolerance
+  // times the radius (see join_ties()). With this e they are for c of an eleventh and more; from a
+  // radius of 128 tolerances on, e is the tolerance.
   constexpr double share = 0x1p-7;
   const double reach = disk.radius + std::clamp(std::sqrt(share * context.tolerance * disk.radius),
                                                 context.rounding(), context.tolerance);

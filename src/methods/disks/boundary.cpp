@@ -117,7 +117,7 @@ Start start_of_hole(const LoopEdges& loop, const SiteNumbers& numbers, bool has_
       const double s =
           -2 * dot(arc.direction, outreach) / (arc.curvature * (1 + dot(arc.normal(), outreach)));
       // Rounding may leave a place between two pieces of an arc in neither.
-      if ((s > 0 || (is_past && s <= 0)) && s < arc.length)
+      if ((s > 0 || is_past) && s < arc.length)
         consider(arc.at(std::max(s, 0.0)), {i, std::max(s, 0.0), piece});
       is_past = s >= arc.length;
     }
@@ -146,7 +146,7 @@ void add_loop(const LoopEdges& loop, const SiteNumbers& numbers, const Start& st
       const site::Site& site = pieces.site[piece];
       const bool begins_here = piece == from_piece && from > 0;
       const bool ends_here = piece == to_piece && to < site.length;
-      if (ends_here && to == 0) return;
+      if (ends_here && to == 0) return;  // it begins and ends between two pieces
       const bool last = piece + 1 == pieces.count;
       const Joint joint =
           last && !ends_here ? numbers.joints[loop.begin() + loop.next(i)] : Joint::smooth;

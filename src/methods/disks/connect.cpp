@@ -163,10 +163,14 @@ class Connector {
     const Site& after = loops_.sites[site == run.last ? run.first : site + 1];
     const bool is_loose_end = site::are_two_sides(before, after);
     const double slack = 0x1p-48 + 2 * touch.error;
+    // Near the centre of an arc, its foot moves by more than the disk's centre.
     const Vec2 center = bridge.disk.center;
+    const auto beyond = [&](const Site& edge, double by) {
+      return by * (edge.is_arc() ? site::view_of_arc(edge, center).size : 1) >= slack;
+    };
     return touch.count == (is_loose_end ? 1 : 2) &&
-           site::carrier_parameter(before, center) >= before.length + slack &&
-           site::carrier_parameter(after, center) <= -slack;
+           beyond(before, site::carrier_parameter(before, center) - before.length) &&
+           beyond(after, -site::carrier_parameter(after, center));
   }
   /// The bridge among all sites that a disk from `foot` nearly reaches, which has about this radius
   /// in double. Where it touches none of them after all, among those that larger ones reach.

@@ -50,13 +50,13 @@ class Solution {
     const bool merged = merge_all(levels);
     if (problem_.is_cancelled()) return success();
     if (!merged && elements_.have_arcs()) return undecided();
-    statistics.seconds_walk = watch.lap();
     if (merged) join_ties(*graph, problem_.local_tolerance());
-    if (elements_.have_arcs())
+    if (elements_.have_arcs()) {
       is_doubtful_ = !is_right_locally(*graph, problem_.local_tolerance());
-    else if (Status decided = merged && !overreach() ? success() : decide_in_precise(); !decided)
-      return decided;
-    statistics.seconds_collect = watch.lap();
+    } else if (!merged || overreach()) {
+      if (Status decided = decide_in_precise(); !decided) return decided;
+    }
+    statistics.seconds_walk = watch.lap();
     return success();
   }
 

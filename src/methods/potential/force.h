@@ -54,7 +54,8 @@ class Evaluator {
 
   /// The n-force at the place. Requires a place on no charge and order in [1, largest_order].
   Force force(double order);
-  /// The same where its direction matters: off by rough_share of its size at most.
+  /// The same where its direction matters: off by rough_share of its size at most, or by what
+  /// force() may be off by.
   Force direction(double order);
   /// Those of the whole orders first, first + 1, ... as many as `forces` holds. One pass for all.
   void forces(int first, std::span<Force> forces);
