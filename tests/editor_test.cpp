@@ -489,6 +489,23 @@ TEST(Editor, FollowsEditsWhileEdgesTouch) {
   EXPECT_EQ(fault_of(editor), "");
 }
 
+/// A vertex that another one has touched is flat again where its edges are in one line.
+TEST(Editor, ForgetsWhatHasTouched) {
+  Ring bar{{{0, 0}, {400, 0}}, RingRole::any, {}};
+  for (int i = 100; i > 0; --i) bar.points.push_back({4.0 * i - 2, i % 2 == 0 ? 10 : 10.5});
+  const Ring tip{{{150, 40}, {198, 20}, {250, 40}}, RingRole::any, {}};
+  for (const bool stays : {true, false}) {
+    Editor editor = editor_of({bar, tip});
+    const std::uint32_t touched = vertex_at(editor, {198, 10}), end = vertex_at(editor, {198, 20});
+    ASSERT_TRUE(editor.move(end, {198, 10}).ok());
+    ASSERT_TRUE(stays ? editor.move(end, {198, 22}).ok() : editor.remove_loop(end).ok());
+    const std::size_t count = editor.shape().points.size();
+    ASSERT_TRUE(editor.move(touched, {198, 10.5}).ok());  // between two at this height
+    EXPECT_EQ(editor.shape().points.size() + 1, count);
+    EXPECT_EQ(fault_of(editor), "");
+  }
+}
+
 TEST(Editor, FollowsAVertexThatJumpsAcrossOthers) {
   Ring bar;
   for (int i = 0; i <= 12; ++i) bar.points.push_back({5.0 * i, 0.25 * (i % 2)});

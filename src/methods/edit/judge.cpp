@@ -382,7 +382,12 @@ Seat Rings::find_seat_anew(const std::vector<Corner>& corners) const {
 Rings::Judgement Rings::judge_out(const Edit& edit) const {
   const std::uint32_t loop = vertices_[edit.out.front().number].loop;
   std::vector<BulgeArc> curve;
-  for_vertices(loop, [&](std::uint32_t v) { curve.push_back(edge(v)); });
+  bool touches = false;  // what touches the loop may be flat without it
+  for_vertices(loop, [&](std::uint32_t v) {
+    curve.push_back(edge(v));
+    touches = touches || vertices_[v].touches;
+  });
+  if (touches) return {Verdict::unclear, none, {}};
   for (const std::uint32_t v : loops_near(box_around(curve, 0), loop))
     if (turns_around(curve, vertices_[v].point) != 0) return {Verdict::unclear, none, {}};
   const bool is_only = loops_.size() == 1 || loops().size() == 1;

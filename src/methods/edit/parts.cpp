@@ -78,10 +78,12 @@ Status Editor::Parts::start(const Shape& shape, bool is_first, bool touches) {
   tolerance = tolerance_for(box, options.tolerance);
   measures = {frame.scale * tolerance, tolerance_for(local_box, options.tolerance),
               radius_limit(box, frame)};
-  if (is_first)
+  if (is_first) {
     rings = Rings(shape, frame, joining);
-  else
+    rings.find_touches(!rings.has_arcs());
+  } else {
     set_rings(shape, frame, joining, touches);
+  }
   graph = AxisGraph(*axis, site_numbers(*axis, shape, is_first || touching));
   marks.assign(graph.node_slots() + graph.node_slots() / edit::spare_share, 0);
   mark = 0;
@@ -95,10 +97,8 @@ void Editor::Parts::set_rings(const Shape& shape, const LocalFrame& frame,
     rings = std::move(touching->rings());
     touching.reset();
   }
-  if (rings.adopt(shape, frame, joining)) {
-    if (touches && !rings.has_arcs()) rings.find_touches();
-    return;
-  }
+  rings.find_touches(touches && !rings.has_arcs());
+  if (rings.adopt(shape, frame, joining)) return;
   Rings loops(shape, frame, joining);
   touching.emplace(std::move(rings), shape, loops);
   rings = std::move(loops);

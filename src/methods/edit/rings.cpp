@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "base/predicates.h"
 
@@ -125,19 +126,27 @@ bool Rings::is_flat(std::uint32_t v) const {
   return orientation(before, here, after) == 0 && strictly_between(before, here, after);
 }
 
-void Rings::find_touches() {
+void Rings::find_touches(bool any) {
   std::vector<std::uint32_t> order;
-  for (std::uint32_t v = 0; v < vertices_.size(); ++v)
-    if (has(v)) order.push_back(v);
+  for (std::uint32_t v = 0; v < vertices_.size(); ++v) {
+    if (!has(v)) continue;
+    if (any)
+      order.push_back(v);
+    else
+      set_touches(v, false);
+  }
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     return lexicographic_less(vertices_[a].point, vertices_[b].point);
   });
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const auto is_at = [&](std::size_t k) {
-      return k < order.size() && vertices_[order[k]].point == vertices_[order[i]].point;
-    };
-    vertices_[order[i]].touches = is_at(i + 1) || is_at(i - 1);
+    const Vec2 here = vertices_[order[i]].point;
+    set_touches(order[i], (i > 0 && vertices_[order[i - 1]].point == here) ||
+                              (i + 1 < order.size() && vertices_[order[i + 1]].point == here));
   }
+}
+
+void Rings::set_touches(std::uint32_t v, bool touches) {
+  if (std::exchange(vertices_[v].touches, touches) != touches) vertices_[v].flat = is_flat(v);
 }
 
 site::Joint Rings::joint_at(std::uint32_t v) const {

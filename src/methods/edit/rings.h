@@ -70,8 +70,8 @@ class Rings {
     std::uint32_t loop = none;  ///< none: there is no such vertex
     site::Joint joint = site::Joint::corner;
     bool flat = false;
-    bool touches =
-        false;  ///< another vertex lies there: see find_touches(); such a one is not flat
+    /// Another vertex lies there: see find_touches(). Such a one is not flat.
+    bool touches = false;
   };
   /// What decides how edges join with arcs: in units of the input, and in degrees.
   struct Joining {
@@ -177,8 +177,8 @@ class Rings {
   Edit inverse(const Edit& edit) const;
   /// The box of all edges.
   Box box() const { return boxes_.all(); }
-  /// Notes at which vertices others lie. O(n log n).
-  void find_touches();
+  /// Notes at which vertices others lie, if any do, and which are flat then. O(n log n).
+  void find_touches(bool any = true);
   /// A number for a new vertex.
   std::uint32_t unused() const { return static_cast<std::uint32_t>(vertices_.size()); }
 
@@ -236,6 +236,7 @@ class Rings {
   }
   void set_bulge(std::uint32_t v, double bulge);
   bool is_flat(std::uint32_t v) const;
+  void set_touches(std::uint32_t v, bool touches);
   site::Joint joint_at(std::uint32_t v) const;
   void judge_vertex(std::uint32_t v);
   void set_box(std::uint32_t v);
