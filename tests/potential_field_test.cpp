@@ -254,6 +254,10 @@ TEST(PotentialField, TheTreeKeepsItsBound) {
       EXPECT_LT(medial::distance(found.force, sum.force), 2 * Evaluator::far_field) << order;
       for (const auto derivative : {&Force::xx, &Force::xy, &Force::yy})
         EXPECT_NEAR(found.*derivative, sum.*derivative, 10 * Evaluator::far_field) << order;
+      // A step needs the direction only.
+      EXPECT_LT(medial::distance(evaluator.direction(order).force, sum.force),
+                Evaluator::rough_share * norm(sum.force) + 2 * Evaluator::far_field)
+          << order;
     }
   }
 }

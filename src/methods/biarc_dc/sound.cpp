@@ -4,9 +4,12 @@
 #include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
+#include <span>
 #include <vector>
 
 #include "base/threads.h"
+#include "methods/disks/boundary.h"
 #include "site/bisector.h"
 
 namespace medial::biarc_dc {
@@ -18,7 +21,13 @@ constexpr double narrow = 0x1p-26;
 class Checker {
  public:
   Checker(const Skeleton& skeleton, const Context& context, double slack)
-      : skeleton_(skeleton), outline_(context.outline), tree_(context.tree), slack_(slack) {}
+      : skeleton_(skeleton), outline_(context.outline), tree_(context.tree), slack_(slack) {
+    for (std::uint32_t i = 0; i < outline_.sites.size() && !outline_.cutting_disks.empty(); ++i)
+      if (outline_.is_cut(i)) parts_.push_back(i);
+    std::sort(parts_.begin(), parts_.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return outline_.originals[a] < outline_.originals[b];
+    });
+  }
 
   bool is_empty(const Disk& disk, std::uint32_t component) const {
     const SiteOutline::SiteRange cycle = outline_.cycles[component];
@@ -32,6 +41,41 @@ class Checker {
     const Disk middle = middle_of(edge);
     return touches_both(edge, middle) && is_empty(middle, skeleton_.component[edge.from]);
   }
+  /// An edge as it leaves a node.
+  struct Way {
+    std::uint32_t right, left;
+  };
+  /// The ways from each node, one node after the other.
+  struct Ways {
+    std::vector<Way> list;
+    std::vector<std::uint32_t> begin;
+
+    std::span<Way> from(std::size_t node) {
+      return std::span(list).subspan(begin[node], begin[node + 1] - begin[node]);
+    }
+  };
+  Ways ways() const {
+    Ways all{std::vector<Way>(2 * skeleton_.edges.size()),
+             std::vector<std::uint32_t>(skeleton_.nodes.size() + 1)};
+    for (const Skeleton::Bone& edge : skeleton_.edges)
+      for (const std::uint32_t node : {edge.from, edge.to}) ++all.begin[node];
+    std::partial_sum(all.begin.begin(), all.begin.end(), all.begin.begin());
+    for (const Skeleton::Bone& edge : skeleton_.edges) {
+      all.list[--all.begin[edge.from]] = {edge.right, edge.left};
+      all.list[--all.begin[edge.to]] = {edge.left, edge.right};
+    }
+    return all;
+  }
+  /// Whether no edge is missing at a node: counter-clockwise round it, nothing is left to walk
+  /// between the left site of one edge and the right site of the next.
+  bool are_all(std::uint32_t node, std::span<Way> ways) const {
+    for (Way& way : ways) way = {part_at(way.right, node), part_at(way.left, node)};
+    std::sort(ways.begin(), ways.end(),
+              [](const Way& a, const Way& b) { return a.right < b.right; });
+    for (std::size_t i = 0; i < ways.size(); ++i)
+      if (!nothing_between(ways[i].left, ways[(i + 1) % ways.size()].right, node)) return false;
+    return true;
+  }
   /// Whether an edge may end in a disk: all that lies between its two sites lies on the disk's
   /// circle, and one of that, or of the two, is a convex arc.
   bool ends_at_arc(const Skeleton::Bone& edge, const Disk& leaf) const {
@@ -39,6 +83,74 @@ class Checker {
   }
 
  private:
+  /// Of a site that cutting disks divide, the part that a node's disk touches.
+  std::uint32_t part_at(std::uint32_t site, std::uint32_t node) const {
+    const Disk& disk = skeleton_.nodes[node];
+    if (!outline_.is_cut(site)) return site;
+    const SiteOutline::SiteRange cycle = outline_.cycles[skeleton_.component[node]];
+    if (touches_part(disk, site, cycle)) return site;
+    const auto [begin, end] =
+        std::equal_range(parts_.begin(), parts_.end(), site, [&](std::uint32_t a, std::uint32_t b) {
+          return outline_.originals[a] < outline_.originals[b];
+        });
+    const auto part =
+        std::find_if(begin, end, [&](std::uint32_t one) { return touches_part(disk, one, cycle); });
+    return part == end ? site : *part;
+  }
+  /// Whether a disk touches a part of a site, and is in the range of directions of a vertex's copy.
+  bool touches_part(const Disk& disk, std::uint32_t i, const SiteOutline::SiteRange& cycle) const {
+    const site::Site& part = outline_.sites[i];
+    if (!touches(disk, i)) return false;
+    if (!part.is_vertex()) return true;
+    const auto to_cut = [&](std::uint32_t before) {
+      return outline_.cutting_disks[outline_.disk_after[before]].center - part.point;
+    };
+    const std::uint32_t before = i == cycle.first ? cycle.last : i - 1, after = next(i, cycle);
+    const Vec2 first =
+        outline_.disk_after[before] == none ? outline_.sites[before].end_normal() : to_cut(before);
+    const Vec2 last = outline_.disk_after[i] == none ? outline_.sites[after].normal() : to_cut(i);
+    return disks::in_wedge(first, last, disk.center - part.point);
+  }
+  bool touches(const Disk& disk, std::uint32_t site) const {
+    const double away = std::sqrt(site::squared_distance(outline_.sites[site], disk.center));
+    return std::abs(away - disk.radius) <= 2 * slack_;
+  }
+  /// Whether a node's disk touches all from a site that it touches to the next such site, or is a
+  /// point in a convex corner.
+  bool nothing_between(std::uint32_t first, std::uint32_t last, std::uint32_t node) const {
+    const Disk& disk = skeleton_.nodes[node];
+    const SiteOutline::SiteRange cycle = outline_.cycles[skeleton_.component[node]];
+    if (disk.radius == 0)
+      return outline_.joints[first] == Joint::corner && next(first, cycle) == last;
+    // A cutting disk that is a node touches both parts of a site in one place.
+    if (outline_.originals[first] == outline_.originals[last] && outline_.is_cut(first) &&
+        outline_.is_cut(last) && !lies_on_circle(disk, first))
+      return true;
+    while (first != last) {
+      const bool is_joined = outline_.disk_after[first] == none;
+      // No leaf leads into a blunt joint: a disk that touches both its edges may miss its point.
+      const bool is_blunt = is_joined && outline_.joints[first] == Joint::blunt;
+      if (is_joined && !is_blunt && !is_on(disk, outline_.sites[first].end())) return false;
+      first = next(first, cycle);
+      if (first == last) break;
+      if (!touches(disk, first) ||
+          (outline_.sites[first].curvature > 0 && !lies_on_circle(disk, first)))
+        return false;
+    }
+    return true;
+  }
+  bool is_on(const Disk& disk, Vec2 p) const {
+    return std::abs(distance(p, disk.center) - disk.radius) <= 2 * slack_;
+  }
+  bool lies_on_circle(const Disk& disk, std::uint32_t i) const {
+    const site::Site& one = outline_.sites[i];
+    return is_on(disk, one.point) && is_on(disk, one.at(0.5 * one.length)) &&
+           is_on(disk, one.end());
+  }
+  static std::uint32_t next(std::uint32_t site, const SiteOutline::SiteRange& cycle) {
+    return site == cycle.last ? cycle.first : site + 1;
+  }
+
   /// Whether the feet move forward on the right site and backward on the left one, but for what the
   /// tolerance leaves open.
   bool feet_advance(const Skeleton::Bone& edge) const {
@@ -81,19 +193,13 @@ class Checker {
     const auto cycle =
         std::find_if(outline_.cycles.begin(), outline_.cycles.end(),
                      [&](const SiteOutline::SiteRange& c) { return first <= c.last; });
-    const auto touches = [&](Vec2 p) {
-      return std::abs(distance(p, disk.center) - disk.radius) <= 2 * slack_;
-    };
-    const auto is_on = [&](const site::Site& one) {
-      return touches(one.point) && touches(one.at(0.5 * one.length)) && touches(one.end());
-    };
     bool has_arc = false;
     for (const std::uint32_t side : {first, last})
-      has_arc |= outline_.sites[side].curvature > 0 && is_on(outline_.sites[side]);
+      has_arc |= outline_.sites[side].curvature > 0 && lies_on_circle(disk, side);
     for (int step = 0; step < most_steps; ++step) {
       first = first == cycle->last ? cycle->first : first + 1;
       if (first == last) return has_arc;
-      if (!is_on(outline_.sites[first])) return false;
+      if (!lies_on_circle(disk, first)) return false;
       has_arc |= outline_.sites[first].curvature > 0;
     }
     return false;
@@ -103,6 +209,7 @@ class Checker {
   const SiteOutline& outline_;
   const site::BoundaryTree& tree_;
   double slack_;
+  std::vector<std::uint32_t> parts_;  ///< sites beside cutting disks, by their originals
 };
 
 /// Whether holds(i) for all i below `count`.
@@ -147,8 +254,13 @@ bool is_sound(const Skeleton& skeleton, const Context& context, double slack) {
         return false;
     return checker.is_right(edge);
   };
+  Checker::Ways ways = checker.ways();
+  const auto has_all_edges = [&](std::size_t i) {
+    return checker.are_all(static_cast<std::uint32_t>(i), ways.from(i));
+  };
   return corner_count(context.outline) == corners && all_of(skeleton.nodes.size(), is_node_right) &&
-         all_of(skeleton.edges.size(), is_edge_right);
+         all_of(skeleton.edges.size(), is_edge_right) &&
+         all_of(skeleton.nodes.size(), has_all_edges);
 }
 
 }  // namespace medial::biarc_dc

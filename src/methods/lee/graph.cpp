@@ -358,6 +358,17 @@ std::size_t most_edges(const Elements& elements) {
   return kept;
 }
 
+/// The edge that a bridge divides, or the two from its disk where that is a node.
+template <class Add, class BecomeOne>
+void add_bridged(Graph& graph, const Bridged& one, Numbers& numbers, const Add& add,
+                 const BecomeOne& become_one) {
+  const auto end_of = [&](std::uint32_t edge) { return numbers.end_past_joined(graph, edge); };
+  if (one.are_one(graph)) return add(one.edge, end_of(one.other), one.component);
+  numbers.unite(one.edge, one.other, one.component);
+  for (const std::uint32_t edge : {one.edge, one.other})
+    if (!become_one(edge, end_of(edge), one)) add(edge, edge, one.component);
+}
+
 }  // namespace
 
 double complete(Graph& graph, const LocalFrame& frame, double tolerance, MedialAxis& axis) {
@@ -410,15 +421,7 @@ double complete(Graph& graph, const LocalFrame& frame, double tolerance, MedialA
     if (axis.edges.size() == before && inside != none)
       numbers.of_end(end_of(inside), loop.component);
   }
-  for (const Bridged& one : bridged) {
-    if (one.are_one(graph)) {
-      add(one.edge, end_of(one.other), one.component);
-      continue;
-    }
-    numbers.unite(one.edge, one.other, one.component);
-    for (const std::uint32_t edge : {one.edge, one.other})
-      if (!become_one(edge, end_of(edge), one)) add(edge, edge, one.component);
-  }
+  for (const Bridged& one : bridged) add_bridged(graph, one, numbers, add, become_one);
   if (!elements.passages.empty()) set_node_kinds(axis);
   axis.statistics.largest_residual = frame.inverse * largest_residual;
   return in_middle;
