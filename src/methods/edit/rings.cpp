@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "base/predicates.h"
-#include "methods/disks/near_circle.h"
 
 namespace medial::edit {
 
@@ -239,8 +238,9 @@ std::uint32_t Rings::arc_of(const Disk& circle) const {
   boxes_.find({place - Vec2{slack, slack}, place + Vec2{slack, slack}}, [&](std::uint32_t v) {
     const BulgeArc edge = local_edge(v);
     const site::Site piece = site::pieces_of(edge.start, edge.end, edge.bulge).first();
+    if (!(piece.curvature > 0)) return;
     const double off = std::abs(1 / piece.curvature - circle.radius);
-    if (off >= least || !disks::is_own_circle(piece, circle, frame_.scale * slack)) return;
+    if (off >= least) return;
     arc = 2 * v + 1;
     least = off;
   });
