@@ -197,6 +197,26 @@ class Cleaning {
   double tolerance_;
 };
 
+/// What edges from p to n by v sweep while v moves straight to its place, from or to the inside of
+/// an edge.
+std::vector<Triangle> swept_by(const Edit& edit, Vec2 p, Vec2 v, Vec2 n) {
+  const Vec2 x = edit.place;
+  if (edit.old == none) return {{{p, x, n}}};
+  if (edit.fresh == none) return {{{p, v, n}}};
+  return {{{p, v, x}}, {{v, n, x}}};
+}
+
+struct NewEdge {
+  Vec2 from, to;
+  std::uint32_t start, end;
+};
+
+/// The edges that an edit makes between p and n.
+std::vector<NewEdge> edges_of(const Edit& edit, Vec2 p, Vec2 n) {
+  if (edit.fresh == none) return {{p, n, edit.before, edit.after}};
+  return {{p, edit.place, edit.before, none}, {edit.place, n, none, edit.after}};
+}
+
 }  // namespace
 
 Rings::Judgement Rings::judge_straight(const Edit& edit) const {
@@ -213,23 +233,9 @@ Rings::Judgement Rings::judge_straight(const Edit& edit) const {
       turns_back(outer[0], p, has_fresh ? x : n) || turns_back(has_fresh ? x : p, n, outer[1]))
     return unclear;
 
-  // What the edges sweep while the vertex moves straight to its place, from or to an edge's inside.
   const bool is_moving = has_old && has_fresh;
-  std::vector<Triangle> swept;
-  if (is_moving)
-    swept = {{{p, v, x}}, {{v, n, x}}};
-  else
-    swept = {{{p, has_old ? v : x, n}}};
-  struct NewEdge {
-    Vec2 from, to;
-    std::uint32_t start, end;
-  };
-  std::vector<NewEdge> edges;
-  if (has_fresh)
-    edges = {{p, x, edit.before, none}, {x, n, none, edit.after}};
-  else
-    edges = {{p, n, edit.before, edit.after}};
-
+  const std::vector<Triangle> swept = swept_by(edit, p, v, n);
+  const std::vector<NewEdge> edges = edges_of(edit, p, n);
   Box query = box_of(p, n);
   if (has_old) query.add(v);
   if (has_fresh) query.add(x);
