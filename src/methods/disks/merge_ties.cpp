@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -63,6 +64,7 @@ class Merger {
         graph_(graph) {}
 
   void merge() {
+    if (boundary_.has_arcs) put_right();
     std::vector<std::uint32_t> open = candidates();
     if (open.empty()) return;
     collect_nodes(open);
@@ -88,6 +90,36 @@ class Merger {
   }
 
  private:
+  /// Beside arcs, the walk takes what one of its disks touches within the tolerance for one node,
+  /// from disk to disk: such a node moves to where it touches all its sites.
+  void put_right() {
+    constexpr std::uint8_t several = 4;
+    std::vector<std::uint8_t> degree(graph_.nodes.size());
+    for (const Edge& edge : graph_.edges)
+      for (const std::uint32_t node : edge.node)
+        if (degree[node] < several) ++degree[node];
+    std::map<std::uint32_t, std::vector<Touch>> contacts;
+    for (const Edge& edge : graph_.edges)
+      for (const std::uint32_t node : edge.node)
+        if (degree[node] == several)
+          for (const std::uint32_t site : edge.site)
+            add_contact(nearest_piece(site, graph_.nodes[node].disk), graph_.nodes[node].disk,
+                        contacts[node]);
+    for (auto& [node, touched] : contacts) {
+      Disk& disk = graph_.nodes[node].disk;
+      sort_unique(touched);
+      if (ranges::all_of(touched, [&](const Touch& one) {
+            return std::abs(
+                       contact_of(one.seen_from(boundary_.sites, disk.center), disk).residual) <=
+                   tolerance_;
+          }))
+        continue;
+      TieFit fit(tie_sites_, disk);
+      if (fit.fits(touched, tolerance_) && is_empty(fit.disk, graph_.nodes[node].component))
+        disk = fit.disk;
+    }
+  }
+
   /// What double may leave open when it looks for candidates.
   double bound() const { return 1.25 * nearnesses[0].level * tolerance_; }
 
