@@ -348,6 +348,47 @@ TEST(ArcContacts, TangentCirclesTouch) {
   }
 }
 
+/// Three petals that meet in one point: what is left between them there has no area.
+TEST(ArcContacts, HolesWithoutAreaAreDropped) {
+  const Shape shape = built({{{{7.1128056983011049e-15, 2.0374722137188794e-14},
+                               {1.0000000000000071, -0.14999999999998614},
+                               {1.0000000000000109, 0.15000000000001443}},
+                              RingRole::any,
+                              {0.11091224540635002, 0.25008876127675839, 0.1119881212595564}},
+                             {{{1.7118623751258152e-14, 1.3843208102948667e-14},
+                               {-0.37009618943233302, 0.94102540378444433},
+                               {-0.62990381056766287, 0.79102540378445019}},
+                              RingRole::any,
+                              {0.11153291560225556, 0.47956045089904453, 0.092669652022288954}},
+                             {{{1.9562420706833858e-14, 8.677681967974082e-15},
+                               {-0.62990381056765243, -0.79102540378443109},
+                               {-0.37009618943231892, -0.94102540378443178}},
+                              RingRole::any,
+                              {0.10898379747919211, 0.13763815161806672, 0.14429209439071444}}});
+  for (std::size_t loop = 0; loop < shape.loop_count(); ++loop)
+    EXPECT_GT(shape.loop(loop).size(), 2U);
+  const auto axis = compute(shape);
+  ASSERT_TRUE(axis) << to_string(axis.error());
+  EXPECT_TRUE(verify(shape, *axis).passed);
+}
+
+/// A vertex some tolerances outside a circle, with an arc that ends there.
+TEST(ArcContacts, CrossingInAVertexIsNamed) {
+  const double quarter = std::tan(pi / 8);
+  EXPECT_EQ(code_of({{{{0.78648407794521635, -1.8388699777685922},
+                       {1.8388699777685922, 0.78648407794521624},
+                       {-0.7864840779452178, 1.8388699777685917},
+                       {-1.8388699777685931, -0.78648407794521435}},
+                      RingRole::any,
+                      {quarter, quarter, quarter, quarter}},
+                     {{{-0.052672720123108155, -1.9993062758254529},
+                       {0.27355958131225672, -1.0075540459311663},
+                       {-0.32623230143536347, -0.99175222989423428}},
+                      RingRole::any,
+                      {-0.083470578766599107, 0, -0.20520194255753366}}}),
+            ErrorCode::crossing);
+}
+
 TEST(ArcContacts, CircleTouchesStraightEdgesAndVertices) {
   ShapeReport report;
   const Rings square = {{{{0, 0}, {2, 0}, {2, 2}, {0, 2}}}, circle({1, 1}, 1, 0.2)};

@@ -137,7 +137,7 @@ Result<Shape> shape_within(const std::vector<Contour>& contours, double within) 
 
 /// Whether a refusal names a fit that is followed and verified; counts it.
 bool count_named_fit(Tally& tally, const std::string& text, const std::vector<Contour>& contours) {
-  const std::string option = "(--fit ";
+  const std::string option = "; --fit ";
   const auto at = text.find(option);
   if (at == std::string::npos) return false;
   ++tally.named;

@@ -181,9 +181,12 @@ std::optional<Error> nest(const Arrangement& arrangement, SplicedLoops& loops) {
     if (below != no_index) loops.loops[i].component = loops.loops[loops.loop_of[below]].component;
   }
   for (const SplicedLoop& loop : loops.loops) {
-    if (loop.component == no_index) {
-      return error_without_place(ErrorCode::internal, "a hole has no component");
-    }
+    if (loop.component != no_index) continue;
+    // As in splice(): of arcs that cross by little more than the tolerance, none may be around it.
+    if (!arrangement.bulges.empty())
+      return error_at(ErrorCode::crossing, "edges cross next to this vertex",
+                      arrangement.sources[loop.leftmost], arrangement.original(loop.leftmost));
+    return error_without_place(ErrorCode::internal, "a hole has no component");
   }
   return std::nullopt;
 }
@@ -218,11 +221,21 @@ void turn_around(Shape& shape, std::size_t first) {
   std::for_each(from(shape.bulges), shape.bulges.end(), [](double& bulge) { bulge = 0 - bulge; });
 }
 
+/// Whether the loop of two edges that a shape ends with is no wider than the spacing of its
+/// coordinates: two arcs that count as straight.
+bool has_no_width(const Shape& shape, std::size_t first) {
+  const Vec2 a = shape.points[first], b = shape.points[first + 1];
+  const double spacing = std::numeric_limits<double>::epsilon() *
+                         std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
+  const double width = std::abs(shape.bulges[first] + shape.bulges[first + 1]) / 2 * distance(a, b);
+  return width <= spacing;
+}
+
 /// Corrects the last loop if edges were merged within the tolerance. False where that
 /// leaves nothing of it.
 bool mend_last_loop(Shape& shape, bool hole) {
   const std::size_t first = shape.loop_begin.back(), size = shape.points.size() - first;
-  if (size == 2 && shape.bulges[first] == -shape.bulges[first + 1]) {
+  if (size == 2 && has_no_width(shape, first)) {
     shape.points.resize(first);
     shape.sources.resize(first);
     shape.bulges.resize(first);

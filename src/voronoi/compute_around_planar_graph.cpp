@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/arc.h"
 #include "base/box_tree.h"
 #include "base/in_flight.h"
 #include "base/numbers.h"
@@ -115,6 +116,15 @@ Error error_of_close_point(const PlanarGraph& planar_graph, std::uint32_t point)
   return error;
 }
 
+/// Whether a point is surely further than `least` from an arc's whole circle: the box around a long
+/// arc holds much else.
+bool is_off_circle(Vec2 p, const BulgeArc& arc, double least) {
+  const double squared = arc.bulge * arc.bulge, share = 1 / (4 * arc.bulge);
+  const Vec2 center = midpoint(arc.start, arc.end) + (1 - squared) * share * left_of(arc.chord());
+  const double radius = (1 + squared) * std::abs(share) * norm(arc.chord());
+  return std::abs(distance(p, center) - radius) > 2 * least + 0x1p-48 * radius;
+}
+
 /// An error that names the first point which is nearer than that to another one, or to an edge that
 /// does not end there, if there is one and edges. O(n log n).
 std::optional<Error> too_close(const PlanarGraph& planar_graph, double least) {
@@ -142,6 +152,11 @@ std::optional<Error> too_close(const PlanarGraph& planar_graph, double least) {
     if (k < edges ? planar_graph.edges[k].from == point || planar_graph.edges[k].to == point
                   : other == point)
       return;
+    if (k < edges && planar_graph.edges[k].bulge != 0) {
+      const PlanarGraphEdge& edge = planar_graph.edges[k];
+      const BulgeArc arc{planar_graph.points[edge.from], planar_graph.points[edge.to], edge.bulge};
+      if (is_off_circle(p, arc, least)) return;
+    }
     const std::uint32_t site =
         k < edges ? static_cast<std::uint32_t>(planar_graph.points.size()) + k : other;
     if (distance(foot(voronoi::site_of_planar_graph(planar_graph, site), p), p) < least)
