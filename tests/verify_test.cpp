@@ -239,6 +239,26 @@ TEST(VerifyFinds, WrongSite) {
   expect_failure(m, "1 edges lie between a site and itself; the first is edge 0");
 }
 
+TEST(VerifyFinds, EdgesNextToTheirVertexAsSites) {
+  const HandMade m = ell();
+  int vertices = 0;
+  for (std::size_t e = 0; e < m.axis.edges.size(); ++e)
+    for (const std::uint32_t vertex : m.axis.edges[e].site) {
+      if (m.axis.sites[vertex].kind() != SiteKind::vertex) continue;
+      ++vertices;
+      for (std::uint32_t i = 0; i < m.axis.sites.size(); ++i) {
+        const Site& next = m.axis.sites[i];
+        const Vec2 at = m.axis.sites[vertex].start;
+        if (i == vertex || !(next.start == at || next.end == at)) continue;
+        HandMade spoilt = m;
+        for (std::uint32_t& own : spoilt.axis.edges[e].site)
+          if (own == vertex) own = i;
+        expect_failure(spoilt, "do not touch a site of their edge");
+      }
+    }
+  EXPECT_GT(vertices, 0);
+}
+
 TEST(VerifyFinds, DisksBeyondTheNormalAtAVertex) {
   // They touch the vertex, as their edge says, but reach over the boundary edge next to it: of
   // disks behind the normal no such edge is looked at.

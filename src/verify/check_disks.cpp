@@ -233,6 +233,20 @@ double turned_by(const Problem& problem, const Edge& edge, const Curve& curve) {
   return -cross(tangent, chord) / speed;
 }
 
+/// By how much a disk misses what its segments and arcs would be if they went on: where its foot
+/// lies beyond the end of one, the vertex there is touched instead.
+double missed_beyond_ends(const Problem& problem, const Edge& edge, Vec2 center) {
+  double most = 0;
+  for (const std::uint32_t i : edge.site) {
+    const Site& site = problem.axis.sites[i];
+    if (site.kind() == SiteKind::vertex) continue;
+    const BoundaryEdge whole = edge_of(site);
+    most = std::max(most,
+                    distance_to_edge(center, whole) - std::abs(distance_to_carrier(center, whole)));
+  }
+  return most;
+}
+
 /// The checks of one edge. A node is measured with the first of its edges.
 class EdgeCheck {
  public:
@@ -289,8 +303,10 @@ class EdgeCheck {
       if (two) add(disks, nearest, 1, no_index);
     }
     measure_places();
-    findings_.turned.add(turned_by(problem_, edge_, curve_), problem_.tolerance,
-                         curve_.at(0.5).center, index_);
+    const Vec2 middle = curve_.at(0.5).center;
+    findings_.turned.add(turned_by(problem_, edge_, curve_), problem_.tolerance, middle, index_);
+    findings_.contact.add(missed_beyond_ends(problem_, edge_, middle), problem_.tolerance, middle,
+                          index_);
   }
 
  private:
