@@ -146,10 +146,10 @@ void FirstTouch::Search::look_at(const Entry& entry) {
   count = std::min(count + 1, many + 1);
 }
 
-/// While the disk grows, its distance from the site falls by 1 - cos(angle) of the radius, the
-/// angle between its directions of growth and of contact: by as much less than the rounding of the
-/// distance, the radius is off by more. To second order this holds where the error is a small part
-/// of the radius, and of how far the centre is from that of an arc.
+/// While the disk grows, its distance from the site falls at the rate 1 - cos(angle), the angle
+/// between its directions of growth and of contact. So the radius is off by the rounding of the
+/// distance divided by that rate. To second order this holds where the error is a small part of the
+/// radius, and of how far the centre is from that of an arc.
 std::optional<FirstTouch::Touch> FirstTouch::Search::touch() const {
   if (found == nullptr) return std::nullopt;
   constexpr double part = 0x1p-6;

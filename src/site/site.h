@@ -94,7 +94,7 @@ inline bool is_same_place(Vec2 end, Vec2 point) {
   return std::abs(gap.x) <= same_point && std::abs(gap.y) <= same_point;
 }
 
-/// Whether two edges are the two sides of one.
+/// Whether two edges are surely the two sides of one: their lengths are equal to the last bit.
 inline bool are_two_sides(const Site& a, const Site& b) {
   return a.length == b.length && a.curvature == -b.curvature && is_same_place(a.point, b.end()) &&
          is_same_place(a.end(), b.point);

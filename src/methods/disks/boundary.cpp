@@ -71,10 +71,10 @@ Start start_of_outer(const LoopEdges& loop, const SiteNumbers& numbers, bool has
 }
 
 /// Whether a disk that reaches out in the direction `outreach` may touch the boundary where two
-/// edges join. At a reflex vertex that looks the other way it may not, as on the far side of edges
-/// that lie across that direction: there it is as far out up to rounding. At a smooth joint it may
-/// where both edges lead less far out: beside one that is hardly less far than a place within an
-/// edge, the disk would touch that place.
+/// edges join. It may not at a reflex vertex that looks the other way, though up to rounding that
+/// may lie as far out, on the far side of edges across that direction. At a smooth joint it may
+/// only where both edges lead back from it: elsewhere a place inside one of them lies further out,
+/// and is touched.
 bool can_reach_out(const LoopEdges& loop, const SiteNumbers& numbers, std::uint32_t i) {
   if (loop.size() == 1) return true;
   const Vec2 before = loop.edge(loop.before(i)).last().end_normal();

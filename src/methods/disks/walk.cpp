@@ -257,7 +257,8 @@ class Walker {
   }
 
   /// Whether an exact disk reaches over the site that a span has left, by more than what counts as
-  /// touched: then the exact axis has no edge in the span.
+  /// touched: then the exact axis has no edge in the span. Beside arcs, ties that double takes for
+  /// certain may lead there.
   bool reaches_over(std::uint32_t third, const Disk& disk) const {
     if (third >= boundary_.sites.size() || element(third) == Element::bridge) return false;
     const double reach = disk.radius - context_.tolerance;
