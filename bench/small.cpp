@@ -92,14 +92,15 @@ void measure_footprints() {
 std::vector<medial::Feature> glyphs_of(const std::string& font) {
   std::vector<medial::Feature> glyphs;
   for (unsigned code = 33; code < 0x2000 && glyphs.size() < most_glyphs; ++code) {
-    std::string text;
-    if (code < 0x80)
-      text = {static_cast<char>(code)};
-    else if (code < 0x800)
-      text = {static_cast<char>(0xC0 | code >> 6), static_cast<char>(0x80 | (code & 0x3F))};
-    else
-      text = {static_cast<char>(0xE0 | code >> 12), static_cast<char>(0x80 | (code >> 6 & 0x3F)),
-              static_cast<char>(0x80 | (code & 0x3F))};
+    std::string text;  // in UTF-8
+    const auto add = [&](unsigned byte) { text.push_back(static_cast<char>(byte)); };
+    if (code < 0x80) add(code);
+    if (code >= 0x80 && code < 0x800) add(0xC0 | code >> 6);
+    if (code >= 0x800) {
+      add(0xE0 | code >> 12);
+      add(0x80 | (code >> 6 & 0x3F));
+    }
+    if (code >= 0x80) add(0x80 | (code & 0x3F));
     auto read = medial::io::read_text(text, font);
     if (read)
       for (medial::Feature& glyph : read->items) glyphs.push_back(std::move(glyph));
