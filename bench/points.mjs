@@ -2,9 +2,9 @@
 //
 //     node bench/points.mjs MEDIAL [COUNT]
 //
-// Prints seconds of processor time, the least of five rounds, of which the first is shown as well.
-// delaunator finds the triangulation alone; medial, by its command line, the whole diagram: without
-// reading, and of the rounds the last four are later runs in new processes.
+// Prints seconds of processor time: of the first of five rounds, and the least. delaunator finds the
+// triangulation alone, and all of its rounds run in one process. medial finds the whole diagram; each
+// round is a new process of its command line, and reading the points is left out.
 
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";

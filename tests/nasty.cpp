@@ -1,8 +1,7 @@
 // The classes of shapes on which rounding decides, by the thousand: a table of what goes wrong.
 //
-//   medial_nasty [--class NAME] [--count N] [--from SEED] [--seconds N] [--oracle K] [--planar
-//   edges|points]
-//                [--threads N] [--method NAME] [--save FOLDER]
+//   medial_nasty [--class NAME] [--count N] [--from SEED] [--seconds N] [--oracle K]
+//                [--planar edges|points] [--threads N] [--method NAME] [--save FOLDER]
 //
 // Each shape is computed and verified, and so are its mirror image, its image under a quarter turn,
 // under a power of two, and from another start, and with two threads: all must have one graph.

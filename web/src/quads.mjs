@@ -70,8 +70,8 @@ export class Quads {
   }
 
   /**
-   * Calls visit(number) for each box that may meet the given one, and for some that do not; in cells of the
-   * last level for `most` of them.
+   * Calls visit(number) for each box that may meet the given one, and for some that do not. In each cell of
+   * the last level, `most` boxes are visited at most.
    */
   find([x0, y0, x1, y1], visit, most = Infinity) {
     for (let level = 0; level < LEVELS; ++level) {
