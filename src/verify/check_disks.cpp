@@ -233,13 +233,14 @@ double turned_by(const Problem& problem, const Edge& edge, const Curve& curve) {
   return -cross(tangent, chord) / speed;
 }
 
-/// By how much a disk misses what its segments and arcs would be if they went on: where its foot
-/// lies beyond the end of one, the vertex there is touched instead.
+/// By how much a disk misses the lines of its segments: where its foot lies beyond the end of one,
+/// the vertex there is touched instead. Not of arcs: next to the centre of one, the foot may be
+/// anywhere, and it may have a smooth joint at its end.
 double missed_beyond_ends(const Problem& problem, const Edge& edge, Vec2 center) {
   double most = 0;
   for (const std::uint32_t i : edge.site) {
     const Site& site = problem.axis.sites[i];
-    if (site.kind() == SiteKind::vertex) continue;
+    if (site.kind() != SiteKind::segment) continue;
     const BoundaryEdge whole = edge_of(site);
     most = std::max(most,
                     distance_to_edge(center, whole) - std::abs(distance_to_carrier(center, whole)));
