@@ -13,9 +13,7 @@ namespace {
 
 using site::Site;
 
-/// What rounding may add to the distance of a disk's centre from a site, for local coordinates
-/// below 2 and distances below 4, and to the end of a site.
-constexpr double rounding = 0x1p-48;
+constexpr double rounding = FirstTouch::distance_rounding;
 
 /// A radius that is further off is not known. A disk's distance from a site changes by up to twice
 /// as much as its radius: sites that are so near to it are looked at as well.

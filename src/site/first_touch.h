@@ -31,6 +31,9 @@ class FirstTouch {
     double error = 0;         ///< how far the radius may be from that of the exact disk
     std::uint32_t count = 1;  ///< of edges that the exact disk may touch: the two sides of one once
   };
+  /// What rounding may add to the distance of a disk's centre from a site, for local coordinates
+  /// below 2 and distances below 4, and to the end of a site.
+  static constexpr double distance_rounding = 0x1p-48;
   static constexpr std::uint32_t many = 8;  ///< the count where double cannot tell
   /// The first site that the disk of radius r around foot + r direction reaches, from either side,
   /// while r grows from 0 to `largest`, of all sites of the group but those from first to last,

@@ -162,7 +162,7 @@ class Connector {
     const Site& before = loops_.sites[site == run.first ? run.last : site - 1];
     const Site& after = loops_.sites[site == run.last ? run.first : site + 1];
     const bool is_loose_end = site::are_two_sides(before, after);
-    const double slack = 0x1p-48 + 2 * touch.error;
+    const double slack = site::FirstTouch::distance_rounding + 2 * touch.error;
     // Near the centre of an arc, its foot moves by more than the disk's centre.
     const Vec2 center = bridge.disk.center;
     const auto beyond = [&](const Site& edge, double by) {
@@ -410,8 +410,7 @@ std::vector<Bridge> connecting_disks(const Shape& shape, const Boundary& loops, 
     const bool is_loose = loops.two_sided && run.last == other &&
                           loops.elements[run.first] == Element::vertex &&
                           loops.elements[side + 1] == Element::vertex &&
-                          loops.sites[side].length == loops.sites[other].length &&
-                          loops.sites[side].curvature == -loops.sites[other].curvature;
+                          site::are_two_sides(loops.sites[side], loops.sites[other]);
     for (std::uint32_t i = run.first; i <= run.last; ++i) {
       if (loops.elements[i] != Element::edge && run.first < run.last) continue;
       edges.push_back(i);
