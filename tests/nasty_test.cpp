@@ -377,6 +377,27 @@ TEST(Gear, IsMeasuredInsteadOfDecided) {
   EXPECT_TRUE(verify(*shape, *axis, {.threads = 1}).passed);
 }
 
+/// The inner vertices of a regular star touch one disk: near ones leave its place open, all of them
+/// do not.
+TEST(RegularStar, IsOneTieDecidedInDouble) {
+  for (const int points : {500, 700, 1200, 1500})
+    for (const double turned : {0.0, 0.3, 1.1}) {
+      Ring ring;
+      for (int i = 0; i < 2 * points; ++i) {
+        const double angle = turned + std::numbers::pi * i / points;
+        ring.points.push_back((i % 2 == 0 ? 1 : 0.5) * Vec2{std::cos(angle), std::sin(angle)});
+      }
+      const auto shape = build_shape(Rings{ring});
+      ASSERT_TRUE(shape) << to_string(shape.error());
+      const auto axis = compute(*shape, {.threads = 1});
+      ASSERT_TRUE(axis) << to_string(axis.error());
+      EXPECT_EQ(axis->statistics.exact_twofold + axis->statistics.exact_precise, 0U)
+          << points << " points, turned by " << turned;
+      EXPECT_EQ(axis->nodes.size(), 2 * points + 1U) << points << " points, turned by " << turned;
+      EXPECT_TRUE(verify(*shape, *axis, {.threads = 1}).passed);
+    }
+}
+
 // ---- Classes.
 
 /// How many of a thousand shapes of a class may fail: none where it is mended.

@@ -246,10 +246,23 @@ bool Contacts::passes_at(const Span& span, const Disk& disk, std::uint32_t next)
          touches_carrier(own, disk, context_.tolerance);
 }
 
+bool Contacts::is_crowded(const Span& span, const Disk& disk) const {
+  const auto [a, b] = crowded_;
+  const Boundary::SiteRange& run = run_of(span);
+  const auto is_near = [&](std::uint32_t i) {
+    return i >= run.first && i <= run.last && std::abs(away(i, disk)) <= clearance() &&
+           !is_beside(i, disk.center, run) && !looks_away(i, disk.center);
+  };
+  return is_near(a) && is_near(b) &&
+         squared_norm(site::foot(site(a), disk.center) - site::foot(site(b), disk.center)) <=
+             2 * disk.radius * clearance();
+}
+
 bool Contacts::is_clean_tie(const Span& span, const Disk& disk, std::uint32_t sure) {
   constexpr double well_placed = 16, furthest = 0x1p-12;
   for (const std::uint32_t i : {span.right, span.left, sure})
     if (std::abs(away(i, disk)) > touching_) return false;
+  if (is_crowded(span, disk)) return false;
   const std::vector<std::uint32_t>& sites = around(span, disk);
   const auto has = [&](std::uint32_t i) { return ranges::binary_search(sites, i); };
   if (!has(span.right) || !has(span.left) || !has(sure)) return false;
@@ -267,8 +280,10 @@ bool Contacts::is_clean_tie(const Span& span, const Disk& disk, std::uint32_t su
     const Vec2 foot = site::foot(site(i), disk.center);
     // A disk that touches one place all but touches what is beside it.
     if ((before + 1 != i || !boundary_.is_smooth(before)) &&
-        squared_norm(foot - foot_before) <= 2 * disk.radius * clearance())
+        squared_norm(foot - foot_before) <= 2 * disk.radius * clearance()) {
+      crowded_ = {before, i};
       return false;
+    }
     before = i;
     foot_before = foot;
   }
@@ -279,7 +294,7 @@ std::optional<Disk> Contacts::clean_tie(const Span& span, const Disk& near, std:
   const TieSites sites{boundary_.sites};
   Disk disk = near;
   // What touches a disk places it better, so that it touches more.
-  for (std::size_t before = 3;;) {
+  for (std::size_t before = 3; !is_crowded(span, disk);) {
     std::vector<Touch> contacts;
     for (const std::uint32_t i : around(span, disk)) contacts.push_back({i});
     if (contacts.size() <= before) return std::nullopt;
@@ -289,6 +304,7 @@ std::optional<Disk> Contacts::clean_tie(const Span& span, const Disk& near, std:
     disk = fit.disk;
     if (is_clean_tie(span, disk, sure)) return disk;
   }
+  return std::nullopt;
 }
 
 void Contacts::split(const Span& span, const Disk& disk, std::uint32_t sure, bool all_around,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
@@ -176,6 +177,9 @@ class Contacts {
   /// How far a disk may be from the one that it should be, at most, against the residuals of its
   /// contacts with some of these sites (docs/exact.md).
   double spread_of(const std::vector<std::uint32_t>& sites, const Span& span, Vec2 center) const;
+  /// Whether a disk is near to the two feet that the last tie had too near to each other: a tie of
+  /// thousands is not collected again for each of its contacts.
+  bool is_crowded(const Span& span, const Disk& disk) const;
   /// How far away a site is that has nothing to do with a tie.
   double clearance() const {
     constexpr double tolerances = 64;
@@ -200,6 +204,7 @@ class Contacts {
   Disk around_{{0, 0}, -1};
   const Boundary::SiteRange* around_run_ = nullptr;
   std::vector<std::uint32_t> near_;
+  std::array<std::uint32_t, 2> crowded_{Hit::none, Hit::none};  ///< see is_crowded()
   mutable std::vector<std::uint32_t> together_;  ///< sites in one place
 };
 

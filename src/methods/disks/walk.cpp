@@ -198,6 +198,12 @@ class Walker {
     using Kind = Event::Kind;
     Event& event = step.event;
     if (contacts_.is_certain() && !is_exact_ && event.kind == Kind::contact) {
+      // Contacts that are near to each other leave open where they meet: in a tie of the node's
+      // own disk, there.
+      if (contacts_.is_clean_tie(step.span, from, event.site)) {
+        event.disk = from;
+        return step.is_tie = true;
+      }
       const auto disk = contacts_.clean_tie(step.span, event.disk, event.site);
       if (disk && distance(disk->center, from.center) > spread * context_.tolerance) {
         event.disk = *disk;
