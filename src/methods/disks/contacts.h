@@ -205,7 +205,7 @@ class Contacts {
   const Boundary::SiteRange* around_run_ = nullptr;
   std::vector<std::uint32_t> near_;
   std::array<std::uint32_t, 2> crowded_{Hit::none, Hit::none};  ///< see is_crowded()
-  mutable std::vector<std::uint32_t> together_;  ///< sites in one place
+  mutable std::vector<std::uint32_t> together_;                 ///< sites in one place
 };
 
 }  // namespace medial::disks
