@@ -92,7 +92,7 @@ class Solution {
     if (const auto place = find_smooth_run(elements_)) return too_nearly_round(*place);
     merge_in_precise();
     if (problem_.is_cancelled()) return success();
-    if (!graph) return broken();
+    if (!graph) return undecided();
     join_ties(*graph, problem_.local_tolerance());
     if (const auto disk = overreach()) return too_nearly_round(disk->center);
     return success();
@@ -147,7 +147,9 @@ class Solution {
   Error undecided() const {
     const Vec2 place = broken_at_ ? elements_.sites[*broken_at_].point : Vec2{};
     Error error = unsupported(
-        place, "rounding alone decides what a disk touches next to arcs: use the method disks");
+        place, elements_.have_arcs()
+                   ? "rounding alone decides what a disk touches next to arcs: use the method disks"
+                   : "the sides are too near to each other to separate: use the method disks");
     if (!broken_at_) error.place = {};
     return error;
   }
