@@ -57,7 +57,9 @@ bool moves_forward(const site::Site& arc, Vec2 from, Vec2 to) {
 /// quarter of a turn, by direction and by the ellipse's own parameter.
 std::vector<double> divide(const site::AroundPoint& around, double start, double turn) {
   constexpr double quarter = 0.5 * std::numbers::pi, whole = 4 * quarter, rounding = 1e-6;
-  const auto parts_of = [](double angle) { return std::ceil(std::abs(angle) / quarter - rounding); };
+  const auto parts_of = [](double angle) {
+    return std::ceil(std::abs(angle) / quarter - rounding);
+  };
   std::vector<double> directions;
   const double parts = parts_of(turn);
   double before = around.parameter_at(start);
@@ -154,7 +156,9 @@ Status split_long_edges(MedialAxis& axis, std::vector<E>& edges, bool parabolas)
     // The foot on the right goes forward, around a vertex clockwise; on the left it is the other
     // way around.
     const double sign = side == 1 ? -1 : 1, whole = 2 * std::numbers::pi;
-    const auto way = [&](double from, double to) { return sign * std::remainder(to - from, whole); };
+    const auto way = [&](double from, double to) {
+      return sign * std::remainder(to - from, whole);
+    };
     double first = around.parameter(begin);
     const double last = around.parameter(end);
     double turn = way(around.direction_at(first), around.direction_at(last));
@@ -189,8 +193,7 @@ Status split_long_edges(MedialAxis& axis, std::vector<E>& edges, bool parabolas)
       const Disk disk = around.disk_at(direction);
       if (!std::isfinite(disk.radius))
         return Error{ErrorCode::internal, "a Voronoi edge has no middle", {}};
-      pieces.add_to({point + disk.center, disk.radius},
-                    control_to(around.parameter_at(direction)));
+      pieces.add_to({point + disk.center, disk.radius}, control_to(around.parameter_at(direction)));
     }
     pieces.add_last(control_to(-first));
   }
