@@ -28,6 +28,9 @@ struct AroundPoint {
   }
 
   bool is_ellipse() const { return gap > 0; }
+  double direction(Vec2 center) const {
+    return std::atan2(cross(near, center - place), dot(near, center - place));
+  }
   double direction_at(double parameter) const {
     const double half = 0.5 * parameter;
     return 2 * std::atan2(std::sin(half), flatness * std::cos(half));
@@ -39,9 +42,8 @@ struct AroundPoint {
   /// Of a centre. On the far half the way along the ellipse tells, as a node may lie anywhere
   /// across it that rounding cannot tell apart: only the sign is left to that.
   double parameter(Vec2 center) const {
-    const Vec2 to = center - place;
-    const double along = dot(near, to), across = cross(near, to);
-    if (!is_ellipse() || along > 0) return parameter_at(std::atan2(across, along));
+    const double along = dot(near, center - place), across = cross(near, center - place);
+    if (!is_ellipse() || along > 0) return parameter_at(direction(center));
     const double below = own.curvature * (0.5 * gap - along);  // against the whole axis
     const double half = std::atan2(std::sqrt(below), std::sqrt(std::max(1 - below, 0.0)));
     return std::copysign(2 * half, across);

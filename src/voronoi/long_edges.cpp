@@ -161,7 +161,7 @@ Status split_long_edges(MedialAxis& axis, std::vector<E>& edges, bool parabolas)
     };
     double first = around.parameter(begin);
     const double last = around.parameter(end);
-    double turn = way(around.direction_at(first), around.direction_at(last));
+    double turn = way(around.direction(begin), around.direction(end));
     // Along one part of a bisector both feet go forward. Where only the one around a lone point
     // goes backward, by more than the rounding of both ends, an ellipse leads all around.
     constexpr double backward = 1e-6;
