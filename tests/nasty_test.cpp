@@ -237,8 +237,9 @@ TEST_P(GraphsWithPointsNextToArcs, HaveADiagramUnderAllSymmetries) {
 /// circle apart; a corner too flat for a foot to move; several loops at one node; a node that
 /// stands for both sides of an ellipse; an arc in pieces between two bridges; a half circle of
 /// which only pieces are left; the circle of a short arc taken for a disk that touches its
-/// neighbours; and a curve that led the other way around an arc's centre.
-constexpr std::array<Seeded, 11> points_next_to_arcs{{{"plates", 20261207100000024},
+/// neighbours; a curve that led the other way around an
+/// arc's centre; and a point between two pieces of one arc.
+constexpr std::array<Seeded, 13> points_next_to_arcs{{{"plates", 20261207100000024},
                                                       {"plates", 20261207100000031},
                                                       {"gears", 20261207100000003},
                                                       {"gears", 20261207100000007},
@@ -248,6 +249,8 @@ constexpr std::array<Seeded, 11> points_next_to_arcs{{{"plates", 202612071000000
                                                       {"plates", 20261207200000082},
                                                       {"circles", 20261207100000020},
                                                       {"plates", 20261207100000576},
+                                                      {"gears", 20261207100000444},
+                                                      {"tangents", 20261207100000226},
                                                       {"circles", 20261207100000373}}};
 
 INSTANTIATE_TEST_SUITE_P(Cases, GraphsWithPointsNextToArcs, testing::ValuesIn(points_next_to_arcs),
