@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "site/bisector.h"
@@ -39,8 +40,8 @@ struct AroundPoint {
     const double half = 0.5 * direction;
     return 2 * std::atan2(flatness * std::sin(half), std::cos(half));
   }
-  /// Of a centre. On the far half the way along the ellipse tells, as a node may lie anywhere
-  /// across it that rounding cannot tell apart: only the sign is left to that.
+  /// Of a centre. On the far half the way along the ellipse decides, as a node may lie anywhere
+  /// across it within the tolerance: that decides the sign only.
   double parameter(Vec2 center) const {
     const double along = dot(near, center - place), across = cross(near, center - place);
     if (!is_ellipse() || along > 0) return parameter_at(direction(center));

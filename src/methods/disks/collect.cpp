@@ -207,8 +207,7 @@ void remove_spurs(const Boundary& boundary, Graph& graph) {
     std::sort(nodes.begin(), nodes.end());
     std::vector<std::uint32_t> place(graph.nodes.size());
     std::iota(place.begin(), place.end(), 0U);
-    fill_gaps(graph.nodes, nodes,
-              [&](std::uint32_t from, std::uint32_t to) { place[from] = to; });
+    fill_gaps(graph.nodes, nodes, [&](std::uint32_t from, std::uint32_t to) { place[from] = to; });
     fill_gaps(graph.edges, edges, [](std::uint32_t, std::uint32_t) {});
     for (Edge& edge : graph.edges)
       for (std::uint32_t& node : edge.node) node = place[node];
