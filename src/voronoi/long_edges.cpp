@@ -53,6 +53,11 @@ bool moves_forward(const site::Site& arc, Vec2 from, Vec2 to) {
   return cross(way, toward) > 0 || squared_norm(toward) <= arc.curvature * dot(toward, way);
 }
 
+/// From one angle to another one, by at most half a turn.
+double way_between(double from, double to) {
+  return std::remainder(to - from, 2 * std::numbers::pi);
+}
+
 /// Directions around a point that divide an edge there, which turns so far: into parts of at most a
 /// quarter of a turn, by direction and by the ellipse's own parameter.
 std::vector<double> divide(const site::AroundPoint& around, double start, double turn) {
@@ -156,19 +161,15 @@ Status split_long_edges(MedialAxis& axis, std::vector<E>& edges, bool parabolas)
     // The foot on the right goes forward, around a vertex clockwise; on the left it is the other
     // way around.
     const double sign = side == 1 ? -1 : 1, whole = 2 * std::numbers::pi;
-    const auto way = [&](double from, double to) {
-      return sign * std::remainder(to - from, whole);
-    };
     double first = around.parameter(begin);
-    const double last = around.parameter(end);
-    double turn = way(around.direction(begin), around.direction(end));
+    double turn = sign * way_between(around.direction(begin), around.direction(end));
     // Along one part of a bisector both feet go forward. Where only the one around a lone point
     // goes backward, by more than the rounding of both ends, an ellipse leads all around.
     constexpr double backward = 1e-6;
     const auto goes_around = [&] {
       const double rounding =
           around.rounding(begin, axis.tolerance) + around.rounding(end, axis.tolerance);
-      return way(first, last) < -rounding &&
+      return sign * way_between(first, around.parameter(end)) < -rounding &&
              moves_forward(seen, side == 1 ? end : begin, side == 1 ? begin : end);
     };
     const bool of_lone_point = is_arc(other) && is_lone_point(axis, edge.site[side]);
