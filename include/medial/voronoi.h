@@ -13,7 +13,7 @@ Result<VoronoiDiagram> voronoi_diagram(const Shape& shape, const Options& option
 /// (docs/voronoi.md): that of the whole plane, clipped to `enclosure`, by default the box
 /// Options::margin around the graph. Also uses tolerance, threads, progress and cancel. O(n log n)
 /// expected. Errors: those of compute(); invalid_option (the graph touches or leaves the
-/// enclosure), unsupported (points within 16 tolerances of arcs: PlanarGraphOptions::reach).
+/// enclosure), unsupported (points too near to tell apart: PlanarGraphOptions::reach).
 Result<VoronoiDiagram> voronoi_diagram(const PlanarGraph& planar_graph, const Options& options = {},
                                        const std::optional<Box>& enclosure = {});
 

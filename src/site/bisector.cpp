@@ -211,8 +211,19 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
     return along >= 0 && along <= squared_norm(chord);
   };
   const Control straight{middle_of(from, to), 1};
-  if ((strays > few_roundings || !is_between(best.point.center)) &&
-      deviation(straight, a, b, from, to, near_focus) <= few_roundings)
+  // A curve that leads another way around a focus is no better than a line that strays no further
+  // than the ends do, beside joints that are smooth but for some tolerances, or that is shorter
+  // than rounding sees.
+  const bool leads_between = is_between(best.point.center);
+  constexpr double short_line = 0x1p-46;
+  if (!leads_between && length <= short_line) return straight;
+  double enough = few_roundings;
+  if (!leads_between)
+    for (const Disk& end : {from, to})
+      for (const Site* s : {&a, &b})
+        enough = std::max(enough, std::abs(carrier_distance(*s, end.center) - end.radius));
+  if ((strays > few_roundings || !leads_between) &&
+      deviation(straight, a, b, from, to, near_focus) <= enough)
     return straight;
   const auto take_if_better = [&](const Control& control) {
     const double now = deviation(control, a, b, from, to, near_focus);

@@ -176,15 +176,12 @@ std::optional<Error> too_close(const PlanarGraph& planar_graph, double least) {
 template <class E>
 Result<MedialAxis> run_around(const PlanarGraph& planar_graph, const Problem& surroundings,
                               std::vector<E>& edges) {
-  // Double alone may be misled by what is too close.
-  const bool has_arcs = !surroundings.shape.bulges.empty();
-  const double least = told_apart * surroundings.tolerance;
-  if (has_arcs)
-    if (auto error = too_close(planar_graph, least)) return std::move(*error);
   auto [axis, is_certain] = disks::run_two_sided(surroundings, edges);
   if (surroundings.is_cancelled()) return Error{ErrorCode::cancelled, "cancelled", {}};
-  if (!is_certain && !has_arcs)
-    if (auto error = too_close(planar_graph, least)) return std::move(*error);
+  // Double alone may be misled by what is too close.
+  if (!is_certain && surroundings.shape.bulges.empty())
+    if (auto error = too_close(planar_graph, told_apart * surroundings.tolerance))
+      return std::move(*error);
   if (!has_right_topology(surroundings.shape, axis.nodes, edges))
     return Error{ErrorCode::internal,
                  "the diagram is not connected as it should be: please report this input",

@@ -36,9 +36,14 @@ void EnclosureCut::add_crossing(const Disk& disk, std::array<std::uint32_t, 2> s
                                 std::uint32_t edge, std::uint32_t end) {
   // Outward, the edge has one site on its left, which comes after it along the enclosure.
   Vec2 on_border = onto_border(enclosure_, disk.center);
-  const double place = place_on_border(enclosure_, on_border);
-  if (place == std::floor(place))  // to rounding in a corner
-    on_border = corner_of(enclosure_, static_cast<std::size_t>(place) % 4);
+  double place = place_on_border(enclosure_, on_border);
+  // On which side of a corner is rounding, too, within the tolerance.
+  const double nearest = std::round(place) < 4 ? std::round(place) : 0;
+  const Vec2 corner = corner_of(enclosure_, static_cast<std::size_t>(nearest));
+  if (distance(on_border, corner) <= tolerance_) {
+    on_border = corner;
+    place = nearest;
+  }
   crossings_.push_back({place, {on_border, disk.radius}, site[end], site[1 - end], edge, end});
 }
 

@@ -5,10 +5,13 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "axis/sites.h"
 #include "base/arc.h"
 #include "base/compat.h"
+#include "site/around_point.h"
 #include "site/bisector.h"
 #include "site/site.h"
 #include "site/tangent_disk.h"
@@ -43,37 +46,86 @@ site::Site seen_from(const Site& site, Vec2 origin, double unit, Vec2 near) {
   return first ? pieces.first() : pieces.last();
 }
 
-/// How far the foot on a site moves between two centres, up to a factor.
-double foot_way(const Site& site, Vec2 from, Vec2 to) {
-  const double unit = unit_for(distance(site.start, from));
-  const site::Site seen = seen_from(site, from, unit, {0, 0});
-  return site::carrier_parameter(seen, unit * (to - from)) - site::carrier_parameter(seen, {0, 0});
+/// Whether the foot on an arc moves forward between two centres. It never passes half a circle, so
+/// it does where the feet are more than a quarter apart.
+bool moves_forward(const site::Site& arc, Vec2 from, Vec2 to) {
+  const Vec2 toward = site::view_of_arc(arc, from).toward, way = to - from;
+  return cross(way, toward) > 0 || squared_norm(toward) <= arc.curvature * dot(toward, way);
 }
 
-/// The disk through a point that grows in a direction until it touches an arc, if rounding leaves
-/// one.
-std::optional<Disk> disk_towards(const MedialAxis& axis, Vec2 point, Vec2 direction,
-                                 std::uint32_t own) {
-  const Site& site = axis.sites[own];
-  const site::Pieces pieces = site::pieces_of(site.start - point, site.end - point, site.bulge);
-  const double radius = site::tangent_radius({0, 0}, direction, pieces.first());
-  if (!std::isfinite(radius)) return std::nullopt;
-  return Disk{point + radius * direction, radius};
+/// From one angle to another one, by at most half a turn.
+double way_between(double from, double to) {
+  return std::remainder(to - from, 2 * std::numbers::pi);
 }
 
+/// Directions around a point that divide an edge there, which turns so far: into parts of at most a
+/// quarter of a turn, by direction and by the ellipse's own parameter.
+std::vector<double> divide(const site::AroundPoint& around, double start, double turn) {
+  constexpr double quarter = 0.5 * std::numbers::pi, whole = 4 * quarter, rounding = 1e-6;
+  const auto parts_of = [](double angle) {
+    return std::ceil(std::abs(angle) / quarter - rounding);
+  };
+  std::vector<double> directions;
+  const double parts = parts_of(turn);
+  double before = around.parameter_at(start);
+  for (double k = 1; k <= parts; ++k) {
+    const double direction = std::remainder(start + turn * k / parts, whole);
+    const double after = around.parameter_at(direction);
+    double way = after - before;
+    if ((turn > 0 ? way : -way) < -rounding) way += std::copysign(whole, turn);
+    const double smaller = parts_of(way);
+    for (double i = 1; i < smaller; ++i)
+      directions.push_back(around.direction_at(before + way * i / smaller));
+    if (k < parts) directions.push_back(direction);
+    before = after;
+  }
+  return directions;
+}
+
+/// An edge that is divided, and its pieces so far.
 template <class E>
-void add_piece(const MedialAxis& axis, std::vector<E>& edges, std::size_t e, bool first, E edge,
-               std::uint32_t from, std::uint32_t to) {
-  edge.node = {from, to};
-  ConicEdge curve{axis.nodes[from].disk, {}, axis.nodes[to].disk, 1};
-  take_control(axis.sites[edge.site[0]], axis.sites[edge.site[1]], curve);
-  edge.control = curve.control;
-  edge.weight = curve.weight;
-  if (first)
-    edges[e] = edge;
-  else
-    edges.push_back(edge);
-}
+class Pieces {
+ public:
+  Pieces(MedialAxis& axis, std::vector<E>& edges, std::size_t e)
+      : axis_(axis), edges_(edges), e_(e), edge_(edges[e]), last_(edge_.node[0]) {}
+
+  /// The next piece leads to a new node.
+  void add_to(const Disk& disk, std::optional<site::Control> control) {
+    const auto node = static_cast<std::uint32_t>(axis_.nodes.size());
+    axis_.nodes.push_back({disk, axis_.nodes[last_].component, NodeKind::site_change});
+    add(node, control);
+  }
+  void add_last(std::optional<site::Control> control) {
+    if (!is_first_) add(edge_.node[1], control);
+  }
+
+ private:
+  void add(std::uint32_t to, std::optional<site::Control> control) {
+    E piece = edge_;
+    piece.node = {last_, to};
+    ConicEdge curve{axis_.nodes[last_].disk, {}, axis_.nodes[to].disk, 1};
+    if (control) {
+      curve.control = control->point;
+      curve.weight = control->weight;
+    } else {
+      take_control(axis_.sites[edge_.site[0]], axis_.sites[edge_.site[1]], curve);
+    }
+    piece.control = curve.control;
+    piece.weight = curve.weight;
+    if (std::exchange(is_first_, false))
+      edges_[e_] = piece;
+    else
+      edges_.push_back(piece);
+    last_ = to;
+  }
+
+  MedialAxis& axis_;
+  std::vector<E>& edges_;
+  std::size_t e_;
+  const E edge_;
+  std::uint32_t last_;
+  bool is_first_ = true;
+};
 
 }  // namespace
 
@@ -100,39 +152,51 @@ Status split_long_edges(MedialAxis& axis, std::vector<E>& edges, bool parabolas)
     const Site& other = axis.sites[edge.site[1 - side]];
     if (!is_vertex(axis, edge.site[side]) || !(is_arc(other) || parabolas)) continue;
     if (other.kind() == SiteKind::vertex) continue;
+    // Seen from the point, coordinates keep their digits.
     const Vec2 point = axis.sites[edge.site[side]].start;
-    const Vec2 from = axis.nodes[edge.node[0]].disk.center - point;
-    const Vec2 to = axis.nodes[edge.node[1]].disk.center - point;
+    const site::Site seen = seen_from(other, point, 1, {0, 0});
+    const site::AroundPoint around(seen, {0, 0});
+    const Vec2 begin = axis.nodes[edge.node[0]].disk.center - point;
+    const Vec2 end = axis.nodes[edge.node[1]].disk.center - point;
     // The foot on the right goes forward, around a vertex clockwise; on the left it is the other
     // way around.
-    const double sign = side == 1 ? -1 : 1;
-    double turn = sign * std::atan2(cross(from, to), dot(from, to));
+    const double sign = side == 1 ? -1 : 1, whole = 2 * std::numbers::pi;
+    double first = around.parameter(begin);
+    double turn = sign * way_between(around.direction(begin), around.direction(end));
     // Along one part of a bisector both feet go forward. Where only the one around a lone point
     // goes backward, by more than the rounding of both ends, an ellipse leads all around.
     constexpr double backward = 1e-6;
-    const double rounding = 2 * axis.tolerance / std::min(norm(from), norm(to));
     const auto goes_around = [&] {
-      const Vec2 begin = axis.nodes[edge.node[0]].disk.center;
-      const Vec2 end = axis.nodes[edge.node[1]].disk.center;
-      return edge.node[0] == edge.node[1] ||
-             (turn < -rounding && sign * foot_way(other, begin, end) > 0);
+      const double rounding =
+          around.rounding(begin, axis.tolerance) + around.rounding(end, axis.tolerance);
+      return sign * way_between(first, around.parameter(end)) < -rounding &&
+             moves_forward(seen, side == 1 ? end : begin, side == 1 ? begin : end);
     };
-    if (turn < -backward ||
-        (is_arc(other) && is_lone_point(axis, edge.site[side]) && goes_around()))
-      turn += 2 * std::numbers::pi;
-    const double pieces = std::ceil(turn / (0.5 * std::numbers::pi));
-    std::uint32_t last = edge.node[0];
-    for (double k = 1; k < pieces; ++k) {
-      const double angle = sign * turn * k / pieces, size = norm(from);
-      const Vec2 direction = (1 / size) * turned(from, std::cos(angle), std::sin(angle));
-      const auto node = static_cast<std::uint32_t>(axis.nodes.size());
-      const auto disk = disk_towards(axis, point, direction, edge.site[1 - side]);
-      if (!disk) return Error{ErrorCode::internal, "a Voronoi edge has no middle", {}};
-      axis.nodes.push_back({*disk, axis.nodes[edge.node[0]].component, NodeKind::site_change});
-      add_piece(axis, edges, e, k == 1, edge, last, node);
-      last = node;
+    const bool of_lone_point = is_arc(other) && is_lone_point(axis, edge.site[side]);
+    const bool is_loop = of_lone_point && edge.node[0] == edge.node[1];
+    if (is_loop) {
+      // Between the point and the arc; one node on both sides of the ellipse stands for two.
+      first = -sign * std::abs(first);
+      turn = 2 * std::abs(around.direction_at(first));
+    } else if (turn < -backward || (of_lone_point && goes_around())) {
+      turn += whole;
     }
-    if (pieces > 1) add_piece(axis, edges, e, false, edge, last, edge.node[1]);
+    if (!(turn > 0)) continue;
+    double before = first;
+    const auto control_to = [&](double parameter) -> std::optional<site::Control> {
+      if (!is_loop || !around.is_ellipse()) return std::nullopt;
+      site::Control control = around.control(std::exchange(before, parameter), parameter);
+      control.point.center = control.point.center + point;
+      return control;
+    };
+    Pieces<E> pieces(axis, edges, e);
+    for (const double direction : divide(around, around.direction_at(first), sign * turn)) {
+      const Disk disk = around.disk_at(direction);
+      if (!std::isfinite(disk.radius))
+        return Error{ErrorCode::internal, "a Voronoi edge has no middle", {}};
+      pieces.add_to({point + disk.center, disk.radius}, control_to(around.parameter_at(direction)));
+    }
+    pieces.add_last(control_to(-first));
   }
   return success();
 }

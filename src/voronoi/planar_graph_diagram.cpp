@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <span>
@@ -135,7 +136,7 @@ class Assembly {
         if (is_enclosure(own)) continue;
         const std::span<Step> steps = chain(own);
         if (steps.empty()) continue;
-        if (!put_in_order(steps)) connected = false;
+        if (!put_in_order(own)) connected = false;
         first_[own] = steps.front().from;
         last_[own] = steps.back().to;
       }
@@ -149,9 +150,11 @@ class Assembly {
 
   /// From the step that no other leads to, or where they make a cycle, any one. False where they
   /// are not connected.
-  static bool put_in_order(std::span<Step> steps) {
+  bool put_in_order(std::uint32_t own) const {
+    const std::span<Step> steps = chain(own);
     if (steps.size() == 1) return true;
     constexpr std::size_t few = 24;
+    if (!shape_.bulges.empty() && passes_twice(steps)) return put_loops_in_order(own);
     if (steps.size() > few) return put_many_in_order(steps);
     for (std::size_t i = 0; i < steps.size(); ++i) {
       const bool begins = std::none_of(
@@ -193,6 +196,65 @@ class Assembly {
     return true;
   }
 
+  /// Whether the steps come through a node more than once: where all around the cell of a point it
+  /// is one node within the tolerance.
+  static bool passes_twice(std::span<const Step> steps) {
+    std::vector<std::uint32_t> from;
+    for (const Step& step : steps) from.push_back(step.from);
+    std::sort(from.begin(), from.end());
+    return std::adjacent_find(from.begin(), from.end()) != from.end();
+  }
+  /// As put_in_order(), with several steps from some nodes: what is touched first along the own
+  /// site comes first, and what leads back to a node before what leaves it (Hierholzer).
+  bool put_loops_in_order(std::uint32_t own) const {
+    const std::span<Step> steps = chain(own);
+    std::map<std::uint32_t, std::vector<std::size_t>> open;  // from each node, the first at the end
+    std::map<std::uint32_t, int> surplus;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      open[steps[i].from].push_back(i);
+      ++surplus[steps[i].from];
+      --surplus[steps[i].to];
+    }
+    for (auto& [node, some] : open)
+      if (some.size() > 1 && !is_vertex(own))
+        ranges::sort(some, {}, [&](std::size_t i) { return -foot_of(own, steps[i]); });
+    const auto begin = ranges::find_if(surplus, [](const auto& node) { return node.second > 0; });
+    const auto most =
+        ranges::max_element(open, {}, [](const auto& node) { return node.second.size(); });
+    std::vector<std::size_t> way, backward;
+    std::uint32_t node = begin != surplus.end() ? begin->first : most->first;
+    for (;;) {
+      if (auto& some = open[node]; !some.empty()) {
+        way.push_back(some.back());
+        some.pop_back();
+        node = steps[way.back()].to;
+      } else {
+        if (way.empty()) break;
+        backward.push_back(way.back());
+        node = steps[way.back()].from;
+        way.pop_back();
+      }
+    }
+    if (backward.size() < steps.size()) return false;
+    const std::vector<Step> all(steps.begin(), steps.end());
+    for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = all[backward[steps.size() - 1 - i]];
+    return true;
+  }
+  /// How far along a side of an edge the disk halfway along a step touches it.
+  double foot_of(std::uint32_t own, const Step& step) const {
+    const VoronoiEdge& edge = diagram_.edges[step.edge];
+    const Vec2 from = diagram_.nodes[edge.node[0]].disk.center,
+               to = diagram_.nodes[edge.node[1]].disk.center;
+    const Vec2 halfway =
+        (0.5 / (1 + edge.weight)) * (from + to + 2 * edge.weight * edge.control.center);
+    const Site site = engine_site(own);
+    const site::Pieces pieces = site::pieces_of(site.start, site.end, site.bulge);
+    const bool on_first = pieces.count == 1 || site::squared_distance(pieces.first(), halfway) <=
+                                                   site::squared_distance(pieces.last(), halfway);
+    return on_first ? site::foot_parameter(pieces.first(), halfway)
+                    : pieces.first().length + site::foot_parameter(pieces.last(), halfway);
+  }
+
   /// Calls visit(first, last) for the own sites of every loop of the planar graph: [first, last).
   template <class Visit>
   void for_each_loop(Visit&& visit) const {
@@ -215,7 +277,8 @@ class Assembly {
   }
 
   /// Makes an own site's cycle begin where its neighbours in the loop end and begin; of two cycles,
-  /// in a node of both. Where there is no such node, make_spokes() finds a gap.
+  /// in a node of both; of the only site with edges, where a disk touches its start. Where there is
+  /// no such node, make_spokes() finds a gap.
   void turn_cycle(std::uint32_t own, std::uint32_t before, std::uint32_t after) {
     const std::span<Step> steps = chain(own);
     const auto begins_at = [&](std::uint32_t node) {
@@ -224,12 +287,22 @@ class Assembly {
     auto begin = steps.end();
     if (!is_cycle(before)) begin = begins_at(last_[before]);
     if (begin == steps.end() && !is_cycle(after)) begin = begins_at(first_[after]);
+    if (begin == steps.end() && before == own) begin = touching_start(own);
     if (begin == steps.end())
       for (const Step& step : chain(before))
         if (begin == steps.end()) begin = begins_at(step.from);
     if (begin == steps.end()) return;
     std::rotate(steps.begin(), begin, steps.end());
     first_[own] = last_[own] = steps.front().from;
+  }
+
+  /// The step from the disk that touches the start of an edge's side, as far as any does.
+  std::span<Step>::iterator touching_start(std::uint32_t own) const {
+    const Vec2 start = engine_site(own).start;
+    return ranges::max_element(chain(own), {}, [&](const Step& step) {
+      const Disk& disk = diagram_.nodes[step.from].disk;
+      return -std::abs(distance(disk.center, start) - disk.radius);
+    });
   }
 
   void turn_cycles() {

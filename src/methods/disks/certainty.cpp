@@ -182,7 +182,8 @@ bool Certainty::ends(const Boundary& boundary, double tolerance, const Span& spa
       if (!(gap(at) <= open * tolerance + span.error)) return false;
       continue;
     }
-    if (boundary.is_blunt(i) && gap(i + 1) <= open * tolerance) continue;
+    // At a corner so flat that any disk beside it touches its vertex, no foot can be seen to move.
+    if (gap(i + 1) <= open * tolerance) continue;
     const Event leaf{Event::Kind::contact, i + 1, Disk{boundary.sites[i + 1].point, 0}};
     Certainty end(boundary, span, disk, leaf);
     if (disk.radius > open * tolerance && !end.moves_forward()) return false;

@@ -8,6 +8,7 @@
 #include "axis/node_kinds.h"
 #include "axis/sites.h"
 #include "axis/statistics.h"
+#include "base/fill_gaps.h"
 #include "base/memory.h"
 #include "base/numbers.h"
 #include "base/pair.h"
@@ -186,6 +187,31 @@ Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t bridge_co
   for (const Placed& p : placed) graph.statistics += p.chunk->statistics;
   chunks.clear();
   return graph;
+}
+
+void remove_spurs(const Boundary& boundary, Graph& graph) {
+  for (;;) {
+    std::vector<std::uint32_t> degree(graph.nodes.size());
+    for (const Edge& edge : graph.edges)
+      for (const std::uint32_t node : edge.node) ++degree[node];
+    std::vector<std::uint32_t> edges, nodes;
+    for (std::uint32_t e = 0; e < graph.edges.size(); ++e) {
+      const auto [from, to] = graph.edges[e].node;
+      const auto [left, right] = graph.edges[e].site;
+      if (boundary.originals[left] != boundary.originals[right]) continue;
+      if (degree[from] > 1 && degree[to] > 1) continue;
+      edges.push_back(e);
+      nodes.push_back(degree[to] == 1 ? to : from);
+    }
+    if (edges.empty()) return;
+    std::sort(nodes.begin(), nodes.end());
+    std::vector<std::uint32_t> place(graph.nodes.size());
+    std::iota(place.begin(), place.end(), 0U);
+    fill_gaps(graph.nodes, nodes, [&](std::uint32_t from, std::uint32_t to) { place[from] = to; });
+    fill_gaps(graph.edges, edges, [](std::uint32_t, std::uint32_t) {});
+    for (Edge& edge : graph.edges)
+      for (std::uint32_t& node : edge.node) node = place[node];
+  }
 }
 
 std::vector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& frame, double slack,

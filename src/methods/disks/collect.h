@@ -23,6 +23,10 @@ struct Graph {
 Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t bridge_count,
               std::size_t spare_nodes);
 
+/// Takes edges to leaves that have one site of the result on both sides out of the graph: where
+/// joints are taken as the doubles have them, one edge may have two sites, which bound no cell.
+void remove_spurs(const Boundary& boundary, Graph& graph);
+
 /// Works out the edges' curves and an axis' nodes' kinds, and goes back to the result's numbers of
 /// sites and to the input's units. Returns the edges with an end that does not touch one of the
 /// edge's two sites, give or take `slack` in local units: where bridges divide a site, the piece of

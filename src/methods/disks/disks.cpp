@@ -193,6 +193,9 @@ Result<MedialAxis> attempt(const Problem& problem, const SiteNumbers& own_number
     return Error{ErrorCode::internal, "the walk lost its way: please report this shape", {}};
   }
   watch.lap();
+#ifdef MEDIAL_HAS_EXACT
+  if (parted && two_sided) remove_spurs(boundary, *graph);
+#endif
   constexpr double loose = 0x1p-20;  // of the size: no near tie is that far off
   const double slack = std::max(loose * diagonal(problem.box), 4 * axis.tolerance);
   const auto loose_edges = complete(boundary, problem.frame, problem.frame.scale * slack, *graph);

@@ -300,6 +300,7 @@ void EventSearch::polish(Disk& disk, const Site& third) {
 Event EventSearch::next() {
   if (boundary_.has_arcs) {
     if (is_at_apex()) return at_node(span_.right + 1);
+    if (const auto touched = at_own_circle()) return *touched;
     if (const auto passed = pass_over_circle()) return *passed;
     if (const auto passed = pass_pinned()) return *passed;
   }
@@ -335,6 +336,15 @@ bool EventSearch::is_at_apex() const {
   if (!circle || !contacts_.touches_all(span_.left - 1, from_)) return false;
   const double beyond = distance(circle->center, from_.center) + circle->radius - from_.radius;
   return beyond > context_.tolerance;
+}
+
+std::optional<Event> EventSearch::at_own_circle() const {
+  if (element(span_.right) != Element::edge || element(span_.left) != Element::edge ||
+      boundary_.originals[span_.right] != boundary_.originals[span_.left])
+    return std::nullopt;
+  const auto& touched = contacts_.touched_between(span_, from_);
+  if (touched.empty()) return std::nullopt;
+  return at_node(touched.front());
 }
 
 std::optional<Event> EventSearch::pass_over_circle() const {

@@ -137,6 +137,9 @@ class EventSearch {
   /// which reaches over what lies elsewhere. Ends of arcs so near to each other leave their
   /// bisector open by more than the disk is off.
   bool is_at_apex() const;
+  /// Between two pieces of one arc, which have no bisector: the node's disk is the arc's own
+  /// circle, and touches what is in between, within the tolerance.
+  std::optional<Event> at_own_circle() const;
   /// Where the disk of the node is the circle of an arc, it touches all of it: the foot passes on.
   std::optional<Event> pass_over_circle() const;
   /// Where the node's disk touches the smooth neighbour of one of the two sites as well, within the

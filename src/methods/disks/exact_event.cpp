@@ -131,6 +131,10 @@ class ExactEvents::Search {
   exact::ExactSite exact_site(std::uint32_t i) const { return outline_.sites[name(i)]; }
   std::uint32_t name(std::uint32_t i) const { return events_.boundary_.originals[i]; }
   bool is_bridge(std::uint32_t i) const { return events_.boundary_.elements[i] == Element::bridge; }
+  bool is_same(std::uint32_t i, std::uint32_t site) const {
+    return events_.boundary_.elements[i] == events_.boundary_.elements[site] &&
+           name(i) == name(site);
+  }
   bool is_inside(std::uint32_t i) const { return i > span_.right && i < span_.left; }
   bool is_seen(std::uint32_t i) const {
     return !is_inside(i) || is_bridge(i) || seen_.count(i) > 0;
@@ -374,9 +378,13 @@ class ExactEvents::Search {
   bool is_touched(std::uint32_t site, const KnownDisk& disk, bool at_joint) const {
     if (!at_joint && !has_foot(site, disk)) return false;
     if (stands_between_bridges(site)) return lies_between_bridges(site, disk);
-    const bool too_early = site > 0 && is_bridge(site - 1) && beyond(site - 1, site, disk) == -1;
-    const bool too_late = site + 1 < events_.boundary_.sites.size() && is_bridge(site + 1) &&
-                          beyond(site + 1, site, disk) == 1;
+    // Pieces of one arc between two bridges are one site.
+    std::uint32_t first = site, last = site;
+    while (first > 0 && is_same(first - 1, site)) --first;
+    while (last + 1 < events_.boundary_.sites.size() && is_same(last + 1, site)) ++last;
+    const bool too_early = first > 0 && is_bridge(first - 1) && beyond(first - 1, site, disk) == -1;
+    const bool too_late = last + 1 < events_.boundary_.sites.size() && is_bridge(last + 1) &&
+                          beyond(last + 1, site, disk) == 1;
     return !too_early && !too_late;
   }
 

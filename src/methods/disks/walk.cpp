@@ -2,6 +2,7 @@
 
 #include "base/threads.h"
 #include "methods/disks/certainty.h"
+#include "methods/disks/disks.h"
 #include "methods/disks/events.h"
 #include "methods/disks/exact_event.h"
 #include "methods/disks/near_circle.h"
@@ -262,13 +263,21 @@ class Walker {
       if (i < boundary_.sites.size() && element(i) != Element::bridge) chunk_.lost.push_back(i);
   }
 
-  /// Whether an exact disk reaches over the site that a span has left, by more than what counts as
-  /// touched: then the exact axis has no edge in the span. Beside arcs, ties that double takes for
-  /// certain may lead there.
-  bool reaches_over(std::uint32_t third, const Disk& disk) const {
-    if (third >= boundary_.sites.size() || element(third) == Element::bridge) return false;
-    const double reach = disk.radius - context_.tolerance;
-    return reach > 0 && site::squared_distance(site(third), disk.center) < reach * reach;
+  /// Whether an exact disk shows that a step before was wrong, beside arcs. If it reaches over the
+  /// site that the span has left, by more than what counts as touched, the exact axis has no edge
+  /// in the span: ties that double takes for certain may lead there. If it reaches over one of the
+  /// span's own sites, by more than joints are smooth, it is the circle of an arc that joins it,
+  /// and not empty.
+  bool is_wrong(const Span& span, const Disk& disk) const {
+    const double smooth =
+        (context_.in_centers == nullptr ? 1 / fine_share : 1) * context_.tolerance;
+    return reaches_over(span.third, disk, context_.tolerance) ||
+           reaches_over(span.right, disk, smooth) || reaches_over(span.left, disk, smooth);
+  }
+  bool reaches_over(std::uint32_t i, const Disk& disk, double slack) const {
+    if (i >= boundary_.sites.size() || element(i) == Element::bridge) return false;
+    const double reach = disk.radius - slack;
+    return reach > 0 && site::squared_distance(site(i), disk.center) < reach * reach;
   }
 
   /// Of the sites of two spans that differ by pieces of one arc, those on which the foot lies.
@@ -319,7 +328,9 @@ class Walker {
       return false;
     }
     Span asked = span;
-    joins_pieces(asked);
+    // Where nothing but pieces of one arc is left, the foot passes on over them.
+    if (joins_pieces(asked) && asked.left - asked.right == 1 && stays_on_arc(span, event))
+      return false;
     const bool from_exact = is_exact_ || (span.is_exact && !boundary_.has_arcs);
     const std::uint32_t hint = event.kind == Event::Kind::pass_right  ? span.right + 1
                                : event.kind == Event::Kind::pass_left ? span.left - 1
@@ -336,7 +347,7 @@ class Walker {
     stay_on_pieces(asked, found->disk.center, ahead);
     const bool passes = ahead.right != span.right || ahead.left != span.left;
     if (passes && !is_exact_ && stays_on_arc(span, event)) return false;
-    if (boundary_.has_arcs && reaches_over(span.third, found->disk)) lose(span, span.third);
+    if (boundary_.has_arcs && is_wrong(span, found->disk)) lose(span, span.third);
     span = ahead;
     step.joins_node = false;
     step.error = Certainty::rounding + found->error;
