@@ -89,13 +89,36 @@ std::vector<BoundaryEdge> edges_of(const Shape& shape) {
   return edges;
 }
 
+std::vector<Arc> arcs_of(const std::vector<BoundaryEdge>& edges) {
+  std::vector<Arc> arcs;
+  arcs.reserve(edges.size());
+  for (const BoundaryEdge& edge : edges) arcs.emplace_back(edge);
+  return arcs;
+}
+
 }  // namespace
+
+std::vector<Arc> arcs_of(const Shape& shape) {
+  return shape.bulges.empty() ? std::vector<Arc>() : arcs_of(edges_of(shape));
+}
 
 DistanceTree::DistanceTree(const Shape& shape)
     : DistanceTree(edges_of(shape), bounding_box(shape), !shape.bulges.empty()) {}
 
 DistanceTree::DistanceTree(std::vector<BoundaryEdge> edges, const Box& box, bool arcs)
-    : origin_(box.low), slack_(16 * machine_epsilon * diagonal(box)), arcs_(arcs) {
+    : own_arcs_(arcs ? arcs_of(edges) : std::vector<Arc>()), arcs_(own_arcs_) {
+  build(std::move(edges), box);
+}
+
+DistanceTree::DistanceTree(const Shape& shape, const Box& box, std::span<const Arc> arcs)
+    : arcs_(arcs) {
+  build(edges_of(shape), box);
+}
+
+void DistanceTree::build(std::vector<BoundaryEdge> edges, const Box& box) {
+  const bool arcs = !arcs_.empty();
+  origin_ = box.low;
+  slack_ = 16 * machine_epsilon * diagonal(box);
   // The ends of an arc's pieces are rounded.
   if (arcs)
     for (const double c : {box.low.x, box.low.y, box.high.x, box.high.y})
@@ -307,7 +330,7 @@ bool DistanceTree::search(Vec2 p, double& best) const {
       if (!(squared[j] <= limit)) continue;
       if (visit.level == 0) {
         for (std::size_t i = 0; i < fan_out; ++i) {
-          const double d = distance_to_edge(p, runs_[child + j].edge(i));
+          const double d = distance_to(runs_[child + j], i, p);
           if (d <= best) {
             best = d;
             found = true;
@@ -419,28 +442,25 @@ void DistanceTree::lower(Places& places, const Run& run, std::size_t i) const {
   if (index == places.known[0] || index == places.known[1] || index == places.known[2] ||
       index == places.known[3])
     return;
-  const BoundaryEdge edge = run.edge(i);
-  const Vec2 chord = edge.chord();
-  const double length = norm(chord);
-  const Vec2 along = length > 0 ? (1 / length) * chord : chord;
-  std::optional<Arc> arc;
-  const double room = slack_ + 0.5 * std::abs(edge.bulge) * length;  // an arc's height
+  const Vec2 start{run.start_x[i], run.start_y[i]}, end{run.end_x[i], run.end_y[i]};
+  const Segment segment(start, end);
+  const double length = segment.length();
+  const Vec2 along = length > 0 ? (1 / length) * (end - start) : end - start;
+  const Arc* const arc = run.bulge[i] != 0 ? &arcs_[index] : nullptr;
+  const double room = slack_ + 0.5 * std::abs(run.bulge[i]) * length;  // an arc's height
   for (std::size_t k = 0; k < places.size; k += 2) {
-    const Pair from_x = pair_at(&places.x[k]) - both(edge.start.x);
-    const Pair from_y = pair_at(&places.y[k]) - both(edge.start.y);
+    const Pair x = pair_at(&places.x[k]), y = pair_at(&places.y[k]);
+    const Pair from_x = x - both(start.x), from_y = y - both(start.y);
     const Pair place = both(along.x) * from_x + both(along.y) * from_y;
     const Pair across = both(along.x) * from_y - both(along.y) * from_x;
     const Pair beyond = larger(larger(-place, place - both(length)), both(0));
-    const Pair reach = both(1 + 8 * machine_epsilon) * (pair_at(&places.distance[k]) + both(room));
-    const Pairwise beyond_reach = across * across + beyond * beyond > reach * reach;
-    if (all(beyond_reach)) continue;
-    if (edge.bulge != 0 && !arc) arc.emplace(edge);
-    for (std::size_t j = 0; j < 2; ++j) {
-      if (beyond_reach[j] != 0) continue;
-      const Vec2 p = places.place(k + j);
-      const double distance = arc ? arc->distance(p) : distance_to_edge(p, edge);
-      places.distance[k + j] = std::min(places.distance[k + j], distance);
-    }
+    const Pair known = pair_at(&places.distance[k]);
+    const Pair reach = both(1 + 8 * machine_epsilon) * (known + both(room));
+    if (all(across * across + beyond * beyond > reach * reach)) continue;
+    const Pair signed_distances =
+        arc != nullptr ? arc->signed_distances(x, y) : segment.signed_distances(x, y);
+    const Pair lowered = smaller(size_of(signed_distances), known);
+    std::memcpy(&places.distance[k], &lowered, sizeof lowered);
   }
 }
 
@@ -488,7 +508,7 @@ void DistanceTree::find_distances(Places& places) const {
       for (std::size_t i = 0; i < fan_out; ++i) lower(places, run, i);
     return;
   }
-  const bool found = find_in(Hull(places, slack_, arcs_), places);
+  const bool found = find_in(Hull(places, slack_, !arcs_.empty()), places);
   for (std::size_t i = 0; i < places.size; ++i) {
     const double expected = places.expected(i);
     if (!found || !(places.distance[i] <= expected))
@@ -513,7 +533,7 @@ double DistanceTree::some_distance(Vec2 p) const {
     }
     index = index * static_cast<std::uint32_t>(fan_out) + best;
   }
-  return distance_to_edge(p, runs_[std::min<std::size_t>(index, runs_.size() - 1)].edge(0));
+  return distance_to(runs_[std::min<std::size_t>(index, runs_.size() - 1)], 0, p);
 }
 
 double DistanceTree::distance(Vec2 p, double expected) const {
@@ -526,8 +546,7 @@ double DistanceTree::distance(Vec2 p, double expected) const {
   }
   best = endless;
   for (const Run& run : runs_)
-    for (std::size_t i = 0; i < fan_out; ++i)
-      best = std::min(best, distance_to_edge(p, run.edge(i)));
+    for (std::size_t i = 0; i < fan_out; ++i) best = std::min(best, distance_to(run, i, p));
   return best;
 }
 
