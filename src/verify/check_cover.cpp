@@ -296,6 +296,24 @@ FootPoint foot_point_of(const Problem& problem, std::uint32_t index, const Disk&
   });
 }
 
+/// The same for the disks of both ends of an edge.
+std::array<FootPoint, 2> foot_points_of(const Problem& problem, std::uint32_t index,
+                                        const Edge& edge) {
+  const Site& site = problem.axis.sites[index];
+  const Disk &from = problem.disk(edge.node[0]), &to = problem.disk(edge.node[1]);
+  if (site.kind() != SiteKind::segment)
+    return {foot_point_of(problem, index, from), foot_point_of(problem, index, to)};
+  // foot() of two places at once.
+  const Vec2 d = site.end - site.start;
+  const Pair x{from.center.x, to.center.x}, y{from.center.y, to.center.y};
+  const Pair place = ((x - site.start.x) * d.x + (y - site.start.y) * d.y) / squared_norm(d);
+  const Pair t = smaller(larger(place, both(0)), both(1)), back = 1 - t;
+  const Pairwise by_start = t <= 0.5;
+  const Pair foot_x = by_start ? site.start.x + t * d.x : site.end.x - back * d.x;
+  const Pair foot_y = by_start ? site.start.y + t * d.y : site.end.y - back * d.y;
+  return {FootPoint{{foot_x[0], foot_y[0]}}, FootPoint{{foot_x[1], foot_y[1]}}};
+}
+
 /// The area between the boundary and the chord from one contact forward to another.
 double area_beside(const Site& site, const FootPoint& from, const FootPoint& to) {
   if (site.kind() != SiteKind::arc || from.foot == to.foot) return 0;
@@ -427,11 +445,9 @@ Swept swept_by_edges(const Problem& problem, double limit) {
          FootPoints contacts;
          double slack = limit;
          for (std::size_t side = 0; side < 2; ++side) {
-           for (std::size_t end = 0; end < 2; ++end) {
-             const Disk& disk = problem.disk(edge.node[end]);
-             contacts[side][end] = foot_point_of(problem, edge.site[side], disk);
-             slack += contacts[side][end].slack * disk.radius;
-           }
+           contacts[side] = foot_points_of(problem, edge.site[side], edge);
+           for (std::size_t end = 0; end < 2; ++end)
+             slack += contacts[side][end].slack * problem.disk(edge.node[end]).radius;
          }
          const Sides sides = swept(axis, edge, contacts);
          found.area.add(sides.left);

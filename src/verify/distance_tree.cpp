@@ -272,22 +272,32 @@ std::vector<DistanceTree::Clearances> DistanceTree::clearances_of(
   return level;
 }
 
+/// How far two numbers lie outside two intervals.
+inline Pair outside(const double* low, const double* high, Pair at) {
+  return larger(larger(pair_at(low) - at, at - pair_at(high)), both(0));
+}
+
+/// Squared distances from p to the boxes of four sets of edges.
+inline void DistanceTree::squared_box_bounds(const Bounds& bounds, Vec2 p,
+                                             double (&squared)[fan_out]) {
+  for (std::size_t j = 0; j < fan_out; j += 2) {
+    const Pair x = outside(bounds.low_x + j, bounds.high_x + j, both(p.x));
+    const Pair y = outside(bounds.low_y + j, bounds.high_y + j, both(p.y));
+    const Pair box = x * x + y * y;
+    std::memcpy(squared + j, &box, sizeof box);
+  }
+}
+
 /// Lower bounds of the squared distances from p to the four sets of edges.
 inline void DistanceTree::squared_bounds(const Visit& visit, Vec2 p,
                                          double (&squared)[fan_out]) const {
   const Bounds& bounds = levels_[visit.level][visit.index];
+  squared_box_bounds(bounds, p, squared);
   const Vec2 q = p - origin_;
-  const Pair px = both(p.x), py = both(p.y), qx = both(q.x), qy = both(q.y);
-  // How far two numbers lie outside two intervals.
-  const auto outside = [](const double* low, const double* high, Pair at) {
-    return larger(larger(pair_at(low) - at, at - pair_at(high)), both(0));
-  };
   for (std::size_t j = 0; j < fan_out; j += 2) {
-    const Pair x = outside(bounds.low_x + j, bounds.high_x + j, px);
-    const Pair y = outside(bounds.low_y + j, bounds.high_y + j, py);
-    const Pair along = pair_at(bounds.normal_x + j) * qx + pair_at(bounds.normal_y + j) * qy;
+    const Pair along = pair_at(bounds.normal_x + j) * q.x + pair_at(bounds.normal_y + j) * q.y;
     const Pair across = outside(bounds.slab_low + j, bounds.slab_high + j, along);
-    const Pair nearest = larger(x * x + y * y, across * across);
+    const Pair nearest = larger(pair_at(squared + j), across * across);
     std::memcpy(squared + j, &nearest, sizeof nearest);
   }
 }
@@ -477,10 +487,10 @@ bool DistanceTree::find_in(const Hull& hull, Places& places) const {
     if (visits == most_visits || near > most_near) return false;
     const Visit visit = stack[--size];
     double squared[fan_out];
-    squared_bounds(visit, hull.center(), squared);
+    const Bounds& bounds = levels_[visit.level][visit.index];
+    squared_box_bounds(bounds, hull.center(), squared);
     for (std::uint32_t j = 0; j < fan_out; ++j) {
       if (!(squared[j] <= limit)) continue;
-      const Bounds& bounds = levels_[visit.level][visit.index];
       if (hull.misses_box(bounds, j) || hull.misses_slab(bounds, j, origin_)) continue;
       const auto child = static_cast<std::uint32_t>(visit.index * fan_out) + j;
       if (visit.level > 0) {

@@ -83,6 +83,7 @@ class DistanceTree {
     void set(std::size_t i, const BoundaryEdge& edge, std::uint32_t its_index);
   };
 
+  static void squared_box_bounds(const Bounds& bounds, Vec2 p, double (&squared)[4]);
   void squared_bounds(const Visit& visit, Vec2 p, double (&squared)[4]) const;
   void raise(const Visit& visit, Vec2 p, double (&squared)[4]) const;
   double limit_for(double distance) const;
