@@ -585,6 +585,30 @@ TEST_F(Io, VectorPicturesHoldTheParabolaAsCubics) {
   EXPECT_GE(cubics, 8U);
 }
 
+/// Edges too short to be seen are not cut where their shade changes.
+TEST_F(Io, PicturesDrawShortEdgesInOnePiece) {
+  constexpr std::uint32_t count = 20000;
+  AxisItem zigzag;
+  zigzag.axis.resolution = 1;
+  for (std::uint32_t i = 0; i <= count; ++i)
+    zigzag.axis.nodes.push_back({{{static_cast<double>(i), 0}, i % 2 == 0 ? 1.0 : 1000.0}});
+  for (std::uint32_t i = 0; i < count; ++i) {
+    Edge& edge = zigzag.axis.edges.emplace_back();
+    edge.node = {i, i + 1};
+    edge.control = {{i + 0.5, 0}, 500.5};
+  }
+  Document<AxisItem> file;
+  file.items = {zigzag};
+  WriteOptions options;
+  options.shape = false;
+  ASSERT_TRUE(write_axes(path("a.svg"), "", file, options).ok());
+  const std::string text = content("a.svg");
+  std::size_t lines = 0;
+  for (std::size_t at = 0; (at = text.find(" L ", at)) != std::string::npos; ++at) ++lines;
+  EXPECT_GT(lines, count / 8);
+  EXPECT_LE(lines, count);
+}
+
 TEST_F(Io, PicturesOfAnythingAreDrawn) {
   Document<AxisItem> empty;
   Document<AxisItem> point;

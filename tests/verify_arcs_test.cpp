@@ -368,6 +368,23 @@ TEST(BoundaryEdge, DistanceAgreesWithTheCircle) {
   }
 }
 
+TEST(BoundaryEdge, IsAsFarFromTwoPlacesAsFromEach) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int i = 0; i < 5000; ++i) {
+    const BoundaryEdge edge{
+        {unit(random), unit(random)}, {unit(random), unit(random)}, unit(random)};
+    const verify_detail::Arc arc(edge);
+    const verify_detail::Segment segment(edge.start, edge.end);
+    const Pair x{2 * unit(random), 2 * unit(random)}, y{2 * unit(random), 2 * unit(random)};
+    const Pair from_arc = arc.signed_distances(x, y), from_segment = segment.signed_distances(x, y);
+    for (int k = 0; k < 2; ++k) {
+      EXPECT_EQ(from_arc[k], arc.signed_distance({x[k], y[k]})) << i;
+      EXPECT_EQ(from_segment[k], segment.signed_distance({x[k], y[k]})) << i;
+    }
+  }
+}
+
 TEST(BoundaryEdge, IsFarthestOppositeToTheFoot) {
   std::mt19937 random(6);
   std::uniform_real_distribution<double> unit(-1, 1);

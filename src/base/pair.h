@@ -20,6 +20,7 @@ inline Pair pair_at(const double* place) {
   return pair;
 }
 inline bool all(Pairwise what) { return (what[0] & what[1]) != 0; }
+inline bool any(Pairwise what) { return (what[0] | what[1]) != 0; }
 
 // A compiler makes several instructions of the plain forms.
 #ifdef __SSE2__
@@ -32,5 +33,7 @@ inline Pair smaller(Pair a, Pair b) { return a < b ? a : b; }
 inline Pair root_of(Pair a) { return Pair{std::sqrt(a[0]), std::sqrt(a[1])}; }
 #endif
 inline Pair size_of(Pair a) { return larger(a, -a); }
+/// Negative where the other one is below 0.
+inline Pair with_sign_of(Pair size, Pair other) { return other < 0 ? -size : size; }
 
 }  // namespace medial

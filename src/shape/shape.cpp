@@ -53,6 +53,15 @@ Box bounding_box(const Shape& shape) {
   for (const Vec2 point : shape.points) box.add(point);
   if (shape.bulges.empty()) return box;
   for_each_arc(shape, [&](const BulgeArc& arc) {
+    // No further from its chord than an arc is high, and than the points below are rounded.
+    const Vec2 chord = arc.chord();
+    const double height =
+        (0.51 * std::abs(arc.bulge) + 1e-14) * (std::abs(chord.x) + std::abs(chord.y));
+    const auto [left, right] = std::minmax(arc.start.x, arc.end.x);
+    const auto [low, high] = std::minmax(arc.start.y, arc.end.y);
+    if (left - height > box.low.x && right + height < box.high.x && low - height > box.low.y &&
+        high + height < box.high.y)
+      return;
     if (const auto point = parallel_point(arc, {1, 0})) {
       box.low.y = std::min(box.low.y, point->y);
       box.high.y = std::max(box.high.y, point->y);

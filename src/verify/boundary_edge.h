@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/arc.h"
@@ -21,16 +22,24 @@ class Segment {
  public:
   Segment(Vec2 a, Vec2 b) : a_(a), b_(b), along_(b - a), length_(norm(along_)) {}
 
+  double length() const { return length_; }
   double distance(Vec2 p) const { return std::abs(signed_distance(p)); }
-  /// signed_distance() of two places, where both lie beside the segment; false elsewhere.
-  bool signed_distances(Pair x, Pair y, Pair& distances) const {
+  /// signed_distance() of two places.
+  Pair signed_distances(const Pair& x, const Pair& y) const {
     const Pair from_a_x = x - a_.x, from_a_y = y - a_.y, from_b_x = x - b_.x, from_b_y = y - b_.y;
     const Pair along_a = from_a_x * along_.x + from_a_y * along_.y;
     const Pair along_b = -(from_b_x * along_.x + from_b_y * along_.y);
     const Pair nearer_x = along_a <= along_b ? from_a_x : from_b_x;
     const Pair nearer_y = along_a <= along_b ? from_a_y : from_b_y;
-    distances = (along_.x * nearer_y - along_.y * nearer_x) / length_;
-    return all((along_a > 0) & (along_b > 0));
+    const Pair across = along_.x * nearer_y - along_.y * nearer_x, within = across / length_;
+    const Pairwise beyond_a = along_a <= 0, beyond = beyond_a | (along_b <= 0);
+    if (!any(beyond)) return within;
+    const Pair end_x = beyond_a ? from_a_x : from_b_x, end_y = beyond_a ? from_a_y : from_b_y;
+    return beyond ? with_sign_of(root_of(end_x * end_x + end_y * end_y), across) : within;
+  }
+  Pair distances_from_start(const Pair& x, const Pair& y) const {
+    const Pair from_x = x - a_.x, from_y = y - a_.y;
+    return root_of(from_x * from_x + from_y * from_y);
   }
   /// Negative where p lies on the right.
   double signed_distance(Vec2 p) const {
@@ -57,6 +66,7 @@ class Arc {
   Vec2 start_tangent() const { return start_tangent_; }
   Vec2 end_tangent() const { return end_tangent_; }
   double curvature() const { return curvature_; }
+  double length() const { return length_; }
 
   /// curvature() * (p - centre): from the centre to p, in radii, whatever the radius.
   Vec2 from_center(Vec2 p) const {
@@ -69,12 +79,19 @@ class Arc {
   double carrier_distance(Vec2 p) const { return carrier_distance(p, from_center(p)); }
   /// The distance from the arc, negative where p lies on the circle's right.
   double signed_distance(Vec2 p) const;
+  /// The same of two places.
+  Pair signed_distances(const Pair& x, const Pair& y) const;
   double distance(Vec2 p) const { return std::abs(signed_distance(p)); }
   /// The angle by which the circle has turned, from the start, at the point nearest to p.
   double turned_at(Vec2 p) const {
     const double sine = curvature_ * dot(start_tangent_, p - edge_.start);
     return std::atan2(sine, -dot(left_of(start_tangent_), from_center(p)));
   }
+  // The functions of these names below.
+  double foot_at(Vec2 p) const;
+  double opposite_at(Vec2 p) const;
+  Vec2 point_at(double length) const;
+  double foot_slack(Vec2 p, double slack) const;
 
  private:
   /// p lies between the normals at the ends and on the arc's side of the centre. Next to the centre
@@ -86,12 +103,12 @@ class Arc {
   double carrier_distance(Vec2 p, Vec2 from) const {
     const Vec2 u = p - edge_.start, v = p - edge_.end;
     const double across = cross(chord_, squared_norm(u) <= squared_norm(v) ? u : v);
-    const double along = dot((1 / length_) * u, v);
+    const double along = dot((1 / chord_length_) * u, v);
     return 2 * (cosine_ * across - sine_ * along) / (1 + norm(from));
   }
 
   BoundaryEdge edge_;
-  double length_;         ///< of the chord
+  double chord_length_, length_;
   Vec2 chord_;            ///< unit vector
   double cosine_, sine_;  ///< of half of its angle
   Vec2 start_tangent_, end_tangent_;
@@ -119,8 +136,32 @@ double opposite_at(const BoundaryEdge& arc, Vec2 p);
 /// The point at a length along the edge; exactly the ends at and beyond them.
 Vec2 point_at(const BoundaryEdge& edge, double length);
 
-/// How far rounding may move the foot of p along the edge if it moves p by `slack`: without bound
-/// where p is the centre of the arc.
-double foot_slack(const BoundaryEdge& edge, Vec2 p, double slack);
+/// An edge with what is known of it, if it is an arc.
+class Track {
+ public:
+  explicit Track(const BoundaryEdge& edge, const Arc* arc = nullptr)
+      : edge_(edge), arc_(arc), length_(arc != nullptr ? arc->length() : norm(edge.chord())) {}
+
+  const BoundaryEdge& edge() const { return edge_; }
+  bool is_straight() const { return arc_ == nullptr; }
+  double length() const { return length_; }
+  double foot_at(Vec2 p) const {
+    if (arc_ != nullptr) return arc_->foot_at(p);
+    return std::clamp(dot(edge_.chord(), p - edge_.start) / length_, 0.0, length_);
+  }
+  /// Of an arc.
+  double opposite_at(Vec2 p) const { return arc_->opposite_at(p); }
+  Vec2 point_at(double length) const;
+  /// How far rounding may move the foot of p along the edge if it moves p by `slack`: without bound
+  /// where p is the centre of the arc.
+  double foot_slack(Vec2 p, double slack) const {
+    return arc_ != nullptr ? arc_->foot_slack(p, slack) : slack;
+  }
+
+ private:
+  BoundaryEdge edge_;
+  const Arc* arc_;
+  double length_;
+};
 
 }  // namespace medial::verify_detail

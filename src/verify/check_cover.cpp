@@ -25,12 +25,12 @@ struct Stretch {
 
 /// Where one disk touches a boundary edge. Next to the centre of an arc, rounding alone decides
 /// where the foot lies: the disk touches all of the arc where it may lie.
-Stretch touched_by(const Problem& problem, const BoundaryEdge& on, std::uint32_t node) {
+Stretch touched_by(const Problem& problem, const Track& on, std::uint32_t node) {
   const Vec2 center = problem.disk(node).center;
-  const double foot = foot_at(on, center);
-  if (on.bulge == 0) return {foot, foot, node, node};
-  const double slack = foot_slack(on, center, problem.tolerance);
-  return {std::max(0.0, foot - slack), std::min(length_of(on), foot + slack), node, node};
+  const double foot = on.foot_at(center);
+  if (on.is_straight()) return {foot, foot, node, node};
+  const double slack = on.foot_slack(center, problem.tolerance);
+  return {std::max(0.0, foot - slack), std::min(on.length(), foot + slack), node, node};
 }
 
 /// Grows with the angle that has this sine and cosine, times one number, in [-1, 3): 1 for a
@@ -56,7 +56,7 @@ Stretch stretch_of(const Problem& problem, std::uint32_t place, std::uint32_t be
     const double first = turn(from), last = turn(to);
     return last < first ? Stretch{0, 0, to, from, last} : Stretch{0, 0, from, to, first};
   }
-  const BoundaryEdge on = problem.edge(place);
+  const Track on = problem.track(place);
   Stretch all = touched_by(problem, on, from);
   const Stretch other = touched_by(problem, on, to);
   if (other.begin < all.begin) {
@@ -120,13 +120,13 @@ double outside(const Disk& disk, Vec2 p) { return distance(disk.center, p) - dis
 /// With f and g the distances outside each: along a line or a circle, each rises and falls
 /// between the point next to the disk's centre and the one opposite to it. Between two such points
 /// min(f, g) is largest at an end, or where f = g if one of them rises and the other falls.
-double uncovered(const Disk& a, const Disk& b, const BoundaryEdge& edge, double from, double to) {
+double uncovered(const Disk& a, const Disk& b, const Track& edge, double from, double to) {
   struct Outside {
     double a, b;
     double least() const { return std::min(a, b); }
   };
   const auto outside_at = [&](double length) {
-    const Vec2 p = point_at(edge, length);
+    const Vec2 p = edge.point_at(length);
     return Outside{outside(a, p), outside(b, p)};
   };
   if (!(from < to)) return std::max(0.0, outside_at(from).least());
@@ -140,9 +140,8 @@ double uncovered(const Disk& a, const Disk& b, const BoundaryEdge& edge, double 
     bound[place] = length;
   };
   for (const Disk& disk : {a, b}) {
-    const double nearest = foot_at(edge, disk.center);
-    turns_at(nearest);
-    if (edge.bulge != 0) turns_at(opposite_at(edge, disk.center));
+    turns_at(edge.foot_at(disk.center));
+    if (!edge.is_straight()) turns_at(edge.opposite_at(disk.center));
   }
   bound[bounds++] = to;
   double worst = 0;
@@ -179,12 +178,13 @@ struct Uncovered {
   double excess = 0;  ///< above what is allowed there
   double open = 0;    ///< area that blunt joints may leave open
 
-  void add(double amount, double allowed, Vec2 place) {
+  /// At a length along an edge.
+  void add(double amount, double allowed, const Track& edge, double length) {
     if (std::isnan(amount)) amount = std::numeric_limits<double>::infinity();
     value = std::max(value, amount);
     if (amount - allowed <= excess) return;
     excess = amount - allowed;
-    where = place;
+    where = edge.point_at(length);
   }
 };
 
@@ -207,19 +207,21 @@ void cross_gap(const Problem& problem, const Foot& from, const Foot& to, bool wr
     } while (edge != to.edge);
     allowed = angle * std::max(a.radius, b.radius);
   }
-  const auto advance = [&](std::uint32_t edge, double begin, double end) {
-    const BoundaryEdge on = problem.edge(edge);
+  const auto advance = [&](const Track& on, double begin, double end) {
     worst.open += allowed * (end - begin);
-    worst.add(uncovered(a, b, on, begin, end), allowed, point_at(on, 0.5 * (begin + end)));
+    worst.add(uncovered(a, b, on, begin, end), allowed, on, 0.5 * (begin + end));
   };
+  const Track first = problem.track(from.edge);
   if (!around) {
-    advance(from.edge, from.at, to.at);
+    advance(first, from.at, to.at);
     return;
   }
-  advance(from.edge, from.at, length_of(problem.edge(from.edge)));
-  for (std::uint32_t edge = problem.next[from.edge]; edge != to.edge; edge = problem.next[edge])
-    advance(edge, 0, length_of(problem.edge(edge)));
-  advance(to.edge, 0, to.at);
+  advance(first, from.at, first.length());
+  for (std::uint32_t edge = problem.next[from.edge]; edge != to.edge; edge = problem.next[edge]) {
+    const Track whole = problem.track(edge);
+    advance(whole, 0, whole.length());
+  }
+  advance(problem.track(to.edge), 0, to.at);
 }
 
 /// Walks once around a loop, from stretch to stretch. `lone_node` is a node without edges of each
@@ -252,7 +254,7 @@ void walk_loop(const Problem& problem, const Touching& touching,
   // No edge touches it: a circle, which one disk fills.
   const std::uint32_t lone = lone_node[problem.component[begin]];
   if (lone == no_index)
-    worst.add(problem.diagonal, 0, problem.point(begin));
+    worst.add(diagonal(problem.box), 0, problem.track(begin), 0);
   else
     cross_gap(problem, {begin, 0, lone}, {begin, 0, lone}, true, worst);
 }
@@ -285,11 +287,31 @@ struct FootPoint {
   double slack = 0;  ///< how far rounding may move it along the boundary
 };
 
-FootPoint foot_point_of(const Problem& problem, const Site& site, const Disk& disk) {
+FootPoint foot_point_of(const Problem& problem, std::uint32_t index, const Disk& disk) {
+  const Site& site = problem.axis.sites[index];
   if (site.kind() != SiteKind::arc || site.start == site.end) return {foot(site, disk.center)};
-  const BoundaryEdge arc = edge_of(site);
-  const double at = foot_at(arc, disk.center);
-  return {point_at(arc, at), at, foot_slack(arc, disk.center, problem.tolerance)};
+  return with_arc(problem, index, [&](const Arc& arc) -> FootPoint {
+    const double at = arc.foot_at(disk.center);
+    return {arc.point_at(at), at, arc.foot_slack(disk.center, problem.tolerance)};
+  });
+}
+
+/// The same for the disks of both ends of an edge.
+std::array<FootPoint, 2> foot_points_of(const Problem& problem, std::uint32_t index,
+                                        const Edge& edge) {
+  const Site& site = problem.axis.sites[index];
+  const Disk &from = problem.disk(edge.node[0]), &to = problem.disk(edge.node[1]);
+  if (site.kind() != SiteKind::segment)
+    return {foot_point_of(problem, index, from), foot_point_of(problem, index, to)};
+  // foot() of two places at once.
+  const Vec2 d = site.end - site.start;
+  const Pair x{from.center.x, to.center.x}, y{from.center.y, to.center.y};
+  const Pair place = ((x - site.start.x) * d.x + (y - site.start.y) * d.y) / squared_norm(d);
+  const Pair t = smaller(larger(place, both(0)), both(1)), back = 1 - t;
+  const Pairwise by_start = t <= 0.5;
+  const Pair foot_x = by_start ? site.start.x + t * d.x : site.end.x - back * d.x;
+  const Pair foot_y = by_start ? site.start.y + t * d.y : site.end.y - back * d.y;
+  return {FootPoint{{foot_x[0], foot_y[0]}}, FootPoint{{foot_x[1], foot_y[1]}}};
 }
 
 /// The area between the boundary and the chord from one contact forward to another.
@@ -319,16 +341,31 @@ Sides swept(const MedialAxis& axis, const Edge& edge, const FootPoints& contacts
               sliver + area_beside(axis.sites[edge.site[1]], right[0], right[1])};
 }
 
-/// Where a side of an edge ends at a node: its foot there.
+/// Where a side of an edge ends at a node: its foot there, on a site.
 struct Spoke {
-  Vec2 foot;
+  std::uint32_t site;
   bool counter_clockwise;  ///< whether the swept area lies on the foot's counter-clockwise side
+  Vec2 foot{};
 };
 
+/// So many spokes are simply compared with each other.
+constexpr std::size_t few = 8;
+
+/// Adds a spoke, or drops the one on the other side of the same foot: those of one site have one
+/// foot, which need not be known.
+void add_spoke(std::vector<Spoke>& spokes, const Spoke& spoke) {
+  const auto other =
+      spokes.size() > few ? spokes.end() : ranges::find_if(spokes, [&](const Spoke& s) {
+        return s.site == spoke.site && s.counter_clockwise != spoke.counter_clockwise;
+      });
+  if (other == spokes.end()) return spokes.push_back(spoke);
+  *other = spokes.back();
+  spokes.pop_back();
+}
+
 /// Whether all spokes stand in pairs on both sides of one foot, so that nothing lies between the
-/// swept areas around a node. That is the rule. (Spokes of one site have one foot.) O(k log k).
+/// swept areas around a node. That is the rule. O(k log k).
 bool all_paired(std::vector<Spoke>& spokes) {
-  constexpr std::size_t few = 8;
   if (spokes.size() <= few) {
     while (!spokes.empty()) {
       const Spoke last = spokes.back();
@@ -408,11 +445,9 @@ Swept swept_by_edges(const Problem& problem, double limit) {
          FootPoints contacts;
          double slack = limit;
          for (std::size_t side = 0; side < 2; ++side) {
-           for (std::size_t end = 0; end < 2; ++end) {
-             const Disk& disk = problem.disk(edge.node[end]);
-             contacts[side][end] = foot_point_of(problem, axis.sites[edge.site[side]], disk);
-             slack += contacts[side][end].slack * disk.radius;
-           }
+           contacts[side] = foot_points_of(problem, edge.site[side], edge);
+           for (std::size_t end = 0; end < 2; ++end)
+             slack += contacts[side][end].slack * problem.disk(edge.node[end]).radius;
          }
          const Sides sides = swept(axis, edge, contacts);
          found.area.add(sides.left);
@@ -453,7 +488,7 @@ class Slices {
   }
 
  private:
-  /// Calls `visit` with each end of an edge that is at a node, and with the feet there.
+  /// Calls `visit` with each edge that ends at a node, and with the number of that end.
   template <class Visitor>
   void for_each_end(std::uint32_t node, const Visitor& visit) const {
     const auto around = incidence_.edges(node);
@@ -461,21 +496,21 @@ class Slices {
       const Edge& edge = problem_.axis.edges[around[k]];
       // An edge from the node to itself stands here twice, first with its beginning.
       const bool again = k > 0 && around[k - 1] == around[k];
-      std::array<Vec2, 2> feet;
-      for (std::size_t side = 0; side < 2; ++side)
-        feet[side] =
-            foot_point_of(problem_, problem_.axis.sites[edge.site[side]], problem_.disk(node)).foot;
-      visit(edge, edge.node[0] == node && !again ? 0 : 1, feet);
+      visit(edge, edge.node[0] == node && !again ? 0 : 1);
     }
+  }
+  Vec2 foot_on(std::uint32_t site, std::uint32_t node) const {
+    return foot_point_of(problem_, site, problem_.disk(node)).foot;
   }
   /// Whether swept areas meet all around a node. Seen from there, an edge's area begins on its
   /// right side and ends on its left.
   bool nothing_between(std::uint32_t node, std::vector<Spoke>& spokes) const {
     spokes.clear();
-    for_each_end(node, [&](const Edge&, std::size_t end, const std::array<Vec2, 2>& feet) {
+    for_each_end(node, [&](const Edge& edge, std::size_t end) {
       for (std::size_t side = 0; side < 2; ++side)
-        spokes.push_back({feet[side], (side == 1) == (end == 0)});
+        add_spoke(spokes, {edge.site[side], (side == 1) == (end == 0)});
     });
+    for (Spoke& spoke : spokes) spoke.foot = foot_on(spoke.site, node);
     return all_paired(spokes);
   }
   /// Whether feet of an edge's end that nearly coincide lie ahead of the edge. They do where the
@@ -494,7 +529,7 @@ class Slices {
     for (const std::uint32_t i : {site, other})
       if (problem_.axis.sites[i].kind() == SiteKind::vertex || problem_.place[i] == no_index)
         return false;
-    const Vec2 foot = foot_point_of(problem_, problem_.axis.sites[site], disk).foot;
+    const Vec2 foot = foot_point_of(problem_, site, disk).foot;
     std::uint32_t point = problem_.place[site];
     for (int k = 0; k < most_vertices; ++k) {
       point = problem_.next[point];
@@ -507,9 +542,9 @@ class Slices {
   double angle_between(std::uint32_t node) const {
     const Disk& disk = problem_.disk(node);
     double angle = 2 * std::numbers::pi;
-    for_each_end(node, [&](const Edge& edge, std::size_t end, const std::array<Vec2, 2>& feet) {
-      angle -=
-          angle_between_feet(disk.center, feet[1 - end], feet[end], leads_to_feet(edge, end, disk));
+    for_each_end(node, [&](const Edge& edge, std::size_t end) {
+      angle -= angle_between_feet(disk.center, foot_on(edge.site[1 - end], node),
+                                  foot_on(edge.site[end], node), leads_to_feet(edge, end, disk));
     });
     return angle;
   }

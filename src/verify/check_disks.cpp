@@ -70,28 +70,33 @@ struct Findings {
 /// A site, to measure many disks against.
 class NearSite {
  public:
-  explicit NearSite(const Site& site)
-      : edge_(edge_of(site)), segment_(site.start, site.end), is_point_(site.start == site.end) {
-    if (edge_.bulge != 0) arc_.emplace(edge_);
+  /// `known`: the site's arc, if it is one of the boundary.
+  NearSite(const Site& site, const Arc* known)
+      : segment_(site.start, site.end), arc_(known), is_point_(site.start == site.end) {
+    if (arc_ == nullptr && !is_point_ && site.bulge != 0) arc_ = &own_.emplace(edge_of(site));
   }
+  NearSite(const NearSite&) = delete;
+  NearSite& operator=(const NearSite&) = delete;
 
-  /// Negative where p lies behind an edge, seen from the interior.
+  /// Negative where a place lies behind an edge, seen from the interior.
   Pair signed_distances(const Pair& x, const Pair& y) const {
-    Pair within;
-    if (!is_point_ && edge_.bulge == 0 && segment_.signed_distances(x, y, within)) return within;
-    return Pair{signed_distance({x[0], y[0]}), signed_distance({x[1], y[1]})};
-  }
-  double signed_distance(Vec2 p) const {
-    if (is_point_) return distance(edge_.start, p);
-    return edge_.bulge == 0 ? segment_.signed_distance(p) : arc_->signed_distance(p);
+    if (is_point_) return segment_.distances_from_start(x, y);
+    return arc_ != nullptr ? arc_->signed_distances(x, y) : segment_.signed_distances(x, y);
   }
 
  private:
-  BoundaryEdge edge_;
   Segment segment_;
-  std::optional<Arc> arc_;
+  std::optional<Arc> own_;
+  const Arc* arc_;
   bool is_point_;
 };
+
+/// The arc of a site, if it is one of the boundary.
+const Arc* arc_of(const Problem& problem, std::uint32_t site) {
+  const std::uint32_t place = problem.place[site];
+  const bool is_known = place != no_index && problem.axis.sites[site].kind() == SiteKind::arc;
+  return is_known ? &problem.arcs[place] : nullptr;
+}
 
 /// As far as the boundary is expected from the centre of a disk.
 double expected_distance(const Problem& problem, const Disk& disk) {
@@ -216,19 +221,19 @@ Pair illegality(const Derivatives& d, Pair radius, double delta) {
 /// foot lies on the right. The feet's chord is perpendicular to the edge; where the edge or the
 /// chord is not longer than a few tolerances, or than rounding moves the feet, its direction means
 /// nothing.
-double turned_by(const Problem& problem, const Edge& edge, const Curve& curve) {
+double turned_by(const Problem& problem, const Edge& edge, const Curve& curve, Vec2 center) {
   constexpr double few = 64;
-  const double t = 0.5;
-  const Vec2 tangent = curve.derivatives(t).first;
-  const Vec2 center = curve.at(t).center;
+  const Vec2 tangent = curve.derivatives(0.5).first;
   const Site& left = problem.axis.sites[edge.site[0]];
   const Site& right = problem.axis.sites[edge.site[1]];
   const Vec2 chord = foot(left, center) - foot(right, center);
   const double speed = norm(tangent);
   double slack = problem.tolerance;
-  for (const Site& site : {left, right})
-    if (site.kind() == SiteKind::arc)
-      slack = std::max(slack, foot_slack(edge_of(site), center, problem.tolerance));
+  for (const std::uint32_t site : edge.site)
+    if (problem.axis.sites[site].kind() == SiteKind::arc)
+      slack = std::max(slack, with_arc(problem, site, [&](const Arc& arc) {
+                         return arc.foot_slack(center, problem.tolerance);
+                       }));
   if (speed <= few * problem.tolerance || norm(chord) <= few * slack) return 0;
   return -cross(tangent, chord) / speed;
 }
@@ -248,6 +253,31 @@ double missed_beyond_ends(const Problem& problem, const Edge& edge, Vec2 center)
   return most;
 }
 
+/// Whether turned_by() and missed_beyond_ends() are 0 for certain: seen from the middle of the
+/// edge, whose tangent has the direction of its chord there, each site has its foot inside it and
+/// on the side that the edge says.
+bool feet_are_right(const Problem& problem, const Edge& edge, Vec2 chord, Vec2 center) {
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Site& site = problem.axis.sites[edge.site[side]];
+    const Vec2 to = site.start - center, along = site.end - site.start;
+    const Vec2 ahead = side == 0 ? chord : -chord;
+    if (site.kind() == SiteKind::vertex) {
+      if (!(cross(ahead, to) > 0)) return false;
+    } else if (site.kind() == SiteKind::segment) {
+      if (!(dot(ahead, along) < 0 && cross(along, to) < 0 && dot(along, to) < 0 &&
+            dot(along, site.end - center) > 0))
+        return false;
+    } else {
+      const Arc* const arc = arc_of(problem, edge.site[side]);
+      if (arc == nullptr || !arc->is_beside(center)) return false;
+      const Vec2 from = arc->from_center(center);  // the way to the foot
+      const bool in_front = (squared_norm(from) < 1) == (site.bulge > 0);
+      if (!(in_front && cross(ahead, from) > 0)) return false;
+    }
+  }
+  return true;
+}
+
 /// The checks of one edge. A node is measured with the first of its edges.
 class EdgeCheck {
  public:
@@ -258,8 +288,8 @@ class EdgeCheck {
         index_(index),
         edge_(problem.axis.edges[index]),
         curve_(curve_of(problem.axis, edge_)),
-        sites_{NearSite(problem.axis.sites[edge_.site[0]]),
-               NearSite(problem.axis.sites[edge_.site[1]])},
+        left_(problem.axis.sites[edge_.site[0]], arc_of(problem, edge_.site[0])),
+        right_(problem.axis.sites[edge_.site[1]], arc_of(problem, edge_.site[1])),
         findings_(findings) {
     places_.hull = {problem.disk(edge_.node[0]), edge_.control, problem.disk(edge_.node[1])};
     places_.tolerance = problem.tolerance;
@@ -305,7 +335,9 @@ class EdgeCheck {
     }
     measure_places();
     const Vec2 middle = curve_.at(0.5).center;
-    findings_.turned.add(turned_by(problem_, edge_, curve_), problem_.tolerance, middle, index_);
+    if (feet_are_right(problem_, edge_, curve_.p2, middle)) return;
+    findings_.turned.add(turned_by(problem_, edge_, curve_, middle), problem_.tolerance, middle,
+                         index_);
     findings_.contact.add(missed_beyond_ends(problem_, edge_, middle), problem_.tolerance, middle,
                           index_);
   }
@@ -332,7 +364,8 @@ class EdgeCheck {
   Pair measure_contacts(const DiskPair& disks, std::size_t count) {
     Pair nearest = both(std::numeric_limits<double>::infinity());
     for (std::size_t side = 0; side < 2; ++side) {
-      const Pair distance = sites_[side].signed_distances(disks.x, disks.y);
+      const NearSite& site = side == 0 ? left_ : right_;
+      const Pair distance = site.signed_distances(disks.x, disks.y);
       add_worst(findings_.contact, size_of(distance - disks.radius), problem_.tolerance, disks,
                 count);
       if (on_boundary_[side]) nearest = smaller(size_of(distance), nearest);
@@ -371,7 +404,7 @@ class EdgeCheck {
   const std::uint32_t index_;
   const Edge& edge_;
   const Curve curve_;
-  const std::array<NearSite, 2> sites_;
+  const NearSite left_, right_;
   Findings& findings_;
   std::array<bool, 2> on_boundary_;
   Places places_;
@@ -389,7 +422,7 @@ std::vector<std::uint32_t> first_edges(const MedialAxis& axis) {
 /// All disks of an axis.
 Findings measure_all(const Problem& problem, int samples) {
   const MedialAxis& axis = problem.axis;
-  const DistanceTree boundary(problem.shape);
+  const DistanceTree boundary(problem.shape, problem.box, problem.arcs);
   const std::vector<std::uint32_t> first_edge = first_edges(axis);
   const auto blocks =
       in_blocks<Findings>(axis.edges.size(), block_size, [&](std::size_t i, Findings& findings) {
@@ -406,7 +439,7 @@ Findings measure_all(const Problem& problem, int samples) {
 }  // namespace
 
 void check_sampled_disks(const Problem& problem, Certificate& certificate) {
-  const DistanceTree boundary(problem.shape);
+  const DistanceTree boundary(problem.shape, problem.box, problem.arcs);
   Measured nodes;
   for (const Measured& block : in_blocks<Measured>(
            problem.axis.nodes.size(), block_size,

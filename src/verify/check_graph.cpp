@@ -7,6 +7,7 @@
 #include "base/tolerance.h"
 #include "shape/limits.h"
 #include "verify/checks.h"
+#include "verify/distance_tree.h"
 
 namespace medial::verify_detail {
 namespace {
@@ -126,9 +127,8 @@ bool check_shape(const Shape& shape, Certificate& certificate) {
 namespace {
 
 /// What an axis says of its own accuracy.
-void check_claims(const Shape& shape, const MedialAxis& axis, Certificate& certificate) {
+void check_claims(const Box& box, const MedialAxis& axis, Certificate& certificate) {
   constexpr double largest_relative = 1e-3;
-  const Box box = bounding_box(shape);
   if (!(axis.resolution >= 0 && axis.resolution <= diagonal(box)))
     certificate.failures.push_back(
         sentence("The axis claims a resolution of %.3g, larger than the shape.", axis.resolution));
@@ -142,7 +142,8 @@ void check_claims(const Shape& shape, const MedialAxis& axis, Certificate& certi
 
 }  // namespace
 
-bool check_values(const Shape& shape, const MedialAxis& axis, Certificate& certificate) {
+bool check_values(const Shape& shape, const Box& box, const MedialAxis& axis,
+                  Certificate& certificate) {
   const std::size_t before_count = certificate.failures.size();
   const auto report = [&](const Offences& offences, const char* what, const char* which) {
     if (offences.count > 0)
@@ -190,7 +191,7 @@ bool check_values(const Shape& shape, const MedialAxis& axis, Certificate& certi
   report(twice, "edges lie between a site and itself", "edge");
   report(curves, "edges have a control point that is not finite", "edge");
   report(weights, "edges have a weight that is not finite or not positive", "edge");
-  check_claims(shape, axis, certificate);
+  check_claims(box, axis, certificate);
   return certificate.failures.size() == before_count;
 }
 
@@ -205,7 +206,7 @@ void read_boundary(Problem& problem, double corner_angle, Certificate& certifica
   problem.component.resize(count);
   problem.joint.resize(count);
   if (!shape.bulges.empty()) problem.blunt_angle.assign(count, 0);
-  const double tolerance = tolerance_for(bounding_box(shape), 0);
+  const double tolerance = tolerance_for(problem.box, 0);
   for (std::size_t i = 0; i < shape.loop_count(); ++i) {
     const std::uint32_t begin = shape.loop_begin[i], end = shape.loop_begin[i + 1];
     for (std::uint32_t j = begin; j < end; ++j) {
@@ -294,6 +295,7 @@ void locate_sites(Problem& problem, Certificate& certificate) {
 }  // namespace
 
 void prepare(Problem& problem, double corner_angle, Certificate& certificate) {
+  problem.arcs = arcs_of(problem.shape);
   read_boundary(problem, corner_angle, certificate);
   problem.degree.assign(problem.axis.nodes.size(), 0);
   for (const Edge& edge : problem.axis.edges)

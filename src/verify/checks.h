@@ -26,9 +26,10 @@ constexpr std::uint32_t no_index = 0xFFFFFFFF;
 struct Problem {
   const Shape& shape;
   const MedialAxis& axis;
-  double diagonal = 0;
+  Box box;  ///< of the shape
   double tolerance = 0;
 
+  std::vector<Arc> arcs;                 ///< of each boundary edge; none if all are straight
   std::vector<std::uint32_t> next;       ///< of each point: the following one of its loop
   std::vector<std::uint32_t> previous;   ///< and the one before it
   std::vector<std::uint32_t> component;  ///< of each point
@@ -38,17 +39,29 @@ struct Problem {
   std::vector<std::uint32_t> place;
   std::vector<std::uint32_t> degree;  ///< of each node
 
-  Problem(const Shape& the_shape, const MedialAxis& the_axis) : shape(the_shape), axis(the_axis) {}
+  Problem(const Shape& the_shape, const MedialAxis& the_axis, const Box& the_box)
+      : shape(the_shape), axis(the_axis), box(the_box) {}
 
   Vec2 point(std::uint32_t i) const { return shape.points[i]; }
   /// The boundary edge that begins in a point.
   BoundaryEdge edge(std::uint32_t i) const {
     return {shape.points[i], shape.points[next[i]], shape.bulge(i)};
   }
+  Track track(std::uint32_t i) const {
+    return Track(edge(i), shape.bulge(i) != 0 ? &arcs[i] : nullptr);
+  }
   std::uint32_t before(std::uint32_t i) const { return previous[i]; }
   bool is_blunt(std::uint32_t i) const { return joint[i] == Joint::blunt; }
   const Disk& disk(std::uint32_t node) const { return axis.nodes[node].disk; }
 };
+
+/// What `work` makes of a site's arc: the boundary's, if it is one of those.
+template <class Work>
+auto with_arc(const Problem& problem, std::uint32_t site, const Work& work) {
+  const std::uint32_t place = problem.place[site];
+  return place != no_index ? work(problem.arcs[place])
+                           : work(Arc(edge_of(problem.axis.sites[site])));
+}
 
 /// The largest of something, and where.
 struct Worst {
@@ -99,8 +112,9 @@ void certify(int threads, DiskCertificate& certificate, const Check& check) {
 /// Whether the shape can be worked with at all: its indices are in order, its coordinates finite.
 bool check_shape(const Shape& shape, Certificate& certificate);
 /// Whether the axis can be worked with at all: indices in range, numbers finite, radii not
-/// negative.
-bool check_values(const Shape& shape, const MedialAxis& axis, Certificate& certificate);
+/// negative. `box` is the shape's.
+bool check_values(const Shape& shape, const Box& box, const MedialAxis& axis,
+                  Certificate& certificate);
 
 /// Fills what Problem derives from shape and axis; reports sites that are no part of the boundary.
 /// `corner_angle` in radians.

@@ -89,13 +89,36 @@ std::vector<BoundaryEdge> edges_of(const Shape& shape) {
   return edges;
 }
 
+std::vector<Arc> arcs_of(const std::vector<BoundaryEdge>& edges) {
+  std::vector<Arc> arcs;
+  arcs.reserve(edges.size());
+  for (const BoundaryEdge& edge : edges) arcs.emplace_back(edge);
+  return arcs;
+}
+
 }  // namespace
+
+std::vector<Arc> arcs_of(const Shape& shape) {
+  return shape.bulges.empty() ? std::vector<Arc>() : arcs_of(edges_of(shape));
+}
 
 DistanceTree::DistanceTree(const Shape& shape)
     : DistanceTree(edges_of(shape), bounding_box(shape), !shape.bulges.empty()) {}
 
 DistanceTree::DistanceTree(std::vector<BoundaryEdge> edges, const Box& box, bool arcs)
-    : origin_(box.low), slack_(16 * machine_epsilon * diagonal(box)), arcs_(arcs) {
+    : own_arcs_(arcs ? arcs_of(edges) : std::vector<Arc>()), arcs_(own_arcs_) {
+  build(std::move(edges), box);
+}
+
+DistanceTree::DistanceTree(const Shape& shape, const Box& box, std::span<const Arc> arcs)
+    : arcs_(arcs) {
+  build(edges_of(shape), box);
+}
+
+void DistanceTree::build(std::vector<BoundaryEdge> edges, const Box& box) {
+  const bool arcs = !arcs_.empty();
+  origin_ = box.low;
+  slack_ = 16 * machine_epsilon * diagonal(box);
   // The ends of an arc's pieces are rounded.
   if (arcs)
     for (const double c : {box.low.x, box.low.y, box.high.x, box.high.y})
@@ -249,22 +272,32 @@ std::vector<DistanceTree::Clearances> DistanceTree::clearances_of(
   return level;
 }
 
+/// How far two numbers lie outside two intervals.
+inline Pair outside(const double* low, const double* high, Pair at) {
+  return larger(larger(pair_at(low) - at, at - pair_at(high)), both(0));
+}
+
+/// Squared distances from p to the boxes of four sets of edges.
+inline void DistanceTree::squared_box_bounds(const Bounds& bounds, Vec2 p,
+                                             double (&squared)[fan_out]) {
+  for (std::size_t j = 0; j < fan_out; j += 2) {
+    const Pair x = outside(bounds.low_x + j, bounds.high_x + j, both(p.x));
+    const Pair y = outside(bounds.low_y + j, bounds.high_y + j, both(p.y));
+    const Pair box = x * x + y * y;
+    std::memcpy(squared + j, &box, sizeof box);
+  }
+}
+
 /// Lower bounds of the squared distances from p to the four sets of edges.
 inline void DistanceTree::squared_bounds(const Visit& visit, Vec2 p,
                                          double (&squared)[fan_out]) const {
   const Bounds& bounds = levels_[visit.level][visit.index];
+  squared_box_bounds(bounds, p, squared);
   const Vec2 q = p - origin_;
-  const Pair px = both(p.x), py = both(p.y), qx = both(q.x), qy = both(q.y);
-  // How far two numbers lie outside two intervals.
-  const auto outside = [](const double* low, const double* high, Pair at) {
-    return larger(larger(pair_at(low) - at, at - pair_at(high)), both(0));
-  };
   for (std::size_t j = 0; j < fan_out; j += 2) {
-    const Pair x = outside(bounds.low_x + j, bounds.high_x + j, px);
-    const Pair y = outside(bounds.low_y + j, bounds.high_y + j, py);
-    const Pair along = pair_at(bounds.normal_x + j) * qx + pair_at(bounds.normal_y + j) * qy;
+    const Pair along = pair_at(bounds.normal_x + j) * q.x + pair_at(bounds.normal_y + j) * q.y;
     const Pair across = outside(bounds.slab_low + j, bounds.slab_high + j, along);
-    const Pair nearest = larger(x * x + y * y, across * across);
+    const Pair nearest = larger(pair_at(squared + j), across * across);
     std::memcpy(squared + j, &nearest, sizeof nearest);
   }
 }
@@ -307,7 +340,7 @@ bool DistanceTree::search(Vec2 p, double& best) const {
       if (!(squared[j] <= limit)) continue;
       if (visit.level == 0) {
         for (std::size_t i = 0; i < fan_out; ++i) {
-          const double d = distance_to_edge(p, runs_[child + j].edge(i));
+          const double d = distance_to(runs_[child + j], i, p);
           if (d <= best) {
             best = d;
             found = true;
@@ -419,28 +452,25 @@ void DistanceTree::lower(Places& places, const Run& run, std::size_t i) const {
   if (index == places.known[0] || index == places.known[1] || index == places.known[2] ||
       index == places.known[3])
     return;
-  const BoundaryEdge edge = run.edge(i);
-  const Vec2 chord = edge.chord();
-  const double length = norm(chord);
-  const Vec2 along = length > 0 ? (1 / length) * chord : chord;
-  std::optional<Arc> arc;
-  const double room = slack_ + 0.5 * std::abs(edge.bulge) * length;  // an arc's height
+  const Vec2 start{run.start_x[i], run.start_y[i]}, end{run.end_x[i], run.end_y[i]};
+  const Segment segment(start, end);
+  const double length = segment.length();
+  const Vec2 along = length > 0 ? (1 / length) * (end - start) : end - start;
+  const Arc* const arc = run.bulge[i] != 0 ? &arcs_[index] : nullptr;
+  const double room = slack_ + 0.5 * std::abs(run.bulge[i]) * length;  // an arc's height
   for (std::size_t k = 0; k < places.size; k += 2) {
-    const Pair from_x = pair_at(&places.x[k]) - both(edge.start.x);
-    const Pair from_y = pair_at(&places.y[k]) - both(edge.start.y);
+    const Pair x = pair_at(&places.x[k]), y = pair_at(&places.y[k]);
+    const Pair from_x = x - both(start.x), from_y = y - both(start.y);
     const Pair place = both(along.x) * from_x + both(along.y) * from_y;
     const Pair across = both(along.x) * from_y - both(along.y) * from_x;
     const Pair beyond = larger(larger(-place, place - both(length)), both(0));
-    const Pair reach = both(1 + 8 * machine_epsilon) * (pair_at(&places.distance[k]) + both(room));
-    const Pairwise beyond_reach = across * across + beyond * beyond > reach * reach;
-    if (all(beyond_reach)) continue;
-    if (edge.bulge != 0 && !arc) arc.emplace(edge);
-    for (std::size_t j = 0; j < 2; ++j) {
-      if (beyond_reach[j] != 0) continue;
-      const Vec2 p = places.place(k + j);
-      const double distance = arc ? arc->distance(p) : distance_to_edge(p, edge);
-      places.distance[k + j] = std::min(places.distance[k + j], distance);
-    }
+    const Pair known = pair_at(&places.distance[k]);
+    const Pair reach = both(1 + 8 * machine_epsilon) * (known + both(room));
+    if (all(across * across + beyond * beyond > reach * reach)) continue;
+    const Pair signed_distances =
+        arc != nullptr ? arc->signed_distances(x, y) : segment.signed_distances(x, y);
+    const Pair lowered = smaller(size_of(signed_distances), known);
+    std::memcpy(&places.distance[k], &lowered, sizeof lowered);
   }
 }
 
@@ -457,10 +487,10 @@ bool DistanceTree::find_in(const Hull& hull, Places& places) const {
     if (visits == most_visits || near > most_near) return false;
     const Visit visit = stack[--size];
     double squared[fan_out];
-    squared_bounds(visit, hull.center(), squared);
+    const Bounds& bounds = levels_[visit.level][visit.index];
+    squared_box_bounds(bounds, hull.center(), squared);
     for (std::uint32_t j = 0; j < fan_out; ++j) {
       if (!(squared[j] <= limit)) continue;
-      const Bounds& bounds = levels_[visit.level][visit.index];
       if (hull.misses_box(bounds, j) || hull.misses_slab(bounds, j, origin_)) continue;
       const auto child = static_cast<std::uint32_t>(visit.index * fan_out) + j;
       if (visit.level > 0) {
@@ -488,7 +518,7 @@ void DistanceTree::find_distances(Places& places) const {
       for (std::size_t i = 0; i < fan_out; ++i) lower(places, run, i);
     return;
   }
-  const bool found = find_in(Hull(places, slack_, arcs_), places);
+  const bool found = find_in(Hull(places, slack_, !arcs_.empty()), places);
   for (std::size_t i = 0; i < places.size; ++i) {
     const double expected = places.expected(i);
     if (!found || !(places.distance[i] <= expected))
@@ -513,7 +543,7 @@ double DistanceTree::some_distance(Vec2 p) const {
     }
     index = index * static_cast<std::uint32_t>(fan_out) + best;
   }
-  return distance_to_edge(p, runs_[std::min<std::size_t>(index, runs_.size() - 1)].edge(0));
+  return distance_to(runs_[std::min<std::size_t>(index, runs_.size() - 1)], 0, p);
 }
 
 double DistanceTree::distance(Vec2 p, double expected) const {
@@ -526,8 +556,7 @@ double DistanceTree::distance(Vec2 p, double expected) const {
   }
   best = endless;
   for (const Run& run : runs_)
-    for (std::size_t i = 0; i < fan_out; ++i)
-      best = std::min(best, distance_to_edge(p, run.edge(i)));
+    for (std::size_t i = 0; i < fan_out; ++i) best = std::min(best, distance_to(run, i, p));
   return best;
 }
 

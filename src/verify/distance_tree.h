@@ -34,6 +34,9 @@ struct Places {
   std::array<double, most> distance{};
 };
 
+/// The arc of each boundary edge, also of the straight ones; none if all are straight.
+std::vector<Arc> arcs_of(const Shape& shape);
+
 /// The nearest boundary edge of a shape: a tree over the edges in spatial order (the engines search
 /// along the boundary instead). Few edges are simply all looked at.
 class DistanceTree {
@@ -41,6 +44,10 @@ class DistanceTree {
   explicit DistanceTree(const Shape& shape);
   /// Of edges anywhere; those without length are points. `arcs`: whether any edge is not straight.
   DistanceTree(std::vector<BoundaryEdge> edges, const Box& box, bool arcs);
+  /// Of a shape of which these are known; `arcs`, arcs_of() the shape, stay the caller's.
+  DistanceTree(const Shape& shape, const Box& box, std::span<const Arc> arcs);
+  DistanceTree(const DistanceTree&) = delete;
+  DistanceTree& operator=(const DistanceTree&) = delete;
 
   /// Distance from p to the nearest edge. `expected` is a guess at it: a query is fast where the
   /// guess is not much too large and not too small. O(log n) expected then.
@@ -74,11 +81,9 @@ class DistanceTree {
     double start_x[4], start_y[4], end_x[4], end_y[4], bulge[4];
     std::uint32_t index[4];  ///< among the shape's
     void set(std::size_t i, const BoundaryEdge& edge, std::uint32_t its_index);
-    BoundaryEdge edge(std::size_t i) const {
-      return {{start_x[i], start_y[i]}, {end_x[i], end_y[i]}, bulge[i]};
-    }
   };
 
+  static void squared_box_bounds(const Bounds& bounds, Vec2 p, double (&squared)[4]);
   void squared_bounds(const Visit& visit, Vec2 p, double (&squared)[4]) const;
   void raise(const Visit& visit, Vec2 p, double (&squared)[4]) const;
   double limit_for(double distance) const;
@@ -92,6 +97,11 @@ class DistanceTree {
                                   const std::vector<std::uint32_t>& index);
   bool find_in(const Hull& hull, Places& places) const;
   void lower(Places& places, const Run& run, std::size_t i) const;
+  double distance_to(const Run& run, std::size_t i, Vec2 p) const {
+    if (run.bulge[i] != 0) return arcs_[run.index[i]].distance(p);
+    return distance_to_segment(p, {run.start_x[i], run.start_y[i]}, {run.end_x[i], run.end_y[i]});
+  }
+  void build(std::vector<BoundaryEdge> edges, const Box& box);
 
   /// An arc as often as the tree has pieces of it; the last edge again where fewer are left.
   std::vector<Run> runs_;
@@ -99,7 +109,8 @@ class DistanceTree {
   std::vector<std::vector<Clearances>> clearances_;  ///< of levels_, or empty: few sets are round
   Vec2 origin_;
   double slack_;  ///< what rounding may add to the distance from a slab
-  bool arcs_;
+  std::vector<Arc> own_arcs_;
+  std::span<const Arc> arcs_;  ///< of each edge; none if all are straight
 };
 
 }  // namespace medial::verify_detail

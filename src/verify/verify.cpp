@@ -45,10 +45,9 @@ void run_checks(const Shape& original, const MedialAxis& axis, const VerifyOptio
     around = std::move(exterior).value();
   }
   const Shape& shape = axis.exterior != 0 ? around.shape : original;
-  if (!check_values(shape, axis, certificate)) return;
   const Box box = bounding_box(shape);
-  Problem problem(shape, axis);
-  problem.diagonal = diagonal(box);
+  if (!check_values(shape, box, axis, certificate)) return;
+  Problem problem(shape, axis, box);
   problem.tolerance = tolerance_of(box, options.tolerance, axis);
   certificate.tolerance = problem.tolerance;
   certificate.resolution = axis.resolution;

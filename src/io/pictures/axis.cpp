@@ -52,16 +52,23 @@ bool runs_straight(const MedialAxis& axis, const Edge& edge) {
   return kind == axis.sites[edge.site[1]].kind() && kind != SiteKind::arc;
 }
 
-/// Cuts an edge where its radius passes from shade to shade, about: take(shade, piece).
+/// Cuts an edge where its radius passes from shade to shade, about, into pieces no shorter than
+/// `cell`: take(shade, piece).
 template <class Take>
-void cut(const MedialAxis& axis, const Edge& edge, const Viewport& viewport, double largest,
-         Take take) {
+void cut(const MedialAxis& axis, const Edge& edge, const Viewport& viewport, double cell,
+         double largest, Take take) {
   const Curve curve(axis, edge);
   const bool straight = runs_straight(axis, edge);
-  const double ends = std::fabs(curve.radius(0) - curve.radius(1));
-  const double dip = std::fabs(curve.radius(0.5) - 0.5 * (curve.radius(0) + curve.radius(1)));
-  const double shades = largest > 0 ? (ends + 2 * dip) / largest * shade_count : 0;
-  const int pieces = std::clamp(static_cast<int>(std::ceil(shades)), 1, most_pieces);
+  const Vec2 from = axis.nodes[edge.node[0]].disk.center, to = axis.nodes[edge.node[1]].disk.center;
+  const Vec2 control = straight ? to : edge.control.center;
+  const double cells = viewport.scale * (distance(from, control) + distance(control, to)) / cell;
+  int pieces = 1;
+  if (cells > 1 && largest > 0) {
+    const double ends = std::fabs(curve.radius(0) - curve.radius(1));
+    const double dip = std::fabs(curve.radius(0.5) - 0.5 * (curve.radius(0) + curve.radius(1)));
+    const double shades = (ends + 2 * dip) / largest * shade_count;
+    pieces = std::clamp(static_cast<int>(std::ceil(std::min(shades, cells))), 1, most_pieces);
+  }
   for (int i = 0; i < pieces; ++i) {
     const double t0 = static_cast<double>(i) / pieces;
     const double t1 = static_cast<double>(i + 1) / pieces;
@@ -87,10 +94,11 @@ void draw_axes(Canvas& canvas, const Document<AxisItem>& file, double largest) {
   std::vector<Cells> cells(shade_count, Cells(canvas.cell()));
   for (const AxisItem& item : file.items) {
     for (const Edge& edge : item.axis.edges) {
-      cut(item.axis, edge, canvas.viewport(), largest, [&](int index, const Piece& piece) {
-        const auto i = static_cast<std::size_t>(index);
-        if (cells[i].add(piece)) pieces[i].push_back(piece);
-      });
+      cut(item.axis, edge, canvas.viewport(), canvas.cell(), largest,
+          [&](int index, const Piece& piece) {
+            const auto i = static_cast<std::size_t>(index);
+            if (cells[i].add(piece)) pieces[i].push_back(piece);
+          });
     }
   }
   canvas.line_width(1.6);
