@@ -174,9 +174,9 @@ TEST_P(SeededShapes, HaveOneAxisUnderAllSymmetries) {
 }
 
 /// Of the groups: one with a tie beside a bridge, one with an edge that ends in a vertex, two small
-/// parts far from each other, a gap through which the radius shrinks and grows again, and three
-/// bridges to one of two vertices that double does not tell apart.
-constexpr std::array<Seeded, 10> ties{{{"slits", 20261127000809},
+/// parts far from each other, a gap through which the radius shrinks and grows again, three bridges
+/// to one of two vertices that double does not tell apart, and two with parts below 2^-20 of all.
+constexpr std::array<Seeded, 12> ties{{{"slits", 20261127000809},
                                        {"rings", 20261127001358},
                                        {"splinters", 20261127000354},
                                        {"groups", 20261127920001377},
@@ -185,7 +185,9 @@ constexpr std::array<Seeded, 10> ties{{{"slits", 20261127000809},
                                        {"groups", 20261128000000355},
                                        {"groups", 20261129100017374},
                                        {"groups", 20261129100055343},
-                                       {"groups", 20261129100097366}}};
+                                       {"groups", 20261129100097366},
+                                       {"groups", 20261129100088826},
+                                       {"groups", 20261129100062993}}};
 
 INSTANTIATE_TEST_SUITE_P(TiesOfPolygons, SeededShapes, testing::ValuesIn(ties), name_of_seeded);
 
