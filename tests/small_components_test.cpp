@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, SmallComponents,
                            return std::string(info_of(tested.param).name);
                          });
 
-/// Steps of a staircase of components, each a quarter of the one before, the first twelve large.
+/// Steps of a staircase of components, each a quarter of the one before, the first five large.
 Rings staircase(int count) {
   Rings rings;
   for (int i = 0; i < count; ++i) {

@@ -145,7 +145,7 @@ void append(const Piece& piece, MedialAxis&& axis, MedialAxis& sum) {
 }  // namespace
 
 std::optional<LoopsBySize> small_components(const Problem& problem) {
-  constexpr double small_share = 0x1p-16;
+  constexpr double small_share = 0x1p-10;
   const Shape& shape = problem.shape;
   const Options& options = problem.options;
   if (shape.component_count() < 2 || options.tolerance > 0 || has_arcs(shape) ||
