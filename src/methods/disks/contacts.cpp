@@ -187,6 +187,9 @@ double Contacts::beyond_ends(std::uint32_t i, Vec2 center) const {
 
 bool Contacts::is_beside(std::uint32_t i, Vec2 center, const Boundary::SiteRange& run) const {
   if (element(i) == Element::bridge) return true;
+  // From behind, at the tip of a needle, the end of an edge is touched, which is a vertex.
+  const bool is_straight = !site(i).is_vertex() && !site(i).is_arc();
+  if (is_straight && site::carrier_distance(site(i), center) < -clearance()) return true;
   const double at_start = beyond_end(i, false, center), at_end = beyond_end(i, true, center);
   if (!(std::max(at_start, at_end) > clearance())) return false;
   if (site(i).is_vertex()) return true;
