@@ -174,9 +174,13 @@ TEST_P(SeededShapes, HaveOneAxisUnderAllSymmetries) {
 }
 
 /// Of the groups: one with a tie beside a bridge, one with an edge that ends in a vertex, two small
-/// parts far from each other, a gap through which the radius shrinks and grows again, and three
-/// bridges to one of two vertices that double does not tell apart.
-constexpr std::array<Seeded, 10> ties{{{"slits", 20261127000809},
+/// parts far from each other, a gap through which the radius shrinks and grows again, three bridges
+/// to one of two vertices that double does not tell apart, and three with parts far below the size.
+/// Then holes of some tolerances: one of two vertices was taken for the other one by a contact and
+/// by a tie, the disk of a tie depended on the order of its contacts, and whether a foot moves
+/// forward round a vertex on the direction of its edge; and a disk at the tip of a needle touched
+/// the side behind the tip.
+constexpr std::array<Seeded, 19> ties{{{"slits", 20261127000809},
                                        {"rings", 20261127001358},
                                        {"splinters", 20261127000354},
                                        {"groups", 20261127920001377},
@@ -185,7 +189,16 @@ constexpr std::array<Seeded, 10> ties{{{"slits", 20261127000809},
                                        {"groups", 20261128000000355},
                                        {"groups", 20261129100017374},
                                        {"groups", 20261129100055343},
-                                       {"groups", 20261129100097366}}};
+                                       {"groups", 20261129100097366},
+                                       {"groups", 20261129100088826},
+                                       {"groups", 20261129100062993},
+                                       {"groups", 20261206100012478},
+                                       {"groups", 20261206100021986},
+                                       {"groups", 20261206100035038},
+                                       {"groups", 20261206100000103},
+                                       {"groups", 20261206100011953},
+                                       {"groups", 20261206100000659},
+                                       {"groups", 20261206100020163}}};
 
 INSTANTIATE_TEST_SUITE_P(TiesOfPolygons, SeededShapes, testing::ValuesIn(ties), name_of_seeded);
 

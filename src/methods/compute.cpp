@@ -1,7 +1,6 @@
 #include "medial/compute.h"
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -13,7 +12,9 @@
 #include "methods/drop_enclosure.h"
 #include "methods/problem.h"
 #include "methods/refusal.h"
+#include "methods/small_components.h"
 #include "methods/table.h"
+#include "methods/whole_part.h"
 #include "shape/exterior.h"
 #ifdef MEDIAL_HAS_EXACT
 #include "methods/exact/certify.h"
@@ -95,7 +96,10 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options,
     const MethodRow& method = row_of(options.method);
     if (auto error = method.refuse(problem)) return std::move(*error);
     if (options.exterior) return compute_exterior(problem);
-    auto outcome = on_threads(options.threads, [&] { return method.run(problem); });
+    const auto divided = small_components(problem);
+    auto outcome = on_threads(options.threads, [&] {
+      return divided ? run_divided(problem, *divided) : method.run(problem);
+    });
     if (!outcome) return std::move(outcome).error();
     MedialAxis& axis = outcome->axis;
     axis.statistics.threads = method.info.threads ? effective_threads(options.threads) : 1;
@@ -116,26 +120,6 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options,
   }
 }
 
-namespace {
-
-/// The whole axis as one part; the rest of it stays.
-Status hand_out_whole(MedialAxis& axis, const AxisSink& sink) {
-  AxisPart part;
-  part.axis = std::move(axis);
-  axis = {};
-  axis.method = part.axis.method;
-  axis.tolerance = part.axis.tolerance;
-  axis.resolution = part.axis.resolution;
-  axis.exterior = part.axis.exterior;
-  axis.statistics = part.axis.statistics;
-  part.nodes.resize(part.axis.nodes.size());
-  part.sites.resize(part.axis.sites.size());
-  for (auto* numbers : {&part.nodes, &part.sites}) std::iota(numbers->begin(), numbers->end(), 0U);
-  return sink(std::move(part));
-}
-
-}  // namespace
-
 bool comes_in_parts(const Shape& shape, const Options& options) {
   return std::holds_alternative<method::Disks>(options.method) && !options.exact &&
          !options.exterior && !has_arcs(shape);
@@ -147,7 +131,11 @@ Result<MedialAxis> compute_in_parts(const Shape& shape, const Options& options,
     if (auto error = refuse(shape, options)) return std::move(*error);
     if (comes_in_parts(shape, options)) {
       const Problem problem(shape, options);
-      auto axis = on_threads(options.threads, [&] { return disks::run_in_parts(problem, sink); });
+      const auto divided = small_components(problem);
+      auto axis = on_threads(options.threads, [&] {
+        return divided ? run_divided_in_parts(problem, *divided, sink)
+                       : disks::run_in_parts(problem, sink);
+      });
       if (!axis) return std::move(axis).error();
       if (problem.is_cancelled()) return Error{ErrorCode::cancelled, "cancelled", {}};
       if (*axis) {
@@ -158,7 +146,7 @@ Result<MedialAxis> compute_in_parts(const Shape& shape, const Options& options,
     }
     auto axis = compute(shape, options);
     if (!axis) return axis;
-    if (Status handed = hand_out_whole(*axis, sink); !handed) return std::move(handed).error();
+    if (Status handed = sink(whole_part(*axis)); !handed) return std::move(handed).error();
     return axis;
   } catch (...) {
     return error_in_flight();

@@ -146,13 +146,16 @@ const std::vector<std::uint32_t>& Contacts::touched_between(const Span& span, co
     return angle > 0 ? angle : angle + 2 * std::numbers::pi;
   };
   const double end_angle = all_around ? 2 * std::numbers::pi : angle_of(span.left, 1);
+  const Boundary::SiteRange& run = run_of(span);
   double angle_before = 0;
   std::uint32_t before = span.right;
   std::size_t kept = 0;
   for (const std::uint32_t hit : touched_) {
     if (looks_away(hit, disk.center)) continue;
     const std::uint32_t i = boundary_.two_sided ? hit : owner(hit, disk.center, span);
-    if (i <= before || i >= span.left || !touches(i, disk, touching_)) continue;
+    if (i <= before || i >= span.left || !touches(i, disk, touching_) ||
+        is_beside(i, disk.center, run))
+      continue;
     const double angle = angle_of(i, 0.5);
     if (!are_distinct(before, i, angle - angle_before, disk) ||
         !are_distinct(i, span.left, end_angle - angle, disk))
@@ -184,6 +187,9 @@ double Contacts::beyond_ends(std::uint32_t i, Vec2 center) const {
 
 bool Contacts::is_beside(std::uint32_t i, Vec2 center, const Boundary::SiteRange& run) const {
   if (element(i) == Element::bridge) return true;
+  // From behind, at the tip of a needle, the end of an edge is touched, which is a vertex.
+  const bool is_straight = !site(i).is_vertex() && !site(i).is_arc();
+  if (is_straight && site::carrier_distance(site(i), center) < -clearance()) return true;
   const double at_start = beyond_end(i, false, center), at_end = beyond_end(i, true, center);
   if (!(std::max(at_start, at_end) > clearance())) return false;
   if (site(i).is_vertex()) return true;

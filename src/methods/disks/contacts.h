@@ -150,15 +150,17 @@ class Contacts {
     return squared_norm(site::foot(a, center) - site::foot(b, center)) < apart * apart;
   }
 
+  /// How far a disk's centre lies beyond the nearer of the normals at the ends of a site, where
+  /// another site or a bridge takes over: negative between them.
+  double beyond_ends(std::uint32_t i, Vec2 center) const;
+
  private:
   /// Whether a disk touches two sites in two places, that of the second one by this angle further
   /// around it: narrow slots have walls that a large disk touches next to each other.
   bool are_distinct(std::uint32_t first, std::uint32_t second, double angle,
                     const Disk& disk) const;
-  /// How far a disk's centre lies beyond the normal at one end of a site, where another site or a
-  /// bridge takes over: negative within.
+  /// The same for one end.
   double beyond_end(std::uint32_t i, bool at_end, Vec2 center) const;
-  double beyond_ends(std::uint32_t i, Vec2 center) const;
   /// How far a site is from a disk: negative where the disk reaches over it.
   double away(std::uint32_t i, const Disk& disk) const {
     return std::sqrt(site::squared_distance(site(i), disk.center)) - disk.radius;

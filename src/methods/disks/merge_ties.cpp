@@ -429,7 +429,10 @@ class Merger {
     const std::vector<Touch>&at_from = contacts_[place_of(from)], &at_to = contacts_[place_of(to)];
     std::vector<Touch> both = at_from;
     both.insert(both.end(), at_to.begin(), at_to.end());
-    const Disk& start = at_from.size() >= at_to.size() ? a : b;
+    const Disk middle{midpoint(a.center, b.center), 0.5 * (a.radius + b.radius)};
+    const Disk& start = at_from.size() == at_to.size()  ? middle
+                        : at_from.size() > at_to.size() ? a
+                                                        : b;
     join(start, both);
     TieFit fit(tie_sites_, start);
     return fit.fits(both, nearness.level * tolerance_);
@@ -578,8 +581,9 @@ class Merger {
     const auto moves_forward = [&](const Site& site, Vec2 a, Vec2 b) {
       if (!site.is_vertex())
         return site::carrier_parameter(site, b) - site::carrier_parameter(site, a) >= -slack;
-      // Round a vertex, normals turn to the right.
-      return cross(b - site.point, a - site.point) >= -slack * distance(site.point, a);
+      // Round a vertex, normals turn to the right; that of the nearer disk may be off the most.
+      const double furthest = std::max(distance(site.point, a), distance(site.point, b));
+      return cross(b - site.point, a - site.point) >= -slack * furthest;
     };
     return moves_forward(right, from, to) && moves_forward(left, to, from);
   }

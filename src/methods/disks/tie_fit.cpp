@@ -143,11 +143,13 @@ class Exchange {
     }
   }
 
-  /// Begins with three of the contacts, as far apart as they can be found at once. False where a
-  /// disk in a vertex has no direction from it.
+  /// Begins with three of the contacts, as far apart as they can be found at once, from the one
+  /// with the largest residual on: in any order of the contacts with the same, since round vertices
+  /// several disks may be better than all beside them. False where a disk in a vertex has no
+  /// direction from it.
   bool begin(std::span<const Touch> contacts) {
-    const ContactOf<Real> first = contact(contacts[0]);
-    reference_.fill(contacts[0]);  // where a disk is in a vertex, no other is apart from it
+    const ContactOf<Real> first = contact(furthest_);
+    reference_.fill(furthest_);  // where a disk is in a vertex, no other is apart from it
     Real largest(-1), x(0), y(0);
     for (const Touch& i : contacts) {
       const ContactOf<Real> other = contact(i);

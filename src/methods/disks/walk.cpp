@@ -183,6 +183,11 @@ class Walker {
   /// Whether nothing within the tolerance may come before an event on a polygon.
   bool is_settled(const Step& step, const Disk& from, const Certainty& certainty) {
     const Span& span = step.span;
+    // Of vertices that double does not tell apart one is touched, between the normals beside it.
+    const std::uint32_t touched = step.event.site;
+    if (step.event.kind == Event::Kind::contact && element(touched) == Element::vertex &&
+        contacts_.beyond_ends(touched, step.event.disk.center) > context_.tolerance)
+      return false;
     if (certainty.is_tie())
       return contacts_.passes_at(span, from, certainty.fourth()) ||
              contacts_.is_clean_tie(span, from, certainty.fourth());

@@ -1,0 +1,227 @@
+#include "methods/small_components.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <memory>
+#include <span>
+#include <utility>
+
+#include "axis/statistics.h"
+#include "base/threads.h"
+#include "methods/checks.h"
+#include "methods/disks/disks.h"
+#include "methods/table.h"
+#include "methods/whole_part.h"
+
+namespace medial {
+namespace {
+
+using Loops = LoopsBySize::Loops;
+
+/// The longer side of a box: mirror images and quarter turns have the same.
+double longer_side(const Box& box) {
+  return std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+}
+
+/// Some components of a shape, in order.
+Shape shape_of(const Shape& whole, const Loops& loops) {
+  Shape shape;
+  shape.loop_begin.push_back(0);
+  for (const std::uint32_t loop : loops) {
+    const std::uint32_t begin = whole.loop_begin[loop], end = whole.loop_begin[loop + 1];
+    shape.points.insert(shape.points.end(), &whole.points[begin],
+                        &whole.points[begin] + (end - begin));
+    shape.sources.insert(shape.sources.end(), &whole.sources[begin],
+                         &whole.sources[begin] + (end - begin));
+    shape.loop_begin.push_back(static_cast<std::uint32_t>(shape.points.size()));
+    shape.hole.push_back(whole.hole[loop]);
+  }
+  std::vector<std::uint32_t> numbers;  // of the components
+  for (const std::uint32_t loop : loops) numbers.push_back(whole.component[loop]);
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  for (const std::uint32_t loop : loops)
+    shape.component.push_back(static_cast<std::uint32_t>(
+        std::lower_bound(numbers.begin(), numbers.end(), whole.component[loop]) - numbers.begin()));
+  return shape;
+}
+
+/// Some components of a problem as a problem of their own. The whole's numbers must be known.
+class Piece {
+ public:
+  Piece(const Problem& whole, const Loops& loops, std::function<void(double)> progress)
+      : options_(whole.options), shape_(shape_of(whole.shape, loops)), problem_(shape_, options_) {
+    options_.progress = std::move(progress);
+    component_.resize(shape_.component_count());
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+      component_[shape_.component[i]] = whole.shape.component[loops[i]];
+      first_site_.push_back({first_site(problem_, i), first_site(whole, loops[i])});
+    }
+  }
+  Piece(const Piece&) = delete;
+  Piece& operator=(const Piece&) = delete;
+
+  const Problem& problem() const { return problem_; }
+
+  /// The whole's number of a site.
+  std::uint32_t site(std::uint32_t own) const {
+    const auto after = std::upper_bound(
+        first_site_.begin(), first_site_.end(), own,
+        [](std::uint32_t a, const std::array<std::uint32_t, 2>& first) { return a < first[0]; });
+    const auto [here, there] = *(after - 1);
+    return own - here + there;
+  }
+  /// Gives nodes the whole's numbers of their components.
+  void name_components(std::vector<Node>& nodes) const {
+    for (Node& node : nodes) node.component = component_[node.component];
+  }
+
+ private:
+  static std::uint32_t first_site(const Problem& problem, std::size_t loop) {
+    const std::uint32_t point = problem.shape.loop_begin[loop];
+    return problem.numbers().edge[point] - (problem.numbers().is_site(point) ? 1 : 0);
+  }
+
+  Options options_;
+  Shape shape_;
+  Problem problem_;
+  std::vector<std::uint32_t> component_;                  ///< of each, the whole's
+  std::vector<std::array<std::uint32_t, 2>> first_site_;  ///< of each loop, here and in the whole
+};
+
+/// What is done with the axis of a piece; an error ends the computation.
+using Use = std::function<Status(const Piece& piece, MedialAxis&& axis)>;
+
+/// Computes each small component, and uses their axes in order.
+Status run_small(const Problem& problem, const LoopsBySize& loops, const Use& use) {
+  const MethodRow& method = row_of(problem.options.method);
+  constexpr std::size_t block = 1 << 10;  // that are in memory at the same time
+  for (std::size_t begin = 0; begin < loops.small.size(); begin += block) {
+    const std::size_t count = std::min(block, loops.small.size() - begin);
+    std::vector<std::unique_ptr<const Piece>> pieces(count);
+    std::vector<std::optional<Result<Outcome>>> outcomes(count);
+    parallel_for(count, [&](std::size_t i) {
+      pieces[i] = std::make_unique<const Piece>(problem, loops.small[begin + i], nullptr);
+      outcomes[i].emplace(method.run(pieces[i]->problem()));
+    });
+    for (std::size_t i = 0; i < count; ++i) {
+      if (problem.is_cancelled()) return success();
+      if (!*outcomes[i]) return std::move(*outcomes[i]).error();
+      if (Status used = use(*pieces[i], std::move((*outcomes[i])->axis)); !used) return used;
+    }
+  }
+  return success();
+}
+
+/// The progress of the large components, a share of the whole's.
+std::function<void(double)> progress_of_large(const Problem& problem, const LoopsBySize& loops) {
+  if (!problem.options.progress) return nullptr;
+  double points = 0;
+  for (const std::uint32_t loop : loops.large)
+    points += static_cast<double>(problem.shape.loop(loop).size());
+  const double share = points / static_cast<double>(problem.shape.points.size());
+  return [&problem, share](double done) { problem.options.progress(share * done); };
+}
+
+/// Adds the axis of a piece to the sum of those before.
+void append(const Piece& piece, MedialAxis&& axis, MedialAxis& sum) {
+  piece.name_components(axis.nodes);
+  for (Edge& edge : axis.edges)
+    for (std::uint32_t& site : edge.site) site = piece.site(site);
+  if (sum.nodes.empty()) {
+    sum = std::move(axis);
+    return;
+  }
+  const auto nodes = static_cast<std::uint32_t>(sum.nodes.size());
+  for (Edge& edge : axis.edges)
+    for (std::uint32_t& node : edge.node) node += nodes;
+  sum.nodes.insert(sum.nodes.end(), axis.nodes.begin(), axis.nodes.end());
+  sum.edges.insert(sum.edges.end(), axis.edges.begin(), axis.edges.end());
+  sum.tolerance = std::max(sum.tolerance, axis.tolerance);
+  sum.statistics += axis.statistics;
+}
+
+}  // namespace
+
+std::optional<LoopsBySize> small_components(const Problem& problem) {
+  constexpr double small_share = 0x1p-10;
+  const Shape& shape = problem.shape;
+  const Options& options = problem.options;
+  if (shape.component_count() < 2 || options.tolerance > 0 || has_arcs(shape) ||
+      info_of(options.method).sampling != Sampling::curves)
+    return std::nullopt;
+  constexpr std::uint32_t none = ~std::uint32_t{0};
+  const double least = small_share * longer_side(problem.box);
+  LoopsBySize loops;
+  std::vector<std::uint32_t> place(shape.component_count(), none);  // of each, in loops.small
+  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+    if (shape.hole[i]) continue;
+    Box box = Box::nothing();
+    for (const Vec2 p : shape.loop(i)) box.add(p);
+    if (!(longer_side(box) < least)) continue;
+    place[shape.component[i]] = static_cast<std::uint32_t>(loops.small.size());
+    loops.small.emplace_back();
+  }
+  if (loops.small.empty()) return std::nullopt;
+  for (std::uint32_t i = 0; i < shape.loop_count(); ++i) {
+    const std::uint32_t own = place[shape.component[i]];
+    (own == none ? loops.large : loops.small[own]).push_back(i);
+  }
+  return loops;
+}
+
+Result<Outcome> run_divided(const Problem& problem, const LoopsBySize& loops) {
+  problem.numbers();  // from here on several threads ask for them
+  Outcome sum;
+  if (!loops.large.empty()) {
+    const Piece piece(problem, loops.large, progress_of_large(problem, loops));
+    auto outcome = row_of(problem.options.method).run(piece.problem());
+    if (!outcome || problem.is_cancelled()) return outcome;
+    append(piece, std::move(outcome->axis), sum.axis);
+  }
+  const Status small = run_small(problem, loops, [&](const Piece& piece, MedialAxis&& axis) {
+    append(piece, std::move(axis), sum.axis);
+    return success();
+  });
+  if (!small) return small.error();
+  sum.axis.sites = problem.result_sites();
+  return sum;
+}
+
+Result<std::optional<MedialAxis>> run_divided_in_parts(const Problem& problem,
+                                                       const LoopsBySize& loops,
+                                                       const AxisSink& sink) {
+  problem.numbers();
+  std::uint32_t nodes = 0;  // in all parts so far
+  const auto hand_out = [&](const Piece& piece, AxisPart&& part) {
+    nodes += static_cast<std::uint32_t>(part.nodes.size() - part.known);
+    piece.name_components(part.axis.nodes);
+    for (std::uint32_t& site : part.sites) site = piece.site(site);
+    return sink(std::move(part));
+  };
+  std::optional<MedialAxis> rest;
+  if (!loops.large.empty()) {
+    const Piece piece(problem, loops.large, progress_of_large(problem, loops));
+    auto large = disks::run_in_parts(
+        piece.problem(), [&](AxisPart&& part) { return hand_out(piece, std::move(part)); });
+    if (!large || !*large || problem.is_cancelled()) return large;
+    rest = std::move(*large);
+  }
+  const Status small = run_small(problem, loops, [&](const Piece& piece, MedialAxis&& axis) {
+    AxisPart part = whole_part(axis);
+    part.begins = nodes == 0;
+    for (std::uint32_t& node : part.nodes) node += nodes;
+    if (rest) {
+      rest->tolerance = std::max(rest->tolerance, axis.tolerance);
+      rest->statistics += axis.statistics;
+    } else {
+      rest = std::move(axis);
+    }
+    return hand_out(piece, std::move(part));
+  });
+  if (!small) return small.error();
+  return rest;
+}
+
+}  // namespace medial
