@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -67,7 +68,7 @@ class Evaluator {
   Field field(double order);
 
   static constexpr double far_field = 1e-7;
-  static constexpr double rough_field = 3e-5, rough_share = 2e-3;
+  static constexpr double rough_field = 5e-4, rough_share = 2e-3;
 
   /// What all forces have cost: the charges that were summed one by one, and as much as
   /// `cost_of_force` of them for each force and `cost_of_set` for each set that adds as moments.
@@ -100,12 +101,9 @@ class Evaluator {
   std::optional<SteepTail> tail_;  ///< of the last order that came alone
   std::optional<HighOrder> high_;
   std::uint64_t work_ = 0;
-  struct Far {
-    std::uint32_t node;
-    std::size_t degree;  ///< of the moments that suffice
-  };
   std::vector<Range> near_;
-  std::vector<Far> far_;
+  std::array<std::vector<std::uint32_t>, Moments::degree + 1>
+      far_;  ///< sets by the degree that does
 };
 
 }  // namespace medial::potential
