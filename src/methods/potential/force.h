@@ -42,10 +42,10 @@ struct Force {
 /// recurrence (9), or at one high order alone from HighOrder, in the same time for any. The
 /// recurrence is stable upward while |y| is not small against the distance to the nearest charge;
 /// other pieces are passed sideways (they lie on the point's own line, nearly), and have J(n) from
-/// SteepTail, and so have all that it takes at one order of 12 or more alone. Pieces far away add
-/// as moments or not at all, as their bounds allow: what that changes is below `far_field` in the
-/// units of Force. Keeps a reference to the charges and
-/// scratch memory of its own: one evaluator a thread.
+/// SteepTail, and so have all that it takes at one order of 12 or more alone. Pieces far away are
+/// summed by their moments, or left out, as their bounds allow: the error is below `far_field` in
+/// the units of Force. Keeps a reference to the charges, and scratch memory of its own: use one
+/// evaluator a thread.
 class Evaluator {
  public:
   explicit Evaluator(const Charges& charges) : charges_(charges) {}
