@@ -548,10 +548,9 @@ TEST(LeeByAuto, IsTakenWhereItIsFaster) {
   const auto taken = [](const Rings& rings) {
     return compute(built(rings), {.method = method::Auto{}, .threads = 1}).value().method;
   };
-  EXPECT_EQ(taken(blob(20000)), "lee");
-  EXPECT_EQ(taken(blob(20010)), "disks");
-  EXPECT_EQ(taken(dented(30000, 0.05)), "lee");
-  EXPECT_EQ(taken(dented(30000, 0.1)), "disks");
+  EXPECT_EQ(taken(blob(1000)), "lee");
+  EXPECT_EQ(taken(blob(30000)), "lee");
+  EXPECT_EQ(taken(dented(30000, 0.1)), "lee");
   EXPECT_EQ(taken(maze(3000)), "disks");
   EXPECT_EQ(taken(hole_grid(3)), "disks");
 }

@@ -280,6 +280,29 @@ TEST(PotentialField, AForceCostsLessThanAllCharges) {
   EXPECT_LT(static_cast<double>(work) / forces, 0.4 * static_cast<double>(charges.size()));
 }
 
+/// What lies side by side is one set wherever the boundary comes to it.
+TEST(PotentialField, AForceDoesNotDependOnTheOrderOfHoles) {
+  std::vector<Charge> pieces;
+  for (int i = 0; i < 2500; ++i) {
+    const Vec2 low{3.0 * (i % 50), 3.0 * (i / 50)};
+    const std::array<Vec2, 4> corners{low, low + Vec2{0, 1}, low + Vec2{1, 1}, low + Vec2{1, 0}};
+    for (std::size_t k = 0; k < 4; ++k) pieces.push_back({corners[k], corners[(k + 1) % 4]});
+  }
+  std::vector<Charge> shuffled;
+  for (std::uint32_t i = 0; i < 2500; ++i)
+    for (std::uint32_t k = 0; k < 4; ++k) shuffled.push_back(pieces[4 * (i * 77 % 2500) + k]);
+  const Charges in_rows(pieces), anyhow(shuffled);
+  Evaluator one(in_rows), other(anyhow);
+  const Vec2 p{22.1, 31.7};
+  const auto nearest = other.place(p);
+  EXPECT_EQ(one.place(p).distance, nearest.distance);
+  EXPECT_EQ(medial::distance(shuffled[nearest.piece].start, p),
+            medial::distance(pieces[in_rows.nearest(p).piece].start, p));
+  EXPECT_EQ(one.force(1).force, other.force(1).force);
+  EXPECT_EQ(one.work(), other.work());
+  EXPECT_LT(one.work(), pieces.size() / 4);
+}
+
 TEST(PotentialField, ThePotentialMatchesItsDefinition) {
   const std::vector<Charge> pieces = border_of(l_shape(1));
   const Charges charges(pieces);

@@ -523,6 +523,18 @@ TEST(Voxels, FindWhatTheAngleParts) {
   EXPECT_GT(in_knob, 100U);
 }
 
+/// Next to edges at which the surface turns by 9 degrees, voxels at the surface have two feet at
+/// more than 30 as well. None of them is where following starts.
+TEST(Voxels, OfATorusOfFlatFacesLieOnItsCircle) {
+  const Solid solid = solid_of(test::torus_mesh(2, 0.6, 120, 40));
+  const VoxelAxis axis = axis_of(solid, with(64, Thinning::curves));
+  EXPECT_EQ(axis.topology, (VoxelTopology{1, 1, 0}));
+  double farthest = 0;
+  for (const Voxel& v : axis.voxels)
+    farthest = std::max(farthest, std::hypot(std::hypot(v.center.x, v.center.y) - 2, v.center.z));
+  EXPECT_LE(farthest, axis.resolution);
+}
+
 TEST(Voxels, OfRandomSolidsKeepPartsTunnelsAndCavities) {
   std::mt19937_64 random(12);
   const auto between = [&](double a, double b) {

@@ -10,9 +10,9 @@ namespace medial {
 namespace {
 
 /// As measured (docs/lee.md). Of the vertices of coasts and mazes about half are reflex, of smooth
-/// shapes less than a third; all of the large ones gain only where few are. O(n).
+/// shapes mostly fewer. O(n).
 bool is_lee_faster(const Problem& problem) {
-  constexpr std::size_t large = 20000;
+  constexpr double most_reflex = 0.4;
   const Shape& shape = problem.shape;
   if (shape.hole_count() > 0 || has_arcs(shape) || problem.options.exact) return false;
   std::size_t reflex = 0;
@@ -24,7 +24,6 @@ bool is_lee_faster(const Problem& problem) {
       reflex += cross(at - before, after - at) <= 0 ? 1 : 0;  // rounding does not matter
     }
   }
-  const double most_reflex = shape.points.size() <= large ? 0.4 : 0.05;
   return static_cast<double>(reflex) <= most_reflex * static_cast<double>(shape.points.size());
 }
 

@@ -133,6 +133,17 @@ inline double carrier_parameter(const Site& site, Vec2 c) {
   return 2 * (size - forward) / (squared * along);
 }
 
+/// Whether the foot on a site moves forward from one disk to another, as seen from their centres,
+/// but for `slack`.
+inline bool foot_advances(const Site& site, Vec2 from, Vec2 to, double slack) {
+  // Round a vertex, normals turn to the right.
+  if (site.is_vertex())
+    return cross(to - site.point, from - site.point) >= -slack * distance(site.point, from);
+  // Next to an arc's centre, feet are less certain than centres.
+  const double size = std::min(view_of_arc(site, from).size, view_of_arc(site, to).size);
+  return (carrier_parameter(site, to) - carrier_parameter(site, from)) * size >= -slack;
+}
+
 /// Parameter of the site's point nearest to c.
 inline double foot_parameter(const Site& site, Vec2 c) {
   if (!site.is_arc()) return std::clamp(dot(site.direction, c - site.point), 0.0, site.length);

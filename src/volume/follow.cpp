@@ -66,7 +66,21 @@ void RidgeFollower::push_neighbours(Cell cell, std::uint32_t hint) {
   }
 }
 
+bool RidgeFollower::is_firm(const Candidate& candidate) {
+  bool firm = false;
+  scratch_.with_one([&](FeetFinder::Scratch& scratch) {
+    const auto ray =
+        finder_.ray(center_of(cell_of(candidate.rank, grid_.size)), candidate.hint, scratch);
+    firm = finder_.axis_point(ray, ray.length + finder_.reach(), scratch).has_value();
+  });
+  return firm;
+}
+
 void RidgeFollower::find_first(const BoundedSet& set) {
+  if (!find_first(set, true)) find_first(set, false);
+}
+
+bool RidgeFollower::find_first(const BoundedSet& set, bool firm) {
   const std::uint32_t middle = set.low + (set.high - set.low) / 2;
   std::uint32_t hint = 0;
   for (std::uint32_t step = 0; step <= 2 * (set.high - set.low) + 1; ++step) {
@@ -85,16 +99,20 @@ void RidgeFollower::find_first(const BoundedSet& set) {
         if (++run != set.runs.end()) x = run->begin;
       }
       const std::vector<Feet>& feet = test(batch_);
-      bool found = false;
+      if (!feet.empty()) hint = feet.back().face[0];
+      std::vector<std::size_t> found;
       for (std::size_t i = 0; i < batch_.size(); ++i) {
-        hint = feet[i].face[0];
         if (!feet[i].medial()) continue;
-        found = true;
-        keep(batch_[i], feet[i]);
+        if (!firm || is_firm(batch_[i]))
+          found.push_back(i);
+        else
+          checked_.erase(cell_of(batch_[i].rank, grid_.size));
       }
-      if (found) return;
+      for (const std::size_t i : found) keep(batch_[i], feet[i]);
+      if (!found.empty()) return true;
     }
   }
+  return false;
 }
 
 std::optional<Cell> RidgeFollower::missed(Cell outer, std::uint32_t& hint,

@@ -35,6 +35,8 @@ class RidgeFollower {
   /// Finds the first medial voxel of a bounded set, plane by plane from its middle layer outwards.
   /// The report searches one plane and trusts that the axis meets it, which does not hold: the axis
   /// of a ball is a point. A set may have no medial voxel at all; peel() leaves one of it.
+  /// Beside convex edges, where the surface turns by less than the angle, voxels next to the
+  /// surface have feet at the angle, too; they come first only where there is nothing else.
   void find_first(const BoundedSet& set);
   /// Finds what else of the axis has voxels: starts where the largest balls that touch the surface
   /// below the outermost interior voxels have their centres. What the report trusts in, that the
@@ -60,6 +62,9 @@ class RidgeFollower {
     std::uint32_t hint = 0;  ///< a face that is near
   };
 
+  bool find_first(const BoundedSet& set, bool firm);
+  /// Whether the exact axis beside a medial voxel has feet at the angle and a half or more.
+  bool is_firm(const Candidate& candidate);
   /// Where the axis meets the ray from the surface through an outer voxel, if nothing of it is
   /// found on the way there.
   std::optional<Cell> missed(Cell outer, std::uint32_t& hint, FeetFinder::Scratch& scratch) const;

@@ -20,7 +20,8 @@ namespace {
 using Bone = Skeleton::Bone;
 using site::Site;
 
-/// Evaluates base cases one by one. The first nodes are the dividing disks, its own follow.
+/// Evaluates base cases one by one. The first nodes are the dividing disks; new
+/// ones follow.
 class Evaluator {
  public:
   Evaluator(const Context& shared, const Division& division)
@@ -162,7 +163,7 @@ void contract(const Context& context, const Division& division, Skeleton& skelet
     edge.from = nodes.find(edge.from);
     edge.to = nodes.find(edge.to);
   }
-  // A node that counts as another one is none.
+  // Nodes joined to others are dropped.
   for (std::uint32_t i = 0; i < skeleton.nodes.size(); ++i)
     if (nodes.find(i) != i) skeleton.component[i] = none;
 }

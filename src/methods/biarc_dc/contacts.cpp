@@ -44,14 +44,14 @@ std::optional<Touch> touch_of(const Context& context, const Subshape& subshape, 
     return is_far(site, disk.center, reach) ||
            site::squared_distance(site, disk.center) > reach * reach;
   };
-  // What touches the end of an edge is for the vertex there.
+  // A disk that touches the end of an edge touches the vertex there.
   const auto ends_at_vertex = [&](double s) {
     const Element& before = subshape.elements[subshape.before(i)];
     return (s <= 0 && before.is_joined() && context.site(before).is_vertex()) ||
            (s >= site.length && element.is_joined() &&
             context.site(subshape.elements[subshape.next(i)]).is_vertex());
   };
-  // What touches an arc in a convex joint alone is for the disk that touches its circle, too.
+  // A disk touches an arc at a convex joint only if it touches the arc's circle there, too.
   const auto ends_at_corner = [&](const Touch& touch) {
     const Element& before = subshape.elements[subshape.before(i)];
     const bool is_convex =

@@ -112,7 +112,7 @@ class Divider {
   /// O(sqrt n) disks in expectation.
   Cut balanced_cut(const Subshape& subshape) {
     const auto most = static_cast<std::size_t>(most_share * static_cast<double>(subshape.size()));
-    const auto tries = static_cast<int>(0.5 * std::sqrt(static_cast<double>(subshape.size())));
+    const auto tries = static_cast<int>(0.25 * std::sqrt(static_cast<double>(subshape.size())));
     Cut best{{}, {}, 0, subshape.size() + 1};
     for (int i = 0; i < tries && best.weight > most; ++i) {
       const std::optional<Place> place = random_place(subshape);

@@ -84,7 +84,7 @@ inline bool is_far(const site::Site& site, Vec2 c, double reach) {
 
 /// Sub-shapes of at most this many elements are scanned from end to end; in larger ones, disks are
 /// tested by the tree over the whole boundary.
-constexpr std::size_t most_scanned = 64;
+constexpr std::size_t most_scanned = 256;
 
 /// Algorithm 3, maximaldisk: the disk that touches the boundary at `place`, as large as all other
 /// elements let it be. Each element that the disk still overlaps makes it smaller. Two contacts, or

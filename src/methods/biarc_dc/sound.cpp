@@ -154,19 +154,10 @@ class Checker {
   /// Whether the feet move forward on the right site and backward on the left one, but for what the
   /// tolerance leaves open.
   bool feet_advance(const Skeleton::Bone& edge) const {
-    const auto advances = [&](const site::Site& site, Vec2 a, Vec2 b) {
-      const double open = 4 * slack_;
-      // Round a vertex, normals turn to the right.
-      if (site.is_vertex())
-        return cross(b - site.point, a - site.point) >= -open * distance(site.point, a);
-      // Next to an arc's centre, feet are less certain than centres.
-      const double size =
-          std::min(site::view_of_arc(site, a).size, site::view_of_arc(site, b).size);
-      return (site::carrier_parameter(site, b) - site::carrier_parameter(site, a)) * size >= -open;
-    };
     const Vec2 from = skeleton_.nodes[edge.from].center, to = skeleton_.nodes[edge.to].center;
-    return advances(outline_.sites[edge.right], from, to) &&
-           advances(outline_.sites[edge.left], to, from);
+    const double slack = 4 * slack_;
+    return site::foot_advances(outline_.sites[edge.right], from, to, slack) &&
+           site::foot_advances(outline_.sites[edge.left], to, from, slack);
   }
   /// The disk in the middle of an edge.
   Disk middle_of(const Skeleton::Bone& edge) const {

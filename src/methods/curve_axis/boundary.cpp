@@ -323,8 +323,8 @@ void Boundary::find_tips() {
     }
     all.push_back({base + 1, evaluate(i, 1).turn});
   }
-  // Differences of rounding are none: equal neighbours count as one plateau, which is an arc, or of
-  // which the middle candidate stands for all.
+  // Values that differ by rounding are equal. Equal neighbours are one plateau: an arc, or several
+  // candidates of which the middle one counts.
   const auto is_less = [&](const Candidate& a, const Candidate& b) {
     const double amount = std::min(std::abs(a.sharpness), std::abs(b.sharpness));
     return a.sharpness + 1e-9 / size() + 1e-12 * amount < b.sharpness;

@@ -189,7 +189,7 @@ class Assembly {
     waiting_.push_back({from.second_child, first, seen_between(junction, true, from.middle)});
   }
 
-  /// Whether the way from b to c is but a rest of a step, as that from a to b.
+  /// Whether the way from b to c is only the rest of a step, compared with that from a to b.
   static bool is_close(const AxisPoint& a, const AxisPoint& b, const AxisPoint& c) {
     return distance(b.disk.center, c.disk.center) <
            shortest_step * distance(a.disk.center, b.disk.center);
@@ -446,7 +446,7 @@ Result<CurveAxis> attempt(const Boundary& boundary, const method::CurveAxis& opt
   return result;
 }
 
-/// The bridges' direction in an attempt: none that drawings have.
+/// The direction of the bridges in an attempt: one that drawings hardly have.
 Vec2 direction_of(int round) {
   const double angle = 2.9 + 1.7 * round;
   return {std::cos(angle), std::sin(angle)};

@@ -76,17 +76,9 @@ class LocalCheck {
   /// Whether the feet move forward on the right site and backward on the left one, but for what the
   /// tolerance leaves open.
   bool feet_advance(const Edge& link, Vec2 from, Vec2 to) const {
-    const auto advances = [&](const site::Site& site, Vec2 a, Vec2 b) {
-      const double slack = 4 * tolerance_;
-      // Round a vertex, normals turn to the right.
-      if (site.is_vertex())
-        return cross(b - site.point, a - site.point) >= -slack * distance(site.point, a);
-      // Next to an arc's centre, feet are less certain than centres.
-      const double size =
-          std::min(site::view_of_arc(site, a).size, site::view_of_arc(site, b).size);
-      return (site::carrier_parameter(site, b) - site::carrier_parameter(site, a)) * size >= -slack;
-    };
-    return advances(site(link.site[1]), from, to) && advances(site(link.site[0]), to, from);
+    const double slack = 4 * tolerance_;
+    return site::foot_advances(site(link.site[1]), from, to, slack) &&
+           site::foot_advances(site(link.site[0]), to, from, slack);
   }
 
   /// Whether no edge is missing at the nodes of these ways, all of theirs: counter-clockwise round

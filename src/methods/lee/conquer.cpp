@@ -168,8 +168,8 @@ class Conquest {
     return lists;
   }
 
-  /// Merges a list out of its parts of a level `bottom`: of two lists, both as soon as they are
-  /// there, and so in the cache.
+  /// Merges a list from its parts at level `bottom`: two lists as soon as both are there, while
+  /// they are in the cache.
   void merge_parts(const Halving& halving, int level, std::uint64_t i, int bottom,
                    RoundDisks& known, Statistics& statistics) {
     for (std::uint64_t j = i << (bottom - level);

@@ -74,7 +74,7 @@ struct DiagramIn {
   }
 
   /// Whether the edge separates a reflex vertex from its own edge, or two edges that join smoothly.
-  /// Of a bridge no edge is: elements stand in between.
+  /// At a bridge there is no such edge: elements lie in between.
   bool is_spoke(const ListEdge& edge) const {
     if (elements.have_arcs())
       return elements.beside(edge.element[0], edge.element[1]) == Beside::smooth;

@@ -4,14 +4,57 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <tuple>
 
 #include "base/box_tree.h"
 
 namespace medial::potential {
-Charges::Charges(const std::vector<Charge>& pieces) {
+namespace {
+
+/// How many of `count` pieces are on the left: whole leaves, so that most of them are full.
+std::uint32_t left_half(std::size_t count) {
+  const std::size_t leaves = (count + Charges::leaf_size - 1) / Charges::leaf_size;
+  return static_cast<std::uint32_t>(Charges::leaf_size * ((leaves + 1) / 2));
+}
+
+/// Halves across the longer side of what the middles of pieces span, down to leaves: along the
+/// boundary, sets of holes would be too wide to be seen from afar. It depends on the places only.
+void sort_in_space(const std::vector<Vec2>& middles, std::span<std::uint32_t> order) {
+  Box box = Box::nothing();
+  for (const std::uint32_t i : order) box.add(middles[i]);
+  const bool by_x = box.high.x - box.low.x >= box.high.y - box.low.y;
+  const auto is_before = [&](std::uint32_t a, std::uint32_t b) {
+    const auto key = [&](std::uint32_t i) {
+      const auto [x, y] = middles[i];
+      return by_x ? std::tuple(x, y, i) : std::tuple(y, x, i);
+    };
+    return key(a) < key(b);
+  };
+  if (order.size() <= Charges::leaf_size) return std::sort(order.begin(), order.end(), is_before);
+  const std::uint32_t middle = left_half(order.size());
+  std::nth_element(order.begin(), order.begin() + middle, order.end(), is_before);
+  sort_in_space(middles, order.first(middle));
+  sort_in_space(middles, order.subspan(middle));
+}
+
+std::vector<std::uint32_t> order_of(const std::vector<Charge>& pieces) {
+  std::vector<Vec2> middles;
+  middles.reserve(pieces.size());
+  for (const Charge& piece : pieces) middles.push_back(0.5 * (piece.start + piece.end));
+  std::vector<std::uint32_t> order(pieces.size());
+  std::iota(order.begin(), order.end(), 0U);
+  sort_in_space(middles, order);
+  return order;
+}
+
+}  // namespace
+
+Charges::Charges(const std::vector<Charge>& pieces) : piece_(order_of(pieces)) {
   for (auto* array : {&start_x, &start_y, &tangent_x, &tangent_y, &lengths})
     array->reserve(pieces.size());
-  for (const Charge& piece : pieces) {
+  for (const std::uint32_t i : piece_) {
+    const Charge& piece = pieces[i];
     const Vec2 along = piece.end - piece.start;
     const double length = norm(along);
     start_x.push_back(piece.start.x);
@@ -19,7 +62,6 @@ Charges::Charges(const std::vector<Charge>& pieces) {
     tangent_x.push_back(along.x / length);
     tangent_y.push_back(along.y / length);
     lengths.push_back(length);
-    site.push_back(piece.site);
   }
   nodes.reserve(4 * pieces.size() / leaf_size + 2);
   moments.reserve(nodes.capacity());
@@ -34,14 +76,11 @@ std::uint32_t Charges::build(std::uint32_t begin, std::uint32_t end) {
   Moments own;
   node.begin = begin;
   node.end = end;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  node.box = {{infinity, infinity}, {-infinity, -infinity}};
+  node.box = Box::nothing();
   Vec2 moment;
   for (std::uint32_t i = begin; i < end; ++i) {
-    for (const Vec2 p : {start(i), start(i) + lengths[i] * tangent(i)}) {
-      node.box.low = {std::min(node.box.low.x, p.x), std::min(node.box.low.y, p.y)};
-      node.box.high = {std::max(node.box.high.x, p.x), std::max(node.box.high.y, p.y)};
-    }
+    node.box.add(start(i));
+    node.box.add(start(i) + lengths[i] * tangent(i));
     node.length += lengths[i];
     moment = moment + lengths[i] * (start(i) + 0.5 * lengths[i] * tangent(i));
   }
@@ -52,9 +91,7 @@ std::uint32_t Charges::build(std::uint32_t begin, std::uint32_t end) {
     if (end - begin <= leaf_size) own.add(a, tangent(i), lengths[i]);
   }
   if (end - begin > leaf_size) {
-    // Whole blocks go to the left, so that most leaves are full.
-    const std::uint32_t blocks = (end - begin + leaf_size - 1) / leaf_size;
-    const std::uint32_t middle = begin + leaf_size * ((blocks + 1) / 2);
+    const std::uint32_t middle = begin + left_half(end - begin);
     const std::uint32_t left = build(begin, middle);
     node.right = build(middle, end);
     for (const std::uint32_t child : {left, node.right})
@@ -84,7 +121,7 @@ void Charges::from_near(Vec2 p, const double& limit, const Visit& visit) const {
   while (depth > 0) {
     const std::uint32_t index = stack[--depth];
     const Node& node = nodes[index];
-    if (squared_distance(node.box, p) >= limit) continue;
+    if (squared_distance(node.box, p) > limit) continue;
     if (node.right == 0) {
       visit(node);
       continue;
@@ -103,7 +140,9 @@ Charges::Nearest Charges::nearest(Vec2 p) const {
     std::array<double, leaf_size> square;
     squared_distances(p, leaf.begin, leaf.end, square);
     for (std::uint32_t k = 0; k < leaf.end - leaf.begin; ++k) {
-      if (square[k] < best.distance) best = {square[k], leaf.begin + k};
+      const std::uint32_t piece = piece_[leaf.begin + k];
+      if (square[k] < best.distance || (square[k] == best.distance && piece < best.piece))
+        best = {square[k], piece};
     }
   });
   best.distance = std::sqrt(best.distance);

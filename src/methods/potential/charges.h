@@ -18,15 +18,16 @@ struct Charge {
   bool last = true;        ///< of them
 };
 
-/// The charged border of one region: its pieces side by side, and a tree of moments over them.
+/// The charged border of one region: its pieces, neighbours in space side by side, and a tree of
+/// moments over them.
 class Charges {
  public:
-  /// Pieces in the order of the boundary, none of length 0. O(n).
+  /// Of pieces none of which has the length 0. O(n log n).
   explicit Charges(const std::vector<Charge>& pieces);
 
   /// A set of neighbouring pieces seen from afar.
   struct Node {
-    std::uint32_t begin = 0, end = 0;  ///< pieces
+    std::uint32_t begin = 0, end = 0;  ///< charges
     std::uint32_t right = 0;           ///< second child, the first follows; 0: a leaf
     Box box;
     double length = 0;  ///< the charge
@@ -36,7 +37,7 @@ class Charges {
 
   struct Nearest {
     double distance = 0;
-    std::uint32_t piece = 0;
+    std::uint32_t piece = 0;  ///< among those given
   };
   /// The piece nearest to p; the lowest among equals. O(log n) for sensible borders.
   Nearest nearest(Vec2 p) const;
@@ -51,7 +52,7 @@ class Charges {
   void squared_distances(Vec2 p, std::uint32_t begin, std::uint32_t end,
                          std::span<double, leaf_size> squares) const;
 
-  std::size_t size() const { return site.size(); }
+  std::size_t size() const { return lengths.size(); }
   double length() const { return nodes.front().length; }
   Vec2 start(std::size_t i) const { return {start_x[i], start_y[i]}; }
   Vec2 tangent(std::size_t i) const { return {tangent_x[i], tangent_y[i]}; }
@@ -59,8 +60,7 @@ class Charges {
   std::vector<double> start_x, start_y;      ///< of each piece: where it begins,
   std::vector<double> tangent_x, tangent_y;  ///< its unit tangent,
   std::vector<double> lengths;               ///< its length
-  std::vector<std::uint32_t> site;
-  std::vector<Node> nodes;       ///< the root is the first
+  std::vector<Node> nodes;                   ///< the root is the first
   std::vector<Moments> moments;  ///< of each node about its centre; apart, as most are only passed
 
  private:
@@ -68,6 +68,8 @@ class Charges {
   template <class Visit>
   void from_near(Vec2 p, const double& limit, const Visit& visit) const;
   std::uint32_t build(std::uint32_t begin, std::uint32_t end);
+
+  std::vector<std::uint32_t> piece_;  ///< which of those given each is
 };
 
 }  // namespace medial::potential

@@ -274,7 +274,7 @@ double power_of(double x, double n) {
 
 /// Four complex numbers.
 struct FourComplex {
-  Four x{}, y{};
+  Four x, y;
 
   FourComplex conjugate() const { return {x, -y}; }
   friend FourComplex operator+(const FourComplex& a, const FourComplex& b) {
@@ -287,11 +287,11 @@ struct FourComplex {
   friend FourComplex operator*(double a, const FourComplex& b) { return {a * b.x, a * b.y}; }
 };
 
-/// Sets of charges far away, side by side; one that is not there has no moments.
+/// Sets of charges far away, side by side, by their moments up to one degree. Those that are not
+/// there have none.
 struct FarSets {
-  void load(std::size_t i, const Charges& charges, std::uint32_t node, std::size_t needed,
-            Vec2 place, double inverse) {
-    const Moments& own = charges.moments[node];
+  void load(std::size_t i, const Charges& charges, std::uint32_t node, Vec2 place, double inverse) {
+    moments[i] = &charges.moments[node];
     const Vec2 way = place - charges.nodes[node].center, z = inverse * way;
     const double square = squared_norm(way);
     to_place.x[i] = z.x;
@@ -301,12 +301,11 @@ struct FarSets {
     inverse_square[i] = 1 / square;
     scaled_square[i] = squared_norm(z);
     unit = inverse;
-    degree = std::max(degree, needed);
-    for (std::size_t l = 0; l <= needed; ++l)
-      for (std::size_t k = 0; l + 2 * k <= needed; ++k) {
-        moments[Moments::row[l] + k].x[i] = own(l, k).x;
-        moments[Moments::row[l] + k].y[i] = own(l, k).y;
-      }
+  }
+  FourComplex moment(std::size_t l, std::size_t k) const {
+    const Vec2 a = (*moments[0])(l, k), b = (*moments[1])(l, k), c = (*moments[2])(l, k),
+               d = (*moments[3])(l, k);
+    return {Four{a.x, b.x, c.x, d.x}, Four{a.y, b.y, c.y, d.y}};
   }
 
   /// With z from the charges' centre, h half of the order and c_j the coefficients of (1 - x)^-h,
@@ -314,16 +313,16 @@ struct FarSets {
   /// conj(z)^(-h - 1 - k). Its derivative by z is half the trace of those by the coordinates.
   MEDIAL_FOUR_LANES void add_force(double h, const std::array<double, Moments::degree + 1>& c,
                                    Force& total) const {
-    FourComplex force, derivative, power;
+    FourComplex force{}, derivative{}, power{};
     power.x += 1.0;
     Four trace{};
     for (std::size_t l = 0; l <= degree; ++l) {
-      FourComplex sum, first, second;
+      FourComplex sum{}, first{}, second{};
       Four scale{};
       scale += 1.0;
       for (std::size_t k = 0; l + 2 * k <= degree; ++k) {
         const auto i = static_cast<double>(k);
-        const FourComplex term = (c[k] * c[l + k] * scale) * moments[Moments::row[l] + k];
+        const FourComplex term = (c[k] * c[l + k] * scale) * moment(l, k);
         sum = sum + term;
         first = first + i * term;
         second = second + (i * i) * term;
@@ -356,13 +355,15 @@ struct FarSets {
     total.yy -= half_trace - turned;
   }
 
-  FourComplex to_place, inverse_way;  ///< the way in units of the nearest charge's distance
+  FourComplex to_place{}, inverse_way{};  ///< the way in units of the nearest charge's distance
   Four inverse_square{};
   Four scaled_square = Four{} + 1.0;
   double unit = 1;
   std::size_t degree = 0;
-  std::array<FourComplex, Moments::count> moments{};
+  std::array<const Moments*, four> moments{&nothing, &nothing, &nothing, &nothing};
+  static const Moments nothing;
 };
+const Moments FarSets::nothing;
 
 /// Up to here the recurrence is short, and charges far away add much.
 constexpr double least_alone = 12;
@@ -378,7 +379,7 @@ Charges::Nearest Evaluator::place(Vec2 p) {
 
 void Evaluator::gather(double low, double high) {
   near_.clear();
-  far_.clear();
+  for (auto& sets : far_) sets.clear();
   work_ += cost_of_force;
   // What a unit of charge may be off, and from where on it adds less than that to any of the
   // orders.
@@ -392,15 +393,16 @@ void Evaluator::gather(double low, double high) {
     binomial[p] = binomial[p - 1] * (high + next) / next;
   }
   const auto add_set = [&](std::uint32_t index, double ratio, double gap) {
-    double remainder = power_of(1 / gap, low + 1);
-    for (std::size_t p = 0; p <= Moments::degree; ++p) {
+    const double first = power_of(1 / gap, low + 1) * ratio;
+    // From degree to degree the bound rises at first, if it does, and then falls.
+    const double last = binomial.back() * power_of(ratio, Moments::degree);
+    if (!(first * std::min(binomial[0], last) < share)) return false;
+    std::size_t p = 0;
+    for (double remainder = first; p < Moments::degree && !(binomial[p] * remainder < share); ++p)
       remainder *= ratio;
-      if (!(binomial[p] * remainder < share)) continue;
-      far_.push_back({index, p});
-      work_ += cost_of_set;
-      return true;
-    }
-    return false;
+    far_[p].push_back(index);
+    work_ += cost_of_set;
+    return true;
   };
   std::array<std::uint32_t, 64> stack{};
   std::size_t depth = 1;
@@ -433,15 +435,20 @@ void Evaluator::add_far(double order, Force& total) const {
     const auto i = static_cast<double>(j);
     c[j] = c[j - 1] * (h + i - 1) / i;
   }
-  for (std::size_t begin = 0; begin < far_.size(); begin += four) {
-    FarSets sets;
-    const std::size_t count = std::min(four, far_.size() - begin);
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto& [node, degree] = far_[begin + i];
-      sets.load(i, charges_, node, degree, place_, inverse_);
-    }
+  FarSets sets;
+  std::size_t count = 0;
+  const auto add = [&] {
     sets.add_force(h, c, total);
-  }
+    sets = {};
+    count = 0;
+  };
+  for (std::size_t degree = far_.size(); degree-- > 0;)
+    for (const std::uint32_t node : far_[degree]) {
+      sets.degree = std::max(sets.degree, degree);
+      sets.load(count++, charges_, node, place_, inverse_);
+      if (count == four) add();
+    }
+  if (count > 0) add();
 }
 
 void Evaluator::sum(double start, double low, std::span<Force> forces) {
@@ -553,9 +560,14 @@ Force Evaluator::force(double order) {
 Force Evaluator::direction(double order) {
   if (order >= least_alone) return force(order);
   error_ = rough_field;
-  const Force rough = force(order);
+  Force rough = force(order);
+  const double least = norm(rough.force) - rough_field;  // no smaller, whatever the error
+  if (rough_share * least < rough_field) {
+    error_ = std::max(rough_share * least, far_field);
+    rough = force(order);
+  }
   error_ = far_field;
-  return rough_share * norm(rough.force) >= rough_field ? rough : force(order);
+  return rough;
 }
 
 void Evaluator::forces(int first, std::span<Force> forces) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -41,10 +42,10 @@ struct Force {
 /// recurrence (9), or at one high order alone from HighOrder, in the same time for any. The
 /// recurrence is stable upward while |y| is not small against the distance to the nearest charge;
 /// other pieces are passed sideways (they lie on the point's own line, nearly), and have J(n) from
-/// SteepTail, and so have all that it takes at one order of 12 or more alone. Pieces far away add
-/// as moments or not at all, as their bounds allow: what that changes is below `far_field` in the
-/// units of Force. Keeps a reference to the charges and
-/// scratch memory of its own: one evaluator a thread.
+/// SteepTail, and so have all that it takes at one order of 12 or more alone. Pieces far away are
+/// summed by their moments, or left out, as their bounds allow: the error is below `far_field` in
+/// the units of Force. Keeps a reference to the charges, and scratch memory of its own: use one
+/// evaluator a thread.
 class Evaluator {
  public:
   explicit Evaluator(const Charges& charges) : charges_(charges) {}
@@ -67,7 +68,7 @@ class Evaluator {
   Field field(double order);
 
   static constexpr double far_field = 1e-7;
-  static constexpr double rough_field = 3e-5, rough_share = 2e-3;
+  static constexpr double rough_field = 5e-4, rough_share = 2e-3;
 
   /// What all forces have cost: the charges that were summed one by one, and as much as
   /// `cost_of_force` of them for each force and `cost_of_set` for each set that adds as moments.
@@ -100,12 +101,9 @@ class Evaluator {
   std::optional<SteepTail> tail_;  ///< of the last order that came alone
   std::optional<HighOrder> high_;
   std::uint64_t work_ = 0;
-  struct Far {
-    std::uint32_t node;
-    std::size_t degree;  ///< of the moments that suffice
-  };
   std::vector<Range> near_;
-  std::vector<Far> far_;
+  std::array<std::vector<std::uint32_t>, Moments::degree + 1>
+      far_;  ///< sets by the degree that does
 };
 
 }  // namespace medial::potential

@@ -188,7 +188,7 @@ Skeleton pruned(const Skeleton& skeleton, double least) {
     --degree[base];
     return true;
   };
-  // Where all branches but two have gone, what is left may be one that goes as well.
+  // Once a branching has only two branches left, these are one, which may have to go, too.
   for (bool dropped = true; dropped;) {
     dropped = false;
     for (std::uint32_t i = 0; i < count; ++i)

@@ -15,9 +15,15 @@ constexpr Vec2 conjugate(Vec2 a) { return {a.x, -a.y}; }
 /// charge, the sums of w^j conj(w)^k for j + k up to the degree. They hold for forces of any order.
 class Moments {
  public:
-  static constexpr std::size_t degree = 8, count = 25;
+  static constexpr std::size_t degree = 12;
   /// Where those with each difference of j and k begin in a list of all.
-  static constexpr std::array<std::size_t, degree + 1> row{0, 5, 9, 13, 16, 19, 21, 23, 24};
+  static constexpr auto row = [] {
+    std::array<std::size_t, degree + 2> begins{};
+    for (std::size_t more = 0; more <= degree; ++more)
+      begins[more + 1] = begins[more] + (degree - more) / 2 + 1;
+    return begins;
+  }();
+  static constexpr std::size_t count = row.back();
 
   /// That of j = k + more; with j and k swapped it is the conjugate. Requires
   /// more + 2 k <= degree.

@@ -28,7 +28,7 @@
 namespace medial::potential {
 namespace {
 
-/// Which sites the pieces of a region are, by the numbers of the result.
+/// The sites of a region's pieces, by their numbers in the result.
 class SiteNames {
  public:
   SiteNames(const Shape& shape, const site::SiteNumbers& numbers)
@@ -47,8 +47,8 @@ class SiteNames {
     return numbers_.edge[edge];
   }
 
-  /// Of the sites but this one, whose nearest charge is the nearest to p: around the end of a slit
-  /// two sites are as good as at one place. O(n).
+  /// Of all other sites the one with the charge nearest to p: at the end of a slit, two sites are
+  /// all but in one place. O(n).
   std::uint32_t other(const Region& region, Vec2 p, std::uint32_t own) const {
     std::pair<double, std::uint32_t> best{std::numeric_limits<double>::infinity(), own};
     for (const Charge& piece : region.pieces) {
@@ -72,8 +72,8 @@ class SiteNames {
 constexpr double widest_gap = 1.5;
 constexpr int most_halvings = 3;
 
-/// The points with the minima where those of the final order are, and what is near them moved
-/// along, the less the further it is: a branch must not overshoot its end.
+/// The points, with minima moved to those of the final order. Points near a minimum move along, by
+/// less the further away they are: a branch must not overshoot its end.
 std::vector<ValleyPoint> shifted(const Skeleton& skeleton, const Charges& charges,
                                  const SuccessorOptions& options) {
   std::vector<ValleyPoint> points = skeleton.points;
@@ -104,7 +104,7 @@ std::vector<ValleyPoint> shifted(const Skeleton& skeleton, const Charges& charge
 }
 
 /// Where the valleys through two points meet: their junction, if that is no further from either
-/// than they are apart. Points on a line that joined another valley early leave its corner out.
+/// than they are apart. Points on a line that joined another valley early cut off its corner.
 std::optional<Successor> junction_between(Evaluator& evaluator, const Successor& a,
                                           const Successor& b) {
   constexpr double broad = 64;  // an order whose valleys are wider than points are off
@@ -187,7 +187,7 @@ std::optional<Refined> successors_of(const Skeleton& skeleton, const Charges& ch
   return result;
 }
 
-/// Makes one of linked points that have come to the same place: a link needs a direction.
+/// Makes one point of linked ones that have come to the same place: a link needs a direction.
 Refined joined(Refined axis) {
   DisjointSets sets(axis.points.size());
   for (const auto& [from, to] : axis.links)

@@ -47,10 +47,10 @@ std::size_t Region::edges() const {
 }
 
 std::uint32_t Region::before(std::uint32_t piece) const {
-  for (const PieceLoop& loop : loops)
-    if (piece >= loop.begin && piece < loop.end)
-      return piece == loop.begin ? loop.end - 1 : piece - 1;
-  return piece;
+  const auto loop =
+      std::upper_bound(loops.begin(), loops.end(), piece,
+                       [](std::uint32_t wanted, const PieceLoop& one) { return wanted < one.end; });
+  return piece == loop->begin ? loop->end - 1 : piece - 1;
 }
 
 bool encloses(const Region& region, Vec2 p) {

@@ -18,8 +18,8 @@ std::uint64_t forces_of(const Region& region) {
          200 * std::uint64_t{region.holes()};
 }
 
-/// Takes minima with one line away that have a junction within two steps: lines that met the same
-/// valley in two places made them. What is left stays connected and keeps its cycles.
+/// Drops minima with one line that have a junction within two steps: they come from lines that met
+/// the same valley in two places. What is left stays connected and keeps its cycles.
 void drop_hooks(Skeleton& skeleton, double step) {
   constexpr double reach = 2;
   const std::size_t count = skeleton.points.size();

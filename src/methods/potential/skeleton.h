@@ -50,10 +50,10 @@ struct SkeletonOptions {
   /// Of bends that lines start from, in radians. One that turns by less than a quarter is the end
   /// of no valley of low order, but may be the end of a branch of the axis.
   double least_turn = 0.25;
-  /// The exact axis, as the limit of high orders, along which what lines leave apart is connected;
-  /// without it that stays so. Called at most once.
+  /// The exact axis, as the limit of high orders: along it, parts that lines leave apart are
+  /// connected. Without it they stay apart. Called at most once.
   std::function<const Skeleton*()> axis = nullptr;
-  /// What forces may cost; what is not connected then stays so.
+  /// What forces may cost; parts not connected by then stay apart.
   std::uint64_t most_work = std::numeric_limits<std::uint64_t>::max();
   const std::atomic<bool>* cancel = nullptr;  ///< ends the work early: the skeleton is not whole
 };
