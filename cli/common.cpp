@@ -296,7 +296,8 @@ void add_common_options(CLI::App& command, CommonOptions& common) {
   add_value(command, "--tolerance", common.tolerance, "T", a_tolerance(),
             "The largest distance at which a disk touches a site, as a fraction of the\n"
             "diagonal of the bounding box, at most 1e-3 (default: 4e-15, in verify\n"
-            "1e-14, or what the spacing of coordinates allows).");
+            "1e-14, or what the spacing of coordinates allows; by default small\n"
+            "components of a polygon have one of their own size).");
   add_value(command, "--corner-angle", common.corner_angle, "A", in_range(0, 10),
             "Convex joints with an arc are smooth, not corners, below this angle, in\n"
             "degrees, at most 10 (default: 4 for fonts, 1 for .svg, else 0.01).");

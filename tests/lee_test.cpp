@@ -527,6 +527,7 @@ TEST(LeeNeedle, ThinnerThanPreciseNumbersIsUnsupported) {
   const auto axis = compute(needle, by_lee());
   ASSERT_FALSE(axis);
   EXPECT_EQ(axis.error().code, ErrorCode::unsupported) << to_string(axis.error());
+  EXPECT_NE(axis.error().text.find("too near to each other"), std::string::npos);
   const auto other = compute(needle, {.threads = 1});
   ASSERT_TRUE(other) << to_string(other.error());
   EXPECT_TRUE(verify(needle, *other, {.threads = 1}).passed);

@@ -7,7 +7,7 @@ namespace medial {
 struct Options {
   Method method = method::Disks{};
   /// Disks touch sites at a distance below this share of the bounding box's diagonal, at most 1e-3.
-  /// 0: 4e-15 (of a tiny component's own, docs/disks.md), or what rounding of coordinates allows.
+  /// 0: 4e-15 (a small component's own, docs/disks.md), or what rounding of coordinates allows.
   double tolerance = 0;
   /// A convex joint with an arc is a corner if it turns by more than this; degrees in [0, 10].
   double corner_angle = 0.01;

@@ -9,6 +9,7 @@
 
 #include "axis/statistics.h"
 #include "base/threads.h"
+#include "base/tolerance.h"
 #include "methods/checks.h"
 #include "methods/disks/disks.h"
 #include "methods/table.h"
@@ -93,12 +94,21 @@ class Piece {
 /// What is done with the axis of a piece; an error ends the computation.
 using Use = std::function<Status(const Piece& piece, MedialAxis&& axis)>;
 
+std::size_t points_of(const Shape& shape, const Loops& loops) {
+  std::size_t points = 0;
+  for (const std::uint32_t loop : loops) points += shape.loop(loop).size();
+  return points;
+}
+
 /// Computes each small component, and uses their axes in order.
 Status run_small(const Problem& problem, const LoopsBySize& loops, const Use& use) {
   const MethodRow& method = row_of(problem.options.method);
-  constexpr std::size_t block = 1 << 10;  // that are in memory at the same time
-  for (std::size_t begin = 0; begin < loops.small.size(); begin += block) {
-    const std::size_t count = std::min(block, loops.small.size() - begin);
+  constexpr std::size_t block = 1 << 18;  // points whose axes are in memory at the same time
+  std::size_t done = points_of(problem.shape, loops.large);
+  for (std::size_t begin = 0, count = 0; begin < loops.small.size(); begin += count) {
+    std::size_t points = 0;
+    for (count = 0; begin + count < loops.small.size() && points < block; ++count)
+      points += points_of(problem.shape, loops.small[begin + count]);
     std::vector<std::unique_ptr<const Piece>> pieces(count);
     std::vector<std::optional<Result<Outcome>>> outcomes(count);
     parallel_for(count, [&](std::size_t i) {
@@ -110,6 +120,10 @@ Status run_small(const Problem& problem, const LoopsBySize& loops, const Use& us
       if (!*outcomes[i]) return std::move(*outcomes[i]).error();
       if (Status used = use(*pieces[i], std::move((*outcomes[i])->axis)); !used) return used;
     }
+    done += points;
+    if (problem.options.progress)
+      problem.options.progress(static_cast<double>(done) /
+                               static_cast<double>(problem.shape.points.size()));
   }
   return success();
 }
@@ -117,10 +131,8 @@ Status run_small(const Problem& problem, const LoopsBySize& loops, const Use& us
 /// The progress of the large components, a share of the whole's.
 std::function<void(double)> progress_of_large(const Problem& problem, const LoopsBySize& loops) {
   if (!problem.options.progress) return nullptr;
-  double points = 0;
-  for (const std::uint32_t loop : loops.large)
-    points += static_cast<double>(problem.shape.loop(loop).size());
-  const double share = points / static_cast<double>(problem.shape.points.size());
+  const double share = static_cast<double>(points_of(problem.shape, loops.large)) /
+                       static_cast<double>(problem.shape.points.size());
   return [&problem, share](double done) { problem.options.progress(share * done); };
 }
 
@@ -146,6 +158,7 @@ void append(const Piece& piece, MedialAxis&& axis, MedialAxis& sum) {
 
 std::optional<LoopsBySize> small_components(const Problem& problem) {
   constexpr double small_share = 0x1p-10;
+  constexpr std::size_t most_points = 1 << 16;  // a longer one is handed out while it grows
   const Shape& shape = problem.shape;
   const Options& options = problem.options;
   if (shape.component_count() < 2 || options.tolerance > 0 || has_arcs(shape) ||
@@ -155,11 +168,16 @@ std::optional<LoopsBySize> small_components(const Problem& problem) {
   const double least = small_share * longer_side(problem.box);
   LoopsBySize loops;
   std::vector<std::uint32_t> place(shape.component_count(), none);  // of each, in loops.small
+  std::vector<std::size_t> points(shape.component_count());
+  for (std::size_t i = 0; i < shape.loop_count(); ++i)
+    points[shape.component[i]] += shape.loop(i).size();
   for (std::size_t i = 0; i < shape.loop_count(); ++i) {
     if (shape.hole[i]) continue;
     Box box = Box::nothing();
     for (const Vec2 p : shape.loop(i)) box.add(p);
-    if (!(longer_side(box) < least)) continue;
+    if (!(longer_side(box) < least && points[shape.component[i]] <= most_points &&
+          tolerance_for(box, 0) < problem.tolerance))
+      continue;
     place[shape.component[i]] = static_cast<std::uint32_t>(loops.small.size());
     loops.small.emplace_back();
   }

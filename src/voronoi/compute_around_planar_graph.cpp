@@ -179,7 +179,7 @@ Result<MedialAxis> run_around(const PlanarGraph& planar_graph, const Problem& su
   auto [axis, is_certain] = disks::run_two_sided(surroundings, edges);
   if (surroundings.is_cancelled()) return Error{ErrorCode::cancelled, "cancelled", {}};
   // Double alone may be misled by what is too close.
-  if (!is_certain && surroundings.shape.bulges.empty())
+  if (!is_certain)
     if (auto error = too_close(planar_graph, told_apart * surroundings.tolerance))
       return std::move(*error);
   if (!has_right_topology(surroundings.shape, axis.nodes, edges))

@@ -238,6 +238,8 @@ class Assembly {
     if (backward.size() < steps.size()) return false;
     const std::vector<Step> all(steps.begin(), steps.end());
     for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = all[backward[steps.size() - 1 - i]];
+    for (std::size_t i = 1; i < steps.size(); ++i)
+      if (steps[i - 1].to != steps[i].from) return false;
     return true;
   }
   /// How far along a side of an edge the disk halfway along a step touches it.

@@ -91,10 +91,6 @@ struct Boundary {
     return elements[i] == Element::edge && elements[i + 1] == Element::edge &&
            joint(i) == site::Joint::corner;
   }
-  bool is_blunt(std::uint32_t i) const {  ///< whether i and i + 1 are edges at a blunt joint
-    return elements[i] == Element::edge && elements[i + 1] == Element::edge &&
-           joint(i) == site::Joint::blunt;
-  }
   /// Whether a disk can touch i and i + 1 in one point: an edge and a vertex, or a smooth joint.
   bool is_smooth(std::uint32_t i) const {
     if (elements[i] == Element::bridge || elements[i + 1] == Element::bridge) return false;

@@ -146,6 +146,8 @@ const std::vector<std::uint32_t>& Contacts::touched_between(const Span& span, co
     return angle > 0 ? angle : angle + 2 * std::numbers::pi;
   };
   const double end_angle = all_around ? 2 * std::numbers::pi : angle_of(span.left, 1);
+  // A planar graph's wedges may be wider than a half turn: looks_away() knows them.
+  const bool is_polygon = !boundary_.two_sided && !boundary_.has_arcs;
   const Boundary::SiteRange& run = run_of(span);
   double angle_before = 0;
   std::uint32_t before = span.right;
@@ -154,7 +156,7 @@ const std::vector<std::uint32_t>& Contacts::touched_between(const Span& span, co
     if (looks_away(hit, disk.center)) continue;
     const std::uint32_t i = boundary_.two_sided ? hit : owner(hit, disk.center, span);
     if (i <= before || i >= span.left || !touches(i, disk, touching_) ||
-        is_beside(i, disk.center, run))
+        (is_polygon && is_beside(i, disk.center, run)))
       continue;
     const double angle = angle_of(i, 0.5);
     if (!are_distinct(before, i, angle - angle_before, disk) ||

@@ -180,7 +180,8 @@ class Contacts {
   /// contacts with some of these sites (docs/exact.md).
   double spread_of(const std::vector<std::uint32_t>& sites, const Span& span, Vec2 center) const;
   /// Whether a disk is near to the two feet that the last tie had too near to each other: a tie of
-  /// thousands is not collected again for each of its contacts.
+  /// thousands is not collected again for each of its contacts. That spares work and changes no
+  /// answer, since is_clean_tie() would find the two again.
   bool is_crowded(const Span& span, const Disk& disk) const;
   /// How far away a site is that has nothing to do with a tie.
   double clearance() const {

@@ -185,7 +185,8 @@ class Walker {
     const Span& span = step.span;
     // Of vertices that double does not tell apart one is touched, between the normals beside it.
     const std::uint32_t touched = step.event.site;
-    if (step.event.kind == Event::Kind::contact && element(touched) == Element::vertex &&
+    if (!boundary_.two_sided && step.event.kind == Event::Kind::contact &&
+        element(touched) == Element::vertex &&
         contacts_.beyond_ends(touched, step.event.disk.center) > context_.tolerance)
       return false;
     if (certainty.is_tie())
@@ -205,8 +206,11 @@ class Walker {
     Event& event = step.event;
     if (contacts_.is_certain() && !is_exact_ && event.kind == Kind::contact) {
       // Contacts that are near to each other leave open where they meet: in a tie of the node's
-      // own disk, there.
-      if (contacts_.is_clean_tie(step.span, from, event.site)) {
+      // own disk, there; but where one only passes on to the next, that may be anywhere.
+      const bool passes =
+          (event.site == step.span.right + 1 && boundary_.is_smooth(event.site - 1)) ||
+          (event.site + 1 == step.span.left && boundary_.is_smooth(event.site));
+      if (!passes && contacts_.is_clean_tie(step.span, from, event.site)) {
         event.disk = from;
         return step.is_tie = true;
       }

@@ -92,10 +92,23 @@ class Solution {
     if (const auto place = find_smooth_run(elements_)) return too_nearly_round(*place);
     merge_in_precise();
     if (problem_.is_cancelled()) return success();
-    if (!graph) return undecided();
+    if (!graph) return is_needle() ? undecided() : broken();
     join_ties(*graph, problem_.local_tolerance());
     if (const auto disk = overreach()) return too_nearly_round(disk->center);
     return success();
+  }
+
+  /// Whether double cannot tell the sides of some corner apart, so that 256 bits may not, either.
+  bool is_needle() const {
+    constexpr double rounding = 0x1p-50;
+    const site::Site* before = nullptr;
+    for (const site::Site& site : elements_.sites) {
+      if (before != nullptr && !site.is_vertex() && dot(before->direction, site.direction) < 0 &&
+          std::abs(cross(before->direction, site.direction)) <= rounding)
+        return true;
+      if (!site.is_vertex()) before = &site;
+    }
+    return false;
   }
 
   /// The same in 256 bits, from what the shape has: rounded to double at the end.
