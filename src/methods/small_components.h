@@ -21,11 +21,10 @@ struct LoopsBySize {
   std::vector<Loops> small;  ///< of each one that is computed on its own
 };
 
-/// A component is small if its longer side is below 2^-10 of the shape's, its own tolerance is finer,
-/// and it has at most 65,536 points. None where all is computed together: if there is no such
-/// component; if the method samples, or the
-/// caller has chosen a tolerance, which is one of the whole; and with arcs, since the whole's
-/// tolerance is in how the shape was built. O(n).
+/// A component is small if its longer side is below 2^-10 of the shape's, its own tolerance is
+/// finer, and it has at most 65,536 points. None where all is computed together: if there is no
+/// such component; if the method samples, or the caller has chosen a tolerance, which is one of the
+/// whole; and with arcs, since the whole's tolerance is in how the shape was built. O(n).
 std::optional<LoopsBySize> small_components(const Problem& problem);
 
 /// The axis of a problem that small_components() divides, by its method.
