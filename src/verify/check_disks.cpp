@@ -253,9 +253,9 @@ double missed_beyond_ends(const Problem& problem, const Edge& edge, Vec2 center)
   return most;
 }
 
-/// Whether turned_by() and missed_beyond_ends() are 0, or due to rounding: seen from the middle of the
-/// edge, whose tangent has the direction of its chord there, each site has its foot inside it and
-/// on the side that the edge says.
+/// Whether turned_by() and missed_beyond_ends() are 0, or due to rounding: seen from the middle of
+/// the edge, whose tangent has the direction of its chord there, each site has its foot inside it
+/// and on the side that the edge says.
 bool feet_are_right(const Problem& problem, const Edge& edge, Vec2 chord, Vec2 center) {
   for (std::size_t side = 0; side < 2; ++side) {
     const Site& site = problem.axis.sites[edge.site[side]];

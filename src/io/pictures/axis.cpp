@@ -52,8 +52,8 @@ bool runs_straight(const MedialAxis& axis, const Edge& edge) {
   return kind == axis.sites[edge.site[1]].kind() && kind != SiteKind::arc;
 }
 
-/// Cuts an edge where its radius passes from shade to shade, about, into pieces not much shorter than
-/// `cell`: take(shade, piece).
+/// Cuts an edge where its radius passes from shade to shade, about, into pieces not much shorter
+/// than `cell`: take(shade, piece).
 template <class Take>
 void cut(const MedialAxis& axis, const Edge& edge, const Viewport& viewport, double cell,
          double largest, Take take) {

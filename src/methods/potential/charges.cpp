@@ -19,7 +19,8 @@ std::uint32_t left_half(std::size_t count) {
 }
 
 /// Halves across the longer side of what the middles of pieces span, down to leaves: along the
-/// boundary, sets of holes would be too wide to be seen from afar. It depends on the places, and on the order of charges that have one.
+/// boundary, sets of holes would be too wide to be seen from afar. It depends on the places, and on
+/// the order of charges that have one.
 void sort_in_space(const std::vector<Vec2>& middles, std::span<std::uint32_t> order) {
   Box box = Box::nothing();
   for (const std::uint32_t i : order) box.add(middles[i]);
