@@ -11,6 +11,8 @@
 #include <numbers>
 #include <set>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "methods/edit/rings.h"
@@ -458,13 +460,16 @@ TEST(Editor, FollowsEditsWhileEdgesTouch) {
   const std::uint32_t flat = editor.insert(vertex_at(editor, {0, 0}), {50, 0})->vertex;
   ASSERT_TRUE(editor.move(flat, {50, 0}).ok());
   const std::uint32_t tip = vertex_at(editor, {40, 2}), wall = vertex_at(editor, {52, 2});
-  const auto touching = editor.move(tip, {40, 0});
-  ASSERT_TRUE(touching.ok()) << to_string(touching.error());
-  EXPECT_TRUE(touching->everything);
-  ASSERT_TRUE(editor.move(wall, {50, 0}).ok());  // a corner at the flat vertex
-  EXPECT_EQ(editor.shape().component_count(), 3U);
-  EXPECT_EQ(fault_of(editor), "");
   Mirror mirror(editor);
+  for (const auto& [vertex, to] : {std::pair{tip, Vec2{40, 0}}, {wall, {50, 0}}}) {
+    const auto touching = editor.move(vertex, to);  // the second onto the flat vertex
+    ASSERT_TRUE(touching.ok()) << to_string(touching.error());
+    EXPECT_FALSE(touching->everything);
+    mirror.follow(*touching);
+    mirror.expect(editor);
+    EXPECT_EQ(fault_of(editor), "");
+  }
+  EXPECT_EQ(editor.shape().component_count(), 3U);
   const auto expect_local = [&](const Result<AxisChange>& change) {
     ASSERT_TRUE(change.ok()) << to_string(change.error());
     EXPECT_FALSE(change->everything);
@@ -484,7 +489,13 @@ TEST(Editor, FollowsEditsWhileEdgesTouch) {
   EXPECT_EQ(crossing.error().code, ErrorCode::crossing);
   for (int i = 0; i < 4; ++i) expect_local(editor.undo());
   EXPECT_EQ(editor.vertex(far), (Vec2{20, 2}));
-  for (int i = 0; i < 2; ++i) ASSERT_TRUE(editor.undo().ok());
+  for (int i = 0; i < 2; ++i) {
+    const auto parts = editor.undo();
+    ASSERT_TRUE(parts.ok());
+    EXPECT_FALSE(parts->everything);
+    mirror.follow(*parts);
+  }
+  mirror.expect(editor);
   EXPECT_EQ(editor.shape().component_count(), 1U);
   EXPECT_EQ(fault_of(editor), "");
 }
@@ -648,18 +659,93 @@ TEST(Editor, RepairsTheAxisBesideVerticesInALine) {
   EXPECT_EQ(editor.axis().edges.size(), axis.edges.size());
 }
 
-TEST(Editor, ComputesAllWhereEdgesTouch) {
-  Editor editor = editor_of(hole_grid(3));
-  std::uint32_t corner = 0;
-  while (!(editor.vertex(corner) == Vec2{2, 1})) ++corner;
-  const auto touches = editor.move(corner, {2.5, 0});
-  ASSERT_TRUE(touches.ok()) << to_string(touches.error());
-  EXPECT_TRUE(touches->everything);
-  EXPECT_EQ(fault_of(editor), "");
-  ASSERT_TRUE(editor.move(corner, {2.5, 0.5}).ok());
-  EXPECT_EQ(fault_of(editor), "");
-  EXPECT_FALSE(editor.move(corner, {2.25, 0.5})->everything);
-  EXPECT_EQ(fault_of(editor), "");
+/// The loops of a shape, wherever they begin: their points, their components and what they are.
+std::multiset<std::string> loops_of(const Shape& shape) {
+  std::multiset<std::string> loops;
+  for (std::size_t l = 0; l < shape.loop_count(); ++l) {
+    std::vector<Vec2> points(shape.loop(l).begin(), shape.loop(l).end());
+    std::rotate(
+        points.begin(),
+        std::min_element(points.begin(), points.end(),
+                         [](Vec2 a, Vec2 b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); }),
+        points.end());
+    std::string text = shape.hole[l] ? "hole" : "outer";
+    for (const Vec2 p : points) text += " " + std::to_string(p.x) + "," + std::to_string(p.y);
+    loops.insert(text);
+  }
+  return loops;
+}
+
+TEST(Editor, FollowsEditsAfterWhichEdgesTouch) {
+  struct Case {
+    const char* name;
+    Rings rings;
+    Vec2 vertex, to;
+    std::size_t components, loops;
+  };
+  const Ring hall{{{0, 0}, {40, 0}, {40, 20}, {22, 20}, {20, 14}, {18, 20}, {0, 20}}, {}, {}};
+  const Ring pillar{{{10, 4}, {10, 8}, {14, 6}}, {}, {}};
+  const Ring wide{{{6, 8}, {6, 12}, {30, 12}, {30, 8}, {29, 8}, {29, 11}, {7, 11}, {7, 8}}, {}, {}};
+  const Ring bracket{{{0, 0},
+                      {30, 0},
+                      {30, 20},
+                      {0, 20},
+                      {0, 12},
+                      {4, 12},
+                      {4, 16},
+                      {26, 16},
+                      {26, 4},
+                      {4, 4},
+                      {4, 8},
+                      {0, 8}},
+                     {},
+                     {}};
+  const std::vector<Case> cases{
+      {"an outer loop becomes two", {hall, pillar}, {20, 14}, {20, 0}, 2, 3},
+      {"on a vertex", {hall, pillar}, {20, 14}, {0, 0}, 2, 3},
+      {"a hole comes to its outer loop", {hall, pillar}, {14, 6}, {40, 6}, 1, 1},
+      {"onto the hole", {hall, pillar}, {20, 14}, {14, 6}, 1, 1},
+      {"two holes become one",
+       {hall, pillar, {{{30, 4}, {30, 8}, {34, 6}}, {}, {}}},
+       {14, 6},
+       {30, 6},
+       1,
+       2},
+      {"a hole closes round a part", {hall, wide}, {7, 8}, {29, 8}, 2, 3},
+      {"an edge onto a vertex", {hall, pillar}, {22, 20}, {8, -4}, 0, 0},
+      {"a neighbour", {hall, pillar}, {20, 14}, {22, 20}, 1, 2},
+      {"from outside", {bracket}, {0, 12}, {0, 8}, 1, 1},
+      {"from outside on an edge", {bracket}, {4, 12}, {2, 8}, 1, 1}};
+  for (const Case& one : cases) {
+    Editor editor = editor_of(one.rings);
+    const Shape before = editor.shape();
+    const std::uint32_t vertex = vertex_at(editor, one.vertex);
+    Mirror mirror(editor);
+    const auto change = editor.move(vertex, one.to);
+    if (one.components == 0) {
+      EXPECT_FALSE(change.ok()) << one.name;
+      continue;
+    }
+    ASSERT_TRUE(change.ok()) << one.name << to_string(change.error());
+    EXPECT_EQ(editor.shape().component_count(), one.components) << one.name;
+    EXPECT_EQ(editor.shape().loop_count(), one.loops) << one.name;
+    Rings moved = one.rings;
+    for (Ring& ring : moved)
+      std::replace(ring.points.begin(), ring.points.end(), one.vertex, one.to);
+    EXPECT_EQ(loops_of(editor.shape()), loops_of(shape_of(moved))) << one.name;
+    mirror.follow(*change);
+    mirror.expect(editor);
+    EXPECT_EQ(fault_of(editor), "") << one.name;
+    const auto undone = editor.undo();
+    ASSERT_TRUE(undone.ok()) << one.name;
+    mirror.follow(*undone);
+    mirror.expect(editor);
+    EXPECT_EQ(loops_of(editor.shape()), loops_of(before)) << one.name;
+    EXPECT_EQ(editor.shape().component, before.component) << one.name;
+    EXPECT_EQ(fault_of(editor), "") << one.name;
+    EXPECT_FALSE(change->everything) << one.name;
+    EXPECT_FALSE(undone->everything) << one.name;
+  }
 }
 
 TEST(Editor, TurnsALoopInsideOut) {
