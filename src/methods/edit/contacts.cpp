@@ -47,8 +47,7 @@ class Finder {
     if (way.fresh) query.add(*way.fresh);
     loops_.for_edges_in(query, [&](std::uint32_t s) {
       const auto& chain = contacts_.chain;
-      if (verdict() != Verdict::crosses && std::find(chain.begin(), chain.end(), s) == chain.end())
-        meet(s);
+      if (!is_refused() && std::find(chain.begin(), chain.end(), s) == chain.end()) meet(s);
     });
     for (std::size_t i = 0; i < fresh_.size(); ++i) {
       std::vector<Vec2>& touched = touched_[i];
@@ -66,9 +65,13 @@ class Finder {
   }
 
  private:
-  Verdict verdict() const { return contacts_.judgement.verdict; }
-  void leave_open() {
-    if (verdict() != Verdict::crosses) contacts_.judgement.verdict = Verdict::unclear;
+  bool is_refused() const {
+    const Verdict verdict = contacts_.judgement.verdict;
+    return verdict == Verdict::crosses || verdict == Verdict::overlaps;
+  }
+  void leave_open() { contacts_.judgement.verdict = Verdict::unclear; }
+  void refuse(Verdict verdict, std::uint32_t edge, Vec2 point) {
+    contacts_.judgement = {verdict, edge, point};
   }
 
   /// The pieces of the old edges, which the loops may run along in the other direction.
@@ -119,7 +122,7 @@ class Finder {
       sweeps_ = {{{{from, *fresh, to}}, {{from, *fresh}, {*fresh, to}, {from, to}}}};
     if (old && fresh && (sweeps_[0].has(to) || sweeps_[1].has(from))) leave_open();
     if (fresh && orientation(from, *fresh, to) == 0 && !strictly_between(from, *fresh, to))
-      leave_open();
+      refuse(Verdict::overlaps, contacts_.chain[0], *fresh);
   }
 
   bool is_corner(Vec2 p) const {
@@ -134,12 +137,12 @@ class Finder {
       const Side& edge = fresh_[i];
       const Meeting how = meeting(edge.from, edge.to, a, b);
       if (how == Meeting::apart) continue;
-      if (how == Meeting::cross) {
-        contacts_.judgement = {Verdict::crosses, s, crossing_of(edge.from, edge.to, a, b)};
-        return;
-      }
-      if (run_along(edge.from, edge.to, a, b)) leave_open();
-      if (lies_inside(a, edge.from, edge.to)) touched_[i].push_back(a);
+      if (how == Meeting::cross)
+        return refuse(Verdict::crosses, s, crossing_of(edge.from, edge.to, a, b));
+      if (run_along(edge.from, edge.to, a, b)) return refuse(Verdict::overlaps, s, a);
+      if (!lies_inside(a, edge.from, edge.to)) continue;
+      if (loops_[s].flat) return refuse(Verdict::crosses, s, a);  // in the inside of both
+      touched_[i].push_back(a);
     }
     const bool is_divided = fresh && lies_inside(*fresh, a, b);
     // What reaches from one side of a swept triangle to another one is passed, too.

@@ -36,9 +36,11 @@ void join(AxisChange& first, const AxisChange& second) {
 
 }  // namespace
 
-Error Editor::Parts::crossing_error(const Rings::Judgement& judgement) const {
+Error Editor::Parts::refusal(const Rings::Judgement& judgement) const {
   const std::uint32_t edge = touching ? touching->edge_at(judgement.edge, rings) : judgement.edge;
-  Error error = error_of(ErrorCode::crossing, "edges would cross", edge);
+  Error error = judgement.verdict == Rings::Verdict::overlaps
+                    ? error_of(ErrorCode::overlap, "edges would overlap", edge)
+                    : error_of(ErrorCode::crossing, "edges would cross", edge);
   error.place.point = judgement.point;
   return error;
 }
@@ -106,17 +108,19 @@ Result<AxisChange> Editor::Parts::change(edit::Edit edit) {
   // With arcs, all that comes near touches, and becomes one within the tolerance.
   const bool is_first_arc = !rings.has_arcs() && edit.has_arcs();
   const bool is_merged = touching && (rings.has_arcs() || edited().has_arcs());
-  if (is_first_arc || is_merged || !fits_frame(edit) || straightens_crossing(edit))
-    return rebuild(edit);
+  if (is_first_arc || is_merged || (edit.is_of_loops() && !fits_frame(edit))) return rebuild(edit);
   const std::optional<edit::Edit> own = touching ? touching->of_loops(edit, rings) : edit;
   Rings::Judgement judgement{Rings::Verdict::unclear, none, {}};
   if (own) judgement = rings.judge(*own);
   std::optional<edit::Contacts> contacts;
   if (judgement.verdict == Rings::Verdict::unclear && !edit.is_of_loops() && !rings.has_arcs()) {
     contacts = edit::find_contacts(rings, detour_of(edit));
-    if (contacts->judgement.verdict == Rings::Verdict::crosses) judgement = contacts->judgement;
+    if (contacts->judgement.verdict != Rings::Verdict::keeps_form) judgement = contacts->judgement;
   }
-  if (judgement.verdict == Rings::Verdict::crosses) return crossing_error(judgement);
+  if (judgement.verdict != Rings::Verdict::keeps_form &&
+      judgement.verdict != Rings::Verdict::unclear)
+    return refusal(judgement);
+  if (!fits_frame(edit) || straightens_crossing(edit)) return rebuild(edit);
   edit::Edit back = edited().inverse(edit);
   edit::make_room(inverse, inverse.size() + 1);
   Result<std::optional<Step>> step = std::optional<Step>();
@@ -289,7 +293,7 @@ std::optional<Step> Editor::Parts::follow_in_two(const edit::Edit& edit,
     const Rings::Judgement judgement = rings.judge(in);
     if (judgement.verdict == Rings::Verdict::keeps_form) second = follow(in);
     if (edit.is_of_loops() && judgement.verdict == Rings::Verdict::crosses)
-      refused = crossing_error(judgement);
+      refused = refusal(judgement);
     if (second) {
       // In a copy: if memory runs out halfway, put_back() still needs the first change as it was.
       AxisChange both = first->change;
@@ -470,7 +474,8 @@ std::optional<Step> Editor::Parts::repair(const Seeds& seeds,
     spread.spread(fresh, margin * measures.tolerance);
     const edit::Affected affected = spread.result();
     if (affected.nodes.size() == graph.node_count()) return std::nullopt;
-    const auto windows = edit::windows_of(rings, graph, affected, loops, measures.radius_limit);
+    const auto windows =
+        edit::windows_of(rings, graph, affected, loops, seeds.parts, measures.radius_limit);
     if (!windows) return std::nullopt;
     std::vector<std::uint32_t> doubtful;
     if (const auto found = repair(*windows, doubtful))

@@ -79,7 +79,7 @@ struct Editor::Parts {
   std::optional<Step> weave(const edit::Edit& edit, const edit::Contacts& contacts);
   std::optional<Step> weave(const edit::Contacts& contacts, edit::Weaver& weaver);
   std::optional<Step> weave_in_two(const edit::Edit& edit, const edit::Detour& way);
-  Error crossing_error(const Rings::Judgement& judgement) const;
+  Error refusal(const Rings::Judgement& judgement) const;
   std::optional<Step> follow(const edit::Edit& edit);
   std::optional<Step> follow_in_two(const edit::Edit& edit, std::optional<Error>& refused);
   Result<AxisChange> rebuild(const edit::Edit& edit);

@@ -140,6 +140,7 @@ class Rings {
   enum class Verdict : std::uint8_t {
     keeps_form,  ///< the loops can move there without touching each other on the way
     crosses,     ///< edges would cross
+    overlaps,    ///< edges would run along each other; only of find_contacts()
     unclear,     ///< what becomes of the shape is for build_shape() to find out
   };
   struct Judgement {

@@ -28,10 +28,16 @@ class Assembly {
            double radius_limit)
       : rings_(rings), graph_(graph), affected_(affected), radius_limit_(radius_limit) {}
 
-  std::optional<std::vector<Window>> windows(const std::vector<std::uint32_t>& loops) {
+  std::optional<std::vector<Window>> windows(const std::vector<std::uint32_t>& loops, int parts) {
     if (affected_.nodes.empty() || !find_cycles()) return std::nullopt;
     add_whole_loops(loops);
-    while (cycles_.size() > 1 && connect_any())
+    // What comes in each window with borders is a tree.
+    const auto signed_size = [](const auto& list) {
+      return static_cast<std::ptrdiff_t>(list.size());
+    };
+    const std::ptrdiff_t trees = parts + signed_size(affected_.nodes) +
+                                 signed_size(affected_.borders) - signed_size(affected_.edges);
+    while (cycles_.size() > 1 && signed_size(cycles_) > trees && connect_any())
       if (takes_long()) return std::nullopt;
     if (takes_long()) return std::nullopt;
     std::vector<Window> windows;
@@ -398,9 +404,9 @@ Affected Spread::result() const {
 
 std::optional<std::vector<Window>> windows_of(const Rings& rings, const AxisGraph& graph,
                                               const Affected& affected,
-                                              const std::vector<std::uint32_t>& loops,
+                                              const std::vector<std::uint32_t>& loops, int parts,
                                               double radius_limit) {
-  return Assembly(rings, graph, affected, radius_limit).windows(loops);
+  return Assembly(rings, graph, affected, radius_limit).windows(loops, parts);
 }
 
 }  // namespace medial::edit

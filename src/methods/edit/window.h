@@ -58,12 +58,13 @@ struct Window {
   std::vector<std::uint32_t> names;  ///< of the boundary's `originals`: the sites in Rings
   std::vector<std::uint32_t> loops;
 };
-/// One window, or where edges come to touch or part several. `loops`: those that have changed. None
-/// where all of the axis is affected, where rounding leaves the borders' order open, and where it
-/// takes long to connect many loops.
+/// One window, or where edges come to touch or part several. `loops`: those that have changed;
+/// `parts`: so many more components the axis gets, less cycles. None where all of the axis is
+/// affected, where rounding leaves the borders' order open, and where it takes long to connect many
+/// loops.
 std::optional<std::vector<Window>> windows_of(const Rings& rings, const AxisGraph& graph,
                                               const Affected& affected,
-                                              const std::vector<std::uint32_t>& loops,
+                                              const std::vector<std::uint32_t>& loops, int parts,
                                               double radius_limit);
 
 }  // namespace medial::edit
