@@ -659,21 +659,35 @@ TEST(Editor, RepairsTheAxisBesideVerticesInALine) {
   EXPECT_EQ(editor.axis().edges.size(), axis.edges.size());
 }
 
-/// The loops of a shape, wherever they begin: their points, their components and what they are.
+/// The loops of a shape, wherever they begin: their points, what they are, and the outer loop of
+/// their component.
 std::multiset<std::string> loops_of(const Shape& shape) {
+  const auto text_of = [&](std::size_t l) {
+    std::vector<std::pair<double, double>> points, least;
+    for (const Vec2 p : shape.loop(l)) points.emplace_back(p.x, p.y);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      std::rotate(points.begin(), points.begin() + 1, points.end());
+      if (least.empty() || points < least) least = points;
+    }
+    std::string text = shape.hole[l] ? "hole" : "outer";
+    for (const auto& [x, y] : least) text += " " + std::to_string(x) + "," + std::to_string(y);
+    return text;
+  };
   std::multiset<std::string> loops;
   for (std::size_t l = 0; l < shape.loop_count(); ++l) {
-    std::vector<Vec2> points(shape.loop(l).begin(), shape.loop(l).end());
-    std::rotate(
-        points.begin(),
-        std::min_element(points.begin(), points.end(),
-                         [](Vec2 a, Vec2 b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); }),
-        points.end());
-    std::string text = shape.hole[l] ? "hole" : "outer";
-    for (const Vec2 p : points) text += " " + std::to_string(p.x) + "," + std::to_string(p.y);
+    std::string text = text_of(l);
+    for (std::size_t other = 0; other < shape.loop_count(); ++other)
+      if (!shape.hole[other] && shape.component[other] == shape.component[l])
+        text += " in " + text_of(other);
     loops.insert(text);
   }
   return loops;
+}
+
+/// The rings with one point in another place.
+Rings with_point_moved(Rings rings, Vec2 from, Vec2 to) {
+  for (Ring& ring : rings) std::replace(ring.points.begin(), ring.points.end(), from, to);
+  return rings;
 }
 
 TEST(Editor, FollowsEditsAfterWhichEdgesTouch) {
@@ -729,10 +743,9 @@ TEST(Editor, FollowsEditsAfterWhichEdgesTouch) {
     ASSERT_TRUE(change.ok()) << one.name << to_string(change.error());
     EXPECT_EQ(editor.shape().component_count(), one.components) << one.name;
     EXPECT_EQ(editor.shape().loop_count(), one.loops) << one.name;
-    Rings moved = one.rings;
-    for (Ring& ring : moved)
-      std::replace(ring.points.begin(), ring.points.end(), one.vertex, one.to);
-    EXPECT_EQ(loops_of(editor.shape()), loops_of(shape_of(moved))) << one.name;
+    EXPECT_EQ(loops_of(editor.shape()),
+              loops_of(shape_of(with_point_moved(one.rings, one.vertex, one.to))))
+        << one.name;
     mirror.follow(*change);
     mirror.expect(editor);
     EXPECT_EQ(fault_of(editor), "") << one.name;
@@ -745,6 +758,44 @@ TEST(Editor, FollowsEditsAfterWhichEdgesTouch) {
     EXPECT_EQ(fault_of(editor), "") << one.name;
     EXPECT_FALSE(change->everything) << one.name;
     EXPECT_FALSE(undone->everything) << one.name;
+  }
+}
+
+TEST(Editor, TellsHolesFromOuterLoopsWhereSeveralVerticesAreLeftmost) {
+  const Ring wide{
+      {{-100, -100}, {100, -100}, {100, 100}, {60, 100}, {50, 60}, {40, 100}, {-100, 100}}, {}, {}};
+  const Ring winding{{{2, 10},   {-4, 4},   {2, -2},  {2, -40},  {3, -60},  {6, -40},  {6, 3},
+                      {0, 4},    {6, 5},    {30, 5},  {50, 5.5}, {30, 6.5}, {1, 7},    {6, 8},
+                      {6, 12},   {20, 13},  {30, 12}, {60, 12},  {62, 2},   {60, -30}, {61, -50},
+                      {60, -70}, {30, -75}, {0, -79}, {-8, -70}, {-9, 0},   {-8, 12}},
+                     {},
+                     {}};
+  const Ring notched{
+      {{10, 60}, {-10, 4}, {20, -36}, {60, -37}, {60, 3}, {0, 4}, {60, 5}, {61, 60}}, {}, {}};
+  Ring round{{{10, -16}, {20, -10}}, {}, {}};
+  constexpr int corners = 14;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2.5 - 2 * std::numbers::pi * i / corners;
+    round.points.push_back({32 + 8 * std::cos(angle), -18 + 8 * std::sin(angle)});
+  }
+  struct Case {
+    Rings rings;
+    Vec2 vertex;
+  };
+  for (const Case& one : {Case{{wide, winding}, {-4, 4}}, Case{{notched, round}, {-10, 4}}}) {
+    Editor editor = editor_of(one.rings);
+    const Shape before = editor.shape();
+    const auto change = editor.move(vertex_at(editor, one.vertex), {0, 4});
+    ASSERT_TRUE(change.ok()) << to_string(change.error());
+    EXPECT_FALSE(change->everything);
+    EXPECT_EQ(loops_of(editor.shape()),
+              loops_of(shape_of(with_point_moved(one.rings, one.vertex, {0, 4}))));
+    EXPECT_EQ(fault_of(editor), "");
+    const auto undone = editor.undo();
+    ASSERT_TRUE(undone.ok());
+    EXPECT_FALSE(undone->everything);
+    EXPECT_EQ(loops_of(editor.shape()), loops_of(before));
+    EXPECT_EQ(fault_of(editor), "");
   }
 }
 

@@ -289,6 +289,7 @@ void Weaver::set_middle(const Contacts& contacts) {
     insert_after(contacts.chain[0], fresh_, place);
   } else {
     vertex(fresh_).point = place;
+    vertex(loops_[fresh_].before);  // for take_back(), as its edge changes
     loops_.set_box(loops_[fresh_].before);
     loops_.set_box(fresh_);
   }
@@ -350,18 +351,24 @@ bool Weaver::split(std::uint32_t first, std::uint32_t second, bool joins) {
   const std::uint32_t old = loops_[small].loop;
   const Seat seat = loops_.new_seat();
   if (seat.loop == loops_.loops_.size()) loops_.loops_.emplace_back();
-  // At its leftmost place a hole turns to the right.
+  // Below the lowest edge at its leftmost place is the outside of a loop, whatever is yet to be
+  // joined there: an outer loop leaves along that edge, a hole arrives.
   bool is_hole = false;
   Vec2 leftmost = loops_[small].point;
+  std::optional<Vec2> lowest;
+  u = small;
   for (std::uint32_t i = 0; i < count; ++i, u = loops_[u].next) {
-    if (i == 0) u = small;
     vertex(u).loop = seat.loop;
     const Vec2 here = loops_[u].point;
     if (lexicographic_less(leftmost, here)) continue;
-    const bool turns_right =
-        orientation(loops_[loops_[u].before].point, here, loops_[loops_[u].next].point) < 0;
-    is_hole = turns_right || (is_hole && here == leftmost);
+    if (!(here == leftmost)) lowest.reset();
     leftmost = here;
+    for (const bool arrives : {false, true}) {
+      const Vec2 end = loops_[arrives ? loops_[u].before : loops_[u].next].point;
+      if (lowest && orientation(here, end, *lowest) <= 0) continue;
+      lowest = end;
+      is_hole = arrives;
+    }
   }
   Loop& whole = loop(old);
   const bool was_hole = whole.hole;
@@ -440,6 +447,7 @@ void Weaver::take_back() {
     loops_.loops_[i->first] = i->second;
   for (auto i = old_vertices_.rbegin(); i != old_vertices_.rend(); ++i)
     loops_.vertices_[i->first] = i->second;
+  loops_.vertices_.resize(size_);
   for (const auto& [v, old] : old_vertices_) {
     if (loops_.has(v))
       loops_.set_box(v);

@@ -38,7 +38,7 @@ Contacts find_contacts(const Rings& loops, const Detour& detour);
 class Weaver {
  public:
   /// `drawn`: the rings that are edited, as they are after the edit.
-  Weaver(Rings& loops, const Rings& drawn) : loops_(loops), drawn_(drawn) {}
+  Weaver(Rings& loops, const Rings& drawn) : loops_(loops), drawn_(drawn), size_(loops.size()) {}
 
   /// False where it takes long to find out which loops are in which. Then, and where it throws,
   /// take_back() is to be called.
@@ -73,6 +73,7 @@ class Weaver {
 
   Rings& loops_;
   const Rings& drawn_;
+  const std::size_t size_;  ///< how many vertices there were before
   std::vector<Vec2> places_;
   std::uint32_t fresh_ = none, moved_ = none;
   int parts_ = 0;
