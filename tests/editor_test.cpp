@@ -811,6 +811,26 @@ TEST(Editor, TurnsALoopInsideOut) {
   EXPECT_EQ(fault_of(editor), "");
 }
 
+TEST(Editor, JudgesPlacesFarAway) {
+  const Rings notched{{{{0, 0}, {10, 0}, {10, 10}, {0, 10}, {0, 5.5}, {5, 5.25}, {0, 5}}, {}, {}}};
+  Editor editor = editor_of(notched);
+  for (const double far : {1e17, 1e300}) {
+    const auto change = editor.move(3, {far, 0.1 * far});
+    ASSERT_FALSE(change.ok());
+    EXPECT_EQ(change.error().code, ErrorCode::crossing);
+    EXPECT_LT(distance(*change.error().place.point, {10, 6.5}), 1e-14);
+  }
+  // With arcs, tolerances tell what crosses: there, of a shape that has grown.
+  const Rings bent{{{{0, 0}, {1, 0}, {1, 1}, {0.6, 1}, {0.5, 1e-10}, {0.4, 1}, {0, 1}},
+                    {},
+                    {0, 0, 0, 0, 0, 0.2, 0}}};
+  Editor arcs = editor_of(bent);
+  const auto grown = arcs.move(1, {1e6, 3e-4});
+  ASSERT_TRUE(grown.ok()) << to_string(grown.error());
+  EXPECT_EQ(loops_of(arcs.shape()),
+            loops_of(shape_of(with_point_moved(bent, {1, 0}, {1e6, 3e-4}))));
+}
+
 TEST(Editor, KeepsFarShapesExact) {
   Rings rings = l_shape(3);
   for (Ring& ring : rings)

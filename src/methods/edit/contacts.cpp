@@ -45,10 +45,13 @@ class Finder {
     Box query = box_of(way.from, way.to);
     if (way.old) query.add(*way.old);
     if (way.fresh) query.add(*way.fresh);
+    std::vector<std::uint32_t> own = contacts_.chain;
+    std::sort(own.begin(), own.end());
     loops_.for_edges_in(query, [&](std::uint32_t s) {
-      const auto& chain = contacts_.chain;
-      if (!is_refused() && std::find(chain.begin(), chain.end(), s) == chain.end()) meet(s);
+      if (!is_refused() && !std::binary_search(own.begin(), own.end(), s)) meet(s);
     });
+    const std::size_t count = own.size() + touched_[0].size() + touched_[1].size();
+    if (!is_refused() && takes_long(count)) leave_open();
     for (std::size_t i = 0; i < fresh_.size(); ++i) {
       std::vector<Vec2>& touched = touched_[i];
       std::sort(touched.begin(), touched.end(), lexicographic_less);
@@ -68,6 +71,11 @@ class Finder {
   bool is_refused() const {
     const Verdict verdict = contacts_.judgement.verdict;
     return verdict == Verdict::crosses || verdict == Verdict::overlaps;
+  }
+  /// Each contact is looked for among the others: beyond this, all is computed as fast.
+  bool takes_long(std::size_t contacts) const {
+    constexpr std::size_t few = 64;
+    return contacts > few && contacts * contacts > loops_.size();
   }
   void leave_open() { contacts_.judgement.verdict = Verdict::unclear; }
   void refuse(Verdict verdict, std::uint32_t edge, Vec2 point) {

@@ -108,7 +108,8 @@ Result<AxisChange> Editor::Parts::change(edit::Edit edit) {
   // With arcs, all that comes near touches, and becomes one within the tolerance.
   const bool is_first_arc = !rings.has_arcs() && edit.has_arcs();
   const bool is_merged = touching && (rings.has_arcs() || edited().has_arcs());
-  if (is_first_arc || is_merged || (edit.is_of_loops() && !fits_frame(edit))) return rebuild(edit);
+  const bool is_exact = !edit.is_of_loops() && !rings.has_arcs();
+  if (is_first_arc || is_merged || (!is_exact && !fits_frame(edit))) return rebuild(edit);
   const std::optional<edit::Edit> own = touching ? touching->of_loops(edit, rings) : edit;
   Rings::Judgement judgement{Rings::Verdict::unclear, none, {}};
   if (own) judgement = rings.judge(*own);

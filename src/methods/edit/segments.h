@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "base/predicates.h"
 #include "medial/geometry.h"
@@ -40,10 +42,15 @@ struct Triangle {
   }
 };
 
-/// Where two segments cross.
+/// Where two segments cross: a place on the second one, as an end of the first may be far away.
 inline Vec2 crossing_of(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
-  const double share = cross(c - a, d - c) / cross(b - a, d - c);
-  return a + std::clamp(share, 0.0, 1.0) * (b - a);
+  const auto away = [&](Vec2 p) { return std::max(std::abs(p.x - c.x), std::abs(p.y - c.y)); };
+  if (away(b) < away(a)) std::swap(a, b);
+  const Vec2 half = 0.5 * b - 0.5 * a;  // which does not overflow
+  const double size = std::max(std::abs(half.x), std::abs(half.y));
+  const Vec2 way{half.x / size, half.y / size};
+  const double of_c = cross(c - a, way), of_d = cross(d - a, way);
+  return c + std::clamp(of_c / (of_c - of_d), 0.0, 1.0) * (d - c);
 }
 
 enum class Meeting : std::uint8_t { apart, touch, cross };

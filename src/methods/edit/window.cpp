@@ -37,9 +37,8 @@ class Assembly {
     };
     const std::ptrdiff_t trees = parts + signed_size(affected_.nodes) +
                                  signed_size(affected_.borders) - signed_size(affected_.edges);
-    while (cycles_.size() > 1 && signed_size(cycles_) > trees && connect_any())
-      if (takes_long()) return std::nullopt;
-    if (takes_long()) return std::nullopt;
+    while (cycles_.size() > 1 && signed_size(cycles_) > trees)
+      if (!connect_any() || takes_long()) return std::nullopt;
     std::vector<Window> windows;
     for (Cycle& cycle : cycles_) windows.push_back(window(cycle));
     return windows;
@@ -152,7 +151,7 @@ class Assembly {
     return looks_ > most_looks * most_pieces_;
   }
 
-  /// Connects two cycles. False where no disk is found that does: then no two bound one region.
+  /// Connects two cycles. False where no disk is found that does.
   bool connect_any() {
     for (std::size_t i = cycles_.size(); i-- > 0;) {
       std::swap(cycles_[i], cycles_.back());
