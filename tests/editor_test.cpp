@@ -799,6 +799,31 @@ TEST(Editor, TellsHolesFromOuterLoopsWhereSeveralVerticesAreLeftmost) {
   }
 }
 
+TEST(Editor, ComputesAllAgainWhereVeryManyEdgesBeginToTouch) {
+  for (const int teeth : {40, 80}) {
+    const double width = 4.0 * teeth;
+    Rings rings{{{{0, 0}, {width, 0}, {width, 60}, {-2, 50}, {-2, 5}}, {}, {}}};
+    for (int i = 0; i < teeth; ++i) {
+      const double x = 4.0 * i;
+      rings.push_back({{{x + 1, 20}, {x + 3, 20}, {x + 2, 50}}, {}, {}});
+    }
+    Editor editor = editor_of(rings);
+    const Shape before = editor.shape();
+    const auto change = editor.move(vertex_at(editor, {width, 60}), {width, 50});
+    ASSERT_TRUE(change.ok()) << to_string(change.error());
+    const bool are_many = teeth > 64;
+    EXPECT_EQ(change->everything, are_many);
+    EXPECT_EQ(loops_of(editor.shape()),
+              loops_of(shape_of(with_point_moved(rings, {width, 60}, {width, 50}))));
+    EXPECT_EQ(fault_of(editor), "");
+    const auto undone = editor.undo();
+    ASSERT_TRUE(undone.ok());
+    EXPECT_EQ(undone->everything, are_many);
+    EXPECT_EQ(loops_of(editor.shape()), loops_of(before));
+    EXPECT_EQ(fault_of(editor), "");
+  }
+}
+
 TEST(Editor, TurnsALoopInsideOut) {
   Editor editor = editor_of(triangle({0, 0}, {4, 0}, {1, 3}));
   ASSERT_TRUE(editor.move(2, {1, -3}).ok());

@@ -182,6 +182,7 @@ class Rings {
   void apply(const Edit& edit, bool is_followed = true);
   /// The edit that takes this one back. Before apply(). While no shape is adopted, or as long as
   /// its seat is reset then, all comes back in its old order; and without a search or new memory.
+  /// Not so of loops that a Weaver changes: they may begin elsewhere.
   Edit inverse(const Edit& edit) const;
   /// The box of all edges.
   Box box() const { return boxes_.all(); }
