@@ -11,6 +11,8 @@
 #include <numbers>
 #include <set>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "methods/edit/rings.h"
@@ -458,13 +460,16 @@ TEST(Editor, FollowsEditsWhileEdgesTouch) {
   const std::uint32_t flat = editor.insert(vertex_at(editor, {0, 0}), {50, 0})->vertex;
   ASSERT_TRUE(editor.move(flat, {50, 0}).ok());
   const std::uint32_t tip = vertex_at(editor, {40, 2}), wall = vertex_at(editor, {52, 2});
-  const auto touching = editor.move(tip, {40, 0});
-  ASSERT_TRUE(touching.ok()) << to_string(touching.error());
-  EXPECT_TRUE(touching->everything);
-  ASSERT_TRUE(editor.move(wall, {50, 0}).ok());  // a corner at the flat vertex
-  EXPECT_EQ(editor.shape().component_count(), 3U);
-  EXPECT_EQ(fault_of(editor), "");
   Mirror mirror(editor);
+  for (const auto& [vertex, to] : {std::pair{tip, Vec2{40, 0}}, {wall, {50, 0}}}) {
+    const auto touching = editor.move(vertex, to);  // the second onto the flat vertex
+    ASSERT_TRUE(touching.ok()) << to_string(touching.error());
+    EXPECT_FALSE(touching->everything);
+    mirror.follow(*touching);
+    mirror.expect(editor);
+    EXPECT_EQ(fault_of(editor), "");
+  }
+  EXPECT_EQ(editor.shape().component_count(), 3U);
   const auto expect_local = [&](const Result<AxisChange>& change) {
     ASSERT_TRUE(change.ok()) << to_string(change.error());
     EXPECT_FALSE(change->everything);
@@ -484,7 +489,13 @@ TEST(Editor, FollowsEditsWhileEdgesTouch) {
   EXPECT_EQ(crossing.error().code, ErrorCode::crossing);
   for (int i = 0; i < 4; ++i) expect_local(editor.undo());
   EXPECT_EQ(editor.vertex(far), (Vec2{20, 2}));
-  for (int i = 0; i < 2; ++i) ASSERT_TRUE(editor.undo().ok());
+  for (int i = 0; i < 2; ++i) {
+    const auto parts = editor.undo();
+    ASSERT_TRUE(parts.ok());
+    EXPECT_FALSE(parts->everything);
+    mirror.follow(*parts);
+  }
+  mirror.expect(editor);
   EXPECT_EQ(editor.shape().component_count(), 1U);
   EXPECT_EQ(fault_of(editor), "");
 }
@@ -648,18 +659,169 @@ TEST(Editor, RepairsTheAxisBesideVerticesInALine) {
   EXPECT_EQ(editor.axis().edges.size(), axis.edges.size());
 }
 
-TEST(Editor, ComputesAllWhereEdgesTouch) {
-  Editor editor = editor_of(hole_grid(3));
-  std::uint32_t corner = 0;
-  while (!(editor.vertex(corner) == Vec2{2, 1})) ++corner;
-  const auto touches = editor.move(corner, {2.5, 0});
-  ASSERT_TRUE(touches.ok()) << to_string(touches.error());
-  EXPECT_TRUE(touches->everything);
-  EXPECT_EQ(fault_of(editor), "");
-  ASSERT_TRUE(editor.move(corner, {2.5, 0.5}).ok());
-  EXPECT_EQ(fault_of(editor), "");
-  EXPECT_FALSE(editor.move(corner, {2.25, 0.5})->everything);
-  EXPECT_EQ(fault_of(editor), "");
+/// The loops of a shape, wherever they begin: their points, what they are, and the outer loop of
+/// their component.
+std::multiset<std::string> loops_of(const Shape& shape) {
+  const auto text_of = [&](std::size_t l) {
+    std::vector<std::pair<double, double>> points, least;
+    for (const Vec2 p : shape.loop(l)) points.emplace_back(p.x, p.y);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      std::rotate(points.begin(), points.begin() + 1, points.end());
+      if (least.empty() || points < least) least = points;
+    }
+    std::string text = shape.hole[l] ? "hole" : "outer";
+    for (const auto& [x, y] : least) text += " " + std::to_string(x) + "," + std::to_string(y);
+    return text;
+  };
+  std::multiset<std::string> loops;
+  for (std::size_t l = 0; l < shape.loop_count(); ++l) {
+    std::string text = text_of(l);
+    for (std::size_t other = 0; other < shape.loop_count(); ++other)
+      if (!shape.hole[other] && shape.component[other] == shape.component[l])
+        text += " in " + text_of(other);
+    loops.insert(text);
+  }
+  return loops;
+}
+
+/// The rings with one point in another place.
+Rings with_point_moved(Rings rings, Vec2 from, Vec2 to) {
+  for (Ring& ring : rings) std::replace(ring.points.begin(), ring.points.end(), from, to);
+  return rings;
+}
+
+TEST(Editor, FollowsEditsAfterWhichEdgesTouch) {
+  struct Case {
+    const char* name;
+    Rings rings;
+    Vec2 vertex, to;
+    std::size_t components, loops;
+  };
+  const Ring hall{{{0, 0}, {40, 0}, {40, 20}, {22, 20}, {20, 14}, {18, 20}, {0, 20}}, {}, {}};
+  const Ring pillar{{{10, 4}, {10, 8}, {14, 6}}, {}, {}};
+  const Ring wide{{{6, 8}, {6, 12}, {30, 12}, {30, 8}, {29, 8}, {29, 11}, {7, 11}, {7, 8}}, {}, {}};
+  const Ring bracket{{{0, 0},
+                      {30, 0},
+                      {30, 20},
+                      {0, 20},
+                      {0, 12},
+                      {4, 12},
+                      {4, 16},
+                      {26, 16},
+                      {26, 4},
+                      {4, 4},
+                      {4, 8},
+                      {0, 8}},
+                     {},
+                     {}};
+  const std::vector<Case> cases{
+      {"an outer loop becomes two", {hall, pillar}, {20, 14}, {20, 0}, 2, 3},
+      {"on a vertex", {hall, pillar}, {20, 14}, {0, 0}, 2, 3},
+      {"a hole comes to its outer loop", {hall, pillar}, {14, 6}, {40, 6}, 1, 1},
+      {"onto the hole", {hall, pillar}, {20, 14}, {14, 6}, 1, 1},
+      {"two holes become one",
+       {hall, pillar, {{{30, 4}, {30, 8}, {34, 6}}, {}, {}}},
+       {14, 6},
+       {30, 6},
+       1,
+       2},
+      {"a hole closes round a part", {hall, wide}, {7, 8}, {29, 8}, 2, 3},
+      {"an edge onto a vertex", {hall, pillar}, {22, 20}, {8, -4}, 0, 0},
+      {"a neighbour", {hall, pillar}, {20, 14}, {22, 20}, 1, 2},
+      {"from outside", {bracket}, {0, 12}, {0, 8}, 1, 1},
+      {"from outside on an edge", {bracket}, {4, 12}, {2, 8}, 1, 1}};
+  for (const Case& one : cases) {
+    Editor editor = editor_of(one.rings);
+    const Shape before = editor.shape();
+    const std::uint32_t vertex = vertex_at(editor, one.vertex);
+    Mirror mirror(editor);
+    const auto change = editor.move(vertex, one.to);
+    if (one.components == 0) {
+      EXPECT_FALSE(change.ok()) << one.name;
+      continue;
+    }
+    ASSERT_TRUE(change.ok()) << one.name << to_string(change.error());
+    EXPECT_EQ(editor.shape().component_count(), one.components) << one.name;
+    EXPECT_EQ(editor.shape().loop_count(), one.loops) << one.name;
+    EXPECT_EQ(loops_of(editor.shape()),
+              loops_of(shape_of(with_point_moved(one.rings, one.vertex, one.to))))
+        << one.name;
+    mirror.follow(*change);
+    mirror.expect(editor);
+    EXPECT_EQ(fault_of(editor), "") << one.name;
+    const auto undone = editor.undo();
+    ASSERT_TRUE(undone.ok()) << one.name;
+    mirror.follow(*undone);
+    mirror.expect(editor);
+    EXPECT_EQ(loops_of(editor.shape()), loops_of(before)) << one.name;
+    EXPECT_EQ(editor.shape().component, before.component) << one.name;
+    EXPECT_EQ(fault_of(editor), "") << one.name;
+    EXPECT_FALSE(change->everything) << one.name;
+    EXPECT_FALSE(undone->everything) << one.name;
+  }
+}
+
+TEST(Editor, TellsHolesFromOuterLoopsWhereSeveralVerticesAreLeftmost) {
+  const Ring wide{
+      {{-100, -100}, {100, -100}, {100, 100}, {60, 100}, {50, 60}, {40, 100}, {-100, 100}}, {}, {}};
+  const Ring winding{{{2, 10},   {-4, 4},   {2, -2},  {2, -40},  {3, -60},  {6, -40},  {6, 3},
+                      {0, 4},    {6, 5},    {30, 5},  {50, 5.5}, {30, 6.5}, {1, 7},    {6, 8},
+                      {6, 12},   {20, 13},  {30, 12}, {60, 12},  {62, 2},   {60, -30}, {61, -50},
+                      {60, -70}, {30, -75}, {0, -79}, {-8, -70}, {-9, 0},   {-8, 12}},
+                     {},
+                     {}};
+  const Ring notched{
+      {{10, 60}, {-10, 4}, {20, -36}, {60, -37}, {60, 3}, {0, 4}, {60, 5}, {61, 60}}, {}, {}};
+  Ring round{{{10, -16}, {20, -10}}, {}, {}};
+  constexpr int corners = 14;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2.5 - 2 * std::numbers::pi * i / corners;
+    round.points.push_back({32 + 8 * std::cos(angle), -18 + 8 * std::sin(angle)});
+  }
+  struct Case {
+    Rings rings;
+    Vec2 vertex;
+  };
+  for (const Case& one : {Case{{wide, winding}, {-4, 4}}, Case{{notched, round}, {-10, 4}}}) {
+    Editor editor = editor_of(one.rings);
+    const Shape before = editor.shape();
+    const auto change = editor.move(vertex_at(editor, one.vertex), {0, 4});
+    ASSERT_TRUE(change.ok()) << to_string(change.error());
+    EXPECT_FALSE(change->everything);
+    EXPECT_EQ(loops_of(editor.shape()),
+              loops_of(shape_of(with_point_moved(one.rings, one.vertex, {0, 4}))));
+    EXPECT_EQ(fault_of(editor), "");
+    const auto undone = editor.undo();
+    ASSERT_TRUE(undone.ok());
+    EXPECT_FALSE(undone->everything);
+    EXPECT_EQ(loops_of(editor.shape()), loops_of(before));
+    EXPECT_EQ(fault_of(editor), "");
+  }
+}
+
+TEST(Editor, ComputesAllAgainWhereVeryManyEdgesBeginToTouch) {
+  for (const int teeth : {40, 80}) {
+    const double width = 4.0 * teeth;
+    Rings rings{{{{0, 0}, {width, 0}, {width, 60}, {-2, 50}, {-2, 5}}, {}, {}}};
+    for (int i = 0; i < teeth; ++i) {
+      const double x = 4.0 * i;
+      rings.push_back({{{x + 1, 20}, {x + 3, 20}, {x + 2, 50}}, {}, {}});
+    }
+    Editor editor = editor_of(rings);
+    const Shape before = editor.shape();
+    const auto change = editor.move(vertex_at(editor, {width, 60}), {width, 50});
+    ASSERT_TRUE(change.ok()) << to_string(change.error());
+    const bool are_many = teeth > 64;
+    EXPECT_EQ(change->everything, are_many);
+    EXPECT_EQ(loops_of(editor.shape()),
+              loops_of(shape_of(with_point_moved(rings, {width, 60}, {width, 50}))));
+    EXPECT_EQ(fault_of(editor), "");
+    const auto undone = editor.undo();
+    ASSERT_TRUE(undone.ok());
+    EXPECT_EQ(undone->everything, are_many);
+    EXPECT_EQ(loops_of(editor.shape()), loops_of(before));
+    EXPECT_EQ(fault_of(editor), "");
+  }
 }
 
 TEST(Editor, TurnsALoopInsideOut) {
@@ -672,6 +834,26 @@ TEST(Editor, TurnsALoopInsideOut) {
   ASSERT_TRUE(editor.undo().ok());
   EXPECT_EQ(editor.vertex(2), (Vec2{1, 3}));
   EXPECT_EQ(fault_of(editor), "");
+}
+
+TEST(Editor, JudgesPlacesFarAway) {
+  const Rings notched{{{{0, 0}, {10, 0}, {10, 10}, {0, 10}, {0, 5.5}, {5, 5.25}, {0, 5}}, {}, {}}};
+  Editor editor = editor_of(notched);
+  for (const double far : {1e17, 1e300}) {
+    const auto change = editor.move(3, {far, 0.1 * far});
+    ASSERT_FALSE(change.ok());
+    EXPECT_EQ(change.error().code, ErrorCode::crossing);
+    EXPECT_LT(distance(*change.error().place.point, {10, 6.5}), 1e-14);
+  }
+  // With arcs, tolerances tell what crosses: there, of a shape that has grown.
+  const Rings bent{{{{0, 0}, {1, 0}, {1, 1}, {0.6, 1}, {0.5, 1e-10}, {0.4, 1}, {0, 1}},
+                    {},
+                    {0, 0, 0, 0, 0, 0.2, 0}}};
+  Editor arcs = editor_of(bent);
+  const auto grown = arcs.move(1, {1e6, 3e-4});
+  ASSERT_TRUE(grown.ok()) << to_string(grown.error());
+  EXPECT_EQ(loops_of(arcs.shape()),
+            loops_of(shape_of(with_point_moved(bent, {1, 0}, {1e6, 3e-4}))));
 }
 
 TEST(Editor, KeepsFarShapesExact) {

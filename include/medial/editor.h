@@ -18,8 +18,8 @@ struct AxisChange {
 ///
 /// An edit that fails changes nothing. Errors: crossing (with the place, and an edge's first
 /// vertex), not_finite, too_few_points (of a loop), invalid_option (an unknown vertex), those of
-/// build_shape() and compute(). All is computed again if edges begin or cease to touch, a first arc
-/// appears, a loop turns inside out, the shape shrinks to a sixteenth, or the whole axis changes.
+/// build_shape() and compute(). All is computed again if whole loops, arcs or many edges begin or
+/// cease to touch, a loop turns inside out, or the whole axis changes; docs/editor.md lists it all.
 class Editor {
  public:
   /// Errors: unsupported (other methods, Options::exact and Options::exterior), and those of
@@ -39,7 +39,7 @@ class Editor {
   Result<AxisChange> insert_loop(const Ring& ring);
   Result<AxisChange> remove_loop(std::uint32_t vertex);  ///< the loop that the vertex lies on
   Result<AxisChange> move_loop(std::uint32_t vertex, Vec2 by);
-  Result<AxisChange> undo();  ///< the last edit not undone yet; without one, changes nothing
+  Result<AxisChange> undo();  ///< the last edit that changed something and is not undone yet
 
   std::optional<Vec2> vertex(std::uint32_t number) const;
   std::optional<double> bulge(std::uint32_t vertex) const;

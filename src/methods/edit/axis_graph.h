@@ -62,6 +62,7 @@ class AxisGraph {
 
   std::size_t node_slots() const { return nodes_.size(); }
   std::size_t edge_slots() const { return edges_.size(); }
+  std::size_t node_count() const { return nodes_.size() - unused_nodes_.size(); }
   bool has_node(std::uint32_t i) const { return i < nodes_.size() && nodes_[i].radius >= 0; }
   bool has_edge(std::uint32_t i) const { return i < edges_.size() && edges_[i].node[0] != none; }
   const Disk& disk(std::uint32_t node) const { return nodes_[node]; }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/predicates.h"
 #include "base/tolerance.h"
 #include "methods/edit/parts.h"
 #include "shape/limits.h"
@@ -35,9 +36,11 @@ void join(AxisChange& first, const AxisChange& second) {
 
 }  // namespace
 
-Error Editor::Parts::crossing_error(const Rings::Judgement& judgement) const {
+Error Editor::Parts::refusal(const Rings::Judgement& judgement) const {
   const std::uint32_t edge = touching ? touching->edge_at(judgement.edge, rings) : judgement.edge;
-  Error error = error_of(ErrorCode::crossing, "edges would cross", edge);
+  Error error = judgement.verdict == Rings::Verdict::overlaps
+                    ? error_of(ErrorCode::overlap, "edges would overlap", edge)
+                    : error_of(ErrorCode::crossing, "edges would cross", edge);
   error.place.point = judgement.point;
   return error;
 }
@@ -105,25 +108,28 @@ Result<AxisChange> Editor::Parts::change(edit::Edit edit) {
   // With arcs, all that comes near touches, and becomes one within the tolerance.
   const bool is_first_arc = !rings.has_arcs() && edit.has_arcs();
   const bool is_merged = touching && (rings.has_arcs() || edited().has_arcs());
-  if (is_first_arc || is_merged || !fits_frame(edit)) return rebuild(edit);
+  const bool is_exact = !edit.is_of_loops() && !rings.has_arcs();
+  if (is_first_arc || is_merged || (!is_exact && !fits_frame(edit))) return rebuild(edit);
   const std::optional<edit::Edit> own = touching ? touching->of_loops(edit, rings) : edit;
-  if (!own) return rebuild(edit);
-  const Rings::Judgement judgement = rings.judge(*own);
-  if (judgement.verdict == Rings::Verdict::crosses) return crossing_error(judgement);
+  Rings::Judgement judgement{Rings::Verdict::unclear, none, {}};
+  if (own) judgement = rings.judge(*own);
+  std::optional<edit::Contacts> contacts;
+  if (judgement.verdict == Rings::Verdict::unclear && !edit.is_of_loops() && !rings.has_arcs()) {
+    contacts = edit::find_contacts(rings, detour_of(edit));
+    if (contacts->judgement.verdict != Rings::Verdict::keeps_form) judgement = contacts->judgement;
+  }
+  if (judgement.verdict != Rings::Verdict::keeps_form &&
+      judgement.verdict != Rings::Verdict::unclear)
+    return refusal(judgement);
+  if (!fits_frame(edit) || straightens_crossing(edit)) return rebuild(edit);
   edit::Edit back = edited().inverse(edit);
   edit::make_room(inverse, inverse.size() + 1);
-  if (touching) touching->apply(edit, rings);
   Result<std::optional<Step>> step = std::optional<Step>();
-  try {
-    step = follow(*own, judgement.verdict);
-  } catch (...) {
-    if (touching) touching->rings().apply(back, false);
-    throw;
-  }
-  if (touching && (!step || !*step)) touching->rings().apply(back, false);
+  const bool touches = contacts && contacts->judgement.verdict == Rings::Verdict::keeps_form;
+  if (own && !touches) step = follow(edit, *own, judgement.verdict);
   if (!step) return std::move(step).error();
+  if (!*step && contacts) step = weave(edit, *contacts);
   if (!*step) return rebuild(edit);
-  if (touching) touching->note(edit, *own);
   inverse.push_back(std::move(back));
   AxisChange& change = (*step)->change;
   change.vertex = subject_of(edit);
@@ -132,13 +138,30 @@ Result<AxisChange> Editor::Parts::change(edit::Edit edit) {
   return std::move(change);
 }
 
+/// Makes an edit of the rings that is this one of the loops.
+Result<std::optional<Step>> Editor::Parts::follow(const edit::Edit& edit,
+                                                  const edit::Edit& of_loops,
+                                                  Rings::Verdict verdict) {
+  if (!touching) return follow(of_loops, verdict);
+  const edit::Edit back = edited().inverse(edit);
+  touching->apply(edit, rings);
+  Result<std::optional<Step>> step = std::optional<Step>();
+  try {
+    step = follow(of_loops, verdict);
+  } catch (...) {
+    touching->rings().apply(back, false);
+    throw;
+  }
+  if (step && *step)
+    touching->note(edit, of_loops);
+  else
+    touching->rings().apply(back, false);
+  return step;
+}
+
 /// Makes an edit of the loops. None, and nothing has happened, where all has to be computed again.
 Result<std::optional<Step>> Editor::Parts::follow(const edit::Edit& edit, Rings::Verdict verdict) {
   const Box old_box = box;
-  const auto set_box = [&](const Box& other) {
-    box = other;
-    measures.radius_limit = radius_limit(box, rings.frame());
-  };
   Box reach = box;
   rings.add_reach(edit, reach);
   set_box(reach);
@@ -147,6 +170,11 @@ Result<std::optional<Step>> Editor::Parts::follow(const edit::Edit& edit, Rings:
   if (!step) set_box(old_box);
   if (refused) return std::move(*refused);
   return step;
+}
+
+void Editor::Parts::set_box(const Box& other) {
+  box = other;
+  measures.radius_limit = radius_limit(box, rings.frame());
 }
 
 /// Computes all again after a change by which the shape has become much smaller, and the tolerance
@@ -233,7 +261,9 @@ std::optional<Step> Editor::Parts::follow(const edit::Edit& edit) {
   rings.apply(edit);
   std::optional<Step> step;
   try {
-    step = seeds.is_whole_part ? repair_part(edit, seeds) : repair(edit, seeds);
+    step = seeds.is_whole_part
+               ? repair_part(edit, seeds)
+               : repair(seeds, rings.sites_around(edit), edit.old == edit.fresh ? edit.old : none);
   } catch (...) {
     rings.apply(back);
     throw;
@@ -264,7 +294,7 @@ std::optional<Step> Editor::Parts::follow_in_two(const edit::Edit& edit,
     const Rings::Judgement judgement = rings.judge(in);
     if (judgement.verdict == Rings::Verdict::keeps_form) second = follow(in);
     if (edit.is_of_loops() && judgement.verdict == Rings::Verdict::crosses)
-      refused = crossing_error(judgement);
+      refused = refusal(judgement);
     if (second) {
       // In a copy: if memory runs out halfway, put_back() still needs the first change as it was.
       AxisChange both = first->change;
@@ -284,45 +314,197 @@ std::optional<Step> Editor::Parts::follow_in_two(const edit::Edit& edit,
   return std::nullopt;
 }
 
+/// Whether a vertex comes to lie in one line with its neighbours where its ring may cross itself:
+/// in a vertex it may do that, in the inside of edges not.
+bool Editor::Parts::straightens_crossing(const edit::Edit& edit) const {
+  if (edit.is_of_loops() || rings.has_arcs()) return false;
+  const Rings& own = edited();
+  const edit::Detour way = detour_of(edit);
+  const auto is_crossing = [&](std::uint32_t v, std::uint32_t Rings::Vertex::*other, Vec2 to) {
+    const Vec2 here = own[v].point;
+    std::uint32_t u = own[v].*other;
+    while (u != v && own[u].point == here) u = own[u].*other;
+    const Vec2 from = own[u].point;
+    if (orientation(from, here, to) != 0 || !strictly_between(from, here, to)) return false;
+    bool has_left = false, has_right = false;
+    for (const std::uint32_t one : edit::vertices_at(rings, here))
+      for (const std::uint32_t end : {rings[one].before, rings[one].next}) {
+        const int side = orientation(from, here, rings[end].point);
+        has_left = has_left || side > 0;
+        has_right = has_right || side < 0;
+      }
+    return has_left && has_right && edit::vertices_at(rings, here).size() > 1;
+  };
+  return is_crossing(edit.before, &Rings::Vertex::before, way.fresh.value_or(way.to)) ||
+         is_crossing(edit.after, &Rings::Vertex::next, way.fresh.value_or(way.from));
+}
+
+/// An edit of a vertex by its places; equal points of a ring are one.
+edit::Detour Editor::Parts::detour_of(const edit::Edit& edit) const {
+  const Rings& own = edited();
+  edit::Detour way{own[edit.before].point, own[edit.after].point, {}, {}};
+  if (edit.old != none) way.old = own[edit.old].point;
+  if (edit.fresh != none) way.fresh = edit.place;
+  for (std::optional<Vec2>* middle : {&way.old, &way.fresh})
+    if (*middle == way.from || *middle == way.to) middle->reset();
+  return way;
+}
+
+/// Makes an edit of a vertex whose edges begin or cease to touch others. None, and nothing has
+/// happened, where all has to be computed again.
+std::optional<Step> Editor::Parts::weave(const edit::Edit& edit, const edit::Contacts& contacts) {
+  const bool is_first = !touching;
+  const edit::Detour way = detour_of(edit);
+  const edit::Edit back = edited().inverse(edit);
+  const Box old_box = box;
+  Box reach = box;
+  edited().add_reach(edit, reach);
+  if (is_first) touching.emplace(rings);
+  const auto take_back = [&] {
+    set_box(old_box);
+    if (is_first)
+      touching.reset();
+    else
+      touching->rings().apply(back, false);
+  };
+  touching->apply(edit, rings);
+  set_box(reach);
+  std::optional<Step> step;
+  try {
+    edit::Weaver weaver(rings, touching->rings());
+    if (contacts.judgement.verdict == Rings::Verdict::keeps_form) step = weave(contacts, weaver);
+    if (step)
+      touching->note(subject_of(edit), weaver.fresh(), contacts.places, rings);
+    else if (way.old && way.fresh)
+      step = weave_in_two(edit, way);
+  } catch (...) {
+    take_back();
+    throw;
+  }
+  if (!step) take_back();
+  return step;
+}
+
+/// Makes an edit of the loops.
+std::optional<Step> Editor::Parts::weave(const edit::Contacts& contacts, edit::Weaver& weaver) {
+  Seeds seeds;
+  seeds.before = rings.sites_at(contacts.places);
+  std::optional<Step> step;
+  try {
+    if (weaver.make(contacts)) {
+      touching->make_room(rings);
+      seeds.parts = weaver.parts();
+      step = repair(seeds, rings.sites_at(contacts.places), weaver.moved());
+    }
+  } catch (...) {
+    weaver.take_back();
+    throw;
+  }
+  if (!step) weaver.take_back();
+  return step;
+}
+
+/// Takes the vertex out, and puts it in again where it shall be.
+std::optional<Step> Editor::Parts::weave_in_two(const edit::Edit& edit, const edit::Detour& way) {
+  const auto keeps_form = [](const edit::Contacts& contacts) {
+    return contacts.judgement.verdict == Rings::Verdict::keeps_form;
+  };
+  const edit::Contacts out = edit::find_contacts(rings, {way.from, way.to, way.old, {}});
+  if (!keeps_form(out)) return std::nullopt;
+  edit::Weaver first_weaver(rings, touching->rings());
+  std::optional<Step> first = weave(out, first_weaver), second;
+  if (!first) return std::nullopt;
+  const auto take_back = [&] {
+    put_back(*first);
+    first_weaver.take_back();
+  };
+  edit::Weaver second_weaver(rings, touching->rings());
+  try {
+    const edit::Contacts in = edit::find_contacts(rings, {way.from, way.to, {}, way.fresh});
+    if (keeps_form(in)) second = weave(in, second_weaver);
+    if (second) {
+      AxisChange both = first->change;
+      join(both, second->change);
+      std::vector<Vec2> places = out.places;
+      places.insert(places.end(), in.places.begin(), in.places.end());
+      touching->note(subject_of(edit), second_weaver.fresh(), places, rings);
+      first->change = std::move(both);
+      return first;
+    }
+  } catch (...) {
+    if (second) {
+      put_back(*second);
+      second_weaver.take_back();
+    }
+    take_back();
+    throw;
+  }
+  take_back();
+  return std::nullopt;
+}
+
 /// Finds what changes, and the new part of the axis. None where all has to be computed again.
-std::optional<Step> Editor::Parts::repair(const edit::Edit& edit, const Seeds& seeds) {
+std::optional<Step> Editor::Parts::repair(const Seeds& seeds,
+                                          const std::vector<Rings::Extent>& after,
+                                          std::uint32_t moved) {
   constexpr double margin = 64;  // tolerances
   constexpr int most_rounds = 16;
   edit::Spread spread(graph, marks, ++mark);
   const std::vector<Rings::Extent>& before = seeds.before;
-  const std::vector<Rings::Extent> after = rings.sites_around(edit);
   const auto stays_in = [&](const Rings::Extent& one, const std::vector<Rings::Extent>& others) {
-    const bool moves =
-        edit.old == edit.fresh && (one.site / 2 == edit.fresh || one.end == edit.fresh);
+    const bool moves = moved != none && (one.site / 2 == moved || one.end == moved);
     return !moves && std::find(others.begin(), others.end(), one) != others.end();
   };
-  bool changes = edit.is_of_loops();
+  bool changes = false;
   for (const Rings::Extent& one : before) {
     if (stays_in(one, after)) continue;
     spread.add_site(one.site);
     changes = true;
   }
+  std::vector<site::Site> fresh;
+  std::vector<std::uint32_t> loops;
+  for (const Rings::Extent& one : after) {
+    if (stays_in(one, before)) continue;
+    rings.add_pieces(one.site, fresh);
+    loops.push_back(rings[one.site / 2].loop);
+    changes = true;
+  }
   if (!changes) return Step{};
   for (const std::uint32_t site : seeds.sites) spread.add_site(site);
-  std::vector<site::Site> fresh;
-  for (const Rings::Extent& one : after)
-    if (!stays_in(one, before)) rings.add_pieces(one.site, fresh);
-  const std::uint32_t changed =
-      edit.is_of_loops() ? edit.in.empty() ? none : edit.in[0].number : edit.before;
   for (int round = 0; round < most_rounds; ++round) {
     spread.spread(fresh, margin * measures.tolerance);
     const edit::Affected affected = spread.result();
-    const auto window =
-        edit::window_of(rings, graph, affected, changed == none ? none : rings[changed].loop,
-                        measures.radius_limit);
-    if (!window) return std::nullopt;
+    if (affected.nodes.size() == graph.node_count()) return std::nullopt;
+    const auto windows =
+        edit::windows_of(rings, graph, affected, loops, seeds.parts, measures.radius_limit);
+    if (!windows) return std::nullopt;
     std::vector<std::uint32_t> doubtful;
-    const auto found = edit::repair(rings, graph, affected, *window, measures, doubtful);
-    if (found) return replace(affected, *found, seeds.parts);
+    if (const auto found = repair(*windows, doubtful))
+      return replace(affected, *found, seeds.parts);
     if (doubtful.empty()) return std::nullopt;
     for (const std::uint32_t node : doubtful) spread.add_around(node, std::size_t{1} << round);
   }
   return std::nullopt;
+}
+
+/// The new parts of the axis in some windows.
+std::optional<edit::Repair> Editor::Parts::repair(const std::vector<edit::Window>& windows,
+                                                  std::vector<std::uint32_t>& doubtful) const {
+  edit::Repair all;
+  for (const edit::Window& window : windows) {
+    const auto one = window.borders.empty()
+                         ? axis_of_loops(window.loops)
+                         : edit::repair(rings, graph, window, measures, doubtful);
+    if (!one) return std::nullopt;
+    const auto first = static_cast<std::uint32_t>(all.disks.size());
+    all.disks.insert(all.disks.end(), one->disks.begin(), one->disks.end());
+    all.old_nodes.insert(all.old_nodes.end(), one->old_nodes.begin(), one->old_nodes.end());
+    for (AxisGraph::Edge edge : one->edges) {
+      for (std::uint32_t& node : edge.node) node += first;
+      all.edges.push_back(edge);
+    }
+  }
+  return all;
 }
 
 /// The axis of an outer loop without holes comes or goes as a whole.
@@ -334,13 +516,15 @@ std::optional<Step> Editor::Parts::repair_part(const edit::Edit& edit, const See
   const edit::Affected affected = spread.result();
   if (!affected.borders.empty()) return std::nullopt;
   if (edit.in.empty()) return replace(affected, {}, seeds.parts);
-  const auto found = axis_of_loop(rings[edit.in.front().number].loop);
+  const auto found = axis_of_loops({rings[edit.in.front().number].loop});
   if (!found) return std::nullopt;
   return replace(affected, *found, seeds.parts);
 }
 
-std::optional<edit::Repair> Editor::Parts::axis_of_loop(std::uint32_t loop) const {
-  Shape shape = rings.shape_of(loop);
+/// The axis of a component.
+std::optional<edit::Repair> Editor::Parts::axis_of_loops(
+    const std::vector<std::uint32_t>& loops) const {
+  Shape shape = rings.shape_of(loops);
   for (Vec2& p : shape.points) p = rings.frame().to_local(p);
   std::vector<std::uint32_t> vertices;
   for (VertexSource& source : shape.sources) {

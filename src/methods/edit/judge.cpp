@@ -6,70 +6,20 @@
 #include <span>
 #include <vector>
 
-#include "base/predicates.h"
 #include "methods/edit/rings.h"
+#include "methods/edit/segments.h"
 
 // Whether an edit keeps the form of a shape's loops.
 
 namespace medial::edit {
 namespace {
 
-Box box_of(Vec2 a, Vec2 b) {
-  Box box{a, a};
-  box.add(b);
-  return box;
-}
-
-bool holds(const Box& box, Vec2 p) {
-  return box.low.x <= p.x && p.x <= box.high.x && box.low.y <= p.y && p.y <= box.high.y;
-}
-
-struct Triangle {
-  std::array<Vec2, 3> corner;
-
-  /// Whether a point lies inside or on the border; a little too often where the corners lie on one
-  /// line.
-  bool has(Vec2 p) const {
-    Box box = box_of(corner[0], corner[1]);
-    box.add(corner[2]);
-    if (!holds(box, p)) return false;
-    int left = 0, right = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const int side = orientation(corner[i], corner[(i + 1) % 3], p);
-      left += side > 0 ? 1 : 0;
-      right += side < 0 ? 1 : 0;
-    }
-    return left == 0 || right == 0;
-  }
-};
-
-/// Where two segments cross.
-Vec2 crossing_of(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
-  const double share = cross(c - a, d - c) / cross(b - a, d - c);
-  return a + std::clamp(share, 0.0, 1.0) * (b - a);
-}
-
-enum class Meeting : std::uint8_t { none, touch, cross };
-
-/// How two closed segments meet.
-Meeting meeting(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
-  const int of_a = orientation(c, d, a), of_b = orientation(c, d, b);
-  if (of_a * of_b > 0) return Meeting::none;
-  const int of_c = orientation(a, b, c), of_d = orientation(a, b, d);
-  if (of_c * of_d > 0) return Meeting::none;
-  if (of_a * of_b < 0 && of_c * of_d < 0) return Meeting::cross;
-  const Box first = box_of(a, b), second = box_of(c, d);
-  const bool apart = first.low.x > second.high.x || second.low.x > first.high.x ||
-                     first.low.y > second.high.y || second.low.y > first.high.y;
-  return apart ? Meeting::none : Meeting::touch;
-}
-
 /// How two segments with a common end `shared` meet: there only, or along each other.
 Meeting meeting_at(Vec2 shared, Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   const Vec2 one = a == shared ? b : a, other = c == shared ? d : c;
   const bool is_along =
       orientation(one, shared, other) == 0 && !strictly_between(one, shared, other);
-  return is_along ? Meeting::touch : Meeting::none;
+  return is_along ? Meeting::touch : Meeting::apart;
 }
 
 /// Whether segments and arcs of at most a half circle keep further apart than a margin, but for an
@@ -111,7 +61,7 @@ class Apartness {
   }
   /// Between the chords.
   static double chord_distance(const BulgeArc& a, const BulgeArc& b) {
-    return meeting(a.start, a.end, b.start, b.end) != Meeting::none ? 0 : end_distance(a, b);
+    return meeting(a.start, a.end, b.start, b.end) != Meeting::apart ? 0 : end_distance(a, b);
   }
   /// From an end of one of two segments to the other one.
   static double end_distance(const BulgeArc& a, const BulgeArc& b) {
@@ -262,7 +212,7 @@ Rings::Judgement Rings::judge_straight(const Edit& edit) const {
       if (how == Meeting::touch) result.verdict = Verdict::unclear;
     }
     if (result.verdict == Verdict::crosses) return;
-    if (is_moving && meeting(v, x, a, b) != Meeting::none) result.verdict = Verdict::unclear;
+    if (is_moving && meeting(v, x, a, b) != Meeting::apart) result.verdict = Verdict::unclear;
     // Edges that touch at an end keep clear of what is swept where their other ends do.
     if (s == edit.after || is_shared(a)) return;
     for (const Triangle& triangle : swept)
@@ -429,9 +379,9 @@ Rings::Judgement Rings::judge_in(const Edit& edit) const {
     boxes_.find(box_around({&one, 1}, margin * joining_.tolerance), [&](std::uint32_t s) {
       if (result.verdict == Verdict::crosses) return;
       const BulgeArc other = edge(s);
-      const bool meets = has_curves
-                             ? !apartness.apart(one, other)
-                             : meeting(one.start, one.end, other.start, other.end) != Meeting::none;
+      const bool meets =
+          has_curves ? !apartness.apart(one, other)
+                     : meeting(one.start, one.end, other.start, other.end) != Meeting::apart;
       if (apartness.cross(one, other))
         result = {Verdict::crosses, s, crossing_of(one.start, one.end, other.start, other.end)};
       else if (meets)

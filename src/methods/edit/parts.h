@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "medial/editor.h"
+#include "methods/edit/contacts.h"
 #include "methods/edit/repair.h"
 #include "methods/edit/rings.h"
 #include "methods/edit/touching.h"
@@ -71,15 +72,26 @@ struct Editor::Parts {
   void add_seeds_around(Vec2 place, Seeds& seeds) const;
 
   Result<std::optional<Step>> follow(const edit::Edit& edit, Rings::Verdict verdict);
-  Error crossing_error(const Rings::Judgement& judgement) const;
+  Result<std::optional<Step>> follow(const edit::Edit& edit, const edit::Edit& of_loops,
+                                     Rings::Verdict verdict);
+  edit::Detour detour_of(const edit::Edit& edit) const;
+  bool straightens_crossing(const edit::Edit& edit) const;
+  std::optional<Step> weave(const edit::Edit& edit, const edit::Contacts& contacts);
+  std::optional<Step> weave(const edit::Contacts& contacts, edit::Weaver& weaver);
+  std::optional<Step> weave_in_two(const edit::Edit& edit, const edit::Detour& way);
+  Error refusal(const Rings::Judgement& judgement) const;
   std::optional<Step> follow(const edit::Edit& edit);
   std::optional<Step> follow_in_two(const edit::Edit& edit, std::optional<Error>& refused);
   Result<AxisChange> rebuild(const edit::Edit& edit);
   void refine(AxisChange& change);
+  void set_box(const Box& other);
   bool fits_frame(const edit::Edit& edit) const;
-  std::optional<Step> repair(const edit::Edit& edit, const Seeds& seeds);
+  std::optional<Step> repair(const Seeds& seeds, const std::vector<Rings::Extent>& after,
+                             std::uint32_t moved);
+  std::optional<edit::Repair> repair(const std::vector<edit::Window>& windows,
+                                     std::vector<std::uint32_t>& doubtful) const;
   std::optional<Step> repair_part(const edit::Edit& edit, const Seeds& seeds);
-  std::optional<edit::Repair> axis_of_loop(std::uint32_t loop) const;
+  std::optional<edit::Repair> axis_of_loops(const std::vector<std::uint32_t>& loops) const;
   std::optional<Step> replace(const edit::Affected& affected, const edit::Repair& repair,
                               int parts);
   void put_back(const Step& step);

@@ -53,11 +53,11 @@ exact::SiteLoops outline_of(const Rings& rings, const Window& window) {
 
 class Repairer {
  public:
-  Repairer(const Rings& rings, const AxisGraph& graph, const Affected& affected,
-           const Window& window, const Measures& measures)
+  Repairer(const Rings& rings, const AxisGraph& graph, const Window& window,
+           const Measures& measures)
       : rings_(rings),
         graph_(graph),
-        borders_(affected.borders),
+        borders_(window.borders),
         window_(window),
         boundary_(window.boundary),
         measures_(measures)
@@ -272,10 +272,9 @@ class Repairer {
 
 }  // namespace
 
-std::optional<Repair> repair(const Rings& rings, const AxisGraph& graph, const Affected& affected,
-                             const Window& window, const Measures& measures,
-                             std::vector<std::uint32_t>& doubtful) {
-  return Repairer(rings, graph, affected, window, measures).run(doubtful);
+std::optional<Repair> repair(const Rings& rings, const AxisGraph& graph, const Window& window,
+                             const Measures& measures, std::vector<std::uint32_t>& doubtful) {
+  return Repairer(rings, graph, window, measures).run(doubtful);
 }
 
 }  // namespace medial::edit

@@ -24,8 +24,7 @@ struct Repair {
 
 /// Walks what the window encloses. None where the walk loses its way; where it ends so near to a
 /// border that more of the axis may change, that border's node is added to `doubtful`.
-std::optional<Repair> repair(const Rings& rings, const AxisGraph& graph, const Affected& affected,
-                             const Window& window, const Measures& measures,
-                             std::vector<std::uint32_t>& doubtful);
+std::optional<Repair> repair(const Rings& rings, const AxisGraph& graph, const Window& window,
+                             const Measures& measures, std::vector<std::uint32_t>& doubtful);
 
 }  // namespace medial::edit

@@ -185,13 +185,14 @@ void Rings::add_reach(const Edit& edit, Box& box) const {
   if (edit.fresh != none) box.add(box_of(BulgeArc{middle, end, edit.bulge[1]}));
 }
 
+Rings::Extent Rings::extent_of(std::uint32_t site) const {
+  const std::uint32_t v = site / 2;
+  return {site, is_edge(site) ? corner_after(v) : v, is_edge(site) ? vertices_[v].bulge : 0};
+}
+
 std::vector<Rings::Extent> Rings::sites_around(const Edit& edit) const {
   std::vector<Extent> sites;
-  const auto add = [&](std::uint32_t site) {
-    const std::uint32_t v = site / 2;
-    sites.push_back(
-        {site, is_edge(site) ? corner_after(v) : v, is_edge(site) ? vertices_[v].bulge : 0});
-  };
+  const auto add = [&](std::uint32_t site) { sites.push_back(extent_of(site)); };
   if (edit.is_of_loops()) {
     for (const auto* corners : {&edit.out, &edit.in})
       if (!corners->empty() && has(corners->front().number))
@@ -206,6 +207,22 @@ std::vector<Rings::Extent> Rings::sites_around(const Edit& edit) const {
     if (sites.empty() || sites.back().site != 2 * corner + 1) add(2 * corner + 1);
     if (!vertices_[v].flat && is_reflex(v)) add(2 * v);
   }
+  return sites;
+}
+
+std::vector<Rings::Extent> Rings::sites_at(const std::vector<Vec2>& places) const {
+  std::vector<std::uint32_t> numbers;
+  for (const Vec2 p : places)
+    boxes_.find({p, p}, [&](std::uint32_t s) {
+      const Vec2 a = vertices_[s].point, b = vertices_[vertices_[s].next].point;
+      if (orientation(a, b, p) != 0) return;
+      numbers.push_back(2 * corner_to(s) + 1);
+      if (a == p && !vertices_[s].flat && is_reflex(s)) numbers.push_back(2 * s);
+    });
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  std::vector<Extent> sites;
+  for (const std::uint32_t site : numbers) sites.push_back(extent_of(site));
   return sites;
 }
 
@@ -427,9 +444,10 @@ Shape Rings::shape() const {
   return shape;
 }
 
-Shape Rings::shape_of(std::uint32_t loop) const {
+Shape Rings::shape_of(std::vector<std::uint32_t> loops) const {
   Shape shape;
-  append(loop, loop, 0, shape);
+  std::stable_partition(loops.begin(), loops.end(), [&](std::uint32_t l) { return !is_hole(l); });
+  for (const std::uint32_t l : loops) append(l, l, 0, shape);
   return shape;
 }
 

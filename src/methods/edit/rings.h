@@ -140,6 +140,7 @@ class Rings {
   enum class Verdict : std::uint8_t {
     keeps_form,  ///< the loops can move there without touching each other on the way
     crosses,     ///< edges would cross
+    overlaps,    ///< edges would run along each other; only of find_contacts()
     unclear,     ///< what becomes of the shape is for build_shape() to find out
   };
   struct Judgement {
@@ -159,6 +160,13 @@ class Rings {
   };
   /// The sites that an edit can change, before or after apply().
   std::vector<Extent> sites_around(const Edit& edit) const;
+  /// The sites at some places.
+  std::vector<Extent> sites_at(const std::vector<Vec2>& places) const;
+  /// Calls visit(vertex) for the edges whose boxes meet `box`.
+  template <class Visit>
+  void for_edges_in(const Box& box, const Visit& visit) const {
+    boxes_.find(box, visit);
+  }
   /// The site nearest to a place in the interior, none where the place is not inside, and how far
   /// away the boundary is.
   struct Around {
@@ -174,6 +182,7 @@ class Rings {
   void apply(const Edit& edit, bool is_followed = true);
   /// The edit that takes this one back. Before apply(). While no shape is adopted, or as long as
   /// its seat is reset then, all comes back in its old order; and without a search or new memory.
+  /// Not so of loops that a Weaver changes: they may begin elsewhere.
   Edit inverse(const Edit& edit) const;
   /// The box of all edges.
   Box box() const { return boxes_.all(); }
@@ -197,14 +206,15 @@ class Rings {
     } while (site != first);
   }
   Shape shape() const;
-  /// The same of one loop, as if there were no other.
-  Shape shape_of(std::uint32_t loop) const;
+  /// The same of the loops of one component, as if there were no others.
+  Shape shape_of(std::vector<std::uint32_t> loops) const;
   /// How the components count in shape().
   std::vector<std::uint32_t> component_numbers() const;
   /// The loops as rings, in their order, and the numbers of their vertices.
   std::vector<Ring> rings(std::vector<std::vector<std::uint32_t>>& numbers) const;
 
  private:
+  friend class Weaver;
   struct Loop {
     std::uint32_t first = none, size = 0, component = 0;
     bool hole = false;
@@ -227,6 +237,7 @@ class Rings {
       v = next;
     } while (v != loops_[loop].first);
   }
+  Extent extent_of(std::uint32_t site) const;
   void append(std::uint32_t loop, std::uint32_t ring, std::uint32_t component, Shape& shape) const;
   BulgeArc edge(std::uint32_t v) const {
     return {vertices_[v].point, vertices_[vertices_[v].next].point, vertices_[v].bulge};

@@ -24,6 +24,11 @@ Touching::Touching(Rings rings, const Shape& shape, Rings& loops)
   if (!loops.has_arcs()) add_flat_vertices(loops);
 }
 
+Touching::Touching(const Rings& loops) : rings_(loops) {
+  for (std::uint32_t v = 0; v < loops.size(); ++v) numbers_.push_back(loops.has(v) ? v : none);
+  of_loops_ = numbers_;
+}
+
 /// Those between two corners that follow each other in the loops as well.
 void Touching::add_flat_vertices(Rings& loops) {
   const auto size = static_cast<std::uint32_t>(rings_.size());
@@ -132,8 +137,8 @@ std::optional<Edit> Touching::of_loops(const Edit& edit, const Rings& loops) con
 
 void Touching::apply(const Edit& edit, const Rings& loops) {
   const std::size_t fresh = edit.in.size() + 1;
-  make_room(numbers_, rings_.size() + fresh);
-  make_room(of_loops_, loops.size() + fresh);
+  edit::make_room(numbers_, rings_.size() + fresh);
+  edit::make_room(of_loops_, loops.size() + fresh);
   if (edit.out.empty() || edit.in.empty()) return rings_.apply(edit, false);
   // One by one, as memory may run out.
   Edit out = edit, in = edit;
@@ -147,6 +152,33 @@ void Touching::apply(const Edit& edit, const Rings& loops) {
     rings_.apply(back, false);
     throw;
   }
+}
+
+void Touching::make_room(const Rings& loops) {
+  edit::make_room(of_loops_, loops.size());
+  of_loops_.resize(loops.size(), none);
+  if (numbers_.size() < rings_.size()) {
+    edit::make_room(numbers_, rings_.size());
+    numbers_.resize(rings_.size(), none);
+  }
+}
+
+void Touching::note(std::uint32_t of_rings, std::uint32_t of_loops, const std::vector<Vec2>& places,
+                    const Rings& loops) {
+  numbers_[of_rings] = of_loops;
+  for (const Vec2 place : places) {
+    std::uint32_t drawn = none;
+    const auto find = [&](std::uint32_t v) {
+      if (rings_[v].point == place) drawn = v;
+    };
+    rings_.for_edges_in({place, place}, find);
+    loops.for_edges_in({place, place}, [&](std::uint32_t v) {
+      if (!(loops[v].point == place)) return;
+      const std::uint32_t old = of_loops_[v];
+      if (old == none || !rings_.has(old) || !(rings_[old].point == place)) of_loops_[v] = drawn;
+    });
+  }
+  if (of_loops != none) of_loops_[of_loops] = of_rings;
 }
 
 void Touching::note(const Edit& edit, const Edit& of_loops) {

@@ -16,6 +16,8 @@ class Touching {
   /// `loops`: those of a shape that was built from the rings, whose sources name their vertices.
   /// Adds the flat vertices of the rings to them. O(n log n).
   Touching(Rings rings, const Shape& shape, Rings& loops);
+  /// Where the rings are the loops as yet. O(n).
+  explicit Touching(const Rings& loops);
 
   Rings& rings() { return rings_; }
   const Rings& rings() const { return rings_; }
@@ -30,6 +32,12 @@ class Touching {
   void apply(const Edit& edit, const Rings& loops);
   /// Notes how its new vertices are numbered in the loops, once these have followed.
   void note(const Edit& edit, const Edit& of_loops);
+  /// Makes room, so that the next does not throw.
+  void make_room(const Rings& loops);
+  /// Notes the number in the loops, or none, of a vertex of the rings, and which vertices of these
+  /// lie at places where the loops have new ones.
+  void note(std::uint32_t of_rings, std::uint32_t of_loops, const std::vector<Vec2>& places,
+            const Rings& loops);
 
  private:
   void add_flat_vertices(Rings& loops);

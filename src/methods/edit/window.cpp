@@ -28,12 +28,20 @@ class Assembly {
            double radius_limit)
       : rings_(rings), graph_(graph), affected_(affected), radius_limit_(radius_limit) {}
 
-  std::optional<Window> window(std::uint32_t loop) {
-    if (affected_.borders.empty() || !find_cycles()) return std::nullopt;
-    add_whole_loops(loop);
-    while (cycles_.size() > 1)
-      if (!connect_last()) return std::nullopt;
-    return boundary();
+  std::optional<std::vector<Window>> windows(const std::vector<std::uint32_t>& loops, int parts) {
+    if (affected_.nodes.empty() || !find_cycles()) return std::nullopt;
+    add_whole_loops(loops);
+    // What comes in each window with borders is a tree.
+    const auto signed_size = [](const auto& list) {
+      return static_cast<std::ptrdiff_t>(list.size());
+    };
+    const std::ptrdiff_t trees = parts + signed_size(affected_.nodes) +
+                                 signed_size(affected_.borders) - signed_size(affected_.edges);
+    while (cycles_.size() > 1 && signed_size(cycles_) > trees)
+      if (!connect_any() || takes_long()) return std::nullopt;
+    std::vector<Window> windows;
+    for (Cycle& cycle : cycles_) windows.push_back(window(cycle));
+    return windows;
   }
 
  private:
@@ -112,9 +120,8 @@ class Assembly {
   bool add_loop(std::uint32_t loop) { return loops_.insert(loop).second; }
 
   /// The loops that no border touches.
-  void add_whole_loops(std::uint32_t loop) {
-    std::vector<std::uint32_t> found;
-    if (loop != none) found.push_back(loop);
+  void add_whole_loops(const std::vector<std::uint32_t>& loops) {
+    std::vector<std::uint32_t> found = loops;
     for (const std::uint32_t edge : affected_.edges)
       for (const std::uint32_t site : graph_.edge(edge).site)
         if (rings_.is_site(site)) found.push_back(rings_[site / 2].loop);
@@ -139,17 +146,30 @@ class Assembly {
     Disk disk;
   };
 
+  bool takes_long() const {
+    constexpr std::size_t most_looks = 256;  // at each piece
+    return looks_ > most_looks * most_pieces_;
+  }
+
+  /// Connects two cycles. False where no disk is found that does.
+  bool connect_any() {
+    for (std::size_t i = cycles_.size(); i-- > 0;) {
+      std::swap(cycles_[i], cycles_.back());
+      if (connect_last()) return true;
+    }
+    return false;
+  }
+
   /// Connects the last cycle with another one. False where no disk is found that does, and where
   /// to look for one takes longer than it may.
   bool connect_last() {
-    constexpr std::size_t most_looks = 256;  // at each piece
     const Cycle& last = cycles_.back();
     std::size_t pieces = 0;
     for (const Cycle& cycle : cycles_) pieces += cycle.size();
     for (std::size_t i = 0; i < last.size(); ++i) {
       if (last[i].site == none || !Rings::is_edge(last[i].site)) continue;
       looks_ += pieces;
-      if (looks_ > most_looks * most_pieces_) return false;
+      if (takes_long()) return false;
       if (const auto found = connection(i)) {
         splice(*found);
         return true;
@@ -231,13 +251,31 @@ class Assembly {
                  added.end());
   }
 
-  /// The one cycle that is left, from border 0 on, as a boundary.
-  Window boundary() {
+  /// One cycle that is left, from its first border on, as a boundary.
+  Window window(Cycle& cycle) const {
     Window window;
-    for (std::uint32_t i = 0; i < affected_.borders.size(); ++i)
-      window.bridges.push_back({disk_of(i)});
-    for (const Disk& disk : connections_) window.bridges.push_back({disk});
-    Cycle& cycle = cycles_[0];
+    const std::size_t borders = affected_.borders.size();
+    std::vector<std::uint32_t> bridges;
+    for (const Piece& piece : cycle) {
+      if (piece.site == none)
+        bridges.push_back(piece.bridge);
+      else
+        window.loops.push_back(rings_[piece.site / 2].loop);
+    }
+    std::sort(bridges.begin(), bridges.end());
+    bridges.erase(std::unique(bridges.begin(), bridges.end()), bridges.end());
+    for (const std::uint32_t bridge : bridges) {
+      if (bridge < borders) window.borders.push_back(affected_.borders[bridge]);
+      window.bridges.push_back(
+          {bridge < borders ? disk_of(bridge) : connections_[bridge - borders]});
+    }
+    std::sort(window.loops.begin(), window.loops.end());
+    window.loops.erase(std::unique(window.loops.begin(), window.loops.end()), window.loops.end());
+    if (window.borders.empty()) return window;
+    for (Piece& piece : cycle)
+      if (piece.site == none)
+        piece.bridge = static_cast<std::uint32_t>(
+            std::lower_bound(bridges.begin(), bridges.end(), piece.bridge) - bridges.begin());
     const auto start = std::find_if(cycle.begin(), cycle.end(),
                                     [](const Piece& piece) { return piece.bridge == 0; });
     std::rotate(cycle.begin(), start + 1, cycle.end());
@@ -298,7 +336,7 @@ class Assembly {
   const Affected& affected_;
   const double radius_limit_;
   std::vector<End> ends_;
-  std::vector<Cycle> cycles_;  ///< the first one has border 0
+  std::vector<Cycle> cycles_;
   std::set<std::uint32_t> loops_;
   std::vector<Disk> connections_;
   std::size_t pieces_ = 0, most_pieces_ = 0;
@@ -363,9 +401,11 @@ Affected Spread::result() const {
   return affected;
 }
 
-std::optional<Window> window_of(const Rings& rings, const AxisGraph& graph,
-                                const Affected& affected, std::uint32_t loop, double radius_limit) {
-  return Assembly(rings, graph, affected, radius_limit).window(loop);
+std::optional<std::vector<Window>> windows_of(const Rings& rings, const AxisGraph& graph,
+                                              const Affected& affected,
+                                              const std::vector<std::uint32_t>& loops, int parts,
+                                              double radius_limit) {
+  return Assembly(rings, graph, affected, radius_limit).windows(loops, parts);
 }
 
 }  // namespace medial::edit

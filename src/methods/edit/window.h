@@ -49,15 +49,22 @@ class Spread {
 
 /// The part of the boundary whose sites the disks of the new part of the axis can touch, as one
 /// run: between the borders' disks, which are its first bridges, and around loops that no border
-/// touches, which further bridges connect. It begins behind border 0 and ends before it.
+/// touches, which further bridges connect. It begins behind border 0 and ends before it. Without a
+/// border it is a whole component, and holds its loops alone.
 struct Window {
+  std::vector<Border> borders;
   disks::Boundary boundary;
   std::vector<disks::Bridge> bridges;
   std::vector<std::uint32_t> names;  ///< of the boundary's `originals`: the sites in Rings
+  std::vector<std::uint32_t> loops;
 };
-/// `loop`: one that has changed, or none. None where all of the axis is affected, where rounding
-/// leaves the borders' order open, and where it takes long to connect many loops.
-std::optional<Window> window_of(const Rings& rings, const AxisGraph& graph,
-                                const Affected& affected, std::uint32_t loop, double radius_limit);
+/// One window, or where edges come to touch or part several. `loops`: those that have changed;
+/// `parts`: so many more components the axis gets, less cycles. None where all of the axis is
+/// affected, where rounding leaves the borders' order open, and where it takes long to connect many
+/// loops.
+std::optional<std::vector<Window>> windows_of(const Rings& rings, const AxisGraph& graph,
+                                              const Affected& affected,
+                                              const std::vector<std::uint32_t>& loops, int parts,
+                                              double radius_limit);
 
 }  // namespace medial::edit

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "base/predicates.h"
+#include "medial/geometry.h"
+
+// How segments and triangles meet; exact.
+
+namespace medial::edit {
+
+inline Box box_of(Vec2 a, Vec2 b) {
+  Box box{a, a};
+  box.add(b);
+  return box;
+}
+
+inline bool holds(const Box& box, Vec2 p) {
+  return box.low.x <= p.x && p.x <= box.high.x && box.low.y <= p.y && p.y <= box.high.y;
+}
+
+struct Triangle {
+  std::array<Vec2, 3> corner;
+
+  /// Whether a point lies inside or on the border; a little too often where the corners lie on one
+  /// line.
+  bool has(Vec2 p) const {
+    Box box = box_of(corner[0], corner[1]);
+    box.add(corner[2]);
+    if (!holds(box, p)) return false;
+    int left = 0, right = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int side = orientation(corner[i], corner[(i + 1) % 3], p);
+      left += side > 0 ? 1 : 0;
+      right += side < 0 ? 1 : 0;
+    }
+    return left == 0 || right == 0;
+  }
+};
+
+/// Where two segments cross: a place on the second one, as an end of the first may be far away.
+inline Vec2 crossing_of(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+  const auto away = [&](Vec2 p) { return std::max(std::abs(p.x - c.x), std::abs(p.y - c.y)); };
+  if (away(b) < away(a)) std::swap(a, b);
+  const Vec2 half = 0.5 * b - 0.5 * a;  // which does not overflow
+  const double size = std::max(std::abs(half.x), std::abs(half.y));
+  const Vec2 way{half.x / size, half.y / size};
+  const double of_c = cross(c - a, way), of_d = cross(d - a, way);
+  return c + std::clamp(of_c / (of_c - of_d), 0.0, 1.0) * (d - c);
+}
+
+enum class Meeting : std::uint8_t { apart, touch, cross };
+
+/// How two closed segments meet.
+inline Meeting meeting(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+  const int of_a = orientation(c, d, a), of_b = orientation(c, d, b);
+  if (of_a * of_b > 0) return Meeting::apart;
+  const int of_c = orientation(a, b, c), of_d = orientation(a, b, d);
+  if (of_c * of_d > 0) return Meeting::apart;
+  if (of_a * of_b < 0 && of_c * of_d < 0) return Meeting::cross;
+  const Box first = box_of(a, b), second = box_of(c, d);
+  const bool are_apart = first.low.x > second.high.x || second.low.x > first.high.x ||
+                         first.low.y > second.high.y || second.low.y > first.high.y;
+  return are_apart ? Meeting::apart : Meeting::touch;
+}
+
+/// Whether a point lies strictly inside a segment.
+inline bool lies_inside(Vec2 p, Vec2 a, Vec2 b) {
+  return holds(box_of(a, b), p) && orientation(a, b, p) == 0 && strictly_between(a, p, b);
+}
+
+/// Whether two segments have more than a point in common.
+inline bool run_along(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+  if (orientation(a, b, c) != 0 || orientation(a, b, d) != 0) return false;
+  const auto lower = [](Vec2 p, Vec2 q) { return lexicographic_less(p, q) ? p : q; };
+  const auto higher = [](Vec2 p, Vec2 q) { return lexicographic_less(p, q) ? q : p; };
+  return lexicographic_less(higher(lower(a, b), lower(c, d)), lower(higher(a, b), higher(c, d)));
+}
+
+}  // namespace medial::edit
