@@ -55,6 +55,7 @@ class Finder {
     for (std::size_t i = 0; i < fresh_.size(); ++i) {
       std::vector<Vec2>& touched = touched_[i];
       std::sort(touched.begin(), touched.end(), lexicographic_less);
+      touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
       if (lexicographic_less(fresh_[i].to, fresh_[i].from))
         std::reverse(touched.begin(), touched.end());
       contacts_.touched.insert(contacts_.touched.end(), touched.begin(), touched.end());
@@ -72,7 +73,7 @@ class Finder {
     const Verdict verdict = contacts_.judgement.verdict;
     return verdict == Verdict::crosses || verdict == Verdict::overlaps;
   }
-  /// Each contact is looked for among the others: beyond this, all is computed as fast.
+  /// Each contact is compared with the others: beyond this, all is computed as fast.
   bool takes_long(std::size_t contacts) const {
     constexpr std::size_t few = 64;
     return contacts > few && contacts * contacts > loops_.size();

@@ -24,7 +24,7 @@ struct Contacts {
   Detour detour;                     ///< in the direction of the loops
   std::vector<std::uint32_t> chain;  ///< vertices of the loops: where pieces of the old edges begin
   std::size_t middle = 0;            ///< which of them is the old one; 0: none
-  std::vector<Vec2> touched;         ///< vertices in the inside of the new edges, along them
+  std::vector<Vec2> touched;         ///< places of vertices inside the new edges, along them
   std::size_t touched_on_first = 0;  ///< how many of them are on the first edge
   std::vector<Vec2> places;          ///< where the edit can change sites
 };
