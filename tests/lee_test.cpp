@@ -523,14 +523,17 @@ TEST(LeeTies, OfANeedleAreBrokenIn256Bits) {
 
 /// Libfuzzer found it: its width is 1e-86 of its length, below what 256 bits separate.
 TEST(LeeNeedle, ThinnerThanPreciseNumbersIsUnsupported) {
-  const Shape needle = built({ring_of({{-121, -121}, {-82, -82}, {-7.8801867941895333e-84, 0}})});
-  const auto axis = compute(needle, by_lee());
-  ASSERT_FALSE(axis);
-  EXPECT_EQ(axis.error().code, ErrorCode::unsupported) << to_string(axis.error());
-  EXPECT_NE(axis.error().text.find("too near to each other"), std::string::npos);
-  const auto other = compute(needle, {.threads = 1});
-  ASSERT_TRUE(other) << to_string(other.error());
-  EXPECT_TRUE(verify(needle, *other, {.threads = 1}).passed);
+  for (const Ring& ring : {ring_of({{-121, -121}, {-82, -82}, {-7.8801867941895333e-84, 0}}),
+                           ring_of({{0, 0}, {1, 0}, {1, 1e-80}, {0, 1e-80}})}) {
+    const Shape needle = built({ring});
+    const auto axis = compute(needle, by_lee());
+    ASSERT_FALSE(axis);
+    EXPECT_EQ(axis.error().code, ErrorCode::unsupported) << to_string(axis.error());
+    EXPECT_NE(axis.error().text.find("too near to each other"), std::string::npos);
+    const auto other = compute(needle, {.threads = 1});
+    ASSERT_TRUE(other) << to_string(other.error());
+    EXPECT_TRUE(verify(needle, *other, {.threads = 1}).passed);
+  }
 }
 
 /// An ellipse with a dent, in which about a share of the vertices are reflex.

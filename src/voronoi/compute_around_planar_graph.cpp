@@ -9,12 +9,14 @@
 
 #include "base/arc.h"
 #include "base/box_tree.h"
+#include "base/compat.h"
 #include "base/in_flight.h"
 #include "base/numbers.h"
 #include "base/spatial_order.h"
 #include "base/threads.h"
 #include "base/tolerance.h"
 #include "medial/query.h"
+#include "medial/verify.h"
 #include "medial/voronoi.h"
 #include "methods/checks.h"
 #include "methods/disks/collect.h"
@@ -212,6 +214,26 @@ Error explained(Error error, const PlanarGraph& planar_graph, double tolerance) 
   return error;
 }
 
+/// Points next to arcs, or in their centres, may mislead the walk: such a diagram is measured. An
+/// error where the certificate refuses it.
+std::optional<Error> refused_next_to_arcs(const PlanarGraph& planar_graph,
+                                          const VoronoiDiagram& diagram, const Options& options) {
+  const bool has_arcs = ranges::any_of(planar_graph.edges,
+                                       [](const PlanarGraphEdge& edge) { return edge.bulge != 0; });
+  if (!has_arcs) return std::nullopt;
+  auto close = too_close(planar_graph, doubtful * diagram.tolerance);
+  if (planar_graph.lone_points.empty() && !close) return std::nullopt;
+  VerifyOptions demands;
+  demands.threads = options.threads;
+  const VoronoiCertificate certificate = verify(planar_graph, diagram, demands);
+  if (certificate.passed) return std::nullopt;
+  if (close) return close;
+  Error error{
+      ErrorCode::unsupported, "rounding alone decides what a disk touches next to arcs here", {}};
+  error.place.point = certificate.worst;
+  return error;
+}
+
 }  // namespace
 
 Result<MedialAxis> axis_around(const PlanarGraph& planar_graph, const Shape& surroundings,
@@ -266,6 +288,8 @@ Result<VoronoiDiagram> voronoi_diagram(const PlanarGraph& planar_graph, const Op
     });
 
     if (!diagram) return explained(std::move(diagram).error(), planar_graph, tolerance);
+    if (auto error = refused_next_to_arcs(planar_graph, *diagram, options))
+      return std::move(*error);
     diagram->statistics.threads = effective_threads(options.threads);
     if (options.progress) options.progress(1);
     return diagram;

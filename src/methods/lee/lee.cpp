@@ -98,11 +98,13 @@ class Solution {
     return success();
   }
 
-  /// Whether double cannot tell the sides of some corner apart, so that 256 bits may not, either.
+  /// Whether sides may be nearer to each other than 256 bits separate: at a corner whose sides
+  /// double cannot tell apart, or at the two ends of an edge.
   bool is_needle() const {
-    constexpr double rounding = 0x1p-50;
+    constexpr double rounding = 0x1p-50, shortest = 0x1p-200;
     const site::Site* before = nullptr;
     for (const site::Site& site : elements_.sites) {
+      if (!site.is_vertex() && site.length < shortest) return true;
       if (before != nullptr && !site.is_vertex() && dot(before->direction, site.direction) < 0 &&
           std::abs(cross(before->direction, site.direction)) <= rounding)
         return true;
