@@ -221,13 +221,13 @@ std::optional<Error> refused_next_to_arcs(const PlanarGraph& planar_graph,
   const bool has_arcs = ranges::any_of(planar_graph.edges,
                                        [](const PlanarGraphEdge& edge) { return edge.bulge != 0; });
   if (!has_arcs) return std::nullopt;
-  auto close = too_close(planar_graph, doubtful * diagram.tolerance);
-  if (planar_graph.lone_points.empty() && !close) return std::nullopt;
+  const auto close = [&] { return too_close(planar_graph, doubtful * diagram.tolerance); };
+  if (planar_graph.lone_points.empty() && !close()) return std::nullopt;
   VerifyOptions demands;
   demands.threads = options.threads;
   const VoronoiCertificate certificate = verify(planar_graph, diagram, demands);
   if (certificate.passed) return std::nullopt;
-  if (close) return close;
+  if (auto error = close()) return error;
   Error error{
       ErrorCode::unsupported, "rounding alone decides what a disk touches next to arcs here", {}};
   error.place.point = certificate.worst;

@@ -20,8 +20,7 @@ namespace {
 using Bone = Skeleton::Bone;
 using site::Site;
 
-/// Evaluates base cases one by one. The first nodes are the dividing disks; new
-/// ones follow.
+/// Evaluates base cases one by one. The first nodes are the dividing disks; new ones follow.
 class Evaluator {
  public:
   Evaluator(const Context& shared, const Division& division)
