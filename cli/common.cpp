@@ -116,6 +116,7 @@ void add_curve_options(CLI::App& command, InputOptions& input) {
                 "Loose curves (DXF): join ends that are at most GAP apart, in units of\n"
                 "the input (default: 1e-6 of the diagonal), and leave out curves that stay\n"
                 "open; without GAP, close every open curve.")
+      ->disable_flag_override(false)
       ->each([&input](const std::string& text) {
         double gap = std::numeric_limits<double>::infinity();
         if (text != "all" && (!CLI::detail::lexical_cast(text, gap) || !(gap >= 0))) {
@@ -209,6 +210,7 @@ void add_input_options(CLI::App& command, InputOptions& input) {
       .add_flag("--repair{make-valid}", input.repair,
                 "Repair crossing or overlapping rings by make-valid (the default rule),\n"
                 "even-odd or non-zero instead of refusing them; a note says what changed.")
+      ->disable_flag_override(false)
       ->check(CLI::IsMember({"make-valid", "even-odd", "non-zero"}).description(""))
       ->each([&read](const std::string& rule) { read.repair = rules.at(rule); });
   command.add_flag("--skip-invalid", read.skip_invalid,

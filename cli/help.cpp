@@ -177,6 +177,8 @@ std::string explain_in(const CLI::ParseError& error, const CLI::App& command) {
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr &&
       text.find(" required ") != std::string::npos)
     return text.substr(0, text.find(':')) + " needs a value";
+  if (const auto end = text.find(" was given a disallowed flag override"); end != std::string::npos)
+    return "--" + text.substr(0, end) + " takes no value";
   if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) return no_number(text, command);
   return text;
 }
@@ -194,6 +196,7 @@ void describe_program(CLI::App& program) {
   program.set_version_flag("--version", "medial " MEDIAL_VERSION, "Print the version.");
   program.set_help_flag("--help,-h", "Print this help.");
   program.set_help_all_flag("--help-all", "Print this help with all options of all commands.");
+  program.option_defaults()->disable_flag_override();
   program.require_subcommand(1);
   program.get_formatter()->label("SUBCOMMAND", "COMMAND");
   program.footer(

@@ -75,6 +75,7 @@ void add_prune_options(CLI::App& command, PruneArguments& arguments) {
                       "diagonal is below this share of the square root of the feature's area\n"
                       "(without a value: {}). Computes stored axes again.",
                       speck_share))
+      ->disable_flag_override(false)
       ->check(in_range(0, 1, true))
       ->each([&arguments](const std::string& share) {
         CLI::detail::lexical_cast(share, arguments.specks);

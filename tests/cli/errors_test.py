@@ -157,6 +157,7 @@ class Words(CommandLine):
         for words, *line in (
                 ("unknown option: --foo", "axis", "r.wkt", "--foo"),
                 ("--chord needs a value", "axis", "r.wkt", "--chord"),
+                ("--exact takes no value", "axis", "r.wkt", "--exact=18446744073709551616"),
                 ("unexpected argument: more", "axis", "r.wkt", "more"),
                 ("--threads: '1.5' is not a whole number", "axis", "r.wkt", "--threads", "1.5"),
                 ("--threshold: 'abc' is not a number", "axis", "r.wkt", "--threshold", "abc"),
