@@ -305,13 +305,10 @@ Status check_tools(const CarveArguments& arguments) {
   if (arguments.clear_tool > 0 && carve.angle > 0 && !(carve.depth > 0 || carve.tool > 0))
     return invalid_option("--clear-tool clears flat bottoms, which need --depth or --tool");
   const std::string& output = arguments.output;
-  if (!output.empty() && output == arguments.preview)
+  if (!output.empty() && name_one_file(output, arguments.preview))
     return invalid_option("--preview and -o name the same file");
-  const std::string format =
-      output == "-" ? "." + arguments.format : std::filesystem::path(output).extension().string();
-  const bool program =
-      (" " + std::string(gcode_formats) + " ").find(" " + format + " ") != std::string::npos;
-  if (!arguments.machine.post.empty() && !output.empty() && !program)
+  if (!arguments.machine.post.empty() && !output.empty() &&
+      !writes_one_of(arguments, gcode_formats))
     return invalid_option(std::string("--post is for G-code: ") + gcode_formats);
   return success();
 }

@@ -478,8 +478,21 @@ Status check_file(const std::string& path, const std::string& known_formats,
 
 }  // namespace
 
+bool name_one_file(const std::string& path, const std::string& other) {
+  const auto whole = [](const std::string& name) {
+    std::error_code ignored;
+    return fs::weakly_canonical(fs::absolute(name, ignored), ignored);
+  };
+  return path == other || (!path.empty() && !other.empty() && whole(path) == whole(other));
+}
+
 bool has_extension(const std::string& path, const std::string& known_formats) {
   return lists(known_formats, extension_of(path));
+}
+
+bool writes_one_of(const FileArguments& arguments, const std::string& known_formats) {
+  return lists(known_formats,
+               arguments.output == "-" ? lower(arguments.format) : extension_of(arguments.output));
 }
 
 Status check_output(const std::string& path, const std::string& format,
@@ -508,18 +521,16 @@ Status check_picture_options(const FileArguments& arguments) {
   const bool asked =
       write.disks > 0 || write.contacts || !write.shape || write.width != io::WriteOptions{}.width;
   const std::string& output = arguments.output;
-  if ((write.overwrite || !write.layer.empty()) && !output.ends_with(".gpkg"))
+  if ((write.overwrite || !write.layer.empty()) && !writes_one_of(arguments, "gpkg"))
     return invalid_option("--output-layer and --overwrite are for .gpkg");
   if ((!asked && !write.nodes && write.simplify == 0) || output.empty()) return success();
-  const std::string extension = fs::path(output).extension().string();
-  const std::string format = output == "-"       ? arguments.format
-                             : extension.empty() ? extension
-                                                 : extension.substr(1);
-  if (write.simplify > 0 && lists("json csv dxf svg pdf png ps", lower(format)))
-    return invalid_option("--simplify is for lines of GIS formats, .wkt and graphs: ." +
-                          lower(format) + " has the curves themselves, or samples");
-  if (lists("svg pdf png ps", lower(format))) return success();
-  if (!asked && (!write.nodes || lists("gpkg graphml nodelink edgelist", lower(format))))
+  if (write.simplify > 0 && writes_one_of(arguments, "json csv dxf svg pdf png ps"))
+    return invalid_option(
+        fmt::format("--simplify is for lines of GIS formats, .wkt and graphs; {} has the curves "
+                    "themselves, or samples",
+                    output == "-" ? arguments.format : output));
+  if (writes_one_of(arguments, "svg pdf png ps")) return success();
+  if (!asked && (!write.nodes || writes_one_of(arguments, "gpkg graphml nodelink edgelist")))
     return success();
   return invalid_option(fmt::format(
       "--disks, --contacts, --nodes, --no-shape and --width are for pictures, which {} is not",

@@ -152,6 +152,11 @@ Status check_output(const std::string& path, const std::string& format,
                     const std::string& known_formats, const std::string& input, bool json);
 Status check_output(const FileArguments& arguments, const std::string& known_formats);
 bool has_extension(const std::string& path, const std::string& known_formats);
+/// Whether what is written has one of these formats.
+bool writes_one_of(const FileArguments& arguments, const std::string& known_formats);
+
+/// Whether two paths name one file, which need not exist.
+bool name_one_file(const std::string& path, const std::string& other);
 /// Options for writing: --chord is a common one.
 io::WriteOptions write_options(const FileArguments& arguments);
 

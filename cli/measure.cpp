@@ -58,9 +58,7 @@ struct Measured {
   std::vector<Disk> disks;
 };
 
-bool is_profile(const MeasureArguments& arguments) {
-  return arguments.format == "csv" || arguments.output.ends_with(".csv");
-}
+bool is_profile(const MeasureArguments& arguments) { return writes_one_of(arguments, "csv"); }
 
 /// Whether nothing is asked for that needs an axis.
 bool wants_disks_alone(const MeasureArguments& arguments) {
@@ -552,7 +550,7 @@ Result<int> run_measure(const MeasureArguments& given) {
   Status writable = check_output(arguments, io::formats_of(io::DocumentKind::layers));
   if (writable)
     writable = check_output(arguments.plot, {}, ".svg .png .pdf", input.path, common.json);
-  if (writable && !arguments.plot.empty() && arguments.plot == arguments.output)
+  if (writable && !arguments.plot.empty() && name_one_file(arguments.plot, arguments.output))
     writable = invalid_option("--plot and -o name the same file");
   if (!writable) return std::move(writable).error();
   // Layers without any would be empty.

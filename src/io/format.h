@@ -114,9 +114,8 @@ class Target {
   OutputStream* out = nullptr;                      ///< null: the format makes the file `path`
   std::string path;
   std::string unit;  ///< of lengths, by its name; empty: unknown, or the reference system says
-  bool adds_to_file = false;  ///< to the file `path`, which may hold other layers
-  bool overwrite = false;     ///< layers of the same name
-  std::string layer;          ///< see WriteOptions
+  bool overwrite = false;  ///< layers of the same name
+  std::string layer;       ///< see WriteOptions
   OutputCrs crs;
 
   /// The target of one part of the document: without a file, a stream and errors of its own.
@@ -163,6 +162,20 @@ class PartWriter {
   virtual Status finish() = 0;
 };
 
+/// A file that other programs may have open, and its copy, which a library adds layers to: what is
+/// there stays whole whatever happens.
+class Addition {
+ public:
+  Addition() = default;
+  Addition(const Addition&) = delete;
+  Addition& operator=(const Addition&) = delete;
+  virtual ~Addition() = default;
+
+  /// Makes the file what the copy is now, all at once. Errors: unwritable, also if the file has
+  /// changed since it was copied.
+  virtual Status commit() = 0;
+};
+
 class AxisWriter;
 struct GrowingFrame;
 
@@ -194,8 +207,10 @@ struct Format {
   // Writing.
   bool geographic = false;  ///< longitudes and latitudes instead of a local projection
   TableRoom tables = TableRoom::one;
-  bool own_files = false;    ///< a library makes the file, maybe with companions
-  bool adds_layers = false;  ///< to a file that is there; `own_files` then
+  bool own_files = false;  ///< a library makes the file, maybe with companions
+  /// Of formats that add layers to a file that is there; `own_files` then.
+  Result<std::unique_ptr<Addition>> (*begin_addition)(const std::string& path,
+                                                      const std::string& copy) = nullptr;
   std::tuple<Writer<AxesOutput>, Writer<ShapesOutput>, Writer<VoronoiOutput>, Writer<OffsetsOutput>,
              Writer<CarvingOutput>, Writer<FeaturesOutput>, Writer<LayersOutput>,
              Writer<FieldOutput>, Writer<VoxelsOutput>, Writer<DistancesOutput>,

@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "io/format_name.h"
 #include "io/guarded.h"
 #include "io/place.h"
 #include "medial/io/write.h"
@@ -68,28 +69,39 @@ void forget(int slot) {
 
 std::atomic<int> g_commits = 0;
 
-/// While one lives, no signal ends the program by way of remove_partial_files(): a handler does not
-/// run in this thread, and waits in others. So a file comes with all of its companions.
-class Uninterrupted {
- public:
-  Uninterrupted() {
-    sigset_t all;
-    sigfillset(&all);
-    pthread_sigmask(SIG_BLOCK, &all, &before_);
-    ++g_commits;
+/// The file that a path leads to through symbolic links, which may lead to none.
+Result<fs::path> through_links(const std::string& path) {
+  fs::path resolved = path;
+  std::error_code code;
+  for (int links = 0; fs::is_symlink(resolved, code); ++links) {
+    if (links == 40) return unwritable(path, ELOOP);
+    resolved = resolved.parent_path() / fs::read_symlink(resolved, code);  // or that, if absolute
+    if (code) return unwritable(path, code.value());
   }
-  Uninterrupted(const Uninterrupted&) = delete;
-  Uninterrupted& operator=(const Uninterrupted&) = delete;
-  ~Uninterrupted() {
-    --g_commits;
-    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
-  }
+  return resolved;
+}
 
- private:
-  sigset_t before_{};
-};
+/// Gives a new file the permissions, and if it may the owner, of the one that it replaces.
+void inherit_permissions(const fs::path& file, const fs::path& replaced) {
+  struct stat status {};
+  if (stat(replaced.c_str(), &status) != 0) return;
+  if (chown(file.c_str(), status.st_uid, status.st_gid) != 0) status.st_mode &= 0777U;
+  static_cast<void>(chmod(file.c_str(), status.st_mode & 07777U));
+}
 
 }  // namespace
+
+Uninterrupted::Uninterrupted() {
+  sigset_t all;
+  sigfillset(&all);
+  pthread_sigmask(SIG_BLOCK, &all, &before_);
+  ++g_commits;
+}
+
+Uninterrupted::~Uninterrupted() {
+  --g_commits;
+  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
 
 void remove_partial_files() noexcept {
   const int saved = errno;
@@ -107,11 +119,9 @@ void remove_partial_files() noexcept {
 Result<PendingFile> PendingFile::create(const std::string& target) {
   std::error_code code;
   PendingFile file;
-  fs::path resolved = target;
-  if (fs::is_symlink(resolved, code)) {
-    resolved = fs::canonical(resolved, code);
-    if (code) return unwritable(target, code.value());
-  }
+  auto link_end = through_links(target);
+  if (!link_end) return std::move(link_end).error();
+  const fs::path& resolved = *link_end;
   if (!resolved.has_filename() || fs::is_directory(resolved, code))
     return unwritable(target, EISDIR);
   file.target_ = resolved.string();
@@ -146,12 +156,18 @@ Status PendingFile::commit() {
     files.push_back(entry->path());
   }
   if (code) return unwritable(target_, code.value());
-  // The named file last: once it is there, its companions are, too.
-  std::partition(files.begin(), files.end(),
-                 [this](const fs::path& file) { return file != path_; });
+  // The named file last, once its companions are there. Some libraries write its extension in lower
+  // case.
+  const auto is_named = [named = lower_case(path_)](const fs::path& file) {
+    return lower_case(file.string()) == named;
+  };
+  std::partition(files.begin(), files.end(), std::not_fn(is_named));
   const Uninterrupted uninterrupted;
   for (const fs::path& file : files) {
-    fs::rename(file, fs::path(target_).replace_filename(file.filename()), code);
+    const fs::path place =
+        is_named(file) ? fs::path(target_) : fs::path(target_).replace_filename(file.filename());
+    inherit_permissions(file, place);
+    fs::rename(file, place, code);
     if (code) return unwritable(target_, code.value());
   }
   return success();

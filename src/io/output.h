@@ -1,5 +1,7 @@
 #pragma once
 
+#include <signal.h>
+
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -14,6 +16,19 @@
 
 namespace medial::io {
 
+/// While one lives, no signal ends the program by way of remove_partial_files(): a handler does not
+/// run in this thread, and waits in others. So a file comes with all of its companions.
+class Uninterrupted {
+ public:
+  Uninterrupted();
+  Uninterrupted(const Uninterrupted&) = delete;
+  Uninterrupted& operator=(const Uninterrupted&) = delete;
+  ~Uninterrupted();
+
+ private:
+  sigset_t before_{};
+};
+
 /// A new file that appears under its name all at once. It grows in a hidden directory beside the
 /// target, under the target's own file name (which some formats want), with whatever companions the
 /// format has; commit() moves everything to its place. Without commit() nothing remains.
@@ -27,7 +42,10 @@ class PendingFile {
 
   /// Where to write.
   const std::string& path() const { return path_; }
-  /// Moves the file and its companions to the target. Errors: unwritable.
+  /// Where it will be: symbolic links are resolved.
+  const std::string& target() const { return target_; }
+  /// Moves the file and its companions to the target; what they replace passes its permissions and,
+  /// where that is allowed, its owner on. Errors: unwritable.
   Status commit();
 
  private:

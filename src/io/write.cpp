@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <memory>
 
 #include "io/format.h"
 #include "io/format_name.h"
@@ -42,14 +43,15 @@ Status write_checked(const Destination& target, const std::string& asked, Writte
 
 /// Puts a file in its place. Of a shapefile that was there nothing stays: not its indices, nor a
 /// reference system that the new one does not have.
-Status commit_whole(PendingFile& pending, const std::string& path) {
+Status commit_whole(PendingFile& pending) {
   namespace fs = std::filesystem;
   std::vector<fs::path> stale;
   std::error_code ignored;
-  if (fs::path(path).extension() == ".shp")
-    for (const char* part : {".prj", ".cpg", ".qix", ".sbn", ".sbx", ".qpj"})
+  if (format_name(pending.target()) == "shp")
+    for (const char* part : {".shx", ".dbf", ".prj", ".cpg", ".qix", ".sbn", ".sbx", ".qpj", ".SHX",
+                             ".DBF", ".PRJ", ".CPG", ".QIX", ".SBN", ".SBX", ".QPJ"})
       if (!fs::exists(fs::path(pending.path()).replace_extension(part), ignored))
-        stale.push_back(fs::path(path).replace_extension(part));
+        stale.push_back(fs::path(pending.target()).replace_extension(part));
   Status done = pending.commit();
   if (done)
     for (const fs::path& part : stale) fs::remove(part, ignored);
@@ -92,17 +94,17 @@ Status write_target(const Destination& destination, const std::string& asked,
     Result<PendingFile> pending = PendingFile::create(path);
     if (!pending) return std::move(pending).error();
     target.path = pending->path();
-    target.adds_to_file = format->adds_layers;
     target.overwrite = written.overwrite;
     target.layer = written.layer;
-    // A library adds to a copy: what is there stays whole whatever happens.
-    std::error_code failed;
-    if (format->adds_layers && std::filesystem::exists(path, failed))
-      std::filesystem::copy_file(path, target.path, failed);
-    if (failed)
-      return Error{ErrorCode::unwritable, "cannot copy what is there: " + failed.message(), {}};
-    Status done = fill();
-    return done ? commit_whole(*pending, path) : done;
+    std::unique_ptr<Addition> addition;
+    std::error_code ignored;
+    if (format->begin_addition != nullptr && std::filesystem::exists(path, ignored)) {
+      auto begun = format->begin_addition(path, target.path);
+      if (!begun) return std::move(begun).error();
+      addition = std::move(*begun);
+    }
+    if (Status filled = fill(); !filled) return filled;
+    return addition ? addition->commit() : commit_whole(*pending);
   });
 }
 

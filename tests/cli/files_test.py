@@ -3,9 +3,11 @@
 import contextlib
 import gzip
 import json
+import os
 import sqlite3
+import subprocess
 
-from support import FRAME, RECTANGLE, CommandLine
+from support import FRAME, PROGRAM, RECTANGLE, CommandLine
 
 
 class Files(CommandLine):
@@ -27,6 +29,93 @@ class Files(CommandLine):
     def rows(self, layer):
         with contextlib.closing(sqlite3.connect(self.path("t.gpkg"))) as data:
             return data.execute(f"SELECT count(*) FROM {layer}").fetchone()[0]
+
+    def open_elsewhere(self, mode):
+        data = sqlite3.connect(self.path("t.gpkg"), isolation_level=None)
+        data.execute(f"PRAGMA journal_mode={mode}")
+        return contextlib.closing(data)
+
+    def test_a_geopackage_that_another_program_has_open(self):
+        self.write("a.wkt", RECTANGLE)
+        self.succeed("axis", "a.wkt", "-o", "t.gpkg")
+        for mode in ("wal", "delete"):
+            with self.open_elsewhere(mode) as data:
+                data.execute("UPDATE nodes SET r = 77")  # in WAL mode still beside the file
+                self.succeed("axis", "a.wkt", "-o", "t.gpkg", "--output-layer", "in_" + mode)
+                self.assertEqual(data.execute(f"SELECT count(*) FROM in_{mode}").fetchone(), (5,))
+                self.assertEqual(data.execute("SELECT min(r) FROM nodes").fetchone(), (77,))
+                data.execute("UPDATE nodes SET r = 78")
+            self.assertEqual(self.rows("in_" + mode), 5)
+            self.assertEqual(self.rows("nodes WHERE r = 78"), 6)
+        with self.open_elsewhere("delete") as data:
+            data.execute("BEGIN IMMEDIATE")
+            data.execute("CREATE TABLE mine (x)")
+            self.assertIn("another program is using the file",
+                          self.refuse("unwritable", "axis", "a.wkt", "-o", "t.gpkg", "--output-layer", "late"))
+            data.execute("COMMIT")
+        self.assertEqual(self.rows("mine"), 0)
+        self.assertEqual(self.rows("sqlite_master WHERE name = 'late'"), 0)
+        self.assertEqual(self.files(), ["a.wkt", "t.gpkg"])
+
+    def test_no_layer_is_lost_between_two_runs(self):
+        self.write("a.wkt", "\n".join([RECTANGLE] * 400))
+        self.succeed("axis", "a.wkt", "-o", "t.gpkg")
+        runs = {layer: subprocess.Popen([PROGRAM, "axis", "a.wkt", "-o", "t.gpkg", "--output-layer", layer],
+                                        cwd=self.folder.name, stderr=subprocess.PIPE)
+                for layer in ("first", "second", "third")}
+        added = set()
+        for layer, run in runs.items():
+            text = run.communicate()[1].decode()
+            if run.returncode == 0:
+                added.add(layer)
+            else:
+                self.assertEqual(run.returncode, 2)
+                self.assertRegex(text, "another program .* \\[unwritable\\]")
+        self.assertTrue(added)
+        for layer in added:
+            self.assertEqual(self.rows(layer), 2000)
+
+    def test_layers_of_others_stay(self):
+        self.write("a.wkt", RECTANGLE)
+        self.succeed("features", "a.wkt", "-o", "t.gpkg")
+        with self.open_elsewhere("delete") as data:
+            data.execute("CREATE TABLE nodes (fid INTEGER PRIMARY KEY, name TEXT)")
+            data.execute("INSERT INTO nodes VALUES (1, 'mine')")
+            data.execute("INSERT INTO gpkg_contents (table_name, data_type, identifier) "
+                         "VALUES ('nodes', 'attributes', 'nodes')")
+        self.assertIn("other columns", self.refuse("unwritable", "axis", "a.wkt", "-o", "t.gpkg", "--overwrite"))
+        self.assertEqual(self.rows("nodes WHERE name = 'mine'"), 1)
+
+    def test_extensions_in_capitals(self):
+        self.write("a.wkt", RECTANGLE)
+        self.succeed("axis", "a.wkt", "-o", "T.GPKG")
+        self.succeed("axis", "a.wkt", "-o", "T.GPKG", "--overwrite")
+        self.succeed("measure", "a.wkt", "-o", "P.CSV")
+        self.succeed("carve", "a.wkt", "--angle", "60", "--post", "grbl", "-o", "P.NC")
+        self.write("S.SHP", b"old")
+        self.write("S.PRJ", b"old")
+        self.succeed("axis", "a.wkt", "-o", "S.SHP")
+        self.assertEqual([name for name in self.files() if name.startswith("S.")],
+                         ["S.SHP", "S.cpg", "S.dbf", "S.shx"])
+        self.assertEqual(self.read("S.SHP")[:4], b"\x00\x00\x27\x0a")
+
+    def test_links_and_permissions(self):
+        self.write("a.wkt", RECTANGLE)
+        os.mkdir(self.path("real"))
+        os.symlink("real/new.json", self.path("link.json"))  # which leads to no file yet
+        self.succeed("axis", "a.wkt", "-o", "link.json")
+        self.assertTrue(os.path.islink(self.path("link.json")))
+        os.chmod(self.path("real/new.json"), 0o600)
+        self.succeed("axis", "a.wkt", "-o", "link.json")
+        self.assertEqual(os.stat(self.path("real/new.json")).st_mode & 0o777, 0o600)
+        # What lies beside a link to a shapefile is none of its parts.
+        os.symlink("real/s.shp", self.path("s.shp"))
+        for name in ("s.prj", "real/s.prj", "real/s.qix"):
+            self.write(name, b"old")
+        self.succeed("axis", "a.wkt", "-o", "s.shp")
+        self.assertEqual(sorted(os.listdir(self.path("real"))),
+                         ["new.json", "s.cpg", "s.dbf", "s.shp", "s.shx"])
+        self.assertEqual(self.read("s.prj"), b"old")
 
     def test_the_input_is_no_output(self):
         self.write("a.wkt", RECTANGLE)
@@ -70,7 +159,8 @@ class Files(CommandLine):
         self.write("m.yaml", gzip.compress(self.read("m.yaml")))
         self.refuse("unwritable", "axis", "m.yaml", "-o", "m.png")
         self.assertEqual(self.read("m.png"), before)
-        self.refuse("invalid_option", "carve", "a.wkt", "--angle", "60", "-o", "p.png", "--preview", "p.png")
+        for preview in ("p.png", "./p.png"):
+            self.refuse("invalid_option", "carve", "a.wkt", "--angle", "60", "-o", "p.png", "--preview", preview)
 
     def test_shapefiles_keep_letters(self):
         names = ["\u9ec4\u6cb3", "\u0394\u03ad\u03bb\u03c4\u03b1"]

@@ -2,6 +2,7 @@
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +11,7 @@
 
 #include "io/gis/gdal_support.h"
 #include "io/gis/make_file.h"
+#include "io/gis/shared_database.h"
 #include "medial/document.h"
 
 namespace medial::io {
@@ -66,16 +68,31 @@ std::string layer_name(const Target& target, const Table& table, bool first) {
   return first ? target.layer : target.layer + "_" + table.name;
 }
 
-/// Layers of the same name as a table go, if they may.
+bool has_columns_of(OGRLayer& layer, const Table& table) {
+  return std::ranges::all_of(table.columns, [&layer](const Column& column) {
+    return layer.GetLayerDefn()->GetFieldIndex(column.name.c_str()) >= 0;
+  });
+}
+
+/// Layers of the same name as a table go, if they may: the first one, whose name is known to who
+/// asks, and others that look like ours.
 Status make_room(GDALDataset& dataset, const Target& target, const TableSource& source) {
   for (const Table& table : source.tables) {
-    const std::string name = layer_name(target, table, &table == source.tables.data());
+    const bool first = &table == source.tables.data();
+    const std::string name = layer_name(target, table, first);
     for (int i = dataset.GetLayerCount(); i-- > 0;) {
-      if (!EQUAL(dataset.GetLayer(i)->GetName(), name.c_str())) continue;
+      OGRLayer& layer = *dataset.GetLayer(i);
+      if (!EQUAL(layer.GetName(), name.c_str())) continue;
       if (!target.overwrite)
         return Error{ErrorCode::unwritable,
                      fmt::format("the file has a layer '{}' already; --overwrite replaces it, "
                                  "--output-layer gives the new one another name",
+                                 name),
+                     {}};
+      if (!first && !has_columns_of(layer, table))
+        return Error{ErrorCode::unwritable,
+                     fmt::format("the file has a layer '{}' with other columns, which --overwrite "
+                                 "leaves alone; --output-layer gives the new one another name",
                                  name),
                      {}};
       if (dataset.DeleteLayer(i) != OGRERR_NONE)
@@ -191,7 +208,7 @@ Status GdalFile::open(const std::string& path, const Target& target, const Table
     return Error{
         ErrorCode::unsupported, fmt::format("this GDAL cannot write {}", target.format), {}};
   const GdalMessages messages;
-  const bool adds = target.adds_to_file && std::filesystem::exists(path);
+  const bool adds = std::filesystem::exists(path);  // a copy of what is there
   dataset_.reset(adds ? GDALDataset::Open(path.c_str(),
                                           GDAL_OF_VECTOR | GDAL_OF_UPDATE | GDAL_OF_VERBOSE_ERROR)
                       : driver->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
@@ -356,7 +373,8 @@ Status make_file(Target& target, const std::function<Status(const std::string&)>
 Format gpkg_format() {
   Format format{".gpkg"};
   format.tables = TableRoom::several;
-  format.own_files = format.adds_layers = true;
+  format.own_files = true;
+  format.begin_addition = begin_addition_to_database;
   format.write_parts = GdalParts::make;
   return with_tables<put_gdal_tables, OffsetsOutput, ShapesOutput, VoronoiOutput>(format);
 }
