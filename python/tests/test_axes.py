@@ -1,5 +1,7 @@
 """Many features at once."""
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -94,6 +96,78 @@ def test_degrees_are_computed_in_metres():
     assert width["mean"] == pytest.approx(222.4, abs=0.5)
     line = degrees.medial.centerline(extend=True)
     assert line.crs == degrees.crs and line[0].bounds == pytest.approx((8.0, 47.001, 8.02, 47.001), abs=1e-6)
+
+
+@pytest.fixture
+def bars():
+    """Makes a GeoSeries of bars of 0.1 x 0.001 degrees."""
+    geopandas = pytest.importorskip("geopandas")
+    shapely = pytest.importorskip("shapely")
+    import medial.geo  # noqa: F401
+
+    def make(places, crs=4326, unit=1.0):
+        boxes = [shapely.box(x * unit, y * unit, (x + 0.1) * unit, (y + 0.001) * unit) for x, y in places]
+        return geopandas.GeoSeries(boxes, crs=crs)
+
+    return make
+
+
+# A thousandth of a degree along the meridian, in metres.
+HEIGHTS = {-17: 110.67, 0: 110.57, 10: 110.61, 40: 111.03, 60: 111.41}
+
+
+@pytest.mark.parametrize(("places", "warns"), [
+    ([(179, -17), (-179, -17)], False), ([(179.95, 10), (-180.05, 10)], False),
+    ([(0, 0), (150, 0)], True), ([(-120, 40), (-70, 40)], True), ([(3 * x, 60) for x in range(-50, 50)], True),
+])  # fmt: skip
+def test_metres_anywhere_on_the_globe(bars, places, warns):
+    series = bars(places)
+    for (_, y), width in zip(places, series.medial.width()["max"], strict=True):
+        assert width == pytest.approx(HEIGHTS[y], rel=3e-4)
+    for result in (series.medial.axis(), series.medial.centerline(extend=True), series.medial.offset(1)):
+        assert result.crs == series.crs
+        assert np.abs(result.bounds - series.bounds).to_numpy().max() < 1.5e-3  # nothing goes around the globe
+    assert series.medial.inscribed_circles().geometry.within(series).all()
+    assert len(series.medial.branches()) == 5 * len(series)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        series.medial.axes()
+    assert ["far apart" in str(one.message) for one in caught] == [True] * warns
+
+
+def test_a_feature_across_the_date_line_stays_in_one_piece(bars):
+    shapely = pytest.importorskip("shapely")
+    jumping = shapely.Polygon([(179.95, 0), (-179.95, 0), (-179.95, 0.001), (179.95, 0.001)])
+    series = bars([(0, 0)])
+    series[0] = jumping
+    line = series.medial.centerline(extend=True)[0]
+    assert line.length == pytest.approx(0.1, rel=1e-3)
+    assert series.medial.width()["max"][0] == pytest.approx(110.57, rel=1e-4)
+
+
+def test_a_point_at_infinity_spoils_only_its_feature(bars):
+    shapely = pytest.importorskip("shapely")
+    series = bars([(0, 0), (1, 0)])
+    series[1] = shapely.Polygon([(0, 0), (1, 0), (1, np.inf)])
+    found = series.medial.width(on_error="ignore")
+    assert found["max"][0] == pytest.approx(110.57, rel=1e-4) and np.isnan(found["max"][1])
+    with pytest.raises(medial.MedialError) as caught:
+        series.medial.width()
+    assert caught.value.feature == 1
+
+
+def test_a_feature_too_large_for_metres_warns(bars):
+    shapely = pytest.importorskip("shapely")
+    series = bars([(0, 0)])
+    series[0] = shapely.box(0, 0, 40, 1)
+    with pytest.warns(UserWarning, match=r"off by up to 2\.3 %"):
+        series.medial.width()
+
+
+def test_degrees_of_other_units_and_globes(bars):
+    assert bars([(0.1, 49)], crs=4807, unit=10 / 9).medial.width()["max"][0] == pytest.approx(111.21, rel=2e-4)
+    moon = bars([(0.1, 20)], crs="IAU_2015:30100").medial.width()["max"][0]
+    assert moon == pytest.approx(1737400 * np.radians(0.001), rel=1e-4)
 
 
 def test_arrow():
