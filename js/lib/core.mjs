@@ -137,7 +137,11 @@ export function camel(object) {
 export function options(given) {
   return Object.entries(given)
     .filter(([, value]) => value !== undefined && value !== null)
-    .map(([key, value]) => `${key.replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`)}=${value}`)
+    .map(([key, value]) => {
+      if (!/^\w+$/.test(key)) throw new MedialError(`there is no option '${key}'`);
+      if (/[;\0]/.test(value)) throw new MedialError(`${key} cannot be '${value}'`);
+      return `${key.replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`)}=${value}`;
+    })
     .join(";");
 }
 
