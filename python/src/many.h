@@ -107,7 +107,9 @@ void for_each_block(const Features& features, const Options& options, const nb::
     weights.push_back(features.weight(b * block, std::min(count, (b + 1) * block)) + 1);
   const bool reports = !progress.is_none();
   std::optional<nb::python_error> raised;  // by `progress`, which ends the work
+  std::recursive_mutex one_at_a_time;      // where Python has no lock; `progress` may compute, too
   const auto report = [&](std::size_t done) -> Status {
+    const std::scoped_lock alone(one_at_a_time);
     const nb::gil_scoped_acquire held;
     try {
       if (!raised) progress(done);

@@ -1,5 +1,7 @@
 """Many features at once."""
 
+import copy
+import pickle
 import warnings
 
 import numpy as np
@@ -96,6 +98,72 @@ def test_degrees_are_computed_in_metres():
     assert width["mean"] == pytest.approx(222.4, abs=0.5)
     line = degrees.medial.centerline(extend=True)
     assert line.crs == degrees.crs and line[0].bounds == pytest.approx((8.0, 47.001, 8.02, 47.001), abs=1e-6)
+
+
+def bars_of(count):
+    return [[(0, 0), (4 + i, 0), (4 + i, 2), (0, 2)] for i in range(count)]
+
+
+def test_parts_of_axes():
+    bad = [(0, 0), (2, 2), (2, 0), (0, 2)]
+    a = medial.axes([*bars_of(3), bad, *bars_of(1)], on_error="ignore")
+    assert a[1:3] == [a[1], a[2]] and len(a[-1:]) == 1
+    with pytest.raises(TypeError, match="str"):
+        a["x"]
+    with pytest.raises(medial.MedialError):
+        a[2:4]
+    passed = iter(a)
+    assert [next(passed) for _ in range(3)] == a[:3]
+    with pytest.raises(medial.MedialError) as caught:
+        next(passed)
+    assert caught.value.feature == 3 and next(passed) == a[4]
+    assert medial.axes(bars_of(1), exterior=True)[0].exterior > 0
+
+
+def test_many_errors_cost_little():
+    bad = [(0, 0), (2, 2), (2, 0), (0, 2)]
+    a = medial.axes([bad] * 3000, on_error="ignore", threads=1)
+    made = []
+
+    class Counted(medial.MedialError):
+        def __init__(self, *given):
+            made.append(given)
+            super().__init__(*given)
+
+    passed, original = iter(a), medial._read.MedialError
+    medial._read.MedialError = Counted
+    try:
+        for _ in range(3000):
+            with pytest.raises(medial.MedialError):
+                next(passed)
+    finally:
+        medial._read.MedialError = original
+    assert not made and len(a.errors) == 3000 and "3000 errors" in repr(a)
+
+
+def test_results_can_be_pickled_and_copied(plan):
+    bad = [(0, 0), (2, 2), (2, 0), (0, 2)]
+    a = medial.axes([plan, bad, *bars_of(3)], on_error="ignore")
+    line = medial.centerline(plan)
+    contour = medial.Contour((0, 0), "hole").line_to((4, 0)).arc_to((4, 2), 1).bezier_to([(2, 3), (0, 2)], [2, 1])
+    for copied in (lambda x: pickle.loads(pickle.dumps(x)), copy.deepcopy):
+        b = copied(a)
+        assert b[0] == a[0] and b[2:] == a[2:] and b.method == a.method
+        assert b.errors[1].point == a.errors[1].point and str(b.errors[1]) == str(a.errors[1])
+        other = copied(line)
+        assert other.axis == line.axis and np.array_equal(other.widths(5).width, line.widths(5).width)
+        again = copied(contour)
+        assert medial.Shape(again) == medial.Shape(contour)
+        again.line_to((0, 1))
+        assert repr(contour) != repr(again)
+    copy.copy(contour).line_to((9, 9))
+    assert repr(contour) == "<medial.Contour: 3 pieces>"
+    method, *arrays = a._core.state()
+    for i in range(len(arrays)):
+        damaged = list(arrays)
+        damaged[i] = damaged[i][1:] if i < 3 else tuple(part[1:] for part in damaged[i])
+        with pytest.raises(medial.MedialError):
+            medial._core.restored_axes(method, *damaged)
 
 
 @pytest.fixture
