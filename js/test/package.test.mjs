@@ -169,7 +169,10 @@ test("a native file keeps what it says", () => {
   const [{ shape, axis }] = medial.loads(JSON.stringify(file));
   assert.equal(shape.attributes.get("name"), "Mürren");
   assert.ok(axis.part);
-  for (const kept of [axis, medial.axis(shape), medial.axis(new medial.Shape(shape)), axis.prune("length", 0)]) {
+  const editor = new medial.Editor(shape);
+  for (const kept of [
+    axis, medial.axis(shape), medial.axis(new medial.Shape(shape)), axis.prune("length", 0), editor.axis, editor.copy().axis,
+  ]) {
     const { items, ...rest } = JSON.parse(medial.dumps(kept));
     assert.deepEqual(items[0].attributes, file.items[0].attributes);
     assert.deepEqual(rest, { medial: 2, crs: 'GEOGCRS["x"]', unit: "mm", y_down: true });

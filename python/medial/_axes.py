@@ -229,7 +229,7 @@ class Axes:
         if at in self._errors:
             raise self._errors[at].with_traceback(None)
         shape, _ = load(self._input.one(at))
-        return MedialAxis._of(self._core.axis(at, shape))
+        return MedialAxis._of(self._core.axis(at, shape), self._input.attributes.get(at, {}))
 
     def __iter__(self) -> Iterator[MedialAxis]:
         """The axis of each feature. Where there is an error it is raised, and `next` goes on after it."""
@@ -279,7 +279,10 @@ def _from_values(values: Iterable[Any]) -> Ragged:
     """Features of any kind, one polygon per outer ring. A value that cannot be read is an error of its feature."""
     ring, polygon, feature, failed = [0], [0], [0], []
     parts, arcs, curved = [np.empty((0, 2))], [np.empty(0)], False
+    attributes = {}
     for i, value in enumerate(values):
+        if isinstance(value, Shape) and value.attributes:
+            attributes[i] = dict(value.attributes)
         try:
             points, begin, outer, bulges = _loops_of(value)
         except MedialError as error:
@@ -298,7 +301,7 @@ def _from_values(values: Iterable[Any]) -> Ragged:
             polygon.append(len(ring) - 1)
         feature.append(len(polygon) - 1)
     return Ragged(np.concatenate(parts), np.asarray(ring), np.asarray(polygon), np.asarray(feature), failed,
-                  np.concatenate(arcs) if curved else None)  # fmt: skip
+                  np.concatenate(arcs) if curved else None, attributes)  # fmt: skip
 
 
 def _from_arrow(array: Any) -> Ragged:

@@ -27,12 +27,14 @@ def _directions(places: Floats) -> Floats:
 def _places(directions: Floats) -> Floats:
     """Longitudes and latitudes in degrees of vectors of any length."""
     x, y, z = directions.T
-    return np.degrees(np.stack([np.arctan2(y, x), np.arctan2(z, np.hypot(x, y))], axis=1))
+    angles: Floats = np.stack([np.arctan2(y, x), np.arctan2(z, np.hypot(x, y))], axis=1)
+    return np.degrees(angles)
 
 
 def _angles(a: Floats, b: Floats) -> Floats:
     """Between unit vectors, in degrees."""
-    return np.degrees(np.arccos(np.clip((a * b).sum(axis=1), -1, 1)))
+    cosines: Floats = (a * b).sum(axis=1)
+    return np.degrees(np.arccos(np.clip(cosines, -1, 1)))
 
 
 def _cells(places: Floats) -> Floats:
@@ -118,7 +120,7 @@ class LocalProjections:
 
     def forward(self) -> npt.NDArray[Any]:
         """The features in metres."""
-        result = self._series.to_numpy().copy()
+        result: npt.NDArray[Any] = self._series.to_numpy().copy()
         for local, rows in self._groups(np.arange(len(result))):
             result[rows] = self._series.iloc[rows].to_crs(local).to_numpy()
         return result

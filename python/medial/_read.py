@@ -42,6 +42,7 @@ class Ragged:
     feature: Indices | None = None
     failed: list[Any] = field(default_factory=list)
     bulges: Floats | None = None
+    attributes: dict[int, Mapping[str, Any]] = field(default_factory=dict)  # where a feature has some
 
     def __len__(self) -> int:
         return len(self.polygon if self.feature is None else self.feature) - 1

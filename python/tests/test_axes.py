@@ -68,6 +68,12 @@ def test_progress():
     seen = []
     medial.axes(footprints(600), progress=seen.append, threads=1)
     assert seen[-1] == 1 and sorted(seen) == seen
+    seen.clear()
+    medial.axes(footprints(5000), progress=seen.append, threads=8)  # one thread at a time, with and without a lock
+    assert seen[-1] == 1 and sorted(set(seen)) == seen
+    again = []
+    medial.axes(footprints(600), threads=2, progress=lambda share: again.append(len(medial.axes(footprints(600), threads=2))))
+    assert set(again) == {600} and len(again) <= 3
 
 
 def test_geopandas():

@@ -159,7 +159,9 @@ def test_attributes_stay_with_shapes_and_axes(tmp_path):
     assert again.attributes == texts
     a = medial.axis(shape)
     line = medial.centerline(a)
-    for kept in (a, a.prune(), copy.copy(a), copy.deepcopy(a), pickle.loads(pickle.dumps(a)), line.axis):
+    many, editor = medial.axes([RING, shape]), medial.Editor(shape)
+    assert many[0].shape.attributes == {}
+    for kept in (a, many[1], editor.axis, editor.copy().axis, a.prune(), copy.copy(a), copy.deepcopy(a), pickle.loads(pickle.dumps(a)), line.axis):
         assert kept.shape.attributes == shape.attributes
     assert shape.scaled(2).attributes == medial.rebuild(a).attributes == shape.attributes
     for name in ("c.json", "c.safetensors", "c.json.gz"):
