@@ -1,6 +1,6 @@
 // Shapes and their medial axes.
 
-import { Handle, answer_json, answer_text, call, memory, number_of, options, table } from "./core.mjs";
+import { Handle, answer_json, answer_text, call, encoded, memory, number_of, options, table } from "./core.mjs";
 import { NO_SITE, Records } from "./records.mjs";
 import { read, rings_of_lists } from "./read.mjs";
 
@@ -136,10 +136,11 @@ function load(x, given) {
   const bulges = given.bulges ? Float64Array.from(given.bulges) : (x instanceof Shape && x.bulges.length ? x.bulges : null);
   const wanted = Object.fromEntries(SHAPE_OPTIONS.map((name) => [name, given[name]]));
   const text = options({ ...wanted, keepContours: given.keepContours });
+  const is_plain = text.length === 1; // the end of the text
   const none = new Float64Array(0);
   const count = begin ? begin.length - 1 : 0;
   const rings = [coordinates ?? none, begin ?? new Uint32Array(1), count, roles ?? null, bulges];
-  if (!curves && !text) return call("shape", ...rings);
+  if (!curves && is_plain) return call("shape", ...rings);
   return call("load", ...rings, curves ?? none, curves?.length ?? 0, text);
 }
 
@@ -263,7 +264,7 @@ export class MedialAxis extends Handle {
 
   /** By how much each edge matters: the largest threshold of prune() that keeps some of it. */
   significance(measure = "prominence") {
-    call("significance", this.address, measure);
+    call("significance", this.address, encoded(measure));
     return table();
   }
 

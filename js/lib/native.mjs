@@ -1,6 +1,6 @@
 // The native format: a shape and its axis as JSON, without loss (docs/format.md).
 
-import { MedialError, call } from "./core.mjs";
+import { MedialError, call, encoded } from "./core.mjs";
 import { MedialAxis, Shape } from "./axis.mjs";
 import { packed } from "./records.mjs";
 
@@ -86,7 +86,7 @@ function item_from({ attributes = [], shape: stored, axis, part = false }, docum
   const nodes = packed("node", axis.nodes.map(([x, y, radius, component, kind]) => ({ x, y, radius, component, kind })));
   const edges = packed("edge", axis.edges.map((row) => edge_from(row, axis.nodes)));
   const address = call(
-    "restored_axis", shape.address, axis.method, axis.tolerance, axis.resolution, axis.exterior ?? 0,
+    "restored_axis", shape.address, encoded(axis.method), axis.tolerance, axis.resolution, axis.exterior ?? 0,
     sites, axis.sites.length, nodes, axis.nodes.length, edges, axis.edges.length,
   );
   return { shape, axis: new MedialAxis(address, shape, part) };

@@ -1,6 +1,6 @@
 // What follows from an axis: parts of it, lines, widths, offsets, tool paths, checks.
 
-import { Handle, MedialError, answer_json, call, options, table } from "./core.mjs";
+import { Handle, MedialError, answer_json, call, encoded, options, table } from "./core.mjs";
 import { MedialAxis, Shape, axis, axis_of, flat_points, rows, shape_of, split } from "./axis.mjs";
 import { chains_of } from "./read.mjs";
 import { gcode } from "./gcode.mjs";
@@ -95,13 +95,13 @@ export function centerline(x, given = {}) {
   const { start, end, route = "roomy" } = given;
   if (!start !== !end) throw new MedialError("start and end go together");
   if (!start) return new Line(of, main_paths(of, given, true)[0], given);
-  return new Line(of, new Path(call("path_between", of.address, ...start, ...end, route)), given);
+  return new Line(of, new Path(call("path_between", of.address, ...start, ...end, encoded(route))), given);
 }
 
 /** The way between two places along which the largest disk can pass. */
 export function widestPath(x, start, end, given) {
   const of = axis_of(x);
-  return new Line(of, new Path(call("path_between", of.address, ...start, ...end, "widest")), given);
+  return new Line(of, new Path(call("path_between", of.address, ...start, ...end, encoded("widest"))), given);
 }
 
 export const centreline = centerline;

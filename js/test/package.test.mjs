@@ -192,6 +192,12 @@ test("what is no geometry, no file and no option", () => {
     { method: "disks;exterior=true" }, { "exact=true;method": "disks" }, { method: "disks\0" }, { method: "a\tb\u0001" },
   ])
     assert.throws(() => medial.axis(box(4, 2), given), { code: "invalid_option" }, JSON.stringify(given));
+  for (const call of [
+    () => medial.centerline(box(4, 2), { extend: "no" }), () => medial.centerline(box(4, 2), { smooth: "1" }),
+    () => medial.axis(box(4, 2)).clearancePart("a"), () => medial.axis(box(4, 2)).sample({ chord: {} }),
+    () => medial.collapse(box(4, 2), "1"), () => medial.axis(box(4, 2)).diskAt("0", 0.5),
+  ])
+    assert.throws(call, { code: "invalid_option" });
   assert.throws(() => medial.axis(box(4, 2), { method: "a\tb" }), { text: "there is no method 'a\tb'" });
   assert.equal(medial.axis(box(4, 2), { exterior: false, exact: true }).exterior, 0);
 });
