@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import replace
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -215,11 +215,13 @@ class Axes:
     def __len__(self) -> int:
         return len(self._core)
 
-    @overload
-    def __getitem__(self, i: int) -> MedialAxis: ...
+    if TYPE_CHECKING:  # typing would keep the functions when the interpreter ends
 
-    @overload
-    def __getitem__(self, i: slice) -> list[MedialAxis]: ...
+        @overload
+        def __getitem__(self, i: int) -> MedialAxis: ...
+
+        @overload
+        def __getitem__(self, i: slice) -> list[MedialAxis]: ...
 
     def __getitem__(self, i: int | slice) -> MedialAxis | list[MedialAxis]:
         """The axis of one feature, or a list of those of a slice. Raises the error of a feature."""
@@ -279,7 +281,7 @@ def _from_values(values: Iterable[Any]) -> Ragged:
     """Features of any kind, one polygon per outer ring. A value that cannot be read is an error of its feature."""
     ring, polygon, feature, failed = [0], [0], [0], []
     parts, arcs, curved = [np.empty((0, 2))], [np.empty(0)], False
-    attributes = {}
+    attributes: dict[int, Mapping[str, Any]] = {}
     for i, value in enumerate(values):
         if isinstance(value, Shape) and value.attributes:
             attributes[i] = dict(value.attributes)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -53,10 +52,11 @@ class LocalProjections:
     """
 
     def __init__(self, series: Any) -> None:
-        self._shapely, self._geopandas = need("shapely", "geo"), need("geopandas", "geo")
-        self._series, self._crs = series, series.crs
-        self._unit = float(np.degrees(self._crs.axis_info[0].unit_conversion_factor))  # in degrees
-        points, feature = self._shapely.get_coordinates(series.to_numpy(), return_index=True)
+        self._shapely = need("shapely", "geo")
+        self._features: npt.NDArray[Any] = series.to_numpy()
+        self._unit = float(np.degrees(series.crs.axis_info[0].unit_conversion_factor))  # in degrees
+        self._ellipsoid = series.crs.ellipsoid
+        points, feature = self._shapely.get_coordinates(self._features, return_index=True)
         finite = np.isfinite(points).all(axis=1)
         points, feature = self._unit * points[finite], feature[finite]
         if (np.abs(points) > (540, 90)).any():
@@ -64,10 +64,12 @@ class LocalProjections:
         self._find_groups(points, feature)
 
     def _find_groups(self, points: Floats, feature: Indices) -> None:
-        size, directions = len(self._series), _directions(points)
+        size, directions = len(self._features), _directions(points)
 
         def sums(values: Floats) -> Floats:
-            return np.stack([np.bincount(feature, column, size) for column in values.T], axis=1)
+            total = np.zeros((size, values.shape[1]))
+            np.add.at(total, feature, values)
+            return total
 
         middles = _places(sums(directions))
         whole = _places(directions.sum(axis=0, keepdims=True))
@@ -92,47 +94,40 @@ class LocalProjections:
         self._longitude: Floats = middles[:, 0] + 360 * turns
 
     def _projection(self, place: list[float], reach: float) -> Any:
-        """In metres, around a place, on the ellipsoid of the series; conformal if it does not reach far."""
-        pyproj, operations = need("pyproj.crs", "geo"), need("pyproj.crs.coordinate_operation", "geo")
-        lon, lat = (np.round(place, 9) + 0.0).tolist()  # a tenth of a millimetre
-        if reach <= _CONFORMAL_REACH:
-            conversion = operations.TransverseMercatorConversion(lat, lon)
-        else:
-            conversion = operations.LambertAzimuthalEqualAreaConversion(lat, lon)
-        try:
-            return pyproj.ProjectedCRS(conversion, geodetic_crs=self._crs.geodetic_crs)
-        except pyproj.CRSError:
-            text = f"longitudes and latitudes of {self._crs.name} cannot be projected: use another reference system"
-            raise MedialError(text, "unsupported") from None
+        """From degrees to metres around a place; conformal if it does not reach far."""
+        kind = "tmerc" if reach <= _CONFORMAL_REACH else "laea"
+        a, b = self._ellipsoid.semi_major_metre, self._ellipsoid.semi_minor_metre
+        text = f"+proj={kind} +lon_0={place[0]!r} +lat_0={place[1]!r} +a={a!r} +b={b!r}"
+        return need("pyproj", "geo").Transformer.from_pipeline(text)
 
     @property
     def is_one(self) -> bool:
         """Whether all features have the same projection."""
         return len(self._local) == 1
 
-    def _groups(self, features: Indices) -> Iterator[tuple[Any, Indices]]:
-        """Each projection, and which of these features have it."""
-        group = self._group[features]
+    def _mapped(self, geometries: npt.NDArray[Any], features: Indices, *, back: bool) -> npt.NDArray[Any]:
+        """Geometries of these features, each by the projection of its feature."""
+        has_z = bool(self._shapely.has_z(geometries).any())
+        at, geometry = self._shapely.get_coordinates(geometries, include_z=has_z, return_index=True)
+        feature = features[geometry]
+        if not back:
+            at[:, :2] *= self._unit
+        group = self._group[feature]
         order = np.argsort(group, kind="stable")
         for rows in np.split(order, np.flatnonzero(np.diff(group[order])) + 1):
             if len(rows):
-                yield self._local[group[rows[0]]], rows
+                local = self._local[group[rows[0]]]
+                at[rows, 0], at[rows, 1] = local.transform(at[rows, 0], at[rows, 1], direction="INVERSE" if back else "FORWARD")
+        if back:
+            at[:, 0] += 360 * np.round((self._longitude[feature] - at[:, 0]) / 360)
+            at[:, :2] /= self._unit
+        mapped: npt.NDArray[Any] = self._shapely.set_coordinates(np.array(geometries, object), at)
+        return mapped
 
     def forward(self) -> npt.NDArray[Any]:
         """The features in metres."""
-        result: npt.NDArray[Any] = self._series.to_numpy().copy()
-        for local, rows in self._groups(np.arange(len(result))):
-            result[rows] = self._series.iloc[rows].to_crs(local).to_numpy()
-        return result
+        return self._mapped(self._features, np.arange(len(self._features)), back=False)
 
     def back(self, geometries: npt.NDArray[Any], features: Indices) -> npt.NDArray[Any]:
         """Geometries in metres of these features, in the reference system of the series."""
-        result = np.array(geometries, object)
-        for local, rows in self._groups(features):
-            result[rows] = self._geopandas.GeoSeries(result[rows], crs=local).to_crs(self._crs).to_numpy()
-        has_z = bool(self._shapely.has_z(result).any())
-        at, geometry = self._shapely.get_coordinates(result, include_z=has_z, return_index=True)
-        turn = 360 / self._unit
-        at[:, 0] += turn * np.round((self._longitude[features[geometry]] / self._unit - at[:, 0]) / turn)
-        placed: npt.NDArray[Any] = self._shapely.set_coordinates(result, at)
-        return placed
+        return self._mapped(geometries, features, back=True)
