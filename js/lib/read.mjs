@@ -181,6 +181,10 @@ function of_text(text) {
 
 const is_array = (x) => Array.isArray(x) || (ArrayBuffer.isView(x) && !(x instanceof DataView));
 
+/** Whether rows of four or five numbers are points with z and m, not flat rings of two. */
+const are_points = (rows) =>
+  rows.length > 2 && rows.every((row) => Array.isArray(row) && row.length === rows[0].length && row.length < 6);
+
 /** Rings ({coordinates, begin, roles}) or curves ({curves}) of anything that axis() takes. */
 export const read = (x) => checked(rings_or_curves, x);
 
@@ -190,7 +194,7 @@ function rings_or_curves(x) {
   if (is_array(x) && x.length) {
     if (x[0] instanceof Contour) return { curves: Float64Array.from(x.flatMap((one) => one.numbers)) };
     const points = typeof x[0] === "number" || typeof x[0]?.[0] === "number";
-    const flat_rings = points && is_array(x[0]) && x[0].length > 5; // a point may have z, m and more
+    const flat_rings = points && is_array(x[0]) && x[0].length > 3 && !are_points(x);
     return rings_of_lists(points && !flat_rings ? [x] : [...x], () => ANY);
   }
   if (x && x.type) return of_polygons(polygons_of(x));

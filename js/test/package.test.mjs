@@ -210,6 +210,11 @@ test("points with z and m", () => {
     "PolygonM((0 0 1,6 0 1,6 2 1,0 2 1))",
   ])
     close(medial.axis(way).length, 4 + 4 * Math.SQRT2);
+  // Flat rings of two points: a disk beside a square, and three disks.
+  const disk = (x, Type = Array) => Type.from([x, 0, x + 2, 0]);
+  close(new medial.Shape([disk(0), [4, 0, 6, 0, 6, 2, 4, 2]], { bulges: [1, 1, 0, 0, 0, 0] }).area, Math.PI + 4);
+  const three = [0, 4, 8].map((x) => disk(x, Float64Array));
+  close(new medial.Shape(three, { bulges: [1, 1, 1, 1, 1, 1] }).area, 3 * Math.PI);
 });
 
 test("memory", () => {
