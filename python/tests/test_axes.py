@@ -244,7 +244,7 @@ def test_degrees_of_other_units_and_globes(bars):
     assert moon == pytest.approx(1737400 * np.radians(0.001), rel=1e-4)
 
 
-def test_arrow():
+def test_arrow(monkeypatch):
     pyarrow = pytest.importorskip("pyarrow")
     shapely = pytest.importorskip("shapely")
     geometries = [shapely.box(0, 0, 4, 2), shapely.box(1, 1, 2, 9).difference(shapely.box(1.2, 3, 1.8, 4))]
@@ -257,3 +257,7 @@ def test_arrow():
     assert medial.axes(pyarrow.array(rings, kind))[1] == expected[1]
     made = expected.to_arrow()
     assert len(made) == 2 and len(made[0].as_py()) == 5
+    far = np.array([0, 2**31 + 4])  # where the rows of all lines are too many for 32 bits
+    monkeypatch.setattr(medial.Axes, "_lines", lambda *_, **__: (np.zeros((1, 2)), far, np.array([0, 1])))
+    with pytest.raises(pyarrow.ArrowInvalid, match="2147483652"):  # pyarrow misses the rows
+        expected.to_arrow()
