@@ -39,7 +39,7 @@ def _angles(a: Floats, b: Floats) -> Floats:
 def _cells(places: Floats) -> Floats:
     """The middle of the cell of the globe that each place is in."""
     lat = _CELL * np.round(places[:, 1] / _CELL)
-    around = np.ceil(360 / _CELL * np.maximum(np.cos(np.radians(lat)), _CELL / 360))
+    around = np.ceil(360 / _CELL * np.cos(np.radians(np.maximum(np.abs(lat) - _CELL / 2, 0))))
     lon = (np.floor(places[:, 0] % 360 * around / 360) + 0.5) * 360 / around
     return np.stack([lon, lat], axis=1)
 
@@ -87,7 +87,7 @@ class LocalProjections:
         if (most := float(reach.max(initial=0))) > _CONFORMAL_REACH:
             off = 100 * (1 / np.cos(np.radians(min(most, 179)) / 2) - 1)
             warnings.warn(f"features reach over more than {2 * _CONFORMAL_REACH:g} degrees: "
-                          f"lengths in them are off by up to {off:.2g} %", stacklevel=6)  # fmt: skip
+                          f"lengths in them are off by up to {off:.2g} %", stacklevel=5)  # fmt: skip
         # Results lie within half a turn of the middle of their feature, on the side where it was.
         counts = np.maximum(np.bincount(feature, minlength=size), 1)
         turns = np.round((sums(points)[:, 0] / counts - middles[:, 0]) / 360)

@@ -234,8 +234,18 @@ def test_a_feature_too_large_for_metres_warns(bars):
     shapely = pytest.importorskip("shapely")
     series = bars([(0, 0)])
     series[0] = shapely.box(0, 0, 40, 1)
-    with pytest.warns(UserWarning, match=r"off by up to 2\.3 %"):
+    with pytest.warns(UserWarning, match=r"off by up to 2\.3 %") as caught:
         series.medial.width()
+    assert caught[0].filename == __file__
+
+
+def test_features_anywhere_are_near_the_middle_of_their_cell():
+    from medial._globe import _angles, _cells, _directions
+
+    random = np.random.default_rng(1)
+    places = np.stack([random.uniform(-540, 540, 20000), np.degrees(np.arcsin(random.uniform(-1, 1, 20000)))], axis=1)
+    places[:8, 1] = (90, -90, 89.3, 89.2, 87.8, -87.8, 0, 0.75)
+    assert _angles(_directions(places), _directions(_cells(places))).max() < 1.07
 
 
 def test_degrees_of_other_units_and_globes(bars):
