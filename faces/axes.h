@@ -1,6 +1,6 @@
 #pragma once
 
-// What the bindings of Python and of JavaScript share: options of methods by name, polylines along
+// What the bindings of Python and of JavaScript share: options by name, lines along boundaries and
 // axes, stored axes. `Named` moves values by their names into variables: named.take("step", step).
 
 #include <algorithm>
@@ -17,6 +17,13 @@ namespace medial::faces {
 
 inline Error no_such(const std::string& what, const std::string& name, const std::string& names) {
   return {ErrorCode::invalid_option, what + " is one of " + names + ", not '" + name + "'", {}};
+}
+
+inline Result<RepairRule> repair_from(const std::string& name) {
+  if (name == "make_valid") return RepairRule::make_valid;
+  if (name == "even_odd") return RepairRule::even_odd;
+  if (name == "non_zero") return RepairRule::non_zero;
+  return no_such("repair", name, "make_valid, even_odd, non_zero");
 }
 
 // take_own() reads the options that one method alone has. Errors: invalid_option.
@@ -80,6 +87,17 @@ Status take_own(Named& named, method::CurveAxis& own) {
 template <class Named>
 Status take_own(Named& named, Method& method) {
   return std::visit([&](auto& own) { return take_own(named, own); }, method);
+}
+
+/// Appends a ring's points, closed, with arcs as chords.
+inline void add_outline(const Ring& ring, double chord, std::vector<Vec2>& points) {
+  ToolPath path;
+  for (std::size_t k = 0; k <= ring.points.size(); ++k) {
+    const std::size_t at = k % ring.points.size();
+    path.points.push_back({ring.points[at], 0, ring.bulges.empty() ? 0 : ring.bulges[at]});
+  }
+  path.points.back().bulge = 0;
+  for (const ToolPoint& point : without_arcs(path, chord)) points.push_back(point.point);
 }
 
 /// Whether sample_by_chord() certainly returns nothing but the two nodes: half of what it allows.

@@ -159,6 +159,10 @@ export class Shape extends Handle {
   readonly area: number;
   readonly componentCount: number;
   readonly holeCount: number;
+  /** What a native file says besides the geometry, by name; loads() fills it, dumps() writes it. */
+  attributes: Map<string, string>;
+  /** The reference system as WKT, the unit of lengths, and whether y points down. */
+  document: { crs?: string; unit?: string; yDown?: boolean };
   /** The distance of points to the boundary, negative outside. */
   clearance(points: Points): Float64Array;
   polygons(chord?: number): Position[][][];
@@ -173,6 +177,8 @@ export class MedialAxis extends Handle {
   readonly edges: Edges;
   readonly sites: Sites;
   readonly shape: Shape;
+  /** Whether it is only a part of the axis of its shape: pruned, cut or smoothed. */
+  readonly part: boolean;
   readonly method: string;
   readonly tolerance: number;
   readonly resolution: number;

@@ -1,6 +1,6 @@
 // Shapes and their medial axes.
 
-import { Handle, answer_json, answer_text, call, memory, number_of, options, table } from "./core.mjs";
+import { Handle, answer_json, answer_text, call, encoded, memory, number_of, options, table } from "./core.mjs";
 import { NO_SITE, Records } from "./records.mjs";
 import { read, rings_of_lists } from "./read.mjs";
 
@@ -28,6 +28,7 @@ export function flat_points(points) {
 }
 
 const SHAPE_OPTIONS = ["repair", "arcTolerance", "fit"];
+const MADE = Symbol("an address in place of a geometry");
 
 /** A bounded region of the plane, of straight and circular edges. */
 export class Shape extends Handle {
@@ -35,12 +36,17 @@ export class Shape extends Handle {
   #arrays;
 
   constructor(x, given = {}) {
-    super(x instanceof Loaded ? x.address : load(x, given).address, "shape");
+    super(given === MADE ? x : load(x, given), "shape");
+    /** What a native file says of it besides the geometry: texts by name; crs, unit, yDown. */
+    this.attributes = new Map(x instanceof Shape ? x.attributes : []);
+    this.document = x instanceof Shape ? { ...x.document } : {};
   }
 
-  /** The result of a call as a shape. */
-  static of(address) {
-    return new Shape(new Loaded(address));
+  /** The result of a call as a shape; its attributes are those of another one. */
+  static of(address, like) {
+    const shape = new Shape(address, MADE);
+    if (like) Object.assign(shape, { attributes: new Map(like.attributes), document: { ...like.document } });
+    return shape;
   }
 
   #number(i) {
@@ -124,25 +130,18 @@ export class Shape extends Handle {
   }
 }
 
-/** A new object of the module, not yet owned. */
-class Loaded {
-  constructor(address, notes = []) {
-    Object.assign(this, { address, notes });
-  }
-}
-
-/** What a geometry is as a shape, by build_shape() or, where options ask for more, load_shapes(). */
+/** The address of a geometry as a shape, by build_shape() or, where options ask for more, load_shapes(). */
 function load(x, given) {
   const { coordinates, begin, roles, curves } = x instanceof Shape ? rings_of(x) : read(x);
   const bulges = given.bulges ? Float64Array.from(given.bulges) : (x instanceof Shape && x.bulges.length ? x.bulges : null);
   const wanted = Object.fromEntries(SHAPE_OPTIONS.map((name) => [name, given[name]]));
   const text = options({ ...wanted, keepContours: given.keepContours });
+  const is_plain = text.length === 1; // the end of the text
   const none = new Float64Array(0);
   const count = begin ? begin.length - 1 : 0;
   const rings = [coordinates ?? none, begin ?? new Uint32Array(1), count, roles ?? null, bulges];
-  if (!curves && !text) return new Loaded(call("shape", ...rings));
-  const address = call("load", ...rings, curves ?? none, curves?.length ?? 0, text);
-  return new Loaded(address, answer_json().notes);
+  if (!curves && is_plain) return call("shape", ...rings);
+  return call("load", ...rings, curves ?? none, curves?.length ?? 0, text);
 }
 
 function rings_of(shape) {
@@ -156,9 +155,11 @@ export class MedialAxis extends Handle {
   #text;
   #tables = {};
 
-  constructor(address, shape) {
+  constructor(address, shape, part = false) {
     super(address, "axis");
     this.ofShape = shape;
+    /** Whether it is only a part of the axis of its shape: pruned, cut or smoothed. */
+    this.part = part;
   }
 
   #number(i) {
@@ -253,17 +254,17 @@ export class MedialAxis extends Handle {
 
   prune(measure, threshold, { keep, tips } = {}) {
     const address = call("prune", this.address, options({ measure, threshold, keep, tips }));
-    return new MedialAxis(address, this.ofShape);
+    return new MedialAxis(address, this.ofShape, true);
   }
 
   /** The part where a disk of radius `clearance` has room, cut exactly. */
   clearancePart(clearance) {
-    return new MedialAxis(call("clearance_part", this.address, clearance), this.ofShape);
+    return new MedialAxis(call("clearance_part", this.address, clearance), this.ofShape, true);
   }
 
   /** By how much each edge matters: the largest threshold of prune() that keeps some of it. */
   significance(measure = "prominence") {
-    call("significance", this.address, measure);
+    call("significance", this.address, encoded(measure));
     return table();
   }
 

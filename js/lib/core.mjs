@@ -133,20 +133,24 @@ export function camel(object) {
   return Object.fromEntries(renamed);
 }
 
+/** A text as the module reads it: an argument of call(). */
+export const encoded = (value) => bytes.encode(`${value}\0`);
+
 /** Options as the module reads them: names in the spelling of C++, without those left undefined. */
 export function options(given) {
-  return Object.entries(given)
+  const rows = Object.entries(given)
     .filter(([, value]) => value !== undefined && value !== null)
-    .map(([key, value]) => `${key.replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`)}=${value}`)
-    .join(";");
+    .map(([key, value]) => {
+      if (!/^\w+$/.test(key)) throw new MedialError(`there is no option '${key}'`);
+      if (/[;\0]/.test(value)) throw new MedialError(`${key} cannot be '${value}'`);
+      return `${key.replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`)}=${value}`;
+    });
+  return encoded(rows.join(";"));
 }
 
-/** Copies an array or a text into the module's memory. */
+/** Copies an array into the module's memory. */
 function place(value) {
-  const from =
-    typeof value === "string"
-      ? bytes.encode(`${value}\0`)
-      : new Uint8Array(value.buffer, value.byteOffset, value.byteLength);
+  const from = new Uint8Array(value.buffer, value.byteOffset, value.byteLength);
   const address = module.malloc(Math.max(from.length, 1)) >>> 0;
   if (address === 0) throw new MedialError("memory ran out", "out_of_memory");
   new Uint8Array(memory()).set(from, address);
@@ -154,7 +158,7 @@ function place(value) {
 }
 
 /**
- * Calls a function of the module. Arrays and texts are copied there for the call; null is no array.
+ * Calls a function of the module. Arrays are copied there for the call; null is no array.
  * An answer of 0 is an error.
  */
 export function call(name, ...given) {
@@ -163,7 +167,8 @@ export function call(name, ...given) {
   try {
     const values = given.map((value) => {
       if (value === null || value === undefined) return 0;
-      if (typeof value !== "string" && typeof value !== "object") return Number(value);
+      if (typeof value === "number" || typeof value === "boolean") return Number(value);
+      if (!ArrayBuffer.isView(value)) throw new MedialError(`'${value}' is not a number`);
       placed.push(place(value));
       return placed.at(-1);
     });

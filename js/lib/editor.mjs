@@ -21,9 +21,12 @@ function place(point) {
 
 /** A shape with its axis, which follows when vertices, edges and loops change. */
 export class Editor extends Handle {
+  #said; // what a file says of the shape
+
   constructor(x, { tolerance = 0, ...others } = {}) {
     for (const name of Object.keys(others)) throw new MedialError(`there is no option '${name}'`, "invalid_option");
     super(x instanceof Copied ? x.address : made(x, tolerance), "editor");
+    if (x instanceof Shape || x instanceof Copied) this.#said = { attributes: x.attributes, document: x.document };
   }
 
   #change(name, ...given) {
@@ -69,7 +72,7 @@ export class Editor extends Handle {
   }
   /** An editor of its own in the same state. */
   copy() {
-    return new Editor(new Copied(call("editor_copy", this.address)));
+    return new Editor(new Copied(call("editor_copy", this.address), this.#said));
   }
 
   /** The place of a vertex; null if it does not exist. */
@@ -102,14 +105,15 @@ export class Editor extends Handle {
 
   /** All of the axis as it is now, with its shape; nodes and edges count from 0 without gaps. */
   get axis() {
-    return new MedialAxis(call("editor_axis", this.address));
+    const address = call("editor_axis", this.address);
+    return new MedialAxis(address, Shape.of(call("shape_of", address), this.#said));
   }
 }
 
 /** A new object of the module, not yet owned. */
 class Copied {
-  constructor(address) {
-    this.address = address;
+  constructor(address, said) {
+    Object.assign(this, { address, ...said });
   }
 }
 

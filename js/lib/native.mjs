@@ -1,6 +1,6 @@
 // The native format: a shape and its axis as JSON, without loss (docs/format.md).
 
-import { MedialError, call } from "./core.mjs";
+import { MedialError, call, encoded } from "./core.mjs";
 import { MedialAxis, Shape } from "./axis.mjs";
 import { packed } from "./records.mjs";
 
@@ -32,8 +32,11 @@ export function dumps(axis) {
   const table = {
     method, tolerance, resolution, ...(exterior ? { exterior } : {}), sites, nodes, edges, statistics: {},
   };
-  const item = { attributes: [], shape: shape_object(axis.shape), axis: table };
-  return JSON.stringify({ medial: 2, items: [item] });
+  const { attributes, document } = axis.shape;
+  const part = axis.part ? { part: true } : {};
+  const item = { attributes: [...attributes], shape: shape_object(axis.shape), axis: table, ...part };
+  const { crs, unit, yDown } = document;
+  return JSON.stringify({ medial: 2, crs, unit, y_down: yDown, items: [item] });
 }
 
 function shape_from(o) {
@@ -74,27 +77,28 @@ function edge_from(row, nodes) {
   return { from, to, left, right, controlX, controlY, controlRadius, weight: control[3] ?? 1 };
 }
 
-function item_from({ shape: stored, axis }) {
+function item_from({ attributes = [], shape: stored, axis, part = false }, document) {
   if (!stored) throw new MedialError("the item has no shape", "unsupported");
-  const shape = shape_from(stored);
+  const shape = Object.assign(shape_from(stored), { attributes: new Map(attributes), document: { ...document } });
   if (!axis) return { shape };
   const next = next_points(stored);
   const sites = packed("site", axis.sites.map((row) => site_from(row, stored, next)));
   const nodes = packed("node", axis.nodes.map(([x, y, radius, component, kind]) => ({ x, y, radius, component, kind })));
   const edges = packed("edge", axis.edges.map((row) => edge_from(row, axis.nodes)));
   const address = call(
-    "restored_axis", shape.address, axis.method, axis.tolerance, axis.resolution, axis.exterior ?? 0,
+    "restored_axis", shape.address, encoded(axis.method), axis.tolerance, axis.resolution, axis.exterior ?? 0,
     sites, axis.sites.length, nodes, axis.nodes.length, edges, axis.edges.length,
   );
-  return { shape, axis: new MedialAxis(address, shape) };
+  return { shape, axis: new MedialAxis(address, shape, part) };
 }
 
 /** The items of a native file: their shapes, and their axes where it has them. */
 export function loads(text) {
-  const file = JSON.parse(text);
-  if (!Array.isArray(file?.items) || !(file.medial <= 2)) throw malformed();
   try {
-    return file.items.map(item_from);
+    const { medial, crs, unit, y_down: yDown, items } = JSON.parse(text);
+    if (medial > 2) throw new MedialError("the file is of a newer version of the format", "unsupported");
+    if (!(medial >= 1)) throw malformed();
+    return items.map((item) => item_from(item, { crs, unit, yDown }));
   } catch (error) {
     throw error instanceof MedialError ? error : malformed();
   }

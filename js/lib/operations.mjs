@@ -1,6 +1,6 @@
 // What follows from an axis: parts of it, lines, widths, offsets, tool paths, checks.
 
-import { Handle, MedialError, answer_json, call, options, table } from "./core.mjs";
+import { Handle, MedialError, answer_json, call, encoded, options, table } from "./core.mjs";
 import { MedialAxis, Shape, axis, axis_of, flat_points, rows, shape_of, split } from "./axis.mjs";
 import { chains_of } from "./read.mjs";
 import { gcode } from "./gcode.mjs";
@@ -18,7 +18,7 @@ export function pruneMeasures() {
 }
 
 export function rebuild(x, { by, points, chord } = {}) {
-  return Shape.of(call("rebuild", x.address, options({ by, points, chord })));
+  return Shape.of(call("rebuild", x.address, options({ by, points, chord })), x.ofShape);
 }
 
 /** The shape without what pruning its axis drops. */
@@ -28,8 +28,9 @@ export function smooth(x, measure, threshold, given) {
 
 /** The parts narrower than `width` become lines, the rest stays polygons. */
 export function collapse(x, width, { trim = 1 } = {}) {
-  const shape = Shape.of(call("collapse", axis_of(x).address, width, trim));
-  const lines = new MedialAxis(table()[0], shape);
+  const of = axis_of(x);
+  const shape = Shape.of(call("collapse", of.address, width, trim), of.ofShape);
+  const lines = new MedialAxis(table()[0], shape, true);
   return { polygons: shape.points.length ? shape : null, lines };
 }
 
@@ -46,7 +47,7 @@ export class Line {
   constructor(of, path, { extend = false, smooth: radii = 0 } = {}) {
     const address = call("centre_line", of.address, path.address, extend, radii);
     const [length, narrowest, closed] = table();
-    Object.assign(this, { axis: new MedialAxis(address, of.ofShape), length, narrowest, closed: closed > 0 });
+    Object.assign(this, { axis: new MedialAxis(address, of.ofShape, true), length, narrowest, closed: closed > 0 });
     Object.defineProperty(this, "along", { value: { of, path } });
   }
 
@@ -94,13 +95,13 @@ export function centerline(x, given = {}) {
   const { start, end, route = "roomy" } = given;
   if (!start !== !end) throw new MedialError("start and end go together");
   if (!start) return new Line(of, main_paths(of, given, true)[0], given);
-  return new Line(of, new Path(call("path_between", of.address, ...start, ...end, route)), given);
+  return new Line(of, new Path(call("path_between", of.address, ...start, ...end, encoded(route))), given);
 }
 
 /** The way between two places along which the largest disk can pass. */
 export function widestPath(x, start, end, given) {
   const of = axis_of(x);
-  return new Line(of, new Path(call("path_between", of.address, ...start, ...end, "widest")), given);
+  return new Line(of, new Path(call("path_between", of.address, ...start, ...end, encoded("widest"))), given);
 }
 
 export const centreline = centerline;
@@ -208,7 +209,7 @@ export function carve(x, given = {}) {
 // Checks, and what a shape is made of.
 
 /** Checks an axis against its shape, or another one. */
-export function verify(x, { shape, tolerance, samples, cornerAngle, part } = {}) {
+export function verify(x, { shape, tolerance, samples, cornerAngle, part = x.part } = {}) {
   const against = shape ? shape_of(shape).address : 0;
   call("verify", x.address, against, options({ tolerance, samples, cornerAngle, part }));
   return answer_json();

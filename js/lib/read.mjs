@@ -9,6 +9,16 @@ const HOLE = 2;
 
 const malformed = () => new MedialError("coordinates are pairs of x and y", "malformed");
 
+/** Calls a reader; what is wrong with its input is a MedialError. */
+function checked(reader, x) {
+  try {
+    return reader(x);
+  } catch (error) {
+    if (error instanceof MedialError) throw error;
+    throw new MedialError(`the geometry cannot be read: ${error.message}`, "malformed");
+  }
+}
+
 /** Rings by their coordinates: ring i is from begin[i] to begin[i + 1]. */
 export function rings_of_lists(lists, role) {
   const begin = new Uint32Array(lists.length + 1);
@@ -114,7 +124,7 @@ class WellKnownText {
   }
 
   geometry() {
-    const name = this.next().toUpperCase();
+    const name = this.next().toUpperCase().replace(/(ZM|Z|M)$/, "");
     if (name === "POLYGON") return [this.polygon()];
     if (name === "MULTIPOLYGON") return this.list(() => this.polygon());
     if (name === "GEOMETRYCOLLECTION") return this.list(() => this.geometry()).flat();
@@ -171,14 +181,20 @@ function of_text(text) {
 
 const is_array = (x) => Array.isArray(x) || (ArrayBuffer.isView(x) && !(x instanceof DataView));
 
+/** Whether rows of four or five numbers are points with z and m, not flat rings of two. */
+const are_points = (rows) =>
+  rows.length > 2 && rows.every((row) => Array.isArray(row) && row.length === rows[0].length && row.length < 6);
+
 /** Rings ({coordinates, begin, roles}) or curves ({curves}) of anything that axis() takes. */
-export function read(x) {
+export const read = (x) => checked(rings_or_curves, x);
+
+function rings_or_curves(x) {
   if (typeof x === "string") return of_text(x);
   if (x instanceof Contour) return { curves: Float64Array.from(x.numbers) };
   if (is_array(x) && x.length) {
     if (x[0] instanceof Contour) return { curves: Float64Array.from(x.flatMap((one) => one.numbers)) };
     const points = typeof x[0] === "number" || typeof x[0]?.[0] === "number";
-    const flat_rings = points && is_array(x[0]) && x[0].length > 3;
+    const flat_rings = points && is_array(x[0]) && x[0].length > 3 && !are_points(x);
     return rings_of_lists(points && !flat_rings ? [x] : [...x], () => ANY);
   }
   if (x && x.type) return of_polygons(polygons_of(x));
@@ -186,7 +202,9 @@ export function read(x) {
 }
 
 /** Points and lines: coordinates, where chains begin, whether they are closed. */
-export function chains_of(x) {
+export const chains_of = (x) => checked(chains, x);
+
+function chains(x) {
   const lists = [];
   const closed = [];
   const add = (list, ring) => {

@@ -1,4 +1,4 @@
-// Answers, errors and options: what JavaScript reads and writes of every call.
+// Answers, errors and options, which all calls have.
 
 #include "binding.h"
 
@@ -15,7 +15,13 @@ std::string quoted(std::string_view text) {
   std::string result = "\"";
   for (const char letter : text) {
     if (letter == '"' || letter == '\\') result += '\\';
-    result += letter == '\n' ? ' ' : letter;
+    if (static_cast<unsigned char>(letter) >= 0x20) {
+      result += letter;
+      continue;
+    }
+    std::array<char, 8> code{};
+    std::snprintf(code.data(), code.size(), "\\u%04x", static_cast<unsigned>(letter));
+    result += code.data();
   }
   return result + '"';
 }
@@ -103,12 +109,12 @@ Named& Named::take(std::string_view name, std::string& to) {
   return *this;
 }
 bool Named::take_number(std::string_view name, double& to) {
+  if (!has(name)) return false;
   std::string text;
   take(name, text);
-  if (text.empty()) return false;
   char* end = nullptr;
   to = std::strtod(text.c_str(), &end);
-  if (*end != '\0') refuse(ErrorCode::invalid_option, std::string(name) + " is a number");
+  if (text.empty() || *end != '\0') refuse(ErrorCode::invalid_option, std::string(name) + " is a number");
   return true;
 }
 void Named::take_numbers(std::string_view name, std::span<double> to) {
@@ -133,9 +139,12 @@ Named& Named::take(std::string_view name, double& to) {
   return *this;
 }
 Named& Named::take(std::string_view name, bool& to) {
+  if (!has(name)) return *this;
   std::string text;
   take(name, text);
-  if (!text.empty()) to = text == "true";
+  to = text == "true";
+  if (!to && text != "false")
+    refuse(ErrorCode::invalid_option, std::string(name) + " is true or false");
   return *this;
 }
 void Named::finish() const {

@@ -4,17 +4,10 @@
 #include <cmath>
 
 #include "binding.h"
+#include "faces/axes.h"
 
 namespace medial::js {
 namespace {
-
-RepairRule repair_from(const std::string& name) {
-  if (name.empty()) return RepairRule::none;
-  if (name == "make_valid") return RepairRule::make_valid;
-  if (name == "even_odd") return RepairRule::even_odd;
-  if (name == "non_zero") return RepairRule::non_zero;
-  refuse(ErrorCode::invalid_option, "repair is 'make_valid', 'even_odd' or 'non_zero'");
-}
 
 /// Reads numbers one after another.
 class Numbers {
@@ -100,14 +93,14 @@ MEDIAL_JS ShapeOf* medial_load(const double* coordinates, const std::uint32_t* b
                                const char* given) {
   return answered([&] {
     LoadOptions options;
-    std::string repair;
+    std::optional<std::string> repair;
     Named(given)
         .take("repair", repair)
         .take("arc_tolerance", options.arcs.tolerance)
         .take("fit", options.fit)
         .take("keep_contours", options.keep_contours)
         .finish();
-    options.repair = repair_from(repair);
+    if (repair) options.repair = value_of(faces::repair_from(*repair));
     Document<Feature> document;
     Feature& feature = document.items.emplace_back();
     feature.rings = rings_from(coordinates, begin, count, roles, bulges);
@@ -178,14 +171,7 @@ MEDIAL_JS int medial_outline(const ShapeOf* of, double chord) {
     std::vector<Vec2> points;
     std::vector<double> begin{0};
     for (std::size_t i = 0; i < of->shape->loop_count(); ++i) {
-      const Ring ring = ring_of(*of->shape, i);
-      ToolPath path;
-      for (std::size_t k = 0; k <= ring.points.size(); ++k) {
-        const std::size_t at = k % ring.points.size();
-        const bool bent = k < ring.points.size() && !ring.bulges.empty();
-        path.points.push_back({ring.points[at], 0, bent ? ring.bulges[at] : 0});
-      }
-      for (const ToolPoint& point : without_arcs(path, chord)) points.push_back(point.point);
+      faces::add_outline(ring_of(*of->shape, i), chord, points);
       begin.push_back(number(points.size()));
     }
     answer().tables = {table_of(points), std::move(begin)};

@@ -158,6 +158,65 @@ test("the native format", () => {
   assert.throws(() => medial.loads('{"medial":1,"items":[{"shape":{"points":[]}}]}'), { code: "malformed" });
 });
 
+test("a native file keeps what it says", () => {
+  const part = medial.axis(box(4, 2)).prune("erosion", 0.5);
+  assert.ok(part.part && !medial.axis(box(4, 2)).part && medial.centerline(box(4, 2)).axis.part);
+  assert.ok(medial.verify(part).passed);
+  const file = JSON.parse(medial.dumps(part));
+  assert.equal(file.items[0].part, true);
+  file.items[0].attributes = [["name", "Mürren"], ["2", "b"], ["1", "a"]];
+  Object.assign(file, { crs: 'GEOGCRS["x"]', unit: "mm", y_down: true });
+  const [{ shape, axis }] = medial.loads(JSON.stringify(file));
+  assert.equal(shape.attributes.get("name"), "Mürren");
+  assert.ok(axis.part);
+  const editor = new medial.Editor(shape);
+  for (const kept of [
+    axis, medial.axis(shape), medial.axis(new medial.Shape(shape)), axis.prune("length", 0), editor.axis, editor.copy().axis,
+  ]) {
+    const { items, ...rest } = JSON.parse(medial.dumps(kept));
+    assert.deepEqual(items[0].attributes, file.items[0].attributes);
+    assert.deepEqual(rest, { medial: 2, crs: 'GEOGCRS["x"]', unit: "mm", y_down: true });
+  }
+});
+
+test("what is no geometry, no file and no option", () => {
+  let deep = { type: "Polygon", coordinates: [] };
+  for (let i = 0; i < 1e5; ++i) deep = { type: "GeometryCollection", geometries: [deep] };
+  for (const x of ["{bad", { type: "FeatureCollection" }, { type: "Polygon" }, deep, [null], [[null]]])
+    for (const read of [medial.axis, medial.voronoi]) assert.throws(() => read(x), { name: "MedialError" });
+  for (const x of ["{", "null", "{}", '{"medial":1}', '{"medial":1,"items":{}}', '{"medial":1,"items":[null]}'])
+    assert.throws(() => medial.loads(x), { code: "malformed" });
+  assert.throws(() => medial.loads('{"medial":3,"items":[]}'), { code: "unsupported" });
+  for (const given of [
+    { exterior: 1 }, { exterior: "yes" }, { exterior: "" }, { tolerance: "" }, { tolerance: "a" }, { repair: "" },
+    { method: "disks;exterior=true" }, { "exact=true;method": "disks" }, { method: "disks\0" }, { method: "a\tb\u0001" },
+  ])
+    assert.throws(() => medial.axis(box(4, 2), given), { code: "invalid_option" }, JSON.stringify(given));
+  for (const call of [
+    () => medial.centerline(box(4, 2), { extend: "no" }), () => medial.centerline(box(4, 2), { smooth: "1" }),
+    () => medial.axis(box(4, 2)).clearancePart("a"), () => medial.axis(box(4, 2)).sample({ chord: {} }),
+    () => medial.collapse(box(4, 2), "1"), () => medial.axis(box(4, 2)).diskAt("0", 0.5),
+  ])
+    assert.throws(call, { code: "invalid_option" });
+  assert.throws(() => medial.axis(box(4, 2), { method: "a\tb" }), { text: "there is no method 'a\tb'" });
+  assert.equal(medial.axis(box(4, 2), { exterior: false, exact: true }).exterior, 0);
+});
+
+test("points with z and m", () => {
+  const ring = box(6, 2);
+  for (const way of [
+    ring.map((p) => [...p, 7]), ring.map((p) => [...p, 7, 8]), [ring.map((p) => [...p, 7, 8])], [ring.flat()],
+    "POLYGONZ ((0 0 1, 6 0 1, 6 2 1, 0 2 1))", "MULTIPOLYGONZM(((0 0 1 2,6 0 1 2,6 2 1 2,0 2 1 2)))",
+    "PolygonM((0 0 1,6 0 1,6 2 1,0 2 1))",
+  ])
+    close(medial.axis(way).length, 4 + 4 * Math.SQRT2);
+  // Flat rings of two points: a disk beside a square, and three disks.
+  const disk = (x, Type = Array) => Type.from([x, 0, x + 2, 0]);
+  close(new medial.Shape([disk(0), [4, 0, 6, 0, 6, 2, 4, 2]], { bulges: [1, 1, 0, 0, 0, 0] }).area, Math.PI + 4);
+  const three = [0, 4, 8].map((x) => disk(x, Float64Array));
+  close(new medial.Shape(three, { bulges: [1, 1, 1, 1, 1, 1] }).area, 3 * Math.PI);
+});
+
 test("memory", () => {
   const axis = medial.axis(box(4, 2));
   const { shape } = axis;

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from typing import Any
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -35,13 +36,16 @@ class Axes:
     (2, array([ 0,  6, 10]))
     >>> a[1]
     <medial.MedialAxis: 4 nodes, 3 edges, 3 sites, method disks>
+    >>> len(a[:1])
+    1
     """
 
-    __slots__ = ("_core", "_input", "__weakref__")
+    __slots__ = ("_core", "_input", "_errors", "__weakref__")
 
     def __init__(self, core: _core.Axes, given: Ragged) -> None:
         self._core = core
         self._input = given
+        self._errors = given.errors(core.errors())
 
     @property
     def nodes(self) -> Records:
@@ -76,12 +80,12 @@ class Axes:
     @property
     def errors(self) -> dict[int, MedialError]:
         """The errors, by feature. A feature with an error has no nodes."""
-        return self._input.errors(self._core.errors())
+        return dict(self._errors)
 
     @property
     def error_codes(self) -> npt.NDArray[Any]:
         """The code of each feature's error; None where there is none."""
-        return column_of(self.errors, len(self))
+        return column_of(self._errors, len(self))
 
     @property
     def method(self) -> str:
@@ -136,7 +140,7 @@ class Axes:
         return points, lines, features
 
     def to_shapely(self, chord: float | None = None) -> npt.NDArray[Any]:
-        """An array of MultiLineStrings, one per feature.
+        """An array of MultiLineStrings in the plane, one per feature; `lines` has the radius, too.
 
         Parameters
         ----------
@@ -203,28 +207,48 @@ class Axes:
         flat = pyarrow.array(points.reshape(-1))
         coordinates = pyarrow.FixedSizeListArray.from_arrays(flat, 2)
         for begin in (lines, features):
-            offsets = pyarrow.array(begin.astype(np.int32))
-            coordinates = pyarrow.ListArray.from_arrays(offsets, coordinates)
+            large = begin[-1] > np.iinfo(np.int32).max
+            kind = pyarrow.LargeListArray if large else pyarrow.ListArray
+            coordinates = kind.from_arrays(pyarrow.array(begin if large else begin.astype(np.int32)), coordinates)
         return coordinates
 
     def __len__(self) -> int:
         return len(self._core)
 
-    def __getitem__(self, i: int) -> MedialAxis:
-        """The axis of one feature."""
+    if TYPE_CHECKING:  # typing would keep the functions when the interpreter ends
+
+        @overload
+        def __getitem__(self, i: int) -> MedialAxis: ...
+
+        @overload
+        def __getitem__(self, i: slice) -> list[MedialAxis]: ...
+
+    def __getitem__(self, i: int | slice) -> MedialAxis | list[MedialAxis]:
+        """The axis of one feature, or a list of those of a slice. Raises the error of a feature."""
+        if isinstance(i, slice):
+            return [self[at] for at in range(len(self))[i]]
         at = range(len(self))[i]
-        errors = self.errors
-        if at in errors:
-            raise errors[at]
+        if at in self._errors:
+            raise self._errors[at].with_traceback(None)
         shape, _ = load(self._input.one(at))
-        return MedialAxis._of(self._core.axis(at, shape))
+        return MedialAxis._of(self._core.axis(at, shape), self._input.attributes.get(at, {}))
 
     def __iter__(self) -> Iterator[MedialAxis]:
-        return (self[i] for i in range(len(self)))
+        """The axis of each feature. Where there is an error it is raised, and `next` goes on after it."""
+        return map(self.__getitem__, range(len(self)))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        features = replace(self._input, failed=[(e.text, e.code, i, e.ring, e.vertex, e.point) for i, e in self._errors.items()])
+        return _restored, (self._core.state(), features)
 
     def __repr__(self) -> str:
-        failed = f", {len(self.errors)} errors" if self.errors else ""
+        failed = f", {len(self._errors)} errors" if self._errors else ""
         return f"<medial.Axes: {len(self)} features, {len(self.nodes)} nodes, {len(self.edges)} edges{failed}>"
+
+
+def _restored(state: tuple[Any, ...], features: Ragged) -> Axes:
+    """Axes from their pickled state."""
+    return Axes(_core.restored_axes(*state), features)
 
 
 def column_of(errors: dict[int, MedialError], size: int) -> npt.NDArray[Any]:
@@ -257,7 +281,10 @@ def _from_values(values: Iterable[Any]) -> Ragged:
     """Features of any kind, one polygon per outer ring. A value that cannot be read is an error of its feature."""
     ring, polygon, feature, failed = [0], [0], [0], []
     parts, arcs, curved = [np.empty((0, 2))], [np.empty(0)], False
+    attributes: dict[int, Mapping[str, Any]] = {}
     for i, value in enumerate(values):
+        if isinstance(value, Shape) and value.attributes:
+            attributes[i] = dict(value.attributes)
         try:
             points, begin, outer, bulges = _loops_of(value)
         except MedialError as error:
@@ -276,7 +303,7 @@ def _from_values(values: Iterable[Any]) -> Ragged:
             polygon.append(len(ring) - 1)
         feature.append(len(polygon) - 1)
     return Ragged(np.concatenate(parts), np.asarray(ring), np.asarray(polygon), np.asarray(feature), failed,
-                  np.concatenate(arcs) if curved else None)  # fmt: skip
+                  np.concatenate(arcs) if curved else None, attributes)  # fmt: skip
 
 
 def _from_arrow(array: Any) -> Ragged:
@@ -431,7 +458,8 @@ def axes(
     with progress_of(progress, len(given)) as shown:
         core = _core.axes_of(given.coordinates, given.ring, given.polygon, given.feature, given.bulges, computed, shown)
     result = Axes(core, given)
-    log("%d features, %d errors", len(result), len(core.errors()))
-    if on_error == "raise" and (errors := result.errors):
+    errors = result.errors
+    log("%d features, %d errors", len(result), len(errors))
+    if on_error == "raise" and errors:
         raise errors[min(errors)]
     return result

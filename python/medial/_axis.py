@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterator
-from os import PathLike, fspath
+from collections.abc import Iterator, Mapping
+from copy import deepcopy
+from os import PathLike, fsdecode, fsencode
 from typing import Any
 
 import numpy as np
@@ -29,9 +30,12 @@ from ._records import (
     records,
     unpacked,
 )
-from ._shape import Shape, load
+from ._shape import Shape, load, stated
 
 _CoreAxis = _core.Axis
+
+
+_NONE: Mapping[str, Any] = {}
 
 
 class MedialAxis:
@@ -54,17 +58,19 @@ class MedialAxis:
     7.656854249492
     """
 
-    __slots__ = ("_core", "__weakref__")
+    __slots__ = ("_core", "_attributes", "__weakref__")
 
     _core: _CoreAxis
+    _attributes: Mapping[str, Any]  # of the shape
 
     def __init__(self) -> None:
         raise TypeError("medial.axis() makes medial axes")
 
     @classmethod
-    def _of(cls, core: _CoreAxis) -> MedialAxis:
+    def _of(cls, core: _CoreAxis, attributes: Mapping[str, Any] = _NONE) -> MedialAxis:
         self = cls.__new__(cls)
         self._core = core
+        self._attributes = attributes
         return self
 
     # Contents.
@@ -90,8 +96,8 @@ class MedialAxis:
 
     @property
     def shape(self) -> Shape:
-        """The shape that this is the axis of."""
-        return Shape._of(self._core.shape())
+        """The shape that this is the axis of, with the attributes that it had."""
+        return Shape._of(self._core.shape(), self._attributes)
 
     @property
     def method(self) -> str:
@@ -292,7 +298,7 @@ class MedialAxis:
         1
         """
         core, _ = _core.pruned(self._core, measure, threshold, keep, tips)
-        return MedialAxis._of(core)
+        return MedialAxis._of(core, self._attributes)
 
     def clearance_part(self, clearance: float) -> MedialAxis:
         """The part with a radius of at least `clearance`, cut exactly.
@@ -309,7 +315,7 @@ class MedialAxis:
         >>> round(a.clearance_part(0.5).length, 9)
         4.828427125
         """
-        return MedialAxis._of(_core.clearance_part(self._core, clearance))
+        return MedialAxis._of(_core.clearance_part(self._core, clearance), self._attributes)
 
     def verify(self, **given: Any) -> Any:
         """The measured errors: see `medial.verify`.
@@ -506,7 +512,7 @@ class MedialAxis:
         """
         if format == "safetensors":
             raise MedialError("safetensors is a binary format: use save()", "unsupported")
-        return _core.write_axis(self._core, None, format, chord, simplify) or ""
+        return _core.write_axis(self._core, stated(self._attributes), None, format, chord, simplify) or ""
 
     def save(self, path: str | PathLike[str], *, chord: float = 1e-3, simplify: float = 0) -> None:
         """Writes the axis in the format of the path's extension, and never leaves a partial file.
@@ -537,12 +543,13 @@ class MedialAxis:
         ...     pathlib.Path(folder, "a.csv").read_text()[:10]
         'edge,x,y,r'
         """
-        name = fspath(path)
-        if name.endswith(".gz"):
+        name = fsdecode(path)
+        if name.lower().endswith(".gz"):
             from ._files import write_compressed
 
-            return write_compressed(name, self.to_text(name.split(".")[-2], chord=chord, simplify=simplify))
-        _core.write_axis(self._core, name, "", chord, simplify)
+            kind = name.lower().split(".")[-2]
+            return write_compressed(name, self.to_text(kind, chord=chord, simplify=simplify))
+        _core.write_axis(self._core, stated(self._attributes), fsencode(path), "", chord, simplify)
         return None
 
     @property
@@ -558,10 +565,10 @@ class MedialAxis:
         return restored, (self.shape, *self._state())
 
     def __copy__(self) -> MedialAxis:
-        return MedialAxis._of(self._core)
+        return MedialAxis._of(self._core, self._attributes)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> MedialAxis:
-        return MedialAxis._of(self._core)  # it is immutable
+        return MedialAxis._of(self._core, deepcopy(self._attributes, memo))  # the rest is immutable
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, MedialAxis):
@@ -599,7 +606,8 @@ def restored(
         _core.restored_axis(
             shape._core, method, tolerance, resolution, exterior, part,
             unpacked(sites, SITE), unpacked(nodes, NODE), unpacked(edges, EDGE),
-        )
+        ),
+        shape.attributes,
     )  # fmt: skip
 
 
@@ -702,7 +710,8 @@ def axis(
         own["fit"] = fit  # the contours are those before the fit
     computed = computing(method, tolerance=tolerance, corner_angle=corner_angle, exact=exact,
                          threads=threads, exterior=exterior, margin=margin, own=own)  # fmt: skip
-    return MedialAxis._of(_core.compute(shape, computed, contours))
+    attributes = dict(x.attributes) if isinstance(x, Shape) else _NONE
+    return MedialAxis._of(_core.compute(shape, computed, contours), attributes)
 
 
 def axis_of(x: Any, threads: int | None = None) -> MedialAxis:

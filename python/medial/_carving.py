@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from os import PathLike, fspath
+from os import PathLike, fsencode
 from typing import Any
 
 from . import _core
@@ -100,9 +100,9 @@ class Carving:
         ...     "M3 S12000" in path.read_text()
         True
         """
-        self._write(fspath(path), "", **machine)
+        self._write(fsencode(path), "", **machine)
 
-    def _write(self, path: str | None, format: str, *, safe: float = 5, feed: float = 1000,
+    def _write(self, path: bytes | None, format: str, *, safe: float = 5, feed: float = 1000,
                plunge: float = 300, rapid: float = 3000, spindle: float = 0,
                clear_feed: float | None = None, clear_plunge: float | None = None,
                clear_spindle: float = 0, unit: str = "mm", origin: Sequence[float] = (0, 0),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import deepcopy
 
 from . import _core
 
@@ -133,6 +134,9 @@ class Contour:
         """
         self._core.spline_to(degree, list(knots), list(control), None if weights is None else list(weights))
         return self
+
+    def __copy__(self) -> Contour:
+        return deepcopy(self)  # pieces are added to one of them
 
     def __repr__(self) -> str:
         return f"<medial.Contour: {self._core.piece_count} pieces>"

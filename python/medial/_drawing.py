@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import gzip
 import io
 import logging
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from . import _core
 from ._errors import MedialError, need
+from ._read import bytes_of
+from ._records import in_utf8
 
 Tags = list[tuple[int, Any]]
 _MESH = 16 | 64  # flags of a POLYLINE
@@ -79,11 +79,6 @@ def _groups(data: bytes) -> Iterator[tuple[str, Tags]]:
         raise MedialError("the drawing ends without an end mark", "malformed")
 
 
-def _word(text: Any) -> str:
-    """A name with undecodable bytes replaced."""
-    return str(text).encode("utf-8", "replace").decode()
-
-
 def _xy(point: Any) -> tuple[float, float]:
     return float(point[0]), float(point[1])
 
@@ -110,9 +105,9 @@ class _Filling:
                     self.drawing.units = value
         elif name == "LAYER" and self.section == "TABLES":
             hidden = bool(values.get(70, 0) & 1) or values.get(62, 7) < 0
-            self.drawing.layer(_word(values.get(2, "")), hidden)
+            self.drawing.layer(in_utf8(values.get(2, "")), hidden)
         elif name == "BLOCK" and self.section == "BLOCKS":
-            self.drawing.begin_block(_word(values.get(2, "")), _xy(values.get(10, (0, 0))))
+            self.drawing.begin_block(in_utf8(values.get(2, "")), _xy(values.get(10, (0, 0))))
         elif name == "ENDBLK":
             self.drawing.end_block()
         elif self.section in ("BLOCKS", "ENTITIES") and name not in _STRUCTURE:
@@ -122,11 +117,11 @@ class _Filling:
         add = getattr(self, f"add_{name.lower()}", None) if name in _CURVES else None
         if add is None:
             if self.section == "ENTITIES":
-                self.drawing.leave_out(_word(name[:40]))
+                self.drawing.leave_out(in_utf8(name[:40]))
             return
         kind = "POLYLINE" if name == "LWPOLYLINE" else name
         normal = tuple(float(x) for x in values.get(210, (0, 0, 1)))
-        if self.drawing.begin_entity(kind, _word(values.get(8, "0")), normal) and not values.get(67, 0):
+        if self.drawing.begin_entity(kind, in_utf8(values.get(8, "0")), normal) and not values.get(67, 0):
             add(tags, values)
 
     def add_point(self, _: Tags, values: dict[int, Any]) -> None:
@@ -181,7 +176,7 @@ class _Filling:
 
     def add_insert(self, _: Tags, values: dict[int, Any]) -> None:
         self.drawing.copies(
-            _word(values[2]), _xy(values[10]), (values.get(41, 1.0), values.get(42, 1.0)), values.get(50, 0.0),
+            in_utf8(values[2]), _xy(values[10]), (values.get(41, 1.0), values.get(42, 1.0)), values.get(50, 0.0),
             (values.get(70, 1), values.get(71, 1)), (values.get(44, 0.0), values.get(45, 0.0)),
         )  # fmt: skip
 
@@ -189,13 +184,10 @@ class _Filling:
 def drawing_of(path: str) -> _core.Drawing:
     """The entities of a drawing, with its layers, blocks and unit."""
     structure_error = need("ezdxf", "cad").DXFError
-    filling, name = _Filling(), ""
+    filling, name, data = _Filling(), "", bytes_of(path)
     try:
-        data = Path(path).read_bytes()
-        for name, tags in _groups(gzip.decompress(data) if data.startswith(b"\x1f\x8b") else data):
+        for name, tags in _groups(data):
             filling.add(name, tags)
-    except (OSError, EOFError) as error:
-        raise MedialError(f"{path}: {getattr(error, 'strerror', None) or error}", "unreadable") from None
     except KeyError as error:
         raise MedialError(f"{path}: a {name} lacks group {error}", "malformed") from None
     except (structure_error, TypeError, ValueError, IndexError) as error:

@@ -13,7 +13,7 @@ from ._axis import MedialAxis
 from ._errors import MedialError
 from ._options import computing
 from ._records import EDGE, NODE, SITE, Indices, Records, records
-from ._shape import load
+from ._shape import Shape, load
 
 
 class Change(NamedTuple):
@@ -55,10 +55,11 @@ class Editor:
     ((5, 2), 5)
     """
 
-    __slots__ = ("_core",)
+    __slots__ = ("_core", "_attributes")
 
     def __init__(self, x: Any, *, tolerance: float = 0) -> None:
         shape, _ = load(x)
+        self._attributes = dict(x.attributes) if isinstance(x, Shape) else {}
         self._core = _core.editor_of(shape, computing("disks", tolerance=tolerance))
 
     def move(self, vertex: int, to: Sequence[float]) -> Change:
@@ -230,7 +231,7 @@ class Editor:
         (0.0, 0.0)
         """
         other = Editor.__new__(Editor)
-        other._core = self._core.copy()
+        other._core, other._attributes = self._core.copy(), self._attributes
         return other
 
     def vertex(self, number: int) -> tuple[float, float] | None:
@@ -322,7 +323,7 @@ class Editor:
     @property
     def axis(self) -> MedialAxis:
         """The current axis with its shape; nodes and edges are numbered from 0 without gaps."""
-        return MedialAxis._of(self._core.axis())
+        return MedialAxis._of(self._core.axis(), self._attributes)
 
 
 def _place(point: Sequence[float]) -> tuple[float, float]:

@@ -17,13 +17,13 @@ from . import _core
 from ._axis import MedialAxis, axis
 from ._errors import MedialError
 from ._options import options
-from ._read import parsed
+from ._read import bytes_of, parsed
 from ._shape import Shape
 
 
-def _completed(cores: list[_core.Axis]) -> list[MedialAxis]:
+def _completed(items: list[tuple[_core.Axis, list[tuple[str, str]]]]) -> list[MedialAxis]:
     """Axes; computes those that a file lacks."""
-    found = [MedialAxis._of(core) for core in cores]
+    found = [MedialAxis._of(core, dict(attributes)) for core, attributes in items]
     return [a if len(a.nodes) or not len(a.shape.points) else axis(a.shape) for a in found]
 
 
@@ -53,6 +53,8 @@ def loads(text: str | bytes) -> list[MedialAxis]:
 def load(path: str | PathLike[str]) -> list[MedialAxis]:
     """The axes of a native file, ``.json`` or ``.safetensors``, one per shape.
 
+    The `Shape.attributes` of their shapes are texts.
+
     Reads compressed files (``.gz``), too. `columns` maps a ``.safetensors`` file into memory instead.
 
     Parameters
@@ -73,7 +75,7 @@ def load(path: str | PathLike[str]) -> list[MedialAxis]:
     ...     medial.load(pathlib.Path(folder, "a.json"))[0] == a
     True
     """
-    return _completed(_core.native_of_file(os.fsdecode(path)))
+    return _completed(_core.native_of_file(os.fsencode(path)))
 
 
 def columns(path: str | PathLike[str]) -> dict[str, npt.NDArray[Any]]:
@@ -140,7 +142,7 @@ def _in_python(text: str) -> str:
 
 def _of_file(path: str, text: str, reading: _core.Reading) -> list[Shape]:
     try:
-        return _taken(_core.shapes_of_file(path, text, reading))
+        return _taken(_core.shapes_of_file(os.fsencode(path), text, reading))
     except MedialError as error:
         error.text = _in_python(error.text)
         if "GDAL" not in error.text:
@@ -160,21 +162,26 @@ def _of_drawing(path: str, reading: _core.Reading) -> list[Shape]:
 
 
 def _of_geojson(path: str, repair: str | None, arc_tolerance: float, fit: float) -> list[Shape]:
-    try:
-        data = Path(path).read_bytes()
-        text = gzip.decompress(data) if data.startswith(b"\x1f\x8b") else data
-    except (OSError, EOFError) as error:
-        raise MedialError(f"{path}: {getattr(error, 'strerror', None) or error}", "unreadable") from None
-    document = parsed(text)
-    shapes = []
+    document = parsed(bytes_of(path))
+    shapes, empty = [], 0
     parts = document.get("features", [document]) if isinstance(document, dict) else None
     if not isinstance(parts, list):
         raise MedialError(f"{path}: this is not GeoJSON", "malformed")
-    for part in parts:
-        shape = Shape(part, repair=repair, arc_tolerance=arc_tolerance, fit=fit)
+    for i, part in enumerate(parts):
+        if isinstance(part, dict) and part.get("type") == "Feature" and part.get("geometry", 0) is None:
+            empty += 1
+            continue
+        try:
+            shape = Shape(part, repair=repair, arc_tolerance=arc_tolerance, fit=fit)
+        except MedialError as error:
+            text = f"{path}: {error.text}"
+            raise MedialError(text, error.code, i, error.ring, error.vertex, error.point) from None
         properties = part.get("properties")
         shape.attributes = dict(properties) if isinstance(properties, dict) else {}
         shapes.append(shape)
+    if empty:
+        features = "1 feature has" if empty == 1 else f"{empty} features have"
+        warnings.warn(f"{features} no geometry and {'was' if empty == 1 else 'were'} left out", stacklevel=3)
     return shapes
 
 
@@ -271,10 +278,13 @@ def text(text: str, font: str | PathLike[str], *, arc_tolerance: float = 1e-6) -
 
 def write_compressed(path: str, text: str) -> None:
     """Writes a text compressed by gzip, and never leaves a partial file."""
-    target = Path(path)
+    target = Path(os.path.realpath(path))  # a link stays
     partial = target.with_name(f".{target.name}.{os.getpid()}.tmp")
     try:
-        partial.write_bytes(gzip.compress(text.encode(), mtime=0))
-        partial.replace(target)
-    finally:
-        partial.unlink(missing_ok=True)
+        try:
+            partial.write_bytes(gzip.compress(text.encode(), mtime=0))
+            partial.replace(target)
+        finally:
+            partial.unlink(missing_ok=True)
+    except OSError as error:
+        raise MedialError(f"{path}: cannot write: {error.strerror or error}", "unwritable") from None

@@ -153,7 +153,7 @@ class Line:
         >>> medial.centerline(island).side_channels().branch_count
         1
         """
-        return MedialAxis._of(_core.side_channels(self._of._core, self._path))
+        return MedialAxis._of(_core.side_channels(self._of._core, self._path), self._of._attributes)
 
 
 class Widths(NamedTuple):
@@ -190,7 +190,7 @@ class Widths(NamedTuple):
 def _line(of: MedialAxis, path: _core.Path, extend: bool, smooth: float) -> Line:
     if not smooth >= 0:
         raise MedialError("smooth must be a length, or 0")
-    made = MedialAxis._of(_core.centre_line(of._core, path, extend, smooth))
+    made = MedialAxis._of(_core.centre_line(of._core, path, extend, smooth), of._attributes)
     return Line(made, path.length, path.narrowest, path.closed, path, of)
 
 

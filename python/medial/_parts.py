@@ -15,8 +15,8 @@ def _without_specks(x: Any, share: float) -> MedialAxis:
     """The axis of x; if a share is given, that of x without specks."""
     if not share:
         return axis_of(x)
-    shape = x.shape._core if isinstance(x, MedialAxis) else load(x)[0]
-    return axis(Shape._of(_core.without_specks(shape, share)))
+    shape = x.shape if isinstance(x, MedialAxis) else Shape(x)
+    return axis(Shape._of(_core.without_specks(shape._core, share), shape.attributes))
 
 
 def prune(x: Any, measure: str = "prominence", threshold: float | None = None, *,
@@ -138,7 +138,7 @@ def rebuild(x: MedialAxis, by: str = "outline", *, points: int = 0, chord: float
     >>> medial.rebuild(medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])).area
     8.0
     """
-    return Shape._of(_core.rebuilt(x._core, by, points, chord))
+    return Shape._of(_core.rebuilt(x._core, by, points, chord), x._attributes)
 
 
 def collapse(x: Any, width: float, *, trim: float = 1) -> tuple[Shape | None, MedialAxis]:
@@ -171,6 +171,7 @@ def collapse(x: Any, width: float, *, trim: float = 1) -> tuple[Shape | None, Me
     >>> round(polygons.area), round(lines.length)
     (16, 6)
     """
-    shape, lines = _core.collapsed(axis_of(x)._core, width, trim)
-    polygons = Shape._of(shape)
-    return (polygons if len(polygons.points) else None), MedialAxis._of(lines)
+    of = axis_of(x)
+    shape, lines = _core.collapsed(of._core, width, trim)
+    polygons = Shape._of(shape, of._attributes)
+    return (polygons if len(polygons.points) else None), MedialAxis._of(lines, of._attributes)

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import gzip
 import re
+import zlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -39,6 +42,7 @@ class Ragged:
     feature: Indices | None = None
     failed: list[Any] = field(default_factory=list)
     bulges: Floats | None = None
+    attributes: dict[int, Mapping[str, Any]] = field(default_factory=dict)  # where a feature has some
 
     def __len__(self) -> int:
         return len(self.polygon if self.feature is None else self.feature) - 1
@@ -48,9 +52,7 @@ class Ragged:
         return {row[2]: MedialError(*row) for row in (*computed, *self.failed)}
 
     def one(self, i: int) -> Rings:
-        """The rings of one feature."""
-        if any(row[2] == i for row in self.failed):
-            raise self.errors([])[i]
+        """The rings of one feature, which could be read."""
         first, last = (i, i + 1) if self.feature is None else self.feature[i : i + 2]
         polygons = self.polygon[first : last + 1]
         begin = self.ring[polygons[0] : polygons[-1] + 1] if len(polygons) else self.ring[:0]
@@ -135,11 +137,27 @@ def from_wkb(values: Sequence[bytes | None] | npt.NDArray[Any]) -> Ragged:
     return from_wkb_buffer(np.frombuffer(b"".join(present), np.uint8), offsets, missing)
 
 
+def _from_one_wkb(value: bytes) -> Rings:
+    feature = from_wkb([value])
+    if feature.failed:
+        raise feature.errors([])[0]
+    return feature.one(0)
+
+
 def from_wkb_buffer(data: npt.NDArray[np.uint8], offsets: Indices, missing: Iterable[int] = ()) -> Ragged:
     """The same from one buffer, as Arrow holds it; `missing` features have no bytes."""
     features = Ragged(*_core.read_wkb(np.ascontiguousarray(data), np.ascontiguousarray(offsets, np.int64)))
     features.failed += [("the geometry is missing", "empty", int(i), None, None, None) for i in missing]
     return features
+
+
+def bytes_of(path: str) -> bytes:
+    """The contents of a file, decompressed if it is compressed by gzip."""
+    try:
+        data = Path(path).read_bytes()
+        return gzip.decompress(data) if data.startswith(b"\x1f\x8b") else data
+    except (OSError, EOFError, zlib.error) as error:
+        raise MedialError(f"{path}: {getattr(error, 'strerror', None) or error}", "unreadable") from None
 
 
 def parsed(text: str | bytes) -> Any:
@@ -196,14 +214,14 @@ def _read(x: Any) -> Rings:
     if isinstance(x, str):
         return _from_text(x)
     if isinstance(x, (bytes, bytearray, memoryview)):
-        return from_wkb([bytes(x)]).one(0)
+        return _from_one_wkb(bytes(x))
     if isinstance(x, Contour):
         return Rings(contours=[x._core])
     if hasattr(x, "_as_rings"):
         return _joined([x])
     wkb = getattr(type(x), "__module__", "").startswith("shapely.") and getattr(x, "wkb", None)
     if wkb:
-        return from_wkb([wkb]).one(0)
+        return _from_one_wkb(wkb)
     if geometry := _interface_of(x):
         return _from_polygons(list(_polygons_of(geometry)))
     if isinstance(x, Mapping):

@@ -81,6 +81,11 @@ def unpacked(values: npt.ArrayLike, dtype: np.dtype[np.void]) -> npt.NDArray[np.
     return result.view(np.uint8).reshape(-1)
 
 
+def in_utf8(text: Any) -> str:
+    """A text whose undecodable bytes are replaced."""
+    return str(text).encode("utf-8", "replace").decode()
+
+
 def numbers_of(values: Any, what: str) -> Floats:
     """Numbers as an array; refuses complex numbers, dates and masked values."""
     if isinstance(values, np.ndarray):

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from copy import deepcopy
-from os import PathLike, fspath
+from numbers import Integral, Real
+from os import PathLike, fsencode
 from typing import Any
 
 import numpy as np
@@ -13,7 +15,7 @@ import numpy.typing as npt
 from . import _core
 from ._errors import MedialError, need
 from ._options import options
-from ._records import Floats, numbers_of, points_of, where_known
+from ._records import Floats, in_utf8, numbers_of, points_of, where_known
 from ._read import HOLE, OUTER, Rings, read
 
 _CoreShape = _core.Shape
@@ -209,7 +211,7 @@ class Shape:
         moved = np.ascontiguousarray(points * factor + numbers_of(move, "move is x and y"))
         if not factor > 0 or not np.isfinite(moved).all():
             raise MedialError("factor must be positive, and the result must not overflow")
-        return restored(moved, *others)
+        return Shape._of(_core.restored_shape(moved, *others), self.attributes)
 
     def to_text(self, format: str = "wkt", *, chord: float = 1e-3) -> str:
         """The shape as text in a file format: see `save`.
@@ -227,11 +229,13 @@ class Shape:
         >>> medial.Shape([(0, 0), (4, 0), (0, 3)]).to_text().strip()
         'POLYGON ((0 0, 4 0, 0 3, 0 0))'
         """
-        text = _core.write_shape(self._core, None, format, chord)
+        text = _core.write_shape(self._core, stated(self.attributes), None, format, chord)
         return text or ""
 
     def save(self, path: str | PathLike[str], *, chord: float = 1e-3) -> None:
         """Writes the shape in the format of the extension: .wkt, .geojson, .svg or .json (native).
+
+        GeoJSON and the native format hold `attributes`, too, as texts.
 
         Parameters
         ----------
@@ -248,7 +252,7 @@ class Shape:
         ...     medial.read(path)[0].area
         6.0
         """
-        _core.write_shape(self._core, fspath(path), "", chord)
+        _core.write_shape(self._core, stated(self.attributes), fsencode(path), "", chord)
 
     def __repr__(self) -> str:
         holes, parts = self._core.hole_count(), self._core.component_count()
@@ -279,6 +283,22 @@ class Shape:
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Shape:
         return Shape._of(self._core, deepcopy(self.attributes, memo))  # the rest is immutable
+
+
+def stated(attributes: Mapping[str, Any]) -> list[tuple[str, float | str]]:
+    """Attributes as files hold them: as the command line reads them, without those that are missing."""
+    pairs: list[tuple[str, float | str]] = []
+    for name, value in attributes.items():
+        if value is None or (isinstance(value, float) and value != value):
+            continue
+        if isinstance(value, (bool, np.bool_, Integral)):
+            value = str(int(value))
+        elif isinstance(value, Real):
+            value = float(value)
+        elif not isinstance(value, str):
+            value = json.dumps(value, default=str, ensure_ascii=False)
+        pairs.append((in_utf8(name), in_utf8(value) if isinstance(value, str) else value))
+    return pairs
 
 
 def restored(*state: npt.NDArray[Any]) -> Shape:

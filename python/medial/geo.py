@@ -1,31 +1,26 @@
 """GeoPandas: `import medial.geo` adds the accessor ``.medial`` to GeoDataFrames and GeoSeries.
 
 It keeps the index and the reference system. Each call projects longitudes and latitudes to metres
-locally, and projects results back.
+around the features, and projects results back. Features far apart get projections of their own, so
+that lengths are right within 0.11 %; of a feature of more than 600 km a warning says by how much
+they are off.
 """
 
 from __future__ import annotations
 
+import warnings
 from typing import Any
 
 import numpy as np
 
 from . import arrays
 from ._axes import Axes, axes
-from ._errors import MedialError, need
+from ._errors import need
+from ._globe import LocalProjections
 
 geopandas = need("geopandas", "geo")
 pandas = need("pandas", "geo")
 shapely = need("shapely", "geo")
-
-
-def _local_crs(series: Any) -> Any:
-    """A projection in metres for geometries in degrees: conformal if they are close together."""
-    west, south, east, north = series.total_bounds.tolist()
-    lon, lat = (west + east) / 2, (south + north) / 2
-    wide = (east - west) * np.cos(np.radians(lat)) > 5 or north - south > 5
-    name = "laea" if wide else "tmerc"
-    return f"+proj={name} +lat_0={lat!r} +lon_0={lon!r} +datum=WGS84 +units=m +no_defs"
 
 
 class MedialAccessor:
@@ -46,24 +41,26 @@ class MedialAccessor:
             raise AttributeError("`.medial` is for GeoDataFrames and GeoSeries")
         self._series = data.geometry
         self._crs = self._series.crs
-        self._local: Any = None
+        self._local: LocalProjections | None = None
 
     def _metric(self) -> Any:
-        if self._crs is None or not self._crs.is_geographic or not np.isfinite(self._series.total_bounds).all():
+        points = shapely.get_coordinates(self._series.to_numpy())
+        if self._crs is None or not self._crs.is_geographic or not np.isfinite(points).all(axis=1).any():
             return self._series
-        west, south, east, north = self._series.total_bounds
-        if west < -540 or east > 540 or south < -90 or north > 90:
-            raise MedialError("the reference system is geographic, but the coordinates are not longitudes and latitudes", "invalid_option")
-        self._local = _local_crs(self._series)
-        return self._series.to_crs(self._local)
+        self._local = LocalProjections(self._series)
+        return self._local.forward()
 
-    def _back(self, geometries: Any, index: Any = None) -> Any:
-        local = self._local or self._crs
-        series = geopandas.GeoSeries(geometries, index=self._series.index if index is None else index, crs=local)
-        return series.to_crs(self._crs) if self._local else series
+    def _back(self, geometries: Any, features: Any = None) -> Any:
+        """Geometries of these features, by default one of each, as a GeoSeries."""
+        of = np.arange(len(self._series)) if features is None else np.asarray(features)
+        placed = self._local.back(geometries, of) if self._local else geometries
+        return geopandas.GeoSeries(placed, index=self._series.index.take(of), crs=self._crs)
 
     def axes(self, method: str | None = None, **given: Any) -> Axes:
         """The axes as arrays, in metres if the reference system is geographic.
+
+        Features farther apart than some 300 km are then in projections of their own: radii and
+        lengths are right, but positions of different features do not go together. A warning says so.
 
         Parameters
         ----------
@@ -79,7 +76,10 @@ class MedialAccessor:
         >>> s.medial.axes()
         <medial.Axes: 1 features, 6 nodes, 5 edges>
         """
-        return axes(self._metric(), method, **given)
+        metric = self._metric()
+        if self._local and not self._local.is_one:
+            warnings.warn("the features lie far apart: each is in metres around a middle of its own", stacklevel=2)
+        return axes(metric, method, **given)
 
     def axis(self, method: str | None = None, *, chord: float | None = None, **given: Any) -> Any:
         """The axes as a GeoSeries of MultiLineStrings.
@@ -121,9 +121,9 @@ class MedialAccessor:
         """
         found = arrays.branches(self._metric(), chord=chord)
         table = found.to_pandas()
-        features = self._series.index.take(table.index).rename("feature")
-        index = pandas.MultiIndex.from_arrays([features, table.pop("branch")], names=["feature", "branch"])
-        return self._frame(table.set_axis(index), found.lines(), index)
+        lines = self._back(found.lines(), table.index)
+        index = pandas.MultiIndex.from_arrays([lines.index, table.pop("branch")], names=["feature", "branch"])
+        return geopandas.GeoDataFrame(table.set_axis(index), geometry=lines.set_axis(index), crs=self._crs)
 
     def centerline(self, **given: Any) -> Any:
         """The centre lines as a GeoSeries of LineStrings.
@@ -183,8 +183,8 @@ class MedialAccessor:
         """
         found = arrays.transects(self._metric(), count, **given)
         table = found.to_pandas()
-        index = self._series.index.take(table.index)
-        return self._frame(table.set_axis(index), found.lines(), index)
+        lines = self._back(found.lines(), table.index)
+        return geopandas.GeoDataFrame(table.set_axis(lines.index), geometry=lines, crs=self._crs)
 
     def inscribed_circles(self, k: int = 1, smallest: float = 0, **given: Any) -> Any:
         """A GeoDataFrame of the centres and radii of the `k` largest circles of each feature.
@@ -206,8 +206,8 @@ class MedialAccessor:
         [1.0, 1.0]
         """
         found = arrays.inscribed_circles(self._metric(), k, smallest, **given)
-        index = self._series.index.take(found.feature)
-        return self._frame({"radius": found["radius"]}, shapely.points(found.values[:, :2]), index)
+        centers = self._back(shapely.points(found.values[:, :2]), found.feature)
+        return geopandas.GeoDataFrame({"radius": found["radius"]}, geometry=centers.to_numpy(), index=centers.index, crs=self._crs)
 
     def offset(self, distance: float, chord: float | None = None, **given: Any) -> Any:
         """The points farther than `distance` from the boundary, as a GeoSeries of polygons.
@@ -252,10 +252,6 @@ class MedialAccessor:
         True
         """
         return self._back(arrays.prune(self._metric(), measure, threshold, **given).to_shapely())
-
-    def _frame(self, columns: Any, geometries: Any, index: Any) -> Any:
-        geometry = self._back(geometries, index).to_numpy()
-        return geopandas.GeoDataFrame(columns, geometry=geometry, index=index, crs=self._crs)
 
 
 pandas.api.extensions.register_dataframe_accessor("medial")(MedialAccessor)

@@ -44,14 +44,6 @@ std::unique_ptr<AxisOf> compute_axis(const ShapeOf& of, const Options& given,
   return share(of.shape, value_of(std::move(axis)));
 }
 
-template <class T>
-std::vector<T> records_from(const Values<std::uint8_t>& bytes) {
-  if (bytes.shape(0) % sizeof(T) != 0) refuse(ErrorCode::malformed, "an array has another layout");
-  std::vector<T> records(bytes.shape(0) / sizeof(T));
-  std::copy_n(bytes.data(), bytes.shape(0), reinterpret_cast<std::uint8_t*>(records.data()));
-  return records;
-}
-
 /// An axis from the arrays of a stored one.
 std::unique_ptr<AxisOf> restored(const ShapeOf& of, const std::string& method, double tolerance,
                                  double resolution, double exterior, bool part,
@@ -91,20 +83,17 @@ struct Nearest {
 };
 
 Bytes nearest(const AxisOf& self, const Coordinates& points) {
-  auto found = std::make_unique<std::vector<Nearest>>();
+  std::vector<Nearest> found;
   without_lock([&] {
     const AxisLocator& locator = self.locator();
     for (const Vec2 p : points_of(points)) {
       const AxisPoint at = locator.nearest(p);
-      found->push_back({at.disk.center.x, at.disk.center.y, at.disk.radius, at.distance, at.t,
-                        std::isfinite(at.distance) ? std::int64_t{at.edge} : -1});
+      found.push_back({at.disk.center.x, at.disk.center.y, at.disk.radius, at.distance, at.t,
+                       std::isfinite(at.distance) ? std::int64_t{at.edge} : -1});
     }
     return 0;
   });
-  std::vector<Nearest>* const kept = found.release();
-  nb::capsule owner(
-      kept, [](void* vector) noexcept { delete static_cast<std::vector<Nearest>*>(vector); });
-  return bytes_of(*kept, owner);
+  return records_of(std::move(found));
 }
 
 Array<double> clearances(const ShapeOf& of, const Coordinates& points) {

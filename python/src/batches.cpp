@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 
+#include "faces/axes.h"
 #include "many.h"
 
 namespace medial::python {
@@ -150,7 +151,7 @@ Operation offsets(const Given& given) {
     for (const OffsetRegion& region : found->regions) {
       for (const Ring& ring : region.rings) {
         points.clear();
-        add_outline(ring, chord.of(shape), points);
+        faces::add_outline(ring, chord.of(shape), points);
         for (const Vec2 p : points) table.add({p.x, p.y});
         table.end(0);
       }

@@ -13,6 +13,7 @@
 #include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -49,24 +50,29 @@ Bytes bytes_of(const std::vector<T>& values, nb::handle owner) {
   return Bytes(values.data(), {values.size() * sizeof(T)}, owner);
 }
 
-/// A vector as a NumPy array that owns it; with several columns as rows of those.
+/// A vector, and what keeps it alive for arrays of NumPy.
+template <class T>
+std::pair<std::vector<T>&, nb::capsule> owned(std::vector<T> values) {
+  auto* const kept = new std::vector<T>(std::move(values));
+  const auto free = [](void* vector) noexcept { delete static_cast<std::vector<T>*>(vector); };
+  return {*kept, nb::capsule(kept, free)};
+}
+/// A vector as a NumPy array that owns it; with several columns as rows of those; as bytes.
 template <class T>
 Array<T> array_of(std::vector<T> values) {
-  auto kept = std::make_unique<std::vector<T>>(std::move(values));
-  T* const data = kept->data();
-  const std::size_t size = kept->size();
-  nb::capsule owner(kept.release(),
-                    [](void* vector) noexcept { delete static_cast<std::vector<T>*>(vector); });
-  return Array<T>(data, {size}, owner);
+  const auto [all, owner] = owned(std::move(values));
+  return Array<T>(all.data(), {all.size()}, owner);
 }
 template <class T, class Row>
 Array<T, 2> rows_of(std::vector<Row> rows) {
-  auto kept = std::make_unique<std::vector<Row>>(std::move(rows));
-  T* const data = reinterpret_cast<T*>(kept->data());
-  const std::size_t size = kept->size();
-  nb::capsule owner(kept.release(),
-                    [](void* vector) noexcept { delete static_cast<std::vector<Row>*>(vector); });
-  return Array<T, 2>(data, {size, sizeof(Row) / sizeof(T)}, owner);
+  const auto [all, owner] = owned(std::move(rows));
+  return Array<T, 2>(reinterpret_cast<T*>(all.data()), {all.size(), sizeof(Row) / sizeof(T)},
+                     owner);
+}
+template <class T>
+Bytes records_of(std::vector<T> values) {
+  const auto [all, owner] = owned(std::move(values));
+  return bytes_of(all, owner);
 }
 
 /// An error on its way to Python, where it becomes a MedialError.
@@ -88,6 +94,15 @@ T value_of(Result<T> result) {
 }
 [[noreturn]] inline void refuse(ErrorCode code, const char* text) {
   throw Failure(Error{code, text, {}});
+}
+
+/// Records from the bytes of an array. Errors: malformed.
+template <class T>
+std::vector<T> records_from(const Values<std::uint8_t>& bytes) {
+  if (bytes.shape(0) % sizeof(T) != 0) refuse(ErrorCode::malformed, "an array has another layout");
+  std::vector<T> records(bytes.shape(0) / sizeof(T));
+  std::copy_n(bytes.data(), bytes.shape(0), reinterpret_cast<std::uint8_t*>(records.data()));
+  return records;
 }
 
 /// The value of an option. Errors: TypeError, with its name.
@@ -219,8 +234,6 @@ std::vector<Ring> rings_of(const Coordinates& coordinates,
 RepairRule repair_from(const std::optional<std::string>& name);
 Route route_from(const std::string& name);
 PruneMeasure measure_from(const std::string& name);
-/// Appends a ring's points, closed, with arcs as chords.
-void add_outline(const Ring& ring, double chord, std::vector<Vec2>& points);
 /// Appends polylines along all branches, within a chord or with steps, and where each ends.
 void add_lines(const MedialAxis& axis, double chord, double step, std::vector<Disk>& disks,
                std::vector<std::int64_t>& begin);

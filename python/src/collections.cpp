@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "faces/axes.h"
 #include "many.h"
 
 namespace medial::python {
@@ -16,8 +17,7 @@ struct AxesOf {
   std::vector<std::int64_t> node_begin{0}, edge_begin{0}, site_begin{0};
   FeatureErrors errors;
   std::string method;
-  std::vector<double> tolerance, resolution;  ///< of each feature
-  double exterior = 0;
+  std::vector<double> tolerance, resolution, exterior;  ///< of each feature
 
   std::size_t size() const { return node_begin.size() - 1; }
 
@@ -27,21 +27,22 @@ struct AxesOf {
     };
     more(nodes), more(edges), more(sites);
     more(node_begin), more(edge_begin), more(site_begin);
-    more(tolerance), more(resolution);
+    more(tolerance), more(resolution), more(exterior);
   }
   void add(const MedialAxis& axis) {
     nodes.insert(nodes.end(), axis.nodes.begin(), axis.nodes.end());
     edges.insert(edges.end(), axis.edges.begin(), axis.edges.end());
     sites.insert(sites.end(), axis.sites.begin(), axis.sites.end());
     if (method.empty()) method = axis.method;
-    end_feature(axis.tolerance, axis.resolution);
+    end_feature(axis.tolerance, axis.resolution, axis.exterior);
   }
-  void end_feature(double own_tolerance, double own_resolution) {
+  void end_feature(double own_tolerance, double own_resolution, double own_exterior) {
     node_begin.push_back(static_cast<std::int64_t>(nodes.size()));
     edge_begin.push_back(static_cast<std::int64_t>(edges.size()));
     site_begin.push_back(static_cast<std::int64_t>(sites.size()));
     tolerance.push_back(own_tolerance);
     resolution.push_back(own_resolution);
+    exterior.push_back(own_exterior);
   }
 };
 
@@ -59,7 +60,7 @@ void add_range(const Features& features, std::size_t first, std::size_t last,
     }
     axis.error().place.feature = i;
     result.errors.emplace_back(static_cast<std::int64_t>(i), std::move(axis).error());
-    result.end_feature(0, 0);
+    result.end_feature(0, 0, 0);
   }
 }
 
@@ -84,6 +85,7 @@ AxesOf joined(std::vector<AxesOf>& parts) {
     append_offsets(all.site_begin, part.site_begin);
     append(all.tolerance, part.tolerance);
     append(all.resolution, part.resolution);
+    append(all.exterior, part.exterior);
     append(all.errors, part.errors);
     if (all.method.empty()) all.method = part.method;
   }
@@ -127,11 +129,50 @@ MedialAxis axis_of(const AxesOf& all, std::size_t i) {
   return {all.method,
           all.tolerance[i],
           all.resolution[i],
-          all.exterior,
+          all.exterior[i],
           part(all.sites, all.site_begin),
           part(all.nodes, all.node_begin),
           part(all.edges, all.edge_begin),
           {}};
+}
+
+/// The arrays of axes without errors, and back.
+nb::tuple state_of(const AxesOf& all) {
+  return nb::make_tuple(
+      all.method, records_of(all.nodes), records_of(all.edges), records_of(all.sites),
+      nb::make_tuple(array_of(all.node_begin), array_of(all.edge_begin), array_of(all.site_begin)),
+      nb::make_tuple(array_of(all.tolerance), array_of(all.resolution), array_of(all.exterior)));
+}
+
+std::unique_ptr<AxesOf> restored_axes(const std::string& method, const Values<std::uint8_t>& nodes,
+                                      const Values<std::uint8_t>& edges,
+                                      const Values<std::uint8_t>& sites,
+                                      const std::array<Values<std::int64_t>, 3>& begin,
+                                      const std::array<Values<double>, 3>& numbers) {
+  const auto copied = [](const auto& values) {
+    const auto all = span_of(values);
+    return std::vector(all.begin(), all.end());
+  };
+  auto all = std::make_unique<AxesOf>();
+  all->method = method;
+  all->nodes = records_from<Node>(nodes);
+  all->edges = records_from<Edge>(edges);
+  all->sites = records_from<Site>(sites);
+  all->node_begin = copied(begin[0]);
+  all->edge_begin = copied(begin[1]);
+  all->site_begin = copied(begin[2]);
+  all->tolerance = copied(numbers[0]);
+  all->resolution = copied(numbers[1]);
+  all->exterior = copied(numbers[2]);
+  check_offsets(all->node_begin, all->nodes.size());
+  check_offsets(all->edge_begin, all->edges.size());
+  check_offsets(all->site_begin, all->sites.size());
+  for (const auto& values : numbers)
+    if (values.shape(0) != all->size() || begin[1].shape(0) != begin[0].shape(0) ||
+        begin[2].shape(0) != begin[0].shape(0))
+      refuse(ErrorCode::malformed, "the arrays of the axes do not fit together");
+  for (std::size_t i = 0; i < all->size(); ++i) value_of(faces::sound(axis_of(*all, i)));
+  return all;
 }
 
 /// Polylines along the branches of features [first, last): rows of x, y, radius, or `flat` of x, y;
@@ -200,6 +241,7 @@ void bind_collections(nb::module_& module) {
            [of](nb::handle_t<AxesOf> self) { return bytes_of(of(self).site_begin, self); })
       .def("errors", [](const AxesOf& self) { return list_of(self.errors); })
       .def("method", [](const AxesOf& self) { return self.method; })
+      .def("state", &state_of)
       .def("lines", &lines_of, nb::arg("chord"), nb::arg("relative"), nb::arg("first"),
            nb::arg("last"), nb::arg("flat"))
       .def("summary", &summary)
@@ -207,6 +249,7 @@ void bind_collections(nb::module_& module) {
         if (i >= self.size()) throw nb::index_error("there is no such feature");
         return share(shape.shape, axis_of(self, i));
       });
+  module.def("restored_axes", &restored_axes);
   module.def("axes_of", &axes_of, nb::arg("coordinates"), nb::arg("ring"), nb::arg("polygon"),
              nb::arg("feature").none(), nb::arg("bulges").none(), nb::arg("options"),
              nb::arg("progress").none());

@@ -5,16 +5,6 @@
 namespace medial::python {
 namespace {
 
-/// An array that owns its records, as bytes.
-template <class T>
-Bytes records_of(std::vector<T> values) {
-  auto kept = std::make_unique<std::vector<T>>(std::move(values));
-  const auto* const all = kept.get();
-  nb::capsule owner(kept.release(),
-                    [](void* vector) noexcept { delete static_cast<std::vector<T>*>(vector); });
-  return bytes_of(*all, owner);
-}
-
 /// The records of these numbers, by a function of the editor.
 template <class T, class Get>
 Bytes those(const Values<std::int64_t>& numbers, const char* missing, const Get& get) {
@@ -54,8 +44,8 @@ std::unique_ptr<AxisOf> axis_of(const Editor& self) {
 }  // namespace
 
 void bind_editing(nb::module_& module) {
-  // One thread at a time: edits keep the interpreter's lock, since to let it go would let another
-  // thread in; in builds that have none, this one takes its place.
+  // One thread at a time may edit. Edits hold the interpreter's lock, and where Python has none,
+  // that of the object.
   const nb::lock_self lock;
   nb::class_<Editor>(module, "Editor")
       .def(

@@ -30,17 +30,13 @@ Image image_of(const Pixels& pixels) {
 
 Array<std::uint8_t, 2> array_of_image(const Image& image) {
   const std::size_t columns = image.width(), rows = image.height();
-  auto kept = std::make_unique<std::vector<std::uint8_t>>(rows * columns);
+  const auto [pixels, owner] = owned(std::vector<std::uint8_t>(rows * columns));
   for (std::size_t y = 0; y < rows; ++y) {
     const auto row = image.row(static_cast<std::uint32_t>(y));
-    std::uint8_t* const to = kept->data() + y * columns;
+    std::uint8_t* const to = pixels.data() + y * columns;
     for (std::size_t x = 0; x < columns; ++x) to[x] = row[x / 64] >> (x % 64) & 1;
   }
-  std::uint8_t* const data = kept->data();
-  nb::capsule owner(kept.release(), [](void* vector) noexcept {
-    delete static_cast<std::vector<std::uint8_t>*>(vector);
-  });
-  return {data, {rows, columns}, owner};
+  return {pixels.data(), {rows, columns}, owner};
 }
 
 Array<std::uint8_t, 2> thinned(const Pixels& pixels, const std::string& family) {
@@ -59,26 +55,23 @@ Array<std::uint8_t, 2> thinned(const Pixels& pixels, const std::string& family) 
 Array<double, 2> distances(const Pixels& pixels, bool cracks, bool frame, bool squared,
                            int threads) {
   const DistanceOptions options{cracks ? DistanceTo::cracks : DistanceTo::pixels, frame, threads};
-  auto values = std::make_unique<std::vector<double>>();
+  std::vector<double> values;
   const Status done = run(pixels.size(), [&](const std::atomic<bool>*) -> Status {
     auto map = distance_transform(image_of(pixels), options);
     if (!map) return std::move(map).error();
-    values->resize(map->squared.size());
+    values.resize(map->squared.size());
     const double scale = cracks ? 0.5 : 1;
-    for (std::size_t i = 0; i < values->size(); ++i) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
       const double square = scale * scale * static_cast<double>(map->squared[i]);
-      (*values)[i] = map->squared[i] == DistanceMap::unbounded
-                         ? std::numeric_limits<double>::infinity()
-                         : (squared ? square : std::sqrt(square));
+      values[i] = map->squared[i] == DistanceMap::unbounded
+                      ? std::numeric_limits<double>::infinity()
+                      : (squared ? square : std::sqrt(square));
     }
     return success();
   });
   value_of(Status(done));
-  double* const data = values->data();
-  nb::capsule owner(values.release(), [](void* vector) noexcept {
-    delete static_cast<std::vector<double>*>(vector);
-  });
-  return {data, {pixels.shape(0), pixels.shape(1)}, owner};
+  const auto [all, owner] = owned(std::move(values));
+  return {all.data(), {pixels.shape(0), pixels.shape(1)}, owner};
 }
 
 /// The outline of the foreground: points, and where rings begin.

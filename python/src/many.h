@@ -107,14 +107,26 @@ void for_each_block(const Features& features, const Options& options, const nb::
     weights.push_back(features.weight(b * block, std::min(count, (b + 1) * block)) + 1);
   const bool reports = !progress.is_none();
   std::optional<nb::python_error> raised;  // by `progress`, which ends the work
+  std::atomic<bool> failed{false};
+  // One thread at a time calls `progress`, also where Python has no lock, and for those that do not
+  // wait: `progress` may compute, too, and a thread of that work may come here.
+  std::atomic<std::size_t> unreported{0};
+  std::atomic_flag busy;
   const auto report = [&](std::size_t done) -> Status {
-    const nb::gil_scoped_acquire held;
-    try {
-      if (!raised) progress(done);
-    } catch (const nb::python_error& error) {
-      raised.emplace(error);
+    unreported += done;
+    while (unreported > 0 && !busy.test_and_set()) {
+      if (const std::size_t count = unreported.exchange(0); count > 0 && !failed) {
+        const nb::gil_scoped_acquire held;
+        try {
+          progress(count);
+        } catch (const nb::python_error& error) {
+          raised.emplace(error);
+          failed = true;
+        }
+      }
+      busy.clear();
     }
-    return raised ? Status(Error{ErrorCode::cancelled, "progress failed", {}}) : success();
+    return failed ? Status(Error{ErrorCode::cancelled, "progress failed", {}}) : success();
   };
   Status done = run(features.points.size(), [&](const std::atomic<bool>* cancel) {
     const auto one_block = [&](std::size_t b, int threads) -> Status {

@@ -18,11 +18,17 @@ nb::object point_or_none(const Place& place) {
   return nb::make_tuple(place.point->x, place.point->y);
 }
 
+/// Bytes that are no UTF-8, as in the name of a file, are kept as os.fsdecode() does.
+nb::object text_of(const std::string& text) {
+  return nb::steal(
+      PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "surrogateescape"));
+}
+
 void raise(const Error& error) {
   const Place& place = error.place;
   const nb::object type = nb::module_::import_("medial._errors").attr("MedialError");
   const nb::object exception =
-      type(error.text, name_of(error.code), number_or_none(place.feature),
+      type(text_of(error.text), name_of(error.code), number_or_none(place.feature),
            number_or_none(place.ring), number_or_none(place.vertex), point_or_none(place));
   PyErr_SetObject(type.ptr(), exception.ptr());
 }

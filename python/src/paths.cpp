@@ -49,6 +49,23 @@ std::vector<PathOf> paths_of(const AxisOf& self, double trim, const std::string&
   return paths;
 }
 
+/// A path as plain values, and back.
+using PathState = std::tuple<std::vector<std::tuple<std::uint32_t, double, double>>, bool, double,
+                             double, double>;
+
+PathState state_of(const PathOf& of) {
+  PathState state{{}, of.path.closed, of.path.length, of.path.narrowest, of.path.gap};
+  for (const auto& [edge, from, to] : of.path.pieces)
+    std::get<0>(state).emplace_back(edge, from, to);
+  return state;
+}
+PathOf path_of_state(const PathState& state) {
+  const auto& [pieces, closed, length, narrowest, gap] = state;
+  PathOf of{{{}, closed, length, narrowest, gap}};
+  for (const auto& [edge, from, to] : pieces) of.path.pieces.push_back({edge, from, to});
+  return of;
+}
+
 PathOf path(const AxisOf& self, const Place& from, const Place& to, const std::string& route) {
   const EdgePlace a = place_of(self, from), b = place_of(self, to);
   const bool widest = route == "widest";
@@ -177,11 +194,16 @@ void bind_paths(nb::module_& module) {
       .def_prop_ro("narrowest", [](const PathOf& self) { return self.path.narrowest; })
       .def_prop_ro("closed", [](const PathOf& self) { return self.path.closed; })
       .def_prop_ro("gap", [](const PathOf& self) { return self.path.gap; })
-      .def_prop_ro("pieces", [](const PathOf& self) {
-        std::vector<std::tuple<std::uint32_t, double, double>> pieces;
-        for (const auto& [edge, from, to] : self.path.pieces) pieces.emplace_back(edge, from, to);
-        return pieces;
-      });
+      .def_prop_ro("pieces",
+                   [](const PathOf& self) {
+                     std::vector<std::tuple<std::uint32_t, double, double>> pieces;
+                     for (const auto& [edge, from, to] : self.path.pieces)
+                       pieces.emplace_back(edge, from, to);
+                     return pieces;
+                   })
+      .def("__getstate__", &state_of)
+      .def("__setstate__",
+           [](PathOf& self, const PathState& state) { new (&self) PathOf(path_of_state(state)); });
   module.def("pruned", &pruned, nb::arg("axis"), nb::arg("measure"), nb::arg("threshold").none(),
              nb::arg("keep").none(), nb::arg("tips"));
   module.def("significance", &significance);

@@ -1,6 +1,7 @@
 // Shapes and contours of curves.
 
 #include "binding.h"
+#include "faces/axes.h"
 
 namespace medial::python {
 namespace {
@@ -85,10 +86,40 @@ std::pair<Array<double, 2>, Array<std::int64_t>> outline(const Shape& shape, dou
   std::vector<Vec2> points;
   std::vector<std::int64_t> begin{0};
   for (std::size_t i = 0; i < shape.loop_count(); ++i) {
-    add_outline(ring_of(shape, i), chord, points);
+    faces::add_outline(ring_of(shape, i), chord, points);
     begin.push_back(static_cast<std::int64_t>(points.size()));
   }
   return {rows_of<double>(std::move(points)), array_of(std::move(begin))};
+}
+
+/// A contour as plain values, and back.
+using ContourState = std::tuple<std::vector<std::array<double, 2>>, std::vector<double>,
+                                std::vector<std::pair<std::uint32_t, double>>, std::uint8_t>;
+
+ContourState state_of(const Contour& contour) {
+  ContourState state;
+  auto& [points, weights, pieces, role] = state;
+  for (const Vec2 p : contour.points) points.push_back({p.x, p.y});
+  weights = contour.weights;
+  for (const CurvePiece& piece : contour.pieces) pieces.emplace_back(piece.degree, piece.bulge);
+  role = static_cast<std::uint8_t>(contour.role);
+  return state;
+}
+
+Contour contour_of_state(const ContourState& state) {
+  const auto& [points, weights, pieces, role] = state;
+  Contour contour;
+  for (const auto& p : points) contour.points.push_back(point_of(p));
+  contour.weights = weights;
+  std::uint64_t at = 0;
+  for (const auto& [degree, bulge] : pieces) {
+    contour.pieces.push_back({static_cast<std::uint32_t>(at), degree, bulge});
+    at += degree;
+  }
+  contour.role = role_from(role);
+  if (at + 1 != points.size() || (!weights.empty() && weights.size() != points.size()))
+    refuse(ErrorCode::malformed, "the parts of the contour do not fit together");
+  return contour;
 }
 
 void bind_contour(nb::module_& module) {
@@ -135,6 +166,11 @@ void bind_contour(nb::module_& module) {
                                     weights.value_or(std::vector<double>{})));
           },
           lock)
+      .def("__getstate__", &state_of, lock)
+      .def("__setstate__",
+           [](Contour& self, const ContourState& state) {
+             new (&self) Contour(contour_of_state(state));
+           })
       .def_prop_ro("piece_count", [](const Contour& self) { return self.pieces.size(); })
       .def_prop_ro("end",
                    [](const Contour& self) {
@@ -149,11 +185,7 @@ void bind_contour(nb::module_& module) {
 }  // namespace
 
 RepairRule repair_from(const std::optional<std::string>& name) {
-  if (!name) return RepairRule::none;
-  if (*name == "make_valid") return RepairRule::make_valid;
-  if (*name == "even_odd") return RepairRule::even_odd;
-  if (*name == "non_zero") return RepairRule::non_zero;
-  refuse(ErrorCode::invalid_option, "repair is 'make_valid', 'even_odd' or 'non_zero'");
+  return name ? value_of(faces::repair_from(*name)) : RepairRule::none;
 }
 
 std::vector<Ring> rings_of(const Coordinates& coordinates,
@@ -177,16 +209,6 @@ std::vector<Ring> rings_of(const Coordinates& coordinates,
     if (bulges) rings[i].bulges.assign(bulges->data() + from, bulges->data() + to);
   }
   return rings;
-}
-
-void add_outline(const Ring& ring, double chord, std::vector<Vec2>& points) {
-  ToolPath path;
-  for (std::size_t k = 0; k <= ring.points.size(); ++k) {
-    const std::size_t at = k % ring.points.size();
-    path.points.push_back({ring.points[at], 0, ring.bulges.empty() ? 0 : ring.bulges[at]});
-  }
-  path.points.back().bulge = 0;
-  for (const ToolPoint& point : without_arcs(path, chord)) points.push_back(point.point);
 }
 
 void bind_shapes(nb::module_& module) {

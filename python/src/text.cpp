@@ -1,6 +1,10 @@
 // Files and texts that medial::text reads and writes.
 
+#include <nanobind/stl/variant.h>
+
+#include <charconv>
 #include <functional>
+#include <variant>
 
 #include "binding.h"
 #include "io/checks.h"
@@ -9,6 +13,10 @@
 
 namespace medial::python {
 namespace {
+
+/// The name of a file, in the encoding of the system.
+using Path = nb::bytes;
+std::string text_of(const Path& path) { return {path.c_str(), path.size()}; }
 
 /// All rings of some features: points, where rings begin, roles, bulges (none: straight), contours.
 nb::tuple tuple_of(std::vector<Feature> features) {
@@ -72,9 +80,9 @@ nb::tuple shapes_of(
 }
 
 /// The shapes of a file, or of a text in the font `path`.
-nb::tuple shapes_of_file(const std::string& path, const std::string& text,
-                         io::SourceOptions options) {
+nb::tuple shapes_of_file(const Path& file, const std::string& text, io::SourceOptions options) {
   options.text = text;
+  const std::string path = text_of(file);
   return shapes_of([&](const std::atomic<bool>* cancel) {
     options.load.cancel = cancel;
     return io::load_shapes(path, options);
@@ -157,14 +165,34 @@ void bind_drawing(nb::module_& module) {
   module.def("shapes_of_drawing", &shapes_of_drawing, nb::arg("drawing"), nb::arg("reading"));
 }
 
-/// The shape and the axis of each item of a native file.
+/// As writers of tables know numbers again.
+std::string shortest(double number) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
+  return {text.data(), end};
+}
+
+/// What Python says of a shape: texts, and numbers to be written as texts.
+using Given = std::vector<std::pair<std::string, std::variant<double, std::string>>>;
+
+Attributes attributes_of(const Given& given) {
+  Attributes attributes;
+  for (const auto& [name, value] : given) {
+    const auto* const number = std::get_if<double>(&value);
+    attributes.emplace_back(name, number ? shortest(*number) : std::get<std::string>(value));
+  }
+  return attributes;
+}
+
+/// The shape, the axis and the attributes of each item of a native file.
 nb::list native(Result<Document<AxisItem>> file) {
   nb::list list;
   for (AxisItem& item : value_of(std::move(file)).items) {
     if (item.shape.points.empty() && !item.contours.empty())
       refuse(ErrorCode::unsupported, "the file has curves without an axis: medial.read() takes it");
     auto shape = std::make_shared<const Shape>(std::move(item.shape));
-    list.append(share(std::move(shape), std::move(item.axis), item.part));
+    auto axis = share(std::move(shape), std::move(item.axis), item.part);
+    list.append(nb::make_tuple(std::move(axis), item.attributes));
   }
   return list;
 }
@@ -172,7 +200,9 @@ nb::list native(Result<Document<AxisItem>> file) {
 /// Where a document goes: a file, or without a path a text.
 class Output {
  public:
-  explicit Output(const std::optional<std::string>& path) : path_(path) {}
+  explicit Output(const std::optional<Path>& path) {
+    if (path) path_ = text_of(*path);
+  }
   io::Destination destination() {
     return path_ ? io::Destination(*path_) : io::Destination(&text_);
   }
@@ -183,11 +213,11 @@ class Output {
   }
 
  private:
-  const std::optional<std::string>& path_;
+  std::optional<std::string> path_;
   std::string text_;
 };
 
-nb::object write_axis(const AxisOf& self, const std::optional<std::string>& path,
+nb::object write_axis(const AxisOf& self, const Given& attributes, const std::optional<Path>& path,
                       const std::string& format, double chord, double simplify) {
   Output output(path);
   io::WriteOptions options;
@@ -195,26 +225,26 @@ nb::object write_axis(const AxisOf& self, const std::optional<std::string>& path
   options.simplify = simplify;
   return output.result(without_lock([&] {
     Document<AxisItem> file;
-    file.items.push_back({*self.shape, self.axis, {}, {}, self.part});
+    file.items.push_back({*self.shape, self.axis, attributes_of(attributes), {}, self.part});
     file.items.front().axis.statistics = {};  // the same axis makes the same file
     return io::write_axes(output.destination(), format, file, options);
   }));
 }
 
-nb::object write_shape(const ShapeOf& self, const std::optional<std::string>& path,
-                       const std::string& format, double chord) {
+nb::object write_shape(const ShapeOf& self, const Given& attributes,
+                       const std::optional<Path>& path, const std::string& format, double chord) {
   Output output(path);
   io::WriteOptions options;
   options.chord = chord;
   return output.result(without_lock([&] {
     Document<ShapeItem> file;
-    file.items.push_back({*self.shape, {}, {}});
+    file.items.push_back({*self.shape, attributes_of(attributes), {}});
     return io::write_shapes(output.destination(), format, file, options);
   }));
 }
 
 /// The program of one tool, or of a mill and a V, in millimetres or inches.
-nb::object write_carving(const CarvingOf& self, const std::optional<std::string>& path,
+nb::object write_carving(const CarvingOf& self, const std::optional<Path>& path,
                          const std::string& format, const std::array<double, 2>& zero, bool y_down,
                          bool inches, const io::MachineOptions& machine) {
   Output output(path);
@@ -241,17 +271,17 @@ void bind_text(nb::module_& module) {
   module.def("shapes_of_file", &shapes_of_file, nb::arg("path"), nb::arg("text"),
              nb::arg("reading"));
   bind_drawing(module);
-  module.def("native_of_file", [](const std::string& path) {
-    return native(without_lock([&] { return io::read_native(path); }));
+  module.def("native_of_file", [](const Path& path) {
+    return native(without_lock([name = text_of(path)] { return io::read_native(name); }));
   });
   module.def("native_of_text", [](const nb::bytes& text) {
     const std::string_view all(text.c_str(), text.size());
     return native(without_lock([&] { return io::read_native_text(all); }));
   });
-  module.def("write_axis", &write_axis, nb::arg("axis"), nb::arg("path").none(), nb::arg("format"),
-             nb::arg("chord"), nb::arg("simplify"));
-  module.def("write_shape", &write_shape, nb::arg("shape"), nb::arg("path").none(),
-             nb::arg("format"), nb::arg("chord"));
+  module.def("write_axis", &write_axis, nb::arg("axis"), nb::arg("attributes"),
+             nb::arg("path").none(), nb::arg("format"), nb::arg("chord"), nb::arg("simplify"));
+  module.def("write_shape", &write_shape, nb::arg("shape"), nb::arg("attributes"),
+             nb::arg("path").none(), nb::arg("format"), nb::arg("chord"));
   nb::class_<io::MachineOptions>(module, "Machine")
       .def("__init__",
            [](io::MachineOptions* self, double safe, double rapid, std::array<double, 3> carving,

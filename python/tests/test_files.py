@@ -1,8 +1,11 @@
 """Files and texts: the native format, SVG, WKT, GeoJSON, fonts, graphs; beside shapely and the C++ results."""
 
+import copy
 import gzip
 import json
+import os
 import pathlib
+import pickle
 
 import numpy as np
 import pytest
@@ -132,3 +135,73 @@ def test_columns_are_those_of_the_axis(tmp_path, plan):
         a.to_text("safetensors")
     with pytest.raises(medial.MedialError):
         medial.columns(tmp_path / "none.safetensors")
+
+
+FEATURES = [
+    {"type": "Feature", "geometry": {"type": "Polygon", "coordinates": [[*RING, RING[0]]]},
+     "properties": {"zip": "08001", "pop": 5, "share": 0.5, "ok": True, "none": None, "list": [1, "é"]}},
+    {"type": "Feature", "geometry": None, "properties": {}},
+]  # fmt: skip
+
+
+def geojson(path, features):
+    path.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+    return path
+
+
+def test_attributes_stay_with_shapes_and_axes(tmp_path):
+    with pytest.warns(UserWarning, match="1 feature has no geometry"):
+        (shape,) = medial.read(geojson(tmp_path / "a.geojson", FEATURES))
+    assert shape.attributes == FEATURES[0]["properties"]
+    shape.save(tmp_path / "b.geojson")
+    (again,) = medial.read(tmp_path / "b.geojson")
+    texts = {"zip": "08001", "pop": "5", "share": "0.5", "ok": "1", "list": '[1, "é"]'}
+    assert again.attributes == texts
+    a = medial.axis(shape)
+    line = medial.centerline(a)
+    many, editor = medial.axes([RING, shape]), medial.Editor(shape)
+    assert many[0].shape.attributes == {}
+    for kept in (a, many[1], editor.axis, editor.copy().axis, a.prune(), copy.copy(a), copy.deepcopy(a), pickle.loads(pickle.dumps(a)), line.axis):
+        assert kept.shape.attributes == shape.attributes
+    assert shape.scaled(2).attributes == medial.rebuild(a).attributes == shape.attributes
+    for name in ("c.json", "c.safetensors", "c.json.gz"):
+        a.save(tmp_path / name)
+        assert medial.load(tmp_path / name)[0].shape.attributes == texts, name
+    assert medial.loads(a.to_text())[0].shape.attributes == texts
+    properties = json.loads(a.to_text("geojson"))["features"][0]["properties"]
+    assert (properties["zip"], properties["pop"], properties["share"]) == ("08001", 5, 0.5)
+    assert medial.axis(RING).shape.attributes == {}
+
+
+def test_errors_of_files_have_a_code_and_a_place(tmp_path):
+    damaged = gzip.compress(b"{}")[:10] + b"\xff" * 40
+    for name in ("a.geojson.gz", "a.dxf.gz"):
+        (tmp_path / name).write_bytes(damaged)
+        if name.startswith("a.dxf"):
+            pytest.importorskip("ezdxf")
+        with pytest.raises(medial.MedialError) as caught:
+            medial.read(tmp_path / name)
+        assert caught.value.code == "unreadable"
+    bow = {"type": "Polygon", "coordinates": [[(0, 0), (2, 2), (2, 0), (0, 2), (0, 0)]]}
+    path = geojson(tmp_path / "b.geojson", [FEATURES[0], {**FEATURES[0], "geometry": bow}])
+    with pytest.raises(medial.MedialError, match="b.geojson") as caught:
+        medial.read(path)
+    assert (caught.value.code, caught.value.feature, caught.value.ring) == ("crossing", 1, 0)
+    with pytest.raises(medial.MedialError) as caught:
+        medial.axis(RING).save(tmp_path / "missing" / "a.json.gz")
+    assert caught.value.code == "unwritable"
+
+
+def test_any_path_will_do(tmp_path):
+    a = medial.axis(RING)
+    for name in (b"a.json", b"\xff.json", b"a.JSON.GZ", b"\xff.json.gz"):
+        path = os.path.join(os.fsencode(tmp_path), name)
+        a.save(path)
+        assert medial.load(path)[0] == medial.load(os.fsdecode(path))[0] == a
+    a.shape.save(os.path.join(os.fsencode(tmp_path), b"\xff.wkt"))
+    assert medial.read(os.path.join(os.fsencode(tmp_path), b"\xff.wkt"))[0].area == 60
+    with pytest.raises(medial.MedialError):
+        medial.load(os.fsencode(tmp_path) + b"/none\xff.json")
+    (tmp_path / "link.json.gz").symlink_to(tmp_path / "target.json.gz")
+    a.save(tmp_path / "link.json.gz")
+    assert (tmp_path / "link.json.gz").is_symlink() and medial.load(tmp_path / "target.json.gz")[0] == a
