@@ -500,6 +500,68 @@ TEST(Editor, FollowsEditsWhileEdgesTouch) {
   EXPECT_EQ(fault_of(editor), "");
 }
 
+/// Two teeth touch the other side; edits of the rest, straight or with arcs, are local.
+TEST(Editor, FollowsEditsOfArcsWhileEdgesTouch) {
+  Ring bar{{{0, 0}, {200, 0}, {200, 10}}, RingRole::any, {0, 0.0625, 0}};
+  for (int i = 48; i > 0; --i)
+    for (const Vec2 p : {Vec2{4.0 * i + 1, 10}, {4.0 * i, 2}, {4.0 * i - 1, 10}}) {
+      bar.points.push_back(p);
+      bar.bulges.push_back(0.03125);
+    }
+  bar.points.push_back({0, 10});
+  bar.bulges.push_back(0);
+  Editor editor = editor_of({bar});
+  for (const double x : {40.0, 120.0}) {
+    const auto touching = editor.move(vertex_at(editor, {x, 2}), {x, 0});
+    ASSERT_TRUE(touching.ok()) << to_string(touching.error());
+  }
+  EXPECT_EQ(editor.shape().component_count(), 3U);
+  const std::uint32_t tip = vertex_at(editor, {80, 2});
+  Mirror mirror(editor);
+  const auto expect_local = [&](const Result<AxisChange>& change) {
+    ASSERT_TRUE(change.ok()) << to_string(change.error());
+    EXPECT_FALSE(change->everything);
+    mirror.follow(*change);
+    mirror.expect(editor);
+    EXPECT_EQ(fault_of(editor), "");
+  };
+  expect_local(editor.move(tip, {80.5, 3}));
+  expect_local(editor.set_bulge(tip, -0.125));
+  EXPECT_EQ(editor.bulge(tip), -0.125);
+  const auto inserted = editor.insert(vertex_at(editor, {0, 10}), {-1, 5});
+  expect_local(inserted);
+  expect_local(editor.remove(inserted->vertex));
+  const Ring lens{{{57, 5}, {58, 4}, {59, 5}}, RingRole::any, {0.25, 0.125, 0.125}};
+  const auto hole = editor.insert_loop(lens);
+  expect_local(hole);
+  expect_local(editor.move_loop(hole->vertex, {-40, 0}));
+  expect_local(editor.remove_loop(hole->vertex));
+  EXPECT_EQ(editor.shape().component_count(), 3U);
+  for (int i = 0; i < 7; ++i) expect_local(editor.undo());
+  EXPECT_EQ(editor.bulge(tip), 0.03125);
+  for (int i = 0; i < 2; ++i) ASSERT_TRUE(editor.undo().ok());
+  EXPECT_EQ(editor.shape().component_count(), 1U);
+  EXPECT_EQ(fault_of(editor), "");
+}
+
+/// The place nearest to the new hole is the tip of both others.
+TEST(Editor, KnowsAHoleBesideAPlaceWhereOthersTouch) {
+  for (const Vec2 tip : {Vec2{20, 20}, {22, 21}})
+    for (const int side : {-1, 1}) {
+      const auto beside = [&](double x, double y) { return tip + Vec2{side * x, y}; };
+      const Ring below{{tip, beside(10, -2), beside(10, -6)}, RingRole::any, {}};
+      const Ring above{{tip, beside(10, 6), beside(10, 2)}, RingRole::any, {}};
+      for (const Rings& two : {Rings{below, above}, Rings{above, below}}) {
+        Editor editor = editor_of({rectangle(40, 40)[0], two[0], two[1]});
+        ASSERT_TRUE(
+            editor.insert_loop(triangle(beside(-4, 0), beside(-6, 1), beside(-6, -1))[0]).ok());
+        EXPECT_EQ(editor.shape().component_count(), 1U);
+        EXPECT_EQ(editor.shape().hole_count(), 2U);  // the two are one
+        EXPECT_EQ(fault_of(editor), "");
+      }
+    }
+}
+
 /// A vertex that another one has touched is flat again where its edges are in one line.
 TEST(Editor, ForgetsWhatHasTouched) {
   Ring bar{{{0, 0}, {400, 0}}, RingRole::any, {}};

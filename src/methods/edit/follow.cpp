@@ -106,10 +106,9 @@ Result<AxisChange> Editor::Parts::change(edit::Edit edit) {
   drop_signs_of_zeros(edit);
   if (auto error = refuse(edit, edited())) return std::move(*error);
   // With arcs, all that comes near touches, and becomes one within the tolerance.
-  const bool is_first_arc = !rings.has_arcs() && edit.has_arcs();
-  const bool is_merged = touching && (rings.has_arcs() || edited().has_arcs());
+  const bool is_first_or_last_arc = edited().has_arcs_after(edit) != rings.has_arcs();
   const bool is_exact = !edit.is_of_loops() && !rings.has_arcs();
-  if (is_first_arc || is_merged || (!is_exact && !fits_frame(edit))) return rebuild(edit);
+  if (is_first_or_last_arc || (!is_exact && !fits_frame(edit))) return rebuild(edit);
   const std::optional<edit::Edit> own = touching ? touching->of_loops(edit, rings) : edit;
   Rings::Judgement judgement{Rings::Verdict::unclear, none, {}};
   if (own) judgement = rings.judge(*own);

@@ -165,6 +165,19 @@ void Rings::judge_vertex(std::uint32_t v) {
 
 void Rings::set_box(std::uint32_t v) { boxes_.set(v, box_of(edge(v))); }
 
+bool Rings::has_arcs_after(const Edit& edit) const {
+  const auto count = [](const std::vector<Corner>& corners) {
+    return std::count_if(corners.begin(), corners.end(),
+                         [](const Corner& corner) { return corner.bulge != 0; });
+  };
+  auto arcs = static_cast<std::ptrdiff_t>(arcs_) + count(edit.in) - count(edit.out);
+  for (const std::uint32_t gone : {edit.before, edit.old})
+    if (gone != none && vertices_[gone].bulge != 0) --arcs;
+  for (const double bulge : edit.bulge)
+    if (bulge != 0) ++arcs;
+  return arcs > 0;
+}
+
 std::uint32_t Rings::hole_in(std::uint32_t loop) const {
   if (loops_[loop].hole) return none;
   for (const Loop& other : loops_)
@@ -226,6 +239,22 @@ std::vector<Rings::Extent> Rings::sites_at(const std::vector<Vec2>& places) cons
   return sites;
 }
 
+std::uint32_t Rings::opening_to(std::uint32_t v, Vec2 p) const {
+  std::uint32_t others = 0, open = none;
+  const Vec2 here = vertices_[v].point;
+  boxes_.find({here, here}, [&](std::uint32_t u) {
+    if (!(vertices_[u].point == here)) return;
+    ++others;
+    const Vec2 from = start_tangent(edge(u)), to = -end_tangent(edge(vertices_[u].before));
+    const auto angle_to = [&](Vec2 way) {
+      const double angle = signed_angle(from, way);
+      return angle > 0 ? angle : angle + 2 * std::numbers::pi;
+    };
+    if (angle_to(p - here) < angle_to(to)) open = u;
+  });
+  return others > 1 ? open : v;
+}
+
 Rings::Around Rings::around(Vec2 place) const {
   const Vec2 p = frame_.to_local(place);
   const auto pieces_at = [&](std::uint32_t v) {
@@ -248,7 +277,8 @@ Rings::Around Rings::around(Vec2 place) const {
   const double s = site::foot_parameter(piece, p);
   for (const bool at_end : {false, true}) {
     if (s != (at_end ? piece.length : 0) || (pieces.count > 1 && is_last != at_end)) continue;
-    const std::uint32_t end = at_end ? vertices_[v].next : v;
+    const std::uint32_t end = opening_to(at_end ? vertices_[v].next : v, place);
+    if (end == none) return {none, away};
     if (vertices_[end].flat || vertices_[end].joint == site::Joint::smooth) break;
     return {is_reflex(end) ? 2 * end : none, away};
   }

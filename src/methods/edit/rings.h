@@ -46,12 +46,6 @@ struct Edit {
   double bulge_before = 0;  ///< of the edge that begins at `before`, where this takes an edit back
 
   bool is_of_loops() const { return !out.empty() || !in.empty(); }
-  /// Whether there are arcs after it where there were none.
-  bool has_arcs() const {
-    return bulge[0] != 0 || bulge[1] != 0 ||
-           std::any_of(in.begin(), in.end(),
-                       [](const Corner& corner) { return corner.bulge != 0; });
-  }
 };
 
 Box box_of(const BulgeArc& edge);
@@ -93,6 +87,8 @@ class Rings {
   std::uint32_t component(std::uint32_t loop) const { return loops_[loop].component; }
   bool is_hole(std::uint32_t loop) const { return loops_[loop].hole; }
   bool has_arcs() const { return arcs_ > 0; }
+  /// The same after an edit.
+  bool has_arcs_after(const Edit& edit) const;
   bool is_reflex(std::uint32_t v) const { return vertices_[v].joint == site::Joint::reflex; }
   /// A vertex of a hole in an outer loop; none if it has no hole.
   std::uint32_t hole_in(std::uint32_t loop) const;
@@ -237,6 +233,8 @@ class Rings {
       v = next;
     } while (v != loops_[loop].first);
   }
+  /// Of the vertices at the place of one, that whose interior a place nearby lies in, or none.
+  std::uint32_t opening_to(std::uint32_t v, Vec2 p) const;
   Extent extent_of(std::uint32_t site) const;
   void append(std::uint32_t loop, std::uint32_t ring, std::uint32_t component, Shape& shape) const;
   BulgeArc edge(std::uint32_t v) const {

@@ -67,7 +67,8 @@ std::uint32_t Touching::edge_at(std::uint32_t of_loops, const Rings& loops) cons
   return rings_.has(end) && rings_[end].next == start ? end : start;
 }
 
-/// No two edges have the same ends: so places tell which edge of the loops is one of the rings.
+/// No two edges have the same ends and bulges: these tell which edge of the loops is one of the
+/// rings.
 std::optional<Edit> Touching::of_vertices(const Edit& edit, const Rings& loops) const {
   const auto number_there = [&](std::uint32_t v) {
     const std::uint32_t number = number_of(v);
@@ -97,9 +98,22 @@ std::optional<Edit> Touching::of_vertices(const Edit& edit, const Rings& loops) 
   } else {
     return std::nullopt;
   }
+  const auto is_edge = [&](std::uint32_t of_loops, std::uint32_t of_rings) {
+    return loops[of_loops].bulge == (is_turned ? -1 : 1) * rings_[of_rings].bulge;
+  };
+  const std::uint32_t last = has_old ? edit.old : edit.before;
   if (!is_at(own.before, is_turned ? edit.after : edit.before) ||
-      !is_at(own.after, is_turned ? edit.before : edit.after))
+      !is_at(own.after, is_turned ? edit.before : edit.after) ||
+      !is_edge(own.before, is_turned ? last : edit.before) ||
+      (has_old && !is_edge(own.old, is_turned ? edit.before : last)))
     return std::nullopt;
+  if (is_turned) {
+    const auto [first, second] = edit.bulge;
+    if (edit.fresh != none)
+      own.bulge = {0 - second, 0 - first};
+    else
+      own.bulge[0] = 0 - first;
+  }
   if (edit.fresh != none) {
     own.fresh = edit.fresh == edit.old ? own.old : number_of(edit.fresh);
     if (own.fresh == none) own.fresh = loops.unused();
@@ -115,8 +129,9 @@ bool Touching::is_loop(const std::vector<Corner>& corners, const Rings& loops) c
     const std::uint32_t after = number_of(corners[i + 1 < corners.size() ? i + 1 : 0].number);
     if (v == none || after == none || !loops.has(v) || !loops.has(after)) return false;
     if (loops[v].touches) return false;  // what touches it may be flat then
-    is_forward = is_forward && loops[v].next == after;
-    is_backward = is_backward && loops[after].next == v;
+    const double bulge = corners[i].bulge;
+    is_forward = is_forward && loops[v].next == after && loops[v].bulge == bulge;
+    is_backward = is_backward && loops[after].next == v && loops[after].bulge == -bulge;
   }
   return is_forward || is_backward;
 }

@@ -25,7 +25,7 @@ class Touching {
   std::uint32_t vertex_at(std::uint32_t of_loops) const { return of_loops_[of_loops]; }
   /// The first vertex, in the rings, of an edge of the loops.
   std::uint32_t edge_at(std::uint32_t of_loops, const Rings& loops) const;
-  /// What an edit of straight edges of the rings is to the loops. None where its vertex is none of
+  /// What an edit of the rings is to the loops. None where its vertex is none of
   /// the loops, or several, or the loops go on in another way.
   std::optional<Edit> of_loops(const Edit& edit, const Rings& loops) const;
   /// Makes the edit of the rings, before the loops follow. Nothing happens where it throws.
