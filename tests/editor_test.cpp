@@ -831,6 +831,105 @@ TEST(Editor, FollowsEditsAfterWhichEdgesTouch) {
   }
 }
 
+/// A ring comes, moves and goes beside others that it touches, and all comes back.
+TEST(Editor, FollowsLoopsThatTouchOthers) {
+  struct Case {
+    const char* name;
+    Ring ring;
+    std::size_t components, loops;
+    Vec2 by;
+    std::size_t components_then, loops_then;
+  };
+  Ring hall{{{-40, 0}, {60, 0}, {60, 20}, {22, 20}, {20, 14}, {18, 20}}, {}, {}};
+  for (int i = 0; i < 20; ++i) hall.points.push_back({-2.0 * i, i % 2 == 0 ? 20.0 : 12.0});
+  const Ring pillar{{{40, 6}, {42, 10}, {38, 10}}, {}, {}};
+  const Rings base{hall, pillar};
+  const std::vector<Case> cases{
+      {"a hole on a wall", {{{10, 0}, {12, 4}, {8, 4}}, {}, {}}, 1, 2, {20, 0}, 1, 2},
+      {"a hole that divides", {{{30, 0}, {32, 10}, {30, 20}, {28, 10}}, {}, {}}, 2, 3, {20, 0}, 2, 3},
+      {"an edge on a corner", {{{16, 14}, {20, 8}, {24, 14}}, {}, {}}, 1, 2, {0, -2}, 1, 3},
+      {"a hole on a hole", {{{40, 6}, {38, 2}, {42, 2}}, {}, {}}, 1, 2, {0, -1}, 1, 3},
+      {"onto a hole", {{{30, 6}, {28, 2}, {32, 2}}, {}, {}}, 1, 3, {10, 0}, 1, 2},
+      {"from outside", {{{60, 10}, {62, 8}, {62, 12}}, {}, {}}, 2, 3, {0, 10}, 2, 3},
+      {"from outside on a corner", {{{60, 20}, {62, 21}, {60, 22}}, {}, {}}, 2, 3, {0, 1}, 2, 3},
+      {"out of a wall", {{{58, 9}, {60, 10}, {58, 11}}, {}, {}}, 1, 2, {2.5, 0}, 2, 3},
+      {"a corner in a line", {{{10, 0}, {12, 4}, {10, 4}, {8, 4}}, {}, {}}, 1, 2, {6, 1}, 1, 3},
+      {"into a hole", {{{60, 6}, {61, 9}, {60.25, 9}}, {}, {}}, 2, 3, {-20, 0}, 2, 3}};
+  for (const Case& one : cases) {
+    Editor editor = editor_of(base);
+    const auto before = loops_of(editor.shape());
+    Mirror mirror(editor);
+    const auto expect = [&](const Result<AxisChange>& change, const Rings& rings,
+                            std::size_t components, std::size_t loops) {
+      ASSERT_TRUE(change.ok()) << one.name << ": " << to_string(change.error());
+      EXPECT_FALSE(change->everything) << one.name;
+      mirror.follow(*change);
+      mirror.expect(editor);
+      EXPECT_EQ(editor.shape().component_count(), components) << one.name;
+      EXPECT_EQ(editor.shape().loop_count(), loops) << one.name;
+      EXPECT_EQ(loops_of(editor.shape()), loops_of(shape_of(rings))) << one.name;
+      EXPECT_EQ(fault_of(editor), "") << one.name;
+    };
+    Rings with_ring = base, moved = base;
+    with_ring.push_back(one.ring);
+    moved.push_back(one.ring);
+    for (Vec2& p : moved.back().points) p = p + one.by;
+    const auto inserted = editor.insert_loop(one.ring);
+    expect(inserted, with_ring, one.components, one.loops);
+    const std::uint32_t vertex = inserted->vertex;
+    EXPECT_EQ(editor.vertex(vertex), one.ring.points[0]);
+    expect(editor.move_loop(vertex, one.by), moved, one.components_then, one.loops_then);
+    EXPECT_EQ(editor.vertex(vertex), one.ring.points[0] + one.by);
+    expect(editor.undo(), with_ring, one.components, one.loops);
+    expect(editor.remove_loop(vertex), base, 1, 2);
+    expect(editor.undo(), with_ring, one.components, one.loops);
+    expect(editor.undo(), base, 1, 2);
+    EXPECT_EQ(loops_of(editor.shape()), before) << one.name;
+  }
+}
+
+TEST(Editor, RefusesLoopsThatTouchAndCross) {
+  Editor editor = editor_of(rectangle(40, 20));
+  for (int i = 0; i < 8; ++i)
+    ASSERT_TRUE(editor.insert(vertex_at(editor, {0, 0}), {36.0 - 4 * i, i % 2 - 0.5}).ok());
+  const Editor copy = editor;
+  const auto crossing = editor.insert_loop({{{10, 20}, {12, 16}, {50, 18}}, {}, {}});
+  ASSERT_FALSE(crossing.ok());
+  EXPECT_EQ(crossing.error().code, ErrorCode::crossing);
+  const auto along = editor.insert_loop({{{10, 20}, {12, 20}, {11, 16}}, {}, {}});
+  ASSERT_FALSE(along.ok());
+  EXPECT_EQ(along.error().code, ErrorCode::overlap);
+  // Through two vertices.
+  const auto through = editor.insert_loop({{{40, 20}, {36, 16}, {44, 24}, {44, 16}}, {}, {}});
+  EXPECT_FALSE(through.ok());
+  expect_same(editor, copy);
+}
+
+TEST(Editor, TurnsASmallLoopInsideOut) {
+  for (const bool touches : {false, true}) {
+    Rings grid = hole_grid(4);
+    if (touches) grid.push_back({{{1.5, 1}, {1.25, 0.75}, {1.75, 0.75}}, {}, {}});
+    Editor editor = editor_of(grid);
+    const auto before = loops_of(editor.shape());
+    Mirror mirror(editor);
+    const auto change = editor.move(vertex_at(editor, {5, 5}), {6.5, 6.25});
+    ASSERT_TRUE(change.ok()) << to_string(change.error());
+    EXPECT_FALSE(change->everything);
+    mirror.follow(*change);
+    mirror.expect(editor);
+    EXPECT_EQ(loops_of(editor.shape()),
+              loops_of(shape_of(with_point_moved(grid, {5, 5}, {6.5, 6.25}))));
+    EXPECT_EQ(fault_of(editor), "");
+    const auto undone = editor.undo();
+    ASSERT_TRUE(undone.ok());
+    EXPECT_FALSE(undone->everything);
+    mirror.follow(*undone);
+    mirror.expect(editor);
+    EXPECT_EQ(loops_of(editor.shape()), before);
+    EXPECT_EQ(fault_of(editor), "");
+  }
+}
+
 TEST(Editor, TellsHolesFromOuterLoopsWhereSeveralVerticesAreLeftmost) {
   const Ring wide{
       {{-100, -100}, {100, -100}, {100, 100}, {60, 100}, {50, 60}, {40, 100}, {-100, 100}}, {}, {}};

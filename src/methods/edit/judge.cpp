@@ -326,7 +326,7 @@ Seat Rings::find_seat_anew(const std::vector<Corner>& corners) const {
         away = here;
       }
   }
-  Seat seat = new_seat();
+  Seat seat = seat_beside(none);
   double narrowest = std::numeric_limits<double>::infinity();
   for (const std::uint32_t loop : loops()) {
     std::vector<BulgeArc> curve;

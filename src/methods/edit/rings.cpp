@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/predicates.h"
+#include "methods/edit/segments.h"
 
 namespace medial::edit {
 
@@ -21,15 +22,21 @@ Box box_of(const BulgeArc& edge) {
 
 namespace {
 
-/// Twice the area inside a ring, positive where it runs counter-clockwise.
-double signed_area(const std::vector<Corner>& corners) {
+/// Whether a ring that does not cross itself runs so.
+bool turns_left(const std::vector<Corner>& corners) {
+  const auto is_arc = [](const Corner& corner) { return corner.bulge != 0; };
+  if (std::none_of(corners.begin(), corners.end(), is_arc)) {
+    std::vector<Vec2> ring;
+    for (const Corner& corner : corners) ring.push_back(corner.point);
+    return is_counter_clockwise(ring);
+  }
   double area = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Corner &from = corners[i], &to = corners[i + 1 < corners.size() ? i + 1 : 0];
     area += cross(from.point - corners[0].point, to.point - corners[0].point);
     if (from.bulge != 0) area += 2 * area_beside_chord({from.point, to.point, from.bulge});
   }
-  return area;
+  return area > 0;
 }
 
 }  // namespace
@@ -317,22 +324,22 @@ Seat Rings::seat_of(std::uint32_t loop) const {
   return {loop, own.first, own.component, own.hole};
 }
 
-Seat Rings::new_seat() const {
+Seat Rings::seat_beside(std::uint32_t vertex) const {
   Seat seat;
   for (const Loop& other : loops_)
     if (other.size > 0) seat.component = std::max(seat.component, other.component + 1);
   const auto empty =
       std::find_if(loops_.begin(), loops_.end(), [](const Loop& one) { return one.size == 0; });
   seat.loop = static_cast<std::uint32_t>(empty - loops_.begin());
+  if (vertex == none) return seat;
+  seat.hole = true;
+  seat.component = loops_[vertices_[vertex].loop].component;
   return seat;
 }
 
 Seat Rings::find_seat(Vec2 place) const {
-  Seat seat = new_seat();
   const std::uint32_t site = around(place).site;
-  seat.hole = site != none;
-  if (seat.hole) seat.component = loops_[vertices_[site / 2].loop].component;
-  return seat;
+  return seat_beside(site == none ? none : site / 2);
 }
 
 void Rings::put_in(const Edit& edit, bool is_followed) {
@@ -350,7 +357,7 @@ void Rings::put_in(const Edit& edit, bool is_followed) {
   const std::size_t size = corners.size();
   loops_[seat.loop] = {seat.first != none ? seat.first : corners[0].number,
                        static_cast<std::uint32_t>(size), seat.component, seat.hole};
-  const bool turns = (signed_area(corners) < 0) != seat.hole;
+  const bool turns = !seat.is_old && turns_left(corners) == seat.hole;
   for (std::size_t i = 0; i < size; ++i) {
     const std::uint32_t v = corners[i].number;
     const Corner &after = corners[i + 1 < size ? i + 1 : 0],
@@ -410,6 +417,7 @@ Edit Rings::inverse(const Edit& edit) const {
     back.out = edit.in;
     if (edit.out.empty()) return back;
     back.seat = seat_of(vertices_[edit.out.front().number].loop);
+    back.seat->is_old = true;
     for_vertices(back.seat->loop, [&](std::uint32_t v) {
       back.in.push_back({v, vertices_[v].point, vertices_[v].bulge});
     });

@@ -31,6 +31,7 @@ struct Corner {
 struct Seat {
   std::uint32_t loop = none, first = none, component = 0;
   bool hole = false;
+  bool is_old = false;  ///< the loop was there before, as its corners are listed
 };
 
 /// One edit: the vertex `old` between `before` and `after` gives way to the vertex `fresh` at a
@@ -93,6 +94,9 @@ class Rings {
   /// A vertex of a hole in an outer loop; none if it has no hole.
   std::uint32_t hole_in(std::uint32_t loop) const;
   Seat seat_of(std::uint32_t loop) const;
+  /// Of a loop that comes into the interior beside the edge that begins at a vertex; or none: of an
+  /// outer one.
+  Seat seat_beside(std::uint32_t vertex) const;
   /// A vertex of a loop that is not flat.
   std::uint32_t first_of(std::uint32_t loop) const { return corner_to(loops_[loop].first); }
   const LocalFrame& frame() const { return frame_; }
@@ -251,9 +255,7 @@ class Rings {
   void set_box(std::uint32_t v);
   void take_out(std::uint32_t loop);
   void put_in(const Edit& edit, bool is_followed);
-  /// Of a loop that comes, whose vertices have room: an outer one.
-  Seat new_seat() const;
-  /// The same by a place of it, where it keeps clear of all others.
+  /// Of a loop that comes, by a place of it, where it keeps clear of all others.
   Seat find_seat(Vec2 place) const;
   /// The same by the place of it that is furthest from all others, whatever their directions.
   Seat find_seat_anew(const std::vector<Corner>& corners) const;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "methods/edit/axis_graph.h"
+#include "methods/edit/segments.h"
 
 namespace medial::edit {
 
@@ -21,7 +22,7 @@ Touching::Touching(Rings rings, const Shape& shape, Rings& loops)
   for (std::uint32_t v = 0; v < numbers_.size(); ++v)
     if (is_several[v] || (numbers_[v] != none && !(rings_[v].point == shape.points[numbers_[v]])))
       numbers_[v] = none;
-  if (!loops.has_arcs()) add_flat_vertices(loops);
+  add_flat_vertices(loops);
 }
 
 Touching::Touching(const Rings& loops) : rings_(loops) {
@@ -29,29 +30,22 @@ Touching::Touching(const Rings& loops) : rings_(loops) {
   of_loops_ = numbers_;
 }
 
-/// Those between two corners that follow each other in the loops as well.
 void Touching::add_flat_vertices(Rings& loops) {
-  const auto size = static_cast<std::uint32_t>(rings_.size());
-  for (std::uint32_t from = 0; from < size; ++from) {
-    if (!rings_.has(from) || rings_[from].flat || !rings_[rings_[from].next].flat) continue;
-    const std::uint32_t start = numbers_[from], end = numbers_[rings_.corner_after(from)];
-    if (start == none || end == none) continue;
-    const auto is_edge = [&](std::uint32_t a, std::uint32_t b) {
-      return loops[a].next == b && loops[a].bulge == 0;
-    };
-    const bool is_turned = !is_edge(start, end);
-    if (is_turned && !is_edge(end, start)) continue;
-    std::uint32_t last = start;
-    for (std::uint32_t v = rings_[from].next; rings_[v].flat; v = rings_[v].next) {
-      if (numbers_[v] != none) break;
-      Edit edit;
-      edit.before = is_turned ? end : last;
-      edit.after = is_turned ? last : end;
-      edit.fresh = last = loops.unused();
-      edit.place = rings_[v].point;
-      loops.apply(edit);
-      note(v, last);
-    }
+  for (std::uint32_t v = 0; v < numbers_.size(); ++v) {
+    if (!rings_.has(v) || !rings_[v].flat || numbers_[v] != none) continue;
+    const Vec2 place = rings_[v].point;
+    Edit edit;
+    loops.for_edges_in({place, place}, [&](std::uint32_t s) {
+      const std::uint32_t next = loops[s].next;
+      if (loops[s].bulge != 0 || !lies_inside(place, loops[s].point, loops[next].point)) return;
+      edit.before = s;
+      edit.after = next;
+    });
+    if (edit.before == none) continue;
+    edit.fresh = loops.unused();
+    edit.place = place;
+    loops.apply(edit);
+    note(v, edit.fresh);
   }
 }
 
@@ -65,6 +59,13 @@ void Touching::note(std::uint32_t of_rings, std::uint32_t of_loops) {
 std::uint32_t Touching::edge_at(std::uint32_t of_loops, const Rings& loops) const {
   const std::uint32_t start = vertex_at(of_loops), end = vertex_at(loops[of_loops].next);
   return rings_.has(end) && rings_[end].next == start ? end : start;
+}
+
+std::optional<Seat> Touching::seat_beside(std::uint32_t of_loops, const Rings& loops) const {
+  if (of_loops == none) return rings_.seat_beside(none);
+  const std::uint32_t drawn = edge_at(of_loops, loops);
+  if (!rings_.has(drawn)) return std::nullopt;
+  return rings_.seat_beside(drawn);
 }
 
 /// No two edges have the same ends and bulges: these tell which edge of the loops is one of the
@@ -178,9 +179,12 @@ void Touching::make_room(const Rings& loops) {
   }
 }
 
-void Touching::note(std::uint32_t of_rings, std::uint32_t of_loops, const std::vector<Vec2>& places,
-                    const Rings& loops) {
+void Touching::set_number(std::uint32_t of_rings, std::uint32_t of_loops) {
   numbers_[of_rings] = of_loops;
+  if (of_loops != none) of_loops_[of_loops] = of_rings;
+}
+
+void Touching::note(const std::vector<Vec2>& places, const Rings& loops) {
   for (const Vec2 place : places) {
     std::uint32_t drawn = none;
     const auto find = [&](std::uint32_t v) {
@@ -193,7 +197,6 @@ void Touching::note(std::uint32_t of_rings, std::uint32_t of_loops, const std::v
       if (old == none || !rings_.has(old) || !(rings_[old].point == place)) of_loops_[v] = drawn;
     });
   }
-  if (of_loops != none) of_loops_[of_loops] = of_rings;
 }
 
 void Touching::note(const Edit& edit, const Edit& of_loops) {
