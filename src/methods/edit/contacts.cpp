@@ -11,8 +11,8 @@ namespace {
 using Judgement = Rings::Judgement;
 using Verdict = Rings::Verdict;
 
-/// Adds the vertices of the loops at which the pieces of an edge begin. False where they do not lead
-/// from its start to its end.
+/// Adds the vertices of the loops at which the pieces of an edge begin. False where they do not
+/// lead from its start to its end.
 bool add_pieces(const Rings& loops, Vec2 from, Vec2 to, std::vector<std::uint32_t>& chain) {
   while (!(from == to)) {
     std::uint32_t piece = none;
@@ -215,7 +215,7 @@ bool encloses_any(const Rings& loops, const std::vector<Vec2>& ring,
   return found;
 }
 
-/// See Contacts::beside: the ring's first edge from where it touches something tells.
+/// See Contacts::beside: the ring's first edge from where it touches something decides.
 std::uint32_t find_beside(const Rings& loops, const std::vector<Vec2>& ring) {
   bool touches = false;
   std::uint32_t beside = none;

@@ -20,7 +20,7 @@ struct Detour {
 /// way: the vertex moves straight to its place. Or how a whole ring does, that goes or comes.
 struct Contacts {
   Rings::Judgement judgement;
-  Detour detour;                     ///< in the direction of the loops
+  Detour detour;  ///< in the direction of the loops
   bool is_ring = false;
   std::vector<std::uint32_t> chain;  ///< vertices of the loops: where pieces of the old edges begin
   std::size_t middle = 0;            ///< which of them is the old one; 0: none
@@ -31,7 +31,7 @@ struct Contacts {
   /// A vertex of the loops at the beginning of an edge of the interior around a ring that comes;
   /// none: it comes as an outer loop.
   std::uint32_t beside = none;
-  std::vector<Vec2> places;          ///< where the edit can change sites
+  std::vector<Vec2> places;  ///< where the edit can change sites
 };
 /// The vertices at a place.
 std::vector<std::uint32_t> vertices_at(const Rings& rings, Vec2 place);

@@ -84,6 +84,7 @@ struct Editor::Parts {
   std::optional<Step> weave(const edit::Contacts& contacts, edit::Weaver& weaver);
   std::optional<Step> weave_in_two(const edit::Edit& edit, const edit::Detour& way);
   void note(std::uint32_t of_rings, std::uint32_t of_loops, const std::vector<Vec2>& places);
+  struct LoopWeave;
   std::optional<Step> weave_loops(const edit::Edit& edit, std::optional<Error>& refused);
   std::optional<Step> replace_loop(const edit::Edit& edit);
   Error refusal(const Rings::Judgement& judgement) const;

@@ -155,6 +155,69 @@ std::optional<Step> Editor::Parts::weave_in_two(const edit::Edit& edit, const ed
   return std::nullopt;
 }
 
+/// A loop goes and another one comes, each of them with what it touches.
+struct Editor::Parts::LoopWeave {
+  Parts& parts;
+  const edit::Edit& edit;
+  edit::Edit back = {}, come = {};  ///< of the rings
+  std::optional<edit::Weaver> first_weaver = std::nullopt, second_weaver = std::nullopt;
+  std::optional<Step> first = std::nullopt, second = std::nullopt;
+  std::vector<Vec2> places = {};
+
+  bool take_out() {
+    const edit::Contacts contacts = edit::contacts_before(parts.rings, edit.out);
+    if (contacts.judgement.verdict != Rings::Verdict::keeps_form) return false;
+    edit::Edit gone;
+    gone.out = edit.out;
+    edit::Edit own = parts.edited().inverse(gone);
+    parts.touching->apply(gone, parts.rings);
+    back = std::move(own);
+    first_weaver.emplace(parts.rings, parts.touching->rings());
+    first = parts.weave(contacts, *first_weaver);
+    places = contacts.places;
+    return first.has_value();
+  }
+  bool put_in(std::optional<Error>& refused) {
+    const edit::Contacts contacts = edit::contacts_after(parts.rings, edit.in);
+    if (contacts.judgement.verdict == Rings::Verdict::crosses ||
+        contacts.judgement.verdict == Rings::Verdict::overlaps)
+      refused = parts.refusal(contacts.judgement);
+    if (contacts.judgement.verdict != Rings::Verdict::keeps_form) return false;
+    edit::Edit own;
+    own.in = edit.in;
+    own.seat = edit.seat ? edit.seat : parts.touching->seat_beside(contacts.beside, parts.rings);
+    parts.touching->apply(own, parts.rings);
+    come = std::move(own);
+    second_weaver.emplace(parts.rings, parts.touching->rings());
+    second = parts.weave(contacts, *second_weaver);
+    places.insert(places.end(), contacts.places.begin(), contacts.places.end());
+    return second.has_value();
+  }
+  Step result() const {
+    Step both;
+    if (first) both = *first;
+    if (second) join(both.change, second->change);
+    edit::Touching& touching = *parts.touching;
+    touching.note(places, parts.rings);
+    for (std::size_t i = 0; i < edit.in.size(); ++i)
+      touching.set_number(edit.in[i].number, second_weaver->corners()[i]);
+    return both;
+  }
+  void take_back() {
+    if (second) {
+      parts.put_back(*second);
+      second_weaver->take_back();
+    }
+    std::swap(come.in, come.out);
+    if (!come.out.empty()) parts.touching->rings().apply(come, false);
+    if (first) {
+      parts.put_back(*first);
+      first_weaver->take_back();
+    }
+    if (!back.in.empty()) parts.touching->rings().apply(back, false);
+  }
+};
+
 /// Takes a loop out, and puts one in, that touch others. None, and nothing has happened, where all
 /// has to be computed again, and where the new one crosses others.
 std::optional<Step> Editor::Parts::weave_loops(const edit::Edit& edit,
@@ -165,67 +228,15 @@ std::optional<Step> Editor::Parts::weave_loops(const edit::Edit& edit,
   edited().add_reach(edit, reach);
   if (is_first) touching.emplace(rings);
   set_box(reach);
-  edit::Edit gone, back, come;
-  gone.out = edit.out;
-  come.in = edit.in;
-  std::optional<edit::Weaver> first_weaver, second_weaver;
-  std::optional<Step> first, second;
-  bool is_gone = false, has_come = false;
-  std::vector<Vec2> places;
-  const auto take_out = [&] {
-    const edit::Contacts contacts = edit::contacts_before(rings, edit.out);
-    if (contacts.judgement.verdict != Rings::Verdict::keeps_form) return false;
-    back = edited().inverse(gone);
-    touching->apply(gone, rings);
-    is_gone = true;
-    first_weaver.emplace(rings, touching->rings());
-    first = weave(contacts, *first_weaver);
-    places = contacts.places;
-    return first.has_value();
-  };
-  const auto put_in = [&] {
-    const edit::Contacts contacts = edit::contacts_after(rings, edit.in);
-    if (contacts.judgement.verdict != Rings::Verdict::keeps_form) {
-      if (contacts.judgement.verdict != Rings::Verdict::unclear)
-        refused = refusal(contacts.judgement);
-      return false;
-    }
-    come.seat = edit.seat ? edit.seat : touching->seat_beside(contacts.beside, rings);
-    touching->apply(come, rings);
-    has_come = true;
-    second_weaver.emplace(rings, touching->rings());
-    second = weave(contacts, *second_weaver);
-    places.insert(places.end(), contacts.places.begin(), contacts.places.end());
-    return second.has_value();
-  };
+  LoopWeave loops{*this, edit};
   const auto take_back = [&] {
-    if (second) {
-      put_back(*second);
-      second_weaver->take_back();
-    }
-    if (has_come) {
-      edit::Edit again;
-      std::swap(again.out, come.in);
-      touching->rings().apply(again, false);
-    }
-    if (first) {
-      put_back(*first);
-      first_weaver->take_back();
-    }
-    if (is_gone) touching->rings().apply(back, false);
+    loops.take_back();
     set_box(old_box);
     if (is_first) touching.reset();
   };
   try {
-    if ((edit.out.empty() || take_out()) && (edit.in.empty() || put_in())) {
-      Step both;
-      if (first) both = *first;
-      if (second) join(both.change, second->change);
-      touching->note(places, rings);
-      for (std::size_t i = 0; i < edit.in.size(); ++i)
-        touching->set_number(edit.in[i].number, second_weaver->corners()[i]);
-      return both;
-    }
+    if ((edit.out.empty() || loops.take_out()) && (edit.in.empty() || loops.put_in(refused)))
+      return loops.result();
   } catch (...) {
     take_back();
     throw;
@@ -249,7 +260,8 @@ std::optional<Step> Editor::Parts::replace_loop(const edit::Edit& edit) {
   replaced.seat = edited().seat_of(loop);
   replaced.seat->first = edit.before;
   if (!touching)
-    if (auto step = follow(replaced, Rings::Verdict::unclear); step && *step) return std::move(*step);
+    if (auto step = follow(replaced, Rings::Verdict::unclear); step && *step)
+      return std::move(*step);
   std::optional<Error> refused;
   return rings.has_arcs() ? std::nullopt : weave_loops(replaced, refused);
 }
