@@ -889,6 +889,17 @@ TEST(Editor, RefusesLoopsThatTouchAndCross) {
   expect_same(editor, copy);
 }
 
+/// The rings are no loops, as the hole touches its outer ring all the time.
+TEST(Editor, KeepsAHoleThatTouchesInItsOuterRing) {
+  Editor editor = editor_of(rectangle(8, 8));
+  const std::uint32_t outer = vertex_at(editor, {0, 0});
+  ASSERT_TRUE(editor.insert_loop({{{0, 4}, {3, 3}, {3, 5}}, {}, {}}).ok());
+  for (const double y : {1.0, 0.5}) ASSERT_TRUE(editor.move_loop(outer, {0, y}).ok());
+  for (int i = 0; i < 2; ++i) ASSERT_TRUE(editor.undo().ok());
+  EXPECT_EQ(editor.remove_loop(outer).error().code, ErrorCode::hole_outside);
+  EXPECT_EQ(fault_of(editor), "");
+}
+
 /// The hole is taken out before it is found that it crosses others in its new place.
 TEST(Editor, TakesBackWhatALoopHasTouched) {
   Editor editor = editor_of(hole_grid(4));

@@ -81,6 +81,11 @@ std::optional<Error> Editor::Parts::refuse(const edit::Edit& edit, const Rings& 
 Result<AxisChange> Editor::Parts::change(edit::Edit edit) {
   drop_signs_of_zeros(edit);
   if (auto error = refuse(edit, edited())) return std::move(*error);
+  if (!edit.seat && !edit.out.empty() && !edit.in.empty()) {
+    // Around holes, a loop stays an outer one.
+    const std::uint32_t loop = edited()[edit.out.front().number].loop;
+    if (edited().hole_in(loop) != none) edit.seat = edited().seat_of(loop);
+  }
   // With arcs, all that comes near touches, and becomes one within the tolerance.
   const bool is_first_or_last_arc = edited().has_arcs_after(edit) != rings.has_arcs();
   const bool is_exact = !edit.is_of_loops() && !rings.has_arcs();
@@ -123,7 +128,12 @@ Result<std::optional<Step>> Editor::Parts::follow(const edit::Edit& edit,
                                                   Rings::Verdict verdict) {
   if (!touching) return follow(of_loops, verdict);
   const edit::Edit back = edited().inverse(edit);
-  touching->apply(edit, rings);
+  edit::Edit drawn = edit;
+  if (edit.out.empty() && !edit.in.empty() && !edit.seat) {
+    const std::uint32_t site = rings.around(edit.in.front().point).site;
+    drawn.seat = touching->seat_beside(site == none ? none : Rings::vertex_of(site), rings);
+  }
+  touching->apply(drawn, rings);
   Result<std::optional<Step>> step = std::optional<Step>();
   try {
     step = follow(of_loops, verdict);

@@ -327,6 +327,7 @@ Seat Rings::find_seat_anew(const std::vector<Corner>& corners) const {
       }
   }
   Seat seat = seat_beside(none);
+  std::uint32_t component_around = seat.component;
   double narrowest = std::numeric_limits<double>::infinity();
   for (const std::uint32_t loop : loops()) {
     std::vector<BulgeArc> curve;
@@ -336,8 +337,9 @@ Seat Rings::find_seat_anew(const std::vector<Corner>& corners) const {
     const double width = diagonal(box_around(curve, 0));
     if (is_hole(loop) || width >= narrowest) continue;
     narrowest = width;
-    seat.component = component(loop);
+    component_around = component(loop);
   }
+  if (seat.hole) seat.component = component_around;
   return seat;
 }
 
