@@ -266,7 +266,8 @@ Contacts contacts_before(const Rings& loops, const std::vector<Corner>& ring) {
                             corners[i + 1 < corners.size() ? i + 1 : 0].point, contacts.chain);
     std::reverse(corners.begin(), corners.end());
   }
-  if (!is_found || takes_long(loops, contacts.chain.size() - ring.size())) return contacts;
+  const std::size_t pieces = contacts.chain.size();
+  if (!is_found || takes_long(loops, pieces - std::min(pieces, ring.size()))) return contacts;
   for (const std::uint32_t v : contacts.chain) contacts.places.push_back(loops[v].point);
   std::vector<Vec2> sorted = contacts.places;
   std::sort(sorted.begin(), sorted.end(), lexicographic_less);

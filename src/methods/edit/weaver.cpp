@@ -263,7 +263,7 @@ bool Weaver::move_holes(std::uint32_t outer, std::uint32_t component, std::uint3
   for (std::uint32_t l = 0; l < loops_.loops_.size(); ++l) {
     const Loop& hole = loops_.loops_[l];
     if (hole.size == 0 || !hole.hole || hole.component != old || l == but) continue;
-    looks += loops_.loop_size(outer);
+    looks += loops_.loop_size(outer) + places_.size();
     if (looks > most) return false;
     // Not where loops are yet to be joined.
     std::uint32_t free = hole.first;
