@@ -28,10 +28,10 @@ bool add_pieces(const Rings& loops, Vec2 from, Vec2 to, std::vector<std::uint32_
   return true;
 }
 
-/// Each contact is compared with the others: beyond this, all is computed as fast.
+/// Some contacts are compared with all others: beyond this, all is computed as fast.
 bool takes_long(const Rings& loops, std::size_t contacts) {
-  constexpr std::size_t few = 64;
-  return contacts > few && contacts * contacts > loops.size();
+  constexpr std::size_t few = 64, share = 16;
+  return contacts > few && contacts * contacts > share * loops.size();
 }
 
 /// The places inside an edge, along it, each once.
