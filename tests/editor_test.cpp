@@ -61,6 +61,15 @@ struct Mirror {
   }
 };
 
+/// An edit has changed a part of the axis, which is that of compute().
+void expect_local(const Editor& editor, Mirror& mirror, const Result<AxisChange>& change) {
+  ASSERT_TRUE(change.ok()) << to_string(change.error());
+  EXPECT_FALSE(change->everything);
+  mirror.follow(*change);
+  mirror.expect(editor);
+  EXPECT_EQ(fault_of(editor), "");
+}
+
 /// Edits random shapes, compares after every edit, and counts the edits that were repaired.
 struct Count {
   std::size_t repaired = 0, all = 0;
@@ -461,43 +470,80 @@ TEST(Editor, FollowsEditsWhileEdgesTouch) {
   ASSERT_TRUE(editor.move(flat, {50, 0}).ok());
   const std::uint32_t tip = vertex_at(editor, {40, 2}), wall = vertex_at(editor, {52, 2});
   Mirror mirror(editor);
-  for (const auto& [vertex, to] : {std::pair{tip, Vec2{40, 0}}, {wall, {50, 0}}}) {
-    const auto touching = editor.move(vertex, to);  // the second onto the flat vertex
-    ASSERT_TRUE(touching.ok()) << to_string(touching.error());
-    EXPECT_FALSE(touching->everything);
-    mirror.follow(*touching);
-    mirror.expect(editor);
-    EXPECT_EQ(fault_of(editor), "");
-  }
-  EXPECT_EQ(editor.shape().component_count(), 3U);
-  const auto expect_local = [&](const Result<AxisChange>& change) {
-    ASSERT_TRUE(change.ok()) << to_string(change.error());
-    EXPECT_FALSE(change->everything);
-    mirror.follow(*change);
-    mirror.expect(editor);
-    EXPECT_EQ(fault_of(editor), "");
+  for (const auto& [vertex, to] : {std::pair{tip, Vec2{40, 0}}, {wall, {50, 0}}})
+    expect_local(editor, mirror, editor.move(vertex, to));  // the second onto the flat vertex
+  const auto expect_three = [&](const Result<AxisChange>& change) {
+    expect_local(editor, mirror, change);
     EXPECT_EQ(editor.shape().component_count(), 3U);
   };
   const std::uint32_t far = vertex_at(editor, {20, 2}), beside = vertex_at(editor, {41, 10});
-  expect_local(editor.move(far, {20.5, 1}));
-  expect_local(editor.move(beside, {41.5, 9}));  // of an edge that touches
+  expect_three(editor.move(far, {20.5, 1}));
+  expect_three(editor.move(beside, {41.5, 9}));  // of an edge that touches
   const auto inserted = editor.insert(far, {20, 5});
-  expect_local(inserted);
-  expect_local(editor.remove(far));
+  expect_three(inserted);
+  expect_three(editor.remove(far));
   const auto crossing = editor.move(vertex_at(editor, {80, 2}), {80, -1});
   ASSERT_FALSE(crossing.ok());
   EXPECT_EQ(crossing.error().code, ErrorCode::crossing);
-  for (int i = 0; i < 4; ++i) expect_local(editor.undo());
+  for (int i = 0; i < 4; ++i) expect_three(editor.undo());
   EXPECT_EQ(editor.vertex(far), (Vec2{20, 2}));
-  for (int i = 0; i < 2; ++i) {
-    const auto parts = editor.undo();
-    ASSERT_TRUE(parts.ok());
-    EXPECT_FALSE(parts->everything);
-    mirror.follow(*parts);
+  for (int i = 0; i < 2; ++i) expect_local(editor, mirror, editor.undo());
+  EXPECT_EQ(editor.shape().component_count(), 1U);
+}
+
+/// Two teeth touch the other side; edits of the rest, straight or with arcs, are local.
+TEST(Editor, FollowsEditsOfArcsWhileEdgesTouch) {
+  Ring bar{{{0, 0}, {200, 0}, {200, 10}}, RingRole::any, {0, 0.0625, 0}};
+  for (int i = 48; i > 0; --i)
+    for (const Vec2 p : {Vec2{4.0 * i + 1, 10}, {4.0 * i, 2}, {4.0 * i - 1, 10}}) {
+      bar.points.push_back(p);
+      bar.bulges.push_back(0.03125);
+    }
+  bar.points.push_back({0, 10});
+  bar.bulges.push_back(0);
+  Editor editor = editor_of({bar});
+  for (const double x : {40.0, 120.0}) {
+    const auto touching = editor.move(vertex_at(editor, {x, 2}), {x, 0});
+    ASSERT_TRUE(touching.ok()) << to_string(touching.error());
   }
-  mirror.expect(editor);
+  EXPECT_EQ(editor.shape().component_count(), 3U);
+  const std::uint32_t tip = vertex_at(editor, {80, 2});
+  Mirror mirror(editor);
+  expect_local(editor, mirror, editor.move(tip, {80.5, 3}));
+  expect_local(editor, mirror, editor.set_bulge(tip, -0.125));
+  EXPECT_EQ(editor.bulge(tip), -0.125);
+  const auto inserted = editor.insert(vertex_at(editor, {0, 10}), {-1, 5});
+  expect_local(editor, mirror, inserted);
+  expect_local(editor, mirror, editor.remove(inserted->vertex));
+  const Ring lens{{{57, 5}, {58, 4}, {59, 5}}, RingRole::any, {0.25, 0.125, 0.125}};
+  const auto hole = editor.insert_loop(lens);
+  expect_local(editor, mirror, hole);
+  expect_local(editor, mirror, editor.move_loop(hole->vertex, {-40, 0}));
+  expect_local(editor, mirror, editor.remove_loop(hole->vertex));
+  EXPECT_EQ(editor.shape().component_count(), 3U);
+  for (int i = 0; i < 7; ++i) expect_local(editor, mirror, editor.undo());
+  EXPECT_EQ(editor.bulge(tip), 0.03125);
+  for (int i = 0; i < 2; ++i) ASSERT_TRUE(editor.undo().ok());
   EXPECT_EQ(editor.shape().component_count(), 1U);
   EXPECT_EQ(fault_of(editor), "");
+}
+
+/// The place nearest to the new hole is the tip of both others.
+TEST(Editor, KnowsAHoleBesideAPlaceWhereOthersTouch) {
+  for (const Vec2 tip : {Vec2{20, 20}, {22, 21}})
+    for (const int side : {-1, 1}) {
+      const auto beside = [&](double x, double y) { return tip + Vec2{side * x, y}; };
+      const Ring below{{tip, beside(10, -2), beside(10, -6)}, RingRole::any, {}};
+      const Ring above{{tip, beside(10, 6), beside(10, 2)}, RingRole::any, {}};
+      for (const Rings& two : {Rings{below, above}, Rings{above, below}}) {
+        Editor editor = editor_of({rectangle(40, 40)[0], two[0], two[1]});
+        ASSERT_TRUE(
+            editor.insert_loop(triangle(beside(-4, 0), beside(-6, 1), beside(-6, -1))[0]).ok());
+        EXPECT_EQ(editor.shape().component_count(), 1U);
+        EXPECT_EQ(editor.shape().hole_count(), 2U);  // the two are one
+        EXPECT_EQ(fault_of(editor), "");
+      }
+    }
 }
 
 /// A vertex that another one has touched is flat again where its edges are in one line.
@@ -766,6 +812,123 @@ TEST(Editor, FollowsEditsAfterWhichEdgesTouch) {
     EXPECT_EQ(fault_of(editor), "") << one.name;
     EXPECT_FALSE(change->everything) << one.name;
     EXPECT_FALSE(undone->everything) << one.name;
+  }
+}
+
+/// A ring comes, moves and goes beside others that it touches, and all comes back.
+TEST(Editor, FollowsLoopsThatTouchOthers) {
+  struct Case {
+    const char* name;
+    Ring ring;
+    std::size_t components, loops;
+    Vec2 by;
+    std::size_t components_then, loops_then;
+  };
+  Ring hall{{{-40, 0}, {60, 0}, {60, 20}, {22, 20}, {20, 14}, {18, 20}}, {}, {}};
+  for (int i = 0; i < 20; ++i) hall.points.push_back({-2.0 * i, i % 2 == 0 ? 20.0 : 12.0});
+  const Ring pillar{{{40, 6}, {42, 10}, {38, 10}}, {}, {}};
+  const Rings base{hall, pillar};
+  const std::vector<Case> cases{
+      {"a hole on a wall", {{{10, 0}, {12, 4}, {8, 4}}, {}, {}}, 1, 2, {20, 0}, 1, 2},
+      {"a hole that divides",
+       {{{30, 0}, {32, 10}, {30, 20}, {28, 10}}, {}, {}},
+       2,
+       3,
+       {20, 0},
+       2,
+       3},
+      {"an edge on a corner", {{{16, 14}, {20, 8}, {24, 14}}, {}, {}}, 1, 2, {0, -2}, 1, 3},
+      {"a hole on a hole", {{{40, 6}, {38, 2}, {42, 2}}, {}, {}}, 1, 2, {0, -1}, 1, 3},
+      {"onto a hole", {{{30, 6}, {28, 2}, {32, 2}}, {}, {}}, 1, 3, {10, 0}, 1, 2},
+      {"from outside", {{{60, 10}, {62, 8}, {62, 12}}, {}, {}}, 2, 3, {0, 10}, 2, 3},
+      {"from outside on a corner", {{{60, 20}, {62, 21}, {60, 22}}, {}, {}}, 2, 3, {0, 1}, 2, 3},
+      {"out of a wall", {{{58, 9}, {60, 10}, {58, 11}}, {}, {}}, 1, 2, {2.5, 0}, 2, 3},
+      {"a corner in a line", {{{10, 0}, {12, 4}, {10, 4}, {8, 4}}, {}, {}}, 1, 2, {6, 1}, 1, 3},
+      {"into a hole", {{{60, 6}, {61, 9}, {60.25, 9}}, {}, {}}, 2, 3, {-20, 0}, 2, 3}};
+  for (const Case& one : cases) {
+    Editor editor = editor_of(base);
+    const auto before = loops_of(editor.shape());
+    Mirror mirror(editor);
+    const auto expect = [&](const Result<AxisChange>& change, const Rings& rings,
+                            std::size_t components, std::size_t loops) {
+      const testing::ScopedTrace trace(__FILE__, __LINE__, one.name);
+      expect_local(editor, mirror, change);
+      EXPECT_EQ(editor.shape().component_count(), components);
+      EXPECT_EQ(editor.shape().loop_count(), loops);
+      EXPECT_EQ(loops_of(editor.shape()), loops_of(shape_of(rings)));
+    };
+    Rings with_ring = base, moved = base;
+    with_ring.push_back(one.ring);
+    moved.push_back(one.ring);
+    for (Vec2& p : moved.back().points) p = p + one.by;
+    const auto inserted = editor.insert_loop(one.ring);
+    expect(inserted, with_ring, one.components, one.loops);
+    const std::uint32_t vertex = inserted->vertex;
+    EXPECT_EQ(editor.vertex(vertex), one.ring.points[0]);
+    expect(editor.move_loop(vertex, one.by), moved, one.components_then, one.loops_then);
+    EXPECT_EQ(editor.vertex(vertex), one.ring.points[0] + one.by);
+    expect(editor.undo(), with_ring, one.components, one.loops);
+    expect(editor.remove_loop(vertex), base, 1, 2);
+    expect(editor.undo(), with_ring, one.components, one.loops);
+    expect(editor.undo(), base, 1, 2);
+    EXPECT_EQ(loops_of(editor.shape()), before) << one.name;
+  }
+}
+
+TEST(Editor, RefusesLoopsThatTouchAndCross) {
+  Editor editor = editor_of(rectangle(40, 20));
+  for (int i = 0; i < 8; ++i)
+    ASSERT_TRUE(editor.insert(vertex_at(editor, {0, 0}), {36.0 - 4 * i, i % 2 - 0.5}).ok());
+  const Editor copy = editor;
+  const auto crossing = editor.insert_loop({{{10, 20}, {12, 16}, {50, 18}}, {}, {}});
+  ASSERT_FALSE(crossing.ok());
+  EXPECT_EQ(crossing.error().code, ErrorCode::crossing);
+  const auto along = editor.insert_loop({{{10, 20}, {12, 20}, {11, 16}}, {}, {}});
+  ASSERT_FALSE(along.ok());
+  EXPECT_EQ(along.error().code, ErrorCode::overlap);
+  expect_same(editor, copy);
+}
+
+/// The rings are no loops, as the hole touches its outer ring all the time.
+TEST(Editor, KeepsAHoleThatTouchesInItsOuterRing) {
+  Editor editor = editor_of(rectangle(8, 8));
+  const std::uint32_t outer = vertex_at(editor, {0, 0});
+  ASSERT_TRUE(editor.insert_loop({{{0, 4}, {3, 3}, {3, 5}}, {}, {}}).ok());
+  for (const double y : {1.0, 0.5}) ASSERT_TRUE(editor.move_loop(outer, {0, y}).ok());
+  for (int i = 0; i < 2; ++i) ASSERT_TRUE(editor.undo().ok());
+  EXPECT_EQ(editor.remove_loop(outer).error().code, ErrorCode::hole_outside);
+  EXPECT_EQ(fault_of(editor), "");
+}
+
+/// The hole is taken out before it is found that it crosses others in its new place.
+TEST(Editor, TakesBackWhatALoopHasTouched) {
+  Editor editor = editor_of(hole_grid(4));
+  ASSERT_TRUE(editor.insert_loop({{{1.5, 2}, {1.75, 2.5}, {1.25, 2.5}}, {}, {}}).ok());
+  const Editor copy = editor;
+  const auto crossing = editor.move_loop(vertex_at(editor, {1.25, 2.5}), {1.5, -0.75});
+  ASSERT_FALSE(crossing.ok());
+  EXPECT_EQ(crossing.error().code, ErrorCode::crossing);
+  expect_same(editor, copy);
+  Mirror mirror(editor);
+  expect_local(editor, mirror, editor.move(vertex_at(editor, {2, 2}), {2, 1.875}));
+  expect_local(editor, mirror, editor.move_loop(vertex_at(editor, {1.25, 2.5}), {1.5, 0.125}));
+  expect_local(editor, mirror, editor.insert(vertex_at(editor, {2, 1.875}), {2.125, 1.5}));
+  for (int i = 0; i < 3; ++i) expect_local(editor, mirror, editor.undo());
+  EXPECT_EQ(loops_of(editor.shape()), loops_of(copy.shape()));
+}
+
+TEST(Editor, TurnsASmallLoopInsideOut) {
+  for (const bool touches : {false, true}) {
+    Rings grid = hole_grid(4);
+    if (touches) grid.push_back({{{1.5, 1}, {1.25, 0.75}, {1.75, 0.75}}, {}, {}});
+    Editor editor = editor_of(grid);
+    const auto before = loops_of(editor.shape());
+    Mirror mirror(editor);
+    expect_local(editor, mirror, editor.move(vertex_at(editor, {5, 5}), {6.5, 6.25}));
+    EXPECT_EQ(loops_of(editor.shape()),
+              loops_of(shape_of(with_point_moved(grid, {5, 5}, {6.5, 6.25}))));
+    expect_local(editor, mirror, editor.undo());
+    EXPECT_EQ(loops_of(editor.shape()), before);
   }
 }
 

@@ -18,8 +18,8 @@ struct AxisChange {
 ///
 /// An edit that fails changes nothing. Errors: crossing (with the place, and an edge's first
 /// vertex), not_finite, too_few_points (of a loop), invalid_option (an unknown vertex), those of
-/// build_shape() and compute(). All is computed again if whole loops, arcs or many edges begin or
-/// cease to touch, a loop turns inside out, or the whole axis changes; docs/editor.md lists it all.
+/// build_shape() and compute(). All is computed again if arcs or many edges begin or cease to
+/// touch, or the whole axis changes; docs/editor.md lists it all.
 class Editor {
  public:
   /// Errors: unsupported (other methods, Options::exact and Options::exterior), and those of

@@ -11,6 +11,36 @@ namespace {
 using Judgement = Rings::Judgement;
 using Verdict = Rings::Verdict;
 
+/// Adds the vertices of the loops at which the pieces of an edge begin. False where they do not
+/// lead from its start to its end.
+bool add_pieces(const Rings& loops, Vec2 from, Vec2 to, std::vector<std::uint32_t>& chain) {
+  while (!(from == to)) {
+    std::uint32_t piece = none;
+    loops.for_edges_in({from, from}, [&](std::uint32_t s) {
+      if (!(loops[s].point == from)) return;
+      const Vec2 end = loops[loops[s].next].point;
+      if (end == to || lies_inside(end, from, to)) piece = s;
+    });
+    if (piece == none) return false;
+    chain.push_back(piece);
+    from = loops[loops[piece].next].point;
+  }
+  return true;
+}
+
+/// Some contacts are compared with all others: beyond this, all is computed as fast.
+bool takes_long(const Rings& loops, std::size_t contacts) {
+  constexpr std::size_t few = 64, share = 16;
+  return contacts > few && contacts * contacts > share * loops.size();
+}
+
+/// The places inside an edge, along it, each once.
+void put_in_order(Vec2 from, Vec2 to, std::vector<Vec2>& places) {
+  std::sort(places.begin(), places.end(), lexicographic_less);
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  if (lexicographic_less(to, from)) std::reverse(places.begin(), places.end());
+}
+
 struct Side {
   Vec2 from, to;
   bool has(Vec2 p) const { return p == from || p == to || lies_inside(p, from, to); }
@@ -51,13 +81,10 @@ class Finder {
       if (!is_refused() && !std::binary_search(own.begin(), own.end(), s)) meet(s);
     });
     const std::size_t count = own.size() + touched_[0].size() + touched_[1].size();
-    if (!is_refused() && takes_long(count)) leave_open();
+    if (!is_refused() && takes_long(loops_, count)) leave_open();
     for (std::size_t i = 0; i < fresh_.size(); ++i) {
       std::vector<Vec2>& touched = touched_[i];
-      std::sort(touched.begin(), touched.end(), lexicographic_less);
-      touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-      if (lexicographic_less(fresh_[i].to, fresh_[i].from))
-        std::reverse(touched.begin(), touched.end());
+      put_in_order(fresh_[i].from, fresh_[i].to, touched);
       contacts_.touched.insert(contacts_.touched.end(), touched.begin(), touched.end());
     }
     contacts_.touched_on_first = touched_[0].size();
@@ -73,11 +100,6 @@ class Finder {
     const Verdict verdict = contacts_.judgement.verdict;
     return verdict == Verdict::crosses || verdict == Verdict::overlaps;
   }
-  /// Each contact is compared with the others: beyond this, all is computed as fast.
-  bool takes_long(std::size_t contacts) const {
-    constexpr std::size_t few = 64;
-    return contacts > few && contacts * contacts > loops_.size();
-  }
   void leave_open() { contacts_.judgement.verdict = Verdict::unclear; }
   void refuse(Verdict verdict, std::uint32_t edge, Vec2 point) {
     contacts_.judgement = {verdict, edge, point};
@@ -90,30 +112,16 @@ class Finder {
       contacts_.chain.clear();
       contacts_.middle = 0;
       if (way.old) {
-        if (add_pieces(way.from, *way.old)) {
+        if (add_pieces(loops_, way.from, *way.old, contacts_.chain)) {
           contacts_.middle = contacts_.chain.size();
-          if (add_pieces(*way.old, way.to)) return true;
+          if (add_pieces(loops_, *way.old, way.to, contacts_.chain)) return true;
         }
-      } else if (add_pieces(way.from, way.to)) {
+      } else if (add_pieces(loops_, way.from, way.to, contacts_.chain)) {
         return true;
       }
       std::swap(way.from, way.to);
     }
     return false;
-  }
-  bool add_pieces(Vec2 from, Vec2 to) {
-    while (!(from == to)) {
-      std::uint32_t piece = none;
-      loops_.for_edges_in({from, from}, [&](std::uint32_t s) {
-        if (!(loops_[s].point == from)) return;
-        const Vec2 end = loops_[loops_[s].next].point;
-        if (end == to || lies_inside(end, from, to)) piece = s;
-      });
-      if (piece == none) return false;
-      contacts_.chain.push_back(piece);
-      from = loops_[loops_[piece].next].point;
-    }
-    return true;
   }
 
   void prepare() {
@@ -178,17 +186,133 @@ class Finder {
   std::vector<Sweep> sweeps_;
 };
 
-/// Whether a direction from the centre lies strictly inside the wedge from one to another one,
-/// counter-clockwise.
-bool is_in_wedge(Vec2 center, Vec2 from, Vec2 to, Vec2 p) {
-  const int turn = orientation(center, from, to);
-  const int after_from = orientation(center, from, p), before_to = orientation(center, p, to);
-  if (turn > 0) return after_from > 0 && before_to > 0;
-  if (turn < 0) return after_from > 0 || before_to > 0;
-  return after_from > 0;
+/// Whether something of the loops lies inside a ring that it does not cross, edges of its own left
+/// aside; also where that takes long to find out.
+bool encloses_any(const Rings& loops, const std::vector<Vec2>& ring,
+                  const std::vector<std::uint32_t>& own) {
+  constexpr std::size_t most = std::size_t{1} << 20;
+  const std::size_t size = ring.size();
+  const bool is_left = is_counter_clockwise(ring);
+  Box box = Box::nothing();
+  for (const Vec2 p : ring) box.add(p);
+  std::size_t looks = 0;
+  bool found = false;
+  loops.for_edges_in(box, [&](std::uint32_t s) {
+    if (found || std::binary_search(own.begin(), own.end(), s)) return;
+    looks += size;
+    const Vec2 p = loops[s].point, end = loops[loops[s].next].point;
+    const auto at = static_cast<std::size_t>(std::find(ring.begin(), ring.end(), p) - ring.begin());
+    bool is_inside = false;
+    if (at < size) {
+      const Vec2 after = ring[at + 1 < size ? at + 1 : 0], before = ring[(at > 0 ? at : size) - 1];
+      is_inside = is_left ? is_in_wedge(p, after, before, end) : is_in_wedge(p, before, after, end);
+    } else {
+      for (std::size_t i = 0; i < size; ++i)
+        if (crosses_ray(ring[i], ring[i + 1 < size ? i + 1 : 0], p)) is_inside = !is_inside;
+    }
+    found = is_inside || looks > most;
+  });
+  return found;
+}
+
+/// See Contacts::beside: the ring's first edge from where it touches something decides.
+std::uint32_t find_beside(const Rings& loops, const std::vector<Vec2>& ring) {
+  bool touches = false;
+  std::uint32_t beside = none;
+  for (std::size_t i = 0; i < ring.size() && !touches; ++i) {
+    const Vec2 p = ring[i], to = ring[i + 1 < ring.size() ? i + 1 : 0];
+    loops.for_edges_in({p, p}, [&](std::uint32_t s) {
+      const Vec2 a = loops[s].point, b = loops[loops[s].next].point;
+      const bool is_corner = a == p;
+      if (!is_corner && !lies_inside(p, a, b)) return;
+      touches = true;
+      if (is_corner ? is_in_wedge(p, b, loops[loops[s].before].point, to)
+                    : orientation(a, b, to) > 0)
+        beside = s;
+    });
+  }
+  if (touches) return beside;
+  const std::uint32_t site = loops.around(ring[0]).site;
+  return site == none ? none : Rings::vertex_of(site);
+}
+
+/// Whether a ring is a loop as it is, but for vertices between two edges in one line.
+bool is_simple(const std::vector<Corner>& corners) {
+  Ring ring;
+  for (const Corner& corner : corners) ring.points.push_back(corner.point);
+  const auto shape = build_shape({&ring, 1});
+  if (!shape || shape->loop_count() != 1) return false;
+  std::size_t flat = 0;
+  for (std::size_t i = 0, size = corners.size(); i < size; ++i)
+    if (lies_inside(corners[i].point, corners[(i > 0 ? i : size) - 1].point,
+                    corners[i + 1 < size ? i + 1 : 0].point))
+      ++flat;
+  return shape->points.size() + flat == corners.size();
 }
 
 }  // namespace
+
+Contacts contacts_before(const Rings& loops, const std::vector<Corner>& ring) {
+  Contacts contacts;
+  contacts.is_ring = true;
+  contacts.judgement.verdict = Verdict::unclear;
+  std::vector<Corner> corners = ring;
+  bool is_found = false;
+  for (int turn = 0; turn < 2 && !is_found; ++turn) {
+    contacts.chain.clear();
+    is_found = true;
+    for (std::size_t i = 0; i < corners.size() && is_found; ++i)
+      is_found = add_pieces(loops, corners[i].point,
+                            corners[i + 1 < corners.size() ? i + 1 : 0].point, contacts.chain);
+    std::reverse(corners.begin(), corners.end());
+  }
+  const std::size_t pieces = contacts.chain.size();
+  if (!is_found || takes_long(loops, pieces - std::min(pieces, ring.size()))) return contacts;
+  for (const std::uint32_t v : contacts.chain) contacts.places.push_back(loops[v].point);
+  std::vector<Vec2> sorted = contacts.places;
+  std::sort(sorted.begin(), sorted.end(), lexicographic_less);
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return contacts;
+  std::vector<std::uint32_t> own = contacts.chain;
+  std::sort(own.begin(), own.end());
+  if (!encloses_any(loops, contacts.places, own)) contacts.judgement.verdict = Verdict::keeps_form;
+  return contacts;
+}
+
+Contacts contacts_after(const Rings& loops, const std::vector<Corner>& ring) {
+  Contacts contacts;
+  contacts.is_ring = true;
+  contacts.judgement.verdict = Verdict::unclear;
+  if (!is_simple(ring)) return contacts;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vec2 from = ring[i].point, to = ring[i + 1 < ring.size() ? i + 1 : 0].point;
+    std::vector<Vec2> touched;
+    Rings::Judgement refused;
+    loops.for_edges_in(box_of(from, to), [&](std::uint32_t s) {
+      const Vec2 a = loops[s].point, b = loops[loops[s].next].point;
+      const Meeting how = meeting(from, to, a, b);
+      if (how == Meeting::apart) return;
+      if (how == Meeting::cross) refused = {Verdict::crosses, s, crossing_of(from, to, a, b)};
+      if (how == Meeting::touch && run_along(from, to, a, b)) refused = {Verdict::overlaps, s, a};
+      if (!lies_inside(a, from, to)) return;
+      if (loops[s].flat) refused = {Verdict::crosses, s, a};  // in the inside of both
+      touched.push_back(a);
+    });
+    if (refused.edge != none) {
+      contacts.judgement = refused;
+      return contacts;
+    }
+    put_in_order(from, to, touched);
+    contacts.corners.push_back(static_cast<std::uint32_t>(contacts.ring.size()));
+    contacts.ring.push_back(from);
+    contacts.ring.insert(contacts.ring.end(), touched.begin(), touched.end());
+  }
+  contacts.places = contacts.ring;
+  contacts.beside = find_beside(loops, contacts.ring);
+  if (!takes_long(loops, contacts.ring.size() - ring.size()) &&
+      !encloses_any(loops, contacts.ring, {}))
+    contacts.judgement.verdict = Verdict::keeps_form;
+  return contacts;
+}
 
 std::vector<std::uint32_t> vertices_at(const Rings& rings, Vec2 place) {
   std::vector<std::uint32_t> all;
@@ -200,269 +324,6 @@ std::vector<std::uint32_t> vertices_at(const Rings& rings, Vec2 place) {
 
 Contacts find_contacts(const Rings& loops, const Detour& detour) {
   return Finder(loops, detour).run();
-}
-
-Weaver::Vertex& Weaver::vertex(std::uint32_t v) {
-  old_vertices_.emplace_back(v, loops_.vertices_[v]);
-  return loops_.vertices_[v];
-}
-
-Weaver::Loop& Weaver::loop(std::uint32_t l) {
-  old_loops_.emplace_back(l, loops_.loops_[l]);
-  return loops_.loops_[l];
-}
-
-std::uint32_t Weaver::new_vertex() {
-  const std::uint32_t v = loops_.unused();
-  loops_.boxes_.set(v, Box::nothing());
-  loops_.vertices_.emplace_back();
-  return v;
-}
-
-void Weaver::link(std::uint32_t before, std::uint32_t after) {
-  vertex(before).next = after;
-  vertex(after).before = before;
-}
-
-void Weaver::insert_after(std::uint32_t before, std::uint32_t v, Vec2 place) {
-  const std::uint32_t after = loops_[before].next, own = loops_[before].loop;
-  Vertex& fresh = vertex(v);
-  fresh.point = place;
-  fresh.loop = own;
-  link(before, v);
-  link(v, after);
-  ++loop(own).size;
-  loops_.set_box(before);
-  loops_.set_box(v);
-}
-
-void Weaver::drop(std::uint32_t v) {
-  const std::uint32_t before = loops_[v].before, own = loops_[v].loop;
-  link(before, loops_[v].next);
-  vertex(v) = {};
-  loops_.boxes_.set(v, Box::nothing());
-  loops_.set_box(before);
-  Loop& changed = loop(own);
-  --changed.size;
-  if (changed.first == v) changed.first = before;
-}
-
-bool Weaver::make(const Contacts& contacts) {
-  const Detour& way = contacts.detour;
-  places_ = contacts.places;
-  if (!way.old && !way.fresh) return true;
-
-  for (std::size_t i = 1; i < contacts.chain.size(); ++i) {
-    const std::uint32_t before = contacts.chain[i - 1], after = contacts.chain[i];
-    if (loops_[before].next != after && !exchange(before, loops_[after].before, false))
-      return false;
-  }
-  part(contacts);
-  set_middle(contacts);
-  std::vector<std::uint32_t> joined;
-  std::uint32_t last = contacts.chain[0];
-  for (std::size_t i = 0; i < contacts.touched.size(); ++i) {
-    if (i == contacts.touched_on_first && way.fresh) last = fresh_;
-    const std::uint32_t v = new_vertex();
-    insert_after(last, v, contacts.touched[i]);
-    joined.push_back(last = v);
-  }
-  if (way.fresh) joined.push_back(fresh_);
-  for (const std::uint32_t v : joined)
-    if (!join_at(v)) return false;
-  judge_places();
-  return true;
-}
-
-/// Takes the old edges away from what they touch: what was divided for them alone is whole again.
-void Weaver::part(const Contacts& contacts) {
-  for (std::size_t i = 1; i < contacts.chain.size(); ++i) {
-    const std::uint32_t own = contacts.chain[i];
-    const Vec2 place = loops_[own].point;
-    if (i == contacts.middle && contacts.detour.fresh)
-      fresh_ = moved_ = own;
-    else
-      drop(own);
-    std::vector<std::uint32_t> others = vertices_at(loops_, place);
-    others.erase(std::remove(others.begin(), others.end(), own), others.end());
-    if (others.size() == 1 && vertices_at(drawn_, place).empty()) drop(others[0]);
-  }
-}
-
-/// Puts the fresh vertex in its place, and a vertex into the edge that it touches there.
-void Weaver::set_middle(const Contacts& contacts) {
-  if (!contacts.detour.fresh) return;
-  const Vec2 place = *contacts.detour.fresh;
-  if (fresh_ == none) {
-    fresh_ = new_vertex();
-    insert_after(contacts.chain[0], fresh_, place);
-  } else {
-    vertex(fresh_).point = place;
-    vertex(loops_[fresh_].before);  // for take_back(), as its edge changes
-    loops_.set_box(loops_[fresh_].before);
-    loops_.set_box(fresh_);
-  }
-  std::uint32_t divided = none;
-  loops_.for_edges_in({place, place}, [&](std::uint32_t s) {
-    if (lies_inside(place, loops_[s].point, loops_[loops_[s].next].point)) divided = s;
-  });
-  if (divided != none) insert_after(divided, new_vertex(), place);
-}
-
-/// Joins the edges at a vertex to others at its place: where they lie in a wedge of the interior,
-/// they divide it.
-bool Weaver::join_at(std::uint32_t own) {
-  const Vec2 place = loops_[own].point;
-  const auto start_of = [&](std::uint32_t v) { return loops_[loops_[v].before].point; };
-  const auto end_of = [&](std::uint32_t v) { return loops_[loops_[v].next].point; };
-  for (const std::uint32_t v : vertices_at(loops_, place)) {
-    if (v == own) continue;
-    const auto is_inside = [&](Vec2 p) { return is_in_wedge(place, end_of(v), start_of(v), p); };
-    const bool has_start = is_inside(start_of(own)), has_end = is_inside(end_of(own));
-    if (has_start != has_end) return false;
-    // Of two wedges that hold each other's edges, all that is in both is interior.
-    if (has_start && is_in_wedge(place, end_of(own), start_of(own), start_of(v)))
-      return exchange(loops_[own].before, loops_[v].before, true);
-  }
-  return true;
-}
-
-void Weaver::judge_places() {
-  for (const Vec2 place : places_) {
-    const std::vector<std::uint32_t> all = vertices_at(loops_, place);
-    for (const std::uint32_t v : all) {
-      vertex(v).touches = all.size() > 1;
-      loops_.judge_vertex(v);
-    }
-  }
-}
-
-/// Of two edges that end at one place, each goes on as the other one did.
-bool Weaver::exchange(std::uint32_t first, std::uint32_t second, bool joins) {
-  const std::uint32_t after_first = loops_[first].next, after_second = loops_[second].next;
-  link(first, after_second);
-  link(second, after_first);
-  parts_ += joins ? 1 : -1;
-  const std::uint32_t loop_of_first = loops_[first].loop, loop_of_second = loops_[second].loop;
-  if (loop_of_first == loop_of_second) return split(first, second, joins);
-  return merge(loop_of_first, loop_of_second, joins);
-}
-
-/// The loop of two vertices has become two.
-bool Weaver::split(std::uint32_t first, std::uint32_t second, bool joins) {
-  std::uint32_t count = 0, u = first, v = second;
-  do {
-    u = loops_[u].next;
-    v = loops_[v].next;
-    ++count;
-  } while (u != first && v != second);
-  const std::uint32_t small = u == first ? first : second, large = u == first ? second : first;
-  const std::uint32_t old = loops_[small].loop;
-  const Seat seat = loops_.new_seat();
-  if (seat.loop == loops_.loops_.size()) loops_.loops_.emplace_back();
-  // Below the lowest edge at its leftmost place is the outside of a loop, whatever is yet to be
-  // joined there: an outer loop leaves along that edge, a hole arrives.
-  bool is_hole = false;
-  Vec2 leftmost = loops_[small].point;
-  std::optional<Vec2> lowest;
-  u = small;
-  for (std::uint32_t i = 0; i < count; ++i, u = loops_[u].next) {
-    vertex(u).loop = seat.loop;
-    const Vec2 here = loops_[u].point;
-    if (lexicographic_less(leftmost, here)) continue;
-    if (!(here == leftmost)) lowest.reset();
-    leftmost = here;
-    for (const bool arrives : {false, true}) {
-      const Vec2 end = loops_[arrives ? loops_[u].before : loops_[u].next].point;
-      if (lowest && orientation(here, end, *lowest) <= 0) continue;
-      lowest = end;
-      is_hole = arrives;
-    }
-  }
-  Loop& whole = loop(old);
-  const bool was_hole = whole.hole;
-  whole.size -= count;
-  whole.first = large;
-  loop(seat.loop) = {small, count, whole.component, is_hole};
-  if (joins == was_hole) {  // an outer loop and a hole
-    whole.hole = !is_hole;
-    if (!joins) return true;
-    return move_holes(is_hole ? old : seat.loop, seat.component, is_hole ? seat.loop : old);
-  }
-  loops_.loops_[seat.loop].hole = was_hole;
-  return !joins || move_holes(seat.loop, seat.component, none);
-}
-
-bool Weaver::is_place(Vec2 p) const {
-  return std::find(places_.begin(), places_.end(), p) != places_.end();
-}
-
-/// An outer loop becomes one of a new component, with the holes inside it; `but`: one that is not.
-bool Weaver::move_holes(std::uint32_t outer, std::uint32_t component, std::uint32_t but) {
-  constexpr std::size_t most = std::size_t{1} << 20;
-  const std::uint32_t old = loops_.component(outer);
-  loop(outer).component = component;
-  std::size_t looks = 0;
-  for (std::uint32_t l = 0; l < loops_.loops_.size(); ++l) {
-    const Loop& hole = loops_.loops_[l];
-    if (hole.size == 0 || !hole.hole || hole.component != old || l == but) continue;
-    looks += loops_.loop_size(outer);
-    if (looks > most) return false;
-    // Not where loops are yet to be joined.
-    std::uint32_t free = hole.first;
-    for (std::uint32_t i = 0; i < hole.size && is_place(loops_[free].point); ++i)
-      free = loops_[free].next;
-    const Vec2 p = loops_[free].point;
-    if (is_place(p)) return false;
-    bool is_inside = false;
-    loops_.for_vertices(outer, [&](std::uint32_t v) {
-      const Vec2 a = loops_[v].point, b = loops_[loops_[v].next].point;
-      if ((a.y > p.y) != (b.y > p.y) && (orientation(a, b, p) > 0) == (b.y > a.y))
-        is_inside = !is_inside;
-    });
-    if (is_inside) loop(l).component = component;
-  }
-  return true;
-}
-
-/// Two loops have become one. What joins is one component before, what parts becomes one.
-bool Weaver::merge(std::uint32_t first, std::uint32_t second, bool joins) {
-  const bool is_first_larger = loops_.loop_size(first) > loops_.loop_size(second);
-  const std::uint32_t large = is_first_larger ? first : second,
-                      small = is_first_larger ? second : first;
-  const Loop gone = loops_.loops_[small];
-  if ((gone.component == loops_.component(large)) != joins) return false;
-  std::uint32_t v = gone.first;
-  // The smaller one's vertices are a run of the new loop; those of the other one are skipped.
-  while (loops_[loops_[v].before].loop == small) v = loops_[v].before;
-  for (; loops_[v].loop == small; v = loops_[v].next) vertex(v).loop = large;
-  loop(small) = {};
-  Loop& whole = loop(large);
-  whole.size += gone.size;
-  std::uint32_t from = gone.component, to = whole.component;
-  if (whole.hole != gone.hole) {
-    if (!joins && gone.hole) std::swap(from, to);  // that of the hole
-    whole.hole = !joins;
-  }
-  whole.component = to;
-  if (from == to) return true;
-  for (std::uint32_t l = 0; l < loops_.loops_.size(); ++l)
-    if (loops_.loops_[l].size > 0 && loops_.loops_[l].component == from) loop(l).component = to;
-  return true;
-}
-
-void Weaver::take_back() {
-  for (auto i = old_loops_.rbegin(); i != old_loops_.rend(); ++i)
-    loops_.loops_[i->first] = i->second;
-  for (auto i = old_vertices_.rbegin(); i != old_vertices_.rend(); ++i)
-    loops_.vertices_[i->first] = i->second;
-  loops_.vertices_.resize(size_);
-  for (const auto& [v, old] : old_vertices_) {
-    if (loops_.has(v))
-      loops_.set_box(v);
-    else
-      loops_.boxes_.set(v, Box::nothing());
-  }
 }
 
 }  // namespace medial::edit

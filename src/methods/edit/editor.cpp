@@ -159,9 +159,6 @@ Result<AxisChange> Editor::move_loop(std::uint32_t vertex, Vec2 by) {
     edit::Edit edit;
     edit.out = edit.in = parts_->corners_of(vertex);
     for (edit::Corner& corner : edit.in) corner.point = corner.point + by;
-    // Around holes, a loop stays an outer one.
-    const std::uint32_t loop = parts_->edited()[vertex].loop;
-    if (parts_->edited().hole_in(loop) != edit::none) edit.seat = parts_->edited().seat_of(loop);
     return parts_->change(edit);
   });
 }

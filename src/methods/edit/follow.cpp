@@ -10,31 +10,7 @@
 namespace medial {
 
 using edit::error_of;
-
-namespace {
-
-/// Adds what a second change removes and adds to lists of a first one.
-void join(std::vector<std::uint32_t>& removed, std::vector<std::uint32_t>& added,
-          const std::vector<std::uint32_t>& then_removed,
-          const std::vector<std::uint32_t>& then_added) {
-  std::sort(added.begin(), added.end());
-  std::vector<std::uint32_t> gone;
-  for (const std::uint32_t number : then_removed)
-    (std::binary_search(added.begin(), added.end(), number) ? gone : removed).push_back(number);
-  std::sort(gone.begin(), gone.end());
-  added.erase(std::remove_if(added.begin(), added.end(),
-                             [&](std::uint32_t number) {
-                               return std::binary_search(gone.begin(), gone.end(), number);
-                             }),
-              added.end());
-  added.insert(added.end(), then_added.begin(), then_added.end());
-}
-void join(AxisChange& first, const AxisChange& second) {
-  join(first.removed_nodes, first.added_nodes, second.removed_nodes, second.added_nodes);
-  join(first.removed_edges, first.added_edges, second.removed_edges, second.added_edges);
-}
-
-}  // namespace
+using edit::join;
 
 Error Editor::Parts::refusal(const Rings::Judgement& judgement) const {
   const std::uint32_t edge = touching ? touching->edge_at(judgement.edge, rings) : judgement.edge;
@@ -105,11 +81,15 @@ std::optional<Error> Editor::Parts::refuse(const edit::Edit& edit, const Rings& 
 Result<AxisChange> Editor::Parts::change(edit::Edit edit) {
   drop_signs_of_zeros(edit);
   if (auto error = refuse(edit, edited())) return std::move(*error);
+  if (!edit.seat && !edit.out.empty() && !edit.in.empty()) {
+    // Around holes, a loop stays an outer one.
+    const std::uint32_t loop = edited()[edit.out.front().number].loop;
+    if (edited().hole_in(loop) != none) edit.seat = edited().seat_of(loop);
+  }
   // With arcs, all that comes near touches, and becomes one within the tolerance.
-  const bool is_first_arc = !rings.has_arcs() && edit.has_arcs();
-  const bool is_merged = touching && (rings.has_arcs() || edited().has_arcs());
+  const bool is_first_or_last_arc = edited().has_arcs_after(edit) != rings.has_arcs();
   const bool is_exact = !edit.is_of_loops() && !rings.has_arcs();
-  if (is_first_arc || is_merged || (!is_exact && !fits_frame(edit))) return rebuild(edit);
+  if (is_first_or_last_arc || (!is_exact && !fits_frame(edit))) return rebuild(edit);
   const std::optional<edit::Edit> own = touching ? touching->of_loops(edit, rings) : edit;
   Rings::Judgement judgement{Rings::Verdict::unclear, none, {}};
   if (own) judgement = rings.judge(*own);
@@ -129,6 +109,10 @@ Result<AxisChange> Editor::Parts::change(edit::Edit edit) {
   if (own && !touches) step = follow(edit, *own, judgement.verdict);
   if (!step) return std::move(step).error();
   if (!*step && contacts) step = weave(edit, *contacts);
+  if (!*step && !edit.is_of_loops()) step = replace_loop(edit);
+  std::optional<Error> refused;
+  if (!*step && edit.is_of_loops() && !rings.has_arcs()) step = weave_loops(edit, refused);
+  if (refused) return std::move(*refused);
   if (!*step) return rebuild(edit);
   inverse.push_back(std::move(back));
   AxisChange& change = (*step)->change;
@@ -144,7 +128,12 @@ Result<std::optional<Step>> Editor::Parts::follow(const edit::Edit& edit,
                                                   Rings::Verdict verdict) {
   if (!touching) return follow(of_loops, verdict);
   const edit::Edit back = edited().inverse(edit);
-  touching->apply(edit, rings);
+  edit::Edit drawn = edit;
+  if (edit.out.empty() && !edit.in.empty() && !edit.seat) {
+    const std::uint32_t site = rings.around(edit.in.front().point).site;
+    drawn.seat = touching->seat_beside(site == none ? none : Rings::vertex_of(site), rings);
+  }
+  touching->apply(drawn, rings);
   Result<std::optional<Step>> step = std::optional<Step>();
   try {
     step = follow(of_loops, verdict);
@@ -310,135 +299,6 @@ std::optional<Step> Editor::Parts::follow_in_two(const edit::Edit& edit,
     throw;
   }
   if (second) return first;
-  take_back();
-  return std::nullopt;
-}
-
-/// Whether a vertex comes to lie in one line with its neighbours where its ring may cross itself:
-/// in a vertex it may do that, in the inside of edges not.
-bool Editor::Parts::straightens_crossing(const edit::Edit& edit) const {
-  if (edit.is_of_loops() || rings.has_arcs()) return false;
-  const Rings& own = edited();
-  const edit::Detour way = detour_of(edit);
-  const auto is_crossing = [&](std::uint32_t v, std::uint32_t Rings::Vertex::*other, Vec2 to) {
-    const Vec2 here = own[v].point;
-    std::uint32_t u = own[v].*other;
-    while (u != v && own[u].point == here) u = own[u].*other;
-    const Vec2 from = own[u].point;
-    if (orientation(from, here, to) != 0 || !strictly_between(from, here, to)) return false;
-    bool has_left = false, has_right = false;
-    for (const std::uint32_t one : edit::vertices_at(rings, here))
-      for (const std::uint32_t end : {rings[one].before, rings[one].next}) {
-        const int side = orientation(from, here, rings[end].point);
-        has_left = has_left || side > 0;
-        has_right = has_right || side < 0;
-      }
-    return has_left && has_right && edit::vertices_at(rings, here).size() > 1;
-  };
-  return is_crossing(edit.before, &Rings::Vertex::before, way.fresh.value_or(way.to)) ||
-         is_crossing(edit.after, &Rings::Vertex::next, way.fresh.value_or(way.from));
-}
-
-/// An edit of a vertex by its places; equal points of a ring are one.
-edit::Detour Editor::Parts::detour_of(const edit::Edit& edit) const {
-  const Rings& own = edited();
-  edit::Detour way{own[edit.before].point, own[edit.after].point, {}, {}};
-  if (edit.old != none) way.old = own[edit.old].point;
-  if (edit.fresh != none) way.fresh = edit.place;
-  for (std::optional<Vec2>* middle : {&way.old, &way.fresh})
-    if (*middle == way.from || *middle == way.to) middle->reset();
-  return way;
-}
-
-/// Makes an edit of a vertex whose edges begin or cease to touch others. None, and nothing has
-/// happened, where all has to be computed again.
-std::optional<Step> Editor::Parts::weave(const edit::Edit& edit, const edit::Contacts& contacts) {
-  const bool is_first = !touching;
-  const edit::Detour way = detour_of(edit);
-  const edit::Edit back = edited().inverse(edit);
-  const Box old_box = box;
-  Box reach = box;
-  edited().add_reach(edit, reach);
-  if (is_first) touching.emplace(rings);
-  const auto take_back = [&] {
-    set_box(old_box);
-    if (is_first)
-      touching.reset();
-    else
-      touching->rings().apply(back, false);
-  };
-  touching->apply(edit, rings);
-  set_box(reach);
-  std::optional<Step> step;
-  try {
-    edit::Weaver weaver(rings, touching->rings());
-    if (contacts.judgement.verdict == Rings::Verdict::keeps_form) step = weave(contacts, weaver);
-    if (step)
-      touching->note(subject_of(edit), weaver.fresh(), contacts.places, rings);
-    else if (way.old && way.fresh)
-      step = weave_in_two(edit, way);
-  } catch (...) {
-    take_back();
-    throw;
-  }
-  if (!step) take_back();
-  return step;
-}
-
-/// Makes an edit of the loops.
-std::optional<Step> Editor::Parts::weave(const edit::Contacts& contacts, edit::Weaver& weaver) {
-  Seeds seeds;
-  seeds.before = rings.sites_at(contacts.places);
-  std::optional<Step> step;
-  try {
-    if (weaver.make(contacts)) {
-      touching->make_room(rings);
-      seeds.parts = weaver.parts();
-      step = repair(seeds, rings.sites_at(contacts.places), weaver.moved());
-    }
-  } catch (...) {
-    weaver.take_back();
-    throw;
-  }
-  if (!step) weaver.take_back();
-  return step;
-}
-
-/// Takes the vertex out, and puts it in again where it shall be.
-std::optional<Step> Editor::Parts::weave_in_two(const edit::Edit& edit, const edit::Detour& way) {
-  const auto keeps_form = [](const edit::Contacts& contacts) {
-    return contacts.judgement.verdict == Rings::Verdict::keeps_form;
-  };
-  const edit::Contacts out = edit::find_contacts(rings, {way.from, way.to, way.old, {}});
-  if (!keeps_form(out)) return std::nullopt;
-  edit::Weaver first_weaver(rings, touching->rings());
-  std::optional<Step> first = weave(out, first_weaver), second;
-  if (!first) return std::nullopt;
-  const auto take_back = [&] {
-    put_back(*first);
-    first_weaver.take_back();
-  };
-  edit::Weaver second_weaver(rings, touching->rings());
-  try {
-    const edit::Contacts in = edit::find_contacts(rings, {way.from, way.to, {}, way.fresh});
-    if (keeps_form(in)) second = weave(in, second_weaver);
-    if (second) {
-      AxisChange both = first->change;
-      join(both, second->change);
-      std::vector<Vec2> places = out.places;
-      places.insert(places.end(), in.places.begin(), in.places.end());
-      touching->note(subject_of(edit), second_weaver.fresh(), places, rings);
-      first->change = std::move(both);
-      return first;
-    }
-  } catch (...) {
-    if (second) {
-      put_back(*second);
-      second_weaver.take_back();
-    }
-    take_back();
-    throw;
-  }
   take_back();
   return std::nullopt;
 }

@@ -14,6 +14,9 @@
 namespace medial::edit {
 namespace {
 
+/// In tolerances: what comes within it of an arc may touch it.
+constexpr double nearness = 64;
+
 /// How two segments with a common end `shared` meet: there only, or along each other.
 Meeting meeting_at(Vec2 shared, Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   const Vec2 one = a == shared ? b : a, other = c == shared ? d : c;
@@ -241,13 +244,13 @@ struct FreshEdge {
 
 /// Where there are arcs, what comes within some tolerances of an edge may touch it.
 Rings::Judgement Rings::judge_with_arcs(const Edit& edit) const {
-  constexpr double margin = 64;
   const Judgement unclear{Verdict::unclear, none, {}};
   if (edit.before == edit.after) return unclear;
   const Vec2 p = vertices_[edit.before].point, n = vertices_[edit.after].point, x = edit.place;
   std::vector<FreshEdge> fresh;
-  std::vector<BulgeArc> swept{edge(edit.before)};  // what is between the old edges and the new ones
-  if (edit.old != none) swept.push_back(edge(edit.old));
+  std::vector<BulgeArc> old{edge(edit.before)};
+  if (edit.old != none) old.push_back(edge(edit.old));
+  std::vector<BulgeArc> swept = old;  // what is between the old edges and the new ones
   if (edit.fresh != none) {
     fresh = {{{p, x, edit.bulge[0]}, edit.before, none}, {{x, n, edit.bulge[1]}, none, edit.after}};
   } else {
@@ -255,7 +258,7 @@ Rings::Judgement Rings::judge_with_arcs(const Edit& edit) const {
   }
   for (std::size_t i = fresh.size(); i-- > 0;) swept.push_back(fresh[i].arc.reversed());
   const Cleaning cleaning(joining_.tolerance);
-  Apartness apartness(margin * joining_.tolerance);
+  Apartness apartness(nearness * joining_.tolerance);
   std::vector<BulgeArc> chain{edge(vertices_[edit.before].before)};
   for (const FreshEdge& one : fresh) chain.push_back(one.arc);
   chain.push_back(edge(edit.after));
@@ -265,7 +268,7 @@ Rings::Judgement Rings::judge_with_arcs(const Edit& edit) const {
     return unclear;
 
   Judgement result;
-  boxes_.find(box_around(swept, margin * joining_.tolerance), [&](std::uint32_t s) {
+  boxes_.find(box_around(swept, nearness * joining_.tolerance), [&](std::uint32_t s) {
     if (result.verdict == Verdict::crosses || s == edit.before || s == edit.old) return;
     const std::uint32_t t = vertices_[s].next;
     const BulgeArc other = edge(s);
@@ -283,6 +286,10 @@ Rings::Judgement Rings::judge_with_arcs(const Edit& edit) const {
         return;
       }
     }
+    // What has touched the old edges may be something else without them.
+    for (const BulgeArc& one : old)
+      if (t != edit.before && s != edit.after && !apartness.apart(one, other))
+        result.verdict = Verdict::unclear;
     if (result.verdict != Verdict::keeps_form) return;
     if ((s != edit.after && turns_around(swept, other.start) != 0) ||
         turns_around(swept, apex(other)) != 0)
@@ -319,7 +326,8 @@ Seat Rings::find_seat_anew(const std::vector<Corner>& corners) const {
         away = here;
       }
   }
-  Seat seat = new_seat();
+  Seat seat = seat_beside(none);
+  std::uint32_t component_around = seat.component;
   double narrowest = std::numeric_limits<double>::infinity();
   for (const std::uint32_t loop : loops()) {
     std::vector<BulgeArc> curve;
@@ -329,8 +337,9 @@ Seat Rings::find_seat_anew(const std::vector<Corner>& corners) const {
     const double width = diagonal(box_around(curve, 0));
     if (is_hole(loop) || width >= narrowest) continue;
     narrowest = width;
-    seat.component = component(loop);
+    component_around = component(loop);
   }
+  if (seat.hole) seat.component = component_around;
   return seat;
 }
 
@@ -338,10 +347,16 @@ Seat Rings::find_seat_anew(const std::vector<Corner>& corners) const {
 Rings::Judgement Rings::judge_out(const Edit& edit) const {
   const std::uint32_t loop = vertices_[edit.out.front().number].loop;
   std::vector<BulgeArc> curve;
-  bool touches = false;  // what touches the loop may be flat without it
+  bool touches = false;  // what touches the loop may be something else without it
+  Apartness apartness(nearness * joining_.tolerance);
   for_vertices(loop, [&](std::uint32_t v) {
-    curve.push_back(edge(v));
+    const BulgeArc one = edge(v);
+    curve.push_back(one);
     touches = touches || vertices_[v].touches;
+    if (!has_arcs() || touches) return;
+    boxes_.find(box_around({&one, 1}, nearness * joining_.tolerance), [&](std::uint32_t s) {
+      touches = touches || (vertices_[s].loop != loop && !apartness.apart(one, edge(s)));
+    });
   });
   if (touches) return {Verdict::unclear, none, {}};
   for (const std::uint32_t v : loops_near(box_around(curve, 0), loop))
@@ -352,7 +367,6 @@ Rings::Judgement Rings::judge_out(const Edit& edit) const {
 
 /// A loop can come where it is one that build_shape() takes as it is, and meets and encloses none.
 Rings::Judgement Rings::judge_in(const Edit& edit) const {
-  constexpr double margin = 64;
   const Judgement unclear{Verdict::unclear, none, {}};
   std::vector<BulgeArc> curve;
   Ring ring;
@@ -370,13 +384,13 @@ Rings::Judgement Rings::judge_in(const Edit& edit) const {
       return unclear;
   const Cleaning cleaning(joining_.tolerance);
   const bool has_curves = has_arcs() || !alone->bulges.empty();
-  Apartness apartness(has_curves ? margin * joining_.tolerance : 0);
+  Apartness apartness(has_curves ? nearness * joining_.tolerance : 0);
   Judgement result;
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const BulgeArc& one = curve[i];
     if (cleaning.changes(one) || cleaning.may_join(one, curve[i + 1 < curve.size() ? i + 1 : 0]))
       return unclear;
-    boxes_.find(box_around({&one, 1}, margin * joining_.tolerance), [&](std::uint32_t s) {
+    boxes_.find(box_around({&one, 1}, nearness * joining_.tolerance), [&](std::uint32_t s) {
       if (result.verdict == Verdict::crosses) return;
       const BulgeArc other = edge(s);
       const bool meets =

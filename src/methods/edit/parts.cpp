@@ -1,5 +1,6 @@
 #include "methods/edit/parts.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "axis/node_kinds.h"
@@ -10,6 +11,31 @@
 
 namespace medial {
 namespace edit {
+namespace {
+
+/// Adds what a second change removes and adds to lists of a first one.
+void join(std::vector<std::uint32_t>& removed, std::vector<std::uint32_t>& added,
+          const std::vector<std::uint32_t>& then_removed,
+          const std::vector<std::uint32_t>& then_added) {
+  std::sort(added.begin(), added.end());
+  std::vector<std::uint32_t> gone;
+  for (const std::uint32_t number : then_removed)
+    (std::binary_search(added.begin(), added.end(), number) ? gone : removed).push_back(number);
+  std::sort(gone.begin(), gone.end());
+  added.erase(std::remove_if(added.begin(), added.end(),
+                             [&](std::uint32_t number) {
+                               return std::binary_search(gone.begin(), gone.end(), number);
+                             }),
+              added.end());
+  added.insert(added.end(), then_added.begin(), then_added.end());
+}
+
+}  // namespace
+
+void join(AxisChange& first, const AxisChange& second) {
+  join(first.removed_nodes, first.added_nodes, second.removed_nodes, second.added_nodes);
+  join(first.removed_edges, first.added_edges, second.removed_edges, second.added_edges);
+}
 
 std::uint32_t subject_of(const edit::Edit& edit) {
   if (edit.is_of_loops()) return (edit.in.empty() ? edit.out : edit.in).front().number;

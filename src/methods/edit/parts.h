@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "medial/editor.h"
-#include "methods/edit/contacts.h"
 #include "methods/edit/repair.h"
 #include "methods/edit/rings.h"
 #include "methods/edit/touching.h"
+#include "methods/edit/weaver.h"
 #include "methods/edit/window.h"
 
 namespace medial::edit {
@@ -19,6 +19,9 @@ struct Step {
   std::vector<Disk> nodes;
   std::vector<AxisGraph::Edge> edges;
 };
+
+/// Adds what a second change removes and adds to a first one.
+void join(AxisChange& first, const AxisChange& second);
 
 /// The vertex that an edit is about: of a loop, its first one.
 std::uint32_t subject_of(const Edit& edit);
@@ -38,7 +41,8 @@ using edit::none;
 using edit::Rings;
 using edit::Step;
 
-/// What an editor holds. Sources: parts.cpp (all of the axis), follow.cpp (edits that it follows).
+/// What an editor holds. Sources: parts.cpp (all of the axis), follow.cpp (edits that it
+/// follows), weave.cpp (those after which other edges touch).
 struct Editor::Parts {
   Options options;
   Box box;      ///< of the shape, and of places where it was
@@ -79,6 +83,10 @@ struct Editor::Parts {
   std::optional<Step> weave(const edit::Edit& edit, const edit::Contacts& contacts);
   std::optional<Step> weave(const edit::Contacts& contacts, edit::Weaver& weaver);
   std::optional<Step> weave_in_two(const edit::Edit& edit, const edit::Detour& way);
+  void note(std::uint32_t of_rings, std::uint32_t of_loops, const std::vector<Vec2>& places);
+  struct LoopWeave;
+  std::optional<Step> weave_loops(const edit::Edit& edit, std::optional<Error>& refused);
+  std::optional<Step> replace_loop(const edit::Edit& edit);
   Error refusal(const Rings::Judgement& judgement) const;
   std::optional<Step> follow(const edit::Edit& edit);
   std::optional<Step> follow_in_two(const edit::Edit& edit, std::optional<Error>& refused);

@@ -1,6 +1,7 @@
 #include "methods/edit/repair.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 
@@ -202,15 +203,16 @@ class Repairer {
   /// edges between them in the window's inside.
   void find_doubtful(const Repair& repair, std::vector<std::uint32_t>& doubtful) const {
     constexpr std::size_t enough = 3;  // edges: one of them has a third site
-    std::vector<std::vector<std::uint32_t>> edges(repair.disks.size());
+    std::vector<std::array<std::uint32_t, enough>> edges(repair.disks.size());
+    std::vector<std::uint8_t> count(repair.disks.size(), 0);
     for (std::uint32_t i = 0; i < repair.edges.size(); ++i)
       for (const std::uint32_t node : repair.edges[i].node)
-        if (edges[node].size() < enough) edges[node].push_back(i);
+        if (count[node] < enough) edges[node][count[node]++] = i;
     for (const AxisGraph::Edge& edge : repair.edges)
       for (std::size_t k = 0; k < 2; ++k) {
         const std::uint32_t border = repair.old_nodes[edge.node[k]], inner = edge.node[1 - k];
         if (border == none) continue;
-        if (graph_.degree(border) < enough || edges[inner].size() < enough) {
+        if (graph_.degree(border) < enough || count[inner] < enough) {
           if (rings_.has_arcs() && may_be_hub(edge, graph_.disk(border), repair.disks[inner]))
             doubtful.push_back(border);
           continue;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/predicates.h"
+#include "methods/edit/segments.h"
 
 namespace medial::edit {
 
@@ -21,15 +22,21 @@ Box box_of(const BulgeArc& edge) {
 
 namespace {
 
-/// Twice the area inside a ring, positive where it runs counter-clockwise.
-double signed_area(const std::vector<Corner>& corners) {
+/// Whether a ring that does not cross itself runs so.
+bool turns_left(const std::vector<Corner>& corners) {
+  const auto is_arc = [](const Corner& corner) { return corner.bulge != 0; };
+  if (std::none_of(corners.begin(), corners.end(), is_arc)) {
+    std::vector<Vec2> ring;
+    for (const Corner& corner : corners) ring.push_back(corner.point);
+    return is_counter_clockwise(ring);
+  }
   double area = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Corner &from = corners[i], &to = corners[i + 1 < corners.size() ? i + 1 : 0];
     area += cross(from.point - corners[0].point, to.point - corners[0].point);
     if (from.bulge != 0) area += 2 * area_beside_chord({from.point, to.point, from.bulge});
   }
-  return area;
+  return area > 0;
 }
 
 }  // namespace
@@ -165,6 +172,19 @@ void Rings::judge_vertex(std::uint32_t v) {
 
 void Rings::set_box(std::uint32_t v) { boxes_.set(v, box_of(edge(v))); }
 
+bool Rings::has_arcs_after(const Edit& edit) const {
+  const auto count = [](const std::vector<Corner>& corners) {
+    return std::count_if(corners.begin(), corners.end(),
+                         [](const Corner& corner) { return corner.bulge != 0; });
+  };
+  auto arcs = static_cast<std::ptrdiff_t>(arcs_) + count(edit.in) - count(edit.out);
+  for (const std::uint32_t gone : {edit.before, edit.old})
+    if (gone != none && vertices_[gone].bulge != 0) --arcs;
+  for (const double bulge : edit.bulge)
+    if (bulge != 0) ++arcs;
+  return arcs > 0;
+}
+
 std::uint32_t Rings::hole_in(std::uint32_t loop) const {
   if (loops_[loop].hole) return none;
   for (const Loop& other : loops_)
@@ -226,6 +246,22 @@ std::vector<Rings::Extent> Rings::sites_at(const std::vector<Vec2>& places) cons
   return sites;
 }
 
+std::uint32_t Rings::opening_to(std::uint32_t v, Vec2 p) const {
+  std::uint32_t others = 0, open = none;
+  const Vec2 here = vertices_[v].point;
+  boxes_.find({here, here}, [&](std::uint32_t u) {
+    if (!(vertices_[u].point == here)) return;
+    ++others;
+    const Vec2 from = start_tangent(edge(u)), to = -end_tangent(edge(vertices_[u].before));
+    const auto angle_to = [&](Vec2 way) {
+      const double angle = signed_angle(from, way);
+      return angle > 0 ? angle : angle + 2 * std::numbers::pi;
+    };
+    if (angle_to(p - here) < angle_to(to)) open = u;
+  });
+  return others > 1 ? open : v;
+}
+
 Rings::Around Rings::around(Vec2 place) const {
   const Vec2 p = frame_.to_local(place);
   const auto pieces_at = [&](std::uint32_t v) {
@@ -248,7 +284,8 @@ Rings::Around Rings::around(Vec2 place) const {
   const double s = site::foot_parameter(piece, p);
   for (const bool at_end : {false, true}) {
     if (s != (at_end ? piece.length : 0) || (pieces.count > 1 && is_last != at_end)) continue;
-    const std::uint32_t end = at_end ? vertices_[v].next : v;
+    const std::uint32_t end = opening_to(at_end ? vertices_[v].next : v, place);
+    if (end == none) return {none, away};
     if (vertices_[end].flat || vertices_[end].joint == site::Joint::smooth) break;
     return {is_reflex(end) ? 2 * end : none, away};
   }
@@ -287,22 +324,22 @@ Seat Rings::seat_of(std::uint32_t loop) const {
   return {loop, own.first, own.component, own.hole};
 }
 
-Seat Rings::new_seat() const {
+Seat Rings::seat_beside(std::uint32_t vertex) const {
   Seat seat;
   for (const Loop& other : loops_)
     if (other.size > 0) seat.component = std::max(seat.component, other.component + 1);
   const auto empty =
       std::find_if(loops_.begin(), loops_.end(), [](const Loop& one) { return one.size == 0; });
   seat.loop = static_cast<std::uint32_t>(empty - loops_.begin());
+  if (vertex == none) return seat;
+  seat.hole = true;
+  seat.component = loops_[vertices_[vertex].loop].component;
   return seat;
 }
 
 Seat Rings::find_seat(Vec2 place) const {
-  Seat seat = new_seat();
   const std::uint32_t site = around(place).site;
-  seat.hole = site != none;
-  if (seat.hole) seat.component = loops_[vertices_[site / 2].loop].component;
-  return seat;
+  return seat_beside(site == none ? none : site / 2);
 }
 
 void Rings::put_in(const Edit& edit, bool is_followed) {
@@ -320,7 +357,7 @@ void Rings::put_in(const Edit& edit, bool is_followed) {
   const std::size_t size = corners.size();
   loops_[seat.loop] = {seat.first != none ? seat.first : corners[0].number,
                        static_cast<std::uint32_t>(size), seat.component, seat.hole};
-  const bool turns = (signed_area(corners) < 0) != seat.hole;
+  const bool turns = !seat.is_old && turns_left(corners) == seat.hole;
   for (std::size_t i = 0; i < size; ++i) {
     const std::uint32_t v = corners[i].number;
     const Corner &after = corners[i + 1 < size ? i + 1 : 0],
@@ -380,6 +417,7 @@ Edit Rings::inverse(const Edit& edit) const {
     back.out = edit.in;
     if (edit.out.empty()) return back;
     back.seat = seat_of(vertices_[edit.out.front().number].loop);
+    back.seat->is_old = true;
     for_vertices(back.seat->loop, [&](std::uint32_t v) {
       back.in.push_back({v, vertices_[v].point, vertices_[v].bulge});
     });

@@ -31,6 +31,7 @@ struct Corner {
 struct Seat {
   std::uint32_t loop = none, first = none, component = 0;
   bool hole = false;
+  bool is_old = false;  ///< the loop was there before, as its corners are listed
 };
 
 /// One edit: the vertex `old` between `before` and `after` gives way to the vertex `fresh` at a
@@ -46,12 +47,6 @@ struct Edit {
   double bulge_before = 0;  ///< of the edge that begins at `before`, where this takes an edit back
 
   bool is_of_loops() const { return !out.empty() || !in.empty(); }
-  /// Whether there are arcs after it where there were none.
-  bool has_arcs() const {
-    return bulge[0] != 0 || bulge[1] != 0 ||
-           std::any_of(in.begin(), in.end(),
-                       [](const Corner& corner) { return corner.bulge != 0; });
-  }
 };
 
 Box box_of(const BulgeArc& edge);
@@ -93,10 +88,15 @@ class Rings {
   std::uint32_t component(std::uint32_t loop) const { return loops_[loop].component; }
   bool is_hole(std::uint32_t loop) const { return loops_[loop].hole; }
   bool has_arcs() const { return arcs_ > 0; }
+  /// The same after an edit.
+  bool has_arcs_after(const Edit& edit) const;
   bool is_reflex(std::uint32_t v) const { return vertices_[v].joint == site::Joint::reflex; }
   /// A vertex of a hole in an outer loop; none if it has no hole.
   std::uint32_t hole_in(std::uint32_t loop) const;
   Seat seat_of(std::uint32_t loop) const;
+  /// Of a loop that comes into the interior beside the edge that begins at a vertex; or none: of an
+  /// outer one.
+  Seat seat_beside(std::uint32_t vertex) const;
   /// A vertex of a loop that is not flat.
   std::uint32_t first_of(std::uint32_t loop) const { return corner_to(loops_[loop].first); }
   const LocalFrame& frame() const { return frame_; }
@@ -237,6 +237,8 @@ class Rings {
       v = next;
     } while (v != loops_[loop].first);
   }
+  /// Of the vertices at the place of one, that whose interior a place nearby lies in, or none.
+  std::uint32_t opening_to(std::uint32_t v, Vec2 p) const;
   Extent extent_of(std::uint32_t site) const;
   void append(std::uint32_t loop, std::uint32_t ring, std::uint32_t component, Shape& shape) const;
   BulgeArc edge(std::uint32_t v) const {
@@ -253,9 +255,7 @@ class Rings {
   void set_box(std::uint32_t v);
   void take_out(std::uint32_t loop);
   void put_in(const Edit& edit, bool is_followed);
-  /// Of a loop that comes, whose vertices have room: an outer one.
-  Seat new_seat() const;
-  /// The same by a place of it, where it keeps clear of all others.
+  /// Of a loop that comes, by a place of it, where it keeps clear of all others.
   Seat find_seat(Vec2 place) const;
   /// The same by the place of it that is furthest from all others, whatever their directions.
   Seat find_seat_anew(const std::vector<Corner>& corners) const;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <utility>
 
 #include "base/predicates.h"
@@ -79,6 +80,32 @@ inline bool run_along(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   const auto lower = [](Vec2 p, Vec2 q) { return lexicographic_less(p, q) ? p : q; };
   const auto higher = [](Vec2 p, Vec2 q) { return lexicographic_less(p, q) ? q : p; };
   return lexicographic_less(higher(lower(a, b), lower(c, d)), lower(higher(a, b), higher(c, d)));
+}
+
+/// Whether a direction from the centre lies strictly inside the wedge from one to another one,
+/// counter-clockwise.
+inline bool is_in_wedge(Vec2 center, Vec2 from, Vec2 to, Vec2 p) {
+  const int turn = orientation(center, from, to);
+  const int after_from = orientation(center, from, p), before_to = orientation(center, p, to);
+  if (turn > 0) return after_from > 0 && before_to > 0;
+  if (turn < 0) return after_from > 0 || before_to > 0;
+  return after_from > 0;
+}
+
+/// Whether the ray from a point to the right crosses a segment; of a ring, an odd number of edges
+/// where the point lies inside.
+inline bool crosses_ray(Vec2 a, Vec2 b, Vec2 p) {
+  return (a.y > p.y) != (b.y > p.y) && (orientation(a, b, p) > 0) == (b.y > a.y);
+}
+
+/// Whether a ring that does not cross itself runs counter-clockwise: as it turns in its least
+/// point.
+inline bool is_counter_clockwise(std::span<const Vec2> ring) {
+  const auto least = static_cast<std::size_t>(
+      std::min_element(ring.begin(), ring.end(), lexicographic_less) - ring.begin());
+  const Vec2 before = ring[(least > 0 ? least : ring.size()) - 1],
+             after = ring[least + 1 < ring.size() ? least + 1 : 0];
+  return orientation(before, ring[least], after) > 0;
 }
 
 }  // namespace medial::edit

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "methods/edit/axis_graph.h"
+#include "methods/edit/segments.h"
 
 namespace medial::edit {
 
@@ -21,7 +22,7 @@ Touching::Touching(Rings rings, const Shape& shape, Rings& loops)
   for (std::uint32_t v = 0; v < numbers_.size(); ++v)
     if (is_several[v] || (numbers_[v] != none && !(rings_[v].point == shape.points[numbers_[v]])))
       numbers_[v] = none;
-  if (!loops.has_arcs()) add_flat_vertices(loops);
+  add_flat_vertices(loops);
 }
 
 Touching::Touching(const Rings& loops) : rings_(loops) {
@@ -29,29 +30,22 @@ Touching::Touching(const Rings& loops) : rings_(loops) {
   of_loops_ = numbers_;
 }
 
-/// Those between two corners that follow each other in the loops as well.
 void Touching::add_flat_vertices(Rings& loops) {
-  const auto size = static_cast<std::uint32_t>(rings_.size());
-  for (std::uint32_t from = 0; from < size; ++from) {
-    if (!rings_.has(from) || rings_[from].flat || !rings_[rings_[from].next].flat) continue;
-    const std::uint32_t start = numbers_[from], end = numbers_[rings_.corner_after(from)];
-    if (start == none || end == none) continue;
-    const auto is_edge = [&](std::uint32_t a, std::uint32_t b) {
-      return loops[a].next == b && loops[a].bulge == 0;
-    };
-    const bool is_turned = !is_edge(start, end);
-    if (is_turned && !is_edge(end, start)) continue;
-    std::uint32_t last = start;
-    for (std::uint32_t v = rings_[from].next; rings_[v].flat; v = rings_[v].next) {
-      if (numbers_[v] != none) break;
-      Edit edit;
-      edit.before = is_turned ? end : last;
-      edit.after = is_turned ? last : end;
-      edit.fresh = last = loops.unused();
-      edit.place = rings_[v].point;
-      loops.apply(edit);
-      note(v, last);
-    }
+  for (std::uint32_t v = 0; v < numbers_.size(); ++v) {
+    if (!rings_.has(v) || !rings_[v].flat || numbers_[v] != none) continue;
+    const Vec2 place = rings_[v].point;
+    Edit edit;
+    loops.for_edges_in({place, place}, [&](std::uint32_t s) {
+      const std::uint32_t next = loops[s].next;
+      if (loops[s].bulge != 0 || !lies_inside(place, loops[s].point, loops[next].point)) return;
+      edit.before = s;
+      edit.after = next;
+    });
+    if (edit.before == none) continue;
+    edit.fresh = loops.unused();
+    edit.place = place;
+    loops.apply(edit);
+    note(v, edit.fresh);
   }
 }
 
@@ -67,7 +61,15 @@ std::uint32_t Touching::edge_at(std::uint32_t of_loops, const Rings& loops) cons
   return rings_.has(end) && rings_[end].next == start ? end : start;
 }
 
-/// No two edges have the same ends: so places tell which edge of the loops is one of the rings.
+std::optional<Seat> Touching::seat_beside(std::uint32_t of_loops, const Rings& loops) const {
+  if (of_loops == none) return rings_.seat_beside(none);
+  const std::uint32_t drawn = edge_at(of_loops, loops);
+  if (!rings_.has(drawn)) return std::nullopt;
+  return rings_.seat_beside(drawn);
+}
+
+/// No two edges have the same ends and bulges: these tell which edge of the loops is one of the
+/// rings.
 std::optional<Edit> Touching::of_vertices(const Edit& edit, const Rings& loops) const {
   const auto number_there = [&](std::uint32_t v) {
     const std::uint32_t number = number_of(v);
@@ -97,9 +99,22 @@ std::optional<Edit> Touching::of_vertices(const Edit& edit, const Rings& loops) 
   } else {
     return std::nullopt;
   }
+  const auto is_edge = [&](std::uint32_t of_loops, std::uint32_t of_rings) {
+    return loops[of_loops].bulge == (is_turned ? -1 : 1) * rings_[of_rings].bulge;
+  };
+  const std::uint32_t last = has_old ? edit.old : edit.before;
   if (!is_at(own.before, is_turned ? edit.after : edit.before) ||
-      !is_at(own.after, is_turned ? edit.before : edit.after))
+      !is_at(own.after, is_turned ? edit.before : edit.after) ||
+      !is_edge(own.before, is_turned ? last : edit.before) ||
+      (has_old && !is_edge(own.old, is_turned ? edit.before : last)))
     return std::nullopt;
+  if (is_turned) {
+    const auto [first, second] = edit.bulge;
+    if (edit.fresh != none)
+      own.bulge = {0 - second, 0 - first};
+    else
+      own.bulge[0] = 0 - first;
+  }
   if (edit.fresh != none) {
     own.fresh = edit.fresh == edit.old ? own.old : number_of(edit.fresh);
     if (own.fresh == none) own.fresh = loops.unused();
@@ -115,8 +130,9 @@ bool Touching::is_loop(const std::vector<Corner>& corners, const Rings& loops) c
     const std::uint32_t after = number_of(corners[i + 1 < corners.size() ? i + 1 : 0].number);
     if (v == none || after == none || !loops.has(v) || !loops.has(after)) return false;
     if (loops[v].touches) return false;  // what touches it may be flat then
-    is_forward = is_forward && loops[v].next == after;
-    is_backward = is_backward && loops[after].next == v;
+    const double bulge = corners[i].bulge;
+    is_forward = is_forward && loops[v].next == after && loops[v].bulge == bulge;
+    is_backward = is_backward && loops[after].next == v && loops[after].bulge == -bulge;
   }
   return is_forward || is_backward;
 }
@@ -163,9 +179,12 @@ void Touching::make_room(const Rings& loops) {
   }
 }
 
-void Touching::note(std::uint32_t of_rings, std::uint32_t of_loops, const std::vector<Vec2>& places,
-                    const Rings& loops) {
+void Touching::set_number(std::uint32_t of_rings, std::uint32_t of_loops) {
   numbers_[of_rings] = of_loops;
+  if (of_loops != none) of_loops_[of_loops] = of_rings;
+}
+
+void Touching::note(const std::vector<Vec2>& places, const Rings& loops) {
   for (const Vec2 place : places) {
     std::uint32_t drawn = none;
     const auto find = [&](std::uint32_t v) {
@@ -178,7 +197,6 @@ void Touching::note(std::uint32_t of_rings, std::uint32_t of_loops, const std::v
       if (old == none || !rings_.has(old) || !(rings_[old].point == place)) of_loops_[v] = drawn;
     });
   }
-  if (of_loops != none) of_loops_[of_loops] = of_rings;
 }
 
 void Touching::note(const Edit& edit, const Edit& of_loops) {

@@ -25,7 +25,7 @@ class Touching {
   std::uint32_t vertex_at(std::uint32_t of_loops) const { return of_loops_[of_loops]; }
   /// The first vertex, in the rings, of an edge of the loops.
   std::uint32_t edge_at(std::uint32_t of_loops, const Rings& loops) const;
-  /// What an edit of straight edges of the rings is to the loops. None where its vertex is none of
+  /// What an edit of the rings is to the loops. None where its vertex is none of
   /// the loops, or several, or the loops go on in another way.
   std::optional<Edit> of_loops(const Edit& edit, const Rings& loops) const;
   /// Makes the edit of the rings, before the loops follow. Nothing happens where it throws.
@@ -34,10 +34,12 @@ class Touching {
   void note(const Edit& edit, const Edit& of_loops);
   /// Makes room, so that the next does not throw.
   void make_room(const Rings& loops);
-  /// Notes the number in the loops, or none, of a vertex of the rings, and which vertices of these
-  /// lie at places where the loops have new ones.
-  void note(std::uint32_t of_rings, std::uint32_t of_loops, const std::vector<Vec2>& places,
-            const Rings& loops);
+  /// Notes the number in the loops, or none, of a vertex of the rings,
+  void set_number(std::uint32_t of_rings, std::uint32_t of_loops);
+  /// and which vertices of the rings lie at places where the loops have new ones.
+  void note(const std::vector<Vec2>& places, const Rings& loops);
+  /// What a ring that comes is among the rings: see Contacts::beside. None where it is not known.
+  std::optional<Seat> seat_beside(std::uint32_t of_loops, const Rings& loops) const;
 
  private:
   void add_flat_vertices(Rings& loops);

@@ -29,15 +29,17 @@ class Assembly {
       : rings_(rings), graph_(graph), affected_(affected), radius_limit_(radius_limit) {}
 
   std::optional<std::vector<Window>> windows(const std::vector<std::uint32_t>& loops, int parts) {
-    if (affected_.nodes.empty() || !find_cycles()) return std::nullopt;
+    if ((affected_.nodes.empty() && parts <= 0) || !find_cycles()) return std::nullopt;
     add_whole_loops(loops);
-    // What comes in each window with borders is a tree.
+    // Each window's first sequence goes around it, all others around holes in it: of what comes
+    // there, the nodes and borders less the edges are one less the holes.
     const auto signed_size = [](const auto& list) {
       return static_cast<std::ptrdiff_t>(list.size());
     };
-    const std::ptrdiff_t trees = parts + signed_size(affected_.nodes) +
+    const std::ptrdiff_t twice = signed_size(cycles_) + parts + signed_size(affected_.nodes) +
                                  signed_size(affected_.borders) - signed_size(affected_.edges);
-    while (cycles_.size() > 1 && signed_size(cycles_) > trees)
+    if (twice % 2 != 0 || twice < 0) return std::nullopt;
+    while (2 * signed_size(cycles_) > twice)
       if (!connect_any() || takes_long()) return std::nullopt;
     std::vector<Window> windows;
     for (Cycle& cycle : cycles_) windows.push_back(window(cycle));
