@@ -53,11 +53,6 @@ bool moves_forward(const site::Site& arc, Vec2 from, Vec2 to) {
   return cross(way, toward) > 0 || squared_norm(toward) <= arc.curvature * dot(toward, way);
 }
 
-/// From one angle to another one, by at most half a turn.
-double way_between(double from, double to) {
-  return std::remainder(to - from, 2 * std::numbers::pi);
-}
-
 /// Directions around a point that divide an edge there, which turns so far: into parts of at most a
 /// quarter of a turn, by direction and by the ellipse's own parameter.
 std::vector<double> divide(const site::AroundPoint& around, double start, double turn) {
@@ -160,16 +155,18 @@ Status split_long_edges(MedialAxis& axis, std::vector<E>& edges, bool parabolas)
     const Vec2 end = axis.nodes[edge.node[1]].disk.center - point;
     // The foot on the right goes forward, around a vertex clockwise; on the left it is the other
     // way around.
-    const double sign = side == 1 ? -1 : 1, whole = 2 * std::numbers::pi;
+    const double sign = side == 1 ? -1 : 1, half = std::numbers::pi, whole = 2 * half;
     double first = around.parameter(begin);
-    double turn = sign * way_between(around.direction(begin), around.direction(end));
+    const double last = around.parameter(end);
+    const double wrap = sign * (last - first) < 0 ? whole : 0, way = sign * (last - first) + wrap;
+    double turn = sign * (around.direction_at(last) - around.direction_at(first)) + wrap;
     // Along one part of a bisector both feet go forward. Where only the one around a lone point
     // goes backward, by more than the rounding of both ends, an ellipse leads all around.
     constexpr double backward = 1e-6;
     const auto goes_around = [&] {
       const double rounding =
           around.rounding(begin, axis.tolerance) + around.rounding(end, axis.tolerance);
-      return sign * way_between(first, around.parameter(end)) < -rounding &&
+      return whole - way > rounding &&
              moves_forward(seen, side == 1 ? end : begin, side == 1 ? begin : end);
     };
     const bool of_lone_point = is_arc(other) && is_lone_point(axis, edge.site[side]);
@@ -178,8 +175,8 @@ Status split_long_edges(MedialAxis& axis, std::vector<E>& edges, bool parabolas)
       // Between the point and the arc; one node on both sides of the ellipse stands for two.
       first = -sign * std::abs(first);
       turn = 2 * std::abs(around.direction_at(first));
-    } else if (turn < -backward || (of_lone_point && goes_around())) {
-      turn += whole;
+    } else if (way > half && !(whole - turn > backward || (of_lone_point && goes_around()))) {
+      continue;
     }
     if (!(turn > 0)) continue;
     double before = first;

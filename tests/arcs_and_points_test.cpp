@@ -1,0 +1,77 @@
+// Planar graphs of arcs with points in, or all but in, their ends, centres and joints: each was
+// decided wrongly once.
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "medial/planar_graph.h"
+#include "medial/verify.h"
+#include "medial/voronoi.h"
+
+namespace medial::test {
+namespace {
+
+struct Named {
+  std::string name;
+  std::vector<Chain> chains;
+};
+
+class ArcsAndPoints : public testing::TestWithParam<Named> {};
+
+TEST_P(ArcsAndPoints, HaveADiagram) {
+  const auto graph = build_planar_graph(GetParam().chains);
+  ASSERT_TRUE(graph) << to_string(graph.error());
+  const auto diagram = voronoi_diagram(*graph, {.threads = 1});
+  ASSERT_TRUE(diagram) << to_string(diagram.error());
+  const VoronoiCertificate certificate = verify(*graph, *diagram, {.threads = 1});
+  EXPECT_TRUE(certificate.passed) << certificate.failures.front();
+}
+
+Chain point(double x, double y) { return {{{x, y}}}; }
+
+const Chain half_circle{{{-8, 5}, {2, 5}}, {1}};
+const Chain circle{{{0, 0}, {-1, 1}}, {-1, -1}, true};
+
+const std::vector<Named> graphs{
+    {"PointsBesideTheEndOfAHalfCircle",
+     {half_circle, point(-8.00000000000200, 5), point(-7.99999999999995, 5),
+      point(-8.000000000000005, 5)}},
+    {"PointsBesideACentre",
+     {half_circle, point(-3, 5), point(-3 + 1e-13, 5), point(-3, 5 - 1e-12)}},
+    {"APointNextToACentre", {half_circle, point(-3, 4)}},
+    {"APointBesideAJoint", {circle, point(-7e-13, 7e-13)}},
+    {"APointBesideAJointAndTheCentre", {circle, point(1e-14, 0), point(-0.5, 0.5)}},
+    // The walk told places one tolerance apart, and took a point's cell for a tie.
+    {"APointOneToleranceFromAnEnd",
+     {{{{4.3370217292062589, 6.1839729256427178}, {1.6629782707937411, 3.8160270743572822}},
+       {0.99999999999999989}},
+      point(1.6629782707937923, 3.8160270743571334)}},
+    // The parameter of a foot half a circle on is infinite, of either sign.
+    {"AFootHalfACircleOn",
+     {{{{5.0220406557331971, -2.0220406557331971}, {4.9779593442668029, -1.9779593442668029}}, {1}},
+      point(5.022040655733166, -2.0220406557331967)}},
+    // The far half of a thin ellipse, reached from a node no further from the point than rounding.
+    {"TheFarHalfOfAThinEllipse",
+     {{{{6.5, 2.3301270189221928}, {1.4999999999999978, -6.3301270189221919}},
+       {0.99999999999999989}},
+      point(3.9999999999999152, -1.999999999995),
+      point(6.4999999999996829, 2.3301270189221879)}},
+    // An edge that takes half of an ellipse: the short way between its ends is either one.
+    {"HalfOfAnEllipse",
+     {{{{-704.35864689118409, 709.84427626765387}, {-995.84913300555058, 91.019252317419429}},
+       {0.17632698070846489}},
+      point(-813.38523767297647, 581.72541214552052),
+      point(0, 0)}},
+    // All edges inside belong to one of two arcs: where their cycle begins, it ends.
+    {"ACycleOfOneArc",
+     {{{{0, 0}, {0.69012627967311069, 1.4681016020113127}}, {-1, -1}, true},
+      point(6.92196148754676e-15, 1.2540938804692499e-14)}},
+};
+
+INSTANTIATE_TEST_SUITE_P(Cases, ArcsAndPoints, testing::ValuesIn(graphs),
+                         [](const auto& one) { return one.param.name; });
+
+}  // namespace
+}  // namespace medial::test
