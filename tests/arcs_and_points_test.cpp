@@ -68,6 +68,8 @@ const std::vector<Named> graphs{
     {"ACycleOfOneArc",
      {{{{0, 0}, {0.69012627967311069, 1.4681016020113127}}, {-1, -1}, true},
       point(6.92196148754676e-15, 1.2540938804692499e-14)}},
+    // One disk touches two points within the tolerance, but the disks between them lie elsewhere.
+    {"TwoPointsInOnePlace", {{{{0, -1}, {0, 1}}, {1}}, point(-2.2e-16, 0), point(-1e-14, 1e-15)}},
 };
 
 INSTANTIATE_TEST_SUITE_P(Cases, ArcsAndPoints, testing::ValuesIn(graphs),
