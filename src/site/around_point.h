@@ -40,6 +40,8 @@ struct AroundPoint {
     const double half = 0.5 * direction;
     return 2 * std::atan2(flatness * std::sin(half), std::cos(half));
   }
+  /// How far the foot on the arc has turned at a parameter, seen from the arc's centre.
+  double foot_at(double parameter) const { return parameter_at(parameter); }
   /// Of a centre. On the far half the way along the ellipse decides, as a node may lie anywhere
   /// across it within the tolerance: that decides the sign only.
   double parameter(Vec2 center) const {
@@ -48,6 +50,13 @@ struct AroundPoint {
     const double below = own.curvature * (0.5 * gap - along);  // against the whole axis
     const double half = std::atan2(std::sqrt(below), std::sqrt(std::max(1 - below, 0.0)));
     return std::copysign(2 * half, across);
+  }
+  /// How far a centre on the far half lies beside the ellipse; 0 elsewhere.
+  double misfit(Vec2 center) const {
+    if (!is_ellipse() || dot(near, center - place) > 0) return 0;
+    const double half_width = 0.5 * flatness * (1 + focus) / own.curvature;
+    return std::abs(std::abs(cross(near, center - place)) -
+                    half_width * std::abs(std::sin(parameter(center))));
   }
   /// By how much the parameter is off of a centre that is off by so much.
   double rounding(Vec2 center, double off) const {

@@ -156,13 +156,27 @@ Status split_long_edges(MedialAxis& axis, std::vector<E>& edges, bool parabolas)
     // The foot on the right goes forward, around a vertex clockwise; on the left it is the other
     // way around.
     const double sign = side == 1 ? -1 : 1, half = std::numbers::pi, whole = 2 * half;
-    double first = around.parameter(begin);
-    const double last = around.parameter(end);
-    const double wrap = sign * (last - first) < 0 ? whole : 0, way = sign * (last - first) + wrap;
-    double turn = sign * (around.direction_at(last) - around.direction_at(first)) + wrap;
+    double first = around.parameter(begin), last = around.parameter(end);
+    const auto way_by = [&](auto&& angle_at) {
+      const double wrap = sign * (last - first) < 0 ? whole : 0;
+      return sign * (angle_at(last) - angle_at(first)) + wrap;
+    };
+    constexpr double backward = 1e-6;
+    // No foot goes further on an arc than half a circle: else a node that stands for both sides of
+    // the far half has been taken for the other side.
+    const auto fits = [&] {
+      return way_by([&](double p) { return around.foot_at(p); }) <= half + backward;
+    };
+    if (!fits()) {
+      const double at_begin = around.misfit(begin), at_end = around.misfit(end);
+      double& unsure = at_begin > at_end ? first : last;
+      unsure = -unsure;
+      if (std::max(at_begin, at_end) == 0 || !fits()) unsure = -unsure;
+    }
+    const double way = way_by([](double p) { return p; });
+    double turn = way_by([&](double p) { return around.direction_at(p); });
     // Along one part of a bisector both feet go forward. Where only the one around a lone point
     // goes backward, by more than the rounding of both ends, an ellipse leads all around.
-    constexpr double backward = 1e-6;
     const auto goes_around = [&] {
       const double rounding =
           around.rounding(begin, axis.tolerance) + around.rounding(end, axis.tolerance);
