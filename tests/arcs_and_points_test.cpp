@@ -77,6 +77,11 @@ const std::vector<Named> graphs{
        true},
       point(0, 0),
       point(0.78021111837633395, 0.73021349911135591)}},
+    // A foot passes on to a point next to which another one is touched already.
+    {"APointBesideTheStartOfAnArc",
+     {{{{-0.8751423326843909, -0.87514233268439068}, {-1.0848139953154201, -0.5957573335514631}},
+       {14.101419947171458}},
+      point(-0.87514233268438213, -0.87514233268438191)}},
 };
 
 INSTANTIATE_TEST_SUITE_P(Cases, ArcsAndPoints, testing::ValuesIn(graphs),

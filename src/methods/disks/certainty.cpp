@@ -48,7 +48,11 @@ Certainty::Certainty(const Boundary& boundary, double tolerance, const Span& spa
                      std::abs(to_.radius - from_.radius) <= tolerance;
   if (stays) {
     tie_ = true;
-    certain_ = touches(fourth, tolerance) && (joins_right || joins_left || has_place(fourth));
+    const bool joins = joins_right || joins_left;
+    const bool joins_point =
+        joins && site(fourth).is_vertex() && site(joins_right ? span.left : span.right).is_vertex();
+    certain_ =
+        touches(fourth, tolerance) && (joins_point ? error_ < unknown : joins || has_place(fourth));
     return;
   }
   if (boundary.has_arcs)
