@@ -82,6 +82,12 @@ const std::vector<Named> graphs{
      {{{{-0.8751423326843909, -0.87514233268439068}, {-1.0848139953154201, -0.5957573335514631}},
        {14.101419947171458}},
       point(-0.87514233268438213, -0.87514233268438191)}},
+    // A point on an arc beside a joint leaves a piece there that is shorter than the tolerance.
+    {"APieceShorterThanTheTolerance",
+     {{{{3.5355339059327369, -3.5355339059327386}, {-3.5355339059327333, 3.5355339059327417}},
+       {0.99999999999999944}},
+      point(3.5355339059327271, 3.5355339059327191),
+      point(3.5355339059327564, 3.535533905932748)}},
 };
 
 INSTANTIATE_TEST_SUITE_P(Cases, ArcsAndPoints, testing::ValuesIn(graphs),
