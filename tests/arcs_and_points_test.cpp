@@ -88,6 +88,12 @@ const std::vector<Named> graphs{
        {0.99999999999999944}},
       point(3.5355339059327271, 3.5355339059327191),
       point(3.5355339059327564, 3.535533905932748)}},
+    // From the circle's centre a foot comes to the joint late, as a point lies there on the arc.
+    {"APointOnAnArcBesideAJoint",
+     {{{{0, 0}, {1.1182148117305248, -1.5760473888767612}},
+       {-0.99999999999999989, -0.99999999999999989},
+       true},
+      point(8.2563032455223808e-13, 5.64479086784719e-13)}},
 };
 
 INSTANTIATE_TEST_SUITE_P(Cases, ArcsAndPoints, testing::ValuesIn(graphs),
