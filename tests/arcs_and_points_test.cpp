@@ -94,6 +94,9 @@ const std::vector<Named> graphs{
        {-0.99999999999999989, -0.99999999999999989},
        true},
       point(8.2563032455223808e-13, 5.64479086784719e-13)}},
+    // A foot passes over half a circle, from end to end, around a point next to its middle.
+    {"AFootOverHalfACircle",
+     {{{{0, -5}, {0, 5}}, {1}}, point(4.99999999995, 0), point(5.0000000000000497, 0)}},
 };
 
 INSTANTIATE_TEST_SUITE_P(Cases, ArcsAndPoints, testing::ValuesIn(graphs),

@@ -162,10 +162,10 @@ Status split_long_edges(MedialAxis& axis, std::vector<E>& edges, bool parabolas)
       return sign * (angle_at(last) - angle_at(first)) + wrap;
     };
     constexpr double backward = 1e-6;
-    // No foot goes further on an arc than half a circle: else a node that stands for both sides of
-    // the far half has been taken for the other side.
+    // No foot goes further on an arc than half a circle, and a quarter may be rounding next to its
+    // centre: else a node that stands for both sides of the far half has been taken for the other.
     const auto fits = [&] {
-      return way_by([&](double p) { return around.foot_at(p); }) <= half + backward;
+      return way_by([&](double p) { return around.foot_at(p); }) <= 1.5 * half;
     };
     if (!fits()) {
       const double at_begin = around.misfit(begin), at_end = around.misfit(end);
