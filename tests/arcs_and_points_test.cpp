@@ -43,7 +43,7 @@ const std::vector<Named> graphs{
     {"APointNextToACentre", {half_circle, point(-3, 4)}},
     {"APointBesideAJoint", {circle, point(-7e-13, 7e-13)}},
     {"APointBesideAJointAndTheCentre", {circle, point(1e-14, 0), point(-0.5, 0.5)}},
-    // The walk told places one tolerance apart, and took a point's cell for a tie.
+    // A point's cell was taken for a tie, as its place is one tolerance from another one.
     {"APointOneToleranceFromAnEnd",
      {{{{4.3370217292062589, 6.1839729256427178}, {1.6629782707937411, 3.8160270743572822}},
        {0.99999999999999989}},
