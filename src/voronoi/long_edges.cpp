@@ -53,9 +53,9 @@ bool moves_forward(const site::Site& arc, Vec2 from, Vec2 to) {
   return cross(way, toward) > 0 || squared_norm(toward) <= arc.curvature * dot(toward, way);
 }
 
-/// Where an edge around a point begins, by its parameter, and by how much it turns.
+/// Where an edge around a point begins and ends, by its parameter, and by how much it turns.
 struct WayAround {
-  double first = 0, turn = 0;
+  double first = 0, last = 0, turn = 0;
 };
 
 /// The way from a centre to another one in the direction `sign`; none where they are one place up
@@ -67,7 +67,7 @@ WayAround way_around(const site::AroundPoint& around, Vec2 begin, Vec2 end, doub
   if (is_loop) {
     // Between the point and the arc; one node on both sides of the ellipse stands for two.
     first = -sign * std::abs(first);
-    return {first, 2 * std::abs(around.direction_at(first))};
+    return {first, -first, 2 * std::abs(around.direction_at(first))};
   }
   const auto way_by = [&](auto&& angle_at) {
     const double wrap = sign * (last - first) < 0 ? whole : 0;
@@ -95,7 +95,7 @@ WayAround way_around(const site::AroundPoint& around, Vec2 begin, Vec2 end, doub
   };
   const bool is_backward =
       way > half && !(whole - turn > backward || (of_lone_point && goes_around()));
-  return {first, is_backward ? 0 : turn};
+  return {first, last, is_backward ? 0 : turn};
 }
 
 /// Directions around a point that divide an edge there, which turns so far: into parts of at most a
@@ -135,8 +135,9 @@ class Pieces {
     axis_.nodes.push_back({disk, axis_.nodes[last_].component, NodeKind::site_change});
     add(node, control);
   }
+  /// The last piece; all of the edge, where it is not divided, only if its control point is given.
   void add_last(std::optional<site::Control> control) {
-    if (!is_first_) add(edge_.node[1], control);
+    if (!is_first_ || control) add(edge_.node[1], control);
   }
 
  private:
@@ -203,12 +204,16 @@ Status split_long_edges(MedialAxis& axis, std::vector<E>& edges, bool parabolas)
     const double sign = side == 1 ? -1 : 1;
     const bool of_lone_point = is_arc(other) && is_lone_point(axis, edge.site[side]);
     const bool is_loop = of_lone_point && edge.node[0] == edge.node[1];
-    const auto [first, turn] =
+    const auto [first, last, turn] =
         way_around(around, begin, end, sign, axis.tolerance, of_lone_point, is_loop);
     if (!(turn > 0)) continue;
     double before = first;
+    // On the far half of a flat ellipse nodes may be beside it by much against its width.
+    constexpr double flat = 0x1p-10;
+    const bool by_angles = (is_loop && around.is_ellipse()) ||
+                           (around.flatness < flat && (around.is_far(begin) || around.is_far(end)));
     const auto control_to = [&](double parameter) -> std::optional<site::Control> {
-      if (!is_loop || !around.is_ellipse()) return std::nullopt;
+      if (!by_angles) return std::nullopt;
       site::Control control = around.control(std::exchange(before, parameter), parameter);
       control.point.center = control.point.center + point;
       return control;
@@ -220,7 +225,7 @@ Status split_long_edges(MedialAxis& axis, std::vector<E>& edges, bool parabolas)
         return Error{ErrorCode::internal, "a Voronoi edge has no middle", {}};
       pieces.add_to({point + disk.center, disk.radius}, control_to(around.parameter_at(direction)));
     }
-    pieces.add_last(control_to(-first));
+    pieces.add_last(control_to(last));
   }
   return success();
 }
