@@ -32,7 +32,7 @@ Certainty::Certainty(const Boundary& boundary, double tolerance, const Span& spa
     tie_ = true;
     fourth_ = event.site;
     certain_ = ties && is_near(span.right, tolerance) && is_near(span.left, tolerance) &&
-               has_place(fourth_);
+               (!boundary.has_arcs || has_place(fourth_));
     return;
   }
   const std::uint32_t fourth = event.kind == Kind::pass_right  ? span.right + 1
@@ -51,8 +51,10 @@ Certainty::Certainty(const Boundary& boundary, double tolerance, const Span& spa
     const bool joins = joins_right || joins_left;
     const bool joins_point =
         joins && site(fourth).is_vertex() && site(joins_right ? span.left : span.right).is_vertex();
-    certain_ =
-        touches(fourth, tolerance) && (joins_point ? error_ < unknown : joins || has_place(fourth));
+    // On a polygon it is asked whether the tie is clean.
+    const bool has_one =
+        !boundary.has_arcs || (joins_point ? error_ < unknown : joins || has_place(fourth));
+    certain_ = has_one && touches(fourth, tolerance);
     return;
   }
   if (boundary.has_arcs)
