@@ -107,6 +107,12 @@ const std::vector<Named> graphs{
       point(0.95838358063918128, 0.28548364636388879),
       point(-0.36882235602209817, 0.92949990301145857),
       point(0.44141840832004603, 0.89730139239612894)}},
+    // The edge around a point ends where it begins, and is not short.
+    {"AnEdgeAroundAPoint",
+     {{{{0.94986002162167571, -0.67755327139265198}, {-0.67755327139265298, -0.94986002162167493}},
+       {2.4142135623730931}},
+      point(-0.070729704543160757, 1.164607146270848),
+      point(-0.67755327139253285, -0.9498600216215064)}},
 };
 
 INSTANTIATE_TEST_SUITE_P(Cases, ArcsAndPoints, testing::ValuesIn(graphs),

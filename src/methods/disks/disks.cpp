@@ -121,7 +121,7 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
 
   // A diagram has nodes for a planar graph's points, and edges that lead there, as well.
   const std::size_t spare_nodes = boundary.two_sided ? problem.shape.points.size() : 0;
-  Graph graph = collect(chunks, bridges.size(), spare_nodes);
+  Graph graph = collect(chunks, bridges, spare_nodes, boundary.two_sided && boundary.has_arcs);
   const double tolerance = problem.local_tolerance();
   merge_ties(boundary, tree, takes_exact ? &sites : nullptr, tolerance, graph);
   // Edges may be right beside others that are missing: a planar graph's diagram is not measured.
