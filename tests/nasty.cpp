@@ -1,13 +1,14 @@
 // The classes of shapes on which rounding decides, by the thousand: a table of what goes wrong.
 //
 //   medial_nasty [--class NAME] [--count N] [--from SEED] [--seconds N] [--oracle K]
-//                [--planar edges|points] [--threads N] [--method NAME] [--save FOLDER]
+//                [--planar edges|points|joints] [--threads N] [--method NAME] [--save FOLDER]
 //
 // Each shape is computed and verified, and so are its mirror image, its image under a quarter turn,
 // under a power of two, and from another start, and with two threads: all must have one graph.
 // --oracle K: every K-th shape is a small one, and if all its edges are straight its graph is
 // compared with the true one (support/true_graph.h). --planar edges: planar graphs of the same
-// edges, of which some are left out, and their Voronoi diagrams; points: with points beside them.
+// edges, of which some are left out, and their Voronoi diagrams; points: with points beside them;
+// joints: the classes of nasty_graph_classes() instead.
 // --seconds: for each class. --save: writes the first failures of each kind, made smaller. Exit
 // status 1 if anything goes wrong.
 
@@ -81,33 +82,62 @@ void save(const Switches& switches, const NastyClass& one, std::uint64_t seed, b
       << name << (small ? " (small)" : "") << ": " << finding.words << "\n";
 }
 
-/// One class: the number of shapes of each fault.
-Faults run(const Switches& switches, const NastyClass& one) {
-  NastyOptions options{.planar = !switches.planar.empty(), .points = switches.planar == "points"};
-  if (!switches.method.empty()) options.method = *method_from(switches.method);
+/// The number of shapes of each fault; examine(i) finds that of shape i, and keep(i, finding) is
+/// called for one after the other.
+template <class Examine, class Keep>
+Faults count_faults(const Switches& switches, Examine&& examine, Keep&& keep) {
   Faults faults;
-  std::map<Fault, int> saved;
   std::mutex mutex;
   std::atomic<std::uint64_t> next = 0;
   const auto end = Clock::now() + std::chrono::seconds(switches.seconds);
   const auto work = [&] {
     for (std::uint64_t i = next++; i < switches.count && Clock::now() < end; i = next++) {
-      const bool small = switches.oracle != 0 && i % switches.oracle == 0;
-      NastyOptions own = options;
-      own.oracle = small && !one.has_arcs;
-      const Finding finding = examine_nasty(one, switches.from + i, small, own);
+      const Finding finding = examine(i);
       const std::lock_guard lock(mutex);
       faults.add(finding);
-      if (switches.save.empty() || finding.fault <= Fault::refused) continue;
-      constexpr int enough = 4;
-      if (saved[finding.fault]++ < enough && !own.planar)
-        save(switches, one, switches.from + i, small, finding, own);
+      keep(i, finding);
     }
   };
   std::vector<std::thread> threads;
   for (std::uint64_t i = 0; i < switches.threads; ++i) threads.emplace_back(work);
   for (std::thread& thread : threads) thread.join();
   return faults;
+}
+
+Faults run(const Switches& switches, const NastyClass& one) {
+  NastyOptions options{.planar = !switches.planar.empty(), .points = switches.planar == "points"};
+  if (!switches.method.empty()) options.method = *method_from(switches.method);
+  std::map<Fault, int> saved;
+  const auto is_small = [&](std::uint64_t i) {
+    return switches.oracle != 0 && i % switches.oracle == 0;
+  };
+  const auto options_of = [&](std::uint64_t i) {
+    NastyOptions own = options;
+    own.oracle = is_small(i) && !one.has_arcs;
+    return own;
+  };
+  return count_faults(
+      switches,
+      [&](std::uint64_t i) {
+        return examine_nasty(one, switches.from + i, is_small(i), options_of(i));
+      },
+      [&](std::uint64_t i, const Finding& finding) {
+        if (switches.save.empty() || finding.fault <= Fault::refused) return;
+        constexpr int enough = 4;
+        if (saved[finding.fault]++ < enough && !options.planar)
+          save(switches, one, switches.from + i, is_small(i), finding, options_of(i));
+      });
+}
+
+Faults run(const Switches& switches, const NastyGraphClass& one) {
+  return count_faults(
+      switches,
+      [&](std::uint64_t i) {
+        Finding finding = examine_nasty(nasty_graph(one, switches.from + i), NastyOptions{});
+        finding.words = "seed " + std::to_string(switches.from + i) + ": " + finding.words;
+        return finding;
+      },
+      [](std::uint64_t, const Finding&) {});
 }
 
 void print_head() {
@@ -117,8 +147,8 @@ void print_head() {
   std::printf(" %11s\n", "compared");
 }
 
-void print_row(const NastyClass& one, const Faults& faults) {
-  std::printf("%s", fixed_width(one.name, 10).c_str());
+void print_row(std::string_view name, const Faults& faults) {
+  std::printf("%s", fixed_width(name, 10).c_str());
   for (const Fault fault : all_faults)
     std::printf(" %11llu", static_cast<unsigned long long>(faults.count(fault)));
   std::printf(" %11llu\n", static_cast<unsigned long long>(faults.compared));
@@ -151,20 +181,25 @@ bool parse(int count, char** arguments, Switches& switches) {
     if (read.ec != std::errc{} || read.ptr != text.data() + text.size()) return false;
   }
   return switches.threads > 0 && switches.threads <= 1024 &&
-         (switches.planar.empty() || switches.planar == "edges" || switches.planar == "points") &&
+         (switches.planar.empty() || switches.planar == "edges" || switches.planar == "points" ||
+          switches.planar == "joints") &&
          (switches.method.empty() || method_from(switches.method));
 }
 
 int run_all(const Switches& switches) {
   print_head();
   bool wrong = false, found = false;
-  for (const NastyClass& one : nasty_classes()) {
-    if (!switches.only.empty() && one.name != switches.only) continue;
+  const auto run_class = [&](const auto& one) {
+    if (!switches.only.empty() && one.name != switches.only) return;
     found = true;
     const Faults faults = run(switches, one);
-    print_row(one, faults);
+    print_row(one.name, faults);
     wrong |= faults.wrong() > 0;
-  }
+  };
+  if (switches.planar == "joints")
+    for (const NastyGraphClass& one : nasty_graph_classes()) run_class(one);
+  else
+    for (const NastyClass& one : nasty_classes()) run_class(one);
   return !found ? 2 : wrong ? 1 : 0;
 }
 
@@ -174,11 +209,10 @@ int run_all(const Switches& switches) {
 int main(int count, char** arguments) {
   medial::test::Switches switches;
   if (!medial::test::parse(count, arguments, switches)) {
-    std::fprintf(
-        stderr,
-        "usage: medial_nasty [--class NAME] [--count N] [--from SEED] [--seconds N]\n"
-        "                    [--oracle K] [--planar edges|points] [--threads N] [--method NAME]\n"
-        "                    [--save FOLDER]\n");
+    std::fprintf(stderr,
+                 "usage: medial_nasty [--class NAME] [--count N] [--from SEED] [--seconds N]\n"
+                 "                    [--oracle K] [--planar edges|points|joints] [--threads N]\n"
+                 "                    [--method NAME] [--save FOLDER]\n");
     return 2;
   }
   return medial::test::run_all(switches);

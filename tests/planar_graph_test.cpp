@@ -769,31 +769,4 @@ TEST(PlanarGraph, RoundEndsMayBeginAtTheirJoints) {
 }
 
 }  // namespace
-/// An attack found these: the walk goes wrong there, and the diagram is measured.
-TEST(PlanarGraphWithArcsAndPoints, IsRightOrUnsupported) {
-  const Chain half_circle{{{-8, 5}, {2, 5}}, {1, 0}};
-  const Chain loop{{{0, 0}, {-1, 1}}, {-1, -1}, true};
-  const auto point = [](double x, double y) { return Chain{{{x, y}}}; };
-  const std::vector<Chains> cases{
-      {half_circle, point(-8.00000000000200, 5), point(-7.99999999999995, 5),
-       point(-8.000000000000005, 5)},
-      {half_circle, point(-3, 5), point(-3 + 1e-13, 5), point(-3, 5 - 1e-12)},
-      {half_circle, point(-3, 4)},
-      {loop, point(-7e-13, 7e-13)},
-      {loop, point(1e-14, 0), point(-0.5, 0.5)}};
-  int right = 0;
-  for (const Chains& chains : cases) {
-    const auto graph = build_planar_graph(chains);
-    ASSERT_TRUE(graph) << to_string(graph.error());
-    const auto diagram = voronoi_diagram(*graph, {.threads = 1});
-    if (!diagram) {
-      EXPECT_EQ(diagram.error().code, ErrorCode::unsupported) << to_string(diagram.error());
-      continue;
-    }
-    ++right;
-    EXPECT_TRUE(verify(*graph, *diagram, {.threads = 1}).passed);
-  }
-  EXPECT_GE(right, 1);
-}
-
 }  // namespace medial::test

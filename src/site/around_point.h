@@ -29,6 +29,8 @@ struct AroundPoint {
   }
 
   bool is_ellipse() const { return gap > 0; }
+  /// Whether a centre is on the far half of an ellipse.
+  bool is_far(Vec2 center) const { return is_ellipse() && !(dot(near, center - place) > 0); }
   double direction(Vec2 center) const {
     return std::atan2(cross(near, center - place), dot(near, center - place));
   }
@@ -40,14 +42,23 @@ struct AroundPoint {
     const double half = 0.5 * direction;
     return 2 * std::atan2(flatness * std::sin(half), std::cos(half));
   }
+  /// How far the foot on the arc has turned at a parameter, seen from the arc's centre.
+  double foot_at(double parameter) const { return parameter_at(parameter); }
   /// Of a centre. On the far half the way along the ellipse decides, as a node may lie anywhere
   /// across it within the tolerance: that decides the sign only.
   double parameter(Vec2 center) const {
+    if (!is_far(center)) return parameter_at(direction(center));
     const double along = dot(near, center - place), across = cross(near, center - place);
-    if (!is_ellipse() || along > 0) return parameter_at(direction(center));
     const double below = own.curvature * (0.5 * gap - along);  // against the whole axis
     const double half = std::atan2(std::sqrt(below), std::sqrt(std::max(1 - below, 0.0)));
     return std::copysign(2 * half, across);
+  }
+  /// How far a centre on the far half lies beside the ellipse; 0 elsewhere.
+  double misfit(Vec2 center) const {
+    if (!is_far(center)) return 0;
+    const double half_width = 0.5 * flatness * (1 + focus) / own.curvature;
+    return std::abs(std::abs(cross(near, center - place)) -
+                    half_width * std::abs(std::sin(parameter(center))));
   }
   /// By how much the parameter is off of a centre that is off by so much.
   double rounding(Vec2 center, double off) const {

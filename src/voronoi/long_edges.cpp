@@ -53,9 +53,49 @@ bool moves_forward(const site::Site& arc, Vec2 from, Vec2 to) {
   return cross(way, toward) > 0 || squared_norm(toward) <= arc.curvature * dot(toward, way);
 }
 
-/// From one angle to another one, by at most half a turn.
-double way_between(double from, double to) {
-  return std::remainder(to - from, 2 * std::numbers::pi);
+/// Where an edge around a point begins and ends, by its parameter, and by how much it turns.
+struct WayAround {
+  double first = 0, last = 0, turn = 0;
+};
+
+/// The way from a centre to another one in the direction `sign`; none where they are one place up
+/// to rounding.
+WayAround way_around(const site::AroundPoint& around, Vec2 begin, Vec2 end, double sign,
+                     double tolerance, bool of_lone_point, bool is_loop) {
+  constexpr double half = std::numbers::pi, whole = 2 * half, backward = 1e-6;
+  double first = around.parameter(begin), last = around.parameter(end);
+  if (is_loop) {
+    // Between the point and the arc; one node on both sides of the ellipse stands for two.
+    first = -sign * std::abs(first);
+    return {first, -first, 2 * std::abs(around.direction_at(first))};
+  }
+  const auto way_by = [&](auto&& angle_at) {
+    const double wrap = sign * (last - first) < 0 ? whole : 0;
+    return sign * (angle_at(last) - angle_at(first)) + wrap;
+  };
+  // No foot goes further on an arc than half a circle, and a quarter may be rounding next to its
+  // centre: else a node that stands for both sides of the far half has been taken for the other.
+  const auto fits = [&] {
+    return way_by([&](double p) { return around.foot_at(p); }) <= 1.5 * half;
+  };
+  if (!fits()) {
+    const double at_begin = around.misfit(begin), at_end = around.misfit(end);
+    double& unsure = at_begin > at_end ? first : last;
+    unsure = -unsure;
+    if (std::max(at_begin, at_end) == 0 || !fits()) unsure = -unsure;
+  }
+  const double way = way_by([](double p) { return p; });
+  const double turn = way_by([&](double p) { return around.direction_at(p); });
+  // Along one part of a bisector both feet go forward. Where only the one around a lone point goes
+  // backward, by more than the rounding of both ends, an ellipse leads all around.
+  const auto goes_around = [&] {
+    const double rounding = around.rounding(begin, tolerance) + around.rounding(end, tolerance);
+    return whole - way > rounding &&
+           moves_forward(around.own, sign < 0 ? end : begin, sign < 0 ? begin : end);
+  };
+  const bool is_backward =
+      way > half && !(whole - turn > backward || (of_lone_point && goes_around()));
+  return {first, last, is_backward ? 0 : turn};
 }
 
 /// Directions around a point that divide an edge there, which turns so far: into parts of at most a
@@ -95,8 +135,9 @@ class Pieces {
     axis_.nodes.push_back({disk, axis_.nodes[last_].component, NodeKind::site_change});
     add(node, control);
   }
+  /// The last piece; all of the edge, where it is not divided, only if its control point is given.
   void add_last(std::optional<site::Control> control) {
-    if (!is_first_) add(edge_.node[1], control);
+    if (!is_first_ || control) add(edge_.node[1], control);
   }
 
  private:
@@ -160,31 +201,19 @@ Status split_long_edges(MedialAxis& axis, std::vector<E>& edges, bool parabolas)
     const Vec2 end = axis.nodes[edge.node[1]].disk.center - point;
     // The foot on the right goes forward, around a vertex clockwise; on the left it is the other
     // way around.
-    const double sign = side == 1 ? -1 : 1, whole = 2 * std::numbers::pi;
-    double first = around.parameter(begin);
-    double turn = sign * way_between(around.direction(begin), around.direction(end));
-    // Along one part of a bisector both feet go forward. Where only the one around a lone point
-    // goes backward, by more than the rounding of both ends, an ellipse leads all around.
-    constexpr double backward = 1e-6;
-    const auto goes_around = [&] {
-      const double rounding =
-          around.rounding(begin, axis.tolerance) + around.rounding(end, axis.tolerance);
-      return sign * way_between(first, around.parameter(end)) < -rounding &&
-             moves_forward(seen, side == 1 ? end : begin, side == 1 ? begin : end);
-    };
+    const double sign = side == 1 ? -1 : 1;
     const bool of_lone_point = is_arc(other) && is_lone_point(axis, edge.site[side]);
     const bool is_loop = of_lone_point && edge.node[0] == edge.node[1];
-    if (is_loop) {
-      // Between the point and the arc; one node on both sides of the ellipse stands for two.
-      first = -sign * std::abs(first);
-      turn = 2 * std::abs(around.direction_at(first));
-    } else if (turn < -backward || (of_lone_point && goes_around())) {
-      turn += whole;
-    }
+    const auto [first, last, turn] =
+        way_around(around, begin, end, sign, axis.tolerance, of_lone_point, is_loop);
     if (!(turn > 0)) continue;
     double before = first;
+    // On the far half of a flat ellipse nodes may be beside it by much against its width.
+    constexpr double flat = 0x1p-10;
+    const bool by_angles = (is_loop && around.is_ellipse()) ||
+                           (around.flatness < flat && (around.is_far(begin) || around.is_far(end)));
     const auto control_to = [&](double parameter) -> std::optional<site::Control> {
-      if (!is_loop || !around.is_ellipse()) return std::nullopt;
+      if (!by_angles) return std::nullopt;
       site::Control control = around.control(std::exchange(before, parameter), parameter);
       control.point.center = control.point.center + point;
       return control;
@@ -196,7 +225,7 @@ Status split_long_edges(MedialAxis& axis, std::vector<E>& edges, bool parabolas)
         return Error{ErrorCode::internal, "a Voronoi edge has no middle", {}};
       pieces.add_to({point + disk.center, disk.radius}, control_to(around.parameter_at(direction)));
     }
-    pieces.add_last(control_to(-first));
+    pieces.add_last(control_to(last));
   }
   return success();
 }

@@ -279,7 +279,7 @@ class Assembly {
   }
 
   /// Makes an own site's cycle begin where its neighbours in the loop end and begin; of two cycles,
-  /// in a node of both; of the only site with edges, where a disk touches its start. Where there is
+  /// in a node of both; of the only site with edges, where a disk touches its ends. Where there is
   /// no such node, make_spokes() finds a gap.
   void turn_cycle(std::uint32_t own, std::uint32_t before, std::uint32_t after) {
     const std::span<Step> steps = chain(own);
@@ -289,7 +289,7 @@ class Assembly {
     auto begin = steps.end();
     if (!is_cycle(before)) begin = begins_at(last_[before]);
     if (begin == steps.end() && !is_cycle(after)) begin = begins_at(first_[after]);
-    if (begin == steps.end() && before == own) begin = touching_start(own);
+    if (begin == steps.end() && before == own) begin = touching_ends(own);
     if (begin == steps.end())
       for (const Step& step : chain(before))
         if (begin == steps.end()) begin = begins_at(step.from);
@@ -298,12 +298,16 @@ class Assembly {
     first_[own] = last_[own] = steps.front().from;
   }
 
-  /// The step from the disk that touches the start of an edge's side, as far as any does.
-  std::span<Step>::iterator touching_start(std::uint32_t own) const {
-    const Vec2 start = engine_site(own).start;
+  /// The step from the disk that touches both ends of an edge's side, as far as any does: where a
+  /// cycle along it begins, it ends.
+  std::span<Step>::iterator touching_ends(std::uint32_t own) const {
+    const Site side = engine_site(own);
     return ranges::max_element(chain(own), {}, [&](const Step& step) {
       const Disk& disk = diagram_.nodes[step.from].disk;
-      return -std::abs(distance(disk.center, start) - disk.radius);
+      const auto away = [&](Vec2 end) {
+        return std::abs(distance(disk.center, end) - disk.radius);
+      };
+      return -std::max(away(side.start), away(side.end));
     });
   }
 

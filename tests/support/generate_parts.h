@@ -18,6 +18,11 @@ inline Vec2 polar(double radius, double angle) {
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
+inline Vec2 turned(Vec2 p, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * p.x - s * p.y, s * p.x + c * p.y};
+}
+
 template <class T>
 void shuffle(Random& random, std::vector<T>& items) {
   for (std::size_t i = items.size(); i > 1; --i) {

@@ -15,11 +15,7 @@ namespace {
 
 constexpr double default_tolerance = 4e-15;  // of the diagonal
 
-Vec2 turned(Vec2 p, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {c * p.x - s * p.y, s * p.x + c * p.y};
-}
-
+using test::turned;
 Rings turned(Rings rings, double angle) {
   for (Ring& ring : rings)
     for (Vec2& p : ring.points) p = turned(p, angle);

@@ -44,6 +44,15 @@ std::vector<Chain> nasty_chains(const NastyClass& one, std::uint64_t seed, bool 
 /// The same, and beside some of the edges points, 1e-15 to 1e-9 of the size away.
 std::vector<Chain> nasty_chains_and_points(const NastyClass& one, std::uint64_t seed, bool small);
 
+/// Planar graphs of arcs with points in, or next to, where these end, join and have their centres,
+/// up to 1e-9 of the size away: as an attack made them. Some are no valid input.
+struct NastyGraphClass {
+  std::string_view name;
+  std::vector<Chain> (*generate)(Random& random);
+};
+std::span<const NastyGraphClass> nasty_graph_classes();
+std::vector<Chain> nasty_graph(const NastyGraphClass& one, std::uint64_t seed);
+
 /// Slots, strips, wedges and rings as near to each other as 1e-14 to 1e-6 of the size.
 Rings narrow_gaps(Random& random);
 

@@ -4,17 +4,13 @@
 #include <numbers>
 #include <vector>
 
+#include "support/generate_parts.h"
 #include "support/nasty.h"
 
 namespace medial::test {
 namespace {
 
 using Polygon = std::vector<Vec2>;
-
-Vec2 turned(Vec2 p, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {c * p.x - s * p.y, s * p.x + c * p.y};
-}
 
 /// The gaps of one shape: all alike, or each of a size of its own.
 class Gaps {

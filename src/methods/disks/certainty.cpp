@@ -31,7 +31,8 @@ Certainty::Certainty(const Boundary& boundary, double tolerance, const Span& spa
     error_ = span.error;
     tie_ = true;
     fourth_ = event.site;
-    certain_ = ties && is_near(span.right, tolerance) && is_near(span.left, tolerance);
+    certain_ = ties && is_near(span.right, tolerance) && is_near(span.left, tolerance) &&
+               (!boundary.has_arcs || has_place(fourth_));
     return;
   }
   const std::uint32_t fourth = event.kind == Kind::pass_right  ? span.right + 1
@@ -47,7 +48,13 @@ Certainty::Certainty(const Boundary& boundary, double tolerance, const Span& spa
                      std::abs(to_.radius - from_.radius) <= tolerance;
   if (stays) {
     tie_ = true;
-    certain_ = touches(fourth, tolerance);
+    const bool joins = joins_right || joins_left;
+    const bool joins_point =
+        joins && site(fourth).is_vertex() && site(joins_right ? span.left : span.right).is_vertex();
+    // On a polygon it is asked whether the tie is clean.
+    const bool has_one =
+        !boundary.has_arcs || (joins_point ? error_ < unknown : joins || has_place(fourth));
+    certain_ = has_one && touches(fourth, tolerance);
     return;
   }
   if (boundary.has_arcs)
@@ -101,6 +108,13 @@ bool Certainty::is_one_tie(double slack) const {
   if (span_.third + 1 == span_.right || span_.third == span_.left + 1) return false;
   const Contact other = contact(span_.third);
   return std::abs(other.residual) + other.unsure <= slack;
+}
+
+bool Certainty::has_place(std::uint32_t third) const {
+  constexpr double own_circle = 0x1p-20;
+  for (const std::uint32_t i : {span_.right, third, span_.left})
+    if (contact(i).askew > own_circle) return true;
+  return error_of_three(third) < unknown;
 }
 
 /// Newton and Kantorovich, as in exact/disk_bounds.h.

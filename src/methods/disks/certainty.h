@@ -46,6 +46,9 @@ class Certainty {
   bool is_near(std::uint32_t i, double slack) const;
   bool touches(std::uint32_t third, double slack) const;
   double error_of_three(std::uint32_t third) const;
+  /// Whether three contacts leave only rounding open of where their disk is: not where two feet lie
+  /// in one place. In an arc's own circle they may be anywhere on it.
+  bool has_place(std::uint32_t third) const;
   /// Whether the disk is no larger than an arc's own circle, but for the tolerance.
   bool fits(std::uint32_t i, double tolerance) const;
   /// Whether the feet move forward, further than the disks may be off.

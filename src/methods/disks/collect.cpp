@@ -58,11 +58,12 @@ struct Gluing {
   WorkVector<std::uint32_t> number;  ///< of each node: which one of the axis it becomes
   std::vector<bool> node_stays;      ///< of those that become one, one
   std::vector<bool> edge_stays;
-  std::size_t nodes = 0, edges = 0;  ///< that stay
+  std::size_t nodes = 0, edges = 0;                    ///< that stay
+  std::vector<std::array<std::uint32_t, 2>> passages;  ///< edges that stay, and their bridges
 };
 
 Gluing glue(const std::vector<Placed>& placed, std::size_t bridge_count, std::uint32_t node_count,
-            std::uint32_t edge_count) {
+            std::uint32_t edge_count, bool with_passages) {
   struct End {
     std::uint32_t node = none, edge = none;
     std::uint32_t before = none;  ///< the node that the edge comes from
@@ -89,9 +90,11 @@ Gluing glue(const std::vector<Placed>& placed, std::size_t bridge_count, std::ui
   result.edge_stays.assign(edge_count, true);
   result.edges = edge_count;
   // The node at the end of an edge has no other.
-  for (const auto& [a, b] : ends) {
+  for (std::uint32_t bridge = 0; bridge < bridge_count; ++bridge) {
+    const auto& [a, b] = ends[bridge];
     if (a.node == none || b.node == none) continue;
     if (a.edge != none && b.edge != none) {
+      if (with_passages) result.passages.push_back({a.edge, bridge});
       moved[a.node] = moved[b.node] = b.before;
       result.edge_stays[b.edge] = false;
       --result.edges;
@@ -103,6 +106,7 @@ Gluing glue(const std::vector<Placed>& placed, std::size_t bridge_count, std::ui
       moved[target(b.node)] = target(a.node);
     }
   }
+  ranges::sort(result.passages);
   for (std::uint32_t i = 0; i < node_count; ++i) moved[i] = target(i);
   result.node_stays.resize(node_count);
   WorkVector<std::uint32_t> number(node_count);
@@ -154,13 +158,14 @@ struct EndDisks {
 
 }  // namespace
 
-Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t bridge_count,
-              std::size_t spare_nodes) {
+Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::span<const Bridge> bridges,
+              std::size_t spare_nodes, bool with_passages) {
   Graph graph;
   std::uint32_t node_count = 0, edge_count = 0;
   const std::vector<Placed> placed = place(chunks, node_count, edge_count);
-  const bool glued = bridge_count > 0;
-  const Gluing gluing = glued ? glue(placed, bridge_count, node_count, edge_count) : Gluing{};
+  const bool glued = !bridges.empty();
+  const Gluing gluing =
+      glued ? glue(placed, bridges.size(), node_count, edge_count, with_passages) : Gluing{};
 
   // One after the other: what takes the time is memory that is touched for the first time.
   const auto collect_nodes = [&] {
@@ -175,11 +180,15 @@ Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t bridge_co
   const auto collect_edges = [&] {
     reserve_large(graph.edges, glued ? gluing.edges : edge_count);
     const auto number = [&](std::uint32_t node) { return glued ? gluing.number[node] : node; };
+    auto passage = gluing.passages.begin();
     for (const Placed& p : placed) {
       p.chunk->links.drain([&](std::size_t i, const Link& link) {
-        if (!glued || gluing.edge_stays[p.first_edge + i])
-          graph.edges.push_back(
-              {{number(p.node(link.node[0])), number(p.node(link.node[1]))}, link.site, {}});
+        if (glued && !gluing.edge_stays[p.first_edge + i]) return;
+        const auto edge = static_cast<std::uint32_t>(graph.edges.size());
+        for (; passage != gluing.passages.end() && (*passage)[0] == p.first_edge + i; ++passage)
+          graph.passages.push_back({edge, bridges[(*passage)[1]].disk});
+        graph.edges.push_back(
+            {{number(p.node(link.node[0])), number(p.node(link.node[1]))}, link.site, {}});
       });
     }
   };

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "medial/axis.h"
@@ -15,13 +16,20 @@ struct Graph {
   std::vector<Node> nodes;
   std::vector<Edge> edges;
   Statistics statistics;
+  /// An edge that leads through a bridge's disk. Its ends may be one node nevertheless: around a
+  /// point next to an arc.
+  struct Passage {
+    std::uint32_t edge = 0;
+    Disk disk;
+  };
+  std::vector<Passage> passages;  ///< by edge; of planar graphs with arcs
 };
 
 /// Joins the walk's chunks into one graph: numbers the nodes and glues the axis at the bridges
 /// (whose disks are no nodes of it). Empties the chunks as it goes, so that nothing is in memory
 /// twice; leaves room for so many more nodes.
-Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t bridge_count,
-              std::size_t spare_nodes);
+Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::span<const Bridge> bridges,
+              std::size_t spare_nodes, bool with_passages);
 
 /// Takes edges to leaves that have one site of the result on both sides out of the graph: where
 /// joints are taken as the doubles have them, one edge may have two sites, which bound no cell.

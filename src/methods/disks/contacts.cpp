@@ -96,7 +96,12 @@ bool Contacts::touches_all(std::uint32_t i, const Disk& disk) const {
   const auto on_disk = [&](Vec2 p) {
     return std::abs(distance(p, disk.center) - disk.radius) <= 2 * context_.tolerance;
   };
-  return on_disk(arc.point) && on_disk(arc.end()) && on_disk(arc.at(0.5 * arc.length));
+  const double half = 0.5 * arc.length;
+  const Vec2 middle = arc.at(half), to = disk.center - middle;
+  // An arc shorter than the tolerance may lie on the disk in any direction.
+  constexpr double beside = 0x1p-10;
+  return on_disk(arc.point) && on_disk(arc.end()) && on_disk(middle) &&
+         std::abs(cross(arc.normal_at(half), to)) <= beside * disk.radius;
 }
 
 bool Contacts::is_reflex_chain(const Span& span) const {

@@ -26,11 +26,8 @@ namespace medial::disks {
 
 namespace {
 
-/// The walk separates contacts to a share of the tolerance, so fine between segments, and where
-/// arcs are within some tolerances of one circle, that it asks for rounding only. What remains of
-/// a tie is merged at the end. Among other arcs ties are known to the tolerance only, since their
-/// bulges round, too.
-constexpr double planar_share = 0.25, near_circle = 1 << 12;
+/// Where arcs are within so many tolerances of one circle, contacts are separated more finely.
+constexpr double near_circle = 1 << 12;
 
 #ifdef MEDIAL_HAS_EXACT
 constexpr bool has_exact = true;
@@ -38,10 +35,12 @@ constexpr bool has_exact = true;
 constexpr bool has_exact = false;
 #endif
 
+/// The walk separates contacts to a share of the tolerance, so fine that it asks for rounding only.
+/// What remains of a tie is merged at the end. In shapes with arcs ties are known to the tolerance
+/// only, since their bulges round, too, unless these are within some tolerances of one circle; but
+/// beside them points of a planar graph may be as near to each other.
 double walk_share(const Boundary& boundary, bool in_centers) {
-  if (in_centers) return fine_share;
-  if (boundary.has_arcs) return 1;
-  return boundary.two_sided ? planar_share : fine_share;
+  return boundary.has_arcs && !boundary.two_sided && !in_centers ? 1 : fine_share;
 }
 
 /// Reports the share of the walk that is done, if the caller wants it.
@@ -122,7 +121,7 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
 
   // A diagram has nodes for a planar graph's points, and edges that lead there, as well.
   const std::size_t spare_nodes = boundary.two_sided ? problem.shape.points.size() : 0;
-  Graph graph = collect(chunks, bridges.size(), spare_nodes);
+  Graph graph = collect(chunks, bridges, spare_nodes, boundary.two_sided && boundary.has_arcs);
   const double tolerance = problem.local_tolerance();
   merge_ties(boundary, tree, takes_exact ? &sites : nullptr, tolerance, graph);
   // Edges may be right beside others that are missing: a planar graph's diagram is not measured.

@@ -354,6 +354,11 @@ std::optional<Event> EventSearch::pass_over_circle() const {
     // Not on to a rounder arc, whose circle is still to come.
     const std::uint32_t next = on_right ? own + 1 : own - 1;
     const bool rounder = site(next).curvature > site(own).curvature;
+    // Nor where the other site lies on the arc, so near to the joint that the foot comes there
+    // late.
+    if (const auto joint = disk_at_joint(on_right);
+        joint && joint->disk.radius < 0.5 * from_.radius)
+      continue;
     if (contacts_.touches_all(own, from_) && !(rounder && !contacts_.touches_all(next, from_)))
       return Event{on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, from_,
                    low_};

@@ -83,7 +83,7 @@ class Merger {
     link_ends(edges);
     std::vector<std::uint32_t> kept;
     for (const std::uint32_t i : filter(edges.size(), [&](std::size_t k) {
-           return could_be_contracted(graph_.edges[edges[k]]);
+           return !leads_away(edges[k]) && could_be_contracted(graph_.edges[edges[k]]);
          }))
       kept.push_back(edges[i]);
     return kept;
@@ -158,6 +158,14 @@ class Merger {
       const auto [from, to] = graph_.edges[e].node;
       return is_short(graph_.nodes[from].disk, graph_.nodes[to].disk, rounding);
     });
+  }
+
+  /// Whether an edge leads through a bridge's disk that is not near to its ends.
+  bool leads_away(std::uint32_t e) const {
+    const Disk& from = graph_.nodes[graph_.edges[e].node[0]].disk;
+    const auto passed = ranges::lower_bound(graph_.passages, e, {}, &Graph::Passage::edge);
+    return passed != graph_.passages.end() && passed->edge == e &&
+           !is_short(from, passed->disk, tolerance_);
   }
 
   /// Lists the ends of all edges at the nodes of these ones, the last edge first.

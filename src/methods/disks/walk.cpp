@@ -289,13 +289,15 @@ class Walker {
     return reach > 0 && site::squared_distance(site(i), disk.center) < reach * reach;
   }
 
-  /// Of the sites of two spans that differ by pieces of one arc, those on which the foot lies.
+  /// Of the sites of two spans that differ by pieces of one arc, those on which the foot lies. Half
+  /// a circle on the parameter is infinite, of either sign.
   void stay_on_pieces(const Span& last, Vec2 center, Span& span) const {
-    while (span.right < last.right &&
-           site::carrier_parameter(site(span.right), center) >= site(span.right).length)
-      ++span.right;
-    while (span.left > last.left && site::carrier_parameter(site(span.left), center) <= 0)
-      --span.left;
+    const auto is_beyond = [&](std::uint32_t i, bool at_end) {
+      const double s = site::carrier_parameter(site(i), center), length = site(i).length;
+      return at_end ? s >= length || s < -length : s <= 0 || s > 2 * length;
+    };
+    while (span.right < last.right && is_beyond(span.right, true)) ++span.right;
+    while (span.left > last.left && is_beyond(span.left, false)) --span.left;
   }
 
   /// Whether the event is that a foot passes on to the next piece of the same arc.

@@ -76,7 +76,7 @@ class Repairer {
     chunks.push_back(walk(tree));
     if (in_centers_ || !chunks[0]->lost.empty() || !ends_well(*chunks[0], doubtful))
       return std::nullopt;
-    disks::Graph part = disks::collect(chunks, window_.bridges.size(), 0);
+    disks::Graph part = disks::collect(chunks, window_.bridges, 0, false);
     if (degree_of_first(part) != 1) {
       doubtful.push_back(borders_[0].node);
       return std::nullopt;
