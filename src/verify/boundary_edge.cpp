@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/wide.h"
+
 namespace medial::verify_detail {
 
 Arc::Arc(const BoundaryEdge& edge)
@@ -25,7 +27,7 @@ double Arc::signed_distance(Vec2 p) const {
   return carrier < 0 ? -end : end;
 }
 
-Pair Arc::signed_distances(const Pair& x, const Pair& y) const {
+MEDIAL_WIDE Pair Arc::signed_distances(const Pair& x, const Pair& y) const {
   const Pair ux = x - edge_.start.x, uy = y - edge_.start.y;
   const Pair vx = x - edge_.end.x, vy = y - edge_.end.y;
   const Pair from_x = curvature_ * (0.5 * (ux + vx)) + cosine_ * chord_.y;

@@ -14,6 +14,7 @@
 #include "base/pair.h"
 #include "base/spatial_order.h"
 #include "base/threads.h"
+#include "base/wide.h"
 
 namespace medial::verify_detail {
 namespace {
@@ -447,7 +448,7 @@ class DistanceTree::Hull {
 };
 
 /// Lowers the distances of places to those from an edge.
-void DistanceTree::lower(Places& places, const Run& run, std::size_t i) const {
+MEDIAL_WIDE void DistanceTree::lower(Places& places, const Run& run, std::size_t i) const {
   const std::uint32_t index = run.index[i];
   if (index == places.known[0] || index == places.known[1] || index == places.known[2] ||
       index == places.known[3])
@@ -476,7 +477,7 @@ void DistanceTree::lower(Places& places, const Run& run, std::size_t i) const {
 
 /// Lowers the distances of places to those from all edges within the expected ones; false if it
 /// gave up.
-bool DistanceTree::find_in(const Hull& hull, Places& places) const {
+MEDIAL_WIDE bool DistanceTree::find_in(const Hull& hull, Places& places) const {
   constexpr int most_visits = 256, most_near = 64;
   const double limit = limit_for(hull.reach());
   std::array<Visit, 64> stack;
@@ -491,7 +492,9 @@ bool DistanceTree::find_in(const Hull& hull, Places& places) const {
     squared_box_bounds(bounds, hull.center(), squared);
     for (std::uint32_t j = 0; j < fan_out; ++j) {
       if (!(squared[j] <= limit)) continue;
-      if (hull.misses_box(bounds, j) || hull.misses_slab(bounds, j, origin_)) continue;
+      // Where a box holds the centre, only its slab may lie elsewhere.
+      if ((squared[j] > 0 && hull.misses_box(bounds, j)) || hull.misses_slab(bounds, j, origin_))
+        continue;
       const auto child = static_cast<std::uint32_t>(visit.index * fan_out) + j;
       if (visit.level > 0) {
         stack[size++] = {visit.level - 1, child, squared[j]};

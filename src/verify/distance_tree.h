@@ -21,6 +21,10 @@ struct Places {
 
   Vec2 place(std::size_t i) const { return {x[i], y[i]}; }
   double expected(std::size_t i) const { return std::max(0.0, radius[i]) + tolerance; }
+  /// Where their number is odd, the last one is looked at with a second one beside it.
+  void repeat_last() {
+    for (auto* const of : {&x, &y, &radius, &distance}) (*of)[size] = (*of)[size - 1];
+  }
 
   /// The disks are convex combinations of these, in x, y and radius.
   std::array<Disk, 3> hull;
@@ -29,9 +33,9 @@ struct Places {
   /// no_edge.
   std::array<std::uint32_t, 4> known;
   std::size_t size = 0;
-  std::array<double, most> x{}, y{}, radius{};
+  std::array<double, most> x, y, radius;
   /// At first the distance to the nearer one of the sites, or infinite; then to the nearest edge.
-  std::array<double, most> distance{};
+  std::array<double, most> distance;
 };
 
 /// The arc of each boundary edge, also of the straight ones; none if all are straight.
