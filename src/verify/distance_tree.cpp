@@ -116,6 +116,19 @@ DistanceTree::DistanceTree(const Shape& shape, const Box& box, std::span<const A
   build(edges_of(shape), box);
 }
 
+/// The first points of a set in each of four directions.
+struct DistanceTree::Extremes {
+  Vec2 left{endless, 0}, right{-endless, 0}, bottom{0, endless}, top{0, -endless};
+
+  void add(const Extremes& other) {
+    if (other.left.x < left.x) left = other.left;
+    if (other.right.x > right.x) right = other.right;
+    if (other.bottom.y < bottom.y) bottom = other.bottom;
+    if (other.top.y > top.y) top = other.top;
+  }
+  void add(Vec2 p) { add({p, p, p, p}); }
+};
+
 void DistanceTree::build(std::vector<BoundaryEdge> edges, const Box& box) {
   const bool arcs = !arcs_.empty();
   origin_ = box.low;
@@ -153,14 +166,22 @@ void DistanceTree::build(std::vector<BoundaryEdge> edges, const Box& box) {
   runs_ = runs_of(arcs ? edges : pieces, order);
 
   std::size_t run = fan_out;  // edges below one bound
+  std::vector<Extremes> below;  // of the sets of the level below
   while (true) {
     const std::size_t bounds = (pieces.size() + run - 1) / run;
     std::vector<Bounds> level((bounds + fan_out - 1) / fan_out);
-    parallel_for(level.size() * fan_out, [&](std::size_t i) {
+    std::vector<Extremes> extremes(level.size() * fan_out);
+    parallel_for(extremes.size(), [&](std::size_t i) {
       const std::size_t begin = std::min(i * run, pieces.size());
-      bound({pieces.data() + begin, std::min(run, pieces.size() - begin)}, level[i / fan_out],
-            i % fan_out);
+      const std::span set{pieces.data() + begin, std::min(run, pieces.size() - begin)};
+      if (levels_.empty())
+        for (const BoundaryEdge& edge : set)
+          for_each_hull_point(edge, [&](Vec2 p) { extremes[i].add(p); });
+      for (std::size_t k = i * fan_out; k < std::min((i + 1) * fan_out, below.size()); ++k)
+        extremes[i].add(below[k]);
+      bound(set, extremes[i], level[i / fan_out], i % fan_out);
     });
+    below = std::move(extremes);
     levels_.push_back(std::move(level));
     clearances_.push_back(clearances_of(pieces, run, diagonal(box)));
     if (bounds <= fan_out) break;
@@ -188,18 +209,9 @@ std::vector<DistanceTree::Run> DistanceTree::runs_of(const std::vector<BoundaryE
 }
 
 /// Bounds edges, or pieces of them; nothing is near to an empty set.
-void DistanceTree::bound(std::span<const BoundaryEdge> edges, Bounds& bounds,
-                         std::size_t place) const {
-  Vec2 left{endless, 0}, right{-endless, 0}, bottom{0, endless}, top{0, -endless};
-  const auto each_point = [&](auto work) {
-    for (const BoundaryEdge& edge : edges) for_each_hull_point(edge, work);
-  };
-  each_point([&](Vec2 p) {
-    if (p.x < left.x) left = p;
-    if (p.x > right.x) right = p;
-    if (p.y < bottom.y) bottom = p;
-    if (p.y > top.y) top = p;
-  });
+void DistanceTree::bound(std::span<const BoundaryEdge> edges, const Extremes& extremes,
+                         Bounds& bounds, std::size_t place) const {
+  const auto [left, right, bottom, top] = extremes;
   bounds.low_x[place] = left.x;
   bounds.high_x[place] = right.x;
   bounds.low_y[place] = bottom.y;
@@ -213,10 +225,12 @@ void DistanceTree::bound(std::span<const BoundaryEdge> edges, Bounds& bounds,
     normal = (1 / norm(extent)) * left_of(extent);
     low = endless;
     high = -endless;
-    each_point([&](Vec2 p) {
-      low = std::min(low, dot(normal, p - origin_));
-      high = std::max(high, dot(normal, p - origin_));
-    });
+    for (const BoundaryEdge& edge : edges)
+      for_each_hull_point(edge, [&](Vec2 p) {
+        const double at = dot(normal, p - origin_);
+        low = std::min(low, at);
+        high = std::max(high, at);
+      });
   }
   bounds.normal_x[place] = normal.x;
   bounds.normal_y[place] = normal.y;
@@ -428,7 +442,18 @@ class DistanceTree::Hull {
       return misses_by(corner_[0], height) & misses_by(corner_[1], height) &
              misses_by(corner_[2], height);
     };
-    if (!arcs_) return misses_all(both(0));
+    if (!arcs_) {
+      const Pairwise missed = misses_all(both(0));
+      if (all(missed)) return missed;
+      // Next to a convex corner, the line of the edge tells more than that through its nearer end.
+      const Pair across = along_x * from_y - along_y * from_x;
+      const Pair side = with_sign_of(both(1), across);
+      const auto beside = [&](const Corner& corner) {
+        const Pair away = larger(side * (across + along_x * corner.y - along_y * corner.x), both(0));
+        return away * away > corner.radius * corner.radius * square;
+      };
+      return missed | (beside(corner_[0]) & beside(corner_[1]) & beside(corner_[2]));
+    }
     const Pair bulge = pair_at(run.bulge + i);
     const Pair size = larger(along_x, -along_x) + larger(along_y, -along_y);
     return misses_all(both(0.5) * larger(bulge, -bulge) * size);  // at least the height
@@ -522,10 +547,12 @@ void DistanceTree::find_distances(Places& places) const {
     return;
   }
   const bool found = find_in(Hull(places, slack_, !arcs_.empty()), places);
-  for (std::size_t i = 0; i < places.size; ++i) {
-    const double expected = places.expected(i);
-    if (!found || !(places.distance[i] <= expected))
-      places.distance[i] = distance(places.place(i), std::min(places.distance[i], expected));
+  for (std::size_t i = 0; i < places.size; i += 2) {
+    const Pair expected = larger(pair_at(&places.radius[i]), both(0)) + both(places.tolerance);
+    if (found && all(pair_at(&places.distance[i]) <= expected)) continue;  // nearly always
+    for (std::size_t k = i; k < std::min(i + 2, places.size); ++k)
+      if (!found || !(places.distance[k] <= expected[k - i]))
+        places.distance[k] = distance(places.place(k), std::min(places.distance[k], expected[k - i]));
   }
 }
 

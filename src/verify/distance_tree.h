@@ -20,7 +20,6 @@ struct Places {
   static constexpr std::uint32_t no_edge = 0xFFFFFFFF;
 
   Vec2 place(std::size_t i) const { return {x[i], y[i]}; }
-  double expected(std::size_t i) const { return std::max(0.0, radius[i]) + tolerance; }
   /// Where their number is odd, the last one is looked at with a second one beside it.
   void repeat_last() {
     for (auto* const of : {&x, &y, &radius, &distance}) (*of)[size] = (*of)[size - 1];
@@ -80,6 +79,7 @@ class DistanceTree {
     double squared;
   };
   class Hull;
+  struct Extremes;
   /// Four edges side by side.
   struct Run {
     double start_x[4], start_y[4], end_x[4], end_y[4], bulge[4];
@@ -91,7 +91,8 @@ class DistanceTree {
   void squared_bounds(const Visit& visit, Vec2 p, double (&squared)[4]) const;
   void raise(const Visit& visit, Vec2 p, double (&squared)[4]) const;
   double limit_for(double distance) const;
-  void bound(std::span<const BoundaryEdge> edges, Bounds& bounds, std::size_t place) const;
+  void bound(std::span<const BoundaryEdge> edges, const Extremes& extremes, Bounds& bounds,
+             std::size_t place) const;
   static std::optional<Vec2> centre_behind(std::span<const BoundaryEdge> edges, double size);
   static std::vector<Clearances> clearances_of(const std::vector<BoundaryEdge>& edges,
                                                std::size_t run, double size);
