@@ -76,6 +76,18 @@ double Arc::foot_slack(Vec2 p, double slack) const {
   return std::min(slack / norm(from_center(p)), length_);
 }
 
+EdgeArcs::EdgeArcs(std::span<const BoundaryEdge> edges) {
+  const auto is_arc = [](const BoundaryEdge& edge) { return edge.bulge != 0; };
+  const auto count = static_cast<std::size_t>(std::count_if(edges.begin(), edges.end(), is_arc));
+  if (count == 0) return;
+  arcs_.reserve(count);
+  place_.reserve(edges.size());
+  for (const BoundaryEdge& edge : edges) {
+    place_.push_back(static_cast<std::uint32_t>(arcs_.size()));
+    if (is_arc(edge)) arcs_.emplace_back(edge);
+  }
+}
+
 Vec2 Track::point_at(double length) const {
   if (arc_ != nullptr) return arc_->point_at(length);
   if (length <= 0) return edge_.start;

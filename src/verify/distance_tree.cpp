@@ -90,29 +90,22 @@ std::vector<BoundaryEdge> edges_of(const Shape& shape) {
   return edges;
 }
 
-std::vector<Arc> arcs_of(const std::vector<BoundaryEdge>& edges) {
-  std::vector<Arc> arcs;
-  arcs.reserve(edges.size());
-  for (const BoundaryEdge& edge : edges) arcs.emplace_back(edge);
-  return arcs;
-}
-
 }  // namespace
 
-std::vector<Arc> arcs_of(const Shape& shape) {
-  return shape.bulges.empty() ? std::vector<Arc>() : arcs_of(edges_of(shape));
+EdgeArcs arcs_of(const Shape& shape) {
+  return shape.bulges.empty() ? EdgeArcs() : EdgeArcs(edges_of(shape));
 }
 
 DistanceTree::DistanceTree(const Shape& shape)
     : DistanceTree(edges_of(shape), bounding_box(shape), !shape.bulges.empty()) {}
 
 DistanceTree::DistanceTree(std::vector<BoundaryEdge> edges, const Box& box, bool arcs)
-    : own_arcs_(arcs ? arcs_of(edges) : std::vector<Arc>()), arcs_(own_arcs_) {
+    : own_arcs_(arcs ? EdgeArcs(edges) : EdgeArcs()), arcs_(&own_arcs_) {
   build(std::move(edges), box);
 }
 
-DistanceTree::DistanceTree(const Shape& shape, const Box& box, std::span<const Arc> arcs)
-    : arcs_(arcs) {
+DistanceTree::DistanceTree(const Shape& shape, const Box& box, const EdgeArcs& arcs)
+    : arcs_(&arcs) {
   build(edges_of(shape), box);
 }
 
@@ -130,7 +123,7 @@ struct DistanceTree::Extremes {
 };
 
 void DistanceTree::build(std::vector<BoundaryEdge> edges, const Box& box) {
-  const bool arcs = !arcs_.empty();
+  const bool arcs = !arcs_->empty();
   origin_ = box.low;
   slack_ = 16 * machine_epsilon * diagonal(box);
   // The ends of an arc's pieces are rounded.
@@ -165,7 +158,7 @@ void DistanceTree::build(std::vector<BoundaryEdge> edges, const Box& box) {
   }
   runs_ = runs_of(arcs ? edges : pieces, order);
 
-  std::size_t run = fan_out;  // edges below one bound
+  std::size_t run = fan_out;    // edges below one bound
   std::vector<Extremes> below;  // of the sets of the level below
   while (true) {
     const std::size_t bounds = (pieces.size() + run - 1) / run;
@@ -449,7 +442,8 @@ class DistanceTree::Hull {
       const Pair across = along_x * from_y - along_y * from_x;
       const Pair side = with_sign_of(both(1), across);
       const auto beside = [&](const Corner& corner) {
-        const Pair away = larger(side * (across + along_x * corner.y - along_y * corner.x), both(0));
+        const Pair away =
+            larger(side * (across + along_x * corner.y - along_y * corner.x), both(0));
         return away * away > corner.radius * corner.radius * square;
       };
       return missed | (beside(corner_[0]) & beside(corner_[1]) & beside(corner_[2]));
@@ -482,7 +476,7 @@ MEDIAL_WIDE void DistanceTree::lower(Places& places, const Run& run, std::size_t
   const Segment segment(start, end);
   const double length = segment.length();
   const Vec2 along = length > 0 ? (1 / length) * (end - start) : end - start;
-  const Arc* const arc = run.bulge[i] != 0 ? &arcs_[index] : nullptr;
+  const Arc* const arc = run.bulge[i] != 0 ? &(*arcs_)[index] : nullptr;
   const double room = slack_ + 0.5 * std::abs(run.bulge[i]) * length;  // an arc's height
   for (std::size_t k = 0; k < places.size; k += 2) {
     const Pair x = pair_at(&places.x[k]), y = pair_at(&places.y[k]);
@@ -546,13 +540,14 @@ void DistanceTree::find_distances(Places& places) const {
       for (std::size_t i = 0; i < fan_out; ++i) lower(places, run, i);
     return;
   }
-  const bool found = find_in(Hull(places, slack_, !arcs_.empty()), places);
+  const bool found = find_in(Hull(places, slack_, !arcs_->empty()), places);
   for (std::size_t i = 0; i < places.size; i += 2) {
     const Pair expected = larger(pair_at(&places.radius[i]), both(0)) + both(places.tolerance);
     if (found && all(pair_at(&places.distance[i]) <= expected)) continue;  // nearly always
     for (std::size_t k = i; k < std::min(i + 2, places.size); ++k)
       if (!found || !(places.distance[k] <= expected[k - i]))
-        places.distance[k] = distance(places.place(k), std::min(places.distance[k], expected[k - i]));
+        places.distance[k] =
+            distance(places.place(k), std::min(places.distance[k], expected[k - i]));
   }
 }
 

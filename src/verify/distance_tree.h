@@ -37,8 +37,8 @@ struct Places {
   std::array<double, most> distance;
 };
 
-/// The arc of each boundary edge, also of the straight ones; none if all are straight.
-std::vector<Arc> arcs_of(const Shape& shape);
+/// Of each of a shape's edges.
+EdgeArcs arcs_of(const Shape& shape);
 
 /// The nearest boundary edge of a shape: a tree over the edges in spatial order (the engines search
 /// along the boundary instead). Few edges are simply all looked at.
@@ -48,7 +48,7 @@ class DistanceTree {
   /// Of edges anywhere; those without length are points. `arcs`: whether any edge is not straight.
   DistanceTree(std::vector<BoundaryEdge> edges, const Box& box, bool arcs);
   /// Of a shape of which these are known; `arcs`, arcs_of() the shape, stay the caller's.
-  DistanceTree(const Shape& shape, const Box& box, std::span<const Arc> arcs);
+  DistanceTree(const Shape& shape, const Box& box, const EdgeArcs& arcs);
   DistanceTree(const DistanceTree&) = delete;
   DistanceTree& operator=(const DistanceTree&) = delete;
 
@@ -103,7 +103,7 @@ class DistanceTree {
   bool find_in(const Hull& hull, Places& places) const;
   void lower(Places& places, const Run& run, std::size_t i) const;
   double distance_to(const Run& run, std::size_t i, Vec2 p) const {
-    if (run.bulge[i] != 0) return arcs_[run.index[i]].distance(p);
+    if (run.bulge[i] != 0) return (*arcs_)[run.index[i]].distance(p);
     return distance_to_segment(p, {run.start_x[i], run.start_y[i]}, {run.end_x[i], run.end_y[i]});
   }
   void build(std::vector<BoundaryEdge> edges, const Box& box);
@@ -114,8 +114,8 @@ class DistanceTree {
   std::vector<std::vector<Clearances>> clearances_;  ///< of levels_, or empty: few sets are round
   Vec2 origin_;
   double slack_;  ///< what rounding may add to the distance from a slab
-  std::vector<Arc> own_arcs_;
-  std::span<const Arc> arcs_;  ///< of each edge; none if all are straight
+  EdgeArcs own_arcs_;
+  const EdgeArcs* arcs_;
 };
 
 }  // namespace medial::verify_detail
