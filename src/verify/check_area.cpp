@@ -160,12 +160,13 @@ bool all_paired(std::vector<Spoke>& spokes) {
 constexpr double nearly_one = 1e-3;
 
 /// The angle at an edge's end between its feet, on the side of the edge, in [0, 2 pi]. Feet that
-/// nearly coincide lie ahead of the edge or behind it.
-double angle_between_feet(Vec2 center, Vec2 right, Vec2 left, bool ahead) {
+/// nearly coincide lie ahead of the edge or behind it, which `ahead` is then asked for.
+template <class Ahead>
+double angle_between_feet(Vec2 center, Vec2 right, Vec2 left, const Ahead& ahead) {
   const double sine = doubled_triangle(center, right, left);
   const double cosine = dot(right - center, left - center);
   const double angle = std::atan2(sine, cosine);
-  if (std::abs(angle) < nearly_one) return ahead ? angle : angle + 2 * std::numbers::pi;
+  if (std::abs(angle) < nearly_one) return ahead() ? angle : angle + 2 * std::numbers::pi;
   return angle < 0 ? angle + 2 * std::numbers::pi : angle;
 }
 
@@ -308,7 +309,7 @@ class Slices {
     double angle = 2 * std::numbers::pi;
     for_each_end(node, [&](const Edge& edge, std::size_t end) {
       angle -= angle_between_feet(disk.center, foot_on(edge, 1 - end, end), foot_on(edge, end, end),
-                                  leads_to_feet(edge, end, disk));
+                                  [&] { return leads_to_feet(edge, end, disk); });
     });
     return angle;
   }

@@ -438,7 +438,8 @@ class DistanceTree::Hull {
     if (!arcs_) {
       const Pairwise missed = misses_all(both(0));
       if (all(missed)) return missed;
-      // Next to a convex corner, the line of the edge tells more than that through its nearer end.
+      // Next to a convex corner, the line of the edge decides more than that through its nearer
+      // end.
       const Pair across = along_x * from_y - along_y * from_x;
       const Pair side = with_sign_of(both(1), across);
       const auto beside = [&](const Corner& corner) {
