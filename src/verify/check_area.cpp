@@ -39,8 +39,7 @@ class Sum {
 /// Where the disk of an edge's end touches one of its sites.
 struct FootPoint {
   Vec2 foot;
-  double at = 0;     ///< of an arc: length along it
-  double slack = 0;  ///< how far rounding may move it along the boundary
+  double at = 0;  ///< of an arc: length along it
 };
 
 FootPoint foot_point_of(const Problem& problem, const ArcFeet& feet, const Edge& edge,
@@ -51,7 +50,15 @@ FootPoint foot_point_of(const Problem& problem, const ArcFeet& feet, const Edge&
   if (!is_on_arc(site)) return {foot(site, center)};
   const double at = feet.at(edge, side, end);
   return with_arc(problem, index, [&](const Arc& arc) -> FootPoint {
-    return {arc.point_at(at), at, arc.foot_slack(center, problem.tolerance)};
+    return {arc.point_at(at), at};
+  });
+}
+
+/// How far rounding may move it along the boundary.
+double slack_of(const Problem& problem, const Edge& edge, std::size_t side, std::size_t end) {
+  if (!is_on_arc(problem.axis.sites[edge.site[side]])) return 0;
+  return with_arc(problem, edge.site[side], [&](const Arc& arc) {
+    return arc.foot_slack(problem.disk(edge.node[end]).center, problem.tolerance);
   });
 }
 
@@ -201,21 +208,26 @@ struct Swept {
 };
 Swept swept_by_edges(const Problem& problem, const ArcFeet& feet, double limit) {
   const MedialAxis& axis = problem.axis;
+  const auto runs_backward = [&](const Edge& edge, double least) {
+    if (!(least < -limit)) return false;  // nearly always
+    double slack = limit;
+    for (std::size_t side = 0; side < 2; ++side)
+      for (std::size_t end = 0; end < 2; ++end)
+        slack += slack_of(problem, edge, side, end) * problem.disk(edge.node[end]).radius;
+    return least < -slack;
+  };
   Swept all;
   for (const Swept& block :
        in_blocks<Swept>(axis.edges.size(), block_size, [&](std::size_t i, Swept&found) {
          const Edge& edge = axis.edges[i];
          FootPoints contacts;
-         double slack = limit;
-         for (std::size_t side = 0; side < 2; ++side) {
+         for (std::size_t side = 0; side < 2; ++side)
            contacts[side] = foot_points_of(problem, feet, edge, side);
-           for (std::size_t end = 0; end < 2; ++end)
-             slack += contacts[side][end].slack * problem.disk(edge.node[end]).radius;
-         }
          const Sides sides = swept(axis, edge, contacts);
          found.area.add(sides.left);
          found.area.add(sides.right);
-         if (std::min(sides.left, sides.right) < -slack && found.backward++ == 0) found.first = i;
+         if (runs_backward(edge, std::min(sides.left, sides.right)) && found.backward++ == 0)
+           found.first = i;
        }))
     all.add(block);
   return all;
