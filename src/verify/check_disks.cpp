@@ -517,9 +517,9 @@ void check_disks(const Problem& problem, int samples_per_edge, Certificate& cert
   certificate.largest_contact_gap = found.contact.value;
   certificate.worst_legality = found.legality.value;
 
-  const std::string limit = sentence(", over %.3g", tolerance);
   const auto report = [&](const Worst& worst, const char* what, const char* which) {
-    report_worst(worst, what, which, limit, certificate);
+    if (worst.over > 0)
+      report_worst(worst, what, which, sentence(", over %.3g", tolerance), certificate);
   };
   report(nodes.intrusion, "nodes have disks that reach over the boundary", "node");
   report(nodes.residual, "nodes have a radius that is not the distance to the boundary", "node");

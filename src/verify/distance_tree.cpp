@@ -122,6 +122,18 @@ struct DistanceTree::Extremes {
   void add(Vec2 p) { add({p, p, p, p}); }
 };
 
+/// The edges of these numbers, in order; edge_at(i) is the one with number index[i].
+template <class EdgeAt>
+std::vector<DistanceTree::Run> DistanceTree::runs_of(const std::vector<std::uint32_t>& index,
+                                                     const EdgeAt& edge_at) {
+  std::vector<Run> runs((index.size() + fan_out - 1) / fan_out);
+  for (std::size_t i = 0; i < runs.size() * fan_out; ++i) {
+    const std::size_t from = std::min(i, index.size() - 1);
+    runs[i / fan_out].set(i % fan_out, edge_at(from), index[from]);
+  }
+  return runs;
+}
+
 void DistanceTree::build(std::vector<BoundaryEdge> edges, const Box& box) {
   const bool arcs = !arcs_->empty();
   origin_ = box.low;
@@ -130,53 +142,61 @@ void DistanceTree::build(std::vector<BoundaryEdge> edges, const Box& box) {
   if (arcs)
     for (const double c : {box.low.x, box.low.y, box.high.x, box.high.y})
       slack_ = std::max(slack_, 16 * machine_epsilon * std::abs(c));
-  if (edges.size() <= brute_force) {
-    std::vector<std::uint32_t> index(edges.size());
-    std::iota(index.begin(), index.end(), 0U);
-    runs_ = runs_of(edges, index);
+  if (edges.size() > brute_force) {
+    build_levels(fill_runs(std::move(edges)), diagonal(box));
     return;
   }
-  // Where there are arcs: the edge of each piece.
+  std::vector<std::uint32_t> index(edges.size());
+  std::iota(index.begin(), index.end(), 0U);
+  runs_ = runs_of(index, [&](std::size_t i) { return edges[i]; });
+}
+
+/// Makes runs of many edges in spatial order, and returns the pieces that they are bounded by.
+std::vector<BoundaryEdge> DistanceTree::fill_runs(std::vector<BoundaryEdge> edges) {
+  if (arcs_->empty()) {
+    const std::vector<std::uint32_t> order = order_of(edges);
+    edges = in_order(edges, order);
+    runs_ = runs_of(order, [&](std::size_t i) { return edges[i]; });
+    return edges;
+  }
   std::vector<BoundaryEdge> pieces;
-  std::vector<std::uint32_t> whole;
-  if (arcs) {
-    pieces.reserve(edges.size());
-    for (std::uint32_t i = 0; i < edges.size(); ++i) {
-      for_each_piece(edges[i], [&](const BoundaryEdge& piece) {
-        pieces.push_back(piece);
-        whole.push_back(i);
-      });
-    }
-  } else {
-    pieces = std::move(edges);
+  std::vector<std::uint32_t> whole;  // the edge of each piece
+  pieces.reserve(edges.size());
+  for (std::uint32_t i = 0; i < edges.size(); ++i) {
+    for_each_piece(edges[i], [&](const BoundaryEdge& piece) {
+      pieces.push_back(piece);
+      whole.push_back(i);
+    });
   }
   std::vector<std::uint32_t> order = order_of(pieces);
   pieces = in_order(pieces, order);
-  if (arcs) {
-    for (std::uint32_t& i : order) i = whole[i];
-    edges = in_order(edges, order);
-  }
-  runs_ = runs_of(arcs ? edges : pieces, order);
+  for (std::uint32_t& i : order) i = whole[i];
+  runs_ = runs_of(order, [&](std::size_t i) { return edges[order[i]]; });
+  return pieces;
+}
 
-  std::size_t run = fan_out;    // edges below one bound
-  std::vector<Extremes> below;  // of the sets of the level below
+void DistanceTree::build_levels(const std::vector<BoundaryEdge>& pieces, double size) {
+  std::size_t run = fan_out;  // edges below one bound
+  std::vector<Extremes>
+      below;  // of the sets of the level below; of the lowest one they are made anew
   while (true) {
     const std::size_t bounds = (pieces.size() + run - 1) / run;
     std::vector<Bounds> level((bounds + fan_out - 1) / fan_out);
-    std::vector<Extremes> extremes(level.size() * fan_out);
-    parallel_for(extremes.size(), [&](std::size_t i) {
+    std::vector<Extremes> extremes(levels_.empty() ? 0 : level.size() * fan_out);
+    parallel_for(level.size() * fan_out, [&](std::size_t i) {
       const std::size_t begin = std::min(i * run, pieces.size());
       const std::span set{pieces.data() + begin, std::min(run, pieces.size() - begin)};
-      if (levels_.empty())
-        for (const BoundaryEdge& edge : set)
-          for_each_hull_point(edge, [&](Vec2 p) { extremes[i].add(p); });
+      Extremes all;
       for (std::size_t k = i * fan_out; k < std::min((i + 1) * fan_out, below.size()); ++k)
-        extremes[i].add(below[k]);
-      bound(set, extremes[i], level[i / fan_out], i % fan_out);
+        all.add(below[k]);
+      if (below.empty())
+        for (const BoundaryEdge& edge : set) for_each_hull_point(edge, [&](Vec2 p) { all.add(p); });
+      if (!extremes.empty()) extremes[i] = all;
+      bound(set, all, level[i / fan_out], i % fan_out);
     });
     below = std::move(extremes);
     levels_.push_back(std::move(level));
-    clearances_.push_back(clearances_of(pieces, run, diagonal(box)));
+    clearances_.push_back(clearances_of(pieces, run, size));
     if (bounds <= fan_out) break;
     run *= fan_out;
   }
@@ -189,16 +209,6 @@ void DistanceTree::Run::set(std::size_t i, const BoundaryEdge& edge, std::uint32
   end_y[i] = edge.end.y;
   bulge[i] = edge.bulge;
   index[i] = its_index;
-}
-
-std::vector<DistanceTree::Run> DistanceTree::runs_of(const std::vector<BoundaryEdge>& edges,
-                                                     const std::vector<std::uint32_t>& index) {
-  std::vector<Run> runs((edges.size() + fan_out - 1) / fan_out);
-  for (std::size_t i = 0; i < runs.size() * fan_out; ++i) {
-    const std::size_t from = std::min(i, edges.size() - 1);
-    runs[i / fan_out].set(i % fan_out, edges[from], index[from]);
-  }
-  return runs;
 }
 
 /// Bounds edges, or pieces of them; nothing is near to an empty set.

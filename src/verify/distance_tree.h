@@ -98,8 +98,8 @@ class DistanceTree {
                                                std::size_t run, double size);
   bool search(Vec2 p, double& best) const;
   double some_distance(Vec2 p) const;
-  static std::vector<Run> runs_of(const std::vector<BoundaryEdge>& edges,
-                                  const std::vector<std::uint32_t>& index);
+  template <class EdgeAt>
+  static std::vector<Run> runs_of(const std::vector<std::uint32_t>& index, const EdgeAt& edge_at);
   bool find_in(const Hull& hull, Places& places) const;
   void lower(Places& places, const Run& run, std::size_t i) const;
   double distance_to(const Run& run, std::size_t i, Vec2 p) const {
@@ -107,6 +107,8 @@ class DistanceTree {
     return distance_to_segment(p, {run.start_x[i], run.start_y[i]}, {run.end_x[i], run.end_y[i]});
   }
   void build(std::vector<BoundaryEdge> edges, const Box& box);
+  std::vector<BoundaryEdge> fill_runs(std::vector<BoundaryEdge> edges);
+  void build_levels(const std::vector<BoundaryEdge>& pieces, double size);
 
   /// An arc as often as the tree has pieces of it; the last edge again where fewer are left.
   std::vector<Run> runs_;
