@@ -279,6 +279,12 @@ TEST(VerifyFinds, ForeignSite) {
       m, "1 sites are neither an edge nor a reflex vertex of the shape; the first is site 2");
 }
 
+TEST(VerifyFinds, ArcAsASiteOfAPolygon) {
+  HandMade m = rectangle();
+  m.axis.sites[0].bulge = 0.5;
+  expect_failure(m, "1 sites are neither an edge nor a reflex vertex");
+}
+
 TEST(VerifyFinds, MissingReflexVertex) {
   // The axis of the rectangle that remains when the notch's sites are ignored.
   HandMade m = notch();

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/wide.h"
+
 namespace medial::verify_detail {
 
 Arc::Arc(const BoundaryEdge& edge)
@@ -25,7 +27,7 @@ double Arc::signed_distance(Vec2 p) const {
   return carrier < 0 ? -end : end;
 }
 
-Pair Arc::signed_distances(const Pair& x, const Pair& y) const {
+MEDIAL_WIDE Pair Arc::signed_distances(const Pair& x, const Pair& y) const {
   const Pair ux = x - edge_.start.x, uy = y - edge_.start.y;
   const Pair vx = x - edge_.end.x, vy = y - edge_.end.y;
   const Pair from_x = curvature_ * (0.5 * (ux + vx)) + cosine_ * chord_.y;
@@ -72,6 +74,18 @@ Vec2 Arc::point_at(double length) const {
 
 double Arc::foot_slack(Vec2 p, double slack) const {
   return std::min(slack / norm(from_center(p)), length_);
+}
+
+EdgeArcs::EdgeArcs(std::span<const BoundaryEdge> edges) {
+  const auto is_arc = [](const BoundaryEdge& edge) { return edge.bulge != 0; };
+  const auto count = static_cast<std::size_t>(std::count_if(edges.begin(), edges.end(), is_arc));
+  if (count == 0) return;
+  arcs_.reserve(count);
+  place_.reserve(edges.size());
+  for (const BoundaryEdge& edge : edges) {
+    place_.push_back(static_cast<std::uint32_t>(arcs_.size()));
+    if (is_arc(edge)) arcs_.emplace_back(edge);
+  }
 }
 
 Vec2 Track::point_at(double length) const {

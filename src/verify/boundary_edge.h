@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 #include "base/arc.h"
 #include "base/pair.h"
@@ -113,6 +116,21 @@ class Arc {
   double cosine_, sine_;  ///< of half of its angle
   Vec2 start_tangent_, end_tangent_;
   double curvature_;
+};
+
+/// The arcs among some edges.
+class EdgeArcs {
+ public:
+  EdgeArcs() = default;
+  explicit EdgeArcs(std::span<const BoundaryEdge> edges);
+
+  bool empty() const { return arcs_.empty(); }
+  /// Of an edge that is not straight.
+  const Arc& operator[](std::size_t edge) const { return arcs_[place_[edge]]; }
+
+ private:
+  std::vector<Arc> arcs_;
+  std::vector<std::uint32_t> place_;  ///< of each edge's arc; none if all are straight
 };
 
 /// Distance from p to the edge's whole line or circle, positive on its left. By the power of the

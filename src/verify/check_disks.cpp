@@ -4,9 +4,13 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "axis/curve.h"
+#include "base/wide.h"
 #include "medial/query.h"
 #include "verify/checks.h"
 #include "verify/distance_tree.h"
@@ -117,24 +121,60 @@ struct DiskPair {
   Disk operator[](std::size_t i) const { return {{x[i], y[i]}, radius[i]}; }
 };
 
+/// Two parameters of a curve, and the Bernstein polynomials there for curves of weight 1, which
+/// most edges are.
+struct Parameters {
+  Pair t, s;
+  std::array<Pair, 3> polynomial;
+  std::size_t count;  ///< 1 where both are the same
+
+  Parameters(Pair at, std::size_t the_count) : t(at), s(1 - at), count(the_count) {
+    polynomial = weighted(1).first;
+  }
+  /// The weighted polynomials, divided by their sum, and that.
+  std::pair<std::array<Pair, 3>, Pair> weighted(double weight) const {
+    const Pair sum = s * s + 2 * s * t * weight + t * t;
+    return {{s * s / sum, 2 * s * t * weight / sum, t * t / sum}, sum};
+  }
+};
+
+/// The parameters of `samples` disks inside an edge.
+std::vector<Parameters> parameters_of(int samples) {
+  std::vector<Parameters> all;
+  all.reserve(static_cast<std::size_t>(samples + 1) / 2);
+  const auto parts = static_cast<double>(samples + 1);
+  for (int k = 1; k <= samples; k += 2) {
+    const bool two = k < samples;
+    all.emplace_back(Pair{static_cast<double>(k), static_cast<double>(k + (two ? 1 : 0))} / parts,
+                     two ? 2 : 1);
+  }
+  return all;
+}
+
 /// An edge's curve at two parameters at once.
 class PairOnCurve {
  public:
-  PairOnCurve(const Curve& curve, Pair at) : curve_(curve), t_(at), s_(1 - at) {
-    scale_ = s_ * s_ + 2 * s_ * t_ * curve.weight + t_ * t_;
-    b0_ = s_ * s_ / scale_;
-    b1_ = 2 * s_ * t_ * curve.weight / scale_;
-    b2_ = t_ * t_ / scale_;
-    // From the nearer end.
+  PairOnCurve(const Curve& curve, const Parameters& at)
+      : curve_(curve), t_(at.t), s_(at.s), by_start_(at.t <= 0.5) {
+    if (curve.weight == 1) {
+      std::tie(b0_, b1_, b2_) = std::tie(at.polynomial[0], at.polynomial[1], at.polynomial[2]);
+    } else {
+      const auto [polynomial, sum] = at.weighted(curve.weight);
+      std::tie(b0_, b1_, b2_) = std::tie(polynomial[0], polynomial[1], polynomial[2]);
+      scale_ = sum;
+    }
     const Vec2 p1 = curve.p1, p2 = curve.p2, back = p2 - p1;
-    x_ = t_ <= 0.5 ? b1_ * p1.x + b2_ * p2.x : b0_ * p2.x + b1_ * back.x;
-    y_ = t_ <= 0.5 ? b1_ * p1.y + b2_ * p2.y : b0_ * p2.y + b1_ * back.y;
+    x_ = from_nearer_end([&] { return b1_ * p1.x + b2_ * p2.x; },
+                         [&] { return b0_ * p2.x + b1_ * back.x; });
+    y_ = from_nearer_end([&] { return b1_ * p1.y + b2_ * p2.y; },
+                         [&] { return b0_ * p2.y + b1_ * back.y; });
   }
 
   DiskPair disks() const {
-    return {t_ <= 0.5 ? curve_.origin.x + x_ : curve_.end.x - x_,
-            t_ <= 0.5 ? curve_.origin.y + y_ : curve_.end.y - y_,
-            b0_ * curve_.r0 + b1_ * curve_.r1 + b2_ * curve_.r2};
+    return {
+        from_nearer_end([&] { return curve_.origin.x + x_; }, [&] { return curve_.end.x - x_; }),
+        from_nearer_end([&] { return curve_.origin.y + y_; }, [&] { return curve_.end.y - y_; }),
+        b0_ * curve_.r0 + b1_ * curve_.r1 + b2_ * curve_.r2};
   }
 
   /// The first and second derivatives of a coordinate with these control points relative to the
@@ -148,10 +188,12 @@ class PairOnCurve {
     return {first, (second - 2 * scale_first * first - 4 * (1 - w) * value) / scale_};
   }
   std::array<Pair, 2> x() const {
-    return derivatives(curve_.p1.x, curve_.p2.x, t_ <= 0.5 ? x_ : curve_.p2.x - x_);
+    return derivatives(curve_.p1.x, curve_.p2.x,
+                       from_nearer_end([&] { return x_; }, [&] { return curve_.p2.x - x_; }));
   }
   std::array<Pair, 2> y() const {
-    return derivatives(curve_.p1.y, curve_.p2.y, t_ <= 0.5 ? y_ : curve_.p2.y - y_);
+    return derivatives(curve_.p1.y, curve_.p2.y,
+                       from_nearer_end([&] { return y_; }, [&] { return curve_.p2.y - y_; }));
   }
   std::array<Pair, 2> radius() const {
     const double q1 = curve_.r1 - curve_.r0, q2 = curve_.r2 - curve_.r0;
@@ -159,11 +201,20 @@ class PairOnCurve {
   }
 
  private:
+  /// What one of these makes, for each parameter that of its nearer end. Mostly it is the same one.
+  template <class FromStart, class FromEnd>
+  Pair from_nearer_end(const FromStart& from_start, const FromEnd& from_end) const {
+    if (all(by_start_)) return from_start();
+    if (!any(by_start_)) return from_end();
+    return by_start_ ? from_start() : from_end();
+  }
+
   const Curve& curve_;
   Pair t_, s_;
-  Pair scale_;         ///< the sum of the weighted Bernstein polynomials
+  Pairwise by_start_;  ///< whether the start is the nearer end
+  Pair scale_;         ///< the sum of the weighted Bernstein polynomials, unless the weight is 1
   Pair b0_, b1_, b2_;  ///< these, divided by it
-  Pair x_, y_;
+  Pair x_, y_;         ///< from the nearer end
 };
 
 /// The derivatives of an edge's curve at two parameters.
@@ -309,7 +360,8 @@ class EdgeCheck {
     }
   }
 
-  void run(int samples, const std::vector<std::uint32_t>& first_edge) {
+  MEDIAL_WIDE void run(std::span<const Parameters> samples,
+                       const std::vector<std::uint32_t>& first_edge) {
     const Disk &from = problem_.disk(edge_.node[0]), &to = problem_.disk(edge_.node[1]);
     const DiskPair ends{
         {from.center.x, to.center.x}, {from.center.y, to.center.y}, {from.radius, to.radius}};
@@ -319,19 +371,14 @@ class EdgeCheck {
       const bool is_first = first_edge[node] == index_ && (end == 0 || node != edge_.node[0]);
       if (is_first) add(ends, known, end, node);
     }
-    const auto parts = static_cast<double>(samples + 1);
-    for (int k = 1; k <= samples; k += 2) {
-      const bool two = k < samples;
-      const Pair t = Pair{static_cast<double>(k), static_cast<double>(k + (two ? 1 : 0))} / parts;
-      const PairOnCurve place(curve_, t);
+    for (const Parameters& at : samples) {
+      const PairOnCurve place(curve_, at);
       const DiskPair disks = place.disks();
-      const std::size_t count = two ? 2 : 1;
-      const Pair nearest = measure_contacts(disks, count);
+      const Pair nearest = measure_contacts(disks, at.count);
       if (const Derivatives d(place); !is_legal(d, disks.radius, problem_.tolerance))
         add_worst(findings_.legality, illegality(d, disks.radius, problem_.tolerance), 0, disks,
-                  count);
-      add(disks, nearest, 0, no_index);
-      if (two) add(disks, nearest, 1, no_index);
+                  at.count);
+      for (std::size_t i = 0; i < at.count; ++i) add(disks, nearest, i, no_index);
     }
     measure_places();
     const Vec2 middle = curve_.at(0.5).center;
@@ -382,6 +429,7 @@ class EdgeCheck {
     node_[i] = node;
   }
   void measure_places() {
+    if (places_.size % 2 == 1) places_.repeat_last();
     boundary_.find_distances(places_);
     for (std::size_t i = 0; i < places_.size; ++i) {
       const bool inside = node_[i] == no_index, two = inside && i + 1 < places_.size;
@@ -424,10 +472,11 @@ Findings measure_all(const Problem& problem, int samples) {
   const MedialAxis& axis = problem.axis;
   const DistanceTree boundary(problem.shape, problem.box, problem.arcs);
   const std::vector<std::uint32_t> first_edge = first_edges(axis);
+  const std::vector<Parameters> parameters = parameters_of(samples);
   const auto blocks =
       in_blocks<Findings>(axis.edges.size(), block_size, [&](std::size_t i, Findings& findings) {
         EdgeCheck(problem, boundary, static_cast<std::uint32_t>(i), findings)
-            .run(samples, first_edge);
+            .run(parameters, first_edge);
       });
   Findings all;
   for (const Findings& block : blocks) all.add(block);
@@ -468,9 +517,9 @@ void check_disks(const Problem& problem, int samples_per_edge, Certificate& cert
   certificate.largest_contact_gap = found.contact.value;
   certificate.worst_legality = found.legality.value;
 
-  const std::string limit = sentence(", over %.3g", tolerance);
   const auto report = [&](const Worst& worst, const char* what, const char* which) {
-    report_worst(worst, what, which, limit, certificate);
+    if (worst.over > 0)
+      report_worst(worst, what, which, sentence(", over %.3g", tolerance), certificate);
   };
   report(nodes.intrusion, "nodes have disks that reach over the boundary", "node");
   report(nodes.residual, "nodes have a radius that is not the distance to the boundary", "node");

@@ -29,7 +29,7 @@ struct Problem {
   Box box;  ///< of the shape
   double tolerance = 0;
 
-  std::vector<Arc> arcs;                 ///< of each boundary edge; none if all are straight
+  EdgeArcs arcs;                         ///< of the boundary
   std::vector<std::uint32_t> next;       ///< of each point: the following one of its loop
   std::vector<std::uint32_t> previous;   ///< and the one before it
   std::vector<std::uint32_t> component;  ///< of each point
@@ -62,6 +62,8 @@ auto with_arc(const Problem& problem, std::uint32_t site, const Work& work) {
   return place != no_index ? work(problem.arcs[place])
                            : work(Arc(edge_of(problem.axis.sites[site])));
 }
+
+class ArcFeet;
 
 /// The largest of something, and where.
 struct Worst {
@@ -132,8 +134,8 @@ void check_disks(const Problem& problem, int samples_per_edge, Certificate& cert
 void check_sampled_disks(const Problem& problem, Certificate& certificate);
 /// Every boundary point is the foot of some disk. Returns the area that blunt joints may leave
 /// open.
-double check_coverage(const Problem& problem, Certificate& certificate);
+double check_coverage(const Problem& problem, const ArcFeet& feet, Certificate& certificate);
 /// The area of the union of the disks.
-void check_area(const Problem& problem, double open, Certificate& certificate);
+void check_area(const Problem& problem, const ArcFeet& feet, double open, Certificate& certificate);
 
 }  // namespace medial::verify_detail

@@ -14,6 +14,7 @@
 #include "base/pair.h"
 #include "base/spatial_order.h"
 #include "base/threads.h"
+#include "base/wide.h"
 
 namespace medial::verify_detail {
 namespace {
@@ -89,79 +90,113 @@ std::vector<BoundaryEdge> edges_of(const Shape& shape) {
   return edges;
 }
 
-std::vector<Arc> arcs_of(const std::vector<BoundaryEdge>& edges) {
-  std::vector<Arc> arcs;
-  arcs.reserve(edges.size());
-  for (const BoundaryEdge& edge : edges) arcs.emplace_back(edge);
-  return arcs;
-}
-
 }  // namespace
 
-std::vector<Arc> arcs_of(const Shape& shape) {
-  return shape.bulges.empty() ? std::vector<Arc>() : arcs_of(edges_of(shape));
+EdgeArcs arcs_of(const Shape& shape) {
+  return shape.bulges.empty() ? EdgeArcs() : EdgeArcs(edges_of(shape));
 }
 
 DistanceTree::DistanceTree(const Shape& shape)
     : DistanceTree(edges_of(shape), bounding_box(shape), !shape.bulges.empty()) {}
 
 DistanceTree::DistanceTree(std::vector<BoundaryEdge> edges, const Box& box, bool arcs)
-    : own_arcs_(arcs ? arcs_of(edges) : std::vector<Arc>()), arcs_(own_arcs_) {
+    : own_arcs_(arcs ? EdgeArcs(edges) : EdgeArcs()), arcs_(&own_arcs_) {
   build(std::move(edges), box);
 }
 
-DistanceTree::DistanceTree(const Shape& shape, const Box& box, std::span<const Arc> arcs)
-    : arcs_(arcs) {
+DistanceTree::DistanceTree(const Shape& shape, const Box& box, const EdgeArcs& arcs)
+    : arcs_(&arcs) {
   build(edges_of(shape), box);
 }
 
+/// The first points of a set in each of four directions.
+struct DistanceTree::Extremes {
+  Vec2 left{endless, 0}, right{-endless, 0}, bottom{0, endless}, top{0, -endless};
+
+  void add(const Extremes& other) {
+    if (other.left.x < left.x) left = other.left;
+    if (other.right.x > right.x) right = other.right;
+    if (other.bottom.y < bottom.y) bottom = other.bottom;
+    if (other.top.y > top.y) top = other.top;
+  }
+  void add(Vec2 p) { add({p, p, p, p}); }
+};
+
+/// The edges of these numbers, in order; edge_at(i) is the one with number index[i].
+template <class EdgeAt>
+std::vector<DistanceTree::Run> DistanceTree::runs_of(const std::vector<std::uint32_t>& index,
+                                                     const EdgeAt& edge_at) {
+  std::vector<Run> runs((index.size() + fan_out - 1) / fan_out);
+  for (std::size_t i = 0; i < runs.size() * fan_out; ++i) {
+    const std::size_t from = std::min(i, index.size() - 1);
+    runs[i / fan_out].set(i % fan_out, edge_at(from), index[from]);
+  }
+  return runs;
+}
+
 void DistanceTree::build(std::vector<BoundaryEdge> edges, const Box& box) {
-  const bool arcs = !arcs_.empty();
+  const bool arcs = !arcs_->empty();
   origin_ = box.low;
   slack_ = 16 * machine_epsilon * diagonal(box);
   // The ends of an arc's pieces are rounded.
   if (arcs)
     for (const double c : {box.low.x, box.low.y, box.high.x, box.high.y})
       slack_ = std::max(slack_, 16 * machine_epsilon * std::abs(c));
-  if (edges.size() <= brute_force) {
-    std::vector<std::uint32_t> index(edges.size());
-    std::iota(index.begin(), index.end(), 0U);
-    runs_ = runs_of(edges, index);
+  if (edges.size() > brute_force) {
+    build_levels(fill_runs(std::move(edges)), diagonal(box));
     return;
   }
-  // Where there are arcs: the edge of each piece.
+  std::vector<std::uint32_t> index(edges.size());
+  std::iota(index.begin(), index.end(), 0U);
+  runs_ = runs_of(index, [&](std::size_t i) { return edges[i]; });
+}
+
+/// Makes runs of many edges in spatial order, and returns the pieces that they are bounded by.
+std::vector<BoundaryEdge> DistanceTree::fill_runs(std::vector<BoundaryEdge> edges) {
+  if (arcs_->empty()) {
+    const std::vector<std::uint32_t> order = order_of(edges);
+    edges = in_order(edges, order);
+    runs_ = runs_of(order, [&](std::size_t i) { return edges[i]; });
+    return edges;
+  }
   std::vector<BoundaryEdge> pieces;
-  std::vector<std::uint32_t> whole;
-  if (arcs) {
-    pieces.reserve(edges.size());
-    for (std::uint32_t i = 0; i < edges.size(); ++i) {
-      for_each_piece(edges[i], [&](const BoundaryEdge& piece) {
-        pieces.push_back(piece);
-        whole.push_back(i);
-      });
-    }
-  } else {
-    pieces = std::move(edges);
+  std::vector<std::uint32_t> whole;  // the edge of each piece
+  pieces.reserve(edges.size());
+  for (std::uint32_t i = 0; i < edges.size(); ++i) {
+    for_each_piece(edges[i], [&](const BoundaryEdge& piece) {
+      pieces.push_back(piece);
+      whole.push_back(i);
+    });
   }
   std::vector<std::uint32_t> order = order_of(pieces);
   pieces = in_order(pieces, order);
-  if (arcs) {
-    for (std::uint32_t& i : order) i = whole[i];
-    edges = in_order(edges, order);
-  }
-  runs_ = runs_of(arcs ? edges : pieces, order);
+  for (std::uint32_t& i : order) i = whole[i];
+  runs_ = runs_of(order, [&](std::size_t i) { return edges[order[i]]; });
+  return pieces;
+}
 
+void DistanceTree::build_levels(const std::vector<BoundaryEdge>& pieces, double size) {
   std::size_t run = fan_out;  // edges below one bound
+  std::vector<Extremes>
+      below;  // of the sets of the level below; of the lowest one they are made anew
   while (true) {
     const std::size_t bounds = (pieces.size() + run - 1) / run;
     std::vector<Bounds> level((bounds + fan_out - 1) / fan_out);
+    std::vector<Extremes> extremes(levels_.empty() ? 0 : level.size() * fan_out);
     parallel_for(level.size() * fan_out, [&](std::size_t i) {
       const std::size_t begin = std::min(i * run, pieces.size());
-      bound({pieces.data() + begin, std::min(run, pieces.size() - begin)}, level[i / fan_out],
-            i % fan_out);
+      const std::span set{pieces.data() + begin, std::min(run, pieces.size() - begin)};
+      Extremes all;
+      for (std::size_t k = i * fan_out; k < std::min((i + 1) * fan_out, below.size()); ++k)
+        all.add(below[k]);
+      if (below.empty())
+        for (const BoundaryEdge& edge : set) for_each_hull_point(edge, [&](Vec2 p) { all.add(p); });
+      if (!extremes.empty()) extremes[i] = all;
+      bound(set, all, level[i / fan_out], i % fan_out);
     });
+    below = std::move(extremes);
     levels_.push_back(std::move(level));
-    clearances_.push_back(clearances_of(pieces, run, diagonal(box)));
+    clearances_.push_back(clearances_of(pieces, run, size));
     if (bounds <= fan_out) break;
     run *= fan_out;
   }
@@ -176,29 +211,10 @@ void DistanceTree::Run::set(std::size_t i, const BoundaryEdge& edge, std::uint32
   index[i] = its_index;
 }
 
-std::vector<DistanceTree::Run> DistanceTree::runs_of(const std::vector<BoundaryEdge>& edges,
-                                                     const std::vector<std::uint32_t>& index) {
-  std::vector<Run> runs((edges.size() + fan_out - 1) / fan_out);
-  for (std::size_t i = 0; i < runs.size() * fan_out; ++i) {
-    const std::size_t from = std::min(i, edges.size() - 1);
-    runs[i / fan_out].set(i % fan_out, edges[from], index[from]);
-  }
-  return runs;
-}
-
 /// Bounds edges, or pieces of them; nothing is near to an empty set.
-void DistanceTree::bound(std::span<const BoundaryEdge> edges, Bounds& bounds,
-                         std::size_t place) const {
-  Vec2 left{endless, 0}, right{-endless, 0}, bottom{0, endless}, top{0, -endless};
-  const auto each_point = [&](auto work) {
-    for (const BoundaryEdge& edge : edges) for_each_hull_point(edge, work);
-  };
-  each_point([&](Vec2 p) {
-    if (p.x < left.x) left = p;
-    if (p.x > right.x) right = p;
-    if (p.y < bottom.y) bottom = p;
-    if (p.y > top.y) top = p;
-  });
+void DistanceTree::bound(std::span<const BoundaryEdge> edges, const Extremes& extremes,
+                         Bounds& bounds, std::size_t place) const {
+  const auto [left, right, bottom, top] = extremes;
   bounds.low_x[place] = left.x;
   bounds.high_x[place] = right.x;
   bounds.low_y[place] = bottom.y;
@@ -212,10 +228,12 @@ void DistanceTree::bound(std::span<const BoundaryEdge> edges, Bounds& bounds,
     normal = (1 / norm(extent)) * left_of(extent);
     low = endless;
     high = -endless;
-    each_point([&](Vec2 p) {
-      low = std::min(low, dot(normal, p - origin_));
-      high = std::max(high, dot(normal, p - origin_));
-    });
+    for (const BoundaryEdge& edge : edges)
+      for_each_hull_point(edge, [&](Vec2 p) {
+        const double at = dot(normal, p - origin_);
+        low = std::min(low, at);
+        high = std::max(high, at);
+      });
   }
   bounds.normal_x[place] = normal.x;
   bounds.normal_y[place] = normal.y;
@@ -427,7 +445,20 @@ class DistanceTree::Hull {
       return misses_by(corner_[0], height) & misses_by(corner_[1], height) &
              misses_by(corner_[2], height);
     };
-    if (!arcs_) return misses_all(both(0));
+    if (!arcs_) {
+      const Pairwise missed = misses_all(both(0));
+      if (all(missed)) return missed;
+      // Next to a convex corner, the line of the edge decides more than that through its nearer
+      // end.
+      const Pair across = along_x * from_y - along_y * from_x;
+      const Pair side = with_sign_of(both(1), across);
+      const auto beside = [&](const Corner& corner) {
+        const Pair away =
+            larger(side * (across + along_x * corner.y - along_y * corner.x), both(0));
+        return away * away > corner.radius * corner.radius * square;
+      };
+      return missed | (beside(corner_[0]) & beside(corner_[1]) & beside(corner_[2]));
+    }
     const Pair bulge = pair_at(run.bulge + i);
     const Pair size = larger(along_x, -along_x) + larger(along_y, -along_y);
     return misses_all(both(0.5) * larger(bulge, -bulge) * size);  // at least the height
@@ -447,7 +478,7 @@ class DistanceTree::Hull {
 };
 
 /// Lowers the distances of places to those from an edge.
-void DistanceTree::lower(Places& places, const Run& run, std::size_t i) const {
+MEDIAL_WIDE void DistanceTree::lower(Places& places, const Run& run, std::size_t i) const {
   const std::uint32_t index = run.index[i];
   if (index == places.known[0] || index == places.known[1] || index == places.known[2] ||
       index == places.known[3])
@@ -456,7 +487,7 @@ void DistanceTree::lower(Places& places, const Run& run, std::size_t i) const {
   const Segment segment(start, end);
   const double length = segment.length();
   const Vec2 along = length > 0 ? (1 / length) * (end - start) : end - start;
-  const Arc* const arc = run.bulge[i] != 0 ? &arcs_[index] : nullptr;
+  const Arc* const arc = run.bulge[i] != 0 ? &(*arcs_)[index] : nullptr;
   const double room = slack_ + 0.5 * std::abs(run.bulge[i]) * length;  // an arc's height
   for (std::size_t k = 0; k < places.size; k += 2) {
     const Pair x = pair_at(&places.x[k]), y = pair_at(&places.y[k]);
@@ -476,7 +507,7 @@ void DistanceTree::lower(Places& places, const Run& run, std::size_t i) const {
 
 /// Lowers the distances of places to those from all edges within the expected ones; false if it
 /// gave up.
-bool DistanceTree::find_in(const Hull& hull, Places& places) const {
+MEDIAL_WIDE bool DistanceTree::find_in(const Hull& hull, Places& places) const {
   constexpr int most_visits = 256, most_near = 64;
   const double limit = limit_for(hull.reach());
   std::array<Visit, 64> stack;
@@ -491,7 +522,9 @@ bool DistanceTree::find_in(const Hull& hull, Places& places) const {
     squared_box_bounds(bounds, hull.center(), squared);
     for (std::uint32_t j = 0; j < fan_out; ++j) {
       if (!(squared[j] <= limit)) continue;
-      if (hull.misses_box(bounds, j) || hull.misses_slab(bounds, j, origin_)) continue;
+      // Where a box holds the centre, only its slab may lie elsewhere.
+      if ((squared[j] > 0 && hull.misses_box(bounds, j)) || hull.misses_slab(bounds, j, origin_))
+        continue;
       const auto child = static_cast<std::uint32_t>(visit.index * fan_out) + j;
       if (visit.level > 0) {
         stack[size++] = {visit.level - 1, child, squared[j]};
@@ -518,11 +551,14 @@ void DistanceTree::find_distances(Places& places) const {
       for (std::size_t i = 0; i < fan_out; ++i) lower(places, run, i);
     return;
   }
-  const bool found = find_in(Hull(places, slack_, !arcs_.empty()), places);
-  for (std::size_t i = 0; i < places.size; ++i) {
-    const double expected = places.expected(i);
-    if (!found || !(places.distance[i] <= expected))
-      places.distance[i] = distance(places.place(i), std::min(places.distance[i], expected));
+  const bool found = find_in(Hull(places, slack_, !arcs_->empty()), places);
+  for (std::size_t i = 0; i < places.size; i += 2) {
+    const Pair expected = larger(pair_at(&places.radius[i]), both(0)) + both(places.tolerance);
+    if (found && all(pair_at(&places.distance[i]) <= expected)) continue;  // nearly always
+    for (std::size_t k = i; k < std::min(i + 2, places.size); ++k)
+      if (!found || !(places.distance[k] <= expected[k - i]))
+        places.distance[k] =
+            distance(places.place(k), std::min(places.distance[k], expected[k - i]));
   }
 }
 

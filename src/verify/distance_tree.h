@@ -20,7 +20,10 @@ struct Places {
   static constexpr std::uint32_t no_edge = 0xFFFFFFFF;
 
   Vec2 place(std::size_t i) const { return {x[i], y[i]}; }
-  double expected(std::size_t i) const { return std::max(0.0, radius[i]) + tolerance; }
+  /// Where their number is odd, the last one is looked at with a second one beside it.
+  void repeat_last() {
+    for (auto* const of : {&x, &y, &radius, &distance}) (*of)[size] = (*of)[size - 1];
+  }
 
   /// The disks are convex combinations of these, in x, y and radius.
   std::array<Disk, 3> hull;
@@ -29,13 +32,13 @@ struct Places {
   /// no_edge.
   std::array<std::uint32_t, 4> known;
   std::size_t size = 0;
-  std::array<double, most> x{}, y{}, radius{};
+  std::array<double, most> x, y, radius;
   /// At first the distance to the nearer one of the sites, or infinite; then to the nearest edge.
-  std::array<double, most> distance{};
+  std::array<double, most> distance;
 };
 
-/// The arc of each boundary edge, also of the straight ones; none if all are straight.
-std::vector<Arc> arcs_of(const Shape& shape);
+/// Of each of a shape's edges.
+EdgeArcs arcs_of(const Shape& shape);
 
 /// The nearest boundary edge of a shape: a tree over the edges in spatial order (the engines search
 /// along the boundary instead). Few edges are simply all looked at.
@@ -45,7 +48,7 @@ class DistanceTree {
   /// Of edges anywhere; those without length are points. `arcs`: whether any edge is not straight.
   DistanceTree(std::vector<BoundaryEdge> edges, const Box& box, bool arcs);
   /// Of a shape of which these are known; `arcs`, arcs_of() the shape, stay the caller's.
-  DistanceTree(const Shape& shape, const Box& box, std::span<const Arc> arcs);
+  DistanceTree(const Shape& shape, const Box& box, const EdgeArcs& arcs);
   DistanceTree(const DistanceTree&) = delete;
   DistanceTree& operator=(const DistanceTree&) = delete;
 
@@ -76,6 +79,7 @@ class DistanceTree {
     double squared;
   };
   class Hull;
+  struct Extremes;
   /// Four edges side by side.
   struct Run {
     double start_x[4], start_y[4], end_x[4], end_y[4], bulge[4];
@@ -87,21 +91,24 @@ class DistanceTree {
   void squared_bounds(const Visit& visit, Vec2 p, double (&squared)[4]) const;
   void raise(const Visit& visit, Vec2 p, double (&squared)[4]) const;
   double limit_for(double distance) const;
-  void bound(std::span<const BoundaryEdge> edges, Bounds& bounds, std::size_t place) const;
+  void bound(std::span<const BoundaryEdge> edges, const Extremes& extremes, Bounds& bounds,
+             std::size_t place) const;
   static std::optional<Vec2> centre_behind(std::span<const BoundaryEdge> edges, double size);
   static std::vector<Clearances> clearances_of(const std::vector<BoundaryEdge>& edges,
                                                std::size_t run, double size);
   bool search(Vec2 p, double& best) const;
   double some_distance(Vec2 p) const;
-  static std::vector<Run> runs_of(const std::vector<BoundaryEdge>& edges,
-                                  const std::vector<std::uint32_t>& index);
+  template <class EdgeAt>
+  static std::vector<Run> runs_of(const std::vector<std::uint32_t>& index, const EdgeAt& edge_at);
   bool find_in(const Hull& hull, Places& places) const;
   void lower(Places& places, const Run& run, std::size_t i) const;
   double distance_to(const Run& run, std::size_t i, Vec2 p) const {
-    if (run.bulge[i] != 0) return arcs_[run.index[i]].distance(p);
+    if (run.bulge[i] != 0) return (*arcs_)[run.index[i]].distance(p);
     return distance_to_segment(p, {run.start_x[i], run.start_y[i]}, {run.end_x[i], run.end_y[i]});
   }
   void build(std::vector<BoundaryEdge> edges, const Box& box);
+  std::vector<BoundaryEdge> fill_runs(std::vector<BoundaryEdge> edges);
+  void build_levels(const std::vector<BoundaryEdge>& pieces, double size);
 
   /// An arc as often as the tree has pieces of it; the last edge again where fewer are left.
   std::vector<Run> runs_;
@@ -109,8 +116,8 @@ class DistanceTree {
   std::vector<std::vector<Clearances>> clearances_;  ///< of levels_, or empty: few sets are round
   Vec2 origin_;
   double slack_;  ///< what rounding may add to the distance from a slab
-  std::vector<Arc> own_arcs_;
-  std::span<const Arc> arcs_;  ///< of each edge; none if all are straight
+  EdgeArcs own_arcs_;
+  const EdgeArcs* arcs_;
 };
 
 }  // namespace medial::verify_detail

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "shape/exterior.h"
+#include "verify/arc_feet.h"
 #include "verify/checks.h"
 
 namespace medial {
@@ -67,8 +68,9 @@ void run_checks(const Shape& original, const MedialAxis& axis, const VerifyOptio
   }
   check_vertices(problem, certificate);
   check_disks(problem, options.samples_per_edge, certificate);
-  const double open = check_coverage(problem, certificate);
-  check_area(problem, open, certificate);
+  const ArcFeet feet(problem);
+  const double open = check_coverage(problem, feet, certificate);
+  check_area(problem, feet, open, certificate);
 }
 
 }  // namespace

@@ -7,15 +7,7 @@
 #include <numbers>
 
 #include "base/box_tree.h"
-
-// Four numbers at a time where the processor can; without fused operations, so that the results are
-// the same everywhere.
-#if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define MEDIAL_FOUR_LANES __attribute__((target_clones("avx2", "default")))
-#else
-#define MEDIAL_FOUR_LANES
-#endif
+#include "base/wide.h"
 
 namespace medial::potential {
 namespace {
@@ -70,7 +62,7 @@ struct LaneForces {
 };
 
 /// Takes numbers to half this power: whole ones by squares.
-MEDIAL_FOUR_LANES void raise(Lanes& lanes, std::size_t count, double power) {
+MEDIAL_WIDE void raise(Lanes& lanes, std::size_t count, double power) {
   const auto whole = static_cast<unsigned>(power);
   if (whole != power) {
     for (std::size_t k = 0; k < count; ++k) lanes[k] = std::pow(lanes[k], 0.5 * power);
@@ -96,8 +88,8 @@ double half_power(double x, double power) {
 /// rises by two.
 struct Block {
   /// The ends of the pieces as seen from a place, in units of the nearest charge's distance.
-  MEDIAL_FOUR_LANES void load(const Charges& charges, std::uint32_t begin, std::uint32_t end,
-                              Vec2 place, double inverse) {
+  MEDIAL_WIDE void load(const Charges& charges, std::uint32_t begin, std::uint32_t end, Vec2 place,
+                        double inverse) {
     count = end - begin;
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t i = begin + k;
@@ -111,7 +103,7 @@ struct Block {
   }
 
   /// To the nearest points of the pieces.
-  MEDIAL_FOUR_LANES void squared_distances(Lanes& squares) const {
+  MEDIAL_WIDE void squared_distances(Lanes& squares) const {
     for (std::size_t k = 0; k < count; ++k) {
       const double beyond = std::max(std::max(x1[k], -x2[k]), 0.0);
       squares[k] = beyond * beyond + y[k] * y[k];
@@ -119,7 +111,7 @@ struct Block {
   }
 
   /// To order 1, with (6) without a difference.
-  MEDIAL_FOUR_LANES void start_at_one() {
+  MEDIAL_WIDE void start_at_one() {
     for (std::size_t k = 0; k < count; ++k) {
       const double length = x2[k] - x1[k], square = y[k] * y[k];
       const double r1 = std::sqrt(x1[k] * x1[k] + square);
@@ -139,7 +131,7 @@ struct Block {
 
   /// To order 0, with the angle under which each piece is seen: four times that of the tangent v,
   /// or what that is less than two right angles.
-  MEDIAL_FOUR_LANES void start_at_zero() {
+  MEDIAL_WIDE void start_at_zero() {
     for (std::size_t k = 0; k < count; ++k) {
       const double square = y[k] * y[k];
       const double square1 = x1[k] * x1[k] + square, square2 = x2[k] * x2[k] + square;
@@ -162,7 +154,7 @@ struct Block {
   }
 
   /// To r^-n; J is left out.
-  MEDIAL_FOUR_LANES void start_at_powers(double n) {
+  MEDIAL_WIDE void start_at_powers(double n) {
     // Further away there is nothing, so no power falls below the normal range.
     const double least = std::pow(1e-60, 1 / n);
     for (std::size_t k = 0; k < count; ++k) {
@@ -177,7 +169,7 @@ struct Block {
   }
 
   /// J(n) of the pieces that lie steeply aside; -1 of others.
-  MEDIAL_FOUR_LANES void integrate_steep(const SteepTail& tail, Lanes& integrals) const {
+  MEDIAL_WIDE void integrate_steep(const SteepTail& tail, Lanes& integrals) const {
     const double widest = tail.widest();
     for (std::size_t k = 0; k < count; ++k) {
       const double far1 = std::max(std::abs(x1[k]), 1e-100),
@@ -205,7 +197,7 @@ struct Block {
   }
 
   /// (5) of order n and its derivatives, of all pieces.
-  MEDIAL_FOUR_LANES void add_force(double n, LaneForces& total) const {
+  MEDIAL_WIDE void add_force(double n, LaneForces& total) const {
     const double inverse_n = 1 / n;
     for (std::size_t k = 0; k < count; ++k) {
       const double along = (p2[k] - p1[k]) * inverse_n, across = y[k] * j[k];
@@ -234,7 +226,7 @@ struct Block {
   }
 
   /// (9): from order n to n + 2.
-  MEDIAL_FOUR_LANES void rise_from(double n) {
+  MEDIAL_WIDE void rise_from(double n) {
     const double inverse_next = 1 / (n + 2);
     for (std::size_t k = 0; k < count; ++k) {
       p1[k] *= q1[k];
@@ -311,8 +303,8 @@ struct FarSets {
   /// With z from the charges' centre, h half of the order and c_j the coefficients of (1 - x)^-h,
   /// the force as a complex number is the sum of (1 + k / h) c_j c_k M_jk z^(-h - j)
   /// conj(z)^(-h - 1 - k). Its derivative by z is half the trace of those by the coordinates.
-  MEDIAL_FOUR_LANES void add_force(double h, const std::array<double, Moments::degree + 1>& c,
-                                   Force& total) const {
+  MEDIAL_WIDE void add_force(double h, const std::array<double, Moments::degree + 1>& c,
+                             Force& total) const {
     FourComplex force{}, derivative{}, power{};
     power.x += 1.0;
     Four trace{};

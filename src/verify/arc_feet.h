@@ -1,0 +1,44 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "verify/checks.h"
+
+namespace medial::verify_detail {
+
+inline bool is_on_arc(const Site& site) {
+  return site.kind() == SiteKind::arc && !(site.start == site.end);
+}
+
+/// Where the disks at the ends of each edge touch those of its sites that are arcs, as lengths
+/// along these: what several checks ask for.
+class ArcFeet {
+ public:
+  explicit ArcFeet(const Problem& problem) : edges_(problem.axis.edges.data()) {
+    // Also those that are none of the boundary.
+    if (std::none_of(problem.axis.sites.begin(), problem.axis.sites.end(), is_on_arc)) return;
+    at_.resize(problem.axis.edges.size());
+    parallel_for(at_.size(), [&](std::size_t i) {
+      const Edge& edge = edges_[i];
+      for (std::size_t side = 0; side < 2; ++side)
+        if (is_on_arc(problem.axis.sites[edge.site[side]]))
+          with_arc(problem, edge.site[side], [&](const Arc& arc) {
+            for (std::size_t end = 0; end < 2; ++end)
+              at_[i][2 * side + end] = arc.foot_at(problem.disk(edge.node[end]).center);
+          });
+    });
+  }
+
+  double at(const Edge& edge, std::size_t side, std::size_t end) const {
+    return at_[static_cast<std::size_t>(&edge - edges_)][2 * side + end];
+  }
+
+ private:
+  const Edge* edges_;
+  std::vector<std::array<double, 4>> at_;  ///< none if no site is an arc
+};
+
+}  // namespace medial::verify_detail

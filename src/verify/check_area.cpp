@@ -1,0 +1,365 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+#include "axis/curve.h"
+#include "axis/steps.h"
+#include "base/compat.h"
+#include "medial/query.h"
+#include "verify/arc_feet.h"
+#include "verify/checks.h"
+
+namespace medial::verify_detail {
+namespace {
+
+/// Twice the area of the polygon c p q.
+double doubled_triangle(Vec2 c, Vec2 p, Vec2 q) { return cross(p - c, q - c); }
+
+/// A sum whose rounding does not grow with the number of its terms (Neumaier).
+class Sum {
+ public:
+  void add(double term) {
+    const double next = sum_ + term;
+    lost_ += std::abs(sum_) >= std::abs(term) ? (sum_ - next) + term : (term - next) + sum_;
+    sum_ = next;
+  }
+  void add(const Sum& other) {
+    add(other.sum_);
+    add(other.lost_);
+  }
+  double value() const { return sum_ + lost_; }
+
+ private:
+  double sum_ = 0, lost_ = 0;
+};
+
+/// Where the disk of an edge's end touches one of its sites.
+struct FootPoint {
+  Vec2 foot;
+  double at = 0;  ///< of an arc: length along it
+};
+
+FootPoint foot_point_of(const Problem& problem, const ArcFeet& feet, const Edge& edge,
+                        std::size_t side, std::size_t end) {
+  const std::uint32_t index = edge.site[side];
+  const Vec2 center = problem.disk(edge.node[end]).center;
+  const Site& site = problem.axis.sites[index];
+  if (!is_on_arc(site)) return {foot(site, center)};
+  const double at = feet.at(edge, side, end);
+  return with_arc(problem, index, [&](const Arc& arc) -> FootPoint {
+    return {arc.point_at(at), at};
+  });
+}
+
+/// How far rounding may move it along the boundary.
+double slack_of(const Problem& problem, const Edge& edge, std::size_t side, std::size_t end) {
+  if (!is_on_arc(problem.axis.sites[edge.site[side]])) return 0;
+  return with_arc(problem, edge.site[side], [&](const Arc& arc) {
+    return arc.foot_slack(problem.disk(edge.node[end]).center, problem.tolerance);
+  });
+}
+
+/// The same for the disks of both ends of an edge.
+std::array<FootPoint, 2> foot_points_of(const Problem& problem, const ArcFeet& feet,
+                                        const Edge& edge, std::size_t side) {
+  const Site& site = problem.axis.sites[edge.site[side]];
+  const Disk &from = problem.disk(edge.node[0]), &to = problem.disk(edge.node[1]);
+  if (site.kind() != SiteKind::segment)
+    return {foot_point_of(problem, feet, edge, side, 0),
+            foot_point_of(problem, feet, edge, side, 1)};
+  // foot() of two places at once.
+  const Vec2 d = site.end - site.start;
+  const Pair x{from.center.x, to.center.x}, y{from.center.y, to.center.y};
+  const Pair place = ((x - site.start.x) * d.x + (y - site.start.y) * d.y) / squared_norm(d);
+  const Pair t = smaller(larger(place, both(0)), both(1)), back = 1 - t;
+  const Pairwise by_start = t <= 0.5;
+  const Pair foot_x = by_start ? site.start.x + t * d.x : site.end.x - back * d.x;
+  const Pair foot_y = by_start ? site.start.y + t * d.y : site.end.y - back * d.y;
+  return {FootPoint{{foot_x[0], foot_y[0]}}, FootPoint{{foot_x[1], foot_y[1]}}};
+}
+
+/// The area between the boundary and the chord from one contact forward to another.
+double area_beside(const Site& site, const FootPoint& from, const FootPoint& to) {
+  if (site.kind() != SiteKind::arc || from.foot == to.foot) return 0;
+  const double angle = (to.at - from.at) * curvature(edge_of(site));
+  return area_beside_chord({from.foot, to.foot, std::tan(0.25 * angle)});
+}
+
+/// The areas on both sides of an edge, between the curve and the feet of its disks: the polygon of
+/// centres and feet, and what the curve and the boundary add to it beside their chords.
+struct Sides {
+  double left = 0, right = 0;
+};
+using FootPoints = std::array<std::array<FootPoint, 2>, 2>;  ///< by side (left, right) and end
+Sides swept(const MedialAxis& axis, const Edge& edge, const FootPoints& contacts) {
+  const Curve curve = curve_of(axis, edge);
+  const Vec2 a = curve.origin, b = curve.end;
+  const auto& [left, right] = contacts;
+  // The curve bulges to the right where the control point does: then the left side has more.
+  const double sliver = curve.area_beside_chord();
+  return {0.5 * (doubled_triangle(a, b, left[1].foot) +
+                 doubled_triangle(a, left[1].foot, left[0].foot)) +
+              sliver + area_beside(axis.sites[edge.site[0]], left[1], left[0]),
+          0.5 * (doubled_triangle(b, a, right[0].foot) +
+                 doubled_triangle(b, right[0].foot, right[1].foot)) -
+              sliver + area_beside(axis.sites[edge.site[1]], right[0], right[1])};
+}
+
+/// Where a side of an edge ends at a node: its foot there, on a site.
+struct Spoke {
+  std::uint32_t site;
+  const Edge* edge;
+  std::size_t side, end;
+  bool counter_clockwise;  ///< whether the swept area lies on the foot's counter-clockwise side
+  Vec2 foot{};
+};
+
+/// So many spokes are simply compared with each other.
+constexpr std::size_t few = 8;
+
+/// Adds a spoke, or drops the one on the other side of the same foot: those of one site have one
+/// foot, which need not be known.
+void add_spoke(std::vector<Spoke>& spokes, const Spoke& spoke) {
+  const auto other =
+      spokes.size() > few ? spokes.end() : ranges::find_if(spokes, [&](const Spoke& s) {
+        return s.site == spoke.site && s.counter_clockwise != spoke.counter_clockwise;
+      });
+  if (other == spokes.end()) return spokes.push_back(spoke);
+  *other = spokes.back();
+  spokes.pop_back();
+}
+
+/// Whether all spokes stand in pairs on both sides of one foot, so that nothing lies between the
+/// swept areas around a node. That is the rule. O(k log k).
+bool all_paired(std::vector<Spoke>& spokes) {
+  if (spokes.size() <= few) {
+    while (!spokes.empty()) {
+      const Spoke last = spokes.back();
+      spokes.pop_back();
+      const auto other = ranges::find_if(spokes, [&](const Spoke& spoke) {
+        return spoke.foot == last.foot && spoke.counter_clockwise != last.counter_clockwise;
+      });
+      if (other == spokes.end()) return false;
+      *other = spokes.back();
+      spokes.pop_back();
+    }
+    return true;
+  }
+  // By their bits feet have an order, whatever numbers they are; -0 becomes 0.
+  const auto place = [](const Spoke& spoke) {
+    return std::pair(bit_cast<std::uint64_t>(spoke.foot.x + 0.0),
+                     bit_cast<std::uint64_t>(spoke.foot.y + 0.0));
+  };
+  ranges::sort(spokes, {}, place);
+  std::int64_t unpaired = 0;
+  for (std::size_t i = 0; i < spokes.size(); ++i) {
+    unpaired += spokes[i].counter_clockwise ? 1 : -1;
+    const bool last_here = i + 1 == spokes.size() || place(spokes[i]) != place(spokes[i + 1]);
+    if (last_here && unpaired != 0) return false;
+  }
+  return true;
+}
+
+/// Feet nearly coincide that are seen under a smaller angle from the disk's centre.
+constexpr double nearly_one = 1e-3;
+
+/// The angle at an edge's end between its feet, on the side of the edge, in [0, 2 pi]. Feet that
+/// nearly coincide lie ahead of the edge or behind it, which `ahead` is then asked for.
+template <class Ahead>
+double angle_between_feet(Vec2 center, Vec2 right, Vec2 left, const Ahead& ahead) {
+  const double sine = doubled_triangle(center, right, left);
+  const double cosine = dot(right - center, left - center);
+  const double angle = std::atan2(sine, cosine);
+  if (std::abs(angle) < nearly_one) return ahead() ? angle : angle + 2 * std::numbers::pi;
+  return angle < 0 ? angle + 2 * std::numbers::pi : angle;
+}
+
+/// A shape's own area and perimeter. Each loop's area is seen from a point of it: what lies far
+/// from a small loop would add more rounding than the loop has area.
+struct Extent {
+  double area = 0, perimeter = 0;
+};
+Extent extent_of(const Problem& problem) {
+  const std::vector<std::uint32_t>& begin = problem.shape.loop_begin;
+  Sum area, perimeter;
+  for (std::size_t loop = 0; loop < problem.shape.loop_count(); ++loop)
+    for (std::uint32_t i = begin[loop]; i < begin[loop + 1]; ++i) {
+      const BoundaryEdge edge = problem.edge(i);
+      area.add(0.5 * doubled_triangle(problem.point(begin[loop]), edge.start, edge.end));
+      if (edge.bulge != 0) area.add(area_beside_chord(edge));
+      perimeter.add(length_of(edge));
+    }
+  return {area.value(), perimeter.value()};
+}
+
+/// What the edges' disks sweep.
+struct Swept {
+  Sum area;
+  std::size_t backward = 0, first = 0;  ///< edges that run backward along a site
+
+  void add(const Swept& other) {
+    area.add(other.area);
+    if (backward == 0) first = other.first;
+    backward += other.backward;
+  }
+};
+Swept swept_by_edges(const Problem& problem, const ArcFeet& feet, double limit) {
+  const MedialAxis& axis = problem.axis;
+  const auto runs_backward = [&](const Edge& edge, double least) {
+    if (!(least < -limit)) return false;  // nearly always
+    double slack = limit;
+    for (std::size_t side = 0; side < 2; ++side)
+      for (std::size_t end = 0; end < 2; ++end)
+        slack += slack_of(problem, edge, side, end) * problem.disk(edge.node[end]).radius;
+    return least < -slack;
+  };
+  Swept all;
+  for (const Swept& block :
+       in_blocks<Swept>(axis.edges.size(), block_size, [&](std::size_t i, Swept&found) {
+         const Edge& edge = axis.edges[i];
+         FootPoints contacts;
+         for (std::size_t side = 0; side < 2; ++side)
+           contacts[side] = foot_points_of(problem, feet, edge, side);
+         const Sides sides = swept(axis, edge, contacts);
+         found.area.add(sides.left);
+         found.area.add(sides.right);
+         if (runs_backward(edge, std::min(sides.left, sides.right)) && found.backward++ == 0)
+           found.first = i;
+       }))
+    all.add(block);
+  return all;
+}
+
+/// What the edges leave of the nodes' disks: every spoke of an edge ends one swept area, and
+/// the spokes around each node say what lies between.
+///
+/// What is left of the full angle are slices of the disk, at its contacts with arcs. Or they are
+/// due to rounding: where the axis passes from a segment to the vertex at its end, or several sites
+/// touch within the tolerance, the feet differ a little.
+class Slices {
+ public:
+  Slices(const Problem& problem, const ArcFeet& feet)
+      : problem_(problem), feet_(feet), incidence_(problem.axis) {}
+
+  Sum area() const {
+    struct Findings {
+      Sum area;
+      std::vector<Spoke> spokes;
+    };
+    const auto look = [&](std::size_t i, Findings& found) {
+      const auto node = static_cast<std::uint32_t>(i);
+      const double radius = problem_.disk(node).radius;
+      if (incidence_.degree(node) == 0)
+        found.area.add(std::numbers::pi * radius * radius);
+      else if (!nothing_between(node, found.spokes))
+        found.area.add(0.5 * radius * radius * angle_between(node));
+    };
+    Sum sum;
+    for (const Findings& block : in_blocks<Findings>(problem_.axis.nodes.size(), block_size, look))
+      sum.add(block.area);
+    return sum;
+  }
+
+ private:
+  /// Calls `visit` with each edge that ends at a node, and with the number of that end.
+  template <class Visitor>
+  void for_each_end(std::uint32_t node, const Visitor& visit) const {
+    const auto around = incidence_.edges(node);
+    for (std::size_t k = 0; k < around.size(); ++k) {
+      const Edge& edge = problem_.axis.edges[around[k]];
+      // An edge from the node to itself stands here twice, first with its beginning.
+      const bool again = k > 0 && around[k - 1] == around[k];
+      visit(edge, edge.node[0] == node && !again ? 0 : 1);
+    }
+  }
+  Vec2 foot_on(const Edge& edge, std::size_t side, std::size_t end) const {
+    return foot_point_of(problem_, feet_, edge, side, end).foot;
+  }
+  /// Whether swept areas meet all around a node. Seen from there, an edge's area begins on its
+  /// right side and ends on its left.
+  bool nothing_between(std::uint32_t node, std::vector<Spoke>& spokes) const {
+    spokes.clear();
+    for_each_end(node, [&](const Edge& edge, std::size_t end) {
+      for (std::size_t side = 0; side < 2; ++side)
+        add_spoke(spokes, {edge.site[side], &edge, side, end, (side == 1) == (end == 0)});
+    });
+    for (Spoke& spoke : spokes) spoke.foot = foot_on(*spoke.edge, spoke.side, spoke.end);
+    return all_paired(spokes);
+  }
+  /// Whether feet of an edge's end that nearly coincide lie ahead of the edge. They do where the
+  /// boundary passes on from the right one to the left one, and elsewhere where the radius shrinks
+  /// along the tangent, which points to the control point: through a gap it shrinks and grows
+  /// again.
+  bool leads_to_feet(const Edge& edge, std::size_t end, const Disk& disk) const {
+    const bool forward = passes_on(edge, 1 - end, end), backward = passes_on(edge, end, end);
+    return forward != backward ? forward : edge.control.radius < disk.radius;
+  }
+  /// Whether the boundary leads from one edge to another past few vertices, which all lie where the
+  /// disk's feet on the two nearly coincide.
+  bool passes_on(const Edge& edge, std::size_t side, std::size_t end) const {
+    const std::uint32_t site = edge.site[side], other = edge.site[1 - side];
+    const Disk& disk = problem_.disk(edge.node[end]);
+    constexpr int most_vertices = 4;
+    for (const std::uint32_t i : {site, other})
+      if (problem_.axis.sites[i].kind() == SiteKind::vertex || problem_.place[i] == no_index)
+        return false;
+    const Vec2 foot = foot_on(edge, side, end);
+    std::uint32_t point = problem_.place[site];
+    for (int k = 0; k < most_vertices; ++k) {
+      point = problem_.next[point];
+      if (!(distance(problem_.point(point), foot) <= nearly_one * disk.radius)) return false;
+      if (point == problem_.place[other]) return true;
+    }
+    return false;
+  }
+  /// What they leave of the full angle.
+  double angle_between(std::uint32_t node) const {
+    const Disk& disk = problem_.disk(node);
+    double angle = 2 * std::numbers::pi;
+    for_each_end(node, [&](const Edge& edge, std::size_t end) {
+      angle -= angle_between_feet(disk.center, foot_on(edge, 1 - end, end), foot_on(edge, end, end),
+                                  [&] { return leads_to_feet(edge, end, disk); });
+    });
+    return angle;
+  }
+
+  const Problem& problem_;
+  const ArcFeet& feet_;
+  Incidence incidence_;
+};
+
+}  // namespace
+
+void check_area(const Problem& problem, const ArcFeet& feet, double open,
+                Certificate& certificate) {
+  if (problem.shape.points.empty()) return;
+
+  const Extent extent = extent_of(problem);
+  certificate.shape_area = extent.area;
+  const double limit = 4 * problem.tolerance * extent.perimeter;
+  Swept edges = swept_by_edges(problem, feet, limit);
+  edges.area.add(Slices(problem, feet).area());
+  certificate.disks_area = edges.area.value();
+
+  // Neighbouring areas share their spokes, so only the feet's rounding, a part of the tolerance
+  // along the whole boundary, is left in the sum, on either side of it; and as much again for the
+  // terms'.
+  const double difference = certificate.disks_area - certificate.shape_area;
+  if (!(std::abs(difference) <= limit + open))
+    certificate.failures.push_back(
+        sentence("The disks cover an area of %.17g, which differs from the shape's area of %.17g "
+                 "by %.3g, over "
+                 "%.3g.",
+                 certificate.disks_area, certificate.shape_area, difference, limit));
+  if (edges.backward > 0)
+    certificate.failures.push_back(
+        sentence("%zu edges run backward along a site: what they sweep there has a negative area; "
+                 "the first is "
+                 "edge %zu.",
+                 edges.backward, edges.first));
+}
+
+}  // namespace medial::verify_detail
