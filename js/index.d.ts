@@ -160,9 +160,9 @@ export class Shape extends Handle {
   readonly componentCount: number;
   readonly holeCount: number;
   /** What a native file says besides the geometry, by name; loads() fills it, dumps() writes it. */
-  attributes: Map<string, string>;
+  readonly attributes: Map<string, string>;
   /** The reference system as WKT, the unit of lengths, and whether y points down. */
-  document: { crs?: string; unit?: string; yDown?: boolean };
+  readonly document: { crs?: string; unit?: string; yDown?: boolean };
   /** The distance of points to the boundary, negative outside. */
   clearance(points: Points): Float64Array;
   polygons(chord?: number): Position[][][];

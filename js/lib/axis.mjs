@@ -34,19 +34,32 @@ const MADE = Symbol("an address in place of a geometry");
 export class Shape extends Handle {
   #numbers;
   #arrays;
+  #attributes;
+  #document;
 
   constructor(x, given = {}) {
     super(given === MADE ? x : load(x, given), "shape");
-    /** What a native file says of it besides the geometry: texts by name; crs, unit, yDown. */
-    this.attributes = new Map(x instanceof Shape ? x.attributes : []);
-    this.document = x instanceof Shape ? { ...x.document } : {};
+    if (x instanceof Shape) this.#take(x);
   }
 
   /** The result of a call as a shape; its attributes are those of another one. */
   static of(address, like) {
     const shape = new Shape(address, MADE);
-    if (like) Object.assign(shape, { attributes: new Map(like.attributes), document: { ...like.document } });
+    if (like) shape.#take(like);
     return shape;
+  }
+
+  #take({ attributes, document }) {
+    this.#attributes = new Map(attributes);
+    this.#document = { ...document };
+  }
+
+  /** What a native file says of it besides the geometry: texts by name; crs, unit, yDown. */
+  get attributes() {
+    return (this.#attributes ??= new Map());
+  }
+  get document() {
+    return (this.#document ??= {});
   }
 
   #number(i) {

@@ -39,14 +39,14 @@ export function dumps(axis) {
   return JSON.stringify({ medial: 2, crs, unit, y_down: yDown, items: [item] });
 }
 
-function shape_from(o) {
+function shape_from(o, like) {
   const bulges = o.bulges ? Float64Array.from(o.bulges) : null;
   const address = call(
     "restored_shape", Float64Array.from(o.points.flat()), o.points.length, bulges,
     Uint32Array.from(o.sources.flat()), Uint32Array.from(o.loop_begin), Uint32Array.from(o.component),
     Uint8Array.from(o.hole, Number), o.component.length,
   );
-  return Shape.of(address);
+  return Shape.of(address, like);
 }
 
 /** The site of a row, which may name a point of the shape instead of coordinates. */
@@ -79,7 +79,7 @@ function edge_from(row, nodes) {
 
 function item_from({ attributes = [], shape: stored, axis, part = false }, document) {
   if (!stored) throw new MedialError("the item has no shape", "unsupported");
-  const shape = Object.assign(shape_from(stored), { attributes: new Map(attributes), document: { ...document } });
+  const shape = shape_from(stored, { attributes, document });
   if (!axis) return { shape };
   const next = next_points(stored);
   const sites = packed("site", axis.sites.map((row) => site_from(row, stored, next)));
