@@ -99,14 +99,6 @@ const std::vector<Named> graphs{
     // A foot passes over half a circle, from end to end, around a point next to its middle.
     {"AFootOverHalfACircle",
      {{{{0, -5}, {0, 5}}, {1}}, point(4.99999999995, 0), point(5.0000000000000497, 0)}},
-    // An edge from the far end of a flat ellipse, where it turns within some tolerances.
-    {"TheFarEndOfAFlatEllipse",
-     {{{{-0.95838358064876517, -0.28548364636674334}, {0.95838358064876517, 0.28548364636674362}},
-       {1, 0.99999999999999956},
-       true},
-      point(0.95838358063918128, 0.28548364636388879),
-      point(-0.36882235602209817, 0.92949990301145857),
-      point(0.44141840832004603, 0.89730139239612894)}},
     // The edge around a point ends where it begins, and is not short.
     {"AnEdgeAroundAPoint",
      {{{{0.94986002162167571, -0.67755327139265198}, {-0.67755327139265298, -0.94986002162167493}},

@@ -135,9 +135,8 @@ class Pieces {
     axis_.nodes.push_back({disk, axis_.nodes[last_].component, NodeKind::site_change});
     add(node, control);
   }
-  /// The last piece; all of the edge, where it is not divided, only if its control point is given.
   void add_last(std::optional<site::Control> control) {
-    if (!is_first_ || control) add(edge_.node[1], control);
+    if (!is_first_) add(edge_.node[1], control);
   }
 
  private:
@@ -208,12 +207,8 @@ Status split_long_edges(MedialAxis& axis, std::vector<E>& edges, bool parabolas)
         way_around(around, begin, end, sign, axis.tolerance, of_lone_point, is_loop);
     if (!(turn > 0)) continue;
     double before = first;
-    // On the far half of a flat ellipse nodes may be beside it by much against its width.
-    constexpr double flat = 0x1p-10;
-    const bool by_angles = (is_loop && around.is_ellipse()) ||
-                           (around.flatness < flat && (around.is_far(begin) || around.is_far(end)));
     const auto control_to = [&](double parameter) -> std::optional<site::Control> {
-      if (!by_angles) return std::nullopt;
+      if (!is_loop || !around.is_ellipse()) return std::nullopt;
       site::Control control = around.control(std::exchange(before, parameter), parameter);
       control.point.center = control.point.center + point;
       return control;
