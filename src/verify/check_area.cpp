@@ -118,13 +118,13 @@ struct Spoke {
 };
 
 /// So many spokes are simply compared with each other.
-constexpr std::size_t few = 8;
+constexpr std::size_t few_spokes = 8;
 
 /// Adds a spoke, or drops the one on the other side of the same foot: those of one site have one
 /// foot, which need not be known.
 void add_spoke(std::vector<Spoke>& spokes, const Spoke& spoke) {
   const auto other =
-      spokes.size() > few ? spokes.end() : ranges::find_if(spokes, [&](const Spoke& s) {
+      spokes.size() > few_spokes ? spokes.end() : ranges::find_if(spokes, [&](const Spoke& s) {
         return s.site == spoke.site && s.counter_clockwise != spoke.counter_clockwise;
       });
   if (other == spokes.end()) return spokes.push_back(spoke);
@@ -135,7 +135,7 @@ void add_spoke(std::vector<Spoke>& spokes, const Spoke& spoke) {
 /// Whether all spokes stand in pairs on both sides of one foot, so that nothing lies between the
 /// swept areas around a node. That is the rule. O(k log k).
 bool all_paired(std::vector<Spoke>& spokes) {
-  if (spokes.size() <= few) {
+  if (spokes.size() <= few_spokes) {
     while (!spokes.empty()) {
       const Spoke last = spokes.back();
       spokes.pop_back();

@@ -177,8 +177,8 @@ std::vector<BoundaryEdge> DistanceTree::fill_runs(std::vector<BoundaryEdge> edge
 
 void DistanceTree::build_levels(const std::vector<BoundaryEdge>& pieces, double size) {
   std::size_t run = fan_out;  // edges below one bound
-  std::vector<Extremes>
-      below;  // of the sets of the level below; of the lowest one they are made anew
+  // Of the sets of the level below; those of the lowest one, which are many, are made again.
+  std::vector<Extremes> below;
   while (true) {
     const std::size_t bounds = (pieces.size() + run - 1) / run;
     std::vector<Bounds> level((bounds + fan_out - 1) / fan_out);
