@@ -51,7 +51,7 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// Of a file, without its dot.
+/// The extension of a file, without its dot.
 std::string extension_of(const std::string& path) {
   const std::string extension = lower(fs::path(path).extension().string());
   return extension.empty() ? extension : extension.substr(1);
@@ -506,7 +506,10 @@ Status check_output(const std::string& path, const std::string& format,
   // A pipe gets medial's own format by default.
   const bool native = format.empty() && lists(known_formats, "json");
   if (format.empty() && !native)
-    return invalid_option("-o - needs --format, for example --format csv");
+    return invalid_option(fmt::format("-o - needs --format, for example --format {}",
+                                      lists(known_formats, "csv")   ? "csv"
+                                      : lists(known_formats, "svg") ? "svg"
+                                                                    : "ply"));
   if (!native && !lists(known_formats, lower(format)))
     return error_at(ErrorCode::unsupported, {},
                     fmt::format("unknown format: {}; use one of {}", format, known_formats));

@@ -204,7 +204,7 @@ class Phases {
  public:
   /// Ends a phase, which began with the end of the one before.
   void end(const std::string& name);
-  /// Of all phases, or of one.
+  /// The seconds of all phases, or of one.
   double seconds() const;
   double seconds(const std::string& name) const { return seconds_.value(name, 0.0); }
   const Json& by_clock() const { return seconds_; }

@@ -26,6 +26,8 @@ struct DistanceArguments {
 };
 
 Result<int> run_distance(const DistanceArguments& arguments) {
+  if (arguments.output == "-")
+    return invalid_option(fmt::format("-o needs the name of an image: {}", grid_formats));
   Status writable = check_output(arguments.output, {}, grid_formats, arguments.input, false);
   if (!writable) return std::move(writable).error();
   Phases phases;

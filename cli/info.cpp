@@ -130,7 +130,7 @@ std::string deepest_text(const AxisSummary& axes) {
 
 Result<int> summarize_axes(const FileArguments& arguments) {
   Phases phases;
-  const auto file = io::read_native(arguments.input.path);
+  const auto file = io::read_native(arguments.input.path, arguments.input.source.read);
   if (!file) return file.error();
   phases.end("read");
   if (file->items.empty())

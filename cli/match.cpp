@@ -123,8 +123,7 @@ Result<Candidates> candidates_of(const MatchArguments& arguments) {
   if (!paths) return std::move(paths).error();
   Candidates out;
   for (const std::string& path : *paths) {
-    InputOptions own = arguments.input;
-    own.path = path;
+    const InputOptions own = second_input(arguments.input, path);
     CommonOptions common = arguments.common;
     common.quiet = common.quiet || folder;
     auto found = signatures_of(own, common, arguments.each);
@@ -143,7 +142,8 @@ Result<Candidates> candidates_of(const MatchArguments& arguments) {
 Result<int> run_match(const MatchArguments& arguments) {
   const std::string& path = arguments.input.path;
   Phases phases;
-  auto asked = signatures_of(arguments.input, arguments.common, false);
+  auto asked =
+      signatures_of(first_input(arguments.input, arguments.other), arguments.common, false);
   if (!asked) return std::move(asked).error();
   if (asked->empty()) return error_at(ErrorCode::empty, path, "contains no shape");
   const auto candidates = candidates_of(arguments);

@@ -43,12 +43,12 @@ const char* kind_name(SiteKind kind) {
   return kind == SiteKind::vertex ? "point" : kind == SiteKind::arc ? "arc" : "segment";
 }
 
-std::string csv_of(const std::vector<Answer>& answers) {
+std::string csv_of(const std::vector<Answer>& answers, const DocumentInfo& file) {
   std::string text = "x,y,site,kind,feature,distance,foot_x,foot_y\n";
   for (const auto& [place, nearest, kind, feature] : answers)
     fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{}\n", place.x, place.y,
-                   nearest.site, kind_name(kind), feature, nearest.distance, nearest.foot.x,
-                   nearest.foot.y);
+                   nearest.site, kind_name(kind), file.index_of(feature), nearest.distance,
+                   nearest.foot.x, nearest.foot.y);
   return text;
 }
 
@@ -59,7 +59,7 @@ Json json_of(const std::vector<Answer>& answers, const LoosePieces& pieces) {
                    {"y", place.y},
                    {"site", nearest.site},
                    {"kind", kind_name(kind)},
-                   {"feature", feature},
+                   {"feature", pieces.features.index_of(feature)},
                    {"distance", nearest.distance},
                    {"foot", {{"x", nearest.foot.x}, {"y", nearest.foot.y}}},
                    {"attributes", to_json(pieces.features.items[feature])}});
@@ -128,8 +128,10 @@ Result<int> run_nearest(const FileArguments& arguments, const NearestArguments& 
   CommonOptions report = common;
   report.json = as_json;
   if (!to_file)
-    return finish(report, std::move(object), phases, as_json ? std::string() : csv_of(answers));
-  Status written = io::write_text(output, as_json ? object.dump(2) + "\n" : csv_of(answers));
+    return finish(report, std::move(object), phases,
+                  as_json ? std::string() : csv_of(answers, pieces->features));
+  Status written =
+      io::write_text(output, as_json ? object.dump(2) + "\n" : csv_of(answers, pieces->features));
   if (!written) return std::move(written).error();
   report.stats = common.stats && !common.json;
   report.json = false;

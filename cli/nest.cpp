@@ -22,10 +22,8 @@ struct NestArguments : FileArguments {
 };
 
 /// The first feature of a file.
-Result<ShapeItem> first_shape(const NestArguments& arguments, const std::string& path) {
-  InputOptions input = arguments.input;
-  input.path = path;
-  auto loaded = load_shapes(input, arguments.common);
+Result<ShapeItem> first_shape(const InputOptions& input, const CommonOptions& common) {
+  auto loaded = load_shapes(input, common);
   if (!loaded) return std::move(loaded).error();
   return std::move(loaded->file.items.front());
 }
@@ -68,9 +66,10 @@ Result<int> run_nest(const NestArguments& arguments) {
   if (writable)
     writable = check_output(arguments.output, arguments.format, formats, arguments.other, false);
   if (!writable) return std::move(writable).error();
-  const auto fixed = first_shape(arguments, arguments.input.path);
+  const auto& [input, other, common] = std::tie(arguments.input, arguments.other, arguments.common);
+  const auto fixed = first_shape(first_input(input, other), common);
   if (!fixed) return fixed.error();
-  const auto moving = first_shape(arguments, arguments.other);
+  const auto moving = first_shape(second_input(input, other), common);
   if (!moving) return moving.error();
   phases.end("read");
   const auto found =

@@ -50,7 +50,7 @@ Result<Offsets> offset_one(const Shape& shape, const OffsetArguments& arguments,
   return offset_curves(shape, clearances, options);
 }
 
-/// Of all features.
+/// Sums over all features.
 struct OffsetSums {
   std::uint64_t features = 0, regions = 0, rings = 0, edges = 0;
   double length = 0, seconds_axis = 0, seconds_curves = 0;
@@ -118,7 +118,8 @@ std::vector<io::BufferSource> sources_of(const LoosePieces& file, const PlanarGr
     const std::size_t point = site < count ? site : planar_graph.edges[site - count].from;
     const std::uint32_t region = offsets.region_of_point[point], feature = file.feature[i];
     if (region != no_region)
-      keep_common(sources[region], {{feature}, file.features.items[feature]});
+      keep_common(sources[region], {{static_cast<std::uint32_t>(file.features.index_of(feature))},
+                                    file.features.items[feature]});
   }
   // Parents come before their children.
   for (std::size_t region = sources.size(); region-- > 0;) {
@@ -148,6 +149,7 @@ Result<Document<io::OffsetItem>> buffer_all(const OffsetArguments& arguments) {
   if (!computed) return std::move(computed).error();
   item.sources = sources_of(*pieces, item.planar_graph, item.offsets);
   Document<io::OffsetItem> file{pieces->features, {}};
+  file.indices.clear();  // the buffer is that of all features
   file.items.push_back(std::move(item));
   return file;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -17,10 +18,25 @@
 namespace medial::cli {
 namespace {
 
+/// Prints notes, of those that differ in numbers only the first ones.
 void print_notes(const std::vector<std::string>& notes, const InputOptions& input,
                  const CommonOptions& common) {
   if (common.quiet) return;
-  for (const std::string& note : notes) say("medial: {}: note: {}\n", input.path, note);
+  constexpr std::uint64_t many = 10;
+  std::map<std::string, std::uint64_t> counts;
+  std::uint64_t unsaid = 0;
+  const auto print = [&input](const std::string& note) {
+    say("medial: {}: note: {}\n", input.path, note);
+  };
+  for (const std::string& note : notes) {
+    std::string kind = note;
+    std::erase_if(kind, [](char c) { return (c >= '0' && c <= '9') || c == '.' || c == '-'; });
+    if (++counts[kind] <= many)
+      print(note);
+    else
+      ++unsaid;
+  }
+  if (unsaid > 0) print(counted(unsaid, "more note") + " like these");
 }
 
 template <class Item>
@@ -45,7 +61,7 @@ void note_unresolved(const AxesReport& report, const InputOptions& input,
 }
 
 template <class T>
-Result<T> in_file(Result<T> result, const InputOptions& input) {
+Result<T> naming_file(Result<T> result, const InputOptions& input) {
   if (!result && result.error().place.file.empty()) result.error().place.file = input.path;
   return result;
 }
@@ -158,7 +174,36 @@ Status check_image_options(const InputOptions& input) {
                : success();
 }
 
+/// medial's own format has no layers and no rings to repair, and other files than images no pixels.
+void leave_out(io::ReadOptions& read, bool choices, bool pixels) {
+  const io::ReadOptions given = read;
+  if (choices) {
+    read = {};
+    read.skip_invalid = given.skip_invalid;
+    read.smooth_contour = given.smooth_contour;
+    read.image = given.image;
+  }
+  if (pixels) read.image = {};
+}
+
 }  // namespace
+
+InputOptions first_input(InputOptions input, const std::string& second) {
+  if (!input.source.text.empty()) return input;
+  const bool folder = std::filesystem::is_directory(second);
+  const bool choices = io::is_native(input.path) && !io::is_native(second);
+  const bool pixels = !io::is_image(input.path) && (folder || io::is_image(second));
+  leave_out(input.source.read, choices, pixels);
+  return input;
+}
+
+InputOptions second_input(InputOptions input, const std::string& second) {
+  input.path = second;
+  input.font.clear();
+  input.source.text.clear();
+  leave_out(input.source.read, io::is_native(second), !io::is_image(second));
+  return input;
+}
 
 Result<LoadedShapes> load_shapes(const InputOptions& input, const CommonOptions& common) {
   LoadedShapes out;
@@ -174,7 +219,7 @@ Result<LoadedShapes> load_shapes(const InputOptions& input, const CommonOptions&
   options.skip_invalid = input.source.read.skip_invalid;
   options.threads = common.threads;
   auto shapes =
-      in_file(medial::load_shapes(std::move(features).value(), options, &out.report), input);
+      naming_file(medial::load_shapes(std::move(features).value(), options, &out.report), input);
   if (!shapes) return with_cure(std::move(shapes).error(), input);
   out.file = std::move(shapes).value();
   out.phases.end("shape");
@@ -195,7 +240,7 @@ Status with_planar_graph(const LoosePieces& pieces, const FileArguments& argumen
                          const std::function<Status(PlanarGraph&)>& use) {
   const InputOptions& input = arguments.input;
   const bool repair = input.source.read.repair != RepairRule::none;
-  auto touching = in_file(medial::with_planar_graph(pieces, repair, use), input);
+  auto touching = naming_file(medial::with_planar_graph(pieces, repair, use), input);
   if (!touching) return with_cure(std::move(touching).error(), input);
   if (*touching > 0 && !arguments.common.quiet)
     say("medial: {}: note: points and edges within {:.2g} of each other touch, as rounding "
@@ -210,8 +255,8 @@ Result<LoadedAxes> compute_axes(LoadedShapes shapes, const InputOptions& input,
   Progress progress("medial axis", error_is_terminal() && !common.quiet);
   options = engine_options(common, common.threads, shapes.file.corner_angle, std::move(options));
   options.progress = progress.callback();
-  auto axes =
-      in_file(medial::compute_axes(std::move(shapes.file), std::move(options), &out.axes), input);
+  auto axes = naming_file(
+      medial::compute_axes(std::move(shapes.file), std::move(options), &out.axes), input);
   if (!axes) return std::move(axes).error();
   out.file = std::move(axes).value();
   out.phases.end("axis");
@@ -223,9 +268,10 @@ Result<LoadedAxes> load_axes(const InputOptions& input, const CommonOptions& com
                              const Options& options) {
   if (specks == 0 && input.source.text.empty() && io::is_native(input.path)) {
     LoadedAxes out;
+    if (Status suited = check_image_options(input); !suited) return std::move(suited).error();
     auto stored = [&input] {
       const Activity shown("reading", input.path);
-      return io::read_native(input.path);
+      return io::read_native(input.path, input.source.read);
     }();
     if (!stored) return std::move(stored).error();
     if (has_axes(*stored, options)) {
@@ -234,6 +280,7 @@ Result<LoadedAxes> load_axes(const InputOptions& input, const CommonOptions& com
                         "a stored axis keeps its units: convert its shape instead");
       out.file = std::move(stored).value();
       out.phases.end("read");
+      print_notes(out.file, input, common);
       return out;
     }
   }
@@ -289,14 +336,15 @@ bool is_inner(const Node& node) { return node.kind == NodeKind::site_change; }
 }  // namespace
 
 void add_to(AxisSummary& summary, const Document<AxisItem>& more) {
-  for (const AxisItem& item : more.items) {
-    const MedialAxis& axis = item.axis;
+  for (std::size_t i = 0; i < more.items.size(); ++i) {
+    const MedialAxis& axis = more.items[i].axis;
     summary.sites += axis.sites.size();
     summary.edges += axis.edges.size();
     summary.branches += branch_count(axis);
     summary.length += total_length(axis);
     for (const Node& node : axis.nodes) count_kind(summary, node);
-    take_deepest(summary, axis, summary.features++);
+    take_deepest(summary, axis, more.indices.empty() ? summary.features : more.indices[i]);
+    ++summary.features;
   }
 }
 
@@ -409,7 +457,8 @@ Result<std::optional<LoadedAxes>> stream(const FileArguments& arguments, const I
   stream.write = write_options(arguments);
   stream.threads = common.threads;
   stream.progress = progress.counting_callback();
-  auto report = in_file(io::stream(input.path, arguments.output, arguments.format, stream), input);
+  auto report =
+      naming_file(io::stream(input.path, arguments.output, arguments.format, stream), input);
   if (!report) return with_cure(std::move(report).error(), input);
   if (!*report) return std::optional<LoadedAxes>();
   out.phases.end("stream");
@@ -486,15 +535,16 @@ Result<std::optional<int>> finish_in_parts(LoadedShapes& shapes, const FileArgum
   options = engine_options(common, common.threads, shapes.file.corner_angle, std::move(options));
   options.progress = progress.callback();
   const auto visit = [&](std::size_t shape, const AxisPart& part) { parts.add(shape, part); };
-  auto report = in_file(io::write_in_parts(arguments.output, arguments.format, shapes.file, options,
-                                           write_options(arguments), visit),
-                        input);
+  auto report = naming_file(io::write_in_parts(arguments.output, arguments.format, shapes.file,
+                                               options, write_options(arguments), visit),
+                            input);
   if (!report) return std::move(report).error();
   if (!*report) return std::optional<int>();
   out.axes = **report;
   out.axes.statistics.threads = effective_threads(common.threads);
   out.phases.end("axis");
-  const AxisSummary summary = parts.finish(shapes.file.items.size(), out.axes.sites);
+  AxisSummary summary = parts.finish(shapes.file.items.size(), out.axes.sites);
+  summary.deepest_feature = shapes.file.index_of(summary.deepest_feature);
   note_points(parts.points(), arguments);
   if (!is_talkative(arguments)) return std::optional<int>(exit_success);
   auto printed = print_summary(out, summary, arguments);

@@ -31,6 +31,11 @@ struct LoadedAxes {
   Phases phases;  ///< read, shape, axis
 };
 
+/// The options of INPUT and of a second file: each has those that apply to its kind. What only the
+/// other one can follow is left to it, and what neither can is refused. A text is INPUT's alone.
+InputOptions first_input(InputOptions input, const std::string& second);
+InputOptions second_input(InputOptions input, const std::string& second);
+
 /// Reads shapes and prints notes on standard error. Errors name the file.
 Result<LoadedShapes> load_shapes(const InputOptions& input, const CommonOptions& common);
 /// Reads points, lines and boundaries, and prints notes. Errors name the file.
@@ -89,7 +94,7 @@ AxisSummary summarize(const Document<AxisItem>& file);
 /// Takes further features into account.
 void add_to(AxisSummary& summary, const Document<AxisItem>& more);
 
-/// The same of axes in parts, shape by shape.
+/// Sums up axes that come in parts, shape by shape.
 class PartsSummary {
  public:
   void add(std::size_t shape, const AxisPart& part);
@@ -102,7 +107,7 @@ class PartsSummary {
 
   AxisSummary summary_;
   std::uint64_t branch_ends_ = 0, points_ = 0;
-  // Of the shape under way:
+  // What is known of the shape under way:
   std::uint64_t nodes_ = 0, edges_ = 0;
   std::vector<std::uint8_t> kinds_;  ///< of each component, of its nodes: bits
 };

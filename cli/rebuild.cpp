@@ -37,9 +37,15 @@ struct Rebuilt {
   ShapeDistance distance;
 };
 
+InputOptions input_of(const RebuildArguments& arguments) {
+  const std::string& against = arguments.against;
+  return against.empty() ? arguments.input : first_input(arguments.input, against);
+}
+
 /// The axes of the exteriors of a file's shapes, in a rectangle. The shapes go to `before`.
 Result<LoadedAxes> axes_outside(const RebuildArguments& arguments, std::vector<Shape>& before) {
-  const auto& [input, common] = std::tie(arguments.input, arguments.common);
+  const InputOptions input = input_of(arguments);
+  const CommonOptions& common = arguments.common;
   auto loaded = load_shapes(input, common);
   if (!loaded) return std::move(loaded).error();
   for (ShapeItem& item : loaded->file.items) {
@@ -126,8 +132,7 @@ Status compare(Rebuilt& rebuilt, const std::vector<Shape>& others, const std::st
 }
 
 Status compare_with_file(Rebuilt& rebuilt, const RebuildArguments& arguments) {
-  InputOptions input = arguments.input;
-  input.path = arguments.against;
+  const InputOptions input = second_input(arguments.input, arguments.against);
   CommonOptions quiet = arguments.common;
   quiet.quiet = true;
   auto loaded = load_shapes(input, quiet);
@@ -212,7 +217,8 @@ Status check(const RebuildArguments& arguments) {
 }
 
 Result<int> run(const RebuildArguments& arguments, bool smooths) {
-  const auto& [input, common] = std::tie(arguments.input, arguments.common);
+  const InputOptions input = input_of(arguments);
+  const CommonOptions& common = arguments.common;
   const auto options = prune_options(arguments.prune);
   if (!options) return options.error();
   if (Status possible = check(arguments); !possible) return std::move(possible).error();

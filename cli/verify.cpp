@@ -53,7 +53,7 @@ void each_number(const Visit& visit) {
 }
 
 /// The certificate of a whole file.
-Certificate merge(const std::vector<Certificate>& certificates) {
+Certificate merge(const std::vector<Certificate>& certificates, const DocumentInfo& file) {
   Certificate all;
   all.passed = true;
   for (std::size_t i = 0; i < certificates.size(); ++i) {
@@ -66,8 +66,9 @@ Certificate merge(const std::vector<Certificate>& certificates) {
     });
     all.passed = all.passed && one.passed;
     for (const std::string& failure : one.failures) {
-      all.failures.push_back(certificates.size() == 1 ? failure
-                                                      : fmt::format("feature {}: {}", i, failure));
+      all.failures.push_back(certificates.size() == 1
+                                 ? failure
+                                 : fmt::format("feature {}: {}", file.index_of(i), failure));
     }
   }
   return all;
@@ -268,7 +269,8 @@ Result<int> run_verify(const VerifyArguments& arguments) {
   if (input.path == "-" && axis_path == "-")
     return invalid_option("INPUT and AXIS cannot both be standard input");
   if (io::is_voronoi(axis_path)) return verify_voronoi(arguments);
-  auto stored = read_stored(axis_path, io::read_native);
+  auto stored =
+      read_stored(axis_path, [](const std::string& path) { return io::read_native(path); });
   if (!stored) return std::move(stored).error();
   if (!stored->items.empty() && std::ranges::all_of(stored->items, [](const AxisItem& item) {
         return item.axis.method.empty();
@@ -297,7 +299,7 @@ Result<int> run_verify(const VerifyArguments& arguments) {
   const auto certificates = verify_all(shapes, *stored, arguments);
   if (!certificates) return certificates.error();
   loaded->phases.end("verify");
-  const Certificate all = merge(*certificates);
+  const Certificate all = merge(*certificates, shapes);
   if (!all.passed && !common.quiet && are_other_shapes(*stored, shapes))
     say("medial: {0}: note: its axes are of other shapes than the input; give verify the options "
         "that they were made with, such as --fit, --pixel-outline or --repair, or check them "

@@ -52,6 +52,7 @@ Result<Diagrams> compute_together(const VoronoiArguments& arguments) {
   if (!computed) return std::move(computed).error();
   out.phases.end("voronoi");
   out.file = Document<io::VoronoiItem>{pieces->features, {}};
+  out.file.indices.clear();  // the diagram is that of all features
   out.file.items.push_back(std::move(item));
   return out;
 }

@@ -27,11 +27,6 @@ bool spells(const std::string& text, Number& value) {
 
 }  // namespace
 
-AttributeColumns::AttributeColumns(const Document<AxisItem>& file, std::span<const Column> own) {
-  for (const AxisItem& item : file.items) add(item.attributes);
-  name_apart(own);
-}
-
 void AttributeColumns::add(const Attributes& attributes) {
   for (const auto& [name, value] : attributes) {
     const auto [found, inserted] = index_.try_emplace(name, columns_.size());

@@ -15,9 +15,17 @@ namespace medial::io {
 class AttributeColumns {
  public:
   AttributeColumns() = default;
-  /// Of the items of a document; an attribute that is named as one of the writer's `own` columns
-  /// gets another name.
-  AttributeColumns(const Document<AxisItem>& file, std::span<const Column> own);
+  /// Takes all items of a document, with what lies in their buffers; an attribute that is named as
+  /// one of the writer's `own` columns gets another name.
+  template <class Item>
+  AttributeColumns(const Document<Item>& file, std::span<const Column> own) {
+    for (const Item& item : file.items) {
+      add(item.attributes);
+      if constexpr (requires { item.sources; })
+        for (const auto& source : item.sources) add(source.attributes);
+    }
+    name_apart(own);
+  }
 
   /// Takes the attributes of one item into account; name_apart() follows when there are no more.
   void add(const Attributes& attributes);
@@ -27,6 +35,7 @@ class AttributeColumns {
   std::vector<Column> appended_to(std::vector<Column> columns) const;
   /// The values of one item in these columns.
   std::vector<Value> values_of(const Attributes& item) const;
+  const std::vector<Column>& columns() const { return columns_; }
 
  private:
   std::map<std::string, std::size_t> index_;  ///< by the names in the input

@@ -190,7 +190,7 @@ class PartsOfAxes {
   AxesReport report_;
 };
 
-/// Of a silent run.
+/// Takes axes in a run that writes nothing.
 class NoAxes final : public AxisWriter {
  public:
   Status begin() override { return success(); }

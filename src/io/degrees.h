@@ -18,11 +18,14 @@ void for_each_point(const Document<Feature>& document, Action action) {
   }
 }
 
+/// The largest latitude; rounding may have moved the pole a little further.
+constexpr double pole = 90, beyond_pole = 1e-9;
+
 /// Whether all coordinates may be longitudes and latitudes.
 inline bool can_be_degrees(const Document<Feature>& document) {
   bool possible = true;
   for_each_point(document, [&possible](Vec2 point) {
-    if (!(std::abs(point.x) <= 360 && std::abs(point.y) <= 90)) possible = false;
+    if (!(std::abs(point.x) <= 360 && std::abs(point.y) <= pole + beyond_pole)) possible = false;
   });
   return possible;
 }

@@ -20,9 +20,9 @@ class FeatureReader {
   FeatureReader& operator=(const FeatureReader&) = delete;
   virtual ~FeatureReader() = default;
 
-  /// Appends features to the document's items until they have `points` points or the file ends, and
-  /// sets what holds for all of them, as far as it is known; notes are those that are new. False:
-  /// the end, there are no more. Errors: those of reading the format.
+  /// Appends features, each with its number in the file, until they have `points` points or the
+  /// file ends, and sets what holds for all of them, as far as it is known; notes are those that
+  /// are new. Returns false at the end. Errors: those of reading the format.
   virtual Result<bool> read(std::size_t points, Document<Feature>& document) = 0;
   /// Begins again, after the end: what is now known of all features need not be found again. False:
   /// the file is to be opened again.
@@ -32,18 +32,21 @@ class FeatureReader {
 /// Thrown by read() in the first pass: another reader is to read the file, from its beginning.
 struct Unusual {};
 
-/// All of them.
+/// All of them; `indices` stays empty where none was left out.
 inline Result<Document<Feature>> read_to_end(FeatureReader& reader) {
   Document<Feature> document;
   constexpr std::size_t many = std::size_t{1} << 20;
   for (;;) {
     Result<bool> more = reader.read(many, document);
     if (!more) return std::move(more).error();
-    if (!*more) return document;
+    if (!*more) break;
   }
+  const std::size_t count = document.items.size();
+  if (count > 0 && document.indices.back() + 1 == count) document.indices.clear();
+  return document;
 }
 
-/// Of a file with so many geometries, none of which is a polygon.
+/// The error of a file with so many geometries, none of which is a polygon.
 inline Error without_polygons(std::uint64_t others) {
   return {ErrorCode::unsupported,
           fmt::format("no polygons, only {} other geometr{}: points and lines are for `medial "
@@ -52,7 +55,7 @@ inline Error without_polygons(std::uint64_t others) {
           {}};
 }
 
-/// Of a file with polygons and so many other geometries.
+/// The note on a file with polygons and so many other geometries.
 inline std::string note_of_others(std::uint64_t others) {
   return others == 1 ? std::string("1 geometry is not a polygon and was left out")
                      : fmt::format("{} geometries are not polygons and were left out", others);

@@ -83,11 +83,11 @@ struct Part {
   std::uint64_t branch = 0;  ///< the first one, of a part of one axis; and the nodes' numbers there
   std::span<const std::uint32_t> nodes = {};
 
-  /// Of a node of an item whose first node has this number.
+  /// The number of a node of an item whose first node has the number `first`.
   std::uint64_t number_of_node(std::uint64_t first, std::uint32_t i) const {
     return first + (nodes.empty() ? i : nodes[i]);
   }
-  /// Of an item in the file that it was read from, as notes and errors say it.
+  /// The number of an item in the file that it was read from, as notes and errors say it.
   std::uint64_t number_of(const DocumentInfo& document, std::size_t i) const {
     return document.indices.empty() ? feature + i : document.indices[i];
   }
@@ -127,8 +127,8 @@ class Target {
     own.status_ = success();
     return own;
   }
-  /// Points of the document become points of the output. Where one cannot be projected, the error
-  /// is the document's, see status().
+  /// Points of the document become points of the output. If one cannot be projected, writing the
+  /// document fails: see status().
   template <class Points>
   void place(Points& points) {
     if (status_) status_ = crs.transform(points);

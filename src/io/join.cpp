@@ -168,7 +168,7 @@ double doubled_area(const Contour& contour) {
     for (std::uint32_t i = piece.first; i < piece.first + piece.degree; ++i)
       sum += cross(contour.points[i] - origin, contour.points[i + 1] - origin);
     if (piece.bulge == 0) continue;
-    // Of a segment of angle a and radius r: r^2 (a - sin a).
+    // Twice the area of a segment of angle a and radius r is r^2 (a - sin a).
     const double angle = 4 * std::atan(piece.bulge);
     const double chord = distance(contour.points[piece.first], contour.points[piece.first + 1]);
     const double radius = chord / (2 * std::sin(angle / 2));

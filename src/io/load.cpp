@@ -10,17 +10,14 @@ namespace {
 
 Result<Document<Feature>> read_source(const std::string& path, const SourceOptions& options) {
   const ReadOptions& read = options.read;
-  const auto refused = [&path](const char* text) {
-    return Error{ErrorCode::invalid_option, text, in_file(path)};
-  };
-  const bool chooses = !read.layer.empty() || !read.where.empty() || read.project || read.close;
-  if (!options.text.empty())
-    return chooses ? refused("layer, where, project and close are not for a text")
-                   : read_text(options.text, path, options.font_size);
+  if (!options.text.empty()) {
+    if (!read.layer.empty() || !read.where.empty() || read.project || read.close)
+      return Error{ErrorCode::invalid_option, "layer, where, project and close are not for a text",
+                   in_file(path)};
+    return read_text(options.text, path, options.font_size);
+  }
   if (read.loose || !is_native(path)) return read_document(path, read);
-  if (chooses || read.repair != RepairRule::none)
-    return refused("layer, where, repair, project and close are not for medial's own format");
-  auto native = read_native(path);
+  auto native = read_native(path, read);
   if (!native) return std::move(native).error();
   return dataset_of(std::move(native).value());
 }

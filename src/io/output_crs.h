@@ -19,7 +19,7 @@ struct OutputCrs {
 
   bool changes_points() const { return change != nullptr; }
   Status transform(std::vector<Vec2>& points) const { return change ? change(points) : success(); }
-  /// The same for the centres of disks; radii stay.
+  /// Changes the centres of disks; radii stay.
   Status transform(std::vector<Disk>& disks) const;
 };
 

@@ -31,7 +31,7 @@ class TextParts final : public PartWriter {
 
   Status add(void* prepared) override {
     std::string_view text = *static_cast<const std::string*>(prepared);
-    // Of rows that commas divide, the very first one has none.
+    // Each row begins with a comma, where there are any; the very first one must not.
     if (!any_ && text.starts_with(",\n")) text.remove_prefix(1);
     any_ = any_ || (begun_ && !text.empty());
     begun_ = true;

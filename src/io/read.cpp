@@ -82,7 +82,8 @@ Result<const Format*> format_of(const std::string& path,
     return Error{ErrorCode::unsupported,
                  "this is a font, not a shape: --text TEXT --font FILE draws a text with it",
                  in_file(path)};
-  const Format* format = path == "-" ? format_of_text(beginning) : format_of_name(path);
+  const bool is_stream = source && (*source)->is_stream();
+  const Format* format = is_stream ? format_of_text(beginning) : format_of_name(path);
   // Plain text may hold what another format begins like.
   if (format != nullptr && lists_extension(format->extensions, "txt"))
     if (const Format* other = format_of_text(beginning)) format = other;
@@ -108,12 +109,13 @@ Result<const Format*> format_of(const std::string& path,
 }
 
 /// Whether a file may be plain GeoJSON, which is read faster here than by GDAL.
-bool may_be_plain(const std::string& path, const Format& format, const ReadOptions& options) {
+bool may_be_plain(const std::string& path, const Result<std::shared_ptr<TextSource>>& source,
+                  const Format& format, const ReadOptions& options) {
   std::string name = lower_case(path);
   if (name.ends_with(".gz")) name.resize(name.size() - 3);
   const bool named = name.ends_with(".geojson") || name.ends_with(".json");
   const bool chooses = options.loose || !options.layer.empty() || !options.where.empty();
-  return format.reads_others && named && !chooses;
+  return format.reads_others && named && !chooses && source && !(*source)->is_stream();
 }
 
 Result<Document<Feature>> read_any(const std::string& path,
@@ -121,7 +123,7 @@ Result<Document<Feature>> read_any(const std::string& path,
                                    const ReadOptions& options) {
   const Result<const Format*> format = format_of(path, source, options);
   if (!format) return format.error();
-  if (may_be_plain(path, **format, options))
+  if (may_be_plain(path, source, **format, options))
     if (auto document = read_geojson(path)) return std::move(*document);
   return (*format)->read({path, source ? *source : nullptr}, options);
 }
@@ -170,7 +172,7 @@ Result<std::unique_ptr<FeatureReader>> open_features(const std::string& path,
   auto source = TextSource::open(path);
   const Result<const Format*> format = format_of(path, source, options);
   if (!format) return format.error();
-  if (!unusual && may_be_plain(path, **format, options))
+  if (!unusual && may_be_plain(path, source, **format, options))
     if (auto reader = open_geojson(path)) return reader;
   if ((*format)->open == nullptr) return std::unique_ptr<FeatureReader>();
   return (*format)->open({path, source ? *source : nullptr}, options);
@@ -215,8 +217,10 @@ bool begins_like_axes(std::string_view text) {
 }
 
 Result<Document<AxisItem>> read_axes(TextSource& source) {
-  return begins_like_safetensors(source.lookahead(sniffed)) ? read_safetensors(source)
-                                                            : read_native(source);
+  auto axes = begins_like_safetensors(source.lookahead(sniffed)) ? read_safetensors(source)
+                                                                 : read_native(source);
+  if (axes) axes->geographic = axes->crs_wkt.starts_with("GEOG");  // GEOGCRS, in WKT 1 GEOGCS
+  return axes;
 }
 
 bool begins(const std::string& path, Sniff sniff) {
@@ -228,7 +232,12 @@ bool begins(const std::string& path, Sniff sniff) {
 
 bool is_native(const std::string& path) { return begins(path, begins_like_axes); }
 
-Result<Document<AxisItem>> read_native(const std::string& path) {
+Result<Document<AxisItem>> read_native(const std::string& path, const ReadOptions& options) {
+  if (!options.layer.empty() || !options.where.empty() || !options.crs.empty() || options.project ||
+      options.close || options.repair != RepairRule::none)
+    return Error{ErrorCode::invalid_option,
+                 "layer, where, repair, crs, project and close are not for medial's own format",
+                 in_file(path)};
   return read_json<AxisItem>(path, TextSource::open(path), begins_like_axes, no_native, read_axes);
 }
 

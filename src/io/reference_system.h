@@ -13,7 +13,7 @@ namespace medial::io {
 /// A document's reference system may be named "EPSG:n" or WKT: makes it WKT, and sets the unit and
 /// whether it is geographic. One that is not understood becomes a note.
 void describe_crs(Document<Feature>& document);
-/// The same of the one that is named. Errors: invalid_option (it names none).
+/// Gives the document the named system instead. Errors: invalid_option (it names none).
 Status describe_crs(const std::string& name, Document<Feature>& document);
 
 /// See ReadOptions::project. Errors: invalid_option (no degrees), unsupported (points that cannot

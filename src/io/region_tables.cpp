@@ -18,18 +18,6 @@ std::vector<std::vector<Vec2>> parts_of(const std::vector<Ring>& rings, double c
   return parts;
 }
 
-template <class Item>
-AttributeColumns attribute_columns(const Document<Item>& file, const std::vector<Column>& own) {
-  AttributeColumns columns;
-  for (const Item& item : file.items) {
-    columns.add(item.attributes);
-    if constexpr (requires { item.sources; })
-      for (const BufferSource& source : item.sources) columns.add(source.attributes);
-  }
-  columns.name_apart(own);
-  return columns;
-}
-
 /// "0 3 17": what lies in a buffer.
 std::string list_of(const std::vector<std::uint32_t>& numbers) {
   std::string text;
@@ -96,7 +84,7 @@ std::vector<Column> own_columns(const OffsetsOutput&) {
 TableSource tables_of(const OffsetsOutput& output, const Target& target) {
   const std::vector<Column> own = own_columns(output);
   const AttributeColumns attributes =
-      target.columns ? *target.columns : attribute_columns(output.document, own);
+      target.columns ? *target.columns : AttributeColumns(output.document, own);
   TableSource source;
   source.tables.push_back({"offsets", GeometryKind::polygon, attributes.appended_to(own)});
   source.fill = [&output, attributes, part = target.part](TableSink& sink) -> Status {
@@ -113,7 +101,7 @@ TableSource tables_of(const OffsetsOutput& output, const Target& target) {
 
 TableSource tables_of(const ShapesOutput& output, const Target&) {
   const std::vector<Column> own{{"feature", whole_type}, {"part", whole_type}};
-  const AttributeColumns attributes = attribute_columns(output.document, own);
+  const AttributeColumns attributes(output.document, own);
   TableSource source;
   source.tables.push_back({"shapes", GeometryKind::polygon, attributes.appended_to(own)});
   source.fill = [&output, attributes](TableSink& sink) -> Status {
@@ -143,7 +131,7 @@ TableSource tables_of(const VoronoiOutput& output, const Target&) {
             {"right", whole_type},   {"r_from", real_type}, {"r_to", real_type}};
   std::vector<Column> own = faces;
   own.insert(own.end(), edges.begin(), edges.end());
-  const AttributeColumns attributes = attribute_columns(output.document, own);
+  const AttributeColumns attributes(output.document, own);
   TableSource source;
   source.tables.push_back({"faces", GeometryKind::polygon, attributes.appended_to(faces)});
   source.tables.push_back({"edges", GeometryKind::line, attributes.appended_to(edges)});

@@ -41,7 +41,7 @@ bool needs_all_features(const SourceOptions& source) {
          units.pixel_size > 0 || units.assumed != Unit::unknown;
 }
 
-/// The reader's next features, checked, with their numbers in the file. Nothing: there are no more.
+/// Reads features part by part, and checks them; next() returns nothing where there are no more.
 class PartReader {
  public:
   PartReader(FeatureReader& reader, const ReadOptions& options)
@@ -53,7 +53,6 @@ class PartReader {
     const Result<bool> more = reader_.read(points_of_part, part);
     if (!more) return more.error();
     more_ = *more;
-    for (std::size_t i = 0; i < part.items.size(); ++i) part.indices.push_back(read_++);
     if (Status checked = checks_.check(part); !checked) return std::move(checked).error();
     return std::optional(std::move(part));
   }
@@ -63,7 +62,6 @@ class PartReader {
   FeatureReader& reader_;
   FeatureChecks checks_;
   bool more_ = true;
-  std::uint64_t read_ = 0;
 };
 
 /// What has to be known of all features before the first one is written.
@@ -112,10 +110,11 @@ struct TwiceRead {
   std::string path;
   const ReadOptions& options;
   std::unique_ptr<FeatureReader> reader = nullptr;
+  bool is_unusual = false;
 
-  /// For the first time, and after Unusual; `reader` is null where there is none of its format.
-  Status open(bool unusual = false) {
-    auto opened = open_features(path, options, unusual);
+  /// `reader` is null where there is none of its format.
+  Status open() {
+    auto opened = open_features(path, options, is_unusual);
     if (!opened) return std::move(opened).error();
     reader = std::move(*opened);
     return success();
@@ -132,17 +131,18 @@ struct TwiceRead {
 
 /// Opens and surveys a file; nothing: it is not to be streamed.
 Result<std::optional<Survey>> survey_file(TwiceRead& file, std::uint64_t most_points) {
-  const auto survey = [&](bool unusual) -> Result<std::optional<Survey>> {
-    if (Status opened = file.open(unusual); !opened) return std::move(opened).error();
+  const auto survey = [&]() -> Result<std::optional<Survey>> {
+    if (Status opened = file.open(); !opened) return std::move(opened).error();
     if (file.reader == nullptr) return std::optional<Survey>();
     auto found = file.survey(most_points);
     if (!found) return std::move(found).error();
     return found->too_large ? std::optional<Survey>() : std::optional(std::move(*found));
   };
   try {
-    return survey(false);
+    return survey();
   } catch (const Unusual&) {
-    return survey(true);
+    file.is_unusual = true;
+    return survey();
   }
 }
 

@@ -71,9 +71,9 @@ std::vector<Column> own_columns(const AxesOutput& output);
 std::vector<Column> own_columns(const OffsetsOutput& output);
 std::vector<Column> own_columns(const LayersOutput& output);
 
-/// Of axes: a line for each branch, and where there is room the nodes as a second table. Of
-/// features: all tables, or where there is room for one that of the options. Of layers: a table
-/// each. Lengths and radii are in the units of the document.
+/// Axes have a line for each branch, and where there is room the nodes as a second table; features
+/// all their tables, or where there is room for one that of the options; layers a table each.
+/// Lengths and radii are in the units of the document.
 TableSource tables_of(const AxesOutput& output, const Target& target);
 TableSource tables_of(const FeaturesOutput& output, const Target& target);
 TableSource tables_of(const LayersOutput& output, const Target& target);

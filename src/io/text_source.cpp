@@ -9,6 +9,8 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <map>
+#include <mutex>
 
 #include "io/place.h"
 
@@ -27,6 +29,31 @@ struct TextSource::Handle {
   }
 };
 
+/// The streams that have been opened, but not read to their ends.
+class TextSource::Streams {
+ public:
+  static Streams& all() {
+    static Streams streams;
+    return streams;
+  }
+  std::shared_ptr<TextSource> find(const std::string& path) {
+    const std::lock_guard lock(mutex_);
+    // Standard input cannot be opened again.
+    std::erase_if(sources_,
+                  [](const auto& one) { return one.first != "-" && one.second->was_read(); });
+    const auto found = sources_.find(path);
+    return found == sources_.end() ? nullptr : found->second;
+  }
+  void add(const std::string& path, std::shared_ptr<TextSource> source) {
+    const std::lock_guard lock(mutex_);
+    sources_[path] = std::move(source);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::shared_ptr<TextSource>> sources_;
+};
+
 TextSource::TextSource(std::string path, std::unique_ptr<Handle> handle)
     : path_(std::move(path)), handle_(std::move(handle)), window_(window) {
   next_ = end_ = window_.data();
@@ -35,18 +62,18 @@ TextSource::TextSource(std::string path, std::unique_ptr<Handle> handle)
 TextSource::~TextSource() = default;
 
 Result<std::shared_ptr<TextSource>> TextSource::open(const std::string& path) {
-  static std::shared_ptr<TextSource> standard_input;
   const bool standard = path == "-";
-  if (standard && standard_input) return standard_input;
-
   const auto failed = [&path] {
     return Error{ErrorCode::unreadable, std::string("cannot open: ") + std::strerror(errno),
                  in_file(path)};
   };
   struct stat status {};
   if (!standard && stat(path.c_str(), &status) != 0) return failed();
-  if (!standard && S_ISDIR(status.st_mode))
+  if (S_ISDIR(status.st_mode))
     return Error{ErrorCode::unreadable, "this is a directory: name a file in it", in_file(path)};
+  const bool is_stream = standard || !S_ISREG(status.st_mode);
+  if (is_stream)
+    if (auto known = Streams::all().find(path)) return known;
   auto handle = std::make_unique<Handle>();
   errno = 0;
   handle->file = standard ? gzdopen(dup(STDIN_FILENO), "rb") : gzopen(path.c_str(), "rb");
@@ -54,8 +81,9 @@ Result<std::shared_ptr<TextSource>> TextSource::open(const std::string& path) {
   gzbuffer(handle->file, unsigned{1} << 17);
 
   std::shared_ptr<TextSource> source(new TextSource(path, std::move(handle)));
+  source->is_stream_ = is_stream;
   if (source->lookahead(3) == "\xEF\xBB\xBF") source->next_ += 3;  // the byte order mark of UTF-8
-  if (standard) standard_input = source;
+  if (is_stream) Streams::all().add(path, source);
   return source;
 }
 
@@ -77,6 +105,7 @@ bool TextSource::refill(std::size_t wanted) {
     const auto room = static_cast<unsigned>(window_.size() - kept);
     const int got = gzread(handle_->file, window_.data() + kept, room);
     if (got > 0) kept += static_cast<std::size_t>(got);
+    has_begun_ = has_begun_ || got > 0;
     if (got < static_cast<int>(room)) {
       int code = Z_OK;
       const char* message = gzerror(handle_->file, &code);

@@ -21,8 +21,8 @@ class TextSource {
   /// The longest number, in characters.
   static constexpr std::size_t longest_number = 4096;
 
-  /// Opens a file; `-` is standard input, which is one and the same source for the whole process:
-  /// what one reader peeks at, the next one finds.
+  /// Opens a file; `-` is standard input. What can be read only once, such as a pipe, is one source
+  /// until it has been read: what one reader peeks at, the next one finds.
   static Result<std::shared_ptr<TextSource>> open(const std::string& path);
 
   /// A text in memory.
@@ -51,6 +51,8 @@ class TextSource {
   void skip_space();
   /// Appends all that is left to `text`, but stops soon after `limit` characters.
   void read_all(std::string& text, std::size_t limit);
+  /// Whether this is all there is, as of a pipe: no file that can be opened again by its path.
+  bool is_stream() const { return is_stream_; }
   /// The length of the file if that is known and the file is not compressed; otherwise 0.
   std::size_t length_hint() const;
 
@@ -70,9 +72,11 @@ class TextSource {
 
  private:
   struct Handle;
+  class Streams;
   TextSource(std::string path, std::unique_ptr<Handle> handle);
   std::size_t available() const { return static_cast<std::size_t>(end_ - next_); }
   bool refill(std::size_t wanted);
+  bool was_read() const { return has_begun_ && at_end_ && available() == 0; }
 
   std::string path_;
   std::unique_ptr<Handle> handle_;
@@ -82,6 +86,8 @@ class TextSource {
   std::uint64_t line_ = 1;
   bool at_end_ = false;
   std::optional<Error> failure_;
+  bool has_begun_ = false;  ///< whether it was not empty
+  bool is_stream_ = true;
 };
 
 }  // namespace medial::io

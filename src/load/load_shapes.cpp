@@ -147,7 +147,7 @@ std::string note_of_crossings(std::size_t feature, const ShapeReport& report, st
          counted(report.input_rings, "ring") + " before, " + counted(loops, "loop") + " after";
 }
 
-/// Of drawings and letters, whose outlines may cross: one note for all of them.
+/// One note for all drawings and letters, whose outlines may cross.
 std::string note_of_outlines(std::size_t features, std::uint64_t places) {
   return "the outlines of " + counted(features, "feature") + " cross or overlap in " +
          counted(places, "place") + " and are split there";

@@ -75,9 +75,9 @@ Result<Document<ShapeItem>> load_shapes(const std::string& path, const SourceOpt
                                         LoadReport* report = nullptr);
 Result<LoosePieces> load_loose(const std::string& path, const SourceOptions& options = {});
 
-/// Whether the file begins like medial's own JSON; and its content.
+/// Whether the file begins like medial's own format; and its content. Errors: also invalid_option.
 bool is_native(const std::string& path);
-Result<Document<AxisItem>> read_native(const std::string& path);
+Result<Document<AxisItem>> read_native(const std::string& path, const ReadOptions& options = {});
 Result<Document<AxisItem>> read_native_text(std::string_view text);
 
 struct VoronoiItem {

@@ -117,8 +117,9 @@ Status write_csv(Target& target, const FeaturesOutput& output) {
   for (std::size_t i = 0; i < output.features.size(); ++i) {
     // The ends are all that is wanted: any chord does.
     const double chord = std::numeric_limits<double>::max();
-    Status written = for_each_row(output.own.table, i, output.document.items[i].axis,
-                                  output.features[i], chord, put_row);
+    Status written =
+        for_each_row(output.own.table, output.document.index_of(i), output.document.items[i].axis,
+                     output.features[i], chord, put_row);
     if (!written) return written;
   }
   return success();

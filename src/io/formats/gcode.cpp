@@ -127,7 +127,7 @@ class Moves {
   double feed_ = 0;
 };
 
-/// Of the tool of a carving.
+/// Describes the tool of a carving.
 std::string description_of(const Carving& carving, const std::string& unit) {
   if (carving.slope == 0)
     return fmt::format("end mill, diameter {} {}", decimal(2 * carving.tip_radius), unit);

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "io/attribute_columns.h"
 #include "io/formats/json.h"
 #include "io/formats/json_text.h"
 #include "io/reference_system.h"
@@ -26,6 +27,19 @@ void put_real(OutputStream& out, double value) {
   const std::string_view text(digits.data(), static_cast<std::size_t>(end - digits.data()));
   out.put(text);
   if (text.find_first_not_of("-0123456789") == std::string_view::npos) out.put(".0");
+}
+
+void put_value(OutputStream& out, const Value& value) {
+  if (const auto* number = std::get_if<std::int64_t>(&value)) {
+    out.put(*number);
+  } else if (const auto* decimal = std::get_if<double>(&value);
+             decimal && std::isfinite(*decimal)) {
+    put_real(out, *decimal);
+  } else if (const auto* words = std::get_if<std::string>(&value)) {
+    put_quoted(out, *words);
+  } else {
+    out.put("null");
+  }
 }
 
 /// A collection of features, one by one: start(), key() and a value for each property, geometry(),
@@ -62,10 +76,12 @@ class Collection {
     key(quoted_key);
     put_json(out_, value);
   }
-  void attributes(const Attributes& attributes) {
-    for (const auto& [name, value] : attributes) {
-      key(json_quoted(name));
-      put_quoted(out_, value);
+  void attributes(const AttributeColumns& columns, const Attributes& item) {
+    const std::vector<Value> values = columns.values_of(item);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      if (std::holds_alternative<std::monostate>(values[k])) continue;
+      key(json_quoted(columns.columns()[k].name));
+      put_value(out_, values[k]);
     }
   }
   /// Properties end; the geometry's coordinates are put next.
@@ -112,7 +128,7 @@ class GeojsonTables final : public TableSink {
     for (const auto values : {first, rest}) {
       for (const Value& value : values) {
         collection_.key(keys_[table][column++]);
-        put(value);
+        put_value(out_, value);
       }
     }
     constexpr std::array<const char*, 3> types{"Point", "LineString", "Polygon"};
@@ -132,19 +148,6 @@ class GeojsonTables final : public TableSink {
     return success();
   }
 
-  void put(const Value& value) {
-    if (const auto* number = std::get_if<std::int64_t>(&value)) {
-      out_.put(*number);
-    } else if (const auto* decimal = std::get_if<double>(&value);
-               decimal && std::isfinite(*decimal)) {
-      put_real(out_, *decimal);
-    } else if (const auto* words = std::get_if<std::string>(&value)) {
-      put_quoted(out_, *words);
-    } else {
-      out_.put("null");
-    }
-  }
-
   OutputStream& out_;
   const std::vector<Table>& tables_;
   Collection collection_;
@@ -161,10 +164,11 @@ Status put_geojson(Target& target, const TableSource& source) {
 /// A MULTIPOLYGON of chords for each shape.
 Status write_geojson(Target& target, const ShapesOutput& output) {
   Collection collection(target);
+  const AttributeColumns columns(output.document, {});
   for (const ShapeItem& item : output.document.items) {
     const double chord = chord_of(item, output.options);
     collection.start();
-    collection.attributes(item.attributes);
+    collection.attributes(columns, item.attributes);
     collection.geometry("MultiPolygon");
     put_list(*target.out, polygons_of(item.shape), [&](const std::vector<Ring>& polygon) {
       put_list(*target.out, polygon,
@@ -178,6 +182,8 @@ Status write_geojson(Target& target, const ShapesOutput& output) {
 /// A polygon of chords for each region.
 Status write_geojson(Target& target, const OffsetsOutput& output) {
   Collection collection(target);
+  const AttributeColumns columns =
+      target.columns ? *target.columns : AttributeColumns(output.document, own_columns(output));
   for (std::size_t i = 0; i < output.document.items.size(); ++i) {
     const OffsetItem& item = output.document.items[i];
     const double chord = chord_of(item, output.options);
@@ -196,7 +202,8 @@ Status write_geojson(Target& target, const OffsetsOutput& output) {
         put_list(*target.out, item.sources[k].features,
                  [&](std::uint32_t feature) { target.out->put(feature); });
       }
-      collection.attributes(item.sources.empty() ? item.attributes : item.sources[k].attributes);
+      collection.attributes(columns,
+                            item.sources.empty() ? item.attributes : item.sources[k].attributes);
       collection.geometry("Polygon");
       put_list(*target.out, region.rings,
                [&](const Ring& ring) { collection.points(chords_of(ring, chord)); });
@@ -247,9 +254,11 @@ Status write_geojson(Target& target, const VoronoiOutput& output) {
   for (std::size_t i = 0; i < output.document.items.size(); ++i) {
     const VoronoiDiagram& diagram = output.document.items[i].diagram;
     const double chord = chord_of(output.document.items[i], output.options);
+    const std::uint64_t feature = output.document.index_of(i);
     for (std::uint32_t k = 0; k < diagram.sites.size(); ++k)
-      put_face(collection, *target.out, i, diagram, k, chord);
-    for (const VoronoiEdge& edge : diagram.edges) put_edge(collection, i, diagram, edge, chord);
+      put_face(collection, *target.out, feature, diagram, k, chord);
+    for (const VoronoiEdge& edge : diagram.edges)
+      put_edge(collection, feature, diagram, edge, chord);
   }
   return collection.finish();
 }

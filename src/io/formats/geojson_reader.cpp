@@ -408,6 +408,7 @@ class GeojsonReader final : public FeatureReader {
       ParsedFeature parsed = parse(parser_, text_);
       columns_.add(parsed.properties);
       Feature& feature = document.items.emplace_back();
+      document.indices.push_back(static_cast<std::uint64_t>(count_));
       feature.id = count_++;
       feature.rings = std::move(parsed.rings);
       feature.attributes = columns_.attributes_of(std::move(parsed.properties));

@@ -66,6 +66,8 @@ std::string xml_of(std::string_view text) {
       escaped += "&amp;";
     else if (c == '<')
       escaped += "&lt;";
+    else if (c == '>')  // which "]]>" must not hold
+      escaped += "&gt;";
     else if (c == '"')
       escaped += "&quot;";
     else

@@ -14,7 +14,7 @@ inline constexpr int native_version = 2;
 
 /// Whether a text begins like medial's own JSON: an object whose first member is "medial".
 bool begins_like_native(std::string_view text);
-/// The same of a Voronoi diagram: the first member is "medial_voronoi".
+/// Whether it begins like a Voronoi diagram, whose first member is "medial_voronoi".
 bool begins_like_voronoi(std::string_view text);
 
 /// Reads and checks: every index is in its range, every number finite.
@@ -22,7 +22,7 @@ bool begins_like_voronoi(std::string_view text);
 Result<Document<AxisItem>> read_native(TextSource& source);
 Result<Document<VoronoiItem>> read_voronoi(TextSource& source);
 
-/// The same of columns (safetensors), and how they begin.
+/// Whether bytes begin like columns (safetensors), and the axes that these hold.
 bool begins_like_safetensors(std::string_view text);
 Result<Document<AxisItem>> read_safetensors(TextSource& source);
 

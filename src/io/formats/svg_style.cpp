@@ -44,7 +44,7 @@ std::string without_comments(std::string_view text) {
   return result;
 }
 
-/// Where one of `wanted` stands outside of strings and of what is bracketed; the end if nowhere.
+/// Finds the first of `wanted` outside of strings and brackets; returns the end if there is none.
 std::size_t find_outside(std::string_view text, std::string_view wanted) {
   char quote = 0;
   std::size_t depth = 0;

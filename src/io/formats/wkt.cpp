@@ -90,7 +90,7 @@ class WktReader final : public FeatureReader {
       polygons_ = polygons_ || !feature.rings.empty() || !feature.chains.empty();
       count += point_count(feature);
       document.items.push_back(std::move(feature));
-      ++feature_;
+      document.indices.push_back(feature_++);
     }
     return true;
   }

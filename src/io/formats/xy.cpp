@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "io/coordinate_names.h"
+#include "io/format_name.h"
 #include "io/formats/text.h"
 
 namespace medial::io {
@@ -63,15 +65,37 @@ std::vector<std::string_view> words_of(std::string_view line) {
   return words;
 }
 
-/// The length of a first line that names two columns ("x,y") of numbers, with its end; 0 where
-/// there is none.
-std::size_t length_of_names(std::string_view text) {
+/// A first line that names two columns ("x,y") of numbers.
+struct Names {
+  std::size_t length = 0;  ///< with the end of the line; 0 where there is no such line
+  std::string first, second;
+};
+
+Names names_of(std::string_view text) {
   const std::size_t end = text.find('\n');
-  if (end == std::string_view::npos) return 0;
+  if (end == std::string_view::npos) return {};
   const std::vector<std::string_view> words = words_of(text.substr(0, end));
   const bool named = words.size() == 2 && is_letter(words[0][0]) && is_letter(words[1][0]);
   const std::size_t next = text.find_first_not_of(" \t\r\n", end);
-  return named && next != std::string_view::npos && is_number_begin(text[next]) ? end + 1 : 0;
+  if (!named || next == std::string_view::npos || !is_number_begin(text[next])) return {};
+  return {end + 1, std::string(words[0]), std::string(words[1])};
+}
+
+bool is_one_of(const std::string& name, std::string_view names) {
+  return std::ranges::count(words_of(names), std::string_view(lower_case(name))) > 0;
+}
+
+/// Passes over a first line of names. Returns whether the first column holds y, and adds a note
+/// where the names do not say which does.
+bool read_names(TextSource& source, std::vector<std::string>& notes) {
+  constexpr std::size_t longest = 4096;
+  const auto [length, first, second] = names_of(source.lookahead(longest));
+  for (std::size_t left = length; left > 0; --left) source.skip();
+  const bool y_first = is_one_of(first, y_names) && is_one_of(second, x_names);
+  const bool x_first = is_one_of(first, x_names) && is_one_of(second, y_names);
+  if (length > 0 && !y_first && !x_first)
+    notes.push_back(fmt::format("the columns '{}' and '{}' were taken as x and y", first, second));
+  return y_first;
 }
 
 /// Reads a line, but not its end. Requires that the text has not ended.
@@ -110,9 +134,7 @@ Result<Document<Feature>> read_xy(TextSource& source, bool loose) {
   Document<Feature> dataset;
   Feature feature;
   bool in_ring = false;
-  constexpr std::size_t longest_header = 4096;
-  for (std::size_t left = length_of_names(source.lookahead(longest_header)); left > 0; --left)
-    source.skip();
+  const bool y_first = read_names(source, dataset.notes);
   while (source.peek() >= 0) {
     Vec2 vertex;
     Result<Line> line = read_line(source, vertex);
@@ -125,6 +147,7 @@ Result<Document<Feature>> read_xy(TextSource& source, bool loose) {
       return error;
     }
     if (*line == Line::vertex) {
+      if (y_first) std::swap(vertex.x, vertex.y);
       if (!in_ring) feature.rings.emplace_back();
       feature.rings.back().points.push_back(vertex);
     }
@@ -147,13 +170,13 @@ Result<Document<Feature>> read_xy(TextSource& source, bool loose) {
 }
 
 bool begins_like_xy(std::string_view text) {
-  if (length_of_names(text) > 0) return true;
+  if (names_of(text).length > 0) return true;
   const std::size_t start = text.find_first_not_of(" \t\r\n");
   return start != std::string_view::npos && (is_number_begin(text[start]) || text[start] == '#');
 }
 
 bool has_two_columns(std::string_view text) {
-  if (length_of_names(text) > 0) return true;
+  if (names_of(text).length > 0) return true;
   const std::string_view line = text.substr(0, text.find('\n'));
   const auto words = words_of(line);
   return words.size() == 2 && is_number_begin(words[0][0]) && is_number_begin(words[1][0]);

@@ -13,6 +13,7 @@
 #include <iterator>
 #include <set>
 
+#include "io/coordinate_names.h"
 #include "io/format.h"
 #include "io/format_name.h"
 #include "io/gis/gdal_support.h"
@@ -94,9 +95,9 @@ class GdalReader final : public FeatureReader {
     const GdalMessages messages;
     const unsigned flags = GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
     // Tables: points by columns of these names, where there is no column of geometries.
-    constexpr std::array<const char*, 3> columns{"X_POSSIBLE_NAMES=x,lon,long,longitude,easting",
-                                                 "Y_POSSIBLE_NAMES=y,lat,latitude,northing",
-                                                 nullptr};
+    const std::string x = fmt::format("X_POSSIBLE_NAMES={}", x_names);
+    const std::string y = fmt::format("Y_POSSIBLE_NAMES={}", y_names);
+    const std::array<const char*, 3> columns{x.c_str(), y.c_str(), nullptr};
     const bool table = lower_case(name).ends_with(".csv");
     source_.reset(
         GDALDataset::Open(name.c_str(), flags, nullptr, table ? columns.data() : nullptr));
@@ -120,7 +121,7 @@ class GdalReader final : public FeatureReader {
     document.crs_wkt = common_.crs_wkt;
     document.geographic = common_.geographic;
     document.unit = common_.unit;
-    const bool more = read_features(points, document.items);
+    const bool more = read_features(points, document);
     if (Status fine = heard(messages); !fine) return std::move(fine).error();
     if (!more)
       if (Status complete = finish(); !complete) return std::move(complete).error();
@@ -179,14 +180,14 @@ class GdalReader final : public FeatureReader {
   }
 
   /// False at the end of the layer.
-  bool read_features(std::size_t points, std::vector<Feature>& items) {
+  bool read_features(std::size_t points, Document<Feature>& document) {
     for (std::size_t count = 0; count < points;) {
       const OGRFeatureUniquePtr source(layer_->GetNextFeature());
       if (source == nullptr) return false;
       const OGRGeometry* geometry = source->GetGeometryRef();
       Feature feature;
-      feature.id = source->GetFID() == OGRNullFID ? index_ : source->GetFID();
-      ++index_;
+      const std::int64_t index = index_++;
+      feature.id = source->GetFID() == OGRNullFID ? index : source->GetFID();
       if (geometry == nullptr) {
         ++without_geometry_;
         continue;
@@ -208,7 +209,8 @@ class GdalReader final : public FeatureReader {
       }
       count += point_count(feature);
       any_ = true;
-      items.push_back(std::move(feature));
+      document.items.push_back(std::move(feature));
+      document.indices.push_back(static_cast<std::uint64_t>(index));
     }
     return true;
   }
@@ -253,7 +255,7 @@ class GdalReader final : public FeatureReader {
   bool latitude_first_ = false;
 };
 
-/// A file that lies in memory.
+/// Reads a stream, which GDAL gets as a file in memory.
 Result<Document<Feature>> read_bytes(const Input& input, const ReadOptions& options) {
   constexpr std::size_t longest_stream = std::size_t{1} << 32U;
   std::string bytes;
@@ -262,7 +264,7 @@ Result<Document<Feature>> read_bytes(const Input& input, const ReadOptions& opti
     return Error{code, text, in_file(input.path)};
   };
   if (bytes.size() > longest_stream)
-    return error(ErrorCode::too_large, "more than 4 GiB on standard input");
+    return error(ErrorCode::too_large, "more than 4 GiB in a stream");
   if (input.source->failure()) return *input.source->failure();
   if (bytes.empty()) return error(ErrorCode::empty, "there is nothing to read");
   const MemoryFile file(bytes);
@@ -298,7 +300,7 @@ Result<std::unique_ptr<FeatureReader>> open_vectors(const Input& input,
 }
 
 Result<Document<Feature>> read_vectors(const Input& input, const ReadOptions& options) {
-  if (input.path == "-") return read_bytes(input, options);
+  if (input.source && input.source->is_stream()) return read_bytes(input, options);
   auto reader = open_vectors(input, options);
   if (!reader) return std::move(reader).error();
   return read_to_end(**reader);

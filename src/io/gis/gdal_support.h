@@ -57,7 +57,7 @@ struct GeometryCounts {
 /// stay arcs.
 void add_rings(const OGRGeometry& geometry, std::vector<Ring>& rings, GeometryCounts& counts);
 
-/// The same for a planar graph: also its lines, open or closed, and points, as chains.
+/// Appends all of it for a planar graph: also lines, open or closed, and points, as chains.
 void add_loose(const OGRGeometry& geometry, Feature& feature, GeometryCounts& counts);
 
 /// Sets crs_wkt, geographic and the unit; a reference system that is not understood becomes a note.

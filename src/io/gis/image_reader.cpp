@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <memory>
 #include <string_view>
 
@@ -55,7 +54,7 @@ class Values {
   double last_ = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Of each pixel the value as a label, row by row; 0 is background.
+/// The values of all pixels, row by row; 0 is background.
 using Labels = std::vector<std::uint32_t>;
 
 Error too_large_image(std::uint64_t width, std::uint64_t height) {
@@ -64,16 +63,43 @@ Error too_large_image(std::uint64_t width, std::uint64_t height) {
           {}};
 }
 
+/// An image that takes memory as its rows come: a header may promise more than there is.
+class GrowingImage {
+ public:
+  GrowingImage() = default;
+  GrowingImage(std::uint64_t width, std::uint64_t height)
+      : width_(static_cast<std::uint32_t>(width)), height_(static_cast<std::uint32_t>(height)) {}
+
+  std::uint32_t width() const { return width_; }
+  std::uint32_t height() const { return height_; }
+  /// Requires that no row further down has been set.
+  void set(std::uint32_t x, std::uint32_t y) {
+    while (rows_.size() <= y) rows_.emplace_back((std::size_t{width_} + 63) / 64);
+    rows_[y][x / 64] |= std::uint64_t{1} << (x % 64);
+  }
+  Image finish() && {
+    Image image(width_, height_);
+    for (std::uint32_t y = 0; y < rows_.size(); ++y) {
+      std::ranges::copy(rows_[y], image.row(y).begin());
+      rows_[y] = {};
+    }
+    return image;
+  }
+
+ private:
+  std::uint32_t width_ = 0, height_ = 0;
+  std::vector<std::vector<std::uint64_t>> rows_;
+};
+
 /// Portable bitmaps and graymaps, plain and raw.
 class PnmReader {
  public:
   PnmReader(TextSource& source, const ImageOptions& options) : source_(source), options_(options) {}
 
   Result<ImageFile> read(Labels& labels) {
-    Result<Image> image = read_values();
-    if (!image) return image.error();
+    if (Status read = read_values(); !read) return std::move(read).error();
     ImageFile file;
-    file.image = std::move(*image);
+    file.image = std::move(image_).finish();
     if (values_.empty()) return file;
     Values seen;
     std::ranges::for_each(values_, [&](std::uint16_t value) { seen.add(value); });
@@ -88,8 +114,8 @@ class PnmReader {
   }
 
  private:
-  /// Bitmaps as an image; graymaps as values_, and an empty image of their size.
-  Result<Image> read_values() {
+  /// Bitmaps into image_, graymaps into values_.
+  Status read_values() {
     source_.skip();
     const char kind = static_cast<char>(source_.peek());
     source_.skip();
@@ -102,9 +128,8 @@ class PnmReader {
     if (largest == 0 || largest > 65535)
       return source_.error(ErrorCode::malformed, "the largest value must be in [1, 65535]");
     threshold_ = options_.threshold.value_or(0.5 * static_cast<double>(largest + 1));
-    Image image(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
-    if (kind == '1' || kind == '2') return read_plain(std::move(image), bits, largest);
-    return read_raw(std::move(image), bits, largest);
+    image_ = GrowingImage(width, height);
+    return kind == '1' || kind == '2' ? read_plain(bits, largest) : read_raw(bits, largest);
   }
 
   bool is_foreground(double value) const { return (value >= threshold_) != options_.invert; }
@@ -129,9 +154,9 @@ class PnmReader {
     return true;
   }
 
-  Result<Image> read_plain(Image image, bool bits, std::uint64_t largest) {
-    for (std::uint32_t y = 0; y < image.height(); ++y) {
-      for (std::uint32_t x = 0; x < image.width(); ++x) {
+  Status read_plain(bool bits, std::uint64_t largest) {
+    for (std::uint32_t y = 0; y < image_.height(); ++y) {
+      for (std::uint32_t x = 0; x < image_.width(); ++x) {
         std::uint64_t value = 0;
         if (bits) {  // digits need nothing between them
           skip_space_and_comments();
@@ -143,48 +168,51 @@ class PnmReader {
         } else if (!read_count(value) || value > largest) {
           return source_.error(ErrorCode::malformed, "expected a value up to the largest one");
         }
-        put(bits, static_cast<std::uint16_t>(value), x, y, image);
+        put(bits, static_cast<std::uint16_t>(value), x, y);
       }
     }
-    return image;
+    return success();
   }
 
-  void put(bool bits, std::uint16_t value, std::uint32_t x, std::uint32_t y, Image& image) {
+  void put(bool bits, std::uint16_t value, std::uint32_t x, std::uint32_t y) {
     if (!bits)
       values_.push_back(value);
     else if (is_foreground(value))
-      image.set(x, y);
+      image_.set(x, y);
   }
 
-  Result<Image> read_raw(Image image, bool bits, std::uint64_t largest) {
+  Status read_raw(bool bits, std::uint64_t largest) {
     if (source_.peek() == -1)
       return source_.error(ErrorCode::malformed, "the file ends in its header");
     source_.skip();
     const std::size_t value_bytes = bits ? 0 : largest > 255 ? 2 : 1;
     const std::size_t row_bytes =
-        bits ? (std::size_t{image.width()} + 7) / 8 : value_bytes * image.width();
+        bits ? (std::size_t{image_.width()} + 7) / 8 : value_bytes * image_.width();
     std::string bytes;
-    source_.read_all(bytes, row_bytes * image.height());
+    source_.read_all(bytes, row_bytes * image_.height());
     if (source_.failure()) return *source_.failure();
-    if (bytes.size() < row_bytes * image.height())
+    if (bytes.size() < row_bytes * image_.height())
       return source_.error(ErrorCode::malformed, "the file ends before its last pixel");
-    for (std::uint32_t y = 0; y < image.height(); ++y) {
+    for (std::uint32_t y = 0; y < image_.height(); ++y) {
       const auto* const row = reinterpret_cast<const unsigned char*>(bytes.data()) + y * row_bytes;
-      for (std::uint32_t x = 0; x < image.width(); ++x) {
+      for (std::uint32_t x = 0; x < image_.width(); ++x) {
         const unsigned value = bits               ? row[x / 8] >> (7 - x % 8) & 1U
                                : value_bytes == 1 ? row[x]
                                                   : row[2UL * x] * 256U + row[2UL * x + 1];
-        put(bits, static_cast<std::uint16_t>(value), x, y, image);
+        put(bits, static_cast<std::uint16_t>(value), x, y);
       }
     }
-    return image;
+    return success();
   }
 
   TextSource& source_;
   const ImageOptions& options_;
   double threshold_ = 0;
+  GrowingImage image_;
   std::vector<std::uint16_t> values_;
 };
+
+constexpr const char* unreadable = "its pixels cannot be read";
 
 /// The bands of a raster, and how they tell foreground.
 class Bands {
@@ -227,7 +255,7 @@ class Bands {
   }
 
   /// Whether the rows [y, y + count) could be read into the image.
-  bool read(int y, int count, Image& image) {
+  bool read(int y, int count, GrowingImage& image) {
     const auto width = static_cast<int>(image.width());
     const std::size_t pixels = image.width() * static_cast<std::size_t>(count);
     values_.resize(pixels);
@@ -262,18 +290,24 @@ class Bands {
     std::vector<std::string> all = notes_;
     if (!options_.threshold && !options_.labels)
       std::ranges::move(seen_.notes(threshold_), std::back_inserter(all));
+    if (negative_ > 0)
+      all.push_back(fmt::format("{} pixel{} below 0, which count as background", negative_,
+                                negative_ == 1 ? " has a value" : "s have values"));
     return all;
   }
   bool hold_labels() const { return colors_.size() == 1; }
 
-  /// Whether the values of the first band could be appended.
-  bool append_labels(int y, int count, int width, Labels& labels) {
-    if (!read_band(*colors_[0], y, count, width, part_)) return false;
-    for (const double value : part_)
-      labels.push_back(is_nodata(value) || !(value >= 0.5 && value < 4294967295.0)
-                           ? 0
-                           : static_cast<std::uint32_t>(std::lround(value)));
-    return true;
+  /// Appends the values of the first band. Returns what is wrong, or null.
+  const char* append_labels(int y, int count, int width, Labels& labels) {
+    if (!read_band(*colors_[0], y, count, width, part_)) return unreadable;
+    for (const double value : part_) {
+      const bool nothing = is_nodata(value) || value <= 0;
+      if (!nothing && !(value == std::floor(value) && value < 4294967296.0))
+        return "labels are whole numbers below 2^32, and a pixel has another value";
+      negative_ += value < 0 && !is_nodata(value) ? 1 : 0;
+      labels.push_back(nothing ? 0 : static_cast<std::uint32_t>(value));
+    }
+    return nullptr;
   }
 
  private:
@@ -305,7 +339,7 @@ class Bands {
     if (has_nodata_ != 0 && value == nodata_ && table_ == nullptr) return true;
     return std::isnan(value);
   }
-  /// Of a table of colours that of the entry; nothing where it is transparent.
+  /// The luminance of a value, by the table of colours if there is one; NaN where transparent.
   double luminance_of(double value) const {
     if (table_ == nullptr) return value;
     const GDALColorEntry* entry = value >= 0 && value < table_->GetColorEntryCount()
@@ -316,7 +350,7 @@ class Bands {
   }
   bool is_foreground(double value) const {
     if (is_nodata(value)) return false;
-    if (options_.labels) return value != 0;
+    if (options_.labels) return value > 0;
     value = luminance_of(value);
     return !std::isnan(value) && (value >= threshold_) != options_.invert;
   }
@@ -329,6 +363,7 @@ class Bands {
   int has_nodata_ = 0;
   double threshold_ = 0;
   Values seen_;
+  std::uint64_t negative_ = 0;  ///< labels
   std::vector<std::string> notes_;
   std::vector<double> values_, part_;
 };
@@ -367,7 +402,7 @@ double per_inch_of_imagej(std::string_view description) {
   return millimetres(Unit::inch) / millimetres(*unit) * (name == "nm" ? 1000 : 1);
 }
 
-/// The same of a TIFF.
+/// What a TIFF says of its resolution.
 double dots_per_inch_of(GDALDataset& dataset) {
   const auto item = [&dataset](const char* name) {
     const char* text = dataset.GetMetadataItem(name);
@@ -382,15 +417,16 @@ double dots_per_inch_of(GDALDataset& dataset) {
   return dots * per_inch_of_imagej(item("TIFFTAG_IMAGEDESCRIPTION"));
 }
 
-/// All rows into the image and, if asked for, the labels. What is wrong, or nothing.
-const char* read_rows(Bands& bands, const ImageOptions& options, Image& image, Labels& labels) {
+/// Reads all rows into the image and, if asked for, the labels. Returns what is wrong, or null.
+const char* read_rows(Bands& bands, const ImageOptions& options, GrowingImage& image,
+                      Labels& labels) {
   constexpr int rows_at_once = 64;
   const auto width = static_cast<int>(image.width()), height = static_cast<int>(image.height());
   for (int y = 0; y < height; y += rows_at_once) {
     const int count = std::min(rows_at_once, height - y);
-    if (!bands.read(y, count, image) ||
-        (options.labels && !bands.append_labels(y, count, width, labels)))
-      return "its pixels cannot be read";
+    if (!bands.read(y, count, image)) return unreadable;
+    if (!options.labels) continue;
+    if (const char* problem = bands.append_labels(y, count, width, labels)) return problem;
   }
   return nullptr;
 }
@@ -416,10 +452,11 @@ Result<ImageFile> read_raster(const std::string& name, const ImageOptions& optio
     return Error{
         ErrorCode::unsupported, "labels need an image of one channel; this one has colours", {}};
   do {
-    file.image = Image(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
-    const char* problem = read_rows(bands, options, file.image, labels);
+    GrowingImage image(width, height);
+    const char* problem = read_rows(bands, options, image, labels);
     if (problem != nullptr || !messages.failure().empty())
       return Error{ErrorCode::malformed, failure(problem), {}};
+    file.image = std::move(image).finish();
   } while (bands.has_become_mask());
   PixelPlacement placement = unplaced;
   if (dataset->GetGeoTransform(placement.data()) == CE_None) {
@@ -455,11 +492,11 @@ Result<ImageFile> read_pixels(const Input& input, const ImageOptions& options, L
     if (file && dots > 0) file->dots_per_inch = dots;
     return file;
   };
-  if (input.path != "-") return read(input.path);
+  if (!source.is_stream()) return read(input.path);
   std::string bytes;
   source.read_all(bytes, longest_image);
   if (bytes.size() > longest_image)
-    return Error{ErrorCode::too_large, "more than 4 GiB on standard input", {}};
+    return Error{ErrorCode::too_large, "more than 4 GiB in a stream", {}};
   const MemoryFile file(bytes);
   if (file.name().empty()) return Error{ErrorCode::unreadable, "cannot be kept in memory", {}};
   return read(file.name());
@@ -494,63 +531,6 @@ Result<ImageFile> read_foreground(const Input& input, const ImageOptions& option
   });
 }
 
-/// The outline of an image's foreground, moved by an offset.
-Result<Feature> outline_of(const Image& image, Vec2 offset, const ReadOptions& options) {
-  Feature feature;
-  const auto move = [offset](std::vector<Vec2>& points) {
-    for (Vec2& p : points) p = p + offset;
-  };
-  if (options.smooth_contour) {
-    Result<std::vector<Contour>> contours = smooth_outline(image);
-    if (!contours) return contours.error();
-    feature.contours = std::move(*contours);
-    for (Contour& contour : feature.contours) move(contour.points);
-  } else {
-    Result<std::vector<Ring>> rings = pixel_outline(image);
-    if (!rings) return rings.error();
-    feature.rings = std::move(*rings);
-    for (Ring& ring : feature.rings) move(ring.points);
-  }
-  return feature;
-}
-
-/// A part of a label image.
-struct Region {
-  std::uint32_t left, top, right, bottom;  ///< inclusive
-};
-
-std::map<std::uint32_t, Region> regions_of(std::span<const std::uint32_t> labels,
-                                           std::uint32_t width) {
-  std::map<std::uint32_t, Region> regions;
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (labels[i] == 0) continue;
-    const auto x = static_cast<std::uint32_t>(i % width), y = static_cast<std::uint32_t>(i / width);
-    Region& region = regions.try_emplace(labels[i], Region{x, y, x, y}).first->second;
-    region.left = std::min(region.left, x);
-    region.right = std::max(region.right, x);
-    region.bottom = y;
-  }
-  return regions;
-}
-
-/// A feature for each label.
-Status add_labelled(std::span<const std::uint32_t> labels, std::uint32_t width,
-                    const ReadOptions& options, std::vector<Feature>& features) {
-  for (const auto& [label, region] : regions_of(labels, width)) {
-    Image part(region.right - region.left + 1, region.bottom - region.top + 1);
-    for (std::uint32_t y = 0; y < part.height(); ++y)
-      for (std::uint32_t x = 0; x < part.width(); ++x)
-        if (labels[std::size_t{region.top + y} * width + region.left + x] == label) part.set(x, y);
-    auto feature = outline_of(
-        part, {static_cast<double>(region.left), static_cast<double>(region.top)}, options);
-    if (!feature) return std::move(feature).error();
-    feature->id = label;
-    feature->attributes = {{"value", std::to_string(label)}};
-    features.push_back(std::move(*feature));
-  }
-  return success();
-}
-
 Result<Document<Feature>> read_outline(const Input& input, const ReadOptions& options) {
   if (options.repair != RepairRule::none)
     return Error{ErrorCode::invalid_option, "--repair is not for images", in_file(input.path)};
@@ -561,34 +541,6 @@ Result<Document<Feature>> read_outline(const Input& input, const ReadOptions& op
 }
 
 }  // namespace
-
-Result<Document<Feature>> outline_document(ImageFile file, std::span<const std::uint32_t> labels,
-                                           const ReadOptions& options) {
-  const PixelPlacement& t = file.placement;
-  Document<Feature> dataset{static_cast<DocumentInfo&&>(file), {}};
-  dataset.y_down = !file.placed();
-  if (!file.placed()) dataset.unit = Unit::pixel;
-  if (!labels.empty()) {
-    Status added = add_labelled(labels, file.image.width(), options, dataset.items);
-    if (!added) return std::move(added).error();
-  } else {
-    auto feature = outline_of(file.image, {0, 0}, options);
-    if (!feature) return std::move(feature).error();
-    dataset.items.push_back(std::move(*feature));
-  }
-  const auto place = [&t](std::vector<Vec2>& points) {
-    for (Vec2& p : points) p = {t[0] + p.x * t[1] + p.y * t[2], t[3] + p.x * t[4] + p.y * t[5]};
-  };
-  if (file.placed())
-    for (Feature& feature : dataset.items) {
-      for (Contour& contour : feature.contours) place(contour.points);
-      for (Ring& ring : feature.rings) place(ring.points);
-    }
-  const bool square =
-      t[1] * t[1] + t[4] * t[4] == t[2] * t[2] + t[5] * t[5] && t[1] * t[2] + t[4] * t[5] == 0;
-  if (square && !options.project) dataset.pixel = std::hypot(t[1], t[4]);
-  return dataset;
-}
 
 Format image_format() {
   Format format;

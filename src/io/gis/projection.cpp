@@ -102,22 +102,36 @@ struct GlobeExtent {
   double reach = 0;
 };
 
-GlobeExtent extent_of(const Document<Feature>& dataset) {
+/// Coordinates have this unit, in degrees.
+GlobeExtent extent_of(const Document<Feature>& dataset, double unit) {
   Direction sum;
-  for_each_point(dataset, [&sum](Vec2 point) {
-    const Direction d = direction_of(point);
+  for_each_point(dataset, [&](Vec2 point) {
+    const Direction d = direction_of(unit * point);
     sum = {sum.x + d.x, sum.y + d.y, sum.z + d.z};
   });
   const double length = std::hypot(sum.x, sum.y, sum.z);
   if (length == 0) return {0, 0, 180};
   double cosine = 1;
   for_each_point(dataset, [&](Vec2 point) {
-    const Direction d = direction_of(point);
+    const Direction d = direction_of(unit * point);
     cosine = std::min(cosine, (sum.x * d.x + sum.y * d.y + sum.z * d.z) / length);
   });
   return {degrees(std::atan2(sum.y, sum.x)),
           degrees(std::asin(std::clamp(sum.z / length, -1.0, 1.0))),
           degrees(std::acos(std::clamp(cosine, -1.0, 1.0)))};
+}
+
+/// Puts points that rounding moved beyond a pole back onto it.
+void clamp_latitudes(Document<Feature>& dataset) {
+  const auto clamp = [](auto& lines) {
+    for (auto& line : lines)
+      for (Vec2& point : line.points) point.y = std::clamp(point.y, -pole, pole);
+  };
+  for (Feature& feature : dataset.items) {
+    clamp(feature.rings);
+    clamp(feature.contours);
+    clamp(feature.chains);
+  }
 }
 
 std::string note_on(const GlobeExtent& extent, bool conformal) {
@@ -155,7 +169,8 @@ Status project_to_local(Document<Feature>& dataset) {
         {}};
   }
 
-  const GlobeExtent extent = extent_of(dataset);
+  clamp_latitudes(dataset);
+  const GlobeExtent extent = extent_of(dataset, degrees(geographic.GetAngularUnits()));
   const bool conformal = extent.reach <= conformal_reach;
   OGRSpatialReference local;
   local.SetProjCS(local_name);

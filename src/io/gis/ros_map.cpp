@@ -52,7 +52,10 @@ Result<RosMap> map_of(const std::string& text) {
     return Error{ErrorCode::malformed, "the origin of a ROS map is x, y and an angle", {}};
   map.negate = keys["negate"] == "1" || keys["negate"] == "true";
   map.raw = keys["mode"] == "raw";
-  read_numbers(keys["free_thresh"], std::span(&map.free_threshold, 1));
+  if (keys.contains("free_thresh") &&
+      (read_numbers(keys["free_thresh"], std::span(&map.free_threshold, 1)) != 1 ||
+       !(map.free_threshold >= 0 && map.free_threshold <= 1)))
+    return Error{ErrorCode::malformed, "free_thresh of a ROS map must be between 0 and 1", {}};
   return map;
 }
 

@@ -66,7 +66,7 @@ class Canvas {
   /// How far apart places are that differ to the eye: a fraction of a pixel, or in pictures that
   /// can be enlarged, of the thinnest line, which hides what is smaller at any size.
   double cell() const { return pixels_ ? 0.25 : thickness(0.1); }
-  /// Of lines: in thousandths of the longer side.
+  /// The thickness of a line that is given in thousandths of the longer side.
   double thickness(double thousandths) const {
     return thousandths * 1e-3 * fineness_ * longer_side();
   }

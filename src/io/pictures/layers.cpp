@@ -9,7 +9,7 @@ namespace medial::io {
 
 namespace {
 
-// Of layers, one after another: polygons have the first.
+// Layers get these colours in turn; polygons have the first.
 constexpr std::array<Color, 4> layer_colors{
     {{0.00, 0.45, 0.70}, {0.84, 0.37, 0.00}, {0.80, 0.15, 0.20}, {0.00, 0.62, 0.45}}};
 
