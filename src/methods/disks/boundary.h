@@ -91,6 +91,10 @@ struct Boundary {
     return elements[i] == Element::edge && elements[i + 1] == Element::edge &&
            joint(i) == site::Joint::corner;
   }
+  /// Whether two sites are one of the shape, or pieces of one.
+  bool is_same(std::uint32_t i, std::uint32_t j) const {
+    return elements[i] == elements[j] && originals[i] == originals[j];
+  }
   /// Whether a disk can touch i and i + 1 in one point: an edge and a vertex, or a smooth joint.
   bool is_smooth(std::uint32_t i) const {
     if (elements[i] == Element::bridge || elements[i + 1] == Element::bridge) return false;

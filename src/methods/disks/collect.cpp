@@ -199,28 +199,37 @@ Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::span<const Bridg
 }
 
 void remove_spurs(const Boundary& boundary, Graph& graph) {
-  for (;;) {
-    std::vector<std::uint32_t> degree(graph.nodes.size());
-    for (const Edge& edge : graph.edges)
-      for (const std::uint32_t node : edge.node) ++degree[node];
-    std::vector<std::uint32_t> edges, nodes;
-    for (std::uint32_t e = 0; e < graph.edges.size(); ++e) {
-      const auto [from, to] = graph.edges[e].node;
-      const auto [left, right] = graph.edges[e].site;
-      if (boundary.originals[left] != boundary.originals[right]) continue;
-      if (degree[from] > 1 && degree[to] > 1) continue;
-      edges.push_back(e);
-      nodes.push_back(degree[to] == 1 ? to : from);
+  // Of each node, how many edges end there, and the exclusive or of their numbers: the one edge of
+  // a leaf.
+  std::vector<std::array<std::uint32_t, 2>> ends(graph.nodes.size());
+  for (std::uint32_t e = 0; e < graph.edges.size(); ++e)
+    for (const std::uint32_t node : graph.edges[e].node) {
+      ++ends[node][0];
+      ends[node][1] ^= e;
     }
-    if (edges.empty()) return;
-    std::sort(nodes.begin(), nodes.end());
-    std::vector<std::uint32_t> place(graph.nodes.size());
-    std::iota(place.begin(), place.end(), 0U);
-    fill_gaps(graph.nodes, nodes, [&](std::uint32_t from, std::uint32_t to) { place[from] = to; });
-    fill_gaps(graph.edges, edges, [](std::uint32_t, std::uint32_t) {});
-    for (Edge& edge : graph.edges)
-      for (std::uint32_t& node : edge.node) node = place[node];
-  }
+  std::vector<std::uint32_t> edges, nodes;
+  for (std::uint32_t i = 0; i < graph.nodes.size(); ++i)
+    for (std::uint32_t leaf = i; ends[leaf][0] == 1;) {
+      const std::uint32_t e = ends[leaf][1];
+      const auto [left, right] = graph.edges[e].site;
+      if (boundary.originals[left] != boundary.originals[right]) break;
+      edges.push_back(e);
+      nodes.push_back(leaf);
+      ends[leaf][0] = 0;
+      const auto [from, to] = graph.edges[e].node;
+      leaf = leaf == from ? to : from;
+      --ends[leaf][0];
+      ends[leaf][1] ^= e;
+    }
+  if (edges.empty()) return;
+  std::sort(edges.begin(), edges.end());
+  std::sort(nodes.begin(), nodes.end());
+  std::vector<std::uint32_t> place(graph.nodes.size());
+  std::iota(place.begin(), place.end(), 0U);
+  fill_gaps(graph.nodes, nodes, [&](std::uint32_t from, std::uint32_t to) { place[from] = to; });
+  fill_gaps(graph.edges, edges, [](std::uint32_t, std::uint32_t) {});
+  for (Edge& edge : graph.edges)
+    for (std::uint32_t& node : edge.node) node = place[node];
 }
 
 std::vector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& frame, double slack,

@@ -53,7 +53,7 @@ std::optional<ExactSites::Touch> ExactSites::first_touch(
     const exact::ExactSite exact_site = outline().sites[boundary.originals[site]];
     const auto disk = exact::disk_from<Precise>(foot, outreach, exact_site);
     if (!disk || !exact::may_have_foot(exact_site, *disk)) continue;
-    if (best && boundary.originals[site] == boundary.originals[touched]) {
+    if (best && boundary.is_same(site, touched)) {
       // Pieces of one arc: the disk is the same, and touches the nearest one.
       const double radius = static_cast<double>(disk->radius.value);
       const Vec2 center = foot + radius * outreach;
@@ -131,10 +131,6 @@ class ExactEvents::Search {
   exact::ExactSite exact_site(std::uint32_t i) const { return outline_.sites[name(i)]; }
   std::uint32_t name(std::uint32_t i) const { return events_.boundary_.originals[i]; }
   bool is_bridge(std::uint32_t i) const { return events_.boundary_.elements[i] == Element::bridge; }
-  bool is_same(std::uint32_t i, std::uint32_t site) const {
-    return events_.boundary_.elements[i] == events_.boundary_.elements[site] &&
-           name(i) == name(site);
-  }
   bool is_inside(std::uint32_t i) const { return i > span_.right && i < span_.left; }
   bool is_seen(std::uint32_t i) const {
     return !is_inside(i) || is_bridge(i) || seen_.count(i) > 0;
@@ -380,8 +376,9 @@ class ExactEvents::Search {
     if (stands_between_bridges(site)) return lies_between_bridges(site, disk);
     // Pieces of one arc between two bridges are one site.
     std::uint32_t first = site, last = site;
-    while (first > 0 && is_same(first - 1, site)) --first;
-    while (last + 1 < events_.boundary_.sites.size() && is_same(last + 1, site)) ++last;
+    while (first > 0 && events_.boundary_.is_same(first - 1, site)) --first;
+    while (last + 1 < events_.boundary_.sites.size() && events_.boundary_.is_same(last + 1, site))
+      ++last;
     const bool too_early = first > 0 && is_bridge(first - 1) && beyond(first - 1, site, disk) == -1;
     const bool too_late = last + 1 < events_.boundary_.sites.size() && is_bridge(last + 1) &&
                           beyond(last + 1, site, disk) == 1;

@@ -227,12 +227,11 @@ class Walker {
   Disk disk_between(const Boundary::SiteRange& run) const {
     const auto middle_from = [&](std::uint32_t first) {
       std::uint32_t last = first;
-      while (last < run.last && boundary_.originals[last + 1] == boundary_.originals[first]) ++last;
+      while (last < run.last && boundary_.is_same(last + 1, first)) ++last;
       return last > first ? site(last).point : site(first).at(0.5 * site(first).length);
     };
     std::uint32_t second = run.first;
-    while (second < run.last && boundary_.originals[second] == boundary_.originals[run.first])
-      ++second;
+    while (second < run.last && boundary_.is_same(second, run.first)) ++second;
     const Vec2 a = middle_from(run.first), b = middle_from(second);
     return {midpoint(a, b), 0.5 * distance(a, b)};
   }
@@ -255,12 +254,9 @@ class Walker {
   /// the shape. Whether there were any.
   bool joins_pieces(Span& span) const {
     const Span before = span;
-    const auto same = [&](std::uint32_t i) {
-      return element(i) != Element::bridge &&
-             boundary_.originals[i] == boundary_.originals[i + 1] && element(i + 1) == element(i);
-    };
-    while (span.left - span.right > 1 && same(span.right)) ++span.right;
-    while (span.left - span.right > 1 && same(span.left - 1)) --span.left;
+    while (span.left - span.right > 1 && boundary_.is_same(span.right, span.right + 1))
+      ++span.right;
+    while (span.left - span.right > 1 && boundary_.is_same(span.left - 1, span.left)) --span.left;
     return span.right != before.right || span.left != before.left;
   }
 
@@ -305,7 +301,7 @@ class Walker {
     using Kind = Event::Kind;
     if (event.kind != Kind::pass_right && event.kind != Kind::pass_left) return false;
     const std::uint32_t i = event.kind == Kind::pass_right ? span.right : span.left - 1;
-    return element(i) == element(i + 1) && boundary_.originals[i] == boundary_.originals[i + 1];
+    return boundary_.is_same(i, i + 1);
   }
 
   /// What ends the edge of a step's span, in double, and whether that is certain.
@@ -349,7 +345,8 @@ class Walker {
     const auto found = context_.exact->next(asked, from, hint, from_exact);
     count(found);
     if (!found) {
-      lose(span, event.site);
+      // Of several contacts in one tie, the shape as its doubles say has only some.
+      if (!step.joins_node) lose(span, event.site);
       return false;
     }
     // Between sites that are all but parallel, double's disk is as good as any.
