@@ -426,24 +426,6 @@ TEST(Gear, IsMeasuredInsteadOfDecided) {
   EXPECT_TRUE(verify(*shape, *axis, {.threads = 1}).passed);
 }
 
-/// Where a foot comes to a vertex and the disk touches a third side, both in one disk, double may
-/// take the two in the other order than the shape as its doubles say: the walk has not lost its
-/// way.
-TEST(Rings, ATieInAnotherOrderIsNotWalkedAgain) {
-  const auto classes = nasty_classes();
-  const auto rings = std::find_if(classes.begin(), classes.end(),
-                                  [](const NastyClass& one) { return one.name == "rings"; });
-  ASSERT_TRUE(rings != classes.end());
-  for (const std::uint64_t seed : {20261211300000013U, 20261211300000141U, 20261211300000178U}) {
-    const auto shape = build_shape(nasty_shape(*rings, seed, false));
-    ASSERT_TRUE(shape) << to_string(shape.error());
-    const auto axis = compute(*shape, {.threads = 1});
-    ASSERT_TRUE(axis) << to_string(axis.error());
-    EXPECT_GT(axis->statistics.exact_filtered, 0) << seed;
-    EXPECT_TRUE(verify(*shape, *axis, {.threads = 1}).passed) << seed;
-  }
-}
-
 /// The inner vertices of a regular star touch one disk: near ones leave its place open, all of them
 /// do not.
 TEST(RegularStar, IsOneTieDecidedInDouble) {

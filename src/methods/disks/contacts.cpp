@@ -98,10 +98,11 @@ bool Contacts::touches_all(std::uint32_t i, const Disk& disk) const {
   };
   const double half = 0.5 * arc.length;
   const Vec2 middle = arc.at(half), to = disk.center - middle;
-  // An arc shorter than the tolerance may lie on the disk in any direction.
+  // An arc shorter than the tolerance may lie on the disk in any direction, also outside of it.
   constexpr double beside = 0x1p-10;
-  return on_disk(arc.point) && on_disk(arc.end()) && on_disk(middle) &&
-         std::abs(cross(arc.normal_at(half), to)) <= beside * disk.radius;
+  const Vec2 normal = arc.normal_at(half);
+  return on_disk(arc.point) && on_disk(arc.end()) && on_disk(middle) && dot(normal, to) > 0 &&
+         std::abs(cross(normal, to)) <= beside * disk.radius;
 }
 
 bool Contacts::is_reflex_chain(const Span& span) const {

@@ -336,7 +336,9 @@ TwoSided run_two_sided_in_place(const Problem& problem, const SiteNumbers& numbe
       continue;
     }
     if (axis && findings.lost.empty()) return {std::move(*axis), !way.in_double};
-    way = *next_way(problem, way, findings.lost, attempts);
+    std::optional<Way> next = next_way(problem, way, findings.lost, attempts);
+    if (!next) return {std::move(axis), false};
+    way = std::move(*next);
   }
 }
 

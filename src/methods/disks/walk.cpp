@@ -286,11 +286,13 @@ class Walker {
   }
 
   /// Of the sites of two spans that differ by pieces of one arc, those on which the foot lies. Half
-  /// a circle on the parameter is infinite, of either sign.
+  /// a circle on the parameter is infinite, of either sign: what is more than a quarter turn behind
+  /// a piece is ahead of it.
   void stay_on_pieces(const Span& last, Vec2 center, Span& span) const {
     const auto is_beyond = [&](std::uint32_t i, bool at_end) {
       const double s = site::carrier_parameter(site(i), center), length = site(i).length;
-      return at_end ? s >= length || s < -length : s <= 0 || s > 2 * length;
+      const double turn = std::max(length, 2 / std::abs(site(i).curvature));
+      return at_end ? s >= length || s < -turn : s <= 0 || s > length + turn;
     };
     while (span.right < last.right && is_beyond(span.right, true)) ++span.right;
     while (span.left > last.left && is_beyond(span.left, false)) --span.left;
@@ -345,8 +347,7 @@ class Walker {
     const auto found = context_.exact->next(asked, from, hint, from_exact);
     count(found);
     if (!found) {
-      // Of several contacts in one tie, the shape as its doubles say has only some.
-      if (!step.joins_node) lose(span, event.site);
+      lose(span, event.site);
       return false;
     }
     // Between sites that are all but parallel, double's disk is as good as any.

@@ -252,7 +252,12 @@ std::uint32_t Rings::opening_to(std::uint32_t v, Vec2 p) const {
   boxes_.find({here, here}, [&](std::uint32_t u) {
     if (!(vertices_[u].point == here)) return;
     ++others;
-    const Vec2 from = start_tangent(edge(u)), to = -end_tangent(edge(vertices_[u].before));
+    const std::uint32_t before = vertices_[u].before, next = vertices_[u].next;
+    if (vertices_[u].bulge == 0 && vertices_[before].bulge == 0) {
+      if (is_in_wedge(here, vertices_[next].point, vertices_[before].point, p)) open = u;
+      return;
+    }
+    const Vec2 from = start_tangent(edge(u)), to = -end_tangent(edge(before));
     const auto angle_to = [&](Vec2 way) {
       const double angle = signed_angle(from, way);
       return angle > 0 ? angle : angle + 2 * std::numbers::pi;

@@ -98,14 +98,24 @@ inline bool crosses_ray(Vec2 a, Vec2 b, Vec2 p) {
   return (a.y > p.y) != (b.y > p.y) && (orientation(a, b, p) > 0) == (b.y > a.y);
 }
 
-/// Whether a ring that does not cross itself runs counter-clockwise: as it turns in its least
-/// point.
+/// Whether a ring that does not cross itself, but may touch itself, runs counter-clockwise: all of
+/// its edges lead from its least point to the right, and it leaves that along the lowest of them.
 inline bool is_counter_clockwise(std::span<const Vec2> ring) {
-  const auto least = static_cast<std::size_t>(
-      std::min_element(ring.begin(), ring.end(), lexicographic_less) - ring.begin());
-  const Vec2 before = ring[(least > 0 ? least : ring.size()) - 1],
-             after = ring[least + 1 < ring.size() ? least + 1 : 0];
-  return orientation(before, ring[least], after) > 0;
+  const Vec2 least = *std::min_element(ring.begin(), ring.end(), lexicographic_less);
+  Vec2 lowest = least;
+  bool leaves = false;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vec2 before = ring[(i > 0 ? i : ring.size()) - 1],
+               after = ring[i + 1 < ring.size() ? i + 1 : 0];
+    if (!(ring[i] == least)) continue;
+    for (const bool is_out : {false, true}) {
+      const Vec2 end = is_out ? after : before;
+      if (!(lowest == least) && orientation(least, lowest, end) >= 0) continue;
+      lowest = end;
+      leaves = is_out;
+    }
+  }
+  return leaves;
 }
 
 }  // namespace medial::edit
