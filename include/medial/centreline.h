@@ -22,7 +22,7 @@ struct AxisPath {
 };
 
 /// The pieces as an axis, exactly: with all sites, and edges in the order and direction of the
-/// pieces. Pieces that end at the same place share a node. O(pieces).
+/// pieces. Pieces that end at the same place share a node. O(nodes + sites + pieces log(pieces)).
 MedialAxis part_of(const MedialAxis& axis, std::span<const PathPiece> pieces);
 /// The part of radius at least `clearance`, cut exactly; keeps single nodes. O(edges).
 MedialAxis clearance_part(const MedialAxis& axis, double clearance);
@@ -68,9 +68,13 @@ struct CentreLineOptions {
 };
 
 /// A path as an axis: one chain of exact edges, extended by straight ones. A smoothed line is
-/// sampled: straight edges without sites. O(path + sites), smoothed O(samples log n).
+/// sampled: straight edges without sites. O(n + path), extended O(n log n + sites within two radii
+/// of the ends), smoothed O(n + samples log n), each n once for all paths.
 MedialAxis centre_line(const Shape& shape, const MedialAxis& axis, const AxisPath& path,
                        const CentreLineOptions& options = {});
+/// Those of several paths, one after another in one axis.
+MedialAxis centre_lines(const Shape& shape, const MedialAxis& axis,
+                        std::span<const AxisPath> paths, const CentreLineOptions& options = {});
 
 struct CollapsedShape {
   Shape polygons;    ///< the union of the disks kept; lines begin at arcs of half the width
