@@ -73,8 +73,8 @@ struct CentreLineOptions {
 MedialAxis centre_line(const Shape& shape, const MedialAxis& axis, const AxisPath& path,
                        const CentreLineOptions& options = {});
 /// Those of several paths, one after another in one axis.
-MedialAxis centre_lines(const Shape& shape, const MedialAxis& axis,
-                        std::span<const AxisPath> paths, const CentreLineOptions& options = {});
+MedialAxis centre_lines(const Shape& shape, const MedialAxis& axis, std::span<const AxisPath> paths,
+                        const CentreLineOptions& options = {});
 
 struct CollapsedShape {
   Shape polygons;    ///< the union of the disks kept; lines begin at arcs of half the width

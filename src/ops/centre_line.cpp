@@ -284,8 +284,8 @@ void append(MedialAxis& all, const MedialAxis& line) {
 
 }  // namespace
 
-MedialAxis centre_lines(const Shape& shape, const MedialAxis& axis,
-                        std::span<const AxisPath> paths, const CentreLineOptions& options) {
+MedialAxis centre_lines(const Shape& shape, const MedialAxis& axis, std::span<const AxisPath> paths,
+                        const CentreLineOptions& options) {
   ops::PartMaker parts(axis);
   std::optional<Extension> extension;
   if (options.extend) extension.emplace(axis);

@@ -193,8 +193,8 @@ class MainPaths {
       double most = 0;
       for (std::size_t i = 0; i < core_.size(); ++i) {
         const std::uint32_t node = core_[i];
-        bound[i] = std::min(bound[i], hangs(node) + by_length_.cost(node) +
-                                          std::max(farthest_of, hangs(from)));
+        bound[i] = std::min(
+            bound[i], hangs(node) + by_length_.cost(node) + std::max(farthest_of, hangs(from)));
         if (searched[i] || !(bound[i] > most)) continue;
         most = bound[i];
         next = i;

@@ -92,8 +92,8 @@ MedialAxis ops::PartMaker::part(std::span<const PathPiece> pieces) {
     }
     const auto [found, is_new] = inner_node_of.try_emplace({edge, t}, 0);
     if (is_new) {
-      found->second = add_node(
-          {disk_at(axis_, e, t), axis_.nodes[e.node[0]].component, NodeKind::site_change});
+      found->second =
+          add_node({disk_at(axis_, e, t), axis_.nodes[e.node[0]].component, NodeKind::site_change});
     }
     return found->second;
   };
