@@ -8,6 +8,7 @@
 
 #include "axis/node_kinds.h"
 #include "axis/pixel_graph.h"
+#include "base/arc.h"
 #include "base/stopwatch.h"
 #include "methods/raster/ridge/digitize.h"
 #include "methods/raster/ridge/follow.h"
@@ -163,6 +164,20 @@ Necks necks_of(const EdgeOutline& outline, const LocalGrid& local, raster::BitMa
   return necks;
 }
 
+/// How many rows and columns of pixels the boundary crosses, about.
+double crossings_of(const Shape& shape, double step) {
+  double sum = 0;
+  for (std::size_t loop = 0; loop < shape.loop_count(); ++loop) {
+    const std::uint32_t begin = shape.loop_begin[loop], end = shape.loop_begin[loop + 1];
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const Vec2 chord = shape.points[i + 1 < end ? i + 1 : begin] - shape.points[i];
+      const double straight = std::abs(chord.x) + std::abs(chord.y);
+      sum += std::max(straight, arc_length(norm(chord), shape.bulge(i)));
+    }
+  }
+  return sum / step;
+}
+
 Report with_sizes(Report report, const raster::Grid& grid, const InteriorSets& sets,
                   const Necks& necks, const NearestEdges& search) {
   report.columns = grid.columns;
@@ -184,6 +199,9 @@ std::optional<Error> refuse(const Problem& problem) {
     return Error{ErrorCode::invalid_option, "the collinear angle must be in [0, 45] degrees", {}};
   const auto grid = grid_for(problem.box, own.grid);
   if (!grid) return grid.error();
+  if (!(crossings_of(problem.shape, grid->step) <= most_crossings))
+    return Error{
+        ErrorCode::too_large, "the boundary crosses more than 2^24 rows and columns of pixels", {}};
   return std::nullopt;
 }
 
