@@ -46,7 +46,7 @@ class OpenBoxes {
   }
 
  private:
-  using Nearest = std::pair<double, std::uint32_t>;  ///< a squared distance, and of what
+  using Nearest = std::pair<double, std::uint32_t>;  ///< a squared distance, and what has it
   static constexpr std::size_t fan_out = 8;
 
   Box leaf(std::size_t k) const { return left_[order_[k]] ? boxes_[order_[k]] : Box::nothing(); }

@@ -247,7 +247,7 @@ class Floors {
  private:
   Vec2 place(std::uint32_t region) const { return offsets_.regions[region].rings[0].points[0]; }
 
-  /// Trees of which one after another is cut.
+  /// Trees that are cut one after another.
   struct Choice {
     Choice(const Floors& floors, std::vector<std::uint32_t> trees)
         : roots(std::move(trees)), left(boxes_of(floors, roots), true) {}
