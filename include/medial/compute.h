@@ -35,7 +35,7 @@ struct Options {
 /// use `contours`, which the shape approximates, or, without contours, the shape's edges.
 ///
 /// Errors: invalid_option; cancelled; empty; too_large (2^29 vertices; ridge: 2^31 pixels,
-/// 2^24 crossings with them; brushfire: a diagonal of 2^16 pixels); unsupported (a coordinate above
+/// 2^23 crossings with them; brushfire: a diagonal of 2^16 pixels); unsupported (a coordinate above
 /// 1e100, or nonzero but below 1e-100 in size or as a share of the largest; what the method does
 /// not support, see MethodInfo; pixels as fine as the coordinates; Options::exact, if the build
 /// lacks it or arcs are of one circle up to rounding; a place so narrow that rounding could join

@@ -152,18 +152,6 @@ void add_passages(const Passages& passages, const EdgeOutline& outline, const Lo
   set_node_kinds(axis);
 }
 
-/// The necks of the drawn boundary. Pixels that keep them from being found are taken from it.
-Necks necks_of(const EdgeOutline& outline, const LocalGrid& local, raster::BitMap& boundary,
-               InteriorSets& sets) {
-  Necks necks = find_necks(outline, local, boundary, sets);
-  while (!necks.undrawn.empty()) {
-    for (const Pixel p : necks.undrawn) boundary.clear(p);
-    sets = interior_sets(outline, local, boundary);
-    necks = find_necks(outline, local, boundary, sets);
-  }
-  return necks;
-}
-
 /// How many rows and columns of pixels the boundary crosses, about.
 double crossings_of(const Shape& shape, double step) {
   double sum = 0;
@@ -201,7 +189,7 @@ std::optional<Error> refuse(const Problem& problem) {
   if (!grid) return grid.error();
   if (!(crossings_of(problem.shape, grid->step) <= most_crossings))
     return Error{
-        ErrorCode::too_large, "the boundary crosses more than 2^24 rows and columns of pixels", {}};
+        ErrorCode::too_large, "the boundary crosses more than 2^23 rows and columns of pixels", {}};
   return std::nullopt;
 }
 
@@ -227,7 +215,7 @@ MedialAxis run(const Problem& problem, Report* report) {
 
   InteriorSets sets = interior_sets(outline, local, boundary);
   measured.seconds_first = processor.lap();
-  const Necks necks = necks_of(outline, local, boundary, sets);
+  const Necks necks = find_necks(outline, local, boundary, sets);
   measured.seconds_necks = processor.lap();
   Follower follower(outline, local, boundary, *search, own.rule, problem.options.cancel);
   const std::uint64_t empty = find_first_pixels(seeds_of(outline, local, sets), sets, follower);
