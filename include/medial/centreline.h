@@ -56,25 +56,21 @@ struct MainPathOptions {
 /// unless nothing would remain. A part that is a cycle is its own main path. O(n); with holes, a
 /// search of O(n log n) for each of at most 100 ends: see AxisPath::gap.
 std::vector<AxisPath> main_paths(const MedialAxis& axis, const MainPathOptions& options = {});
-
 /// The paths around holes that leave `path` and return to it, as whole edges. O(n).
 std::vector<PathPiece> side_channels(const MedialAxis& axis, const AxisPath& path);
 
 struct CentreLineOptions {
-  /// Extend both ends to the boundary: straight, or, if that is far, to the nearest place ahead.
-  bool extend = false;
+  bool extend = false;  ///< ends to the boundary: straight; if far, to the nearest place ahead
   /// Gaussian average over this many radii; stays inside and keeps the ends. 0: none.
   double smooth = 0;
 };
 
-/// A path as an axis: one chain of exact edges, extended by straight ones. A smoothed line is
-/// sampled: straight edges without sites. O(n + path), extended O(n log n + sites within two radii
-/// of the ends), smoothed O(n + samples log n), each n once for all paths.
-MedialAxis centre_line(const Shape& shape, const MedialAxis& axis, const AxisPath& path,
-                       const CentreLineOptions& options = {});
-/// Those of several paths, one after another in one axis.
+/// Paths as an axis: chains of exact edges, extended by straight ones. Smoothed lines are sampled:
+/// straight edges without sites. O(n log n) once for all paths, smoothed O(samples log n) more.
 MedialAxis centre_lines(const Shape& shape, const MedialAxis& axis, std::span<const AxisPath> paths,
                         const CentreLineOptions& options = {});
+MedialAxis centre_line(const Shape& shape, const MedialAxis& axis, const AxisPath& path,
+                       const CentreLineOptions& options = {});
 
 struct CollapsedShape {
   Shape polygons;    ///< the union of the disks kept; lines begin at arcs of half the width
