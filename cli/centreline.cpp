@@ -37,20 +37,6 @@ constexpr char collapse_formats[] = ".json .geojson .gpkg .wkt .svg .pdf .png .p
 
 using Paths = std::vector<std::vector<AxisPath>>;
 
-void append(MedialAxis& all, const MedialAxis& one) {
-  if (all.edges.empty() && all.nodes.empty()) {
-    all = one;
-    return;
-  }
-  const auto shift = static_cast<std::uint32_t>(all.nodes.size());
-  all.nodes.insert(all.nodes.end(), one.nodes.begin(), one.nodes.end());
-  for (Edge edge : one.edges) {
-    for (std::uint32_t& node : edge.node) node += shift;
-    all.edges.push_back(edge);
-  }
-  all.resolution = std::max(all.resolution, one.resolution);
-}
-
 /// The pieces of all paths of a shape together, as some functions take O(shape) time.
 AxisPath all_of(const std::vector<AxisPath>& paths) {
   AxisPath all;
@@ -64,24 +50,14 @@ Status make_lines(Document<AxisItem>& file, const Paths& paths,
                   const CentrelineArguments& arguments, int threads) {
   const auto make = [&](std::size_t i, int) -> Status {
     AxisItem& item = file.items[i];
-    MedialAxis all;
-    all.method = item.axis.method;
-    all.tolerance = item.axis.tolerance;
-    all.resolution = item.axis.resolution;
-    // Only an extended line needs sites, which are those of all parts.
-    std::vector<Site> sites =
-        arguments.line.extend ? item.axis.sites : std::exchange(item.axis.sites, {});
     if (arguments.keep_loops) {
       AxisPath whole = all_of(paths[i]);
       const std::vector<PathPiece> channels = side_channels(item.axis, whole);
       whole.pieces.insert(whole.pieces.end(), channels.begin(), channels.end());
-      append(all, part_of(item.axis, whole.pieces));
+      item.axis = part_of(item.axis, whole.pieces);
     } else {
-      for (const AxisPath& path : paths[i])
-        append(all, centre_line(item.shape, item.axis, path, arguments.line));
+      item.axis = centre_lines(item.shape, item.axis, paths[i], arguments.line);
     }
-    all.sites = std::move(sites);
-    item.axis = std::move(all);
     item.part = true;
     return success();
   };

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "axis/steps.h"
+#include "base/open_boxes.h"
 #include "medial/compute.h"
 #include "medial/measure.h"
 #include "medial/query.h"
@@ -31,6 +32,32 @@ Carving carving_of(const Shape& shape, const CarveOptions& options) {
   auto carving = carve(*axis, options);
   EXPECT_TRUE(carving.ok()) << to_string(carving.error());
   return std::move(carving).value();
+}
+
+TEST(OpenBoxes, FindTheNearestThatIsLeft) {
+  test::Random random(7);
+  std::vector<Box> boxes;
+  for (int i = 0; i < 300; ++i) {
+    const Vec2 p{std::floor(20 * random.unit()), std::floor(20 * random.unit())};
+    boxes.push_back({p, p});
+  }
+  OpenBoxes open(boxes, true);
+  std::vector<bool> left(boxes.size(), true);
+  for (std::size_t count = boxes.size(); count > 0; --count) {
+    ASSERT_FALSE(open.empty());
+    const Vec2 p{20 * random.unit(), std::floor(20 * random.unit())};
+    const auto far = [&](std::uint32_t i) { return squared_norm(boxes[i].low - p); };
+    std::uint32_t expected = 0, first = 0;
+    while (!left[first]) ++first;
+    EXPECT_EQ(open.first(), first);
+    expected = first;
+    for (std::uint32_t i = first; i < boxes.size(); ++i)
+      if (left[i] && far(i) < far(expected)) expected = i;
+    EXPECT_EQ(open.nearest(p, far), expected);
+    open.erase(expected);
+    left[expected] = false;
+  }
+  EXPECT_TRUE(open.empty());
 }
 
 TEST(Carve, ASquareIsAPyramid) {

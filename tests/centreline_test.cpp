@@ -73,6 +73,37 @@ TEST(MainPath, OfARectangleIsItsMiddleLine) {
   }
 }
 
+TEST(MainPath, OfManyPartsAreThoseOfEachPart) {
+  Rings all;
+  for (double k = 0; k < 6; ++k) {
+    for (Ring ring : {test::rectangle(4 + k, 2)[0], test::rectangle(0.5, 0.5)[0]}) {
+      const bool hole = ring.points[2].x < 1;
+      for (Vec2& p : ring.points)
+        p = p + Vec2{12 * k, hole ? 0.75 : 0} + (hole ? 1 : 0) * Vec2{0.75, 0};
+      all.push_back(ring);
+    }
+  }
+  const auto [shape, axis] = computed(all);
+  ASSERT_EQ(shape.component_count(), 6U);
+  const auto paths = main_paths(axis);
+  ASSERT_EQ(paths.size(), 6U);
+  const CentreLineOptions options{.extend = true, .smooth = 0.5};
+  const MedialAxis lines = centre_lines(shape, axis, paths, options);
+  EXPECT_EQ(lines.sites.size(), axis.sites.size());
+  std::size_t node = 0, edge = 0;
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    const auto [one, alone] = computed({all[2 * k], all[2 * k + 1]});
+    EXPECT_NEAR(paths[k].length, only_path(alone).length, 1e-12);
+    const MedialAxis line = centre_line(shape, axis, paths[k], options);
+    ASSERT_LE(node + line.nodes.size(), lines.nodes.size());
+    ASSERT_LE(edge + line.edges.size(), lines.edges.size());
+    for (const Node& own : line.nodes) EXPECT_EQ(own.disk.center, lines.nodes[node++].disk.center);
+    edge += line.edges.size();
+  }
+  EXPECT_EQ(node, lines.nodes.size());
+  EXPECT_EQ(edge, lines.edges.size());
+}
+
 TEST(MainPath, OfASquareIsADiagonal) {
   const auto [shape, axis] = computed(test::rectangle(2, 2));
   EXPECT_NEAR(only_path(axis).length, 2 * std::sqrt(2.0), 1e-14);

@@ -97,6 +97,39 @@ TEST(Necks, OfABottleIsItsNeck) {
   }
 }
 
+/// Straight edges without sites between disks on a line; `side` is joined to the disk `at`.
+MedialAxis chain_of(std::vector<Disk> disks, std::size_t at, const Disk& side) {
+  MedialAxis axis;
+  axis.tolerance = 1e-12;
+  disks.push_back(side);
+  for (const Disk& disk : disks) axis.nodes.push_back({disk, 0, NodeKind::branching});
+  for (std::uint32_t i = 0; i + 2 < disks.size(); ++i)
+    axis.edges.push_back(straight_edge(axis, i, i + 1));
+  const auto last = static_cast<std::uint32_t>(disks.size() - 1);
+  axis.edges.push_back(straight_edge(axis, static_cast<std::uint32_t>(at), last));
+  return axis;
+}
+
+TEST(Necks, OfParallelWallsAreInTheMiddleOfThem) {
+  const std::vector<Disk> disks{{{0, 0}, 3}, {{4, 0}, 1},  {{5, 0}, 1},
+                                {{8, 0}, 1}, {{10, 0}, 1}, {{14, 0}, 3}};
+  const auto expect_in_any_order = [](MedialAxis axis, const std::vector<double>& places) {
+    const auto less = [](const Edge& a, const Edge& b) { return a.node < b.node; };
+    std::sort(axis.edges.begin(), axis.edges.end(), less);
+    do {
+      const auto found = necks(axis);
+      ASSERT_EQ(found.size(), 1U);
+      const double x = found[0].width.disk.center.x;
+      EXPECT_TRUE(std::any_of(places.begin(), places.end(), [x](double at) {
+        return std::abs(x - at) < 1e-12;
+      })) << x;
+    } while (std::next_permutation(axis.edges.begin(), axis.edges.end(), less));
+  };
+  // A side way that opens does not end the walls; one that is as narrow does.
+  expect_in_any_order(chain_of(disks, 2, {{5, 2}, 1.5}), {7});
+  expect_in_any_order(chain_of(disks, 2, {{5, 2}, 1}), {4.5, 7.5});
+}
+
 TEST(Necks, AreNoneInConvexShapes) {
   for (const Rings& rings :
        {test::rectangle(10, 3), test::regular_polygon(7), Rings{test::stadium({0, 0}, {5, 1}, 2)},
@@ -307,6 +340,16 @@ TEST(LargestDisjointDisks, OfRings) {
 }
 
 /// All disks between two circles are equally deep, and none touches a third edge.
+TEST(LargestDisjointDisks, OfThousandsThatNearlyTie) {
+  constexpr std::size_t n = 3000;
+  const auto [shape, axis] =
+      computed({test::regular_polygon(n, 2)[0], test::regular_polygon(n, 1)[0]});
+  const auto disks = largest_disjoint_disks(shape, 1);
+  ASSERT_EQ(disks.size(), 1U);
+  EXPECT_NEAR(disks[0].radius, deepest_disk(axis).radius, 1e-14);
+  EXPECT_NEAR(clearance(shape, disks[0].center), disks[0].radius, 1e-14);
+}
+
 TEST(LargestDisjointDisks, OfAnAnnulusAwayFromTheMiddle) {
   for (const double hole : {0.1, 0.5, 0.7, 0.999}) {
     const Shape shape =

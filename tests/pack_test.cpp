@@ -10,6 +10,7 @@
 #include "medial/compute.h"
 #include "medial/query.h"
 #include "medial/sides.h"
+#include "ops/disk_lines.h"
 #include "support/computed.h"
 #include "support/random_shapes.h"
 
@@ -171,6 +172,34 @@ TEST(Pack, OfARectangleIsSixDisks) {
   EXPECT_EQ(report.lines, 1U);
 }
 
+TEST(Pack, LinesOfUnevenZigzagsAreSimplifiedInFewSteps) {
+  constexpr std::uint32_t n = 6000;
+  for (const bool grows : {true, false}) {
+    std::vector<Vec2> points;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const double width = grows ? i : n - i;
+      points.push_back({static_cast<double>(i), i % 2 == 0 ? width : -width});
+    }
+    std::uint64_t steps = 0;
+    const auto excess = [&](std::uint32_t i, std::uint32_t first, std::uint32_t last) {
+      ++steps;
+      const Vec2 d = points[last] - points[first], v = points[i] - points[first];
+      const double t = std::clamp(dot(d, v) / squared_norm(d), 0.0, 1.0);
+      return norm(v - t * d) - 10;
+    };
+    const auto kept = ops::simplified(n, excess);
+    EXPECT_LT(steps, 500 * n);
+    ASSERT_GE(kept.size(), 2U);
+    EXPECT_EQ(kept.front(), 0U);
+    EXPECT_EQ(kept.back(), n - 1);
+    for (std::size_t k = 0; k + 1 < kept.size(); ++k) {
+      ASSERT_LT(kept[k], kept[k + 1]);
+      for (std::uint32_t i = kept[k] + 1; i < kept[k + 1]; ++i)
+        EXPECT_LE(excess(i, kept[k], kept[k + 1]), 0);
+    }
+  }
+}
+
 TEST(Pack, RefusesErrorsThatItCannotKeep) {
   const auto shape = build_shape(test::rectangle(8, 2));
   auto axis = compute(*shape);
@@ -276,6 +305,18 @@ TEST(Squares, MissAtMostTheError) {
       }
     EXPECT_EQ(missing, report.missing);
   }
+}
+
+TEST(Squares, OfMoreThanAThousandPixelsKeepImages) {
+  Image image(1600, 1200);
+  for (std::uint32_t y = 0; y < image.height(); ++y)
+    for (std::uint32_t x = 0; x < image.width(); ++x)
+      if ((x / 7 + y / 5) % 211 != 3 || y > 40) image.set(x, y, true);
+  SquareReport report;
+  const auto back = decode_squares(encode_squares(image, 0, &report));
+  ASSERT_TRUE(back.ok());
+  EXPECT_EQ(report.missing, 0U);
+  EXPECT_TRUE(*back == image);
 }
 
 TEST(Squares, OfASquareAreOne) {

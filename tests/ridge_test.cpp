@@ -321,6 +321,20 @@ TEST(Ridge, RefusesWhatItCannotDo) {
             "invalid_option");
   EXPECT_EQ(code([](method::Ridge& o) { o.grid.pixels = 0, o.grid.resolution = 1e-8; }),
             "too_large");
+  // Slots that cross more rows than memory is meant for.
+  std::vector<Vec2> comb{{0, 0}, {4, 0}};
+  constexpr int slots = 3000;
+  for (int i = 0; i < slots; ++i) {
+    const double x = 4 - 4 * (i + 0.5) / slots, half = 0.5 / slots;
+    for (const Vec2 p :
+         {Vec2{x + half, 4}, Vec2{x + half, 1}, Vec2{x - half, 1}, Vec2{x - half, 4}})
+      comb.push_back(p);
+  }
+  const auto fine = build_shape(Rings{test::ring_of(comb)});
+  ASSERT_TRUE(fine.ok());
+  const auto refused = compute(*fine, ridge_options(6000));
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().code, ErrorCode::too_large);
   EXPECT_EQ(code([](method::Ridge& o) { o.collinear = 46; }), "invalid_option");
   EXPECT_EQ(code([](method::Ridge& o) { o.grid.pixels = 1; }), "none");
   const Shape far =

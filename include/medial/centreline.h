@@ -22,7 +22,7 @@ struct AxisPath {
 };
 
 /// The pieces as an axis, exactly: with all sites, and edges in the order and direction of the
-/// pieces. Pieces that end at the same place share a node. O(pieces).
+/// pieces. Pieces that end at the same place share a node. O(nodes + sites + pieces log(pieces)).
 MedialAxis part_of(const MedialAxis& axis, std::span<const PathPiece> pieces);
 /// The part of radius at least `clearance`, cut exactly; keeps single nodes. O(edges).
 MedialAxis clearance_part(const MedialAxis& axis, double clearance);
@@ -56,19 +56,19 @@ struct MainPathOptions {
 /// unless nothing would remain. A part that is a cycle is its own main path. O(n); with holes, a
 /// search of O(n log n) for each of at most 100 ends: see AxisPath::gap.
 std::vector<AxisPath> main_paths(const MedialAxis& axis, const MainPathOptions& options = {});
-
 /// The paths around holes that leave `path` and return to it, as whole edges. O(n).
 std::vector<PathPiece> side_channels(const MedialAxis& axis, const AxisPath& path);
 
 struct CentreLineOptions {
-  /// Extend both ends to the boundary: straight, or, if that is far, to the nearest place ahead.
-  bool extend = false;
+  bool extend = false;  ///< ends to the boundary: straight; if far, to the nearest place ahead
   /// Gaussian average over this many radii; stays inside and keeps the ends. 0: none.
   double smooth = 0;
 };
 
-/// A path as an axis: one chain of exact edges, extended by straight ones. A smoothed line is
-/// sampled: straight edges without sites. O(path + sites), smoothed O(samples log n).
+/// Paths as an axis: chains of exact edges, extended by straight ones. Smoothed lines are sampled:
+/// straight edges without sites. O(n log n) once for all paths, smoothed O(samples log n) more.
+MedialAxis centre_lines(const Shape& shape, const MedialAxis& axis, std::span<const AxisPath> paths,
+                        const CentreLineOptions& options = {});
 MedialAxis centre_line(const Shape& shape, const MedialAxis& axis, const AxisPath& path,
                        const CentreLineOptions& options = {});
 

@@ -45,7 +45,7 @@ struct SquareReport {
 
 /// Codes an image as maximal squares of foreground pixels, chosen largest first, preferring those
 /// mostly not covered yet, until every foreground pixel is within `error` pixels (in x and in y) of
-/// a covered one; 0 is lossless. O(pixels log(pixels)) at most.
+/// a covered one; 0 is lossless. O(m log(m)) for m pixels and sides of all maximal squares.
 ShapeCode encode_squares(const Image& image, std::uint32_t error = 0,
                          SquareReport* report = nullptr);
 Result<Image> decode_squares(const ShapeCode& code);  ///< errors: malformed, too_large

@@ -9,10 +9,12 @@
 
 #include "axis/node_kinds.h"
 #include "base/arc.h"
+#include "base/arc_box.h"
 #include "base/box_tree.h"
 #include "base/compat.h"
 #include "base/in_flight.h"
 #include "base/numbers.h"
+#include "base/open_boxes.h"
 #include "medial/measure.h"
 #include "medial/offset.h"
 #include "ops/groove.h"
@@ -49,35 +51,63 @@ struct RingPlace {
   double share = 0;  ///< of the way along the edge
   double squared_distance = infinity;
 };
-/// A box around an edge: no point of at most half a circle is farther from the chord than its
-/// height, none of a circle farther than its diameter.
-Box box_around(const BulgeArc& edge) {
-  Box box{edge.start, edge.start};
-  box.add(edge.end);
-  const double chord = norm(edge.chord()), bulge = std::abs(edge.bulge);
-  const double reach = 0.5 * chord * (bulge <= 1 ? bulge : (1 + bulge * bulge) / bulge);
-  return {box.low - reach * Vec2{1, 1}, box.high + reach * Vec2{1, 1}};
-}
 
-/// A ring that is not cut yet.
-struct RingLeft {
-  explicit RingLeft(const Ring& all) : ring(&all) {
-    for (std::size_t i = 0; i < all.points.size(); ++i) box.add(box_around(edge_of(all, i)));
-  }
-  const Ring* ring;
-  Box box = Box::nothing();
-};
+RingPlace place_on_edge(const Ring& ring, std::size_t i, Vec2 p) {
+  const BulgeArc edge = edge_of(ring, i);
+  const double share = nearest_share(edge, p);
+  return {i, share, squared_norm(point_at_share(edge, share) - p)};
+}
 
 RingPlace nearest_place(const Ring& ring, Vec2 p) {
   RingPlace best;
   for (std::size_t i = 0; i < ring.points.size(); ++i) {
-    const BulgeArc edge = edge_of(ring, i);
-    const double share = nearest_share(edge, p);
-    const double d = squared_norm(point_at_share(edge, share) - p);
-    if (d < best.squared_distance) best = {i, share, d};
+    const RingPlace place = place_on_edge(ring, i, p);
+    if (place.squared_distance < best.squared_distance) best = place;
   }
   return best;
 }
+
+/// The rings of a region that are not cut yet.
+class RingsLeft {
+ public:
+  /// O(n log n) for n edges; O(1) of one ring.
+  explicit RingsLeft(std::span<const Ring> rings) : rings_(rings), left_(rings.size()) {
+    if (rings.size() == 1) return;
+    std::vector<Box> boxes;
+    for (std::uint32_t ring = 0; ring < rings.size(); ++ring) {
+      begin_.push_back(static_cast<std::uint32_t>(boxes.size()));
+      for (std::size_t i = 0; i < rings[ring].points.size(); ++i) {
+        boxes.push_back(box_around(edge_of(rings[ring], i)));
+        ring_of_.push_back(ring);
+      }
+    }
+    edges_.emplace(std::move(boxes), true);
+  }
+  bool empty() const { return left_ == 0; }
+  Vec2 first_point() { return (edges_ ? rings_[ring_of_[edges_->first()]] : rings_[0]).points[0]; }
+  /// The place that is nearest to a point, and its ring, which is then no longer left.
+  std::pair<const Ring*, RingPlace> take_nearest(Vec2 p) {
+    --left_;
+    if (!edges_) return {rings_.data(), nearest_place(rings_[0], p)};
+    const auto place_of = [&](std::uint32_t i) {
+      const std::size_t edge = i - begin_[ring_of_[i]];
+      return place_on_edge(rings_[ring_of_[i]], edge, p);
+    };
+    const std::uint32_t nearest =
+        edges_->nearest(p, [&](std::uint32_t i) { return place_of(i).squared_distance; });
+    const Ring& ring = rings_[ring_of_[nearest]];
+    const std::uint32_t begin = begin_[ring_of_[nearest]];
+    for (std::uint32_t i = 0; i < ring.points.size(); ++i) edges_->erase(begin + i);
+    return {&ring, place_of(nearest)};
+  }
+
+ private:
+  std::span<const Ring> rings_;
+  std::size_t left_;
+  std::vector<std::uint32_t> begin_;    ///< of each ring: its first edge
+  std::vector<std::uint32_t> ring_of_;  ///< of each edge
+  std::optional<OpenBoxes> edges_;
+};
 
 /// A ring as a closed path that starts at a place of it.
 std::vector<ToolPoint> path_from(const Ring& ring, const RingPlace& place, double z) {
@@ -105,7 +135,8 @@ class ClearedBefore {
   /// `least`: the clearance of the rings.
   ClearedBefore(const Offsets& rings, double least, double reach, const Tabs& tabs,
                 double beside_tabs)
-      : least_(least), reach_(reach), tabs_(tabs), beside_tabs_(beside_tabs) {
+      : least_(least), reach_(reach) {
+    if (!tabs.lines.empty()) tabs_.emplace(tabs, beside_tabs);
     std::vector<Box> boxes;
     for (const OffsetRegion& region : rings.regions)
       for (const Ring& ring : region.rings)
@@ -118,12 +149,10 @@ class ClearedBefore {
 
   bool is_nothing() const { return !tree_; }
   /// Whether all around a ring of a clearance has been cut.
-  bool contains_ring(double clearance) const {
-    return tree_ && tabs_.lines.empty() && clearance >= least_;
-  }
+  bool contains_ring(double clearance) const { return tree_ && !tabs_ && clearance >= least_; }
   /// Whether all around a place has been cut, by its clearance or by what is near.
   bool contains(Vec2 p, double clearance) const {
-    if (!tree_ || ops::distance_to(tabs_, p) < beside_tabs_) return false;
+    if (!tree_ || (tabs_ && tabs_->reaches(p))) return false;
     if (clearance >= least_) return true;
     if (!(reach_ > 0)) return false;
     bool near = false;
@@ -139,8 +168,7 @@ class ClearedBefore {
   std::vector<BulgeArc> edges_;
   std::optional<BoxTree> tree_;
   double least_ = 0, reach_ = 0;
-  Tabs tabs_;
-  double beside_tabs_ = 0;  ///< where the other tool was not
+  std::optional<ops::TabTree> tabs_;  ///< and beside them, where the other tool was not
 };
 
 /// The parts of a path at one clearance that are not cleared yet, sampled every `spacing`.
@@ -196,36 +224,54 @@ class Floors {
     for (std::uint32_t i = 0; i < offsets.regions.size(); ++i)
       if (offsets.regions[i].parent != no_region) children_[offsets.regions[i].parent].push_back(i);
   }
+  /// Always the tree of regions whose first ring is nearest; each region after its children.
   void cut_all() {
     std::vector<std::uint32_t> roots;
     for (std::uint32_t i = 0; i < offsets_.regions.size(); ++i)
       if (offsets_.regions[i].parent == no_region) roots.push_back(i);
-    cut_nearest(roots);
+    std::vector<Choice> open;  // trees may be deep: no recursion
+    open.emplace_back(*this, std::move(roots));
+    while (!open.empty()) {
+      cut_chain(std::exchange(open.back().chain, {}));
+      if (open.back().left.empty()) {
+        open.pop_back();
+        continue;
+      }
+      std::vector<std::uint32_t>& chain = open.back().chain;
+      chain = {open.back().take_nearest(*this)};
+      while (children_[chain.back()].size() == 1) chain.push_back(children_[chain.back()][0]);
+      if (!children_[chain.back()].empty()) open.emplace_back(*this, children_[chain.back()]);
+    }
   }
 
  private:
-  /// Cuts trees of regions, always the one whose first ring is nearest.
-  void cut_nearest(std::vector<std::uint32_t> roots) {
-    while (!roots.empty()) {
-      auto next = roots.begin();
-      constexpr std::size_t most = 4096;  // this takes the square of it
-      if (planner_.started() && roots.size() > 1 && roots.size() <= most) {
-        next = std::min_element(roots.begin(), roots.end(), [&](std::uint32_t a, std::uint32_t b) {
-          return squared_norm(place(a) - planner_.at()) < squared_norm(place(b) - planner_.at());
-        });
-      }
-      const std::uint32_t root = *next;
-      roots.erase(next);
-      cut_tree(root);
-    }
-  }
   Vec2 place(std::uint32_t region) const { return offsets_.regions[region].rings[0].points[0]; }
 
-  /// After its children. A chain of single children may be long: no recursion along it.
-  void cut_tree(std::uint32_t root) {
-    std::vector<std::uint32_t> chain{root};
-    while (children_[chain.back()].size() == 1) chain.push_back(children_[chain.back()][0]);
-    cut_nearest(children_[chain.back()]);
+  /// Trees that are cut one after another.
+  struct Choice {
+    Choice(const Floors& floors, std::vector<std::uint32_t> trees)
+        : roots(std::move(trees)), left(boxes_of(floors, roots), true) {}
+    std::uint32_t take_nearest(const Floors& floors) {
+      const auto& planner = floors.planner_;
+      const Vec2 from = planner.started() ? planner.at() : floors.place(roots[left.first()]);
+      const std::uint32_t next = left.nearest(
+          from, [&](std::uint32_t i) { return squared_norm(floors.place(roots[i]) - from); });
+      left.erase(next);
+      return roots[next];
+    }
+    static std::vector<Box> boxes_of(const Floors& floors,
+                                     const std::vector<std::uint32_t>& regions) {
+      std::vector<Box> boxes;
+      for (const std::uint32_t i : regions) boxes.push_back({floors.place(i), floors.place(i)});
+      return boxes;
+    }
+    std::vector<std::uint32_t> roots;
+    OpenBoxes left;
+    std::vector<std::uint32_t> chain;  ///< from the root at hand to where it branches
+  };
+
+  /// From the innermost region on.
+  void cut_chain(std::vector<std::uint32_t> chain) {
     std::reverse(chain.begin(), chain.end());
     const auto rings = [&](std::uint32_t i) { return offsets_.regions[i].rings.size(); };
     for (auto begin = chain.begin(); begin != chain.end();) {
@@ -238,29 +284,18 @@ class Floors {
   /// Regions in each other, inner ones first, that have as many rings: all that follow each other
   /// from one boundary to its wall, then those towards another one.
   void cut_rings(std::span<const std::uint32_t> regions) {
-    std::vector<std::vector<RingLeft>> left;
-    for (const std::uint32_t i : regions) {
-      auto& rings = left.emplace_back();
-      for (const Ring& ring : offsets_.regions[i].rings) rings.emplace_back(ring);
-    }
+    std::vector<RingsLeft> left;
+    for (const std::uint32_t i : regions) left.emplace_back(offsets_.regions[i].rings);
     while (!left[0].empty())
       for (std::size_t i = 0; i < regions.size(); ++i)
         cut_nearest_ring(offsets_.regions[regions[i]], left[i]);
   }
-  void cut_nearest_ring(const OffsetRegion& region, std::vector<RingLeft>& left) {
-    const Vec2 from = planner_.started() ? planner_.at() : left[0].ring->points[0];
-    std::size_t next = 0;
-    RingPlace nearest;
-    for (std::size_t k = 0; k < left.size(); ++k) {
-      if (!(squared_distance(left[k].box, from) < nearest.squared_distance)) continue;
-      const RingPlace place = nearest_place(*left[k].ring, from);
-      if (place.squared_distance < nearest.squared_distance) nearest = place, next = k;
-    }
-    const Ring& ring = *left[next].ring;
-    left.erase(left.begin() + static_cast<std::ptrdiff_t>(next));
+  void cut_nearest_ring(const OffsetRegion& region, RingsLeft& left) {
+    const auto [ring, nearest] =
+        left.take_nearest(planner_.started() ? planner_.at() : left.first_point());
     const bool wall = region.parent == no_region;
     if (!wall && cleared_.contains_ring(region.clearance)) return;
-    auto path = path_from(ring, nearest, z_);
+    auto path = path_from(*ring, nearest, z_);
     if (wall) return add(ToolPathKind::wall, std::move(path), region.clearance);
     for (auto& part : parts_left(std::move(path), region.clearance, cleared_, 0.5 * step_))
       add(ToolPathKind::clearing, std::move(part), region.clearance);

@@ -9,9 +9,12 @@
 #include "axis/sites.h"
 #include "axis/steps.h"
 #include "base/arc.h"
+#include "base/arc_box.h"
+#include "base/box_tree.h"
 #include "base/numbers.h"
 #include "medial/centreline.h"
 #include "medial/query.h"
+#include "ops/routes.h"
 #include "site/boundary_tree.h"
 
 namespace medial {
@@ -64,7 +67,7 @@ double hit(const Site& site, Vec2 p, Vec2 direction, double least) {
 /// What continues a line at its last node: the end of a straight edge there.
 class Extension {
  public:
-  explicit Extension(const MedialAxis& axis) : axis_(axis) {}
+  explicit Extension(const MedialAxis& axis) : axis_(axis), sites_(boxes_of(axis)) {}
 
   /// From the line's node, which its edges reach in `ahead`.
   struct End {
@@ -73,12 +76,18 @@ class Extension {
   };
   std::optional<End> from(const Disk& disk, Vec2 ahead) const {
     constexpr double far = 2;  // radii: beyond, it is not this end that lies straight ahead
+    constexpr double touching = 1 + 1e-9;
     if (!(disk.radius > axis_.tolerance) || !(norm(ahead) > 0)) return std::nullopt;
     const Vec2 direction = (1 / norm(ahead)) * ahead;
     double straight = infinity, most = -infinity;
     std::uint32_t straight_site = 0;
     std::optional<End> best;
-    for (std::uint32_t i = 0; i < axis_.sites.size(); ++i) {
+    std::vector<std::uint32_t> near;
+    const Vec2 reach = far * touching * disk.radius * Vec2{1, 1};
+    sites_.find({disk.center - reach, disk.center + reach},
+                [&near](std::uint32_t i) { near.push_back(i); });
+    std::sort(near.begin(), near.end());
+    for (const std::uint32_t i : near) {
       const double along = hit(axis_.sites[i], disk.center, direction, 0.5 * disk.radius);
       if (along < straight) {
         straight = along;
@@ -86,7 +95,6 @@ class Extension {
       }
       const Vec2 q = foot(axis_.sites[i], disk.center);
       const Vec2 d = q - disk.center;
-      constexpr double touching = 1 + 1e-9;
       if (norm(d) > disk.radius * touching || !(dot(d, direction) > most)) continue;
       most = dot(d, direction);
       best = {q, i};
@@ -97,7 +105,16 @@ class Extension {
   }
 
  private:
+  static std::vector<Box> boxes_of(const MedialAxis& axis) {
+    std::vector<Box> boxes;
+    boxes.reserve(axis.sites.size());
+    for (const Site& site : axis.sites)
+      boxes.push_back(box_around({site.start, site.end, site.bulge}));
+    return boxes;
+  }
+
   const MedialAxis& axis_;
+  BoxTree sites_;
 };
 
 /// The direction in which a line arrives at its last node: from where it is one radius before.
@@ -122,9 +139,7 @@ Vec2 ahead_of(const MedialAxis& line, bool at_end) {
   return last.center - back;
 }
 
-void extend(const MedialAxis& axis, MedialAxis& line) {
-  if (axis.sites.empty()) return;
-  const Extension extension(axis);
+void extend(const Extension& extension, MedialAxis& line) {
   const std::uint32_t first = line.edges.front().node[0], last = line.edges.back().node[1];
   const auto begin = extension.from(line.nodes[first].disk, ahead_of(line, false));
   const auto end = extension.from(line.nodes[last].disk, ahead_of(line, true));
@@ -223,7 +238,7 @@ class SampledLine {
   double whole_ = 0;
 };
 
-MedialAxis smoothed(const Shape& shape, const MedialAxis& line, double radii, bool closed) {
+MedialAxis smoothed(const Boundary& boundary, const MedialAxis& line, double radii, bool closed) {
   std::vector<Disk> disks = sample_line(line);
   if (closed) disks.pop_back();
   const SampledLine sampled(std::move(disks), closed);
@@ -231,11 +246,9 @@ MedialAxis smoothed(const Shape& shape, const MedialAxis& line, double radii, bo
   const std::size_t count = samples.size();
   double mean_radius = 0;
   for (const Disk& disk : samples) mean_radius += disk.radius / static_cast<double>(count);
-  const Boundary boundary(shape);
   MedialAxis out;
   out.method = line.method;
   out.tolerance = line.tolerance;
-  out.sites = line.sites;
   out.resolution = sampled.whole() / static_cast<double>(count);
   const std::uint32_t component = line.nodes.front().component;
   for (std::size_t i = 0; i < count; ++i) {
@@ -258,15 +271,43 @@ MedialAxis smoothed(const Shape& shape, const MedialAxis& line, double radii, bo
   return out;
 }
 
+/// Adds a line to others.
+void append(MedialAxis& all, const MedialAxis& line) {
+  const auto shift = static_cast<std::uint32_t>(all.nodes.size());
+  all.nodes.insert(all.nodes.end(), line.nodes.begin(), line.nodes.end());
+  for (Edge edge : line.edges) {
+    for (std::uint32_t& node : edge.node) node += shift;
+    all.edges.push_back(edge);
+  }
+  all.resolution = std::max(all.resolution, line.resolution);
+}
+
 }  // namespace
+
+MedialAxis centre_lines(const Shape& shape, const MedialAxis& axis, std::span<const AxisPath> paths,
+                        const CentreLineOptions& options) {
+  ops::PartMaker parts(axis);
+  std::optional<Extension> extension;
+  if (options.extend) extension.emplace(axis);
+  std::optional<Boundary> boundary;
+  if (options.smooth > 0 && !paths.empty()) boundary.emplace(shape);
+  MedialAxis all = parts.part({});
+  if (!paths.empty()) all.resolution = 0;
+  for (const AxisPath& path : paths) {
+    MedialAxis line = parts.part(path.pieces);
+    if (!line.edges.empty()) {
+      if (extension && !path.closed) extend(*extension, line);
+      if (boundary) line = smoothed(*boundary, line, options.smooth, path.closed);
+    }
+    append(all, line);
+  }
+  all.sites = axis.sites;
+  return all;
+}
 
 MedialAxis centre_line(const Shape& shape, const MedialAxis& axis, const AxisPath& path,
                        const CentreLineOptions& options) {
-  MedialAxis line = part_of(axis, path.pieces);
-  if (line.edges.empty()) return line;
-  if (options.extend && !path.closed) extend(axis, line);
-  if (options.smooth > 0) line = smoothed(shape, line, options.smooth, path.closed);
-  return line;
+  return centre_lines(shape, axis, {&path, 1}, options);
 }
 
 }  // namespace medial

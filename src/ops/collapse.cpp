@@ -59,7 +59,8 @@ class Collapse {
         wide_(divided.wide),
         radius_(radius),
         trim_(trim),
-        incidence_(divided.axis) {}
+        incidence_(divided.axis),
+        parts_(divided.axis) {}
 
   void run() {
     const std::size_t count = axis_.edges.size();
@@ -204,7 +205,7 @@ class Collapse {
   void add_main_path(const Part& part) {
     std::vector<PathPiece> pieces;
     for (const std::uint32_t edge : part.edges) pieces.push_back({edge, 0, 1});
-    for (const AxisPath& path : main_paths(part_of(axis_, pieces), {.trim = trim_}))
+    for (const AxisPath& path : main_paths(parts_.part(pieces), {.trim = trim_}))
       for (const PathPiece& piece : path.pieces)
         lines_.push_back({part.edges[piece.edge], piece.from, piece.to});
   }
@@ -245,6 +246,7 @@ class Collapse {
   const std::vector<bool>& wide_;
   double radius_, trim_;
   const Incidence incidence_;
+  ops::PartMaker parts_;
   std::vector<bool> stays_, at_cut_;
   std::vector<PathPiece> lines_;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "base/local_frame.h"
 #include "base/tolerance.h"
 #include "base/twofold.h"
+#include "medial/compute.h"
 #include "medial/measure.h"
 #include "site/apollonius.h"
 #include "site/boundary_tree.h"
@@ -293,16 +295,18 @@ struct Candidate {
 
 class Search {
  public:
-  Search(Region& region, const Box& box, double smallest)
-      : region_(region), smallest_(std::max(smallest, finest)) {
+  /// `most`: squares for the first disk.
+  Search(Region& region, const Box& box, double smallest, std::size_t most)
+      : region_(region), smallest_(std::max(smallest, finest)), most_(most) {
     const Vec2 size = box.high - box.low;
     add({0.5 * (box.low + box.high), 0.5 * std::max(size.x, size.y)}, anywhere, anywhere);
   }
 
-  /// The deepest disk of what is left, which is then taken. O(log n) expected for each square that
-  /// this looks at; only those near disks that were taken are looked at again.
+  /// The deepest disk of what is left, which is then taken; none, too, if is_lost(). O(log n)
+  /// expected for each square that this looks at; only those near disks that were taken are looked
+  /// at again.
   std::optional<Disk> next() {
-    while (!heap_.empty() && heap_.front().priority >= smallest_) {
+    while (!heap_.empty() && heap_.front().priority >= smallest_ && !is_lost()) {
       std::pop_heap(heap_.begin(), heap_.end());
       const Entry top = heap_.back();
       heap_.pop_back();
@@ -310,13 +314,23 @@ class Search {
       if (candidate.version != top.version) continue;
       if (candidate.deepest) {
         const Disk disk = *candidate.deepest;
-        region_.take(disk);
-        unsettle(0, disk);
+        take(disk);
         return disk;
       }
       settle_or_divide(top.candidate);
     }
     return std::nullopt;
+  }
+
+  /// Whether no disk was taken yet and so many squares nearly tie that the axis finds it sooner.
+  bool is_lost() const { return candidates_.size() > most_; }
+  /// Goes on with as many squares as it takes.
+  void persist() { most_ = std::numeric_limits<std::size_t>::max(); }
+  /// Of what is left.
+  void take(const Disk& disk) {
+    persist();
+    region_.take(disk);
+    unsettle(0, disk);
   }
 
  private:
@@ -394,10 +408,18 @@ class Search {
 
   Region& region_;
   double smallest_;
+  std::size_t most_;
   std::vector<Candidate> candidates_;  ///< a quadtree
   std::vector<Entry> heap_;
   std::vector<site::Site> carriers_;
 };
+
+std::optional<Disk> deepest_by_axis(const Shape& shape, const LocalFrame& frame) {
+  const auto axis = compute(shape);
+  if (!axis || axis->nodes.empty()) return std::nullopt;
+  const Disk disk = deepest_disk(*axis);
+  return Disk{frame.to_local(disk.center), frame.scale * disk.radius};
+}
 
 }  // namespace
 
@@ -407,9 +429,20 @@ std::vector<Disk> largest_disjoint_disks(const Shape& shape, std::size_t count, 
   const Box box = bounding_box(shape);
   const LocalFrame frame = frame_of(box);
   Region region(shape, frame);
-  Search search(region, {frame.to_local(box.low), frame.to_local(box.high)}, frame.scale * least);
+  constexpr std::size_t squares_a_point = 16, few = 4096;
+  Search search(region, {frame.to_local(box.low), frame.to_local(box.high)}, frame.scale * least,
+                squares_a_point * shape.points.size() + few);
   while (disks.size() < count) {
-    const std::optional<Disk> disk = search.next();
+    std::optional<Disk> disk = search.next();
+    if (search.is_lost()) {
+      disk = deepest_by_axis(shape, frame);
+      if (!disk) {
+        search.persist();
+        continue;
+      }
+      if (disk->radius < frame.scale * least) break;
+      search.take(*disk);
+    }
     if (!disk) break;
     disks.push_back({frame.to_input(disk->center), frame.inverse * disk->radius});
   }

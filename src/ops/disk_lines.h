@@ -2,7 +2,9 @@
 
 // An axis as polylines of disks: what pack() codes.
 
+#include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "medial/axis.h"
@@ -30,32 +32,70 @@ constexpr double sample_share = 1.0 / 16;
 /// 0 <= prune <= (1 - sample_share) * error.
 DiskGraph disk_lines(const MedialAxis& axis, double prune, double error);
 
-/// Which of the points 0 .. n - 1 to keep, first and last included, so that `excess(i, first,
-/// last)` is not positive for any i between neighbours that are kept (Douglas and Peucker).
-/// `excess` is by how much point i is too far from the segment.
+/// Divides a line at its farthest point until all are near enough (Douglas and Peucker). What is
+/// left after many divisions, as of a zigzag that grows, is walked along instead.
 template <class Excess>
-std::vector<std::uint32_t> simplified(std::uint32_t n, const Excess& excess) {
-  std::vector<std::uint32_t> kept{0};
-  std::vector<std::uint32_t> ends{n - 1};
-  while (!ends.empty()) {
-    const std::uint32_t first = kept.back(), last = ends.back();
+class Simplifier {
+ public:
+  explicit Simplifier(const Excess& excess) : excess_(excess) {}
+  std::vector<std::uint32_t> run(std::uint32_t n) {
+    kept_ = {0};
+    divide(0, n - 1, 0);
+    return std::move(kept_);
+  }
+
+ private:
+  /// Appends what is kept between two points, and the last one.
+  void divide(std::uint32_t first, std::uint32_t last, std::uint32_t divisions) {
+    constexpr std::uint32_t most = 128;
+    const std::uint32_t at = farthest(first, last);
+    if (at == last) return kept_.push_back(last);
+    if (divisions == most) return walk(first, last);
+    divide(first, at, divisions + 1);
+    divide(at, last, divisions + 1);
+  }
+  /// The same with segments that doubling and halving find: each takes O(m log m) for m points.
+  void walk(std::uint32_t first, std::uint32_t last) {
+    const auto reaches = [&](std::uint32_t to) { return farthest(first, to) == to; };
+    while (first < last) {
+      std::uint32_t good = 1, bad = 2;
+      while (bad <= last - first && reaches(first + bad)) {
+        good = bad;
+        bad *= 2;
+      }
+      bad = std::min(bad, last - first + 1);
+      while (bad - good > 1) {
+        const std::uint32_t middle = good + (bad - good) / 2;
+        (reaches(first + middle) ? good : bad) = middle;
+      }
+      first += good;
+      kept_.push_back(first);
+    }
+  }
+  /// The point between two others that is farthest from their segment, if one is too far; else the
+  /// last.
+  std::uint32_t farthest(std::uint32_t first, std::uint32_t last) const {
     double worst = 0;
     std::uint32_t at = last;
     for (std::uint32_t i = first + 1; i < last; ++i) {
-      const double e = excess(i, first, last);
-      if (e > worst) {
-        worst = e;
-        at = i;
-      }
+      const double e = excess_(i, first, last);
+      if (!(e > worst)) continue;
+      worst = e;
+      at = i;
     }
-    if (at == last) {
-      kept.push_back(last);
-      ends.pop_back();
-    } else {
-      ends.push_back(at);
-    }
+    return at;
   }
-  return kept;
+
+  const Excess& excess_;
+  std::vector<std::uint32_t> kept_;
+};
+
+/// Which of the points 0 .. n - 1 to keep, first and last included, so that `excess(i, first,
+/// last)` is not positive for any i between neighbours that are kept: by how much point i is too
+/// far from the segment. O(n log n).
+template <class Excess>
+std::vector<std::uint32_t> simplified(std::uint32_t n, const Excess& excess) {
+  return Simplifier<Excess>(excess).run(n);
 }
 
 }  // namespace medial::ops

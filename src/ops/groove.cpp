@@ -7,9 +7,8 @@
 #include <utility>
 
 #include "axis/curve.h"
-#include "base/box_tree.h"
 #include "base/numbers.h"
-#include "base/spatial_order.h"
+#include "base/open_boxes.h"
 #include "medial/geometry.h"
 
 namespace medial::ops {
@@ -75,83 +74,6 @@ Grooves grooves_of(const MedialAxis& axis, double least, double most, double cho
 }
 
 namespace {
-
-/// The junctions that parts still end at, in a tree of boxes around those that are left; finds the
-/// nearest.
-class OpenEnds {
- public:
-  /// `all`: what may ever be put in. O(n log n).
-  OpenEnds(const std::vector<Vec2>& places, const std::vector<std::uint32_t>& all)
-      : places_(places), order_(all), leaf_of_(places.size()), inside_(all.size(), false) {
-    std::vector<Vec2> own;
-    own.reserve(all.size());
-    for (const std::uint32_t m : all) own.push_back(places[m]);
-    const std::vector<std::uint32_t> along = spatial_order(own, fan_out);
-    for (std::uint32_t k = 0; k < along.size(); ++k) {
-      order_[k] = all[along[k]];
-      leaf_of_[order_[k]] = k;
-    }
-    levels_ = bound_levels(order_.size(), fan_out, [](std::size_t) { return Box::nothing(); });
-  }
-  bool empty() const { return order_.empty() || levels_.back().front().is_nothing(); }
-  /// O(log n).
-  void insert(std::uint32_t m) { put(m, true); }
-  void erase(std::uint32_t m) { put(m, false); }
-  /// The one of the least number where several are as near. Requires one. O(log n) where the
-  /// others are farther.
-  std::uint32_t nearest(Vec2 p) const {
-    Nearest best{infinity, 0};
-    search(levels_.size() - 1, 0, p, best);
-    return best.second;
-  }
-
- private:
-  using Nearest = std::pair<double, std::uint32_t>;  ///< a squared distance, and where
-  static constexpr std::size_t fan_out = 8;
-
-  void put(std::uint32_t m, bool inside) {
-    std::size_t i = leaf_of_[m];
-    inside_[i] = inside;
-    for (std::size_t level = 0; level < levels_.size(); ++level) {
-      i /= fan_out;
-      Box& box = levels_[level][i];
-      box = Box::nothing();
-      for (std::size_t k = i * fan_out; k < end_of(level, i); ++k) box.add(box_of(level, k));
-    }
-  }
-  /// Of the parts of box i of a level: places below the first one.
-  std::size_t end_of(std::size_t level, std::size_t i) const {
-    return std::min((i + 1) * fan_out, level == 0 ? order_.size() : levels_[level - 1].size());
-  }
-  Box box_of(std::size_t level, std::size_t k) const {
-    if (level > 0) return levels_[level - 1][k];
-    return inside_[k] ? Box{places_[order_[k]], places_[order_[k]]} : Box::nothing();
-  }
-  /// Below box i of a level: the nearest boxes first.
-  void search(std::size_t level, std::size_t i, Vec2 p, Nearest& best) const {
-    if (level == 0) {
-      for (std::size_t k = i * fan_out; k < end_of(level, i); ++k)
-        if (inside_[k]) best = std::min(best, {squared_norm(places_[order_[k]] - p), order_[k]});
-      return;
-    }
-    std::array<std::pair<double, std::size_t>, fan_out> parts;
-    std::size_t count = 0;
-    for (std::size_t k = i * fan_out; k < end_of(level, i); ++k) {
-      const double near = squared_distance(levels_[level - 1][k], p);
-      if (near == infinity || near > best.first) continue;
-      std::size_t at = count++;
-      for (; at > 0 && parts[at - 1].first > near; --at) parts[at] = parts[at - 1];
-      parts[at] = {near, k};
-    }
-    for (std::size_t k = 0; k < count && parts[k].first <= best.first; ++k)
-      search(level - 1, parts[k].second, p, best);
-  }
-
-  const std::vector<Vec2>& places_;
-  std::vector<std::uint32_t> order_, leaf_of_;
-  std::vector<bool> inside_;
-  std::vector<std::vector<Box>> levels_;  ///< the last one has one box
-};
 
 using Trail = std::vector<GrooveStep>;
 
@@ -229,19 +151,22 @@ std::vector<std::vector<GrooveStep>> trails_of(const Grooves& grooves, Vec2 star
   }
   // A trail that begins at a junction of odd degree ends at another one: there is no way to need
   // fewer. What then is left are closed trails.
-  std::vector<std::uint32_t> used, left(grooves.junctions);
+  std::vector<std::uint32_t> left(grooves.junctions);
+  std::vector<Box> boxes;
+  for (const Vec2 place : places) boxes.push_back({place, place});
+  OpenBoxes odd_ends(boxes, false), even_ends(std::move(boxes), false);
   for (std::uint32_t j = 0; j < grooves.junctions; ++j) {
     left[j] = static_cast<std::uint32_t>(around[j].size());
-    if (left[j] > 0) used.push_back(j);
+    if (left[j] > 0) (left[j] % 2 == 1 ? odd_ends : even_ends).insert(j);
   }
-  OpenEnds odd_ends(places, used), even_ends(places, used);
-  for (const std::uint32_t j : used) (left[j] % 2 == 1 ? odd_ends : even_ends).insert(j);
   std::vector<bool> done(parts.size(), false);
   std::vector<std::vector<GrooveStep>> trails;
   Vec2 at = start;
   while (!odd_ends.empty() || !even_ends.empty()) {
     const bool from_odd = !odd_ends.empty();
-    std::uint32_t j = from_odd ? odd_ends.nearest(at) : even_ends.nearest(at);
+    std::uint32_t j = (from_odd ? odd_ends : even_ends).nearest(at, [&](std::uint32_t i) {
+      return squared_norm(places[i] - at);
+    });
     if (left[j] == 0) {
       even_ends.erase(j);
       continue;

@@ -43,12 +43,23 @@ struct Hanging {
 class MainPaths {
  public:
   MainPaths(const MedialAxis& axis, const MainPathOptions& options)
-      : axis_(axis), options_(options), incidence_(axis) {}
+      : axis_(axis),
+        options_(options),
+        incidence_(axis),
+        lengths_(axis.edges.size()),
+        core_lengths_(axis.edges.size(), infinity),
+        core_costs_(axis.edges.size(), infinity),
+        by_length_(axis, incidence_, core_lengths_),
+        by_cost_(axis, incidence_, core_costs_) {}
 
   std::vector<AxisPath> run() {
-    lengths_.resize(axis_.edges.size());
     for (std::size_t i = 0; i < lengths_.size(); ++i) lengths_[i] = length(axis_, axis_.edges[i]);
     take_off_hanging();
+    for (std::uint32_t i = 0; i < lengths_.size(); ++i) {
+      if (taken_[i]) continue;
+      core_lengths_[i] = lengths_[i];
+      core_costs_[i] = ops::cost_of(axis_, {i, 0, 1}, options_.route);
+    }
     std::vector<AxisPath> paths;
     std::vector<bool> seen(axis_.nodes.size(), false);
     for (std::uint32_t node = 0; node < axis_.nodes.size(); ++node) {
@@ -153,10 +164,6 @@ class MainPaths {
   std::pair<std::uint32_t, std::uint32_t> farthest(std::uint32_t top, double& gap) {
     constexpr int most_searches = 100;
     constexpr double nothing_more = 1e-12;
-    std::vector<double> costs(axis_.edges.size(), infinity);
-    for (std::size_t i = 0; i < costs.size(); ++i)
-      if (!taken_[i]) costs[i] = lengths_[i];
-    ops::Search search(axis_, incidence_, costs);
     std::pair best(top, top);
     double reach = hanging_[top].both();
     std::vector<double> bound(core_.size(), infinity);
@@ -169,11 +176,11 @@ class MainPaths {
       const std::uint32_t from = core_[next];
       searched[next] = true;
       const std::array start{ops::Start{from, 0}};
-      search.run(start);
+      by_length_.run(start);
       double farthest_of = 0;
       std::uint32_t end = from;
-      for (const std::uint32_t node : search.reached()) {
-        const double there = node == from ? 0 : search.cost(node) + hangs(node);
+      for (const std::uint32_t node : by_length_.reached()) {
+        const double there = node == from ? 0 : by_length_.cost(node) + hangs(node);
         if (!(there > farthest_of)) continue;
         farthest_of = there;
         end = node;
@@ -186,8 +193,8 @@ class MainPaths {
       double most = 0;
       for (std::size_t i = 0; i < core_.size(); ++i) {
         const std::uint32_t node = core_[i];
-        bound[i] = std::min(bound[i],
-                            hangs(node) + search.cost(node) + std::max(farthest_of, hangs(from)));
+        bound[i] = std::min(
+            bound[i], hangs(node) + by_length_.cost(node) + std::max(farthest_of, hangs(from)));
         if (searched[i] || !(bound[i] > most)) continue;
         most = bound[i];
         next = i;
@@ -201,14 +208,10 @@ class MainPaths {
     return best;
   }
 
-  std::vector<Step> core_way(std::uint32_t from, std::uint32_t to) const {
-    std::vector<double> costs(axis_.edges.size(), infinity);
-    for (std::uint32_t i = 0; i < costs.size(); ++i)
-      if (!taken_[i]) costs[i] = ops::cost_of(axis_, {i, 0, 1}, options_.route);
-    ops::Search search(axis_, incidence_, costs);
+  std::vector<Step> core_way(std::uint32_t from, std::uint32_t to) {
     const std::array start{ops::Start{from, 0}};
-    search.run(start);
-    return search.way_to(to);
+    by_cost_.run(start);
+    return by_cost_.way_to(to);
   }
 
   /// How many steps to cut at the beginning of a path: up to the branching node whose disk leaves
@@ -247,6 +250,8 @@ class MainPaths {
   const MainPathOptions& options_;
   const Incidence incidence_;
   std::vector<double> lengths_;
+  std::vector<double> core_lengths_, core_costs_;  ///< of edges; infinite outside the core
+  ops::Search by_length_, by_cost_;                ///< in the core; they serve all parts
   std::vector<Hanging> hanging_;
   std::vector<std::uint32_t> degree_;  ///< in the core; 0: hanging, or the last node of a tree
   std::vector<bool> taken_;            ///< edges outside the core

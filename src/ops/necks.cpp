@@ -1,9 +1,10 @@
 // Necks: the saddles of the radius on the graph of the axis.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
-#include <numeric>
+#include <optional>
 #include <set>
 
 #include "axis/curve.h"
@@ -32,48 +33,86 @@ bool is_flat(const MedialAxis& axis, std::uint32_t edge) {
   return ops::narrowest_place(axis, edge).t == 0.5 && ops::widest_place(axis, edge).t == 0.5;
 }
 
-/// The middle of the flat edges that a place lies on, or at the end of.
-EdgePlace middle_of_flat(const MedialAxis& axis, const Incidence& incidence, EdgePlace place) {
-  std::vector<Step> chain;
-  const auto follow = [&](std::uint32_t node, std::uint32_t before) {
-    for (bool more = true; more;) {
-      more = false;
-      for (const std::uint32_t edge : incidence.edges(node)) {
-        const bool seen = edge == before ||
-                          ranges::any_of(chain, [edge](Step step) { return step.edge == edge; });
-        if (seen || !is_flat(axis, edge)) continue;
-        chain.push_back({edge, axis.edges[edge].node[0] == node});
-        node = head_of(axis, chain.back());
-        before = edge;
-        more = true;
-        break;
-      }
-    }
-  };
-  const Edge& own = axis.edges[place.edge];
-  if (is_flat(axis, place.edge)) {
-    follow(own.node[0], place.edge);
-    reverse(chain);
-    chain.push_back({place.edge, true});
-    follow(own.node[1], place.edge);
-  } else {
+/// Chains of flat edges: each goes on where exactly two of them meet.
+class FlatChains {
+ public:
+  explicit FlatChains(const MedialAxis& axis)
+      : axis_(axis), incidence_(axis), middle_(axis.edges.size()) {}
+
+  /// The middle of the chain that a place lies on, or at the end of; else the place. O(n) for any
+  /// number of places.
+  EdgePlace middle(EdgePlace place) {
+    if (is_flat(axis_, place.edge)) return middle_of_chain(place.edge);
     // An end of the edge that is as narrow up to rounding.
-    const double radius = disk_at(axis, own, place.t).radius;
-    for (const std::uint32_t node : own.node)
-      if (chain.empty() && axis.nodes[node].disk.radius - radius <= 4 * axis.tolerance)
-        follow(node, place.edge);
+    const Edge& own = axis_.edges[place.edge];
+    const double radius = disk_at(axis_, own, place.t).radius;
+    for (const std::uint32_t node : own.node) {
+      if (axis_.nodes[node].disk.radius - radius > 4 * axis_.tolerance) continue;
+      const FlatEnds ends = flat_ends(node);
+      if (ends.count > 0) return ends.count <= 2 ? middle_of_chain(ends.edge[0]) : place;
+    }
+    return place;
   }
-  if (chain.empty()) return place;
-  double half = 0;
-  for (const Step step : chain) half += 0.5 * length(axis, axis.edges[step.edge]);
-  for (const Step step : chain) {
-    const Curve curve = curve_of(axis, axis.edges[step.edge]);
-    const double whole = curve.length();
-    if (half <= whole) return {step.edge, curve.at_length(step.forward ? half : whole - half)};
-    half -= whole;
+
+ private:
+  /// The flat edges at a node, of which the first two are known; loops count twice.
+  struct FlatEnds {
+    std::size_t count = 0;
+    std::array<std::uint32_t, 2> edge{};
+  };
+  FlatEnds flat_ends(std::uint32_t node) const {
+    FlatEnds ends;
+    for (const std::uint32_t edge : incidence_.edges(node)) {
+      if (!is_flat(axis_, edge)) continue;
+      if (ends.count < 2) ends.edge[ends.count] = edge;
+      ++ends.count;
+    }
+    return ends;
   }
-  return place;
-}
+
+  /// The steps from a node on, up to the end of the chain or to where it is closed.
+  void follow(std::uint32_t node, std::uint32_t first, std::vector<Step>& chain) const {
+    for (std::uint32_t before = first;;) {
+      const FlatEnds ends = flat_ends(node);
+      if (ends.count != 2) return;
+      const std::uint32_t next = ends.edge[ends.edge[0] == before ? 1 : 0];
+      if (next == first) return;
+      chain.push_back({next, axis_.edges[next].node[0] == node});
+      node = head_of(axis_, chain.back());
+      before = next;
+    }
+  }
+
+  EdgePlace middle_of_chain(std::uint32_t edge) {
+    if (middle_[edge]) return *middle_[edge];
+    const auto [from, to] = axis_.edges[edge].node;
+    std::vector<Step> chain;
+    follow(from, edge, chain);
+    const bool closed = !chain.empty() && head_of(axis_, chain.back()) == to;
+    reverse(chain);
+    chain.push_back({edge, true});
+    if (!closed) follow(to, edge, chain);
+    const EdgePlace middle = middle_of(chain);
+    for (const Step step : chain) middle_[step.edge] = middle;
+    return middle;
+  }
+
+  EdgePlace middle_of(const std::vector<Step>& chain) const {
+    double half = 0;
+    for (const Step step : chain) half += 0.5 * length(axis_, axis_.edges[step.edge]);
+    for (const Step step : chain) {
+      const Curve curve = curve_of(axis_, axis_.edges[step.edge]);
+      const double whole = curve.length();
+      if (half <= whole) return {step.edge, curve.at_length(step.forward ? half : whole - half)};
+      half -= whole;
+    }
+    return {chain.back().edge, chain.back().forward ? 1.0 : 0.0};
+  }
+
+  const MedialAxis& axis_;
+  const Incidence incidence_;
+  std::vector<std::optional<EdgePlace>> middle_;  ///< of each edge's chain, once known
+};
 
 }  // namespace
 
@@ -99,13 +138,13 @@ std::vector<Neck> necks(const MedialAxis& axis, double widening) {
 
   // Parts of larger radius than the link at hand, and their widest disks.
   DisjointSets parts(widest.size());
-  const Incidence incidence(axis);
+  FlatChains chains(axis);
   std::vector<Neck> found;
   for (const Link& link : links) {
     const std::uint32_t a = parts.find(link.from), b = parts.find(link.to);
     const double opens_to = std::min(widest[a], widest[b]);
     if (opens_to >= widening * link.narrowest && opens_to > 0) {
-      const EdgePlace place = middle_of_flat(axis, incidence, link.place);
+      const EdgePlace place = chains.middle(link.place);
       found.push_back({place, ops::width_at(axis, place), opens_to, a == b});
     }
     if (a == b) continue;

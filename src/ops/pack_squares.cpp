@@ -32,15 +32,68 @@ bool over_row(std::uint32_t from, std::uint32_t to, const Visit& visit) {
   return false;
 }
 
-void fill(Image& image, std::uint32_t x0, std::uint32_t y0, std::uint32_t x1, std::uint32_t y1) {
-  for (std::uint32_t y = y0; y < y1; ++y) {
-    const auto row = image.row(y);
-    over_row(x0, x1, [&](std::uint32_t word, std::uint64_t bits) {
-      row[word] |= bits;
-      return false;
-    });
+/// Pixels that are covered, row by row with the number of those in each word (Fenwick 1994).
+class Covered {
+ public:
+  Covered(std::uint32_t width, std::uint32_t height)
+      : image_(width, height),
+        words_((width + word_bits - 1) / word_bits),
+        counts_(std::size_t{words_} * height, 0) {}
+
+  /// Covers columns [x0, x1) of rows [y0, y1).
+  void fill(std::uint32_t x0, std::uint32_t y0, std::uint32_t x1, std::uint32_t y1) {
+    for (std::uint32_t y = y0; y < y1; ++y) {
+      const auto row = image_.row(y);
+      over_row(x0, x1, [&](std::uint32_t word, std::uint64_t bits) {
+        const auto more = static_cast<std::uint32_t>(std::popcount(bits & ~row[word]));
+        row[word] |= bits;
+        for (std::uint32_t i = word + 1; more > 0 && i <= words_; i += i & (~i + 1))
+          counts_[std::size_t{y} * words_ + i - 1] += more;
+        return false;
+      });
+    }
   }
-}
+  /// Whether at least `least` pixels of a square are not covered. O(size log(width)), less where
+  /// some of its rows decide.
+  bool leaves(const Square& s, std::uint64_t least) const {
+    std::uint64_t open = 0, below = std::uint64_t{s.size} * s.size;
+    for (std::uint32_t y = s.y; y < s.y + s.size && open < least && open + below >= least; ++y) {
+      open += open_in(y, s.x, s.x + s.size);
+      below -= s.size;
+    }
+    return open >= least;
+  }
+
+ private:
+  /// Of the row's first words.
+  std::uint64_t covered_before(std::uint32_t y, std::uint32_t word) const {
+    std::uint64_t count = 0;
+    for (std::uint32_t i = word; i > 0; i &= i - 1)
+      count += counts_[std::size_t{y} * words_ + i - 1];
+    return count;
+  }
+  std::uint64_t open_in(std::uint32_t y, std::uint32_t from, std::uint32_t to) const {
+    const auto row = image_.row(y);
+    const auto count = [&row](std::uint32_t first, std::uint32_t last) {
+      std::uint64_t open = 0;
+      over_row(first, last, [&](std::uint32_t word, std::uint64_t bits) {
+        open += static_cast<unsigned>(std::popcount(bits & ~row[word]));
+        return false;
+      });
+      return open;
+    };
+    constexpr std::uint32_t few = 16;  // words, which are counted as fast
+    const std::uint32_t first = (from + word_bits - 1) / word_bits, last = to / word_bits;
+    if (last < first + few) return count(from, to);
+    const std::uint64_t between = std::uint64_t{last - first} * word_bits;
+    return count(from, first * word_bits) + count(last * word_bits, to) + between -
+           (covered_before(y, last) - covered_before(y, first));
+  }
+
+  Image image_;
+  std::uint32_t words_;
+  std::vector<std::uint32_t> counts_;
+};
 
 /// All squares of foreground pixels that no larger one contains.
 std::vector<Square> maximal_squares(const Image& image) {
@@ -106,33 +159,21 @@ ShapeCode encode_squares(const Image& image, std::uint32_t error, SquareReport* 
   std::stable_sort(squares.begin(), squares.end(),
                    [](const Square& a, const Square& b) { return a.size > b.size; });
   // What is covered, or near enough to what is.
-  Image done(image.width(), image.height());
-  const auto open_pixels = [&](const Square& s) {
-    std::uint64_t count = 0;
-    for (std::uint32_t y = s.y; y < s.y + s.size; ++y) {
-      const auto row = done.row(y);
-      over_row(s.x, s.x + s.size, [&](std::uint32_t word, std::uint64_t bits) {
-        count += static_cast<unsigned>(std::popcount(bits & ~row[word]));
-        return false;
-      });
-    }
-    return count;
-  };
+  Covered done(image.width(), image.height());
   // First those squares that mostly cover what none does yet, then whatever is left to cover.
   std::vector<Square> chosen;
   for (const std::uint64_t divisor : {2U, 4U, 8U, 16U, 0U}) {
     std::vector<Square> rest;
     for (const Square& s : squares) {
-      const std::uint64_t area = std::uint64_t{s.size} * s.size, open = open_pixels(s);
-      if (open == 0) continue;
-      if (divisor != 0 && open * divisor < area) {
+      const std::uint64_t area = std::uint64_t{s.size} * s.size;
+      if (!done.leaves(s, divisor == 0 ? 1 : (area + divisor - 1) / divisor)) {
         rest.push_back(s);
         continue;
       }
       chosen.push_back(s);
       const auto low = [error](std::uint32_t v) { return v > error ? v - error : 0; };
-      fill(done, low(s.x), low(s.y), std::min(image.width(), s.x + s.size + error),
-           std::min(image.height(), s.y + s.size + error));
+      done.fill(low(s.x), low(s.y), std::min(image.width(), s.x + s.size + error),
+                std::min(image.height(), s.y + s.size + error));
     }
     squares = std::move(rest);
   }

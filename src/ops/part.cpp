@@ -72,44 +72,50 @@ EdgePlace ops::widest_place(const MedialAxis& axis, std::uint32_t edge) {
   return extreme_place(axis, edge, -1);
 }
 
-MedialAxis part_of(const MedialAxis& axis, std::span<const PathPiece> pieces) {
+MedialAxis ops::PartMaker::part(std::span<const PathPiece> pieces) {
   MedialAxis part;
-  part.method = axis.method;
-  part.tolerance = axis.tolerance;
-  part.resolution = axis.resolution;
-  part.exterior = axis.exterior;
-  part.sites = axis.sites;
-  std::vector<std::uint32_t> node_of(axis.nodes.size(), none);
+  part.method = axis_.method;
+  part.tolerance = axis_.tolerance;
+  part.resolution = axis_.resolution;
+  part.exterior = axis_.exterior;
   std::map<std::pair<std::uint32_t, double>, std::uint32_t> inner_node_of;
   const auto add_node = [&](const Node& node) {
     part.nodes.push_back(node);
     return static_cast<std::uint32_t>(part.nodes.size() - 1);
   };
   const auto node_at = [&](std::uint32_t edge, double t) {
-    const Edge& e = axis.edges[edge];
+    const Edge& e = axis_.edges[edge];
     if (t == 0 || t == 1) {
       const std::uint32_t old = e.node[t == 0 ? 0 : 1];
-      if (node_of[old] == none) node_of[old] = add_node(axis.nodes[old]);
-      return node_of[old];
+      if (node_of_[old] == none) node_of_[old] = add_node(axis_.nodes[old]);
+      return node_of_[old];
     }
     const auto [found, is_new] = inner_node_of.try_emplace({edge, t}, 0);
     if (is_new) {
       found->second =
-          add_node({disk_at(axis, e, t), axis.nodes[e.node[0]].component, NodeKind::site_change});
+          add_node({disk_at(axis_, e, t), axis_.nodes[e.node[0]].component, NodeKind::site_change});
     }
     return found->second;
   };
   part.edges.reserve(pieces.size());
   for (const PathPiece& piece : pieces) {
-    Edge edge = axis.edges[piece.edge];
-    const Curve curve = curve_of(axis, edge);
+    Edge edge = axis_.edges[piece.edge];
+    const Curve curve = curve_of(axis_, edge);
     edge.node = {node_at(piece.edge, piece.from), node_at(piece.edge, piece.to)};
     if (std::abs(piece.to - piece.from) != 1)
       std::tie(edge.control, edge.weight) = curve.control_between(piece.from, piece.to);
     if (piece.from > piece.to) std::swap(edge.site[0], edge.site[1]);
     part.edges.push_back(edge);
   }
+  for (const PathPiece& piece : pieces)
+    for (const std::uint32_t node : axis_.edges[piece.edge].node) node_of_[node] = none;
   set_node_kinds(part);
+  return part;
+}
+
+MedialAxis part_of(const MedialAxis& axis, std::span<const PathPiece> pieces) {
+  MedialAxis part = ops::PartMaker(axis).part(pieces);
+  part.sites = axis.sites;
   return part;
 }
 

@@ -426,16 +426,16 @@ Result<PlacedImage> rebuild_image(const MedialAxis& axis, std::uint32_t pixels, 
   for (const std::uint32_t i : uncovered(axis, slack * pixel)) add(axis.nodes[i].disk);
   for (const Edge& edge : axis.edges) {
     // Between two disks of radius r at a distance d, d^2 / 8 r is missed.
-    const double radius =
-        std::min(axis.nodes[edge.node[0]].disk.radius, axis.nodes[edge.node[1]].disk.radius);
-    const double step = std::max(pixel / 2, std::sqrt(8 * slack * pixel * radius));
+    const auto suffice = [&](const Disk& a, const Disk& b) {
+      const double radius = std::max(std::min(a.radius, b.radius), 0.0);
+      return distance(a.center, b.center) <=
+             std::max(pixel / 2, std::sqrt(8 * slack * pixel * radius));
+    };
     const Curve curve = curve_of(axis, edge);
     const auto halve = [&](const auto& self, double t0, const Disk& a, double t1, const Disk& b,
                            int depth) -> void {
       constexpr int deepest = 24;
-      if (!in_picture(a) || !in_picture(b) || distance(a.center, b.center) <= step ||
-          depth == deepest)
-        return;
+      if (!in_picture(a) || !in_picture(b) || suffice(a, b) || depth == deepest) return;
       const double t = 0.5 * (t0 + t1);
       const Disk middle = curve.at(t);
       add(middle);

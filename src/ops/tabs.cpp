@@ -202,17 +202,8 @@ class Lift {
  public:
   explicit Lift(const Carving& carving)
       : tabs_(carving.tabs),
-        reach_(carving.tip_radius +
-               carving.slope * std::max(carving.deepest - carving.tabs.top, 0.0)) {
-    std::vector<Box> boxes;
-    for (const TabLine& line : tabs_.lines) {
-      Box box{line[0], line[0]};
-      box.add(line[1]);
-      box.add(line[2]);
-      boxes.push_back(wider(box));
-    }
-    tree_.emplace(boxes);
-  }
+        tree_(tabs_, carving.tip_radius +
+                         carving.slope * std::max(carving.deepest - carving.tabs.top, 0.0)) {}
 
   std::vector<ToolPoint> operator()(const std::vector<ToolPoint>& path) const {
     std::vector<ToolPoint> out;
@@ -221,18 +212,12 @@ class Lift {
   }
 
  private:
-  Box wider(const Box& box) const {
-    const Vec2 by = (tabs_.width / 2 + reach_) * Vec2{1, 1};
-    return {box.low - by, box.high + by};
-  }
   std::vector<const TabLine*> near(const BulgeArc& move) const {
     Box box{move.start, move.start};
     box.add(move.end);
     for (const Vec2 side : {Vec2{1, 0}, Vec2{0, 1}, Vec2{-1, 0}, Vec2{0, -1}})
       if (const auto point = parallel_point(move, side)) box.add(*point);
-    std::vector<const TabLine*> found;
-    tree_->find(box, [&](std::uint32_t i) { found.push_back(&tabs_.lines[i]); });
-    return found;
+    return tree_.near(box);
   }
   static void put(Vec2 p, double z, std::vector<ToolPoint>& out) {
     if (out.empty() || !(out.back().point == p) || out.back().z != z) out.push_back({p, z, 0});
@@ -244,8 +229,8 @@ class Lift {
     std::vector<std::pair<double, double>> inside;
     if (!above && !(move.start == move.end)) {
       if (auto lines = near(move); !lines.empty())
-        inside = Crossing(move, std::move(lines), tabs_.width, reach_).inside();
-    } else if (!above && ops::distance_to(tabs_, from.point) < reach_) {
+        inside = Crossing(move, std::move(lines), tabs_.width, tree_.reach()).inside();
+    } else if (!above && tree_.reaches(from.point)) {
       inside = {{0, 1}};
     }
     const double level = (-tabs_.top - from.z) / (to.z - from.z);  // where a slope comes up to it
@@ -269,19 +254,40 @@ class Lift {
   }
 
   const Tabs& tabs_;
-  double reach_;
-  std::optional<BoxTree> tree_;
+  ops::TabTree tree_;
 };
+
+std::vector<Box> boxes_around(const Tabs& tabs, double reach) {
+  std::vector<Box> boxes;
+  for (const TabLine& line : tabs.lines) {
+    Box box{line[0], line[0]};
+    box.add(line[1]);
+    box.add(line[2]);
+    const Vec2 by = (tabs.width / 2 + reach) * Vec2{1, 1};
+    boxes.push_back({box.low - by, box.high + by});
+  }
+  return boxes;
+}
 
 }  // namespace
 
 namespace ops {
 
-double distance_to(const Tabs& tabs, Vec2 p) {
-  double least = infinity;
-  for (const TabLine& line : tabs.lines)
-    least = std::min(least, distance_to_tab(p, line, tabs.width));
-  return least;
+TabTree::TabTree(const Tabs& tabs, double reach)
+    : tabs_(tabs), reach_(reach), tree_(boxes_around(tabs, reach)) {}
+
+std::vector<const TabLine*> TabTree::near(const Box& box) const {
+  std::vector<const TabLine*> found;
+  tree_.find(box, [&](std::uint32_t i) { found.push_back(&tabs_.lines[i]); });
+  return found;
+}
+
+bool TabTree::reaches(Vec2 p) const {
+  bool reached = false;
+  tree_.find({p, p}, [&](std::uint32_t i) {
+    reached = reached || distance_to_tab(p, tabs_.lines[i], tabs_.width) < reach_;
+  });
+  return reached;
 }
 
 void spare_tabs(Carving& carving) {

@@ -2,6 +2,9 @@
 
 // Tabs: where they stand, and tool paths that spare them.
 
+#include <vector>
+
+#include "base/box_tree.h"
 #include "medial/carve.h"
 
 namespace medial::ops {
@@ -10,7 +13,21 @@ namespace medial::ops {
 /// 1e-8 of the tool's radius and a tab's width.
 void spare_tabs(Carving& carving);
 
-/// The distance from the nearest tab; infinite without tabs.
-double distance_to(const Tabs& tabs, Vec2 p);
+/// Tabs, and what lies within `reach` of them, in a tree.
+class TabTree {
+ public:
+  /// O(tabs log(tabs)).
+  TabTree(const Tabs& tabs, double reach);
+  double reach() const { return reach_; }
+  /// The tabs whose reach may meet a box. O(log(tabs)) each.
+  std::vector<const TabLine*> near(const Box& box) const;
+  /// Whether a tab is nearer than the reach.
+  bool reaches(Vec2 p) const;
+
+ private:
+  Tabs tabs_;
+  double reach_;
+  BoxTree tree_;
+};
 
 }  // namespace medial::ops

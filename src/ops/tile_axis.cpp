@@ -165,6 +165,8 @@ class TileAxis {
 
   /// Names and degrees of the nodes. A name is made of the sites on both sides of each edge that
   /// leaves: no two nodes have the same ones, and all tiles that have the node have the same sites.
+  /// It is a sum of random numbers that they stand for: two of n nodes get one name by chance, in
+  /// one of 2^65 / n^2 axes.
   void name_nodes() {
     names_.resize(axis_.nodes.size());
     degrees_.resize(axis_.nodes.size());

@@ -12,6 +12,8 @@ namespace medial::ridge {
 
 /// No grid has more pixels: three bit maps of this size are 768 MiB.
 constexpr std::uint64_t most_pixels = std::uint64_t{1} << 31;
+/// Nor does a boundary cross more rows and columns of them: each crossing takes some 400 bytes.
+constexpr double most_crossings = 0x1p23;
 
 /// The grid that is asked for: the shape's box in the middle, with a margin of a pixel at
 /// least. Errors: invalid_option (see PixelGrid), too_large (more than most_pixels), unsupported

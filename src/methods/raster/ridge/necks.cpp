@@ -34,6 +34,7 @@ struct Crossing {
 struct Crossings {
   std::vector<Crossing> all;
   std::vector<std::uint32_t> order, rank;
+  std::vector<std::uint32_t> by_square;  ///< into which the boundary goes from them
   std::vector<std::uint32_t> row_begin;  ///< in `order`
   std::uint64_t hidden = 0;
 };
@@ -119,6 +120,13 @@ Crossings find_crossings(const EdgeOutline& outline, const LocalGrid& local) {
   crossings.rank.resize(order.size());
   crossings.row_begin.assign(std::size_t{local.grid.rows} + 1, 0);
   for (std::uint32_t i = 0; i < order.size(); ++i) crossings.rank[order[i]] = i;
+  std::vector<std::uint32_t>& chains = crossings.by_square;
+  chains.resize(all.size());
+  for (std::uint32_t i = 0; i < chains.size(); ++i) chains[i] = i;
+  std::sort(chains.begin(), chains.end(), [&](std::uint32_t i, std::uint32_t j) {
+    const Pixel a = all[i].square, b = all[j].square;
+    return a != b ? a < b : i < j;
+  });
   std::size_t at = 0;
   for (std::uint32_t row = 0; row <= local.grid.rows; ++row) {
     while (at < order.size() && (!all[order[at]].on_row || all[order[at]].line < row)) ++at;
@@ -308,12 +316,7 @@ void Cells::whole(Pixel square) {
 
 void Cells::build() {
   const std::vector<Crossing>& all = crossings_.all;
-  std::vector<std::uint32_t> chains(all.size());
-  for (std::uint32_t i = 0; i < chains.size(); ++i) chains[i] = i;
-  std::sort(chains.begin(), chains.end(), [&](std::uint32_t i, std::uint32_t j) {
-    const Pixel a = all[i].square, b = all[j].square;
-    return a != b ? a < b : i < j;
-  });
+  const std::vector<std::uint32_t>& chains = crossings_.by_square;
   // The pixels of the boundary map that lie inside, of a row of squares' lower and upper pixels.
   const std::uint32_t words = boundary_.words_per_row();
   std::vector<std::uint64_t> lower(words), upper(words), square(words);
@@ -587,12 +590,10 @@ void Complex::result(const std::vector<Corners>& corners, Necks& necks) const {
                 [](const Necks::Meeting& m) { return m.gates.size() + m.corners.size() < 2; });
 }
 
-}  // namespace
-
-Necks find_necks(const EdgeOutline& outline, const LocalGrid& local, const BitMap& boundary,
-                 const InteriorSets& sets) {
+/// The necks of a boundary map.
+Necks necks_of(const LocalGrid& local, const BitMap& boundary, const InteriorSets& sets,
+               const Crossings& crossings) {
   constexpr double shortest_branch = 3;
-  const Crossings crossings = find_crossings(outline, local);
   Cells cells(local, boundary, sets, crossings);
   cells.build();
   Necks necks;
@@ -606,6 +607,20 @@ Necks find_necks(const EdgeOutline& outline, const LocalGrid& local, const BitMa
   for (std::size_t i = 0; i + 3 < cells.surrounded.size(); ++i)
     if (cells.surrounded[i] == cells.surrounded[i + 3])
       necks.undrawn.push_back(cells.surrounded[i]);
+  return necks;
+}
+
+}  // namespace
+
+Necks find_necks(const EdgeOutline& outline, const LocalGrid& local, BitMap& boundary,
+                 InteriorSets& sets) {
+  const Crossings crossings = find_crossings(outline, local);
+  Necks necks = necks_of(local, boundary, sets, crossings);
+  while (!necks.undrawn.empty()) {
+    for (const Pixel p : necks.undrawn) boundary.clear(p);
+    sets = interior_sets(outline, local, boundary);
+    necks = necks_of(local, boundary, sets, crossings);
+  }
   return necks;
 }
 

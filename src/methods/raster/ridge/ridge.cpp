@@ -8,6 +8,7 @@
 
 #include "axis/node_kinds.h"
 #include "axis/pixel_graph.h"
+#include "base/arc.h"
 #include "base/stopwatch.h"
 #include "methods/raster/ridge/digitize.h"
 #include "methods/raster/ridge/follow.h"
@@ -151,16 +152,18 @@ void add_passages(const Passages& passages, const EdgeOutline& outline, const Lo
   set_node_kinds(axis);
 }
 
-/// The necks of the drawn boundary. Pixels that keep them from being found are taken from it.
-Necks necks_of(const EdgeOutline& outline, const LocalGrid& local, raster::BitMap& boundary,
-               InteriorSets& sets) {
-  Necks necks = find_necks(outline, local, boundary, sets);
-  while (!necks.undrawn.empty()) {
-    for (const Pixel p : necks.undrawn) boundary.clear(p);
-    sets = interior_sets(outline, local, boundary);
-    necks = find_necks(outline, local, boundary, sets);
+/// How many rows and columns of pixels the boundary crosses, about.
+double crossings_of(const Shape& shape, double step) {
+  double sum = 0;
+  for (std::size_t loop = 0; loop < shape.loop_count(); ++loop) {
+    const std::uint32_t begin = shape.loop_begin[loop], end = shape.loop_begin[loop + 1];
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const Vec2 chord = shape.points[i + 1 < end ? i + 1 : begin] - shape.points[i];
+      const double straight = std::abs(chord.x) + std::abs(chord.y);
+      sum += std::max(straight, arc_length(norm(chord), shape.bulge(i)));
+    }
   }
-  return necks;
+  return sum / step;
 }
 
 Report with_sizes(Report report, const raster::Grid& grid, const InteriorSets& sets,
@@ -184,6 +187,9 @@ std::optional<Error> refuse(const Problem& problem) {
     return Error{ErrorCode::invalid_option, "the collinear angle must be in [0, 45] degrees", {}};
   const auto grid = grid_for(problem.box, own.grid);
   if (!grid) return grid.error();
+  if (!(crossings_of(problem.shape, grid->step) <= most_crossings))
+    return Error{
+        ErrorCode::too_large, "the boundary crosses more than 2^23 rows and columns of pixels", {}};
   return std::nullopt;
 }
 
@@ -209,7 +215,7 @@ MedialAxis run(const Problem& problem, Report* report) {
 
   InteriorSets sets = interior_sets(outline, local, boundary);
   measured.seconds_first = processor.lap();
-  const Necks necks = necks_of(outline, local, boundary, sets);
+  const Necks necks = find_necks(outline, local, boundary, sets);
   measured.seconds_necks = processor.lap();
   Follower follower(outline, local, boundary, *search, own.rule, problem.options.cancel);
   const std::uint64_t empty = find_first_pixels(seeds_of(outline, local, sets), sets, follower);
