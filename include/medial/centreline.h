@@ -63,8 +63,7 @@ std::vector<PathPiece> side_channels(const MedialAxis& axis, const AxisPath& pat
 struct CentreLineOptions {
   /// Extend both ends to the boundary: straight, or, if that is far, to the nearest place ahead.
   bool extend = false;
-  /// Gaussian average over this many radii; stays inside and keeps the ends. 0: none.
-  double smooth = 0;
+  double smooth = 0;  ///< Gaussian average over this many radii, inside, from end to end; 0: none
 };
 
 /// A path as an axis: one chain of exact edges, extended by straight ones. A smoothed line is
@@ -80,7 +79,8 @@ struct CollapsedShape {
 /// Collapses the parts narrower than `width`. Polygons keep the opening of the shape by a disk of
 /// that width, corners that protrude from it by at most `trim` * width / 2, and necks between two
 /// such disks that overlap. Cusps between arcs may be rounded by 2^-20 (at worst 2^-10) of the
-/// width. O(n log n). Errors: invalid_option (width <= 0), those of build_shape().
-Result<CollapsedShape> collapse_narrow(const MedialAxis& axis, double width, double trim = 1);
+/// width. `corner_angle`: see RebuildOptions. O(n log n). Errors: invalid_option, build_shape()'s.
+Result<CollapsedShape> collapse_narrow(const MedialAxis& axis, double width, double trim = 1,
+                                       double corner_angle = 0.01);
 
 }  // namespace medial

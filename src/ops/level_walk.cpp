@@ -253,20 +253,10 @@ bool LevelWalk::pass_joints(std::uint32_t before, std::uint32_t after, double le
     builder.begin(after, *met);
     return true;
   }
-  // A loop's numbers may begin anywhere in between.
-  std::vector<std::uint32_t> chain{before}, back{after};
-  const auto bulges = [&](std::uint32_t site) {
-    return site < sites.size() && sites[site].bulge > 0 &&
-           curvature(arc_of(sites[site])) * level < 1;
-  };
-  while (!joined(chain.back(), back.back()) && joined(chain.back(), chain.back() + 1) &&
-         bulges(chain.back() + 1))
-    chain.push_back(chain.back() + 1);
-  while (!joined(chain.back(), back.back()) && joined(back.back() - 1, back.back()) &&
-         bulges(back.back() - 1))
-    back.push_back(back.back() - 1);
-  if (!joined(chain.back(), back.back())) return false;
-  chain.insert(chain.end(), back.rbegin(), back.rend());
+  const auto chain = sites_between(axis_, before, after, joined, [&](const Site& site) {
+    return site.bulge > 0 && curvature(arc_of(site)) * level < 1;
+  });
+  if (chain.empty()) return false;
   for (std::size_t i = 1; i < chain.size(); ++i) {
     const Site &a = sites[chain[i - 1]], &b = sites[chain[i]];
     const auto met = beside_joint(a, b, level);
