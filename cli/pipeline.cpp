@@ -451,7 +451,9 @@ Result<std::optional<int>> stream_axes(
   std::uint64_t points = 0;
   options = engine_options(arguments.common, 1, 0, std::move(options));
   io::StreamOptions how;
-  how.none = Document<AxisItem>{{.corner_angle = arguments.common.corner_angle.value_or(0)}, {}};
+  Document<AxisItem> none;
+  none.corner_angle = arguments.common.corner_angle.value_or(0);
+  how.none = std::move(none);
   how.most_points = most_points;
   how.compute = [&](Document<ShapeItem> shapes, int threads,
                     AxesReport& report) -> Result<io::StreamItems> {

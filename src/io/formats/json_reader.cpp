@@ -265,11 +265,6 @@ AxisItem read_item(json::value value) {
   return item;
 }
 
-double corner_angle_from(double degrees) {
-  demand(degrees >= 0 && degrees <= 10, "the corner angle is not in 0 to 10 degrees");
-  return degrees;
-}
-
 Document<AxisItem> read_file(json::document& document) {
   Document<AxisItem> file;
   file.items = read_items(document, "medial", native_version, read_item,
@@ -291,6 +286,11 @@ void check_item(const AxisItem& item) {
   }
   check_shape(item.shape);
   check_axis(item.shape, item.axis);
+}
+
+double corner_angle_from(double degrees) {
+  demand(degrees >= 0 && degrees <= 10, "the corner angle is not in 0 to 10 degrees");
+  return degrees;
 }
 
 Unit unit_from(const std::string& name) {
