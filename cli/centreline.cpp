@@ -236,7 +236,8 @@ Result<Collapse> collapse_all(const Document<AxisItem>& file,
   auto shapes = map_items<CollapsedShape>(
       std::vector<double>(file.items.size(), 1.0), arguments.common.threads,
       [&](std::size_t i, int) {
-        return collapse_narrow(file.items[i].axis, arguments.collapse, arguments.path.path.trim);
+        return collapse_narrow(file.items[i].axis, arguments.collapse, arguments.path.path.trim,
+                               corner_angle(arguments.common, file.corner_angle));
       });
   if (!shapes) return std::move(shapes).error();
   out.shapes = std::move(shapes).value();

@@ -35,12 +35,13 @@ Result<Document<AxisItem>> picture_of(const Shape& fixed, const Shape& moving,
   around.exterior = true;
   auto outer = compute(fixed, around);
   if (!outer) return std::move(outer).error();
-  Shape moved = placed(moving, at);
-  auto inner = compute(moved);
+  auto moved = placed(moving, at);
+  if (!moved) return std::move(moved).error();
+  auto inner = compute(*moved);
   if (!inner) return std::move(inner).error();
   Document<AxisItem> file;
   file.items.push_back({fixed, std::move(outer).value(), {}});
-  file.items.push_back({std::move(moved), std::move(inner).value(), {}});
+  file.items.push_back({std::move(moved).value(), std::move(inner).value(), {}});
   return file;
 }
 

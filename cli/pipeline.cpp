@@ -222,6 +222,7 @@ Result<LoadedShapes> load_shapes(const InputOptions& input, const CommonOptions&
       naming_file(medial::load_shapes(std::move(features).value(), options, &out.report), input);
   if (!shapes) return with_cure(std::move(shapes).error(), input);
   out.file = std::move(shapes).value();
+  out.file.corner_angle = common.corner_angle.value_or(out.file.corner_angle);
   out.phases.end("shape");
   print_notes(out.file, input, common);
   return out;
@@ -499,6 +500,9 @@ Result<std::optional<int>> stream_axes(
   std::uint64_t points = 0;
   options = engine_options(arguments.common, 1, 0, std::move(options));
   io::StreamOptions how;
+  Document<AxisItem> none;
+  none.corner_angle = arguments.common.corner_angle.value_or(0);
+  how.none = std::move(none);
   how.most_points = most_points;
   how.compute = [&](Document<ShapeItem> shapes, int threads,
                     AxesReport& report) -> Result<io::StreamItems> {

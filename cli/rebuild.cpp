@@ -73,9 +73,10 @@ Result<Shape> inside_surroundings(const Shape& around) {
   return build_shape(rings);
 }
 
-Result<Shape> rebuild_one(const AxisItem& item, const RebuildArguments& arguments,
+Result<Shape> rebuild_one(const AxisItem& item, double of_input, const RebuildArguments& arguments,
                           RebuildReport& report) {
   RebuildOptions options;
+  options.corner_angle = corner_angle(arguments.common, of_input);
   if (arguments.tangents) options.by = RebuildBy::tangents;
   options.points = arguments.points;
   if (arguments.polygon) {
@@ -93,9 +94,10 @@ Result<Shape> rebuild_one(const AxisItem& item, const RebuildArguments& argument
 Result<Rebuilt> rebuild_all(const Document<AxisItem>& file, const RebuildArguments& arguments) {
   Rebuilt out;
   std::vector<RebuildReport> reports(file.items.size());
-  auto shapes = map_items<Shape>(
-      edge_weights_of(file), arguments.common.threads,
-      [&](std::size_t i, int) { return rebuild_one(file.items[i], arguments, reports[i]); });
+  auto shapes =
+      map_items<Shape>(edge_weights_of(file), arguments.common.threads, [&](std::size_t i, int) {
+        return rebuild_one(file.items[i], file.corner_angle, arguments, reports[i]);
+      });
   if (!shapes) return std::move(shapes).error();
   out.shapes = std::move(shapes).value();
   for (const RebuildReport& report : reports) {

@@ -240,7 +240,7 @@ export interface CarveOptions {
 }
 export interface GcodeOptions { safe?: number; feed?: number; plunge?: number; spindle?: number; yDown?: boolean }
 export interface Carving {
-  paths: { kind: "clearing" | "wall" | "groove" | "ramp"; pass: number; points: number[][] }[];
+  paths: { kind: "clearing" | "wall" | "groove" | "ramp" | "plunge"; pass: number; points: number[][] }[];
   deepest: number; flatFrom?: number; tipRadius: number; slope: number; step: number;
   cutLength: number; travelLength: number;
   toGcode(options?: GcodeOptions): string;
@@ -273,7 +273,7 @@ export function axis(x: Geometry, options?: AxisOptions): MedialAxis;
 export function methods(): MethodInfo[];
 export function prune(x: MedialAxis | Geometry, measure?: PruneMeasure, threshold?: number, options?: PruneOptions): MedialAxis;
 export function pruneMeasures(): Record<PruneMeasure, number>;
-export function rebuild(x: MedialAxis, options?: { by?: "outline" | "tangents" | "hulls"; points?: number; chord?: number }): Shape;
+export function rebuild(x: MedialAxis, options?: { by?: "outline" | "tangents" | "hulls"; points?: number; chord?: number; cornerAngle?: number }): Shape;
 export function smooth(x: MedialAxis | Geometry, measure?: PruneMeasure, threshold?: number, options?: PruneOptions): Shape;
 export function collapse(x: MedialAxis | Geometry, width: number, options?: { trim?: number }): { polygons: Shape | null; lines: MedialAxis };
 export function centerline(x: MedialAxis | Geometry, options?: LineOptions): Line;

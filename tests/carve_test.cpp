@@ -272,6 +272,37 @@ TEST(Carve, RampsGoDownAlongThePath) {
   }
 }
 
+TEST(Carve, RampsAreNowhereSteeperThanAsked) {
+  const CarveOptions options{.angle = 0, .depth = 50, .tool = 4, .ramp = 1};
+  std::size_t ramps = 0;
+  const Carving narrow = carving_of(shape_of(test::rectangle(4.2, 4.2)), options);
+  for (const ToolPath& path : narrow.paths) {
+    EXPECT_NE(path.kind, ToolPathKind::plunge);
+    if (path.kind != ToolPathKind::ramp) continue;
+    ++ramps;
+    for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
+      const ToolPoint &from = path.points[i], &to = path.points[i + 1];
+      ASSERT_LE(from.z - to.z,
+                std::tan(std::numbers::pi / 180) * distance(from.point, to.point) + 1e-9);
+    }
+  }
+  EXPECT_EQ(ramps, 1U);
+  // Where the mill hardly fits there is no way along which to go down, nor in a circle.
+  for (const Carving& straight :
+       {carving_of(shape_of(test::rectangle(4.000001, 4.000001)), options),
+        carving_of(shape_of({test::circle({0, 0}, 2)}), options),
+        carving_of(shape_of({test::circle({0, 0}, 2)}), {.ramp = 5})}) {
+    ASSERT_GE(straight.paths.size(), 1U);
+    const ToolPath& down = straight.paths[0];
+    EXPECT_EQ(down.kind, ToolPathKind::plunge);
+    ASSERT_EQ(down.points.size(), 2U);
+    EXPECT_EQ(down.points[0].z, 0);
+    EXPECT_FALSE(std::signbit(down.points[0].z));
+    EXPECT_NEAR(down.points[1].z, -straight.deepest, 1e-9);
+    EXPECT_TRUE(down.points[0].point == down.points[1].point);
+  }
+}
+
 TEST(Carve, PassesFollowTheWayOfOne) {
   for (std::uint64_t seed = 0; seed < carve_count / 4; ++seed) {
     const RandomShape random = test::random_any(seed);

@@ -465,6 +465,30 @@ TEST(Features, OfRandomShapesAddUp) {
   }
 }
 
+TEST(Features, OfAnySizeAreTheSame) {
+  const auto wave = [](double size) {  // straight and curved branches, in and out
+    Rings rings{test::stadium({0, 0}, {5 * size, size}, size)};
+    rings.push_back(test::ring_of({{9 * size, 0},
+                                   {14 * size, 0},
+                                   {14 * size, 3 * size},
+                                   {11 * size, size},
+                                   {9 * size, 4 * size}}));
+    return describe(axis_of(rings));
+  };
+  const AxisFeatures one = wave(1);
+  for (const double size : {1e-90, 1e-60, 1e60, 1e90}) {
+    SCOPED_TRACE(size);
+    const AxisFeatures other = wave(size);
+    ASSERT_EQ(other.runs.size(), one.runs.size());
+    for (std::size_t i = 0; i < one.runs.size(); ++i) {
+      EXPECT_EQ(other.runs[i].primitive, one.runs[i].primitive);
+      EXPECT_EQ(other.runs[i].variation, one.runs[i].variation);
+      EXPECT_NEAR(other.runs[i].slope, one.runs[i].slope, 1e-9);
+      EXPECT_NEAR(other.runs[i].mean_radius / size, one.runs[i].mean_radius, 1e-9);
+    }
+  }
+}
+
 TEST(Features, KeepUnderSymmetries) {
   std::size_t checked = 0;
   for (std::uint64_t seed = 0; seed < feature_count / 2; ++seed) {

@@ -67,6 +67,25 @@ TEST(Match, TellsShapesApart) {
   EXPECT_EQ(dissimilarity(bar, cross), dissimilarity(cross, bar));
 }
 
+TEST(Match, NeedlesAreComparedToo) {
+  const ShapeSignature bar = sign(test::rectangle(1, 1e-9));
+  const ShapeSignature thinner = sign(test::rectangle(1, 1e-10));
+  const ShapeSignature wedge = sign({test::ring_of({{0, 0}, {1, 0}, {0.5, 1e-10}})});
+  const ShapeSignature square = sign(test::rectangle(1, 1));
+  for (const ShapeSignature& one : {bar, thinner, wedge}) EXPECT_EQ(dissimilarity(one, one), 0);
+  EXPECT_GT(dissimilarity(bar, thinner), 0);
+  EXPECT_LT(dissimilarity(bar, thinner), dissimilarity(bar, wedge));
+  EXPECT_LT(dissimilarity(bar, wedge), dissimilarity(square, wedge));
+}
+
+TEST(Match, SizesDoNotMatter) {
+  for (const double size : {1e-90, 1e90}) {
+    SCOPED_TRACE(size);
+    EXPECT_LE(dissimilarity(sign(test::rectangle(3, 1)), sign(test::rectangle(3 * size, size))),
+              1e-9);
+  }
+}
+
 TEST(Match, FullDisksAreToldApart) {
   // Their axes are points, without a length to count by.
   const auto disks = [](int count) {

@@ -170,6 +170,21 @@ TEST(Transects, EndOnArcs) {
   }
 }
 
+TEST(Transects, EndOnArcsThatAreAllButStraight) {
+  Rings rings = test::rectangle(10, 2);
+  for (const double bulge : {1e-3, 1e-7, 1e-11, 1e-12}) {
+    SCOPED_TRACE(bulge);
+    rings[0].bulges = {bulge, 0, bulge, 0};
+    const auto [shape, axis] = computed(rings);
+    const AxisPath path = main_paths(axis)[0];
+    for (const LocalWidth& at : transects_along(shape, axis, path, even(path.length, 5))) {
+      const double x = at.disk.center.x, sagitta = 2 * bulge * x * (10 - x) / 10;  // of a parabola
+      if (x < 2 || x > 8) continue;
+      EXPECT_NEAR(at.span(), 2 + 2 * sagitta, 1e-10 + 3 * bulge * bulge);
+    }
+  }
+}
+
 TEST(Necks, AroundAHole) {
   // An eccentric circular hole: one widest and one narrowest place.
   const auto [shape, axis] = computed({test::circle({0, 0}, 5), test::circle({1, 0}, 2)});

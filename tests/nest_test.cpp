@@ -45,7 +45,7 @@ TEST(Nest, APegGoesIntoItsSlot) {
                                [](const auto& a, const auto& b) { return a.saved > b.saved; }));
     for (const Placement& at : *found) {
       EXPECT_GT(at.gap, 0);
-      expect_apart(fixed, placed(moving, at));
+      expect_apart(fixed, *placed(moving, at));
     }
   }
 }
@@ -75,7 +75,7 @@ TEST(Nest, TipsDoNotCross) {
   const auto found = nest(star, other);
   ASSERT_TRUE(found.ok());
   ASSERT_FALSE(found->empty());
-  for (const Placement& at : *found) expect_apart(star, placed(other, at));
+  for (const Placement& at : *found) expect_apart(star, *placed(other, at));
 }
 
 TEST(Nest, KeepsAGapAndDoesNotMirrorUnasked) {
@@ -101,7 +101,15 @@ TEST(Nest, HolesDoNotHidePeninsulas) {
   ASSERT_FALSE(plain->empty() || found->empty());
   EXPECT_GT(found->front().saved, 16);  // of the 24 of a bay
   EXPECT_NEAR(found->front().saved, plain->front().saved, 0.05 * plain->front().saved);
-  expect_apart(holed, placed(holed, found->front()));
+  expect_apart(holed, *placed(holed, found->front()));
+}
+
+TEST(Nest, RefusesWhatCannotBe) {
+  for (const double gap : {-1.0, std::nan(""), HUGE_VAL})
+    EXPECT_EQ(nest(slotted(), tee(), gap).error().code, ErrorCode::invalid_option) << gap;
+  Placement far;
+  far.move = {1e120, 0};
+  EXPECT_FALSE(placed(tee(), far).ok());  // all of it is one point there
 }
 
 TEST(Nest, ConvexShapesHaveNoBays) {
@@ -113,7 +121,7 @@ TEST(Nest, ConvexShapesHaveNoBays) {
 
 TEST(Nest, APlacementMirrorsTurnsAndMoves) {
   const Shape shape = shape_of({{0, 0}, {4, 0}, {0, 1}});
-  const Shape moved = placed(shape, {.angle = std::acos(0.0), .mirrored = true, .move = {5, 5}});
+  const Shape moved = *placed(shape, {.angle = std::acos(0.0), .mirrored = true, .move = {5, 5}});
   EXPECT_NEAR(area(moved), area(shape), 1e-12);
   const Box box = bounding_box(moved);
   EXPECT_NEAR(box.low.x, 4, 1e-12);

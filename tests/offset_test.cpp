@@ -221,6 +221,22 @@ TEST(Offset, RefusesWhatItCannotDo) {
   EXPECT_EQ(offset_curves(square, {&one, 1}, sampled).error().code, ErrorCode::unsupported);
 }
 
+TEST(Offset, RefusesMoreThanItCanNumber) {
+  // Four edges of the axis of each square cross all levels: 2^32 times and some.
+  test::Rings squares;
+  for (int i = 0; i < 1100; ++i) {
+    const double x = 2 * i;
+    squares.push_back(test::ring_of({{x, 0}, {x + 1, 0}, {x + 1, 1}, {x, 1}}));
+  }
+  std::vector<double> levels;
+  for (int k = 1; k <= 1'000'000; ++k) levels.push_back(4e-7 * k);
+  EXPECT_EQ(offset_curves(shape_of(squares), levels).error().code, ErrorCode::too_large);
+  for (double& level : levels) level = -level;
+  EXPECT_EQ(offset_curves(shape_of(squares), levels).error().code, ErrorCode::too_large);
+  levels.resize(2);
+  EXPECT_EQ(offset_curves(shape_of(squares), levels)->regions.size(), 2200U);
+}
+
 /// Clearances inside and outside a shape: small ones, and some at which things happen.
 std::vector<double> interesting(const MedialAxis& axis, double size, test::Random& random) {
   const double deepest = deepest_disk(axis).radius;

@@ -205,10 +205,34 @@ TEST(Pack, RefusesErrorsThatItCannotKeep) {
   auto axis = compute(*shape);
   ASSERT_TRUE(axis.ok());
   std::array<MedialAxis, 1> axes{*axis};
-  for (const double error : {0.0, -1.0, 1e-40, 1e-16, std::nan("")})
+  for (const double error : {0.0, -1.0, 1e-40, 1e-16, std::nan("")}) {
     EXPECT_EQ(encode_axes(axes, {error}).error().code, ErrorCode::invalid_option) << error;
+    EXPECT_EQ(encode_boundary({&*shape, 1}, error).error().code, ErrorCode::invalid_option)
+        << error;
+  }
+  const auto far = build_shape(test::Rings{test::ring_of({{1e9, 0}, {1e9 + 1, 0}, {1e9, 1}})});
+  EXPECT_TRUE(encode_boundary({&*far, 1}, 1e-6).ok());
+  EXPECT_EQ(encode_boundary({&*far, 1}, 2e-9).error().text,
+            "the error is too small for the coordinates");
   axes[0].nodes[0].disk.radius = std::nan("");
   EXPECT_EQ(encode_axes(axes, {0.1}).error().code, ErrorCode::not_finite);
+}
+
+TEST(Pack, OfAnySizeComesBack) {
+  for (const double size : {1e-90, 1e-50, 1e-38, 1.0, 3e38, 3e45, 1e60, 1e90}) {
+    SCOPED_TRACE(size);
+    const auto axis = compute(test::shape_of(test::rectangle(8 * size, 2 * size)));
+    ASSERT_TRUE(axis.ok());
+    const auto code = encode_axes({&*axis, 1}, {0.01 * size});
+    ASSERT_TRUE(code.ok()) << code.error().text;
+    const auto back = decode_axes(*code);
+    ASSERT_TRUE(back.ok()) << back.error().text;
+    EXPECT_GE(back->front().resolution, 0.01 * size);
+    EXPECT_LE(back->front().resolution, 0.01 * size * (1 + 1e-6));
+    const auto shape = rebuild(back->front());
+    ASSERT_TRUE(shape.ok()) << shape.error().text;
+    EXPECT_NEAR(area(*shape) / (size * size), 16, 0.3);
+  }
 }
 
 TEST(Pack, DamagedCodesAreRefused) {

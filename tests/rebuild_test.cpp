@@ -104,6 +104,46 @@ TEST(Rebuild, AnArcBetweenBluntJointsComesBack) {
   }
 }
 
+/// With a larger corner angle an axis has no branches to blunter joints, and ends before the arcs
+/// between them: these come back by the same angle, and without it the union of the disks.
+TEST(Rebuild, JointsAsBluntAsTheCornerAngleComeBack) {
+  const double cap = std::tan(87.0 / 4 * std::numbers::pi / 180);  // of 90: the joints are blunt
+  const Ring one{{{0, -1}, {4, -1}, {5, 0}, {4, 1}, {0, 1}, {-1, 0}},
+                 RingRole::any,
+                 {0, cap, cap, 0, cap, cap}};
+  const auto shape = build_shape({&one, 1});
+  ASSERT_TRUE(shape.ok());
+  const auto axis = compute(*shape, {.corner_angle = 4});
+  ASSERT_TRUE(axis.ok());
+  ASSERT_EQ(axis->edges.size(), 1U);
+  const auto again = rebuild(*axis, {.corner_angle = 4}), disks = rebuild(*axis);
+  ASSERT_TRUE(again.ok() && disks.ok());
+  EXPECT_EQ(sorted(again->points), sorted(shape->points));
+  EXPECT_LE(shape_distance(*again, *shape).hausdorff(), 1e-12);
+  EXPECT_GT(shape_distance(*disks, *shape).hausdorff(), 0.02);
+}
+
+/// A finger that pruning has cut short keeps its round end: no arc comes back that the disk there
+/// does not touch all along.
+TEST(Rebuild, AnArcThatWasCutOffDoesNotComeBack) {
+  const Ring one{{{0, -1}, {4, -1}, {4, 1}, {0, 1}}, RingRole::any, {0, 1, 0, 0}};
+  const auto shape = build_shape({&one, 1});
+  ASSERT_TRUE(shape.ok());
+  auto axis = compute(*shape);
+  ASSERT_TRUE(axis.ok());
+  const auto end = std::ranges::max_element(axis->nodes, {},
+                                            [](const Node& node) { return node.disk.center.x; });
+  ASSERT_NEAR(end->disk.center.x, 4, 1e-12);
+  end->disk.center.x -= 0.02;
+  for (Edge& edge : axis->edges)
+    for (const std::size_t k : {0U, 1U})
+      if (axis->nodes[edge.node[k]].disk.center == end->disk.center)
+        edge.control.center = midpoint(end->disk.center, axis->nodes[edge.node[1 - k]].disk.center);
+  const auto again = rebuild(*axis);
+  ASSERT_TRUE(again.ok());
+  EXPECT_NEAR(area(*again), 2 * 3.98 + std::numbers::pi / 2, 1e-9);
+}
+
 /// An edge as short as rounding keeps both its ends, and so the arc beside it its bulge.
 TEST(Rebuild, EdgesAsShortAsRoundingComeBack) {
   const double hardly = 3e-13;

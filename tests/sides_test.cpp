@@ -89,7 +89,8 @@ TEST(Sides, EveryBranchOfAnExactAxisIsLegal) {
 
 TEST(Sides, TheOutlineOfAnExactAxisIsTheShape) {
   for_shapes([&](const Shape& shape, const MedialAxis& axis, double size) {
-    const auto rings = approximate_by_arcs(ops::boundary_of(axis), {.tolerance = 1e-9});
+    const auto rings =
+        approximate_by_arcs(ops::boundary_of(axis, Options{}.corner_angle), {.tolerance = 1e-9});
     ASSERT_TRUE(rings.ok()) << to_string(rings.error());
     double sum = 0;
     for (const Ring& ring : *rings) {
@@ -112,7 +113,7 @@ TEST(Sides, TheOutlineOfAnExactAxisIsTheShape) {
 TEST(Sides, OneNodeIsAWholeCircle) {
   MedialAxis axis;
   axis.nodes.push_back({{{3, 4}, 2}, 0, NodeKind::leaf});
-  const std::vector<Contour> contours = ops::boundary_of(axis);
+  const std::vector<Contour> contours = ops::boundary_of(axis, Options{}.corner_angle);
   ASSERT_EQ(contours.size(), 1U);
   ASSERT_EQ(contours[0].pieces.size(), 2U);
   for (const Vec2 p : contours[0].points) EXPECT_DOUBLE_EQ(distance(p, {3, 4}), 2);
@@ -216,7 +217,7 @@ TEST(Sides, SampledBranchesHaveJetsToo) {
   EXPECT_EQ(found[0].jets, sampled.nodes.size() - 2);
   EXPECT_NEAR(found[0].steepness, wanted[0].steepness, 0.002);
   EXPECT_NEAR(found[0].bend, wanted[0].bend, 0.002);
-  const std::vector<Contour> outline = ops::boundary_of(sampled);
+  const std::vector<Contour> outline = ops::boundary_of(sampled, Options{}.corner_angle);
   ASSERT_EQ(outline.size(), 1U);
   for (const Vec2 p : outline[0].points) {
     double nearest = 1e9;

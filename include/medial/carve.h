@@ -31,16 +31,15 @@ struct CarveOptions {
   double tool = 0;    ///< largest diameter, which limits the depth of a cone; 0: no limit
   double tip = 0;     ///< diameter of the cone's flat tip, below `tool`; an end mill's is `tool`
   double pass_depth = 0;  ///< largest depth of one pass, from the surface down; 0: one pass
-  double ramp = 90;       ///< steepest angle into the material, degrees in (0, 90]; 90: straight
+  double ramp = 90;       ///< steepest angle of ramps, degrees in (0, 90]; 90: straight down
   /// Distance between passes that clear a flat bottom; 0: half of the tip's diameter, which leaves
   /// nothing, or for a pointed tip 1/20 of the cone's radius at that depth, which leaves ridges.
   double step = 0;
   /// Largest height of straight moves above the axis; at least 1e-8 diagonals; 0: 1e-5 of them.
   double chord = 0;
   double allowance = 0;  ///< material that an end mill leaves at the boundary
-  /// Diameter of the end mill that clears flat bottoms first (clearing_before()); 0: none.
-  double cleared = 0;
-  Tabs tabs = {};  ///< bars to leave: see place_tabs()
+  double cleared = 0;    ///< diameter of a mill that cuts flat bottoms before: clearing_before()
+  Tabs tabs = {};        ///< bars to leave: see place_tabs()
 };
 
 struct ToolPoint {
@@ -54,6 +53,7 @@ enum class ToolPathKind : std::uint8_t {
   wall,      ///< along the foot of the walls around a flat bottom
   groove,    ///< along the axis
   ramp,      ///< down to the start of the next path
+  plunge,    ///< straight down: where the tool fits one place only, or would ramp over 1e4 times
 };
 
 /// Moves without lifting the tool.

@@ -60,9 +60,9 @@ std::vector<AxisPath> main_paths(const MedialAxis& axis, const MainPathOptions& 
 std::vector<PathPiece> side_channels(const MedialAxis& axis, const AxisPath& path);
 
 struct CentreLineOptions {
-  bool extend = false;  ///< ends to the boundary: straight; if far, to the nearest place ahead
-  /// Gaussian average over this many radii; stays inside and keeps the ends. 0: none.
-  double smooth = 0;
+  /// Extend both ends to the boundary: straight, or, if that is far, to the nearest place ahead.
+  bool extend = false;
+  double smooth = 0;  ///< Gaussian average over this many radii, inside, from end to end; 0: none
 };
 
 /// Paths as an axis: chains of exact edges, extended by straight ones. Smoothed lines are sampled:
@@ -80,7 +80,8 @@ struct CollapsedShape {
 /// Collapses the parts narrower than `width`. Polygons keep the opening of the shape by a disk of
 /// that width, corners that protrude from it by at most `trim` * width / 2, and necks between two
 /// such disks that overlap. Cusps between arcs may be rounded by 2^-20 (at worst 2^-10) of the
-/// width. O(n log n). Errors: invalid_option (width <= 0), those of build_shape().
-Result<CollapsedShape> collapse_narrow(const MedialAxis& axis, double width, double trim = 1);
+/// width. `corner_angle`: see RebuildOptions. O(n log n). Errors: invalid_option, build_shape()'s.
+Result<CollapsedShape> collapse_narrow(const MedialAxis& axis, double width, double trim = 1,
+                                       double corner_angle = 0.01);
 
 }  // namespace medial

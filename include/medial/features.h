@@ -136,11 +136,11 @@ struct Placement {
   double saved = 0;  ///< area of the shapes' convex hulls less that of their common hull
   double gap = 0;    ///< the least distance between the shapes
 };
-Shape placed(const Shape& shape, const Placement& at);
+Result<Shape> placed(const Shape& shape, const Placement& at);  ///< errors: see build_shape()
 
 /// Placements of `moving` in which the shapes interlock: pairs bays of each (branches of its
 /// exterior's axis) with peninsulas of the other. Returns at most `best` that save area, best
-/// first. Errors: those of compute(); unsupported (shapes of several components).
+/// first. Errors: those of compute(); invalid_option (gap); unsupported (several components).
 Result<std::vector<Placement>> nest(const Shape& fixed, const Shape& moving, double gap = 0,
                                     bool mirror = true, std::size_t best = 5);
 

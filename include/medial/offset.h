@@ -29,8 +29,8 @@ struct Offsets {
 /// The regions {clearance > c} for all `clearances` at once, from an axis of the interior.
 /// Duplicates count once. No region exists for values of at least the largest radius, nor in a
 /// corridor exactly 2 c wide. Rings are within a few tolerances of the distance c from the
-/// boundary; edges turn by at most a half circle. O(n log m + size) for n sites and m values.
-/// Errors: invalid_option (a clearance not positive and finite), unsupported (sampled; exterior).
+/// boundary; edges turn by at most a half circle. O(n log nm + size) for n sites, m values. Errors:
+/// invalid_option (a value not positive), unsupported (sampled; exterior), too_large (2^32 points).
 Result<Offsets> inward_offsets(const MedialAxis& axis, std::span<const double> clearances);
 
 /// The same for a shape; a negative clearance c gives the shape grown by -c. Errors: those of

@@ -28,7 +28,7 @@ struct PackReport {
 
 /// Drops branches that the disk at their base covers when grown by a part of the error (erosion
 /// thickness), and codes the others as polylines of disks. O(n log n). Errors: invalid_option (an
-/// error that is not positive, or below 2^-40 of the coordinates), not_finite.
+/// error that is not positive, below 1e-9 of the extent or 2^-50 of a coordinate), not_finite.
 Result<ShapeCode> encode_axes(std::span<const MedialAxis> axes, const PackOptions& options,
                               PackReport* report = nullptr);
 

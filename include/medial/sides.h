@@ -83,11 +83,11 @@ enum class RebuildBy : std::uint8_t {
 
 struct RebuildOptions {
   RebuildBy by = RebuildBy::outline;
-  /// For tangents: the approximate number of points on the axis. 0: nodes of samples, or 1000.
-  std::uint64_t points = 0;
+  std::uint64_t points = 0;  ///< for tangents: about how many; 0: nodes of samples, or 1000
   /// Replaces arcs by chords within this distance, in units of the input; 0: keeps arcs. Hulls
   /// always have chords: within 1/16 of the axis's resolution, or 1e-6 of its extent.
   double chord = 0;
+  double corner_angle = 0.01;  ///< that the axis was computed with; see Options
 };
 
 struct RebuildReport {

@@ -17,8 +17,8 @@ export function pruneMeasures() {
   return answer_json();
 }
 
-export function rebuild(x, { by, points, chord } = {}) {
-  return Shape.of(call("rebuild", x.address, options({ by, points, chord })), x.ofShape);
+export function rebuild(x, { by, points, chord, cornerAngle } = {}) {
+  return Shape.of(call("rebuild", x.address, options({ by, points, chord, cornerAngle })), x.ofShape);
 }
 
 /** The shape without what pruning its axis drops. */
@@ -190,7 +190,7 @@ export function buffer(x, distances, { nodeCrossings = false } = {}) {
 
 // Tool paths.
 
-const PATH_KINDS = ["clearing", "wall", "groove", "ramp"];
+const PATH_KINDS = ["clearing", "wall", "groove", "ramp", "plunge"];
 
 /** Tool paths that carve a shape with a cone. */
 export function carve(x, given = {}) {

@@ -110,6 +110,7 @@ MEDIAL_JS ShapeOf* medial_rebuild(const AxisOf* of, const char* given) {
         .take("by", by)
         .take("points", options.points)
         .take("chord", options.chord)
+        .take("corner_angle", options.corner_angle)
         .finish();
     if (by == "tangents")
       options.by = RebuildBy::tangents;

@@ -20,7 +20,7 @@ class Carving:
     Attributes
     ----------
     paths : list of (kind, rows)
-        Kinds are clearing, wall, groove and ramp. Rows hold x, y, z and the bulge of the move to
+        Kinds are clearing, wall, groove, ramp, plunge. Rows hold x, y, z and the bulge of the move to
         the next row, in units of the input; z is 0 at the surface.
     passes : list of int
         The pass of each path, from the surface down.
@@ -143,7 +143,7 @@ def carve(x: Any, *, angle: float = 90, depth: float = 0, tool: float = 0, tip: 
     pass_depth : float
         The depth of one pass; 0: a single pass.
     ramp : float
-        The steepest angle of moves into the material, in degrees; 90: straight down.
+        The steepest angle of ramps into the material, in degrees; 90: straight down.
     step, chord : float
         The distance between clearing passes, and the largest error of straight moves; 0: chosen by
         the tool.

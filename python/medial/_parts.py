@@ -113,7 +113,8 @@ def _inside(around: Shape) -> Shape:
     return Shape._of(_core.shape_of(points, begin, None, bulges))
 
 
-def rebuild(x: MedialAxis, by: str = "outline", *, points: int = 0, chord: float = 0) -> Shape:
+def rebuild(x: MedialAxis, by: str = "outline", *, points: int = 0, chord: float = 0,
+            corner_angle: float = 0.01) -> Shape:  # fmt: skip
     """The union of the disks of an axis: the original shape if the axis is exact and complete.
 
     Parameters
@@ -126,6 +127,8 @@ def rebuild(x: MedialAxis, by: str = "outline", *, points: int = 0, chord: float
         For tangents: the approximate number of points on the axis.
     chord : float
         Replace arcs by chords within this distance, in units of the input; 0: keep arcs.
+    corner_angle : float
+        That the axis was computed with.
 
     Raises
     ------
@@ -138,10 +141,11 @@ def rebuild(x: MedialAxis, by: str = "outline", *, points: int = 0, chord: float
     >>> medial.rebuild(medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])).area
     8.0
     """
-    return Shape._of(_core.rebuilt(x._core, by, points, chord), x._attributes)
+    return Shape._of(_core.rebuilt(x._core, by, points, chord, corner_angle), x._attributes)
 
 
-def collapse(x: Any, width: float, *, trim: float = 1) -> tuple[Shape | None, MedialAxis]:
+def collapse(x: Any, width: float, *, trim: float = 1,
+             corner_angle: float = 0.01) -> tuple[Shape | None, MedialAxis]:  # fmt: skip
     """Collapses parts narrower than `width` to lines, and keeps the rest as polygons.
 
     Parameters
@@ -151,6 +155,8 @@ def collapse(x: Any, width: float, *, trim: float = 1) -> tuple[Shape | None, Me
         In units of the input.
     trim : float
         Corners that protrude by at most this many half widths stay with the polygons.
+    corner_angle : float
+        That the axis was computed with.
 
     Returns
     -------
@@ -172,6 +178,6 @@ def collapse(x: Any, width: float, *, trim: float = 1) -> tuple[Shape | None, Me
     (16, 6)
     """
     of = axis_of(x)
-    shape, lines = _core.collapsed(of._core, width, trim)
+    shape, lines = _core.collapsed(of._core, width, trim, corner_angle)
     polygons = Shape._of(shape, of._attributes)
     return (polygons if len(polygons.points) else None), MedialAxis._of(lines, of._attributes)

@@ -69,7 +69,7 @@ std::unique_ptr<CarvingOf> carved(const AxisOf& self, const nb::dict& given,
 /// For each path its kind, its pass, and rows of x, y, z, bulge.
 nb::list paths_of(const Carving& carving) {
   nb::list paths;
-  constexpr std::array<const char*, 4> kinds{"clearing", "wall", "groove", "ramp"};
+  constexpr std::array<const char*, 5> kinds{"clearing", "wall", "groove", "ramp", "plunge"};
   for (const ToolPath& path : carving.paths)
     paths.append(nb::make_tuple(kinds[static_cast<std::size_t>(path.kind)], path.pass,
                                 rows_of<double>(path.points)));

@@ -16,8 +16,9 @@ RebuildBy rebuild_from(const std::string& name) {
   refuse(ErrorCode::invalid_option, "by is 'outline', 'tangents' or 'hulls'");
 }
 
-ShapeOf rebuilt(const AxisOf& self, const std::string& by, std::uint64_t points, double chord) {
-  const RebuildOptions options{rebuild_from(by), points, chord};
+ShapeOf rebuilt(const AxisOf& self, const std::string& by, std::uint64_t points, double chord,
+                double corner_angle) {
+  const RebuildOptions options{rebuild_from(by), points, chord, corner_angle};
   return shared(value_of(run(self.axis.edges.size(), [&](const std::atomic<bool>*) {
     return rebuild(self.axis, options);
   })));
@@ -203,7 +204,7 @@ void bind_derived(nb::module_& module) {
     at.angle = angle;
     at.mirrored = mirrored;
     at.move = {move[0], move[1]};
-    return shared(placed(*self.shape, at));
+    return shared(value_of(placed(*self.shape, at)));
   });
   module.def("without_specks", [](const ShapeOf& self, double share) {
     return shared(without_specks(*self.shape, share));

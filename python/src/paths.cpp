@@ -145,9 +145,9 @@ Array<double, 2> disks(const ShapeOf& of, std::size_t count, double smallest) {
   }));
 }
 
-nb::tuple collapsed(const AxisOf& self, double width, double trim) {
+nb::tuple collapsed(const AxisOf& self, double width, double trim, double corner_angle) {
   CollapsedShape result =
-      value_of(without_lock([&] { return collapse_narrow(self.axis, width, trim); }));
+      value_of(without_lock([&] { return collapse_narrow(self.axis, width, trim, corner_angle); }));
   auto shape = std::make_shared<const Shape>(std::move(result.polygons));
   return nb::make_tuple(ShapeOf{shape}, share(shape, std::move(result.lines), true));
 }

@@ -369,6 +369,8 @@ Result<std::optional<StreamReport>> stream(const std::string& path, const Destin
   std::optional<Survey>& survey = *surveyed;
   DocumentInfo info = survey->common;
   info.notes.clear();
+  StreamItems given = options.none;
+  if (info_of(given).corner_angle > 0) info.corner_angle = info_of(given).corner_angle;
   const StreamItems none = without_items(options.none, info);
   const PartOutput frame = output_of(none, options.write);
   survey->columns.name_apart(

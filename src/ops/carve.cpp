@@ -359,7 +359,7 @@ std::vector<ToolPoint> path_along(const std::vector<ops::GrooveStep>& trail,
                                   double floor) {
   std::vector<ToolPoint> points;
   const auto add = [&](Vec2 p, double deep) {
-    const ToolPoint point{p, -std::min(deep, floor), 0};
+    const ToolPoint point{p, 0 - std::min(deep, floor), 0};  // 0, not -0, at the surface
     if (points.empty() || !(points.back().point == p) || points.back().z != point.z)
       points.push_back(point);
   };
@@ -463,7 +463,8 @@ Result<Carving> plan(const MedialAxis& axis, const CarveOptions& options) {
   for (std::uint32_t pass = 0; pass < carving.passes; ++pass) {
     const bool last = pass + 1 == carving.passes;
     const double floor = last ? tool.depth : (pass + 1) * options.pass_depth;
-    planner.begin_pass(pass, -(pass * options.pass_depth));
+    const double level = 0 - pass * options.pass_depth;
+    planner.begin_pass(pass, level);
     if (!offsets->regions.empty()) {
       carving.deepest = std::max(carving.deepest, floor);
       Floors(*offsets, *before, carving, -floor, planner).cut_all();
@@ -481,9 +482,8 @@ Result<Carving> plan(const MedialAxis& axis, const CarveOptions& options) {
     };
     for (const auto& trail : ops::trails_of(grooves, start))
       planner.add(ToolPathKind::groove, path_along(trail, grooves, depth_of, floor), -1);
-    const double level = -(pass * options.pass_depth);
     for (const Disk& disk : lone_disks(axis, cleared, carving.flat_from))
-      planner.add(ToolPathKind::groove,
+      planner.add(ToolPathKind::plunge,
                   {{disk.center, level, 0}, {disk.center, -std::min(depth_of(disk), floor), 0}},
                   -1);
     carving.travel_unordered += unordered_travel(*offsets, grooves);

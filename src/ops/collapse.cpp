@@ -253,7 +253,8 @@ class Collapse {
 
 }  // namespace
 
-Result<CollapsedShape> collapse_narrow(const MedialAxis& axis, double width, double trim) {
+Result<CollapsedShape> collapse_narrow(const MedialAxis& axis, double width, double trim,
+                                       double corner_angle) {
   if (!(width > 0) || !std::isfinite(width) || !(trim >= 0))
     return Error{ErrorCode::invalid_option, "the width to collapse must be positive", {}};
   const DividedAxis divided = divided_at(axis, 0.5 * width);
@@ -269,7 +270,7 @@ Result<CollapsedShape> collapse_narrow(const MedialAxis& axis, double width, dou
     // Between sites that join smoothly an outline may have steps of some roundings, in any
     // direction, that would overlap their neighbours.
     std::vector<Ring> rings;
-    for (const Contour& contour : ops::boundary_of(part)) {
+    for (const Contour& contour : ops::boundary_of(part, corner_angle)) {
       rings.push_back(ops::ring_of(contour, 0x1p12 * axis.tolerance));
       rings.back().role = RingRole::winding;
     }

@@ -161,8 +161,8 @@ class Describer {
     out.to = place_of(run.to);
     out.length = run.length;
     out.mean_radius = run.mean_radius();
-    const ops::Fit radius = ops::fit(run.radius, run.length);
-    const ops::Fit angle = ops::fit(run.direction, run.length);
+    const ops::Fit radius = ops::fit(run.radius);
+    const ops::Fit angle = ops::fit(run.direction);
     out.slope = radius.slope / run.length;
     out.bend = radius.bend / run.length;
     out.turning = axis_.resolution > 0 ? angle.slope : run.direction_change;

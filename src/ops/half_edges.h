@@ -2,6 +2,7 @@
 
 // The way around an axis: with the axis on the left and the boundary on the right.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -86,8 +87,34 @@ class HalfEdges {
 
 /// The boundary of an axis as closed contours with the interior on the left, by increasing lowest
 /// edge: segments and arcs of an exact axis, straight pieces between the points of (3) of a sampled
-/// one, a circle around a node without edges. Arcs of its disks close gaps. O(edges log(degree)).
-std::vector<Contour> boundary_of(const MedialAxis& axis);
+/// one, a circle around a node without edges. Arcs of its disks close gaps. `corner_angle` in
+/// degrees, that which the axis was computed with. O(edges log(degree)).
+std::vector<Contour> boundary_of(const MedialAxis& axis, double corner_angle);
+
+/// The sites from one to another along the boundary, both included, if each `goes_on` from the one
+/// before it and all others `may_lie_between`; else none.
+template <class GoesOn, class MayLieBetween>
+std::vector<std::uint32_t> sites_between(const MedialAxis& axis, std::uint32_t before,
+                                         std::uint32_t after, const GoesOn& goes_on,
+                                         const MayLieBetween& may_lie_between) {
+  const std::size_t count = axis.sites.size();
+  const auto joined = [&](std::uint32_t a, std::uint32_t b) {
+    return std::max(a, b) < count && goes_on(a, b);
+  };
+  const auto passes = [&](std::uint32_t site) {
+    return site < count && may_lie_between(axis.sites[site]);
+  };
+  // A loop's numbers may begin anywhere in between.
+  std::vector<std::uint32_t> chain{before}, back{after};
+  const auto met = [&] { return joined(chain.back(), back.back()); };
+  while (!met() && joined(chain.back(), chain.back() + 1) && passes(chain.back() + 1))
+    chain.push_back(chain.back() + 1);
+  while (!met() && joined(back.back() - 1, back.back()) && passes(back.back() - 1))
+    back.push_back(back.back() - 1);
+  if (!met()) return {};
+  chain.insert(chain.end(), back.rbegin(), back.rend());
+  return chain;
+}
 
 /// The same jet in the other direction.
 AxisJet reversed(AxisJet jet);

@@ -8,6 +8,9 @@
 
 namespace medial::ops {
 
+/// Of the error of a pack: what it leaves for the chords of arcs.
+constexpr double chord_share = 1.0 / 16;
+
 /// Rings around which the non-zero rule finds the union of the convex hulls of the disks at the
 /// ends of each edge, and of the disks of nodes without edges, within `chord` (positive; or 1e-7
 /// of a disk's radius where there are more than 1024 disks). What the rings wind around, they wind

@@ -27,6 +27,11 @@ double clockwise(Vec2 u, Vec2 v) {
   return angle > 0.5 * std::numbers::pi ? angle - 2 * std::numbers::pi : angle;
 }
 
+std::size_t count_below(std::span<const double> levels, double radius) {
+  return static_cast<std::size_t>(std::lower_bound(levels.begin(), levels.end(), radius) -
+                                  levels.begin());
+}
+
 BulgeArc arc_of(const Site& site) { return {site.start, site.end, site.bulge}; }
 
 /// Where the offsets of two edges meet beside a joint that turns to the left by no more than the
@@ -155,25 +160,33 @@ LevelWalk::LevelWalk(const MedialAxis& axis)
   });
 }
 
-void LevelWalk::bin_crossings(std::span<const double> levels) {
-  // An edge crosses the levels in [lowest, largest).
-  const auto first_from = [&](double radius) {
-    return std::lower_bound(levels.begin(), levels.end(), radius) - levels.begin();
-  };
-  bin_begin_.assign(levels.size() + 1, 0);
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> ranges(axis_.edges.size());
+std::vector<LevelWalk::Crossing> LevelWalk::crossings_of(std::span<const double> levels) const {
+  std::vector<Crossing> crossings;
+  crossings.reserve(axis_.edges.size());
   for (std::uint32_t e = 0; e < axis_.edges.size(); ++e) {
     const auto& node = axis_.edges[e].node;
     const double largest = std::max(height(node[0]), height(node[1]));
-    ranges[e] = {static_cast<std::uint32_t>(first_from(lowest_[e])),
-                 static_cast<std::uint32_t>(first_from(largest))};
-    for (std::uint32_t k = ranges[e].first; k < ranges[e].second; ++k) ++bin_begin_[k + 1];
+    crossings.push_back({e, count_below(levels, lowest_[e]), count_below(levels, largest)});
   }
-  for (std::size_t k = 0; k < levels.size(); ++k) bin_begin_[k + 1] += bin_begin_[k];
-  bin_edges_.resize(bin_begin_.back());
-  std::vector<std::uint32_t> place(bin_begin_.begin(), bin_begin_.end() - 1);
-  for (std::uint32_t e = 0; e < axis_.edges.size(); ++e)
-    for (std::uint32_t k = ranges[e].first; k < ranges[e].second; ++k) bin_edges_[place[k]++] = e;
+  return crossings;
+}
+
+std::uint64_t LevelWalk::points_at(std::span<const double> levels) const {
+  // An edge above a level or across it separates the offsets of two sites.
+  std::uint64_t points = 0;
+  for (const Crossing& crossing : crossings_of(levels)) points += crossing.end;
+  for (const std::uint32_t node : alone_) points += 2 * count_below(levels, height(node));
+  return points;
+}
+
+void LevelWalk::go_down_to(std::size_t k) {
+  std::erase_if(crossed_, [&](const Crossing& crossing) { return crossing.begin > k; });
+  const auto old = static_cast<std::ptrdiff_t>(crossed_.size());
+  for (; !waiting_.empty() && waiting_.back().end == k + 1; waiting_.pop_back())
+    if (waiting_.back().begin <= k) crossed_.push_back(waiting_.back());
+  std::reverse(crossed_.begin() + old, crossed_.end());
+  std::inplace_merge(crossed_.begin(), crossed_.begin() + old, crossed_.end(),
+                     [](const Crossing& a, const Crossing& b) { return a.edge < b.edge; });
 }
 
 /// Where an edge crosses the level: its radius less the level is a s^2 + 2 b s t + c t^2 over a
@@ -201,7 +214,7 @@ void LevelWalk::find_crossing(std::uint32_t index, double level) {
   }
 }
 
-std::vector<OffsetRing> LevelWalk::loops_at(double level, std::size_t k) {
+std::vector<OffsetRing> LevelWalk::loops_at(double level) {
   std::vector<OffsetRing> loops;
   const auto keep = [&](OffsetRing loop) {
     const bool curved = std::any_of(loop.ring.bulges.begin(), loop.ring.bulges.end(),
@@ -209,11 +222,9 @@ std::vector<OffsetRing> LevelWalk::loops_at(double level, std::size_t k) {
     if (!curved) loop.ring.bulges.clear();
     if (loop.ring.points.size() >= (curved ? 2U : 3U)) loops.push_back(std::move(loop));
   };
-  const auto crossed =
-      std::span(bin_edges_).subspan(bin_begin_[k], bin_begin_[k + 1] - bin_begin_[k]);
-  for (const std::uint32_t e : crossed) find_crossing(e, level);
-  for (const std::uint32_t e : crossed)
-    for (const HalfEdge half : {2 * e, 2 * e + 1})
+  for (const Crossing& crossing : crossed_) find_crossing(crossing.edge, level);
+  for (const Crossing& crossing : crossed_)
+    for (const HalfEdge half : {2 * crossing.edge, 2 * crossing.edge + 1})
       if (risen_[half]) keep(loop_from(half, level));
   for (const Face& face : faces_)
     if (face.lowest > level) keep(loop_around(face.last, level));
@@ -242,20 +253,10 @@ bool LevelWalk::pass_joints(std::uint32_t before, std::uint32_t after, double le
     builder.begin(after, *met);
     return true;
   }
-  // A loop's numbers may begin anywhere in between.
-  std::vector<std::uint32_t> chain{before}, back{after};
-  const auto bulges = [&](std::uint32_t site) {
-    return site < sites.size() && sites[site].bulge > 0 &&
-           curvature(arc_of(sites[site])) * level < 1;
-  };
-  while (!joined(chain.back(), back.back()) && joined(chain.back(), chain.back() + 1) &&
-         bulges(chain.back() + 1))
-    chain.push_back(chain.back() + 1);
-  while (!joined(chain.back(), back.back()) && joined(back.back() - 1, back.back()) &&
-         bulges(back.back() - 1))
-    back.push_back(back.back() - 1);
-  if (!joined(chain.back(), back.back())) return false;
-  chain.insert(chain.end(), back.rbegin(), back.rend());
+  const auto chain = sites_between(axis_, before, after, joined, [&](const Site& site) {
+    return site.bulge > 0 && curvature(arc_of(site)) * level < 1;
+  });
+  if (chain.empty()) return false;
   for (std::size_t i = 1; i < chain.size(); ++i) {
     const Site &a = sites[chain[i - 1]], &b = sites[chain[i]];
     const auto met = beside_joint(a, b, level);

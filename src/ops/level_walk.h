@@ -32,13 +32,22 @@ class LevelWalk {
   /// The smallest radius along an edge, less the axis's tolerance.
   double lowest(std::uint32_t edge) const { return lowest_[edge]; }
 
+  /// About how many points the loops of all levels have.
+  std::uint64_t points_at(std::span<const double> levels) const;
+
   /// Calls take(k, loops) for every level from the last to the first. Levels increase strictly.
   /// A node is inside where its radius exceeds the level by more than the tolerance, an edge where
   /// its lowest radius does: so what is exactly at the level is outside, whatever rounding did.
   template <class Take>
   void run(std::span<const double> levels, const Take& take) {
-    bin_crossings(levels);
-    for (std::size_t k = levels.size(); k-- > 0;) take(k, loops_at(levels[k], k));
+    crossed_.clear();
+    waiting_ = crossings_of(levels);
+    std::stable_sort(waiting_.begin(), waiting_.end(),
+                     [](const Crossing& a, const Crossing& b) { return a.end < b.end; });
+    for (std::size_t k = levels.size(); k-- > 0;) {
+      go_down_to(k);
+      take(k, loops_at(levels[k]));
+    }
   }
 
  private:
@@ -46,11 +55,17 @@ class LevelWalk {
     HalfEdge last;  ///< behind which the right site is another one, if that is anywhere
     double lowest;  ///< of its edges
   };
+  /// The levels that an edge crosses: those in [lowest, largest of its radii).
+  struct Crossing {
+    std::uint32_t edge;
+    std::size_t begin, end;
+  };
   class RingBuilder;
   enum class Part : std::uint8_t { start, end };
 
-  void bin_crossings(std::span<const double> levels);
-  std::vector<OffsetRing> loops_at(double level, std::size_t k);
+  std::vector<Crossing> crossings_of(std::span<const double> levels) const;
+  void go_down_to(std::size_t k);
+  std::vector<OffsetRing> loops_at(double level);
   void find_crossing(std::uint32_t edge, double level);
   OffsetRing loop_from(HalfEdge first, double level);
   OffsetRing loop_around(HalfEdge last, double level) const;
@@ -71,9 +86,10 @@ class LevelWalk {
   std::vector<double> lowest_;        ///< of each edge
   std::vector<Face> faces_;           ///< one for each loop of the boundary that has edges
   std::vector<std::uint32_t> alone_;  ///< nodes without edges
-  std::vector<std::uint32_t> bin_begin_, bin_edges_;  ///< of each level: the edges that cross it
-  std::vector<Vec2> rise_;   ///< where each half edge rises above the level under way
-  std::vector<bool> risen_;  ///< and whether it does, and was not walked yet
+  std::vector<Crossing> waiting_;     ///< edges below the level under way, the highest one last
+  std::vector<Crossing> crossed_;     ///< those that cross it, in the order of the edges
+  std::vector<Vec2> rise_;            ///< where each half edge rises above the level under way
+  std::vector<bool> risen_;           ///< and whether it does, and was not walked yet
 };
 
 }  // namespace medial::ops

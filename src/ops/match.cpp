@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -106,18 +107,9 @@ class Signer {
     if (!(total > 0)) return out;
     center = (1 / total) * center;
     mean_radius /= total;
-    // Inertia of the axis, each place as thick as its disk.
-    double xx = 0, xy = 0, yy = 0;
-    for (const WeightedPiece& p : pieces_) {
-      const Vec2 d = p.at - center;
-      const double own = p.radius * p.radius / 4;
-      xx += p.weight * (d.x * d.x + own);
-      xy += p.weight * d.x * d.y;
-      yy += p.weight * (d.y * d.y + own);
-    }
-    const double mean = 0.5 * (xx + yy), half = std::hypot(0.5 * (xx - yy), xy);
-    const double size = std::sqrt(2 * mean / total);
-    out.elongation = 0.5 * std::log((mean + half) / (mean - half));
+    const auto [longer, shorter] = inertia(center, total);
+    const double size = unit_ * std::sqrt(longer + shorter);
+    out.elongation = 0.5 * std::log(longer / shorter);
     std::vector<Weighted> centers, depths, radii;
     for (const WeightedPiece& p : pieces_) {
       centers.push_back({distance(p.at, center) / size, p.weight});
@@ -136,6 +128,28 @@ class Signer {
   }
 
  private:
+  /// The mean squares of the distances from a centre, along the axis of inertia and across it, over
+  /// the area; each place is as thick as its disk. Of a needle the one across is no difference of
+  /// others, which would be rounding.
+  std::array<double, 2> inertia(Vec2 center, double total) const {
+    const auto mean = [&](const auto& of) {
+      double sum = 0;
+      for (const WeightedPiece& p : pieces_)
+        sum += p.weight / total * of((1 / unit_) * (p.at - center));
+      return sum;
+    };
+    const double xx = mean([](Vec2 d) { return d.x * d.x; });
+    const double yy = mean([](Vec2 d) { return d.y * d.y; });
+    const double angle = 0.5 * std::atan2(2 * mean([](Vec2 d) { return d.x * d.y; }), xx - yy);
+    const Vec2 along{std::cos(angle), std::sin(angle)};
+    double thickness = 0;
+    for (const WeightedPiece& p : pieces_)
+      thickness += p.weight / total * (p.radius / unit_) * (p.radius / unit_) / 4;
+    const auto square = [](double value) { return value * value; };
+    return {mean([&](Vec2 d) { return square(dot(along, d)); }) + thickness,
+            mean([&](Vec2 d) { return square(cross(along, d)); }) + thickness};
+  }
+
   /// When a branch has burnt.
   static double last(const BranchFeatures& branch) {
     const auto [from, to] = branch.burn;

@@ -293,10 +293,14 @@ bool is_near(const Placement& a, const Placement& b, double size) {
 
 }  // namespace
 
-Shape placed(const Shape& shape, const Placement& at) { return *build_shape(rings_at(shape, at)); }
+Result<Shape> placed(const Shape& shape, const Placement& at) {
+  return build_shape(rings_at(shape, at));
+}
 
 Result<std::vector<Placement>> nest(const Shape& fixed, const Shape& moving, double gap,
                                     bool mirror, std::size_t best) {
+  if (!(gap >= 0) || !std::isfinite(gap))
+    return Error{ErrorCode::invalid_option, "the gap must be finite and not negative", {}};
   const auto one = part_of(fixed), two = part_of(moving);
   if (!one) return one.error();
   if (!two) return two.error();

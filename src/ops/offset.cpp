@@ -115,11 +115,18 @@ std::vector<std::vector<std::uint32_t>> bins_of(const LevelWalk& walk, std::size
   return bins;
 }
 
+/// Regions are numbered in 32 bits, and none has less than two points.
+Status check_size(const LevelWalk& walk, std::span<const double> levels) {
+  if (walk.points_at(levels) < no_region) return success();
+  return Error{ErrorCode::too_large, "the offsets would have more than 2^32 points", {}};
+}
+
 /// Appends the regions above each level, last level first, which are connected along the axis.
 /// Leaves nodes of the axis as keys.
-void add_inward(const MedialAxis& axis, std::span<const double> levels, Regions& regions,
-                std::vector<OffsetRegion>& out) {
+Status add_inward(const MedialAxis& axis, std::span<const double> levels, Regions& regions,
+                  std::vector<OffsetRegion>& out) {
   LevelWalk walk(axis);
+  if (Status fits = check_size(walk, levels); !fits) return fits;
   const auto bins = bins_of(walk, axis.edges.size(), levels, true);
   DisjointSets sets(axis.nodes.size());
   walk.run(levels, [&](std::size_t k, std::vector<OffsetRing> loops) {
@@ -128,6 +135,7 @@ void add_inward(const MedialAxis& axis, std::span<const double> levels, Regions&
         levels[k], std::move(loops), [&](const OffsetRing& loop) { return sets.find(loop.node); },
         [&](std::uint32_t node) { return sets.find(node); }, out);
   });
+  return success();
 }
 
 /// Which components of the shape the exterior's sites belong to.
@@ -170,14 +178,15 @@ Surroundings surroundings_of(const Shape& shape, const Exterior& exterior, const
 /// Appends the regions of the shape grown by each level, first level first: its components, which
 /// are connected where the exterior's axis between two of them is below the level. Returns, of each
 /// of `around.of_point`, the region of the first level that it lies in.
-std::vector<std::uint32_t> add_outward(const MedialAxis& axis, const Surroundings& around,
-                                       std::span<const double> levels, Regions& regions,
-                                       std::vector<OffsetRegion>& out) {
+Result<std::vector<std::uint32_t>> add_outward(const MedialAxis& axis, const Surroundings& around,
+                                               std::span<const double> levels, Regions& regions,
+                                               std::vector<OffsetRegion>& out) {
   const auto component_of = [&](const OffsetRing& loop) {
     return loop.site != no_site ? around.of_site[loop.site]
                                 : around.of_part[axis.nodes[loop.node].component];
   };
   LevelWalk walk(axis);
+  if (Status fits = check_size(walk, levels); !fits) return std::move(fits).error();
   std::vector<std::vector<OffsetRing>> loops(levels.size());
   walk.run(levels,
            [&](std::size_t k, std::vector<OffsetRing> found) { loops[k] = std::move(found); });
@@ -303,7 +312,8 @@ Result<Offsets> offset_both_sides(const Shape& shape, std::span<const double> cl
     auto axis = compute(shape, own);
     if (Status taken = making.take(axis); !taken) return std::move(taken).error();
     making.regions.set_keys(axis->nodes.size());
-    add_inward(*axis, inside, making.regions, making.offsets.regions);
+    if (Status added = add_inward(*axis, inside, making.regions, making.offsets.regions); !added)
+      return std::move(added).error();
     making.regions.rename(0, [&](std::uint32_t node) { return axis->nodes[node].component; });
     making.offsets.seconds_curves += making.watch.lap();
   }
@@ -314,8 +324,9 @@ Result<Offsets> offset_both_sides(const Shape& shape, std::span<const double> cl
     auto axis = compute(exterior->shape, own);
     if (Status taken = making.take(axis); !taken) return std::move(taken).error();
     making.regions.set_keys(shape.component_count());
-    static_cast<void>(add_outward(*axis, surroundings_of(shape, *exterior, *axis), outside,
-                                  making.regions, making.offsets.regions));
+    const auto added = add_outward(*axis, surroundings_of(shape, *exterior, *axis), outside,
+                                   making.regions, making.offsets.regions);
+    if (!added) return added.error();
   }
   return making.done();
 }
@@ -339,9 +350,10 @@ Result<Offsets> buffers_of(const PlanarGraph& planar_graph, std::span<const doub
   auto axis = axis_around(planar_graph, surroundings, options);
   if (Status taken = making.take(axis); !taken) return std::move(taken).error();
   making.regions.set_keys(planar_graph.points.size());
-  making.offsets.region_of_point =
-      add_outward(*axis, surroundings_of(planar_graph, surroundings, *axis), distances,
-                  making.regions, making.offsets.regions);
+  auto added = add_outward(*axis, surroundings_of(planar_graph, surroundings, *axis), distances,
+                           making.regions, making.offsets.regions);
+  if (!added) return std::move(added).error();
+  making.offsets.region_of_point = std::move(added).value();
   return making.done();
 }
 
@@ -365,7 +377,9 @@ Result<Offsets> inward_offsets(const MedialAxis& axis, std::span<const double> c
     Offsets offsets;
     offsets.tolerance = own.tolerance;
     Regions regions(own.nodes.size());
-    add_inward(own, increasing({clearances.begin(), clearances.end()}), regions, offsets.regions);
+    Status added = add_inward(own, increasing({clearances.begin(), clearances.end()}), regions,
+                              offsets.regions);
+    if (!added) return std::move(added).error();
     finish(offsets);
     offsets.seconds_curves = walking.lap();
     return offsets;

@@ -5,7 +5,7 @@
 
 #include "axis/node_kinds.h"
 #include "base/arc.h"
-#include "medial/compute.h"
+#include "base/compat.h"
 #include "medial/sides.h"
 #include "ops/half_edges.h"
 #include "site/joint.h"
@@ -26,7 +26,8 @@ struct OutlinePiece {
 /// The walk around the axis, with the boundary on its right.
 class BoundaryWalk {
  public:
-  explicit BoundaryWalk(const MedialAxis& axis) : axis_(axis), halves_(axis) {}
+  BoundaryWalk(const MedialAxis& axis, double corner_angle)
+      : axis_(axis), halves_(axis), corner_angle_(corner_angle * std::numbers::pi / 180) {}
 
   std::vector<Contour> run() {
     std::vector<Contour> contours;
@@ -79,14 +80,15 @@ class BoundaryWalk {
         joint_ = joint;
         return;
       }
-      const auto apex = angle > 0 ? apex_between(disk, before, after) : std::nullopt;
-      if (apex) {
-        const Site& site = axis_.sites[*apex];
+      const auto arcs =
+          angle > 0 ? arcs_between(disk, before, after) : std::vector<std::uint32_t>{};
+      for (const std::uint32_t i : arcs) {
+        const Site& site = axis_.sites[i];
         pieces_.back().end = site.start;
-        pieces_.push_back({site.start, site.end, *apex, 0, {}});
+        pieces_.push_back({site.start, site.end, i, 0, {}});
         joint_ = site.end;
-        return;
       }
+      if (!arcs.empty()) return;
     }
     if (angle == 0) return;
     pieces_.push_back({halves_.touch(half, true), halves_.touch(next, false), no_site, angle,
@@ -105,32 +107,32 @@ class BoundaryWalk {
     return joint == site::Joint::smooth || joint == site::Joint::blunt;
   }
 
-  /// Where the disk is that of the leaf at an arc between two sites, which it touches all along but
-  /// for the angles at the joints: that arc. Reflex vertices may lie between.
-  std::optional<std::uint32_t> apex_between(const Disk& disk, std::uint32_t before,
-                                            std::uint32_t after) const {
-    const auto joined = [&](std::uint32_t a, std::uint32_t b) {
-      return std::max(a, b) < axis_.sites.size() && goes_on(a, b);
-    };
-    // The loop's sites may begin anywhere in between: the arc follows the one site or is followed
-    // by the other, next to it or behind a vertex.
-    std::uint32_t from = before, to = after;
-    const auto is_vertex = [&](std::uint32_t site) {
-      return site < axis_.sites.size() && axis_.sites[site].kind() == SiteKind::vertex;
-    };
-    if (is_vertex(before + 1) && joined(before, before + 1)) ++from;
-    if (is_vertex(after - 1) && joined(after - 1, after)) --to;
-    for (const std::uint32_t site : {from + 1, to - 1}) {
-      if (!joined(from, site) || !joined(site, to)) continue;
-      const Site& arc = axis_.sites[site];
-      if (!(arc.bulge > 0)) continue;
-      const double slack = corner_angle_ * distance(arc.start, arc.end);
-      const auto touches = [&](Vec2 p) {
-        return std::abs(distance(p, disk.center) - disk.radius) <= slack;
-      };
-      if (touches(arc.start) && touches(arc.end)) return site;
+  /// Where the disk is that of a leaf at arcs between two sites, which it touches all along but for
+  /// the angles at their joints: those arcs, with reflex vertices that may lie between.
+  std::vector<std::uint32_t> arcs_between(const Disk& disk, std::uint32_t before,
+                                          std::uint32_t after) const {
+    const auto& sites = axis_.sites;
+    std::vector<std::uint32_t> chain = ops::sites_between(
+        axis_, before, after, [&](std::uint32_t a, std::uint32_t b) { return goes_on(a, b); },
+        [&](const Site& site) { return site.kind() == SiteKind::vertex || site.bulge > 0; });
+    if (chain.size() < 3) return {};
+    double turns = 0;
+    std::optional<Vec2> arriving;
+    for (const std::uint32_t i : chain) {
+      if (sites[i].kind() == SiteKind::vertex) continue;
+      const BulgeArc edge{sites[i].start, sites[i].end, sites[i].bulge};
+      if (arriving) turns += std::abs(signed_angle(*arriving, start_tangent(edge)));
+      arriving = end_tangent(edge);
     }
-    return std::nullopt;
+    chain.pop_back();
+    chain.erase(chain.begin());
+    const double slack = ops::slack_of(axis_, disk) + turns * disk.radius;
+    const auto touches = [&](Vec2 p) {
+      return std::abs(distance(p, disk.center) - disk.radius) <= slack;
+    };
+    const bool all = ranges::all_of(
+        chain, [&](std::uint32_t i) { return touches(sites[i].start) && touches(sites[i].end); });
+    return all ? chain : std::vector<std::uint32_t>{};
   }
 
   /// The walk may have started in the middle of a site.
@@ -202,13 +204,15 @@ class BoundaryWalk {
 
   const MedialAxis& axis_;
   const ops::HalfEdges halves_;
-  const double corner_angle_ = Options{}.corner_angle * std::numbers::pi / 180;
+  const double corner_angle_;
   std::vector<OutlinePiece> pieces_;  ///< of the contour under way
   std::optional<Vec2> joint_;         ///< where its next piece begins
 };
 
 }  // namespace
 
-std::vector<Contour> ops::boundary_of(const MedialAxis& axis) { return BoundaryWalk(axis).run(); }
+std::vector<Contour> ops::boundary_of(const MedialAxis& axis, double corner_angle) {
+  return BoundaryWalk(axis, corner_angle).run();
+}
 
 }  // namespace medial

@@ -11,8 +11,10 @@
 #include "axis/steps.h"
 #include "base/arc.h"
 #include "base/compat.h"
+#include "base/tolerance.h"
 #include "ops/code_bytes.h"
 #include "ops/disk_lines.h"
+#include "ops/hull_outline.h"
 
 namespace medial {
 namespace {
@@ -22,7 +24,8 @@ using ops::Bytes;
 using ops::DiskGraph;
 using ops::DiskLine;
 
-constexpr std::uint64_t code_version = 1;
+/// The quantum and the error are floats; or doubles, where they are out of the range of floats.
+constexpr std::uint64_t float_version = 1, double_version = 2;
 /// Multiples of the quantum stay exact, and so do their sums.
 constexpr double largest = 0x1p52;
 
@@ -33,18 +36,31 @@ struct Grid {
   std::int64_t x = 0, y = 0, r = 0;
 };
 
-void put_float(Bytes& out, float value) {
-  const auto bits = bit_cast<std::uint32_t>(value);
-  for (unsigned shift = 0; shift < 32; shift += 8)
-    out.push_back(static_cast<std::uint8_t>(bits >> shift));
-}
+/// How a code writes its quantum and its error.
+class Head {
+ public:
+  Head(double quantum, double error) : floats_(is_float(quantum) && is_float(error)) {}
 
-/// The largest float that is not above a number.
-float float_below(double value) {
-  auto out = static_cast<float>(value);
-  if (static_cast<double>(out) > value) out = std::nextafter(out, 0.0F);
-  return out;
-}
+  std::uint64_t version() const { return floats_ ? float_version : double_version; }
+  /// The largest number that can be written and is not above `value`.
+  double below(double value) const {
+    if (!floats_) return value;
+    const auto out = static_cast<float>(value);
+    return out > value ? std::nextafter(out, -std::numeric_limits<float>::infinity()) : out;
+  }
+  void put(Bytes& out, double value) const {
+    const std::uint64_t bits = floats_ ? bit_cast<std::uint32_t>(static_cast<float>(value))
+                                       : bit_cast<std::uint64_t>(value);
+    for (unsigned shift = 0; shift < (floats_ ? 32U : 64U); shift += 8)
+      out.push_back(static_cast<std::uint8_t>(bits >> shift));
+  }
+
+ private:
+  static bool is_float(double value) {
+    return value >= std::numeric_limits<float>::min() && value <= 0x1p127;
+  }
+  bool floats_;
+};
 
 class AxisEncoder {
  public:
@@ -134,22 +150,21 @@ class AxisDecoder {
   Result<std::vector<MedialAxis>> run() {
     const auto version = structure_.number();
     if (!version) return malformed("the code is empty");
-    if (*version != code_version)
+    if (*version != float_version && *version != double_version)
       return Error{ErrorCode::unsupported, "the code is of another version", {}};
-    const auto quantum = read_float(), error = read_float();
+    const auto quantum = read_real(*version), error = read_real(*version);
     const auto count = structure_.number();
     if (!quantum || !error || !count) return malformed("the code ends early");
     if (!(*quantum > 0) || !std::isfinite(*quantum) || !(*error > 0) || !std::isfinite(*error))
       return malformed("the code's steps are not positive numbers");
-    quantum_ = static_cast<double>(*quantum);
+    quantum_ = *quantum;
     // An item takes a byte at least.
     if (*count > structure_.left()) return malformed("the code has fewer shapes than it says");
     std::vector<MedialAxis> axes;
     for (std::uint64_t i = 0; i < *count; ++i) {
       MedialAxis& axis = axes.emplace_back();
       axis.method = "pack";
-      axis.resolution = static_cast<double>(*error);
-      axis.tolerance = static_cast<double>(*error);
+      axis.resolution = axis.tolerance = *error;
       if (!read_axis(axis)) return malformed("the code makes no axis");
     }
     if (structure_.left() + x_.left() + y_.left() + r_.left() > 0)
@@ -158,14 +173,15 @@ class AxisDecoder {
   }
 
  private:
-  std::optional<float> read_float() {
-    std::uint32_t bits = 0;
-    for (unsigned shift = 0; shift < 32; shift += 8) {
+  std::optional<double> read_real(std::uint64_t version) {
+    const bool is_float = version == float_version;
+    std::uint64_t bits = 0;
+    for (unsigned shift = 0; shift < (is_float ? 32U : 64U); shift += 8) {
       const auto byte = structure_.byte();
       if (!byte) return std::nullopt;
-      bits |= static_cast<std::uint32_t>(*byte) << shift;
+      bits |= std::uint64_t{*byte} << shift;
     }
-    return bit_cast<float>(bits);
+    return is_float ? bit_cast<float>(static_cast<std::uint32_t>(bits)) : bit_cast<double>(bits);
   }
 
   /// Moves on from `last`. False where the code ends, or numbers leave their range.
@@ -254,38 +270,43 @@ class AxisDecoder {
 /// A disk's numbers are rounded by half a quantum each: its centre by 1 / sqrt 2 of it.
 constexpr double rounding = std::numbers::sqrt2 / 2 + 0.5;
 
-/// The share of the error for the chords that rebuild() makes of hulls' arcs.
-constexpr double chord_share = 1.0 / 16;
-
 /// Of the axes' extent. The number of disks along a curve grows as the root of one over the error.
 constexpr double smallest_error = 1e-9;
 
-Error too_small() {
+/// Where a number takes more than 52 bits in multiples of the quantum.
+Error too_far() {
   return {ErrorCode::invalid_option, "the error is too small for the coordinates", {}};
+}
+Status check_error(double error, const Box& box) {
+  if (!(error > 0) || !std::isfinite(error))
+    return Error{ErrorCode::invalid_option, "the error is not a positive number", {}};
+  if (error < smallest_error * distance(box.low, box.high))
+    return Error{ErrorCode::invalid_option, "the error is below 1e-9 of the extent", {}};
+  return success();
 }
 
 }  // namespace
 
 Result<ShapeCode> encode_axes(std::span<const MedialAxis> axes, const PackOptions& options,
                               PackReport* report) {
-  if (!(options.error > 0) || !std::isfinite(options.error))
-    return Error{ErrorCode::invalid_option, "the error is not a positive number", {}};
-  if (!(options.quantum_share > 0 && options.quantum_share < 1 - chord_share) ||
-      !(options.prune_share > 0 && options.prune_share <= 1 - ops::sample_share))
-    return Error{ErrorCode::invalid_option, "a share of the error is out of range", {}};
-  const float quantum = float_below(options.quantum_share * options.error / rounding);
-  if (!(quantum >= std::numeric_limits<float>::min())) return too_small();
-  // What rounding, and chords when disks become polygons, leave for the polylines.
-  const double left = (1 - chord_share) * options.error - rounding * static_cast<double>(quantum);
   Box box = Box::nothing();
   for (const MedialAxis& axis : axes) box.add(box_of_disks(axis));
-  if (options.error < smallest_error * distance(box.low, box.high)) return too_small();
+  if (Status possible = check_error(options.error, box); !possible)
+    return std::move(possible).error();
+  if (!(options.quantum_share > 0 && options.quantum_share < 1 - ops::chord_share) ||
+      !(options.prune_share > 0 && options.prune_share <= 1 - ops::sample_share))
+    return Error{ErrorCode::invalid_option, "a share of the error is out of range", {}};
+  const double most = options.quantum_share * options.error / rounding;
+  const Head head(most, options.error);
+  const double quantum = head.below(most);
+  // What rounding, and chords when disks become polygons, leave for the polylines.
+  const double left = (1 - ops::chord_share) * options.error - rounding * quantum;
   ShapeCode code;
-  ops::put_number(code[0], code_version);
-  put_float(code[0], quantum);
-  put_float(code[0], -float_below(-options.error));
+  ops::put_number(code[0], head.version());
+  head.put(code[0], quantum);
+  head.put(code[0], -head.below(-options.error));
   ops::put_number(code[0], axes.size());
-  AxisEncoder encoder(code, static_cast<double>(quantum));
+  AxisEncoder encoder(code, quantum);
   PackReport counted;
   for (const MedialAxis& axis : axes) {
     for (const Node& node : axis.nodes)
@@ -296,9 +317,9 @@ Result<ShapeCode> encode_axes(std::span<const MedialAxis> axes, const PackOption
     counted.disks += graph.junctions.size();
     for (const DiskLine& line : graph.lines) counted.disks += line.disks.size() - 2;
     counted.lines += graph.lines.size();
-    if (!encoder.add(graph)) return too_small();
+    if (!encoder.add(graph)) return too_far();
   }
-  counted.quantum = static_cast<double>(quantum);
+  counted.quantum = quantum;
   if (report != nullptr) *report = counted;
   return code;
 }
@@ -308,13 +329,18 @@ Result<std::vector<MedialAxis>> decode_axes(const ShapeCode& code) {
 }
 
 Result<ShapeCode> encode_boundary(std::span<const Shape> shapes, double error) {
-  if (!(error > 0)) return Error{ErrorCode::invalid_option, "the error is not positive", {}};
+  Box box = Box::nothing();
+  for (const Shape& shape : shapes)
+    for (const Vec2 p : shape.points) box.add(p);
+  if (Status possible = check_error(error, box); !possible) return std::move(possible).error();
   // The best share of the error for rounding; more for it makes longer codes of fewer points.
   constexpr double share = 0.25;
   const double quantum = share * error * std::numbers::sqrt2, left = (1 - share) * error;
+  if (!(largest_coordinate_in(box) <= largest * quantum)) return too_far();
+  const Head head(quantum, error);
   ShapeCode code;
-  ops::put_number(code[0], code_version);
-  put_float(code[0], static_cast<float>(quantum));
+  ops::put_number(code[0], head.version());
+  head.put(code[0], quantum);
   ops::put_number(code[0], shapes.size());
   Grid last;
   for (const Shape& shape : shapes) {
@@ -329,8 +355,8 @@ Result<ShapeCode> encode_boundary(std::span<const Shape> shapes, double error) {
             k + 1 == shape.loop_begin[loop + 1] ? shape.loop_begin[loop] : k + 1;
         const BulgeArc arc{shape.points[k], shape.points[next], shape.bulge(k)};
         const double sagitta = 0.5 * std::abs(arc.bulge) * norm(arc.chord());
-        const int pieces =
-            std::clamp(static_cast<int>(std::ceil(std::sqrt(16 * sagitta / left))), 1, 4096);
+        const double pieces =
+            std::clamp(std::ceil(std::sqrt(sagitta / (ops::chord_share * left))), 1.0, 4096.0);
         for (double i = 1; i < pieces; ++i) points.push_back(point_at_share(arc, i / pieces));
       }
       points.push_back(points.front());
@@ -338,7 +364,7 @@ Result<ShapeCode> encode_boundary(std::span<const Shape> shapes, double error) {
         const Vec2 a = points[first], d = points[end] - a, v = points[i] - a;
         const double size = squared_norm(d);
         const double t = size > 0 ? std::clamp(dot(d, v) / size, 0.0, 1.0) : 0;
-        return norm(v - t * d) - (1 - 1.0 / 16) * left;
+        return norm(v - t * d) - (1 - ops::chord_share) * left;
       };
       auto kept = ops::simplified(static_cast<std::uint32_t>(points.size()), excess);
       kept.pop_back();

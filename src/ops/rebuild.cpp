@@ -297,10 +297,9 @@ Result<Shape> shape_of_crossing(std::vector<Ring>& rings, ShapeReport& report) {
 Result<Shape> shape_of_hulls(const MedialAxis& axis, double resolution,
                              const RebuildOptions& options, RebuildReport& report) {
   const double size = extent_of(axis);
-  // A pack leaves a sixteenth of its error for chords.
-  constexpr double of_error = 1.0 / 16, of_size = 1e-6, least = 5e-11;
+  constexpr double of_size = 1e-6, least = 5e-11;
   double chord = of_size * size;
-  if (resolution > 0) chord = of_error * resolution;
+  if (resolution > 0) chord = ops::chord_share * resolution;
   if (options.chord > 0) chord = std::min(chord, options.chord);
   chord = std::max(chord, least * size);
   if (!(chord > 0)) return Error{ErrorCode::no_area, "the disks are points", {}};
@@ -319,11 +318,13 @@ Result<Shape> shape_of_hulls(const MedialAxis& axis, double resolution,
 }
 
 /// Around the outline of an exact axis, which crosses itself by rounding only.
-Result<Shape> shape_of_outline(const MedialAxis& axis, double chord, RebuildReport& report) {
+Result<Shape> shape_of_outline(const MedialAxis& axis, const RebuildOptions& options,
+                               RebuildReport& report) {
   std::vector<Ring> rings;
-  for (const Contour& contour : ops::boundary_of(axis)) rings.push_back(ops::ring_of(contour));
-  if (chord > 0)
-    for (Ring& ring : rings) ring = polygon_of(ring, chord);
+  for (const Contour& contour : ops::boundary_of(axis, options.corner_angle))
+    rings.push_back(ops::ring_of(contour));
+  if (options.chord > 0)
+    for (Ring& ring : rings) ring = polygon_of(ring, options.chord);
   ShapeReport shaping;
   auto shape = build_shape(rings, {}, &shaping);
   if (!shape) shape = shape_of_crossing(rings, shaping);
@@ -386,7 +387,7 @@ Result<Shape> rebuild(const MedialAxis& axis, const RebuildOptions& options,
     if (by_hulls) return shape_of_hulls(axis, axis.resolution, options, own);
     if (options.by == RebuildBy::tangents || axis.resolution > 0)
       return shape_of_tangents(axis, options, own);
-    return shape_of_outline(axis, options.chord, own);
+    return shape_of_outline(axis, options, own);
   };
   Result<Shape> shape = shape_by_options();
   if (report != nullptr) *report = own;

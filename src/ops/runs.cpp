@@ -70,7 +70,7 @@ Signs signs_at(const Curve& curve, double t) {
   // K = turn / speed^3, so (K' / K) / (K speed) = (cross(C', C''') / turn - 3 along) speed^2 /
   // turn.
   const double growth =
-      (cross(d.first, third) - 3 * along * turn) * speed * speed / (turn * std::abs(turn));
+      (cross(d.first, third) / turn - 3 * along) * (speed * speed / std::abs(turn));
   const double scale = curve.at(t).radius;
   return {sign_of(scale * bend), turn == 0 ? 0 : sign_of(turn > 0 ? growth : -growth)};
 }
@@ -106,20 +106,18 @@ void add_sign_changes(const Curve& curve, std::vector<double>& out) {
   }
 }
 
-Moments shifted(const Moments& m, double by) {
-  return {m.zero, m.first + by * m.zero, m.second + by * (2 * m.first + by * m.zero), m.square};
+/// Of two runs one after the other, the first of which has this share of the length.
+Moments joined(const Moments& a, const Moments& b, double share) {
+  const double rest = 1 - share;
+  const double first = share * b.zero + rest * b.first;  // of b, by the u of both
+  const double second = share * (share * b.zero + 2 * rest * b.first) + rest * rest * b.second;
+  return {share * a.zero + rest * b.zero, share * share * a.first + rest * first,
+          share * share * share * a.second + rest * second, share * a.square + rest * b.square};
 }
 
-Moments sum(const Moments& a, const Moments& b) {
-  return {a.zero + b.zero, a.first + b.first, a.second + b.second, a.square + b.square};
-}
-
-/// Of f + c instead of f, over [from, from + length].
-Moments raised(const Moments& m, double c, double from, double length) {
-  const double to = from + length;
-  return {m.zero + c * length, m.first + c * length * 0.5 * (from + to),
-          m.second + c * length * (from * from + from * to + to * to) / 3,
-          m.square + c * (2 * m.zero + c * length)};
+/// Of f + c instead of f.
+Moments raised(const Moments& m, double c) {
+  return {m.zero + c, m.first + c / 2, m.second + c / 3, m.square + c * (2 * m.zero + c)};
 }
 
 /// A linear edge as a run, in its own direction.
@@ -130,9 +128,7 @@ Run linear_run(const Disk& from, const Disk& to) {
   run.length = length;
   if (!(length > 0)) return run;
   const double rise = to.radius - from.radius;
-  const Moments climb{rise * length / 2, rise * length * length / 3,
-                      rise * length * length * length / 4, rise * rise * length / 3};
-  run.radius = raised(climb, from.radius, 0, length);
+  run.radius = raised({rise / 2, rise / 3, rise / 4, rise * rise / 3}, from.radius);
   run.first_tangent = run.last_tangent = (1 / length) * d;
   return run;
 }
@@ -155,16 +151,16 @@ Run smooth_run(const Curve& curve, bool straight) {
   for (std::size_t i = 0; i < abscissa.size(); ++i) {
     const double t = abscissa[i];
     const Vec2 velocity = curve.derivatives(t).first;
-    const double ds = factor[i] * norm(velocity);
-    const double s = straight ? norm(curve.offset(t)) : curve.length(t);
+    const double du = factor[i] * norm(velocity) / run.length;
+    const double u = (straight ? norm(curve.offset(t)) : curve.length(t)) / run.length;
     const double radius = curve.at(t).radius;
     const double angle = straight ? 0 : signed_angle(run.first_tangent, velocity);
     for (auto [moments, value] :
          {std::pair(&run.radius, radius), std::pair(&run.direction, angle)}) {
-      moments->zero += ds * value;
-      moments->first += ds * s * value;
-      moments->second += ds * s * s * value;
-      moments->square += ds * value * value;
+      moments->zero += du * value;
+      moments->first += du * u * value;
+      moments->second += du * u * u * value;
+      moments->square += du * value * value;
     }
   }
   run.direction_change = straight ? 0 : signed_angle(run.first_tangent, run.last_tangent);
@@ -222,14 +218,12 @@ bool opposed(const Run& a, const Run& b) {
 Run reversed(const Run& run) {
   Run back = run;
   std::swap(back.from, back.to);
-  const double l = run.length;
-  const auto mirror = [l](const Moments& m) {
-    return Moments{m.zero, l * m.zero - m.first, l * l * m.zero - 2 * l * m.first + m.second,
-                   m.square};
+  const auto mirror = [](const Moments& m) {
+    return Moments{m.zero, m.zero - m.first, m.zero - 2 * m.first + m.second, m.square};
   };
   back.radius = mirror(run.radius);
   // The angle against the tangent at the new start: angle(s) - direction_change.
-  back.direction = raised(mirror(run.direction), -run.direction_change, 0, l);
+  back.direction = raised(mirror(run.direction), -run.direction_change);
   back.direction_change = -run.direction_change;
   back.first_tangent = -run.last_tangent;
   back.last_tangent = -run.first_tangent;
@@ -238,18 +232,17 @@ Run reversed(const Run& run) {
 
 }  // namespace
 
-Fit fit(const Moments& m, double length) {
-  const double m0 = m.zero / length, m1 = m.first / (length * length);
-  const double m2 = m.second / (length * length * length);
+Fit fit(const Moments& m) {
   // Legendre's polynomials on [0, 1]: 1, 2 u - 1, 6 u^2 - 6 u + 1.
-  const double c1 = 3 * (2 * m1 - m0), c2 = 5 * (6 * m2 - 6 * m1 + m0);
-  const double c0 = m0, square = m.square / length - c0 * c0 - c1 * c1 / 3 - c2 * c2 / 5;
+  const double c0 = m.zero, c1 = 3 * (2 * m.first - m.zero);
+  const double c2 = 5 * (6 * (m.second - m.first) + m.zero);
+  const double square = m.square - c0 * c0 - c1 * c1 / 3 - c2 * c2 / 5;
   return {2 * c1, 12 * c2, std::sqrt(std::max(square, 0.0))};
 }
 
 void classify(Run& run, const FeatureOptions& options) {
-  const Fit radius = fit(run.radius, run.length);
-  const Fit angle = fit(run.direction, run.length);
+  const Fit radius = fit(run.radius);
+  const Fit angle = fit(run.direction);
   const bool opening = radius.slope > 0;
   const double rise = std::abs(radius.slope), bend = radius.bend / run.length;
   if (bend < -options.bend) {
@@ -280,9 +273,9 @@ Run joined(const Run& a, const Run& b) {
   run.to = b.to;
   run.length = a.length + b.length;
   run.piece_count = a.piece_count + b.piece_count;
-  run.radius = sum(a.radius, shifted(b.radius, a.length));
-  run.direction =
-      sum(a.direction, raised(shifted(b.direction, a.length), start, a.length, b.length));
+  const double share = a.length / run.length;
+  run.radius = joined(a.radius, b.radius, share);
+  run.direction = joined(a.direction, raised(b.direction, start), share);
   run.direction_change = start + b.direction_change;
   run.bending = a.bending + std::abs(turn) + b.bending;
   run.last_tangent = b.last_tangent;
@@ -321,8 +314,7 @@ void RunCutter::add_pieces(const Step& step) {
 
 double RunCutter::relative_length(std::uint32_t i) const {
   const Run& run = runs_[i];
-  // length / mean radius
-  return run.radius.zero > 0 ? run.length * run.length / run.radius.zero : infinity;
+  return run.mean_radius() > 0 ? run.length / run.mean_radius() : infinity;
 }
 
 /// Makes a chain of all runs.
@@ -420,9 +412,9 @@ void RunCutter::join_fitting(bool cyclic) {
   agglomerate(cyclic, [&](const Run& a, const Run& b) {
     if (!samples && opposed(a, b)) return infinity;
     const Run both = joined(a, b);
-    const double radius = fit(both.radius, both.length).residual /
-                          (radius_share * both.mean_radius() + 0.5 * axis_.resolution);
-    const double angle = fit(both.direction, both.length).residual / (angle_share + turns);
+    const double radius =
+        fit(both.radius).residual / (radius_share * both.mean_radius() + 0.5 * axis_.resolution);
+    const double angle = fit(both.direction).residual / (angle_share + turns);
     const double worst = std::max(radius, angle);
     return worst <= 1 ? worst : infinity;
   });
@@ -442,7 +434,7 @@ void RunCutter::join_equal(bool cyclic) {
     classify(both, options_);
     if (both.primitive != a.primitive || is_straight(both) != is_straight(a)) return infinity;
     if (same && both.variation == a.variation) return both.length;
-    const Fit angle = fit(both.direction, both.length);
+    const Fit angle = fit(both.direction);
     return angle.residual <= spiral_share * std::abs(angle.slope) ? both.length : infinity;
   });
 }
@@ -452,7 +444,7 @@ void RunCutter::split_level() {
   constexpr double margin = 0.05;  // of a run: nearer to its ends there is nothing to cut off
   std::vector<Run> out;
   for (const Run& run : runs_) {
-    const Fit radius = fit(run.radius, run.length);
+    const Fit radius = fit(run.radius);
     const double level = 0.5 - radius.slope / radius.bend;
     const bool bent = std::abs(radius.bend) > options_.bend * run.length;
     if (!bent || !(level > margin && level < 1 - margin) || run.piece_count < 2) {
@@ -493,7 +485,7 @@ std::span<const Run> RunCutter::cut(std::span<const Step> steps, bool cyclic) {
   const Run* before = cyclic ? &runs_.back() : nullptr;
   for (const Run& run : runs_) {
     length_ += run.length;
-    radius_integral_ += run.radius.zero;
+    radius_integral_ += run.length * run.mean_radius();
     double turn = run.direction_change, bending = run.bending;
     if (before != nullptr) {
       const double jump = signed_angle(before->last_tangent, run.first_tangent);

@@ -14,7 +14,8 @@
 
 namespace medial::ops {
 
-/// Integrals of f, f s, f s^2 and f^2 over a run, s its length from the start.
+/// Means of f, f u, f u^2 and f^2 along a run, u from 0 at its start to 1: free of its length,
+/// whose powers would overflow.
 struct Moments {
   double zero = 0, first = 0, second = 0, square = 0;
 };
@@ -33,7 +34,7 @@ struct Run {
   Primitive primitive = Primitive::worm;
   Variation variation = Variation::straight;
 
-  double mean_radius() const { return radius.zero / length; }
+  double mean_radius() const { return radius.zero; }
 };
 
 /// The quadratic function of u in [0, 1] nearest to f: slope at the middle and second derivative,
@@ -43,7 +44,7 @@ struct Fit {
   double bend = 0;
   double residual = 0;
 };
-Fit fit(const Moments& moments, double length);
+Fit fit(const Moments& moments);
 
 /// What a run is, by its fits.
 void classify(Run& run, const FeatureOptions& options);

@@ -76,10 +76,10 @@ class SitePlaces {
   std::vector<double> begin_, lengths_;
 };
 
-/// Disks that touch a hole and another loop, seen from the hole.
-std::vector<TabPlace> places_of(const Shape& shape, const MedialAxis& axis,
-                                const SitePlaces& sites) {
-  std::vector<TabPlace> places;
+/// Calls visit(place) for disks that touch a hole and another loop, seen from the hole.
+template <class Visit>
+void each_place(const Shape& shape, const MedialAxis& axis, const SitePlaces& sites,
+                const Visit& visit) {
   constexpr int pieces = 16;  // of an edge
   for (const Edge& edge : axis.edges) {
     if (sites.loop(edge.site[0]) == sites.loop(edge.site[1])) continue;
@@ -89,49 +89,69 @@ std::vector<TabPlace> places_of(const Shape& shape, const MedialAxis& axis,
         const std::uint32_t here = edge.site[side], there = edge.site[1 - side];
         if (!shape.hole[sites.loop(here)]) continue;
         const Vec2 from = foot(axis.sites[here], disk.center);
-        places.push_back({sites.loop(here),
-                          sites.loop(there),
-                          sites.along(here, from),
-                          disk.radius,
-                          axis.sites[here].kind() == SiteKind::vertex,
-                          {from, disk.center, foot(axis.sites[there], disk.center)}});
+        visit(TabPlace{sites.loop(here),
+                       sites.loop(there),
+                       sites.along(here, from),
+                       disk.radius,
+                       axis.sites[here].kind() == SiteKind::vertex,
+                       {from, disk.center, foot(axis.sites[there], disk.center)}});
       }
     }
   }
-  return places;
 }
 
-/// The best place in each equal part of each hole: near the part's middle, and short.
-std::vector<const TabPlace*> spread(const std::vector<TabPlace>& places, const SitePlaces& sites,
-                                    const TabOptions& options) {
-  std::map<std::pair<std::uint32_t, double>, std::pair<double, const TabPlace*>> best;
-  for (const TabPlace& place : places) {
-    const double length = sites.length(place.loop);
+/// The best of many places.
+class BestPlaces {
+ public:
+  BestPlaces(const SitePlaces& sites, const TabOptions& options)
+      : sites_(sites), options_(options) {}
+
+  void consider(const TabPlace& place) {
+    const double length = sites_.length(place.loop);
     const double count =
-        options.count > 0 ? options.count : std::max(1.0, std::ceil(length / options.spacing));
+        options_.count > 0 ? options_.count : std::max(1.0, std::ceil(length / options_.spacing));
     const double part = std::min(std::floor(count * place.along / length), count - 1);
     const double off = std::abs(place.along - (part + 0.5) * length / count);
     const double cost = off + place.radius + (place.at_corner ? length / count : 0);
-    auto& found = best.try_emplace({place.loop, part}, infinity, nullptr).first->second;
-    if (cost < found.first) found = {cost, &place};
+    keep(in_part_[{place.loop, part}], cost, place);
+    keep(between_[std::minmax(place.loop, place.across)], place.radius, place);
+    ++seen_;
   }
-  std::vector<const TabPlace*> chosen;
-  for (const auto& [key, found] : best) chosen.push_back(found.second);
-  return chosen;
-}
 
-/// Adds the shortest places that tie loose loops to the rest.
-void tie(const std::vector<TabPlace>& places, std::size_t loops,
-         std::vector<const TabPlace*>& chosen) {
-  DisjointSets tied(loops);
-  for (const TabPlace* place : chosen) tied.join(place->loop, place->across);
-  std::vector<const TabPlace*> others;
-  for (const TabPlace& place : places)
-    if (tied.find(place.loop) != tied.find(place.across)) others.push_back(&place);
-  ranges::stable_sort(others, std::less<>(), [](const TabPlace* place) { return place->radius; });
-  for (const TabPlace* place : others)
-    if (tied.join(place->loop, place->across)) chosen.push_back(place);
-}
+  /// The best place in each equal part of each hole, near the part's middle, and short; then the
+  /// shortest ones that tie loose loops to the rest.
+  std::vector<TabLine> lines(std::size_t loops) const {
+    std::vector<TabLine> lines;
+    DisjointSets tied(loops);
+    for (const auto& [key, best] : in_part_) {
+      lines.push_back(best.place.line);
+      tied.join(best.place.loop, best.place.across);
+    }
+    std::vector<const Best*> others;
+    for (const auto& [key, best] : between_) others.push_back(&best);
+    ranges::sort(others, std::less<>(),
+                 [](const Best* best) { return std::pair(best->cost, best->seen); });
+    for (const Best* best : others)
+      if (tied.join(best->place.loop, best->place.across)) lines.push_back(best->place.line);
+    return lines;
+  }
+
+ private:
+  struct Best {
+    double cost = infinity;
+    std::size_t seen = 0;  ///< the first of equal ones counts
+    TabPlace place;
+  };
+  void keep(Best& best, double cost, const TabPlace& place) const {
+    if (cost < best.cost) best = {cost, seen_, place};
+  }
+
+  const SitePlaces& sites_;
+  const TabOptions& options_;
+  std::size_t seen_ = 0;
+  std::map<std::pair<std::uint32_t, double>, Best> in_part_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Best> between_;
+};
 
 /// A move, and the parts of it that would cut into tabs.
 class Crossing {
@@ -305,12 +325,9 @@ Result<std::vector<TabLine>> place_tabs(const Shape& shape, const MedialAxis& ax
   if (options.count == 0 && !(options.spacing > 0 && std::isfinite(options.spacing)))
     return Error{ErrorCode::invalid_option, "tabs need a count or a spacing above 0", {}};
   const SitePlaces sites(shape, axis);
-  const std::vector<TabPlace> places = places_of(shape, axis, sites);
-  std::vector<const TabPlace*> chosen = spread(places, sites, options);
-  tie(places, shape.loop_count(), chosen);
-  std::vector<TabLine> lines;
-  for (const TabPlace* place : chosen) lines.push_back(place->line);
-  return lines;
+  BestPlaces best(sites, options);
+  each_place(shape, axis, sites, [&best](const TabPlace& place) { best.consider(place); });
+  return best.lines(shape.loop_count());
 }
 
 }  // namespace medial

@@ -37,15 +37,17 @@ double length_of(const std::vector<ToolPoint>& points) {
 }
 
 /// The way down from `level` to the first point of a path: along its beginning and back, as often
-/// as it takes, nowhere below the path.
-std::vector<ToolPoint> ramp_to(const std::vector<ToolPoint>& path, double level, double slope,
-                               double chord) {
+/// as it takes, nowhere below the path; or straight, where that would be too often.
+ToolPath way_down(const std::vector<ToolPoint>& path, double level, double slope, double chord) {
   const double drop = level - path.front().z, way = drop / slope;
   const double round_trip = 2 * length_of(path);
   constexpr double rounding = 1e-9;
-  if (!(way > rounding * round_trip)) return {};
-  constexpr double most_trips = 100;
-  const double trips = std::min(std::ceil(way / round_trip), most_trips);
+  if (!(way > rounding * round_trip)) return {ToolPathKind::ramp, {}};
+  constexpr double most_trips = 1e4;
+  const double trips = std::ceil(way / round_trip);
+  if (!(trips <= most_trips))
+    return {ToolPathKind::plunge,
+            {{path.front().point, level, 0}, {path.front().point, path.front().z, 0}}};
   const std::vector<ToolPoint> there = beginning_of(path, 0.5 * way / trips, chord);
   const double share = drop / (2 * trips * length_of(there));
   std::vector<ToolPoint> points{{path.front().point, level, 0}};
@@ -58,7 +60,7 @@ std::vector<ToolPoint> ramp_to(const std::vector<ToolPoint>& path, double level,
     for (std::size_t k = 1; k < there.size(); ++k) go(there[k - 1], there[k]);
     for (std::size_t k = there.size() - 1; k-- > 0;) go(there[k + 1], there[k]);
   }
-  return points;
+  return {ToolPathKind::ramp, std::move(points)};
 }
 
 }  // namespace
@@ -82,9 +84,10 @@ void Planner::add(ToolPathKind kind, std::vector<ToolPoint> points, double reach
     carving_.travel_length += way;
   }
   if (std::isfinite(slope_) && points.front().z < level_) {
-    auto ramp = ramp_to(points, level_, slope_, chord_);
-    carving_.cut_length += length_of(ramp);
-    if (!ramp.empty()) carving_.paths.push_back({ToolPathKind::ramp, std::move(ramp), pass_});
+    ToolPath down = way_down(points, level_, slope_, chord_);
+    down.pass = pass_;
+    carving_.cut_length += length_of(down.points);
+    if (!down.points.empty()) carving_.paths.push_back(std::move(down));
   }
   carving_.paths.push_back({kind, std::move(points), pass_});
 }

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <vector>
 
+#include "base/arc.h"
 #include "medial/measure.h"
 
 namespace medial {
@@ -25,27 +26,29 @@ std::vector<Vec2> points_along(const MedialAxis& axis, const AxisPath& path,
   return points;
 }
 
-/// Where a line p + t d, |d| = 1, crosses an edge, as t; at most two, else infinite.
-std::array<double, 2> crossings(Vec2 p, Vec2 d, Vec2 start, Vec2 end, double bulge) {
+/// Where a line p + t d, |d| = 1, crosses an edge of at most half a circle, as t; at most two, else
+/// infinite.
+std::array<double, 2> crossings(Vec2 p, Vec2 d, const BulgeArc& edge) {
   constexpr double none = std::numeric_limits<double>::infinity();
-  const Vec2 chord = end - start;
-  if (bulge == 0) {
+  const Vec2 chord = edge.chord(), w = p - edge.start;
+  if (edge.bulge == 0) {
     const double slant = cross(d, chord);
-    const double on_edge = cross(start - p, d) / slant;
+    const double on_edge = cross(d, w) / slant;
     const bool crosses = slant != 0 && on_edge >= 0 && on_edge <= 1;
-    return {crosses ? cross(start - p, chord) / slant : none, none};
+    return {crosses ? cross(chord, w) / slant : none, none};
   }
-  // The circle's centre lies on the left of the chord by (1 - b^2) / (4 b) of its length.
-  const Vec2 center = midpoint(start, end) + ((1 - bulge * bulge) / (4 * bulge)) * left_of(chord);
-  const double middle = dot(center - p, d);
-  const double square =
-      dot(start - center, start - center) - dot(center - p, center - p) + middle * middle;
+  // With the normal n at the start and the curvature k, a place q from there is on the circle where
+  // k q.q = 2 n.q. Nothing is divided by k alone: the arc may be as flat as it likes.
+  const Vec2 n = left_of(start_tangent(edge));
+  const double k = curvature(edge), b = dot(n - k * w, d), c = dot(k * w - 2 * n, w);
+  const double square = b * b - k * c;
   if (square < 0) return {none, none};
+  const double root = b + std::copysign(std::sqrt(square), b);
+  // The arc lies beyond its chord.
   const auto on_arc = [&](double t) {
-    // Not more than half a circle: the arc is what lies beyond its chord.
-    return cross(chord, p + t * d - start) * bulge <= 0 ? t : none;
+    return cross(chord, w + t * d) * edge.bulge <= 0 ? t : none;
   };
-  return {on_arc(middle - std::sqrt(square)), on_arc(middle + std::sqrt(square))};
+  return {on_arc(root / k), on_arc(c / root)};
 }
 
 /// The first points of the boundary on both sides of p; where there is none, `otherwise`.
@@ -56,7 +59,7 @@ std::array<Vec2, 2> cast(const Shape& shape, Vec2 p, Vec2 left, std::array<Vec2,
     const std::uint32_t begin = shape.loop_begin[i], end = shape.loop_begin[i + 1];
     for (std::uint32_t k = begin; k < end; ++k) {
       const Vec2 next = shape.points[k + 1 < end ? k + 1 : begin];
-      for (const double t : crossings(p, left, shape.points[k], next, shape.bulge(k)))
+      for (const double t : crossings(p, left, {shape.points[k], next, shape.bulge(k)}))
         if (std::fabs(t) < nearest[t < 0]) nearest[t < 0] = std::fabs(t);
     }
   }

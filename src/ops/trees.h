@@ -21,7 +21,7 @@ template <class Stays, class Take>
 std::vector<std::uint32_t> take_off_leaves(const MedialAxis& axis, const Stays& stays,
                                            const Take& take) {
   std::vector<std::uint32_t> degree = degrees_of(axis);
-  // The sum of the edges at a node is the last one left when its degree is 1.
+  // The exclusive or of the edges at a node is the last one left when its degree is 1.
   std::vector<std::uint32_t> last(degree.size(), 0), leaves;
   for (std::uint32_t e = 0; e < axis.edges.size(); ++e)
     for (const std::uint32_t node : axis.edges[e].node) last[node] ^= e;

@@ -39,6 +39,17 @@ class Prune(CommandLine):
         self.refuse("invalid_option", "rebuild", "frame.wkt", "--pixels", "100")
         self.refuse("unsupported", "rebuild", "frame.wkt", "-o", "x.csv")
 
+    def test_files_know_their_corner_angle(self):
+        """Joints that count as smooth come back from a file, without a word about the angle."""
+        self.write("blunt.wkt", "CURVEPOLYGON(COMPOUNDCURVE((0 -1,4 -1),CIRCULARSTRING(4 -1,4.69948 -.69948,5 0),"
+                   "CIRCULARSTRING(5 0,4.69948 .69948,4 1),(4 1,0 1),CIRCULARSTRING(0 1,-.69948 .69948,-1 0),"
+                   "CIRCULARSTRING(-1 0,-.69948 -.69948,0 -1)))")
+        self.succeed("axis", "blunt.wkt", "--corner-angle", "4", "-o", "a.json")
+        self.succeed("verify", "a.json", "a.json")
+        report = json.loads(self.succeed("rebuild", "a.json", "--against", "blunt.wkt", "--json").stdout)
+        self.assertLess(report["against"]["hausdorff"], 1e-12)
+        self.refuse("malformed", "info", "-", given=b'{"medial":1,"corner_angle":11,"items":[]}')
+
     def test_prune_and_smooth_by_what_matters(self):
         """Measures, numbers of branches, tips, previews; two bumps of one size are distinguished."""
         bumps = ("POLYGON((0 -4,10 -1,14 -1,24 -4,24 4,14 1,12.4 1,12.4 1.6,11.6 1.6,11.6 1,10 1,0 4,0 .4,"

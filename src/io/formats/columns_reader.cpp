@@ -186,6 +186,11 @@ Document<AxisItem> read_columns(const ColumnFile& reader) {
   file.crs_wkt = reader.about("crs");
   file.y_down = reader.about("y_down") == "true";
   if (const std::string unit = reader.about("unit"); !unit.empty()) file.unit = unit_from(unit);
+  if (const std::string text = reader.about("corner_angle"); !text.empty()) {
+    const auto angle = nlohmann::json::parse(text, nullptr, false);
+    demand(angle.is_number(), "the corner angle is no number");
+    file.corner_angle = corner_angle_from(angle.get<double>());
+  }
   Tables tables;
   const auto methods = nlohmann::json::parse(reader.about("methods"), nullptr, false);
   demand(methods.is_array(), "the methods are missing");

@@ -147,7 +147,7 @@ std::vector<std::vector<ToolPoint>> parts_by_height(const std::vector<ToolPoint>
 }
 
 Status write_dxf(Target& target, const CarvingOutput& output) {
-  std::vector<std::string> layers{"CLEARING", "WALL", "GROOVE", "RAMP"};
+  std::vector<std::string> layers{"CLEARING", "WALL", "GROOVE", "RAMP", "PLUNGE"};
   const auto& items = output.document.items;
   if (std::ranges::any_of(items, [](const auto& item) { return !item.clearing.paths.empty(); }))
     layers.emplace_back("MILL");

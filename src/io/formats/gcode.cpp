@@ -236,7 +236,7 @@ CutReport report_of(const Document<CarveItem>& file, const MachineOptions& machi
 }
 
 const char* name_of(ToolPathKind kind) {
-  constexpr std::array<const char*, 4> names{"clearing", "wall", "groove", "ramp"};
+  constexpr std::array<const char*, 5> names{"clearing", "wall", "groove", "ramp", "plunge"};
   return names[static_cast<std::size_t>(kind)];
 }
 

@@ -29,6 +29,8 @@ Result<Document<AxisItem>> read_safetensors(TextSource& source);
 /// What files in JSON and in columns have in common: they throw Malformed.
 void check_item(const AxisItem& item);
 Unit unit_from(const std::string& name);
+/// Throws where it is not one of Options.
+double corner_angle_from(double degrees);
 
 /// The shapes of a native file as features: their loops are the rings, with their sources.
 Document<Feature> dataset_of(Document<AxisItem> file);

@@ -270,7 +270,10 @@ Document<AxisItem> read_file(json::document& document) {
   file.items = read_items(document, "medial", native_version, read_item,
                           Member{"crs", [&](json::value v) { file.crs_wkt = text_of(v); }},
                           Member{"unit", [&](json::value v) { file.unit = unit_from(text_of(v)); }},
-                          Member{"y_down", [&](json::value v) { file.y_down = v.get_bool(); }});
+                          Member{"y_down", [&](json::value v) { file.y_down = v.get_bool(); }},
+                          Member{"corner_angle", [&](json::value v) {
+                                   file.corner_angle = corner_angle_from(number(v));
+                                 }});
   return file;
 }
 
@@ -283,6 +286,11 @@ void check_item(const AxisItem& item) {
   }
   check_shape(item.shape);
   check_axis(item.shape, item.axis);
+}
+
+double corner_angle_from(double degrees) {
+  demand(degrees >= 0 && degrees <= 10, "the corner angle is not in 0 to 10 degrees");
+  return degrees;
 }
 
 Unit unit_from(const std::string& name) {

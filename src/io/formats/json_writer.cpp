@@ -176,6 +176,7 @@ void put_head(Target& target, const Document<Item>& file) {
   if (!file.crs_wkt.empty()) put_member(out, ",\n\"crs\":", file.crs_wkt);
   put_unit(target);
   if (file.y_down) out.put(",\n\"y_down\":true");
+  if (file.corner_angle > 0) put_member(out, ",\n\"corner_angle\":", file.corner_angle);
   out.put(",\n\"items\":");
 }
 

@@ -72,7 +72,8 @@ void fill_level(Canvas& canvas, const Carving& carving, const Walls& walls, doub
     canvas.stroke();
   }
   for (const ToolPath& path : carving.paths)
-    if (path.kind == ToolPathKind::groove) add_groove(canvas, carving, path, depth);
+    if (path.kind == ToolPathKind::groove || path.kind == ToolPathKind::plunge)
+      add_groove(canvas, carving, path, depth);
   canvas.fill();
 }
 
