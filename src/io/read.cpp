@@ -137,7 +137,7 @@ Result<Document<Feature>> finish(Document<Feature> document, const ReadOptions& 
   FeatureChecks checks(options);
   if (Status checked = checks.check(document); !checked) return std::move(checked).error();
   if (Status complete = checks.finish(document); !complete) return std::move(complete).error();
-  if (Status settled = settle_crs(document, options.crs, can_be_degrees(document)); !settled)
+  if (Status settled = settle_crs(document, options.crs, reach_of(document)); !settled)
     return settled.error();
   if (options.project) {
     if (Status status = project_to_local(document); !status) return status.error();
@@ -154,10 +154,11 @@ Result<Document<Feature>> finish(Document<Feature> document, const ReadOptions& 
 
 }  // namespace
 
-Status settle_crs(Document<Feature>& dataset, const std::string& crs, bool degrees) {
+Status settle_crs(Document<Feature>& dataset, const std::string& crs, Vec2 reach) {
   if (!crs.empty()) return describe_crs(crs, dataset);
   describe_crs(dataset);
-  if (!dataset.geographic || degrees) return success();
+  if (!dataset.geographic || can_be_angles(reach, degrees_of_unit(dataset.crs_wkt)))
+    return success();
   dataset.crs_wkt.clear();
   dataset.geographic = false;
   dataset.unit = Unit::unknown;
