@@ -236,9 +236,8 @@ class Shape:
     def save(self, path: str | PathLike[str], *, chord: float = 1e-3) -> None:
         """Writes the shape in the format of the extension: .wkt, .geojson, .svg or .json (native).
 
-        GeoJSON and the native format hold `attributes`, too. In GeoJSON they are numbers and texts;
-        a text that spells a number becomes one, unless it has leading zeros, say. In the native
-        format all are texts.
+        GeoJSON and the native format hold `attributes`, too. In the native format all are texts; in
+        GeoJSON those that are the usual spelling of a number are numbers ("007" stays a text).
 
         Parameters
         ----------
