@@ -60,8 +60,7 @@ std::vector<AxisPath> main_paths(const MedialAxis& axis, const MainPathOptions& 
 std::vector<PathPiece> side_channels(const MedialAxis& axis, const AxisPath& path);
 
 struct CentreLineOptions {
-  /// Extend both ends to the boundary: straight, or, if that is far, to the nearest place ahead.
-  bool extend = false;
+  bool extend = false;  ///< ends to the boundary: straight; if far, to the nearest place ahead
   double smooth = 0;  ///< Gaussian average over this many radii, inside, from end to end; 0: none
 };
 

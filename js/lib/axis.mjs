@@ -1,6 +1,6 @@
 // Shapes and their medial axes.
 
-import { Handle, answer_json, answer_text, call, encoded, memory, number_of, options, table } from "./core.mjs";
+import { Handle, MedialError, answer_json, answer_text, call, encoded, memory, number_of, options, table } from "./core.mjs";
 import { NO_SITE, Records } from "./records.mjs";
 import { read, rings_of_lists } from "./read.mjs";
 
@@ -145,8 +145,11 @@ export class Shape extends Handle {
 
 /** The address of a geometry as a shape, by build_shape() or, where options ask for more, load_shapes(). */
 function load(x, given) {
-  const { coordinates, begin, roles, curves } = x instanceof Shape ? rings_of(x) : read(x);
-  const bulges = given.bulges ? Float64Array.from(given.bulges) : (x instanceof Shape && x.bulges.length ? x.bulges : null);
+  const given_bulges = given.bulges?.length ? Float64Array.from(given.bulges) : null;
+  const bulges = given_bulges ?? (x instanceof Shape && x.bulges.length ? x.bulges : null);
+  const { coordinates, begin, roles, curves } = x instanceof Shape ? rings_of(x) : read(x, bulges?.length);
+  if (bulges && 2 * bulges.length !== coordinates?.length)
+    throw new MedialError("a bulge goes with each point", "malformed");
   const wanted = Object.fromEntries(SHAPE_OPTIONS.map((name) => [name, given[name]]));
   const text = options({ ...wanted, keepContours: given.keepContours });
   const is_plain = text.length === 1; // the end of the text

@@ -181,20 +181,21 @@ function of_text(text) {
 
 const is_array = (x) => Array.isArray(x) || (ArrayBuffer.isView(x) && !(x instanceof DataView));
 
-/** Whether rows of four or five numbers are points with z and m, not flat rings of two. */
-const are_points = (rows) =>
-  rows.length > 2 && rows.every((row) => Array.isArray(row) && row.length === rows[0].length && row.length < 6);
+/** Whether rows of four or five numbers are points with z and m, not flat rings of two, which only bulges hold open. */
+const are_points = (rows, bulge_count) =>
+  (bulge_count ? bulge_count === rows.length : rows.length > 2) &&
+  rows.every((row) => Array.isArray(row) && row.length === rows[0].length && row.length < 6);
 
-/** Rings ({coordinates, begin, roles}) or curves ({curves}) of anything that axis() takes. */
-export const read = (x) => checked(rings_or_curves, x);
+/** Rings ({coordinates, begin, roles}) or curves ({curves}) of anything that axis() takes with so many bulges. */
+export const read = (x, bulge_count) => checked(() => rings_or_curves(x, bulge_count), x);
 
-function rings_or_curves(x) {
+function rings_or_curves(x, bulge_count) {
   if (typeof x === "string") return of_text(x);
   if (x instanceof Contour) return { curves: Float64Array.from(x.numbers) };
   if (is_array(x) && x.length) {
     if (x[0] instanceof Contour) return { curves: Float64Array.from(x.flatMap((one) => one.numbers)) };
     const points = typeof x[0] === "number" || typeof x[0]?.[0] === "number";
-    const flat_rings = points && is_array(x[0]) && x[0].length > 3 && !are_points(x);
+    const flat_rings = points && is_array(x[0]) && x[0].length > 3 && !are_points(x, bulge_count);
     return rings_of_lists(points && !flat_rings ? [x] : [...x], () => ANY);
   }
   if (x && x.type) return of_polygons(polygons_of(x));

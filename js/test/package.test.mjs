@@ -213,8 +213,23 @@ test("points with z and m", () => {
   // Flat rings of two points: a disk beside a square, and three disks.
   const disk = (x, Type = Array) => Type.from([x, 0, x + 2, 0]);
   close(new medial.Shape([disk(0), [4, 0, 6, 0, 6, 2, 4, 2]], { bulges: [1, 1, 0, 0, 0, 0] }).area, Math.PI + 4);
-  const three = [0, 4, 8].map((x) => disk(x, Float64Array));
-  close(new medial.Shape(three, { bulges: [1, 1, 1, 1, 1, 1] }).area, 3 * Math.PI);
+  const bulges = [1, 1, 1, 1, 1, 1];
+  for (const Type of [Array, Float64Array]) {
+    const three = new medial.Shape([0, 4, 8].map((x) => disk(x, Type)), { bulges });
+    close(three.area, 3 * Math.PI);
+    assert.equal(three.componentCount, 3);
+  }
+  // As many bulges as rows: points with z and m.
+  close(new medial.Shape([[0, 0, 7, 8], [2, 0, 7, 8]], { bulges: [1, 1] }).area, Math.PI);
+  close(new medial.Shape(ring.map((p) => [...p, 7, 8]), { bulges: [0, 1, 0, 1] }).area, 12 + Math.PI);
+});
+
+test("a bulge goes with each point", () => {
+  const contour = new medial.Contour([0, 0]).lineTo([6, 0]).lineTo([6, 2]);
+  for (const x of [box(6, 2), box(6, 2).flat(), [box(6, 2), box(1, 1)], new medial.Shape(box(6, 2)), contour])
+    for (const bulges of [[1], [0, 1, 0, 1, 0]])
+      assert.throws(() => new medial.Shape(x, { bulges }), { code: "malformed" }, JSON.stringify(x));
+  close(new medial.Shape(box(6, 2), { bulges: [] }).area, 12);
 });
 
 test("memory", () => {

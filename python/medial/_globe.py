@@ -14,6 +14,7 @@ from ._records import Floats, Indices
 # As on the command line: farther from its middle, in degrees of the great circle, the transverse
 # Mercator projection stretches by more than 0.11 percent.
 _CONFORMAL_REACH = 2.7
+_BEYOND_POLE = 1e-9  # in degrees: as on the command line, how far rounding may move a pole
 _CELL = 1.5  # height and width in degrees: no corner is farther than 1.1 from the middle
 
 
@@ -58,10 +59,17 @@ class LocalProjections:
         self._ellipsoid = series.crs.ellipsoid
         points, feature = self._shapely.get_coordinates(self._features, return_index=True)
         finite = np.isfinite(points).all(axis=1)
-        points, feature = self._unit * points[finite], feature[finite]
+        points, feature = self._in_degrees(points[finite]), feature[finite]
         if (np.abs(points) > (540, 90)).any():
             raise MedialError("the reference system is geographic, but the coordinates are not longitudes and latitudes", "invalid_option")
         self._find_groups(points, feature)
+
+    def _in_degrees(self, coordinates: Floats) -> Floats:
+        """Longitudes and latitudes; points that rounding moved beyond a pole are back on it."""
+        places = self._unit * coordinates
+        lat = places[:, 1]
+        places[:, 1] = np.where(np.abs(lat) <= 90 + _BEYOND_POLE, np.clip(lat, -90, 90), lat)
+        return places
 
     def _find_groups(self, points: Floats, feature: Indices) -> None:
         size, directions = len(self._features), _directions(points)
@@ -111,7 +119,7 @@ class LocalProjections:
         at, geometry = self._shapely.get_coordinates(geometries, include_z=has_z, return_index=True)
         feature = features[geometry]
         if not back:
-            at[:, :2] *= self._unit
+            at[:, :2] = self._in_degrees(at[:, :2])
         group = self._group[feature]
         order = np.argsort(group, kind="stable")
         for rows in np.split(order, np.flatnonzero(np.diff(group[order])) + 1):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from copy import deepcopy
+from decimal import Decimal
 from numbers import Integral, Real
 from os import PathLike, fsencode
 from typing import Any
@@ -235,7 +236,8 @@ class Shape:
     def save(self, path: str | PathLike[str], *, chord: float = 1e-3) -> None:
         """Writes the shape in the format of the extension: .wkt, .geojson, .svg or .json (native).
 
-        GeoJSON and the native format hold `attributes`, too, as texts.
+        GeoJSON and the native format hold `attributes`, too. In the native format all are texts; in
+        GeoJSON those that are the usual spelling of a number are numbers ("007" stays a text).
 
         Parameters
         ----------
@@ -285,18 +287,27 @@ class Shape:
         return Shape._of(self._core, deepcopy(self.attributes, memo))  # the rest is immutable
 
 
+def is_missing(value: Any) -> bool:
+    """Whether it is None, or what stands for a missing value in Python, NumPy or pandas."""
+    if isinstance(value, (Real, Decimal, np.datetime64, np.timedelta64)):
+        return bool(value != value)
+    return value is None or type(value).__name__ in ("NAType", "NaTType")
+
+
 def stated(attributes: Mapping[str, Any]) -> list[tuple[str, float | str]]:
     """Attributes as files hold them: as the command line reads them, without those that are missing."""
     pairs: list[tuple[str, float | str]] = []
     for name, value in attributes.items():
-        if value is None or (isinstance(value, float) and value != value):
+        if is_missing(value):
             continue
         if isinstance(value, (bool, np.bool_, Integral)):
             value = str(int(value))
         elif isinstance(value, Real):
             value = float(value)
-        elif not isinstance(value, str):
+        elif isinstance(value, (list, tuple, dict)):
             value = json.dumps(value, default=str, ensure_ascii=False)
+        elif not isinstance(value, str):
+            value = str(value)
         pairs.append((in_utf8(name), in_utf8(value) if isinstance(value, str) else value))
     return pairs
 

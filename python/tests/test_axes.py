@@ -254,6 +254,24 @@ def test_degrees_of_other_units_and_globes(bars):
     assert moon == pytest.approx(1737400 * np.radians(0.001), rel=1e-4)
 
 
+def test_points_a_rounding_beyond_a_pole_are_on_it(bars):
+    shapely = pytest.importorskip("shapely")
+
+    def wedge(south, crs=4326, unit=1.0):
+        series = bars([(0, 0)], crs)
+        series[0] = shapely.Polygon([(0, south * unit), (60 * unit, -89.9 * unit), (0, -89.9 * unit)])
+        return series
+
+    expected = wedge(-90).medial.width()["max"][0]
+    beyond = wedge(-90.00000000000003)
+    assert beyond.medial.width()["max"][0] == expected
+    assert beyond.medial.axis().bounds["miny"][0] == pytest.approx(-90, abs=1e-9)
+    grads = wedge(-90, crs=4807, unit=10 / 9).medial.width()["max"][0]
+    assert grads == pytest.approx(expected, rel=1e-3)
+    with pytest.raises(medial.MedialError, match="not longitudes and latitudes"):
+        wedge(-90.00001).medial.width()
+
+
 def test_arrow(monkeypatch):
     pyarrow = pytest.importorskip("pyarrow")
     shapely = pytest.importorskip("shapely")

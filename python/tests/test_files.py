@@ -1,11 +1,14 @@
 """Files and texts: the native format, SVG, WKT, GeoJSON, fonts, graphs; beside shapely and the C++ results."""
 
 import copy
+import datetime
 import gzip
 import json
 import os
 import pathlib
 import pickle
+from decimal import Decimal
+from pathlib import PurePosixPath
 
 import numpy as np
 import pytest
@@ -156,7 +159,7 @@ def test_attributes_stay_with_shapes_and_axes(tmp_path):
     shape.save(tmp_path / "b.geojson")
     (again,) = medial.read(tmp_path / "b.geojson")
     texts = {"zip": "08001", "pop": "5", "share": "0.5", "ok": "1", "list": '[1, "é"]'}
-    assert again.attributes == texts
+    assert again.attributes == {**texts, "pop": 5, "share": 0.5, "ok": 1}
     a = medial.axis(shape)
     line = medial.centerline(a)
     many, editor = medial.axes([RING, shape]), medial.Editor(shape)
@@ -171,6 +174,20 @@ def test_attributes_stay_with_shapes_and_axes(tmp_path):
     properties = json.loads(a.to_text("geojson"))["features"][0]["properties"]
     assert (properties["zip"], properties["pop"], properties["share"]) == ("08001", 5, 0.5)
     assert medial.axis(RING).shape.attributes == {}
+
+
+def test_attributes_of_other_libraries_are_texts_numbers_or_missing():
+    shape = medial.Shape(RING)
+    shape.attributes = {
+        "price": Decimal("1.50"), "day": datetime.date(2026, 1, 2), "path": PurePosixPath("a/b"), "half": np.float32(0.5),
+        "count": np.int8(3), "pair": (1, 2), "nan": np.float32("nan"), "no_price": Decimal("nan"),
+        "never": np.datetime64("NaT"), "no_time": np.timedelta64("NaT"),
+    }  # fmt: skip
+    expected = {"price": "1.50", "day": "2026-01-02", "path": "a/b", "half": "0.5", "count": "3", "pair": "[1, 2]"}
+    assert medial.loads(medial.axis(shape).to_text())[0].shape.attributes == expected
+    pandas = pytest.importorskip("pandas")
+    shape.attributes = {"na": pandas.NA, "nat": pandas.NaT, "time": pandas.Timestamp(2026, 1, 2)}
+    assert medial.loads(medial.axis(shape).to_text())[0].shape.attributes == {"time": "2026-01-02 00:00:00"}
 
 
 def test_errors_of_files_have_a_code_and_a_place(tmp_path):

@@ -54,7 +54,7 @@ void AttributeColumns::name_apart(std::span<const Column> own) {
 }
 
 std::vector<Column> AttributeColumns::appended_to(std::vector<Column> columns) const {
-  columns.insert(columns.end(), columns_.begin(), columns_.end());
+  for (const Column& column : columns_) columns.push_back({column.name, column.type, true});
   return columns;
 }
 

@@ -24,6 +24,7 @@ enum class ColumnType : std::uint8_t { whole, real, text };
 struct Column {
   std::string name;  ///< the writer's own: at most ten characters, a shapefile has no more
   ColumnType type;
+  bool is_attribute = false;  ///< of the input's features
 };
 
 enum class GeometryKind : std::uint8_t { point, line, polygon };

@@ -7,7 +7,7 @@ import os
 import sqlite3
 import subprocess
 
-from support import FRAME, PROGRAM, RECTANGLE, CommandLine
+from support import FRAME, GEOGRAPHIC, PROGRAM, RECTANGLE, CommandLine
 
 
 class Files(CommandLine):
@@ -85,6 +85,10 @@ class Files(CommandLine):
                          "VALUES ('nodes', 'attributes', 'nodes')")
         self.assertIn("other columns", self.refuse("unwritable", "axis", "a.wkt", "-o", "t.gpkg", "--overwrite"))
         self.assertEqual(self.rows("nodes WHERE name = 'mine'"), 1)
+        # Layers of another input, with other attributes, are medial's own.
+        for name in ("first", "second"):
+            self.write(name + ".geojson", GEOGRAPHIC.replace('"rank"', f'"{name}"'))
+            self.succeed("axis", name + ".geojson", "-o", "own.gpkg", "--overwrite")
 
     def test_extensions_in_capitals(self):
         self.write("a.wkt", RECTANGLE)

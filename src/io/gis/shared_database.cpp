@@ -69,7 +69,6 @@ class SharedDatabase final : public Addition {
       : database_(std::move(database)), copy_(std::move(copy)), version_(version) {}
 
   Status commit() override {
-    const Uninterrupted uninterrupted;
     auto copy = open(copy_, SQLITE_OPEN_READWRITE);
     if (!copy) return std::move(copy).error();
     Backup backup(sqlite3_backup_init(database_.get(), "main", copy->get(), "main"));
@@ -77,6 +76,7 @@ class SharedDatabase final : public Addition {
     // A step of no pages locks the file: from here on, nobody else can change it.
     if (const int code = sqlite3_backup_step(backup.get(), 0); code != SQLITE_OK)
       return unwritable(code);
+    const Uninterrupted uninterrupted;
     if (version_of(database_.get()) != version_)
       return Error{ErrorCode::unwritable,
                    "another program has changed the file meanwhile, so nothing was added; run this "

@@ -68,9 +68,10 @@ std::string layer_name(const Target& target, const Table& table, bool first) {
   return first ? target.layer : target.layer + "_" + table.name;
 }
 
+/// Whether a layer has the columns of a table, whatever the input's attributes were.
 bool has_columns_of(OGRLayer& layer, const Table& table) {
   return std::ranges::all_of(table.columns, [&layer](const Column& column) {
-    return layer.GetLayerDefn()->GetFieldIndex(column.name.c_str()) >= 0;
+    return column.is_attribute || layer.GetLayerDefn()->GetFieldIndex(column.name.c_str()) >= 0;
   });
 }
 

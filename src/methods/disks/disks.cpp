@@ -337,7 +337,11 @@ TwoSided run_two_sided_in_place(const Problem& problem, const SiteNumbers& numbe
     }
     if (axis && findings.lost.empty()) return {std::move(*axis), !way.in_double};
     std::optional<Way> next = next_way(problem, way, findings.lost, attempts);
-    if (!next) return {std::move(axis), false};
+    if (!next) {
+      if (axis) return {std::move(*axis), false};
+      edges.clear();
+      return {};
+    }
     way = std::move(*next);
   }
 }
