@@ -100,10 +100,10 @@ bool allows_parts(const AxisArguments& arguments, const Options& options) {
          !options.exact && !options.exterior;
 }
 
-/// Axes of images are pruned as a whole. Which of standard input is known once it is read.
-bool wants_parts(const Document<ShapeItem>& shapes, const AxisArguments& arguments) {
-  if (io::is_image(arguments.input.path)) return false;
-  return arguments.parts || std::ranges::any_of(shapes.items, [](const ShapeItem& item) {
+/// Axes of images are pruned as a whole.
+bool wants_parts(const LoadedShapes& shapes, const AxisArguments& arguments) {
+  if (shapes.of_image) return false;
+  return arguments.parts || std::ranges::any_of(shapes.file.items, [](const ShapeItem& item) {
            return item.shape.points.size() > most_points;
          });
 }
@@ -136,7 +136,7 @@ Result<int> run_axis(const AxisArguments& arguments) {
   }
   auto shapes = load_shapes(input, arguments.common);
   if (!shapes) return std::move(shapes).error();
-  if (in_parts && wants_parts(shapes->file, arguments)) {
+  if (in_parts && wants_parts(*shapes, arguments)) {
     const auto written = finish_in_parts(*shapes, arguments, input, options);
     if (!written) return written.error();
     if (*written) return **written;

@@ -197,12 +197,12 @@ Result<int> run_compare(const CompareArguments& arguments) {
     const ShapeItem& item = file.items[i];
     auto reference = reference_of(item.shape, file.corner_angle, arguments);
     if (!reference) {
-      reference.error().place.feature = i;
+      reference.error().place.feature = file.index_of(i);
       return std::move(reference).error();
     }
     std::vector<Row> rows;
     for (const Method& method : *methods) rows.push_back(measure(item, *reference, method));
-    if (file.items.size() > 1) text += fmt::format("feature {}\n", i);
+    if (file.items.size() > 1) text += fmt::format("feature {}\n", file.index_of(i));
     text += table_of(rows);
     Json& list = features.emplace_back(Json::array());
     for (const Row& row : rows) {

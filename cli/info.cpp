@@ -70,7 +70,7 @@ std::string unit_text(Unit unit) {
 Result<int> summarize_polygons(const FileArguments& arguments) {
   auto loaded = load_shapes(arguments.input, arguments.common);
   if (!loaded) return std::move(loaded).error();
-  const auto& [file, report, phases] = *loaded;
+  const auto& [file, of_image, report, phases] = *loaded;
   const ShapeReport& cleaned = report.shapes;
   const ArcReport& arcs = report.arcs;
   const ShapeSummary summary = summarize_shapes(file);

@@ -93,7 +93,8 @@ Result<std::vector<NamedSignature>> signatures_of(const InputOptions& input,
   const auto sign = [&](std::size_t i, int) -> Result<NamedSignature> {
     auto signature = signature_of(items[i]);
     if (!signature) return std::move(signature).error();
-    return NamedSignature{each ? fmt::format("{}#{}", input.path, i) : input.path, *signature};
+    return NamedSignature{
+        each ? fmt::format("{}#{}", input.path, axes->file.index_of(i)) : input.path, *signature};
   };
   return map_items<NamedSignature>(edge_weights_of(axes->file), common.threads, sign);
 }

@@ -319,8 +319,8 @@ std::string summary_of(const std::vector<Measured>& all, const Document<AxisItem
 }
 
 std::vector<Plot> profile_plots(const std::vector<Measured>& all, const std::string& name,
-                                Unit unit) {
-  const std::string in = unit == Unit::unknown ? "" : fmt::format(" [{}]", name_of(unit));
+                                const DocumentInfo& file) {
+  const std::string in = file.unit == Unit::unknown ? "" : fmt::format(" [{}]", name_of(file.unit));
   constexpr std::size_t most_plots = 24;
   std::vector<Plot> plots;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -328,7 +328,7 @@ std::vector<Plot> profile_plots(const std::vector<Measured>& all, const std::str
       if (plots.size() == most_plots) return plots;
       Plot plot;
       plot.logarithmic = false;
-      plot.title = all.size() > 1 ? fmt::format("feature {}", i) : name;
+      plot.title = all.size() > 1 ? fmt::format("feature {}", file.index_of(i)) : name;
       plot.x_label = "length along the centre line" + in;
       plot.y_label = "width" + in;
       Series width{"width", {}, false, false}, span{"foot to foot", {}, false, false};
@@ -580,7 +580,7 @@ Result<int> run_measure(const MeasureArguments& given) {
   if (Status written = write_measures(axes->file, *all, arguments); !written)
     return std::move(written).error();
   if (!arguments.plot.empty()) {
-    Status plotted = write_plots(arguments.plot, profile_plots(*all, input.path, axes->file.unit));
+    Status plotted = write_plots(arguments.plot, profile_plots(*all, input.path, axes->file));
     if (!plotted) return std::move(plotted).error();
   }
   return finish_measure(*all, *axes, arguments);

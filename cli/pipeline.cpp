@@ -66,14 +66,15 @@ Result<T> naming_file(Result<T> result, const InputOptions& input) {
   return result;
 }
 
-/// The error of an invalid shape, with a remedy.
-Error with_cure(Error error, const InputOptions& input) {
+/// The error of an invalid shape, with a remedy. Whether the file is an image is known by then: a
+/// pipe cannot be asked once it is read.
+Error with_cure(Error error, const InputOptions& input, bool of_image) {
   using enum ErrorCode;
   const io::ReadOptions& read = input.source.read;
   const bool tangled = error.code == crossing || error.code == overlap ||
                        error.code == hole_outside || error.code == nested_outer;
   const bool flat = error.code == no_area || error.code == too_few_points;
-  if ((tangled || flat) && read.repair == RepairRule::none && !io::is_image(input.path))
+  if ((tangled || flat) && read.repair == RepairRule::none && !of_image)
     error.text += tangled ? "; --repair repairs such rings"
                           : "; --repair drops such rings, and so does --skip-invalid";
   else if (flat && !read.skip_invalid)
@@ -186,6 +187,22 @@ void leave_out(io::ReadOptions& read, bool choices, bool pixels) {
   if (pixels) read.image = {};
 }
 
+/// The shapes of features that have been read, with notes.
+Result<LoadedShapes> shapes_of(Document<Feature> features, LoadedShapes out,
+                               const InputOptions& input, const CommonOptions& common) {
+  LoadOptions options = input.source.load;
+  options.repair = input.source.read.repair;
+  options.skip_invalid = input.source.read.skip_invalid;
+  options.threads = common.threads;
+  auto shapes = naming_file(medial::load_shapes(std::move(features), options, &out.report), input);
+  if (!shapes) return with_cure(std::move(shapes).error(), input, out.of_image);
+  out.file = std::move(shapes).value();
+  out.file.corner_angle = common.corner_angle.value_or(out.file.corner_angle);
+  out.phases.end("shape");
+  print_notes(out.file, input, common);
+  return out;
+}
+
 }  // namespace
 
 InputOptions first_input(InputOptions input, const std::string& second) {
@@ -208,24 +225,14 @@ InputOptions second_input(InputOptions input, const std::string& second) {
 Result<LoadedShapes> load_shapes(const InputOptions& input, const CommonOptions& common) {
   LoadedShapes out;
   if (Status suited = check_image_options(input); !suited) return std::move(suited).error();
-  auto features = [&input] {
+  auto features = [&] {
     const Activity shown("reading", input.path);
+    out.of_image = input.source.text.empty() && io::is_image(input.path);
     return io::read_features(input.path, input.source);
   }();
-  if (!features) return with_cure(std::move(features).error(), input);
+  if (!features) return with_cure(std::move(features).error(), input, out.of_image);
   out.phases.end("read");
-  LoadOptions options = input.source.load;
-  options.repair = input.source.read.repair;
-  options.skip_invalid = input.source.read.skip_invalid;
-  options.threads = common.threads;
-  auto shapes =
-      naming_file(medial::load_shapes(std::move(features).value(), options, &out.report), input);
-  if (!shapes) return with_cure(std::move(shapes).error(), input);
-  out.file = std::move(shapes).value();
-  out.file.corner_angle = common.corner_angle.value_or(out.file.corner_angle);
-  out.phases.end("shape");
-  print_notes(out.file, input, common);
-  return out;
+  return shapes_of(std::move(*features), std::move(out), input, common);
 }
 
 Result<LoosePieces> load_loose(const InputOptions& input, const CommonOptions& common) {
@@ -242,7 +249,7 @@ Status with_planar_graph(const LoosePieces& pieces, const FileArguments& argumen
   const InputOptions& input = arguments.input;
   const bool repair = input.source.read.repair != RepairRule::none;
   auto touching = naming_file(medial::with_planar_graph(pieces, repair, use), input);
-  if (!touching) return with_cure(std::move(touching).error(), input);
+  if (!touching) return with_cure(std::move(touching).error(), input, pieces.features.pixel > 0);
   if (*touching > 0 && !arguments.common.quiet)
     say("medial: {}: note: points and edges within {:.2g} of each other touch, as rounding "
         "cannot separate them\n",
@@ -265,26 +272,44 @@ Result<LoadedAxes> compute_axes(LoadedShapes shapes, const InputOptions& input,
   return out;
 }
 
+namespace {
+
+/// The axes of a native file, or those of its shapes where it does not hold the requested ones.
+Result<LoadedAxes> load_stored(const InputOptions& input, const CommonOptions& common,
+                               const Options& options) {
+  if (Status suited = check_image_options(input); !suited) return std::move(suited).error();
+  LoadedAxes out;
+  auto stored = [&input] {
+    const Activity shown("reading", input.path);
+    return io::read_native(input.path, input.source.read);
+  }();
+  if (!stored) return std::move(stored).error();
+  out.phases.end("read");
+  const UnitOptions& units = input.source.units;
+  if (!has_axes(*stored, options)) {
+    Document<Feature> features = io::features_of(std::move(*stored));
+    if (Status done = convert_units(features, units); !done)
+      return naming_file<LoadedAxes>(std::move(done).error(), input);
+    LoadedShapes begun;
+    begun.phases = std::move(out.phases);
+    auto shapes = shapes_of(std::move(features), std::move(begun), input, common);
+    if (!shapes) return std::move(shapes).error();
+    return compute_axes(std::move(shapes).value(), input, common, options);
+  }
+  if (has_effect(units))
+    return error_at(ErrorCode::invalid_option, input.path,
+                    "a stored axis keeps its units: convert its shape instead");
+  out.file = std::move(stored).value();
+  print_notes(out.file, input, common);
+  return out;
+}
+
+}  // namespace
+
 Result<LoadedAxes> load_axes(const InputOptions& input, const CommonOptions& common, double specks,
                              const Options& options) {
-  if (specks == 0 && input.source.text.empty() && io::is_native(input.path)) {
-    LoadedAxes out;
-    if (Status suited = check_image_options(input); !suited) return std::move(suited).error();
-    auto stored = [&input] {
-      const Activity shown("reading", input.path);
-      return io::read_native(input.path, input.source.read);
-    }();
-    if (!stored) return std::move(stored).error();
-    if (has_axes(*stored, options)) {
-      if (has_effect(input.source.units))
-        return error_at(ErrorCode::invalid_option, input.path,
-                        "a stored axis keeps its units: convert its shape instead");
-      out.file = std::move(stored).value();
-      out.phases.end("read");
-      print_notes(out.file, input, common);
-      return out;
-    }
-  }
+  if (specks == 0 && input.source.text.empty() && io::is_native(input.path))
+    return load_stored(input, common, options);
   auto shapes = load_shapes(input, common);
   if (!shapes) return std::move(shapes).error();
   if (specks > 0)
@@ -460,7 +485,7 @@ Result<std::optional<LoadedAxes>> stream(const FileArguments& arguments, const I
   stream.progress = progress.counting_callback();
   auto report =
       naming_file(io::stream(input.path, arguments.output, arguments.format, stream), input);
-  if (!report) return with_cure(std::move(report).error(), input);
+  if (!report) return with_cure(std::move(report).error(), input, false);
   if (!*report) return std::optional<LoadedAxes>();
   out.phases.end("stream");
   io::StreamReport& done = **report;

@@ -19,6 +19,7 @@ namespace medial::cli {
 /// The shapes of a file.
 struct LoadedShapes {
   Document<ShapeItem> file;
+  bool of_image = false;  ///< the file is an image
   LoadReport report;
   Phases phases;  ///< read, shape
 };
@@ -31,8 +32,9 @@ struct LoadedAxes {
   Phases phases;  ///< read, shape, axis
 };
 
-/// The options of INPUT and of a second file: each has those that apply to its kind. What only the
-/// other one can follow is left to it, and what neither can is refused. A text is INPUT's alone.
+/// The options of INPUT and of a second file. Where one is of medial's own format or no image, what
+/// does not apply to it is left to the other; what neither can follow is refused. A text is INPUT's
+/// alone.
 InputOptions first_input(InputOptions input, const std::string& second);
 InputOptions second_input(InputOptions input, const std::string& second);
 

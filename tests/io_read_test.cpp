@@ -17,6 +17,7 @@
 #include <map>
 #include <random>
 #include <sstream>
+#include <thread>
 #include <tuple>
 
 #include "io/gis/back_to_geographic.h"
@@ -300,6 +301,22 @@ TEST_F(Io, FilesThatHoldNoPolygonsAreUnsupported) {
   EXPECT_EQ(code_of(read_document(write("a.gpkg", "garbage"))), ErrorCode::malformed);
   EXPECT_EQ(code_of(read_document(write("a.shp", "garbage"))), ErrorCode::malformed);
   EXPECT_EQ(code_of(read_document(write("a.fgb", "fgb"))), ErrorCode::malformed);
+}
+
+TEST_F(Io, APipeThatWasReadIsOpenedAgain) {
+  const std::string name = path("pipe");
+  ASSERT_EQ(mkfifo(name.c_str(), S_IRUSR | S_IWUSR), 0);
+  const auto read_what_comes = [&name](const std::string& text) {
+    std::thread writer([&] { std::ofstream(name) << text; });
+    auto document = read_document(name);
+    writer.join();
+    return document;
+  };
+  EXPECT_EQ(code_of(read_what_comes("")), ErrorCode::empty);
+  EXPECT_EQ(code_of(read_what_comes("POLYGON ((0 0, 1 0, x")), ErrorCode::malformed);
+  const auto document = read_what_comes("POLYGON ((0 0, 1 0, 1 1))");
+  ASSERT_TRUE(document.ok()) << to_string(document.error());
+  EXPECT_EQ(document->items.size(), 1U);
 }
 
 /// Runs an action with a file as standard input and gives what it wrote to standard output.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "medial/document.h"
@@ -21,13 +22,18 @@ void for_each_point(const Document<Feature>& document, Action action) {
 /// The largest latitude; rounding may have moved the pole a little further.
 constexpr double pole = 90, beyond_pole = 1e-9;
 
-/// Whether all coordinates may be longitudes and latitudes.
-inline bool can_be_degrees(const Document<Feature>& document) {
-  bool possible = true;
-  for_each_point(document, [&possible](Vec2 point) {
-    if (!(std::abs(point.x) <= 360 && std::abs(point.y) <= pole + beyond_pole)) possible = false;
+/// The largest coordinates, whatever their signs.
+inline Vec2 reach_of(const Document<Feature>& document) {
+  Vec2 reach;
+  for_each_point(document, [&reach](Vec2 point) {
+    reach = {std::max(reach.x, std::abs(point.x)), std::max(reach.y, std::abs(point.y))};
   });
-  return possible;
+  return reach;
+}
+
+/// Whether coordinates of this reach may be longitudes and latitudes, in a unit of so many degrees.
+inline bool can_be_angles(Vec2 reach, double unit) {
+  return unit * reach.x <= 360 && unit * reach.y <= pole + beyond_pole;
 }
 
 }  // namespace medial::io

@@ -15,6 +15,7 @@ struct GisModule {
   const std::vector<Format>& (*formats)();
   void (*describe)(Document<Feature>&);
   Status (*describe_by_name)(const std::string&, Document<Feature>&);
+  decltype(&io::degrees_of_unit) degrees_of_unit;
   decltype(&io::output_crs_of) output_crs_of;
   decltype(&io::urn_of_crs) urn_of_crs;
   decltype(&io::project_to_local) project_to_local;

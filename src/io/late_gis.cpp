@@ -88,6 +88,11 @@ Status describe_crs(const std::string& name, Document<Feature>& document) {
   return in_module(&GisModule::describe_by_name, name, document);
 }
 
+double degrees_of_unit(const std::string& crs_wkt) {
+  return crs_wkt.empty() || loaded().module == nullptr ? 1
+                                                       : loaded().module->degrees_of_unit(crs_wkt);
+}
+
 Result<OutputCrs> output_crs_of(const std::string& crs_wkt, Unit unit) {
   if (crs_wkt.empty()) return OutputCrs{crs_wkt, unit, nullptr};
   return in_module(&GisModule::output_crs_of, crs_wkt, unit);

@@ -19,7 +19,7 @@ Result<Document<Feature>> read_source(const std::string& path, const SourceOptio
   if (read.loose || !is_native(path)) return read_document(path, read);
   auto native = read_native(path, read);
   if (!native) return std::move(native).error();
-  return dataset_of(std::move(native).value());
+  return features_of(std::move(native).value());
 }
 
 template <class T>

@@ -10,7 +10,8 @@ Result<std::unique_ptr<FeatureReader>> open_features(const std::string& path,
                                                      const ReadOptions& options,
                                                      bool unusual = false);
 
-/// The reference system that is asked for, or the one of the file if its numbers can be degrees.
-Status settle_crs(Document<Feature>& document, const std::string& crs, bool degrees);
+/// The reference system that is asked for, or the one of the file if coordinates of this reach can
+/// be its longitudes and latitudes.
+Status settle_crs(Document<Feature>& document, const std::string& crs, Vec2 reach);
 
 }  // namespace medial::io

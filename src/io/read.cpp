@@ -82,8 +82,8 @@ Result<const Format*> format_of(const std::string& path,
     return Error{ErrorCode::unsupported,
                  "this is a font, not a shape: --text TEXT --font FILE draws a text with it",
                  in_file(path)};
-  const bool is_stream = source && (*source)->is_stream();
-  const Format* format = is_stream ? format_of_text(beginning) : format_of_name(path);
+  const bool is_nameless = source && ((*source)->is_stream() || format_name(path).empty());
+  const Format* format = is_nameless ? format_of_text(beginning) : format_of_name(path);
   // Plain text may hold what another format begins like.
   if (format != nullptr && lists_extension(format->extensions, "txt"))
     if (const Format* other = format_of_text(beginning)) format = other;
@@ -137,7 +137,7 @@ Result<Document<Feature>> finish(Document<Feature> document, const ReadOptions& 
   FeatureChecks checks(options);
   if (Status checked = checks.check(document); !checked) return std::move(checked).error();
   if (Status complete = checks.finish(document); !complete) return std::move(complete).error();
-  if (Status settled = settle_crs(document, options.crs, can_be_degrees(document)); !settled)
+  if (Status settled = settle_crs(document, options.crs, reach_of(document)); !settled)
     return settled.error();
   if (options.project) {
     if (Status status = project_to_local(document); !status) return status.error();
@@ -154,10 +154,11 @@ Result<Document<Feature>> finish(Document<Feature> document, const ReadOptions& 
 
 }  // namespace
 
-Status settle_crs(Document<Feature>& dataset, const std::string& crs, bool degrees) {
+Status settle_crs(Document<Feature>& dataset, const std::string& crs, Vec2 reach) {
   if (!crs.empty()) return describe_crs(crs, dataset);
   describe_crs(dataset);
-  if (!dataset.geographic || degrees) return success();
+  if (!dataset.geographic || can_be_angles(reach, degrees_of_unit(dataset.crs_wkt)))
+    return success();
   dataset.crs_wkt.clear();
   dataset.geographic = false;
   dataset.unit = Unit::unknown;
@@ -179,6 +180,7 @@ Result<std::unique_ptr<FeatureReader>> open_features(const std::string& path,
 }
 
 Result<Document<Feature>> read_document(const std::string& path, const ReadOptions& options) {
+  const TextSource::Reading reading(path);
   return guarded(path, [&]() -> Result<Document<Feature>> {
     Result<Document<Feature>> document = read_any(path, TextSource::open(path), options);
     if (!document) return document;
@@ -201,6 +203,7 @@ template <class T>
 Result<Document<T>> read_json(const std::string& path,
                               const Result<std::shared_ptr<TextSource>>& source, Sniff sniff,
                               const char* otherwise, Result<Document<T>> (*read)(TextSource&)) {
+  const TextSource::Reading reading(path);
   return guarded(path, [&]() -> Result<Document<T>> {
     if (!source) return source.error();
     if (otherwise != nullptr && !sniff((*source)->lookahead(sniffed)))
@@ -260,6 +263,7 @@ Result<TriangleMesh> read_mesh(const std::string& path) {
                  fmt::format("'{}' is not a mesh format; known are {}", extension,
                              formats_of(DocumentKind::mesh)),
                  in_file(path)};
+  const TextSource::Reading reading(path);
   return guarded(path, [&]() -> Result<TriangleMesh> {
     Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
     if (!source) return source.error();

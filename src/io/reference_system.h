@@ -15,6 +15,8 @@ namespace medial::io {
 void describe_crs(Document<Feature>& document);
 /// Gives the document the named system instead. Errors: invalid_option (it names none).
 Status describe_crs(const std::string& name, Document<Feature>& document);
+/// How many degrees the unit of longitudes and latitudes is, such as 0.9 for grads; by default 1.
+double degrees_of_unit(const std::string& crs_wkt);
 
 /// See ReadOptions::project. Errors: invalid_option (no degrees), unsupported (points that cannot
 /// be projected).

@@ -76,7 +76,7 @@ struct Survey {
 
 Result<Survey> survey_of(PartReader reader, const std::string& crs, std::uint64_t most_points) {
   Survey survey;
-  bool degrees = true;
+  Vec2 reach;
   for (;;) {
     auto part = reader.next();
     if (!part) return std::move(part).error();
@@ -87,7 +87,8 @@ Result<Survey> survey_of(PartReader reader, const std::string& crs, std::uint64_
     common.geographic = common.geographic || features.geographic;
     if (features.unit != Unit::unknown) common.unit = features.unit;
     std::ranges::move(features.notes, std::back_inserter(common.notes));
-    degrees = degrees && can_be_degrees(features);
+    const Vec2 own = reach_of(features);
+    reach = {std::max(reach.x, own.x), std::max(reach.y, own.y)};
     for (const Feature& feature : features.items) {
       survey.too_large = survey.too_large || point_count(feature) > most_points;
       survey.columns.add(feature.attributes);
@@ -100,7 +101,7 @@ Result<Survey> survey_of(PartReader reader, const std::string& crs, std::uint64_
     if (survey.too_large) return survey;
   }
   if (Status complete = reader.finish(survey.common); !complete) return std::move(complete).error();
-  if (Status settled = settle_crs(survey.common, crs, degrees); !settled)
+  if (Status settled = settle_crs(survey.common, crs, reach); !settled)
     return std::move(settled).error();
   return survey;
 }

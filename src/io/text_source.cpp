@@ -29,7 +29,7 @@ struct TextSource::Handle {
   }
 };
 
-/// The streams that have been opened, but not read to their ends.
+/// The streams that have been opened, but not read.
 class TextSource::Streams {
  public:
   static Streams& all() {
@@ -38,15 +38,16 @@ class TextSource::Streams {
   }
   std::shared_ptr<TextSource> find(const std::string& path) {
     const std::lock_guard lock(mutex_);
-    // Standard input cannot be opened again.
-    std::erase_if(sources_,
-                  [](const auto& one) { return one.first != "-" && one.second->was_read(); });
     const auto found = sources_.find(path);
     return found == sources_.end() ? nullptr : found->second;
   }
   void add(const std::string& path, std::shared_ptr<TextSource> source) {
     const std::lock_guard lock(mutex_);
     sources_[path] = std::move(source);
+  }
+  void forget(const std::string& path) {
+    const std::lock_guard lock(mutex_);
+    sources_.erase(path);
   }
 
  private:
@@ -87,6 +88,10 @@ Result<std::shared_ptr<TextSource>> TextSource::open(const std::string& path) {
   return source;
 }
 
+TextSource::Reading::~Reading() {
+  if (path_ != "-") Streams::all().forget(path_);
+}
+
 std::shared_ptr<TextSource> TextSource::of(std::string_view text) {
   std::shared_ptr<TextSource> source(new TextSource({}, nullptr));
   source->window_.assign(text.begin(), text.end());
@@ -105,7 +110,6 @@ bool TextSource::refill(std::size_t wanted) {
     const auto room = static_cast<unsigned>(window_.size() - kept);
     const int got = gzread(handle_->file, window_.data() + kept, room);
     if (got > 0) kept += static_cast<std::size_t>(got);
-    has_begun_ = has_begun_ || got > 0;
     if (got < static_cast<int>(room)) {
       int code = Z_OK;
       const char* message = gzerror(handle_->file, &code);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "medial/error.h"
@@ -22,8 +23,21 @@ class TextSource {
   static constexpr std::size_t longest_number = 4096;
 
   /// Opens a file; `-` is standard input. What can be read only once, such as a pipe, is one source
-  /// until it has been read: what one reader peeks at, the next one finds.
+  /// until the end of its Reading: what one reader peeks at, the next one finds.
   static Result<std::shared_ptr<TextSource>> open(const std::string& path);
+
+  /// While a file is read, and not only peeked at. Afterwards, whatever was found in it, its path
+  /// is opened again, except for standard input.
+  class Reading {
+   public:
+    explicit Reading(std::string path) : path_(std::move(path)) {}
+    ~Reading();
+    Reading(const Reading&) = delete;
+    Reading& operator=(const Reading&) = delete;
+
+   private:
+    std::string path_;
+  };
 
   /// A text in memory.
   static std::shared_ptr<TextSource> of(std::string_view text);
@@ -76,7 +90,6 @@ class TextSource {
   TextSource(std::string path, std::unique_ptr<Handle> handle);
   std::size_t available() const { return static_cast<std::size_t>(end_ - next_); }
   bool refill(std::size_t wanted);
-  bool was_read() const { return has_begun_ && at_end_ && available() == 0; }
 
   std::string path_;
   std::unique_ptr<Handle> handle_;
@@ -86,7 +99,6 @@ class TextSource {
   std::uint64_t line_ = 1;
   bool at_end_ = false;
   std::optional<Error> failure_;
-  bool has_begun_ = false;  ///< whether it was not empty
   bool is_stream_ = true;
 };
 

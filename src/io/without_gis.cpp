@@ -23,6 +23,8 @@ Status describe_crs(const std::string& name, Document<Feature>& document) {
   return success();
 }
 
+double degrees_of_unit(const std::string&) { return 1; }
+
 Result<OutputCrs> output_crs_of(const std::string& crs_wkt, Unit unit) {
   return OutputCrs{crs_wkt, unit, nullptr};
 }

@@ -67,8 +67,7 @@ struct SourceOptions {
   UnitOptions units;
 };
 
-/// The features of a file, by read_document() or read_text(); shapes of medial's .json keep their
-/// sources. Errors: theirs, with the file; invalid_option (an option that does not apply).
+/// The features of a file, by read_document(), read_native() or read_text(). Errors: theirs.
 Result<Document<Feature>> read_features(const std::string& path, const SourceOptions& options = {});
 /// Passes read_features() to medial::load_shapes() or, unrepaired, load_loose(). Errors: theirs.
 Result<Document<ShapeItem>> load_shapes(const std::string& path, const SourceOptions& options = {},
@@ -79,6 +78,7 @@ Result<LoosePieces> load_loose(const std::string& path, const SourceOptions& opt
 bool is_native(const std::string& path);
 Result<Document<AxisItem>> read_native(const std::string& path, const ReadOptions& options = {});
 Result<Document<AxisItem>> read_native_text(std::string_view text);
+Document<Feature> features_of(Document<AxisItem> file);  ///< its shapes, with their sources
 
 struct VoronoiItem {
   Shape shape;
@@ -118,8 +118,7 @@ struct PackFile : DocumentInfo {
 Result<PackFile> read_pack(const std::string& path);
 Result<PackFile> unpack_bytes(std::span<const std::uint8_t> bytes);
 
-/// The axes of a pack, with the shapes that their disks cover. `notes` (may be null) names shapes
-/// that could not be built; they have no points.
+/// With the shapes that their disks cover; `notes` (may be null) names those that have no points.
 Result<Document<AxisItem>> native_of(const PackFile& file,
                                      std::vector<std::string>* notes = nullptr);
 

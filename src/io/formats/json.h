@@ -32,9 +32,6 @@ Unit unit_from(const std::string& name);
 /// Throws where it is not one of Options.
 double corner_angle_from(double degrees);
 
-/// The shapes of a native file as features: their loops are the rings, with their sources.
-Document<Feature> dataset_of(Document<AxisItem> file);
-
 /// A row that reads the shapes of native files.
 Format native_reading(const char* extensions);
 

@@ -100,9 +100,9 @@ void put_points(OutputStream& out, const MedialAxis& axis, const AxisFeatures& i
   }
 }
 
-void put_item(OutputStream& out, std::size_t index, const AxisItem& axis,
+void put_item(OutputStream& out, std::uint64_t feature, const AxisItem& axis,
               const AxisFeatures& item) {
-  put_member(out, index == 0 ? "\n{\"feature\":" : ",\n{\"feature\":", index);
+  put_member(out, "{\"feature\":", feature);
   out.put(",\"attributes\":");
   put_attributes(out, axis.attributes);
   put_members<std::uint64_t>(out, {{"components", item.components},
@@ -129,8 +129,11 @@ Status write_json(Target& target, const FeaturesOutput& output) {
   target.out->put("{\"medial_features\":1");
   put_unit(target);
   target.out->put(",\n\"items\":[");
-  for (std::size_t i = 0; i < output.features.size(); ++i)
-    put_item(*target.out, i, output.document.items[i], output.features[i]);
+  for (std::size_t i = 0; i < output.features.size(); ++i) {
+    target.out->put(i == 0 ? "\n" : ",\n");
+    put_item(*target.out, output.document.index_of(i), output.document.items[i],
+             output.features[i]);
+  }
   target.out->put("\n]}\n");
   return success();
 }

@@ -306,7 +306,7 @@ Result<Document<AxisItem>> read_native(TextSource& source) {
   return read_document(source, native_version, read_file);
 }
 
-Document<Feature> dataset_of(Document<AxisItem> file) {
+Document<Feature> features_of(Document<AxisItem> file) {
   Document<Feature> dataset{file, {}};
   std::int64_t id = 0;
   for (AxisItem& item : file.items) {
@@ -336,7 +336,7 @@ namespace {
 Result<Document<Feature>> read_native_features(const Input& input, const ReadOptions&) {
   Result<Document<AxisItem>> file = read_native(*input.source);
   if (!file) return file.error();
-  return dataset_of(std::move(*file));
+  return features_of(std::move(*file));
 }
 
 }  // namespace

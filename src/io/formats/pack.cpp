@@ -194,6 +194,7 @@ Status write_pack(const std::string& path, const std::vector<std::uint8_t>& byte
 }
 
 Result<PackFile> read_pack(const std::string& path) {
+  const TextSource::Reading reading(path);
   return guarded(path, [&]() -> Result<PackFile> {
     constexpr std::size_t longest_pack = std::size_t{1} << 32U;
     Result<std::shared_ptr<TextSource>> source = TextSource::open(path);

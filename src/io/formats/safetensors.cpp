@@ -103,7 +103,7 @@ namespace {
 Result<Document<Feature>> read_features_of_columns(const Input& input, const ReadOptions&) {
   Result<Document<AxisItem>> file = read_safetensors(*input.source);
   if (!file) return file.error();
-  return dataset_of(std::move(*file));
+  return features_of(std::move(*file));
 }
 
 }  // namespace

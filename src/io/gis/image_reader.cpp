@@ -550,6 +550,7 @@ Format image_format() {
 }
 
 Result<ImageFile> read_image(const std::string& path, const ImageOptions& options) {
+  const TextSource::Reading reading(path);
   Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
   if (!source) return source.error();
   if (options.labels)

@@ -122,10 +122,11 @@ GlobeExtent extent_of(const Document<Feature>& dataset, double unit) {
 }
 
 /// Puts points that rounding moved beyond a pole back onto it.
-void clamp_latitudes(Document<Feature>& dataset) {
-  const auto clamp = [](auto& lines) {
+void clamp_latitudes(Document<Feature>& dataset, double unit) {
+  const double most = pole / unit;
+  const auto clamp = [most](auto& lines) {
     for (auto& line : lines)
-      for (Vec2& point : line.points) point.y = std::clamp(point.y, -pole, pole);
+      for (Vec2& point : line.points) point.y = std::clamp(point.y, -most, most);
   };
   for (Feature& feature : dataset.items) {
     clamp(feature.rings);
@@ -148,6 +149,14 @@ std::string note_on(const GlobeExtent& extent, bool conformal) {
 
 }  // namespace
 
+double degrees_of_unit(const std::string& crs_wkt) {
+  const GdalMessages messages;
+  OGRSpatialReference reference;
+  return reference.importFromWkt(crs_wkt.c_str()) == OGRERR_NONE
+             ? degrees(reference.GetAngularUnits())
+             : 1;
+}
+
 Status project_to_local(Document<Feature>& dataset) {
   const GdalMessages messages;
   OGRSpatialReference geographic;
@@ -161,7 +170,8 @@ Status project_to_local(Document<Feature>& dataset) {
   } else if (geographic.importFromWkt(dataset.crs_wkt.c_str()) != OGRERR_NONE) {
     return Error{ErrorCode::unsupported, "the reference system is not understood", {}};
   }
-  if (!can_be_degrees(dataset)) {
+  const double unit = degrees(geographic.GetAngularUnits());
+  if (!can_be_angles(reach_of(dataset), unit)) {
     return Error{
         ErrorCode::invalid_option,
         "the coordinates are not degrees, so they cannot be projected: leave out --project, or "
@@ -169,8 +179,8 @@ Status project_to_local(Document<Feature>& dataset) {
         {}};
   }
 
-  clamp_latitudes(dataset);
-  const GlobeExtent extent = extent_of(dataset, degrees(geographic.GetAngularUnits()));
+  clamp_latitudes(dataset, unit);
+  const GlobeExtent extent = extent_of(dataset, unit);
   const bool conformal = extent.reach <= conformal_reach;
   OGRSpatialReference local;
   local.SetProjCS(local_name);
