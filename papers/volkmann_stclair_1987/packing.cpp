@@ -44,7 +44,7 @@ Shape moved(const Shape& shape, double angle, Vec2 by) {
   Placement at;
   at.angle = angle;
   at.move = by;
-  return placed(shape, at);
+  return placed(shape, at).value();
 }
 
 /// Turned so that its box is smallest: along an edge of the convex hull, as Freeman and Shapira
@@ -333,7 +333,7 @@ std::vector<Body> bodies_of(const std::vector<Shape>& parts, const std::vector<P
   std::vector<Body> bodies;
   for (const Pair& pair : pairs) {
     used[pair.first] = used[pair.second] = true;
-    bodies.push_back(squared({{parts[pair.first], placed(parts[pair.second], pair.at)}}));
+    bodies.push_back(squared({{parts[pair.first], placed(parts[pair.second], pair.at).value()}}));
   }
   for (std::size_t i = 0; i < parts.size(); ++i)
     if (!used[i]) bodies.push_back({{parts[i]}});
