@@ -61,7 +61,7 @@ std::vector<PathPiece> side_channels(const MedialAxis& axis, const AxisPath& pat
 
 struct CentreLineOptions {
   bool extend = false;  ///< ends to the boundary: straight; if far, to the nearest place ahead
-  double smooth = 0;  ///< Gaussian average over this many radii, inside, from end to end; 0: none
+  double smooth = 0;    ///< Gaussian average over this many radii, inside, from end to end; 0: none
 };
 
 /// Paths as an axis: chains of exact edges, extended by straight ones. Smoothed lines are sampled:
