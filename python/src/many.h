@@ -115,10 +115,10 @@ void for_each_block(const Features& features, const Options& options, const nb::
   const auto report = [&](std::size_t done) -> Status {
     unreported += done;
     while (unreported > 0 && !busy.test_and_set()) {
-      if (const std::size_t count = unreported.exchange(0); count > 0 && !failed) {
+      if (const std::size_t more = unreported.exchange(0); more > 0 && !failed) {
         const nb::gil_scoped_acquire held;
         try {
-          progress(count);
+          progress(more);
         } catch (const nb::python_error& error) {
           raised.emplace(error);
           failed = true;
