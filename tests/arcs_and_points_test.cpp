@@ -15,12 +15,12 @@
 namespace medial::test {
 namespace {
 
-struct Named {
+struct NamedGraph {
   std::string name;
   std::vector<Chain> chains;
 };
 
-class ArcsAndPoints : public testing::TestWithParam<Named> {};
+class ArcsAndPoints : public testing::TestWithParam<NamedGraph> {};
 
 TEST_P(ArcsAndPoints, HaveADiagram) {
   const auto graph = build_planar_graph(GetParam().chains);
@@ -34,17 +34,17 @@ TEST_P(ArcsAndPoints, HaveADiagram) {
 Chain point(double x, double y) { return {{{x, y}}}; }
 
 const Chain half_circle{{{-8, 5}, {2, 5}}, {1}};
-const Chain circle{{{0, 0}, {-1, 1}}, {-1, -1}, true};
+const Chain small_circle{{{0, 0}, {-1, 1}}, {-1, -1}, true};
 
-const std::vector<Named> graphs{
+const std::vector<NamedGraph> graphs{
     {"PointsBesideTheEndOfAHalfCircle",
      {half_circle, point(-8.00000000000200, 5), point(-7.99999999999995, 5),
       point(-8.000000000000005, 5)}},
     {"PointsBesideACentre",
      {half_circle, point(-3, 5), point(-3 + 1e-13, 5), point(-3, 5 - 1e-12)}},
     {"APointNextToACentre", {half_circle, point(-3, 4)}},
-    {"APointBesideAJoint", {circle, point(-7e-13, 7e-13)}},
-    {"APointBesideAJointAndTheCentre", {circle, point(1e-14, 0), point(-0.5, 0.5)}},
+    {"APointBesideAJoint", {small_circle, point(-7e-13, 7e-13)}},
+    {"APointBesideAJointAndTheCentre", {small_circle, point(1e-14, 0), point(-0.5, 0.5)}},
     // A point's cell was taken for a tie, as its place is one tolerance from another one.
     {"APointOneToleranceFromAnEnd",
      {{{{4.3370217292062589, 6.1839729256427178}, {1.6629782707937411, 3.8160270743572822}},

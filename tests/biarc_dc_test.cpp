@@ -542,7 +542,8 @@ TEST(BiarcDc, CanBeCancelled) {
 }
 
 TEST(BiarcDc, NamesOfMethods) {
-  for (const MethodInfo& info : methods()) EXPECT_EQ(name_of(*method_from(info.name)), info.name);
+  for (const MethodInfo& info : methods())
+    EXPECT_EQ(medial::name_of(*method_from(info.name)), info.name);
   EXPECT_FALSE(method_from("biarc_dc").has_value());
 }
 
