@@ -59,12 +59,12 @@ Contour letter() {
 }
 
 /// Six smooth shapes with the interior on the left, and how many leaves each has.
-struct Named {
+struct NamedCurve {
   const char* name;
   Contour contour;
   int leaves;
 };
-std::vector<Named> six_shapes() {
+std::vector<NamedCurve> six_shapes() {
   return {{"ellipse", ellipse(2, 1), 2},
           {"ellipse cut elsewhere", ellipse(1.3, 1, 0.4), 2},
           {"cubic spline", closed_spline(3, 60, 0.25, 5, 0, 1), 5},
@@ -412,7 +412,7 @@ TEST(Biarc, NoBoundWhereTheCurveLeavesTheSector) {
 // --- Approximation
 
 TEST(Arcs, ToleranceHoldsAndLeavesStay) {
-  for (const Named& shape : six_shapes()) {
+  for (const NamedCurve& shape : six_shapes()) {
     int leaves = shape.leaves;
     for (double tolerance = 1e-2; tolerance > (sanitized ? 0.5e-6 : 0.5e-9); tolerance /= 10) {
       ArcReport report;
@@ -454,7 +454,7 @@ double largest_move(const MedialAxis& from, const MedialAxis& to, double error, 
 }
 
 TEST(Arcs, AwayFromLeavesTheAxisMovesAsLittleAsProved) {
-  for (const Named& shape : six_shapes()) {
+  for (const NamedCurve& shape : six_shapes()) {
     const auto axis_at = [&](double tolerance, double& error) {
       ArcReport report;
       const auto built = build_shape(std::vector<Ring>{ring_of(shape.contour, tolerance, &report)});
@@ -476,7 +476,7 @@ TEST(Arcs, AwayFromLeavesTheAxisMovesAsLittleAsProved) {
 }
 
 TEST(Arcs, ErrorFallsWithTheThirdPowerOfTheirNumber) {
-  for (const Named& shape : six_shapes()) {
+  for (const NamedCurve& shape : six_shapes()) {
     // Least squares of log(error) against log(arcs), from twice the arcs of 1e-5 on: a spiral that
     // is not divided has its biarc whatever the tolerance.
     double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
