@@ -75,8 +75,8 @@ bool has_columns_of(OGRLayer& layer, const Table& table) {
   });
 }
 
-/// Layers of the same name as a table go, if they may: the first one, whose name is known to who
-/// asks, and others that look like ours.
+/// Removes layers of the same name as a table, if that was asked for: the first one, which the user
+/// named, and of the others those that have our columns.
 Status make_room(GDALDataset& dataset, const Target& target, const TableSource& source) {
   for (const Table& table : source.tables) {
     const bool first = &table == source.tables.data();
