@@ -70,6 +70,11 @@ TEST_F(Geojson, IsThatOfGdal) {
                         geo_feature(R"({"n":null,"x":100000})")));
   expect_same(collected(geo_feature(R"({"on":true,"code":"007","w":"\u00e4\"\\ {[,:"})") + "," +
                         geo_feature(R"({"on":false,"code":"5","w":""})")));
+  expect_same(collected(geo_feature(R"({"id":70,"a":1})") + "," + geo_feature(R"({"id":7,"a":2})") +
+                        "," + geo_feature(R"({"id":7,"a":3})")));
+  expect_same(collected(geo_feature(R"({"id":"x"})") + "," + geo_feature(R"({"id":"7"})")));
+  expect_same(collected(geo_feature(R"({"a":1})", geo_square, R"("id":"7",)") + "," +
+                        geo_feature(R"({"a":2})", geo_square, R"("id":"way/7",)")));
   for (const char* name : {"urn:ogc:def:crs:EPSG::25832", "EPSG:3857",
                            "urn:ogc:def:crs:OGC:1.3:CRS84", "urn:ogc:def:crs:EPSG::4326"})
     expect_same(collected(geo_feature("{}"), R"("crs":{"type":"name","properties":{"name":")" +
@@ -106,7 +111,7 @@ TEST_F(Geojson, LongNumbersAreTheNearestDoubles) {
 TEST_F(Geojson, ThatIsUnusualIsThatOfGdal) {
   for (const char* properties :
        {R"({"d":"2020-01-31"})", R"({"t":"12:30"})", R"({"o":{"a":1}})", R"({"l":[1,2]})",
-        R"({"n":1e20})", R"({"n":12345678901234567890.0})", R"({"n":1e300})", "null", R"({"id":7})",
+        R"({"n":1e20})", R"({"n":12345678901234567890.0})", R"({"n":1e300})", "null",
         R"({"a":1,"a":2})"})
     expect_same(collected(geo_feature(properties)));
   expect_same(collected(geo_feature(R"({"a":1})") + "," + geo_feature(R"({"a":"x"})")));
@@ -116,7 +121,11 @@ TEST_F(Geojson, ThatIsUnusualIsThatOfGdal) {
   expect_same(collected(geo_feature("{}"), R"("\u0063rs":{"type":"name"},)"));
   expect_same(collected(geo_feature(
       "{}", R"({"coordinates":[[[0,0],[1,0],[1,1],[0,0]]],)" + std::string(geo_square).substr(1))));
-  expect_same(collected(geo_feature("{}", geo_square, R"("id":"x",)")));
+  expect_same(collected(geo_feature(R"({"id":7})", geo_square, R"("id":"x",)")));
+  expect_same(collected(geo_feature("{}", geo_square, R"("id":"x",)") + "," +
+                        geo_feature("{}", geo_square, R"("id":5,)")));
+  expect_same(collected(geo_feature("{}", geo_square, R"("id":"x",)") + "," + geo_feature("{}")));
+  expect_same(collected(geo_feature("{}", geo_square, R"("id":"2020-01-31",)")));
   for (const char* geometry :
        {"null", R"({"type":"Point","coordinates":[1,2]})", R"({"type":"Polygon","coordinates":[]})",
         R"({"type":"Polygon","coordinates":[[[0,0],[4,0],[4,3]]]})",
@@ -155,12 +164,14 @@ class OddCollections {
     const std::vector<std::string> kinds{
         R"({"a":1,"b":"x"})",         R"({"a":7,"b":null})",
         R"({"b":"y","a":2})",         R"({"a":)" + number() + R"(,"b":"\u00e4\"\\ {[,:"})",
-        R"({"a":true,"b":"x"})",      "null",
+        R"({"a":true,"b":"x"})",      R"({"id":3,"b":"x"})",
+        R"({"id":"3","b":"x"})",      "null",
         R"({"a":1,"b":"2020-01-01"})"};
     const std::size_t some = one_in(4) ? kinds.size() : 2;
     std::string list;
+    const bool named = one_in(6);
     for (std::size_t count = 1 + below(3); count > 0; --count)
-      list += feature(kinds[below(some)]) + (count > 1 ? "," : "");
+      list += feature(kinds[below(some)], named) + (count > 1 ? "," : "");
     std::vector<std::string> members{R"("type":"FeatureCollection")",
                                      "\"features\":[" + list + "]"};
     add_some(members, {R"("name":"x")", R"("bbox":[0,0,4,4])",
@@ -257,9 +268,10 @@ class OddCollections {
     if (one_in(6)) add_some(members, {R"("bbox":[0,0,4,4])", R"("coordinates":[])", R"("x":1)"});
     return object(members);
   }
-  std::string feature(const std::string& properties) {
+  std::string feature(const std::string& properties, bool named) {
     std::vector<std::string> members{R"("type":"Feature")", "\"properties\":" + properties,
                                      "\"geometry\":" + geometry()};
+    if (named && !one_in(8)) members.push_back(one_in(4) ? R"("id":"12")" : R"("id":"way/1")");
     if (one_in(3))
       add_some(members, {R"("id":5)", R"("bbox":[0,0,4,4])", R"("bbox":[0,,NaN])", R"("x":1)",
                          R"("type":"x")", R"("geometry":null)"});

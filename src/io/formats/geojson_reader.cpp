@@ -161,7 +161,6 @@ bool may_be_date(std::string_view text) {
 Property property_of(json::field field) {
   Property property;
   property.name = std::string_view(field.unescaped_key());
-  usual(property.name != "id");  // which GDAL takes for that of the feature
   json::value value = field.value();
   switch (json::json_type(value.type())) {
     case json::json_type::number: {
@@ -260,6 +259,7 @@ ParsedFeature parse(json::parser& parser, std::string& text) {
   json::document document =
       parser.iterate(simdjson::padded_string_view(text.data(), text.size(), text.capacity()));
   ParsedFeature feature;
+  std::optional<Property> id;
   int types = 0, geometries = 0, lists = 0;
   for (json::field field : document.get_object()) {
     const std::string_view key = field.unescaped_key();
@@ -272,6 +272,10 @@ ParsedFeature parse(json::parser& parser, std::string& text) {
       usual(++lists == 1);
       for (json::field property : field.value().get_object())
         feature.properties.push_back(property_of(property));
+    } else if (key == "id") {
+      usual(!id);
+      id = property_of(field);
+      usual(id->kind == Kind::text);
     } else {
       usual(key == "bbox");
       for (json::value number : field.value().get_array()) nearest_double(number);
@@ -279,6 +283,8 @@ ParsedFeature parse(json::parser& parser, std::string& text) {
   }
   usual(document.current_location().error() != simdjson::SUCCESS);
   usual(types == 1 && geometries == 1 && lists == 1);
+  // GDAL makes a column of texts, and feature numbers of whole numbers, which it changes if twice.
+  if (id) feature.properties.insert(feature.properties.begin(), std::move(*id));
   return feature;
 }
 
@@ -396,6 +402,7 @@ class GeojsonReader final : public FeatureReader {
     usual(source.ok());
     collection_.emplace(std::move(*source));
     count_ = 0;
+    last_number_ = -1;
   }
 
   bool read_usual(std::size_t points, Document<Feature>& document) {
@@ -409,13 +416,22 @@ class GeojsonReader final : public FeatureReader {
       columns_.add(parsed.properties);
       Feature& feature = document.items.emplace_back();
       document.indices.push_back(static_cast<std::uint64_t>(count_));
-      feature.id = count_++;
+      feature.id = number_of(parsed.properties, count_++);
       feature.rings = std::move(parsed.rings);
       feature.attributes = columns_.attributes_of(std::move(parsed.properties));
       count += point_count(feature);
     }
     if (is_known_) document.crs_wkt = crs_;
     return true;
+  }
+
+  /// A whole "id" is the feature's number. GDAL changes those that come twice.
+  std::int64_t number_of(const std::vector<Property>& properties, std::int64_t index) {
+    const auto id = std::ranges::find(properties, "id", &Property::name);
+    if (id == properties.end() || id->kind == Kind::text) return index;
+    usual(id->kind == Kind::whole && id->number > last_number_);
+    last_number_ = id->number;
+    return static_cast<std::int64_t>(id->number);
   }
 
   /// All other members are known.
@@ -440,6 +456,7 @@ class GeojsonReader final : public FeatureReader {
   json::parser parser_;
   Columns columns_;
   std::int64_t count_ = 0;
+  double last_number_ = -1;
   bool is_known_ = false;  ///< what the first pass finds
 };
 
