@@ -40,6 +40,7 @@ struct DocumentInfo {
   double dots_per_inch = 0;            ///< of an image, if the file states it
   std::vector<std::string> notes;      ///< changes by repair or reprojection, one sentence each
   std::vector<std::uint64_t> indices;  ///< of items in the file; empty if none was left out
+  std::vector<std::string> texts;      ///< names of attributes that are text, even if all digits
   double corner_angle = 0;             ///< suitable Options::corner_angle; 0: the default
   std::uint64_t index_of(std::size_t i) const { return indices.empty() ? i : indices[i]; }
 };

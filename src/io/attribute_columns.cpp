@@ -44,7 +44,10 @@ void AttributeColumns::add(const Attributes& attributes) {
   }
 }
 
-void AttributeColumns::name_apart(std::span<const Column> own) {
+void AttributeColumns::finish(const DocumentInfo& info, std::span<const Column> own) {
+  for (const std::string& name : info.texts)
+    if (const auto found = index_.find(name); found != index_.end())
+      columns_[found->second].type = ColumnType::text;
   std::set<std::string> taken{"fid", "ogc_fid", "geom"};
   for (const Column& column : own) taken.insert(column.name);
   for (std::size_t k = 0; k < columns_.size(); ++k) {

@@ -11,7 +11,8 @@
 namespace medial::io {
 
 /// The attributes of the input as columns of the output. Attributes travel as text; a column whose
-/// every value is the usual spelling of a number becomes numbers again (so "007" stays a text).
+/// every value is the usual spelling of a number becomes numbers again, unless the input says that
+/// it is a text. ("007" is no usual spelling.)
 class AttributeColumns {
  public:
   AttributeColumns() = default;
@@ -24,12 +25,13 @@ class AttributeColumns {
       if constexpr (requires { item.sources; })
         for (const auto& source : item.sources) add(source.attributes);
     }
-    name_apart(own);
+    finish(file, own);
   }
 
-  /// Takes the attributes of one item into account; name_apart() follows when there are no more.
+  /// Takes the attributes of one item into account; finish() follows when there are no more.
   void add(const Attributes& attributes);
-  void name_apart(std::span<const Column> own);
+  /// Texts stay texts; names differ from those of the writer's `own` columns.
+  void finish(const DocumentInfo& info, std::span<const Column> own);
 
   /// The columns of a table, and these.
   std::vector<Column> appended_to(std::vector<Column> columns) const;

@@ -207,7 +207,7 @@ Status write_once(PartsOfAxes& parts, Target& to, const Format& format, const Gr
   for (const ShapeItem& item : frame.shapes.items) columns->add(item.attributes);
   const Document<AxisItem> none{frame.shapes, {}};
   const AxesOutput output{none, write};
-  columns->name_apart(own_columns(output));
+  columns->finish(frame.shapes, own_columns(output));
   to.columns = std::move(columns);
   auto writer = writer_of_parts(to, format, output);
   if (!writer) return std::move(writer).error();

@@ -86,6 +86,7 @@ Result<Survey> survey_of(PartReader reader, const std::string& crs, std::uint64_
     if (!features.crs_wkt.empty()) common.crs_wkt = features.crs_wkt;
     common.geographic = common.geographic || features.geographic;
     if (features.unit != Unit::unknown) common.unit = features.unit;
+    if (!features.texts.empty()) common.texts = std::move(features.texts);
     std::ranges::move(features.notes, std::back_inserter(common.notes));
     const Vec2 own = reach_of(features);
     reach = {std::max(reach.x, own.x), std::max(reach.y, own.y)};
@@ -374,8 +375,8 @@ Result<std::optional<StreamReport>> stream(const std::string& path, const Destin
   if (info_of(given).corner_angle > 0) info.corner_angle = info_of(given).corner_angle;
   const StreamItems none = without_items(options.none, info);
   const PartOutput frame = output_of(none, options.write);
-  survey->columns.name_apart(
-      std::visit([](const auto& output) { return own_columns(output); }, frame));
+  survey->columns.finish(survey->common,
+                         std::visit([](const auto& output) { return own_columns(output); }, frame));
   std::optional<StreamReport> report;
   std::optional<Error> input_error;
   const auto write_by = [&](PartWriter& writer) -> Status {

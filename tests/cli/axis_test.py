@@ -121,6 +121,20 @@ class Axis(CommandLine):
         names = [f["properties"]["name"] for f in lines]
         self.assertEqual(names, ["west"] * 5 + ["east"] * 5)
 
+    def test_texts_of_digits_stay_texts(self):
+        self.write("places.geojson", GEOGRAPHIC.replace('"rank"', '"zip": "10115", "rank"'))
+        self.succeed("axis", "places.geojson", "-o", "direct.geojson")
+        for name in ("gpkg", "json", "safetensors"):
+            self.succeed("axis", "places.geojson", "-o", "a." + name)
+        self.succeed("prune", "a.json", "-o", "pruned.geojson")
+        self.succeed("prune", "a.safetensors", "-o", "columns.geojson")
+        for name in ("direct", "pruned", "columns"):
+            features = json.loads(self.read(name + ".geojson"))["features"]
+            self.assertEqual({f["properties"]["zip"] for f in features}, {"10115"}, name)
+            self.assertEqual({f["properties"]["rank"] for f in features}, {1, 2}, name)
+        with sqlite3.connect(self.path("a.gpkg")) as database:
+            self.assertEqual({row[0] for row in database.execute("SELECT typeof(zip) FROM axis")}, {"text"})
+
     def test_where_and_layer_select(self):
         self.write("places.geojson", GEOGRAPHIC)
         line = self.succeed("axis", "places.geojson", "--where", "rank > 1", "--json").stdout

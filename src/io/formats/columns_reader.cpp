@@ -191,6 +191,14 @@ Document<AxisItem> read_columns(const ColumnFile& reader) {
     demand(angle.is_number(), "the corner angle is no number");
     file.corner_angle = corner_angle_from(angle.get<double>());
   }
+  if (const std::string text = reader.about("texts"); !text.empty()) {
+    const auto names = nlohmann::json::parse(text, nullptr, false);
+    demand(names.is_array(), "the names of texts are missing");
+    for (const auto& name : names) {
+      demand(name.is_string(), "the name of a text is none");
+      file.texts.push_back(name.get<std::string>());
+    }
+  }
   Tables tables;
   const auto methods = nlohmann::json::parse(reader.about("methods"), nullptr, false);
   demand(methods.is_array(), "the methods are missing");

@@ -318,6 +318,12 @@ class Columns {
       if (column->second == Kind::real) text = text_of(std::strtod(text.c_str(), nullptr));
     }
   }
+  std::vector<std::string> texts() const {
+    std::vector<std::string> names;
+    for (const auto& [name, kind] : columns_)
+      if (kind == Kind::text || kind == Kind::none) names.push_back(name);
+    return names;
+  }
   Attributes attributes_of(std::vector<Property> properties) const {
     Attributes attributes;
     for (std::size_t i = 0; i < properties.size(); ++i) {
@@ -410,6 +416,7 @@ class GeojsonReader final : public FeatureReader {
       if (!collection_->next(text_)) {
         if (!is_known_) finish_first();
         document.crs_wkt = crs_;
+        document.texts = columns_.texts();
         return false;
       }
       ParsedFeature parsed = parse(parser_, text_);

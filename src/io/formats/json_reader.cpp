@@ -267,13 +267,16 @@ AxisItem read_item(json::value value) {
 
 Document<AxisItem> read_file(json::document& document) {
   Document<AxisItem> file;
-  file.items = read_items(document, "medial", native_version, read_item,
-                          Member{"crs", [&](json::value v) { file.crs_wkt = text_of(v); }},
-                          Member{"unit", [&](json::value v) { file.unit = unit_from(text_of(v)); }},
-                          Member{"y_down", [&](json::value v) { file.y_down = v.get_bool(); }},
-                          Member{"corner_angle", [&](json::value v) {
-                                   file.corner_angle = corner_angle_from(number(v));
-                                 }});
+  file.items = read_items(
+      document, "medial", native_version, read_item,
+      Member{"crs", [&](json::value v) { file.crs_wkt = text_of(v); }},
+      Member{"unit", [&](json::value v) { file.unit = unit_from(text_of(v)); }},
+      Member{"y_down", [&](json::value v) { file.y_down = v.get_bool(); }},
+      Member{"corner_angle",
+             [&](json::value v) { file.corner_angle = corner_angle_from(number(v)); }},
+      Member{"texts", [&](json::value v) {
+               for_each(v, [&file](json::value name) { file.texts.push_back(text_of(name)); });
+             }});
   return file;
 }
 

@@ -177,6 +177,10 @@ void put_head(Target& target, const Document<Item>& file) {
   put_unit(target);
   if (file.y_down) out.put(",\n\"y_down\":true");
   if (file.corner_angle > 0) put_member(out, ",\n\"corner_angle\":", file.corner_angle);
+  if (!file.texts.empty()) {
+    out.put(",\n\"texts\":");
+    put_list(out, file.texts, [&](const std::string& name) { put_quoted(out, name); });
+  }
   out.put(",\n\"items\":");
 }
 

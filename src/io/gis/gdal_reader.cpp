@@ -112,6 +112,7 @@ class GdalReader final : public FeatureReader {
                                options_.where, messages.failure(), fields_of(*layer_)));
     }
     read_crs();
+    read_texts();
     layer_->ResetReading();
     return heard(messages);
   }
@@ -121,6 +122,7 @@ class GdalReader final : public FeatureReader {
     document.crs_wkt = common_.crs_wkt;
     document.geographic = common_.geographic;
     document.unit = common_.unit;
+    document.texts = common_.texts;
     const bool more = read_features(points, document);
     if (Status fine = heard(messages); !fine) return std::move(fine).error();
     if (!more)
@@ -177,6 +179,14 @@ class GdalReader final : public FeatureReader {
     latitude_first_ =
         axes.size() >= 2 && axes[0] == 1 && axes[1] == 2 &&
         (reference->EPSGTreatsAsLatLong() || reference->EPSGTreatsAsNorthingEasting());
+  }
+
+  void read_texts() {
+    if (source_->GetDriverName() == std::string_view("CSV")) return;  // which has no types
+    const OGRFeatureDefn& fields = *layer_->GetLayerDefn();
+    for (int i = 0; i < fields.GetFieldCount(); ++i)
+      if (fields.GetFieldDefn(i)->GetType() == OFTString)
+        common_.texts.push_back(utf8(fields.GetFieldDefn(i)->GetNameRef()));
   }
 
   /// False at the end of the layer.
