@@ -47,7 +47,7 @@ export interface AxisOptions extends ShapeOptions {
   /** Computes the axis of the exterior: around the shape and in its holes. */
   exterior?: boolean;
   margin?: number;
-  /** At most so many of the threads that there are; 0: all, for 1,000 points and more. */
+  /** At most so many of the threads that there are; 0: all, for 4,000 points and more. */
   threads?: number;
   /** For `ridge` and `brushfire`: the side of a pixel, or the number along the longer side. */
   resolution?: number;

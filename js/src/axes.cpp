@@ -10,7 +10,7 @@
 namespace medial::js {
 namespace {
 
-constexpr std::size_t fine_work = 1000;  // below so many points, one thread is as fast as several
+constexpr std::size_t fine_work = 4000;  // below so many points, one thread may be as fast as several
 
 Options options_from(const char* given) {
   Named named(given);
