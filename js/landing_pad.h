@@ -1,9 +1,9 @@
 #pragma once
 
 // Before every source of the module. Code that catches exceptions passes what it looks for in
-// `__wasm_lpad_context`. libunwind has one for each thread; clang 14 alone would take it for one
-// that all threads share. It asks whether there is a variable of that name already, so that this
-// one, which the linker replaces by libunwind's, tells it.
+// `__wasm_lpad_context`. libunwind has one for each thread; clang 14 takes it for one that all
+// threads share, unless a variable of that name is declared already. The linker replaces this one
+// by libunwind's.
 extern "C" {
 struct MedialLandingPad {
   unsigned index;
