@@ -174,13 +174,15 @@ offsets: setup  ## check eight offsets of every polygon below DATA: a table
 tsan: setup     ## test the engine with the thread sanitizer
 	@tools/tsan.sh $(TSAN) $(JOBS)
 
-serial: setup   ## build the core without threads and compare its results with those of threads
+serial: setup   ## build the core without threads and without oneTBB, compare the results with those of oneTBB
 	@cmake --preset release -DMEDIAL_UNITY=$(UNITY)
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial_hashes
-	@cmake --preset release -B $(SERIAL) -DMEDIAL_UNITY=$(UNITY) -DMEDIAL_THREADS=OFF -DMEDIAL_IO=OFF
-	@cmake --build $(SERIAL) -j $(JOBS) --target medial_hashes
 	@$(RELEASE)/tests/medial_hashes > $(RELEASE)/hashes.txt
-	@$(SERIAL)/tests/medial_hashes | diff $(RELEASE)/hashes.txt - && echo "the same results without threads"
+	@for option in THREADS TBB; do \
+	  cmake --preset release -B $(SERIAL) -DMEDIAL_UNITY=$(UNITY) -DMEDIAL_IO=OFF -DMEDIAL_THREADS=ON -DMEDIAL_TBB=ON -DMEDIAL_$$option=OFF && \
+	  cmake --build $(SERIAL) -j $(JOBS) --target medial_hashes && \
+	  $(SERIAL)/tests/medial_hashes | diff $(RELEASE)/hashes.txt - && echo "the same results with MEDIAL_$$option=OFF" || exit 1; \
+	done
 
 portable: setup ## read the core's sources with libc++ 13, clang 14 and for 32 bits, where installed
 	@tools/check_portable.sh $(JOBS)

@@ -11,7 +11,7 @@ else()
   set(MEDIAL_PKGCONFIG_PRIVATE Requires)
 endif()
 
-if(MEDIAL_THREADS)
+if(MEDIAL_TBB)
   set(MEDIAL_PKGCONFIG_THREADS " tbb")
 endif()
 if(MEDIAL_HAS_GMP)

@@ -47,6 +47,8 @@ export interface AxisOptions extends ShapeOptions {
   /** Computes the axis of the exterior: around the shape and in its holes. */
   exterior?: boolean;
   margin?: number;
+  /** At most so many of the threads that there are; 0: all, for 4,000 points and more. */
+  threads?: number;
   /** For `ridge` and `brushfire`: the side of a pixel, or the number along the longer side. */
   resolution?: number;
   pixels?: number;
@@ -345,6 +347,14 @@ export class Editor extends Handle {
   /** The current axis with its shape; nodes and edges are numbered from 0 without gaps. */
   readonly axis: MedialAxis;
 }
+
+/**
+ * Lets the module compute on `count` threads, the caller's among them; 0: as many as the machine has. Gives how many
+ * there are: 1 where workers cannot share memory, as in pages that are not isolated from other sites.
+ */
+export function startThreads(count?: number): Promise<number>;
+/** How many threads the module has: 1 until startThreads(). */
+export function threads(): number;
 
 /** An axis with its shape as the text of a native file; and the items of such a text. */
 export function dumps(axis: MedialAxis): string;

@@ -1,6 +1,6 @@
 // The same package, whose module is compiled when init() is called.
 
-export { MedialError, begin, complete, init } from "./lib/core.mjs";
+export { MedialError, begin, complete, init, startThreads, threads } from "./lib/core.mjs";
 export { NODE_KINDS, NO_SITE, SITE_KINDS, Records } from "./lib/records.mjs";
 export { Contour } from "./lib/read.mjs";
 export { MedialAxis, Shape, axis, methods } from "./lib/axis.mjs";

@@ -4,7 +4,7 @@
 
 import { readFile, writeFile } from "node:fs/promises";
 
-import { loaded } from "./lib/core.mjs";
+import { loaded, memory } from "./lib/core.mjs";
 import * as medial from "./lazy.mjs";
 
 const [, , path, out, data] = process.argv;
@@ -37,4 +37,4 @@ const module = loaded();
 const size = module.__write_profile(0, 0);
 const at = module.malloc(size) >>> 0;
 module.__write_profile(at, size);
-await writeFile(out, new Uint8Array(module.memory.buffer, at, size));
+await writeFile(out, new Uint8Array(memory(), at, size));

@@ -22,7 +22,7 @@ type Plain<T> = T extends medial.MedialAxis ? PlainAxis
   : T extends (infer U)[] ? Plain<U>[]
   : T;
 type Functions = { [K in keyof typeof medial as (typeof medial)[K] extends (...given: never[]) => unknown ? K : never]:
-  (typeof medial)[K] extends (...given: infer A) => infer R ? (...given: A) => Promise<Plain<R>> : never };
+  (typeof medial)[K] extends (...given: infer A) => infer R ? (...given: A) => Promise<Plain<Awaited<R>>> : never };
 
 type Columns<T> = T extends medial.Records ? Omit<T, keyof medial.Records> : T;
 type Methods =
@@ -38,5 +38,8 @@ export type WorkerModule = Functions & {
   /** Ends the worker; what it has not answered is rejected. */
   terminate(): void;
 };
-/** Starts a worker whose methods are the functions of the package, each giving a promise. */
-export function inWorker(): Promise<WorkerModule>;
+/**
+ * Starts a worker whose methods are the functions of the package, each giving a promise. It computes on `threads`
+ * threads (1); 0: as many as the machine has. On one where workers cannot share memory.
+ */
+export function inWorker(options?: { threads?: number }): Promise<WorkerModule>;

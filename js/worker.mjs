@@ -1,6 +1,6 @@
 // The functions of the package in a worker, so that long work leaves the page alone.
 //
-//   const medial = await inWorker();
+//   const medial = await inWorker({ threads: 0 });
 //   const { nodes, edges, lines } = await medial.axis(shape, { method: "lee" });
 //   const editor = await medial.Editor(shape);
 //   const { addedEdges } = await editor.move(17, [2, 3]);
@@ -14,8 +14,11 @@ import { MedialError } from "./lib/core.mjs";
 const is_worker = typeof WorkerGlobalScope !== "undefined" && globalThis instanceof WorkerGlobalScope;
 const in_node = typeof process !== "undefined" && Boolean(process.versions?.node);
 
-/** Starts a worker whose methods are the functions of the package, each giving a promise. */
-export async function inWorker() {
+/**
+ * Starts a worker whose methods are the functions of the package, each giving a promise. It computes on `threads`
+ * threads, 0: as many as the machine has; on one where workers cannot share memory.
+ */
+export async function inWorker({ threads = 1 } = {}) {
   const worker = await start();
   const waiting = new Map();
   let last = 0;
@@ -44,6 +47,11 @@ export async function inWorker() {
   };
   worker.listen(answered, end);
   const own = { terminate, then: undefined };
+  if (threads !== 1)
+    await call("startThreads", [threads]).catch((error) => {
+      terminate();
+      throw error;
+    });
   return new Proxy(own, { get: (_, name) => (name in own ? own[name] : (...given) => call(name, given)) });
 }
 
@@ -122,7 +130,7 @@ function plain(value, medial) {
 }
 
 /** Calls a function of the package, or of one of the editors. */
-function answer(medial, editors, { id, name, given, editor }) {
+async function answer(medial, editors, { id, name, given, editor }) {
   if (name === "free") {
     editors.get(editor)?.free();
     return void editors.delete(editor);
@@ -131,7 +139,7 @@ function answer(medial, editors, { id, name, given, editor }) {
   if (!of) throw new medial.MedialError("the object is freed", "invalid_option");
   if (editor && name === "axis") return plain(of.axis, medial);
   if (!(name in of) || typeof of[name] !== "function") throw new Error(`medial-axis has no function '${name}'`);
-  const value = name === "Editor" ? new medial.Editor(...given) : of[name](...given);
+  const value = name === "Editor" ? new medial.Editor(...given) : await of[name](...given);
   if (!(value instanceof medial.Editor)) return plain(value, medial);
   editors.set(id, value);
   return { editor: id };
@@ -143,7 +151,7 @@ async function serve(listen, post) {
   listen(async (message) => {
     const { id } = message;
     try {
-      post({ id, result: answer(await queue, editors, message) });
+      post({ id, result: await answer(await queue, editors, message) });
     } catch (error) {
       const { text, message, code, feature, ring, vertex, point } = error;
       post({ id, error: { text: text ?? message, code, feature, ring, vertex, point } });

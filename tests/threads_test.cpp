@@ -64,5 +64,60 @@ TEST(Threads, RangesCoverAll) {
   }
 }
 
+TEST(Threads, ErrorsEndTheWorkAndReachTheCaller) {
+  for (const int threads : {1, 2, 4})
+    on_threads(threads, [&] {
+      const auto fail = [](std::size_t i) {
+        if (i == 77) throw std::runtime_error("lost");
+      };
+      for (int time = 0; time < 50; ++time) {
+        EXPECT_THROW(parallel_for(1000, fail), std::runtime_error);
+        EXPECT_THROW(in_parallel([&] { fail(77); }, [] {}), std::runtime_error);
+        EXPECT_THROW(in_parallel([] {}, [&] { parallel_for(100, fail); }), std::runtime_error);
+        TaskGroup tasks;
+        for (std::size_t i = 0; i < 100; ++i) tasks.run([i, fail] { fail(i); });
+        EXPECT_THROW(tasks.wait(), std::runtime_error);
+      }
+    });
+}
+
+/// Halves work until it is small.
+void add_up(std::size_t begin, std::size_t end, std::atomic<std::size_t>& sum) {
+  if (end - begin < 4) {
+    while (begin < end) sum += begin++;
+    return;
+  }
+  const std::size_t middle = (begin + end) / 2;
+  in_parallel([&] { add_up(begin, middle, sum); }, [&] { add_up(middle, end, sum); });
+}
+
+TEST(Threads, WorkWithinWorkEnds) {
+  for (const int threads : {2, 4, 0})
+    on_threads(threads, [] {
+      std::atomic<std::size_t> sum = 0;
+      parallel_for(20, [&](std::size_t) {
+        add_up(0, 1000, sum);
+        TaskGroup tasks;
+        for (std::size_t i = 0; i < 10; ++i) tasks.run([&, i] { add_up(0, 10 * i, sum); });
+        tasks.wait();
+      });
+      std::size_t expected = 499'500;
+      for (std::size_t i = 0; i < 10; ++i)
+        for (std::size_t k = 0; k < 10 * i; ++k) expected += k;
+      EXPECT_EQ(sum, 20 * expected);
+    });
+}
+
+TEST(Threads, CallersAtTheSameTime) {
+  std::atomic<std::size_t> sum = 0;
+  std::vector<std::thread> callers;
+  for (int i = 0; i < 3; ++i)
+    callers.emplace_back([&] {
+      for (int time = 0; time < 20; ++time) on_threads(3, [&] { add_up(0, 500, sum); });
+    });
+  for (std::thread& caller : callers) caller.join();
+  EXPECT_EQ(sum, 60U * 124'750);
+}
+
 }  // namespace
 }  // namespace medial

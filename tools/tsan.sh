@@ -26,6 +26,7 @@ fi
 
 cmake --preset tsan -B "$tree" -DMEDIAL_UNITY=OFF \
   "-DMEDIAL_TEST_FILES=property;verify;compute;query;first_touch;planar_graph"
-cmake --build "$tree" -j "$jobs" --target core_tests
+cmake --build "$tree" -j "$jobs" --target core_tests --target pool_tests
 LD_LIBRARY_PATH=$tbb/lib MEDIAL_PROPERTY_COUNT=${MEDIAL_PROPERTY_COUNT:-200} \
   TSAN_OPTIONS=halt_on_error=1 "$tree/tests/core_tests" --gtest_brief=1
+TSAN_OPTIONS=halt_on_error=1 "$tree/tests/pool_tests" --gtest_brief=1 --gtest_repeat=20

@@ -20,7 +20,7 @@ configure() {
   cmake -G Ninja -B "$tree" -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG" \
     -DCMAKE_TOOLCHAIN_FILE=/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake \
     -DBoost_NO_BOOST_CMAKE=ON -DBoost_INCLUDE_DIR="$(realpath -s "$tree")/headers" \
-    -DMEDIAL_THREADS=OFF -DMEDIAL_GMP=OFF -DMEDIAL_IO=OFF -DMEDIAL_TESTS=OFF -DMEDIAL_JS=ON \
+    -DMEDIAL_TBB=OFF -DMEDIAL_GMP=OFF -DMEDIAL_IO=OFF -DMEDIAL_TESTS=OFF -DMEDIAL_JS=ON \
     -DMEDIAL_UNITY="${UNITY:-ON}" > /dev/null
 }
 
@@ -33,13 +33,26 @@ packages() {
   npm install --prefix "$npm" --no-audit --no-fund --silent || { rm "$npm/package.json"; return 1; }
 }
 
+# The module imports memory that threads share; as files its parts import memory of one thread, which every
+# browser has. js/lib/threads.mjs changes that where it can.
+for_one_thread() {
+  node --input-type=module - "$@" << 'END'
+import { readFileSync, writeFileSync } from "node:fs";
+import { pathToFileURL } from "node:url";
+const [, , lib, ...paths] = process.argv;
+const { with_memory } = await import(pathToFileURL(`${lib}/threads.mjs`));
+for (const path of paths) writeFileSync(path, with_memory(readFileSync(path), false));
+END
+}
+
 # Divides the module into what js/profile.mjs calls, which a page loads first, and the rest.
 divide() {
   cp "$1" "$2/medial.wasm"
-  command -v wasm-split > /dev/null || return 0
+  command -v wasm-split > /dev/null || { for_one_thread "$2" "$2/medial.wasm"; return; }
   wasm-split --instrument --all-features "$1" -o "$tree/instrumented.wasm"
   node "$tree/package/profile.mjs" "$tree/instrumented.wasm" "$tree/profile" data
   wasm-split --all-features "$1" --profile="$tree/profile" --export-prefix=% -o1 "$2/medial.wasm" -o2 "$2/medial-rest.wasm"
+  for_one_thread "$2" "$2/medial.wasm" "$2/medial-rest.wasm"
   rm "$tree/instrumented.wasm" "$tree/profile" "$tree/package/profile.mjs"
 }
 
@@ -89,7 +102,7 @@ run_tests() {
 
 case $task in
   build) build ;;
-  serve) exec python3 -m http.server --bind 127.0.0.1 --directory "$tree/studio" "${3:-8000}" ;;
+  serve) exec tools/serve.py "$tree/studio" "${3:-8000}" ;;
   test) run_tests ;;
   frames) exec node web/bench/frames.mjs "$tree" ;;
 esac

@@ -1,5 +1,7 @@
 // Calls of the WebAssembly module: arguments in, answers and errors out.
 
+import { can_wait, imports, own_memory, shared_memory, threads_of_machine, with_memory, worker_starter } from "./threads.mjs";
+
 /** An input or an option that has no answer. */
 export class MedialError extends Error {
   constructor(text, code = "invalid_option", place = {}) {
@@ -14,9 +16,12 @@ export class MedialError extends Error {
 }
 
 let module; // what the WebAssembly module exports
+let heap; // its memory
+let parts; // it, compiled
 let starting;
 let completing; // the second part of the module
 let is_incomplete = false; // whether a function of the second part was called too soon
+let start_worker; // while threads start
 
 /**
  * Compiles the module, once; from other places if the sources give bytes, a URL, or it compiled. It has two
@@ -46,31 +51,71 @@ export async function complete() {
 }
 
 async function start(source, second) {
-  const compiled = await compile(await source);
-  const needed = WebAssembly.Module.imports(compiled);
-  const { exports } = await WebAssembly.instantiate(compiled, imports(needed));
+  const shared = shared_memory();
+  const compiled = await compile(await source, shared);
+  const own = { can_wait, start_thread, placeholder };
+  const instance_on = (memory) => WebAssembly.instantiate(compiled, imports(compiled, (heap = memory), own));
+  // A source that is compiled already may import memory of one thread.
+  const { exports } = await (shared
+    ? instance_on(shared).catch((error) => {
+        if (error instanceof WebAssembly.LinkError) return instance_on(own_memory());
+        throw error;
+      })
+    : instance_on(own_memory()));
   exports._initialize();
   module = exports;
-  if (!needed.some((one) => one.module === "placeholder")) return;
-  completing = add_second(second);
+  parts = [compiled];
+  if (!WebAssembly.Module.imports(compiled).some((one) => one.module === "placeholder")) return;
+  completing = add_second(second, heap === shared);
   completing.catch(() => {}); // those who wait for it get the error
 }
 
 /** Its functions take the places of the placeholders in the module's table. */
-async function add_second(source) {
-  await WebAssembly.instantiate(await compile(await source), { primary: module });
+async function add_second(source, shared) {
+  const compiled = await compile(await source, shared);
+  await WebAssembly.instantiate(compiled, { primary: module });
+  parts.push(compiled);
 }
 
-async function compile(source) {
+async function compile(source, shared) {
   if (source instanceof WebAssembly.Module) return source;
-  if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return WebAssembly.compile(source);
+  if (source instanceof ArrayBuffer || ArrayBuffer.isView(source))
+    return WebAssembly.compile(shared ? with_memory(source, true) : source);
   if (String(source).startsWith("file:") && typeof process !== "undefined") {
     const { readFile } = await import(/* @vite-ignore */ "node:fs/promises");
-    return WebAssembly.compile(await readFile(new URL(source)));
+    return compile(await readFile(new URL(source)), shared);
   }
   const response = await fetch(source);
   if (!response.ok) throw new Error(`medial-axis: ${source} cannot be read (${response.status})`);
-  return WebAssembly.compile(await response.arrayBuffer());
+  return compile(await response.arrayBuffer(), shared);
+}
+
+/**
+ * Lets the module compute on `count` threads, this one among them; 0: as many as the machine has. Gives how many
+ * there are now: 1 where workers cannot share memory. They stay until the page or the process ends.
+ */
+export async function startThreads(count = 0) {
+  if (!(Number.isInteger(count) && count >= 0 && count <= 1024))
+    throw new MedialError("the number of threads is a whole number in [0, 1024]");
+  await complete();
+  if (!(heap.buffer instanceof ArrayBuffer)) {
+    const make = await worker_starter();
+    const started = [];
+    start_worker = (data) => started.push(make(data));
+    module.medial_start_threads(count || (await threads_of_machine()));
+    start_worker = undefined;
+    await Promise.all(started);
+  }
+  return threads();
+}
+
+/** How many threads the module has. */
+export const threads = () => loaded().medial_threads();
+
+function start_thread(thread, stack, begin, given) {
+  if (!start_worker) return 6; // EAGAIN
+  start_worker({ parts, memory: heap, thread, stack: stack >>> 0, begin, given });
+  return 0;
 }
 
 /** Stands for the functions of the second part. */
@@ -80,20 +125,6 @@ function placeholder() {
 }
 const incomplete = () => new MedialError("this part of the program is still being loaded; await complete()", "incomplete");
 
-/** What the module asks of the system: a clock. Its library can do more, which is never called. */
-function imports(needed) {
-  const clock_time_get = (_id, _precision, at) => {
-    const now = BigInt(Math.round(performance.now() * 1e6));
-    new DataView(module.memory.buffer).setBigUint64(at >>> 0, now, true);
-    return 0;
-  };
-  const given = {};
-  for (const { module: from, name } of needed)
-    (given[from] ??= {})[name] =
-      from === "placeholder" ? placeholder : name === "clock_time_get" ? clock_time_get : () => 0;
-  return given;
-}
-
 /** The module once init() is done. */
 export function loaded() {
   if (!module) throw new Error("medial-axis: await init() before the first call");
@@ -101,14 +132,14 @@ export function loaded() {
 }
 
 /** The module's memory; it moves when it grows, so ask each time. */
-export const memory = () => loaded().memory.buffer;
+export const memory = () => loaded() && heap.buffer;
 
 const text = new TextDecoder();
 const bytes = new TextEncoder();
 
 function text_at(address) {
   const all = new Uint8Array(memory());
-  return text.decode(all.subarray(address, all.indexOf(0, address)));
+  return text.decode(all.slice(address, all.indexOf(0, address)));
 }
 
 // Addresses come as signed numbers: beyond 2 GB they are negative.

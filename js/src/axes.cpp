@@ -10,6 +10,8 @@
 namespace medial::js {
 namespace {
 
+constexpr std::size_t fine_work = 4000;  // below so many points, one thread may be as fast as several
+
 Options options_from(const char* given) {
   Named named(given);
   std::string name = "disks";
@@ -20,7 +22,7 @@ Options options_from(const char* given) {
   options.method = *method;
   named.take("tolerance", options.tolerance).take("corner_angle", options.corner_angle);
   named.take("exact", options.exact).take("exterior", options.exterior);
-  named.take("margin", options.margin);
+  named.take("margin", options.margin).take("threads", options.threads);
   value_of(faces::take_own(named, options.method));
   named.finish();
   return options;
@@ -63,7 +65,8 @@ AxisOf* new_axis(SharedShape shape, MedialAxis axis) {
 
 MEDIAL_JS AxisOf* medial_axis(const ShapeOf* of, const char* given) {
   return answered([&] {
-    const Options options = options_from(given);
+    Options options = options_from(given);
+    if (options.threads == 0 && of->shape->points.size() < fine_work) options.threads = 1;
     return new_axis(of->shape, value_of(compute(*of->shape, options, of->contours)));
   });
 }

@@ -13,7 +13,8 @@
 #include "medial/threads.h"
 
 /// All that the project knows of threads. threads_tbb.cpp implements it with oneTBB;
-/// threads_serial.cpp without threads, where the library is built with MEDIAL_THREADS=OFF. No
+/// threads_pool.cpp with the standard library's threads, where the library is built with
+/// MEDIAL_TBB=OFF; threads_serial.cpp without threads, with MEDIAL_THREADS=OFF. No
 /// result depends on which, nor on the number of threads. An exception ends the work and reaches
 /// the caller.
 namespace medial {

@@ -64,6 +64,7 @@ await new Promise((done) => requestAnimationFrame(() => setTimeout(done))); // i
 await page_read();
 document.body.append($("page").content);
 await all_read();
+medial.startThreads().catch(({ message }) => tell(message, true)); // one, unless the page is isolated
 if (studio.scene.error?.code === "incomplete") studio.ask("axis");
 
 const tools = new Tools(studio, say);
@@ -342,7 +343,8 @@ studio.addEventListener("computed", () => {
   }
   $("counts").textContent = counts.join(" · ");
   $("counts").className = scene.error ? "failed" : "";
-  $("speed").textContent = `${studio.times.axis.toFixed(1)} ms`;
+  const threads = medial.threads();
+  $("speed").textContent = `${studio.times.axis.toFixed(1)} ms${threads > 1 ? `, ${threads} threads` : ""}`;
 });
 const edge_count = () => studio.live?.count ?? studio.axis?.edges.length;
 studio.addEventListener("derived", () => {

@@ -11,10 +11,11 @@ function bytes_of(part) {
 
 /**
  * The first part. It is compiled on the spot: to wait for other threads would take longer. Browsers that refuse
- * to compile that much at once get the bytes.
+ * to compile that much at once get the bytes, and so do pages that may have threads: the package changes them.
  */
 export function first_part() {
   const bytes = bytes_of("medial");
+  if (globalThis.crossOriginIsolated) return bytes;
   try {
     return new WebAssembly.Module(bytes);
   } catch {
@@ -25,5 +26,5 @@ export function first_part() {
 /** The second part, which is packed. */
 export function second_part() {
   const unpacked = new Blob([bytes_of("medial-rest")]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return WebAssembly.compileStreaming(new Response(unpacked, { headers: { "Content-Type": "application/wasm" } }));
+  return new Response(unpacked).arrayBuffer();
 }

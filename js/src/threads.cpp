@@ -1,0 +1,69 @@
+// Threads, by emscripten's pthreads without its JavaScript: what that would do is done here and in
+// js/lib/threads.mjs. A thread is a worker with an instance of the module on the same memory.
+
+#include <pthread.h>
+
+#include <cstdlib>
+
+#include "binding.h"
+
+#define MEDIAL_FROM_JS(name) extern "C" __attribute__((import_module("medial"), import_name(#name)))
+
+MEDIAL_FROM_JS(can_wait) int medial_can_wait();
+/// Returns 0, or an error's number.
+MEDIAL_FROM_JS(start_thread)
+int medial_start_thread(pthread_t thread, void* stack, void* (*begin)(void*), void* given);
+
+// What emscripten's libraries have and need.
+extern "C" {
+void _emscripten_thread_init(pthread_t thread, int in_page, int first, int can_wait, int profiled);
+void __wasm_call_ctors();
+void __wasm_init_tls(void* storage);
+}
+
+namespace {
+
+/// Makes this instance's thread what emscripten calls a thread, with variables of its own.
+void become(pthread_t thread, bool first, bool can_wait) {
+  const bool in_page = !can_wait;
+  _emscripten_thread_init(thread, in_page, first, can_wait, 0);
+  __wasm_init_tls(std::aligned_alloc(__builtin_wasm_tls_align(), __builtin_wasm_tls_size()));
+}
+
+}  // namespace
+
+extern "C" {
+void __emscripten_init_main_thread_js(pthread_t thread) {
+  become(thread, true, medial_can_wait() != 0);
+}
+int __pthread_create_js(pthread_t thread, const pthread_attr_t* /*attributes*/,
+                        void* (*begin)(void*), void* given) {
+  pthread_attr_t attributes;
+  void* lowest = nullptr;
+  std::size_t size = 0;
+  pthread_getattr_np(thread, &attributes);
+  pthread_attr_getstack(&attributes, &lowest, &size);
+  return medial_start_thread(thread, static_cast<char*>(lowest) + size, begin, given);
+}
+int _emscripten_default_pthread_stack_size() { return 4 << 20; }
+int emscripten_num_logical_cores() { return 1; }  // until medial_start_threads()
+void emscripten_check_blocking_allowed() {}
+void __emscripten_thread_cleanup(pthread_t /*thread*/) {}
+void emscripten_unwind_to_js_event_loop() { __builtin_trap(); }
+}
+
+namespace medial::js {
+
+/// Before all other calls, in the first instance.
+MEDIAL_JS void _initialize() { __wasm_call_ctors(); }
+
+/// In a new worker, which has set its instance's stack.
+MEDIAL_JS void medial_run_thread(pthread_t thread, void* (*begin)(void*), void* given) {
+  become(thread, false, true);
+  begin(given);
+}
+
+MEDIAL_JS void medial_start_threads(int count) { allow_startable_threads(count); }
+MEDIAL_JS int medial_threads() { return effective_threads(0); }
+
+}  // namespace medial::js
