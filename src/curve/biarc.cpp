@@ -148,6 +148,11 @@ Vec2 spiral_joint(const Station& a, const Station& b) {
   return forward ? osculating_joint(a, b) : osculating_joint(reversed(b), reversed(a));
 }
 
+Vec2 flat_joint(const Station& a, const Station& b) {
+  const bool forward = std::abs(a.curvature) >= std::abs(b.curvature);
+  return forward ? osculating_joint(reversed(b), reversed(a)) : osculating_joint(a, b);
+}
+
 Vec2 balanced_joint(const Station& a, const Station& b) {
   Vec2 joint = 0.5 * (osculating_joint(a, b) + osculating_joint(reversed(b), reversed(a)));
   const JointCircle circle = joint_circle(a, b);
