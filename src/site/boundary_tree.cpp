@@ -47,6 +47,7 @@ BoundaryTree::BoundaryTree(std::span<const Site> sites, Chords chords)
     : sites_(sites),
       has_arcs_(
           std::any_of(sites.begin(), sites.end(), [](const Site& site) { return site.is_arc(); })) {
+  if (sites.size() <= short_range) return;
   const auto nodes_over = [](std::size_t count) { return (count + fan - 1) / fan; };
   constexpr std::size_t grain = 1024;
 
@@ -240,8 +241,6 @@ template <class Visit>
                                                               std::uint32_t first,
                                                               std::uint32_t last,
                                                               Visit&& visit) const {
-  // Boxes cost about as much as a few sites.
-  constexpr std::uint32_t short_range = 2 * block_size;
   if (last - first < short_range) {
     visit(first, last);
     return;

@@ -161,7 +161,7 @@ std::vector<BoundaryEdge> DistanceTree::fill_runs(std::vector<BoundaryEdge> edge
     return edges;
   }
   std::vector<BoundaryEdge> pieces;
-  std::vector<std::uint32_t> whole;  // the edge of each piece
+  std::vector<std::uint32_t> whole;              // the edge of each piece
   pieces.reserve(edges.size() + arcs_->size());  // a quarter of a circle is two
   for (std::uint32_t i = 0; i < edges.size(); ++i) {
     for_each_piece(edges[i], [&](const BoundaryEdge& piece) {
