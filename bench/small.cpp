@@ -2,6 +2,8 @@
 //
 //     medial_bench_small [FONT...]
 //
+// Glyphs become arcs within a 64th of a font unit, the default of fonts.
+//
 // Prints microseconds of processor time, the least of five rounds: for a footprint in the shape of
 // an L its shape and axis, and Boost.Polygon's diagram beside it; for a glyph (of each font the
 // first 1,000 with an outline) what is done from its curves to a verified axis. What the library
@@ -28,6 +30,7 @@ using medial::Ring;
 using Shapes = std::vector<std::vector<Ring>>;
 
 constexpr std::size_t most_glyphs = 1000;
+constexpr double font_tolerance = 1.0 / 64;
 
 Shapes footprints() {
   std::mt19937_64 random(1);
@@ -115,7 +118,8 @@ void measure_glyphs(const std::string& font) {
     const double time = least(glyphs.size(), [&] {
       good = 0;
       for (const medial::Feature& glyph : glyphs) {
-        auto arcs = medial::approximate_by_arcs(glyph.contours, {.threads = 1});
+        auto arcs = medial::approximate_by_arcs(
+            glyph.contours, {.tolerance = font_tolerance, .relative = false, .threads = 1});
         if (arcs && steps != nullptr) good += run(*arcs, *steps);
       }
     });

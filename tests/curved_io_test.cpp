@@ -275,6 +275,23 @@ TEST_F(CurvedIo, FontOutlines) {
     return x;
   };
   EXPECT_GT(left(data->items[1]), left(data->items[0]) + 500);
+  // Arcs are within a 64th of a font unit, also of letters of another size, in another unit.
+  SourceOptions sized;
+  sized.text = "S";
+  for (const double size : {0.0, 10.0}) {
+    sized.font_size = size;
+    sized.units.scale = 3;
+    LoadReport report;
+    ASSERT_TRUE(load_shapes(font, sized, &report));
+    const double unit = 3 * (size > 0 ? size / 2048 : 1);
+    EXPECT_NEAR(report.arcs.tolerance, unit / 64, 1e-9 * unit);
+    EXPECT_LE(report.arcs.largest_error, unit / 64);
+    EXPECT_GT(report.arcs.largest_error, unit / 640);
+  }
+  sized.load.arcs.tolerance = 1e-6;
+  LoadReport fine;
+  ASSERT_TRUE(load_shapes(font, sized, &fine));
+  EXPECT_LT(fine.arcs.largest_error, 3 * 10.0 / 2048 / 300);
   EXPECT_EQ(read_text("  ", font).error().code, ErrorCode::empty);
   // No UTF-8: a stray byte, a surrogate, a code beyond the last, a letter in more bytes than it
   // takes.

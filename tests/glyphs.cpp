@@ -120,12 +120,15 @@ Outcome refused_or_failed(const Error& error) {
       is_refusal(error.code) ? Verdict::refused : Verdict::failed, error.code, {to_string(error)}};
 }
 
-void examine_feature(const Feature& feature, const std::string& name, const Settings& settings,
-                     Row& row) {
+/// `arc_tolerance` in units of the input; 0: the default.
+void examine_feature(const Feature& feature, double arc_tolerance, const std::string& name,
+                     const Settings& settings, Row& row) {
   const auto begin = std::chrono::steady_clock::now();
   std::vector<Ring> rings = feature.rings;
   Outcome outcome;
-  auto arcs = approximate_by_arcs(feature.contours, {.threads = 1});
+  ArcOptions options{.threads = 1};
+  if (arc_tolerance > 0) options = {.tolerance = arc_tolerance, .relative = false, .threads = 1};
+  auto arcs = approximate_by_arcs(feature.contours, options);
   if (arcs) {
     rings.insert(rings.end(), arcs->begin(), arcs->end());
     outcome = examine(rings);
@@ -218,7 +221,8 @@ void examine_dataset(const Result<Document<Feature>>& dataset, const std::string
         ++row.cases;
         for (Ends& ends : row.ends) compare_ends(feature, ends);
       } else
-        examine_feature(feature, name + "_" + std::to_string(feature.id), settings, row);
+        examine_feature(feature, dataset->arc_tolerance, name + "_" + std::to_string(feature.id),
+                        settings, row);
     return;
   }
   ++row.cases;

@@ -42,9 +42,9 @@ Contour contour_of(std::span<const Vec2> points, std::span<const double> bulges,
 Contour reversed(const Contour& contour);  ///< keeps the role
 
 struct ArcOptions {
-  double tolerance = 1e-6;  ///< largest distance between a contour and its arcs, above 0
-  bool relative = true;     ///< to the bounding box's diagonal; else in units of the input
-  int threads = 0;          ///< see Options
+  std::optional<double> tolerance = {};  ///< largest distance of arcs; none: 1e-6, relative
+  bool relative = true;  ///< to the bounding box's diagonal; else in units of the input
+  int threads = 0;       ///< see Options
 };
 
 struct ArcReport {

@@ -243,7 +243,7 @@ def read(path: str | PathLike[str], *, repair: str | None = None, arc_tolerance:
     return _of_drawing(name, reading) if kind.endswith(".dxf") else _of_file(name, "", reading)
 
 
-def text(text: str, font: str | PathLike[str], *, arc_tolerance: float = 1e-6) -> list[Shape]:
+def text(text: str, font: str | PathLike[str], *, arc_tolerance: float | None = None) -> list[Shape]:
     """The outlines of one line of text, with the advances and kerning of a font.
 
     Parameters
@@ -251,8 +251,9 @@ def text(text: str, font: str | PathLike[str], *, arc_tolerance: float = 1e-6) -
     text : str
     font : path
         A scalable font: TrueType, OpenType or Type 1.
-    arc_tolerance : float
-        The largest distance of arcs from the font's curves, as a share of the diagonal.
+    arc_tolerance : float, optional
+        The largest distance of arcs from the font's curves, as a share of the diagonal. By default
+        a 64th of a font unit.
 
     Returns
     -------

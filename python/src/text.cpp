@@ -50,9 +50,9 @@ nb::tuple rings_of_text(const std::string& text) {
 }
 
 /// How a file is read, by the names of Python.
-io::SourceOptions reading(const std::optional<std::string>& repair, double arc_tolerance,
-                          double fit, const std::string& layer, std::optional<double> close,
-                          const std::string& unit, int threads) {
+io::SourceOptions reading(const std::optional<std::string>& repair,
+                          std::optional<double> arc_tolerance, double fit, const std::string& layer,
+                          std::optional<double> close, const std::string& unit, int threads) {
   if (close && !(*close >= 0)) refuse(ErrorCode::invalid_option, "close must be a distance, or 0");
   io::SourceOptions options;
   options.read.repair = options.load.repair = repair_from(repair);
@@ -265,7 +265,7 @@ void bind_text(nb::module_& module) {
   module.def("contours_of_path",
              [](const std::string& text) { return value_of(io::read_path_data(text)); });
   nb::class_<io::SourceOptions>(module, "Reading");
-  module.def("reading", &reading, nb::arg("repair").none(), nb::arg("arc_tolerance"),
+  module.def("reading", &reading, nb::arg("repair").none(), nb::arg("arc_tolerance").none(),
              nb::arg("fit"), nb::arg("layer"), nb::arg("close").none(), nb::arg("unit"),
              nb::arg("threads"));
   module.def("shapes_of_file", &shapes_of_file, nb::arg("path"), nb::arg("text"),

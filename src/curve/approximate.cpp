@@ -313,8 +313,9 @@ double half_diagonal_of(std::span<const Contour> contours) {
 
 /// The tolerance in units of the input.
 double tolerance_of(std::span<const Contour> contours, const ArcOptions& options) {
-  if (!options.relative) return options.tolerance;
-  return std::min(2 * (options.tolerance * half_diagonal_of(contours)),
+  if (options.tolerance && !options.relative) return *options.tolerance;
+  constexpr double default_share = 1e-6;
+  return std::min(2 * (options.tolerance.value_or(default_share) * half_diagonal_of(contours)),
                   std::numeric_limits<double>::max());
 }
 
@@ -322,7 +323,8 @@ double tolerance_of(std::span<const Contour> contours, const ArcOptions& options
 
 Result<std::vector<Ring>> approximate_by_arcs(std::span<const Contour> contours,
                                               const ArcOptions& options, ArcReport* report) {
-  if (!(options.tolerance > 0) || !std::isfinite(options.tolerance) || options.threads < 0 ||
+  const double asked = options.tolerance.value_or(1);
+  if (!(asked > 0) || !std::isfinite(asked) || options.threads < 0 ||
       options.threads > most_threads) {
     return Error{ErrorCode::invalid_option, "a tolerance of arcs must be positive", {}};
   }

@@ -20,43 +20,37 @@ struct Values {
   double second = 0;
 };
 
-/// Of most curves, without loops.
-Values casteljau_of_cubic(const Fixed<double, max_degree + 1>& c, double t) {
-  const double a = c[0] + t * (c[1] - c[0]);
-  const double b = c[1] + t * (c[2] - c[1]);
-  const double d = c[2] + t * (c[3] - c[2]);
-  const double before = a + t * (b - a), after = b + t * (d - b);
-  return {before + t * (after - before), 3 * (after - before), 6 * ((d - b) - (b - a))};
+Values casteljau(const Fixed<double, max_degree + 1>& c, int any_degree, double t) {
+  return with_degree(any_degree, [&](auto degree) {
+    Fixed<double, max_degree + 1> b{};
+    std::copy_n(c.begin(), degree + 1, b.begin());
+    const double n = degree;
+    for (int level = degree; level > 2; --level) {
+      for (int i = 0; i < level; ++i) b[i] += t * (b[i + 1] - b[i]);
+    }
+    Values values;
+    if (degree >= 2) {
+      values.second = n * (n - 1) * ((b[2] - b[1]) - (b[1] - b[0]));
+      b[0] += t * (b[1] - b[0]);
+      b[1] += t * (b[2] - b[1]);
+    }
+    values.first = n * (b[1] - b[0]);
+    values.value = b[0] + t * (b[1] - b[0]);
+    return values;
+  });
 }
 
-Values casteljau(const Fixed<double, max_degree + 1>& c, int degree, double t) {
-  if (degree == 3) return casteljau_of_cubic(c, t);
-  Fixed<double, max_degree + 1> b{};
-  std::copy_n(c.begin(), degree + 1, b.begin());
-  const double n = degree;
-  for (int level = degree; level > 2; --level) {
-    for (int i = 0; i < level; ++i) b[i] += t * (b[i + 1] - b[i]);
-  }
-  Values values;
-  if (degree >= 2) {
-    values.second = n * (n - 1) * ((b[2] - b[1]) - (b[1] - b[0]));
-    b[0] += t * (b[1] - b[0]);
-    b[1] += t * (b[2] - b[1]);
-  }
-  values.first = n * (b[1] - b[0]);
-  values.value = b[0] + t * (b[1] - b[0]);
-  return values;
-}
-
-void split(const Fixed<double, max_degree + 1>& c, int degree, double t,
+void split(const Fixed<double, max_degree + 1>& c, int any_degree, double t,
            Fixed<double, max_degree + 1>& before, Fixed<double, max_degree + 1>& after) {
-  Fixed<double, max_degree + 1> b;
-  std::copy_n(c.begin(), degree + 1, b.begin());
-  for (int level = 0; level <= degree; ++level) {
-    before[level] = b[0];
-    after[degree - level] = b[degree - level];
-    for (int i = 0; i < degree - level; ++i) b[i] += t * (b[i + 1] - b[i]);
-  }
+  with_degree(any_degree, [&](auto degree) {
+    Fixed<double, max_degree + 1> b;
+    std::copy_n(c.begin(), degree + 1, b.begin());
+    for (int level = 0; level <= degree; ++level) {
+      before[level] = b[0];
+      after[degree - level] = b[degree - level];
+      for (int i = 0; i < degree - level; ++i) b[i] += t * (b[i + 1] - b[i]);
+    }
+  });
 }
 
 double largest_step(const Bezier& curve) {

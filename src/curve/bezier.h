@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "curve/bernstein.h"
@@ -24,6 +25,14 @@ struct Bezier {
   double weight(int i) const { return rational ? w[i] : 1; }
   Vec2 point(int i) const { return rational ? Vec2{x[i] / w[i], y[i] / w[i]} : Vec2{x[i], y[i]}; }
 };
+
+/// Calls `work` with a degree: for those of most curves with a constant, so that its loops unroll.
+template <class Work>
+auto with_degree(int degree, const Work& work) {
+  if (degree == 2) return work(std::integral_constant<int, 2>());
+  if (degree == 3) return work(std::integral_constant<int, 3>());
+  return work(degree);
+}
 
 /// A curve with these control points and positive weights (empty, or all alike: not rational).
 Bezier make_bezier(std::span<const Vec2> points, std::span<const double> weights = {});

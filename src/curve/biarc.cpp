@@ -40,7 +40,7 @@ void reduce(DoubleDegree& b, int last, double t) {
 /// A bound on a polynomial over W^2, both in Bernstein coefficients (W^2 of rational curves only),
 /// on both sides of t: a mean of the coefficients' ratios, with positive weights, is nowhere
 /// larger.
-double largest_on_parts(DoubleDegree& f, DoubleDegree* w, int degree, double t) {
+inline double largest_on_parts(DoubleDegree& f, DoubleDegree* w, int degree, double t) {
   double largest = 0;
   // The first and last ones of each level are the parts' coefficients.
   for (int last = degree; last >= 0; --last) {
@@ -56,33 +56,35 @@ double largest_on_parts(DoubleDegree& f, DoubleDegree* w, int degree, double t) 
 /// A bound on F of the curve, for the circle at one end of the arc.
 double largest_circle_function(const Bezier& curve, Vec2 base, Vec2 tangent, double k,
                                bool at_begin) {
-  const int n = curve.degree;
-  const Binomials& binomials = binomials_of(n);
-  // Coefficients times the binomials: c, its turned component, and the weight.
-  Fixed<double, max_degree + 1> cx, cy, side, w;
-  for (int i = 0; i <= n; ++i) {
-    const double scale = binomials.row[i];
-    w[i] = scale * curve.weight(i);
-    cx[i] = scale * curve.x[i] - w[i] * base.x;
-    cy[i] = scale * curve.y[i] - w[i] * base.y;
-    side[i] = 2 * (tangent.x * cy[i] - tangent.y * cx[i]);
-  }
-  DoubleDegree numerator, denominator;
-  for (int m = 0; m <= 2 * n; ++m) {
-    double f = 0, squared = 0;
-    for (int i = std::max(0, m - n); i <= std::min(m, n); ++i) {
-      const int j = m - i;
-      f += k * (cx[i] * cx[j] + cy[i] * cy[j]) - side[i] * w[j];
-      squared += w[i] * w[j];
-    }
-    numerator[m] = f * binomials.inverse_double_row[m];
-    denominator[m] = squared * binomials.inverse_double_row[m];
-  }
   // Where the arc touches the curve the distance is at first like s^2 (1 - s), largest at two
   // thirds of the way: where the two parts meet, the bound is the function itself.
   constexpr double peak = 2.0 / 3;
-  return largest_on_parts(numerator, curve.rational ? &denominator : nullptr, 2 * n,
-                          at_begin ? peak : 1 - peak);
+  const double cut = at_begin ? peak : 1 - peak;
+  return with_degree(curve.degree, [&](auto n) {
+    const Binomials& binomials = binomials_of(n);
+    // Coefficients times the binomials: c, its turned component, and the weight.
+    Fixed<double, max_degree + 1> cx, cy, side, w;
+    for (int i = 0; i <= n; ++i) {
+      const double scale = binomials.row[i];
+      w[i] = scale * curve.weight(i);
+      cx[i] = scale * curve.x[i] - w[i] * base.x;
+      cy[i] = scale * curve.y[i] - w[i] * base.y;
+      side[i] = 2 * (tangent.x * cy[i] - tangent.y * cx[i]);
+    }
+    const auto sum = [&](const auto& term) {
+      DoubleDegree sums;
+      for (int m = 0; m <= 2 * n; ++m) sums[m] = 0;
+      for (int i = 0; i <= n; ++i)
+        for (int j = 0; j <= n; ++j) sums[i + j] += term(i, j);
+      for (int m = 0; m <= 2 * n; ++m) sums[m] *= binomials.inverse_double_row[m];
+      return sums;
+    };
+    DoubleDegree numerator =
+        sum([&](int i, int j) { return k * (cx[i] * cx[j] + cy[i] * cy[j]) - side[i] * w[j]; });
+    if (!curve.rational) return largest_on_parts(numerator, nullptr, 2 * n, cut);
+    DoubleDegree denominator = sum([&](int i, int j) { return w[i] * w[j]; });
+    return largest_on_parts(numerator, &denominator, 2 * n, cut);
+  });
 }
 
 /// The certified distance of a curve in an arc's sector from its circle through one of its ends.
@@ -146,6 +148,11 @@ JointCircle joint_circle(const Station& a, const Station& b) {
 Vec2 spiral_joint(const Station& a, const Station& b) {
   const bool forward = std::abs(a.curvature) >= std::abs(b.curvature);
   return forward ? osculating_joint(a, b) : osculating_joint(reversed(b), reversed(a));
+}
+
+Vec2 flat_joint(const Station& a, const Station& b) {
+  const bool forward = std::abs(a.curvature) >= std::abs(b.curvature);
+  return forward ? osculating_joint(reversed(b), reversed(a)) : osculating_joint(a, b);
 }
 
 Vec2 balanced_joint(const Station& a, const Station& b) {

@@ -50,9 +50,13 @@ JointCircle joint_circle(const Station& a, const Station& b);
 /// satisfy k |c|^2 = 2 (v x c) and q |c|^2 = 2 (m x c), so that c is a multiple of q v - k m.
 Vec2 spiral_joint(const Station& a, const Station& b);
 
-/// The joint halfway between that of the spiral biarc and that of the one whose other arc is an
-/// osculating circle: the curvatures of both arcs are then between those of the ends. Along a short
-/// spiral it is where the biarc's error is least, less than a third of the spiral biarc's.
+/// The joint of the biarc whose other arc is an osculating circle, that at the end of the smaller
+/// curvature.
+Vec2 flat_joint(const Station& a, const Station& b);
+
+/// The joint halfway between the other two: the curvatures of both arcs are then between those of
+/// the ends. Along a short spiral it is where the biarc's error is least, less than a third of the
+/// spiral biarc's.
 Vec2 balanced_joint(const Station& a, const Station& b);
 
 /// The joint moved by whole steps of a grid to a grid point next to the joint circle: by at most

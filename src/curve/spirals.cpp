@@ -47,6 +47,13 @@ constexpr int most_divisions = 64;
 /// where curvature jumps at two thirds). Below a third of the rounding it is that arc.
 constexpr double constant = 16;
 
+/// Whether the less curved arc of a biarc is within its limit.
+bool is_limited(const Biarc& biarc, const Station& a, const Station& b, CurvatureLimits limits) {
+  const bool forward = std::abs(a.curvature) >= std::abs(b.curvature);
+  return std::abs(curvature(forward ? biarc.second : biarc.first)) <=
+         (forward ? limits.end : limits.begin);
+}
+
 bool is_singular(const Station& station) { return std::isinf(station.curvature); }
 
 double extent(const Bezier& curve) {
@@ -113,6 +120,7 @@ class Converter {
   bool try_singular_end(const Bezier& part, const Station& a, const Station& b,
                         CurvatureLimits limits);
   bool try_biarc(const Bezier& part, const Station& a, const Station& b, Demands demands);
+  Biarc biarc_of(const Station& a, const Station& b, Demands demands) const;
   bool is_spiral(const Biarc& biarc, const Station& a, const Station& b, Demands demands) const;
   Vec2 settled(Vec2 joint, const Station& a, const Station& b) const;
   Station snapped(Station station) const {
@@ -310,9 +318,17 @@ Vec2 Converter::settled(Vec2 joint, const Station& a, const Station& b) const {
   return frame_.snap(settle_joint(joint_circle(a, b), snapped, frame_.spacing(snapped), reach));
 }
 
+/// The biarc of least error that keeps what curvature is limited to at its less curved end: at the
+/// joint that balances its arcs, or the one whose arc there is the osculating circle.
+Biarc Converter::biarc_of(const Station& a, const Station& b, Demands demands) const {
+  const auto at = [&](Vec2 joint) { return make_biarc(a, settled(joint, a, b), b); };
+  if (demands.apex) return at(spiral_joint(a, b));
+  const Biarc balanced = at(balanced_joint(a, b));
+  return is_limited(balanced, a, b, demands.limits) ? balanced : at(flat_joint(a, b));
+}
+
 bool Converter::try_biarc(const Bezier& part, const Station& a, const Station& b, Demands demands) {
-  const Vec2 joint = demands.apex ? spiral_joint(a, b) : balanced_joint(a, b);
-  const Biarc biarc = make_biarc(a, settled(joint, a, b), b);
+  const Biarc biarc = biarc_of(a, b, demands);
   if (!is_spiral(biarc, a, b, demands)) return false;
   const double error = certified_error(part, biarc, options_.rounding);
   if (!(error <= options_.tolerance)) return false;
@@ -357,7 +373,7 @@ bool Converter::is_spiral(const Biarc& biarc, const Station& a, const Station& b
   // The rounding of the arcs' end points, as seen by their curvature.
   const double slack = options_.rounding / shorter;
   return lowest <= low + slack && low <= high + slack && high <= highest + slack &&
-         low <= (forward ? demands.limits.end : demands.limits.begin);
+         is_limited(biarc, a, b, demands.limits);
 }
 
 /// Leaves out roots that rounding has doubled, and apices next to an end: nothing happens to the

@@ -10,6 +10,10 @@ namespace medial::io {
 /// Document::corner_angle of outlines that people draw with curves: joints that they take for
 /// smooth miss it by less, through coordinates rounded to a few decimals, or to a font's units.
 constexpr double drawn_corner_angle = 1, font_corner_angle = 4;
+/// Document::arc_tolerance of fonts, in their units, on whose grid the outlines lie: the steps in
+/// which FreeType renders a glyph of a pixel a unit. Font tools that turn cubic into quadratic
+/// curves move outlines by up to a thousandth of the em, thirty times as far or more.
+constexpr double font_arc_tolerance = 1.0 / 64;
 
 /// An affine map: p becomes x * p.x + y * p.y + origin.
 struct Affine {

@@ -10,6 +10,7 @@
 #include "curve/fit.h"
 #include "load/file_index.h"
 #include "load/progress.h"
+#include "load/suited_arcs.h"
 #include "medial/load.h"
 #include "medial/methods.h"
 #include "methods/curve_axis/fits.h"
@@ -282,6 +283,7 @@ Result<Document<ShapeItem>> load_shapes(Document<Feature> features, const LoadOp
   SharedProgress progress(options.progress, std::accumulate(weights.begin(), weights.end(), 0.0));
   const auto load = [&](std::size_t i, int threads) -> Result<Attempt> {
     LoadOptions own = options;
+    own.arcs = suited_arcs(own.arcs, features);
     own.arcs.threads = threads;
     Attempt attempt;
     Feature& feature = features.items[i];

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "load/suited_arcs.h"
 #include "medial/load.h"
 
 namespace medial {
@@ -63,8 +64,9 @@ Result<std::vector<Chain>> chains_of(const Feature& feature, const ArcOptions& o
 Result<LoosePieces> load_loose(Document<Feature> features, const ArcOptions& options) {
   LoosePieces pieces;
   pieces.features = Document<Attributes>{features, {}};
+  const ArcOptions arcs = suited_arcs(options, features);
   for (std::uint32_t i = 0; i < features.items.size(); ++i) {
-    auto chains = chains_of(features.items[i], options);
+    auto chains = chains_of(features.items[i], arcs);
     if (!chains) {
       chains.error().place.feature = features.index_of(i);
       return std::move(chains).error();

@@ -36,6 +36,7 @@ void scale(std::vector<Vec2>& points, double factor) {
 
 void scale(Document<Feature>& features, double factor) {
   if (factor == 1) return;
+  features.arc_tolerance *= factor;
   for (Feature& feature : features.items) {
     for (Ring& ring : feature.rings) scale(ring.points, factor);
     for (Contour& contour : feature.contours) scale(contour.points, factor);

@@ -47,6 +47,7 @@ BoundaryTree::BoundaryTree(std::span<const Site> sites, Chords chords)
     : sites_(sites),
       has_arcs_(
           std::any_of(sites.begin(), sites.end(), [](const Site& site) { return site.is_arc(); })) {
+  if (sites.size() <= short_range) return;
   const auto nodes_over = [](std::size_t count) { return (count + fan - 1) / fan; };
   constexpr std::size_t grain = 1024;
 
@@ -240,8 +241,6 @@ template <class Visit>
                                                               std::uint32_t first,
                                                               std::uint32_t last,
                                                               Visit&& visit) const {
-  // Boxes cost about as much as a few sites.
-  constexpr std::uint32_t short_range = 2 * block_size;
   if (last - first < short_range) {
     visit(first, last);
     return;
@@ -288,6 +287,18 @@ template <class Visit>
   }
 }
 
+namespace {
+
+/// Whether a site is surely not nearer to c than `reach`, whatever rounding does: none is longer
+/// than its parameter.
+inline bool is_out_of_reach(const Site& site, Vec2 c, double reach) {
+  constexpr double a_little_more = 1 + 0x1p-40;
+  const double far = a_little_more * (reach + site.length);
+  return squared_norm(c - site.point) > far * far;
+}
+
+}  // namespace
+
 BoundaryTree::Hit BoundaryTree::nearest(Vec2 c, double reach, std::uint32_t first,
                                         std::uint32_t last) const {
   Hit hit;
@@ -307,7 +318,9 @@ BoundaryTree::Hit BoundaryTree::nearest(Vec2 c, double reach, std::uint32_t firs
         take_if_nearer(from + 1, site::squared_distance(site[1], c));
       }
     }
-    for (; from <= to; ++from, ++site) take_if_nearer(from, site::squared_distance(*site, c));
+    for (; from <= to; ++from, ++site)
+      if (!is_out_of_reach(*site, c, reach))
+        take_if_nearer(from, site::squared_distance(*site, c));
     if (hit.squared_distance < before) reach = std::sqrt(hit.squared_distance);
   });
   return hit;

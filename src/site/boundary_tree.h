@@ -54,6 +54,8 @@ class BoundaryTree {
  private:
   static constexpr std::uint32_t block_size = 8;
   static constexpr std::uint32_t fan = 4;
+  /// So few sites are tested one by one: boxes cost about as much as a few.
+  static constexpr std::uint32_t short_range = 2 * block_size;
 
   /// Boxes along the chords of a node's four lanes: all points p of a lane's sites have normal . p
   /// in [low, high] and, with `along` the normal turned to the right, along . p in [begin, end]. A
@@ -78,7 +80,7 @@ class BoundaryTree {
 
   std::span<const site::Site> sites_;
   bool has_arcs_;
-  std::vector<WorkVector<Boxes>> levels_;       ///< levels_[0] holds the boxes of blocks
+  std::vector<WorkVector<Boxes>> levels_;       ///< levels_[0]: of blocks; none of few sites
   std::vector<WorkVector<ChordBoxes>> chords_;  ///< of the lowest levels; empty where rare
 };
 

@@ -125,6 +125,7 @@ class EdgeArcs {
   explicit EdgeArcs(std::span<const BoundaryEdge> edges);
 
   bool empty() const { return arcs_.empty(); }
+  std::size_t size() const { return arcs_.size(); }
   /// Of an edge that is not straight.
   const Arc& operator[](std::size_t edge) const { return arcs_[place_[edge]]; }
 

@@ -28,8 +28,8 @@ constexpr double machine_epsilon = std::numeric_limits<double>::epsilon();
 constexpr double endless = std::numeric_limits<double>::infinity();
 
 /// Longer arcs are bounded piece by piece: the boxes of concentric half circles would lie in each
-/// other, and all of them in the way of every query.
-constexpr double longest_piece = std::numbers::pi / 8;
+/// other, and all of them in the way of every query. Shorter pieces are more, in the way as well.
+constexpr double longest_piece = std::numbers::pi / 4;
 
 /// Calls `visit` with points whose hull holds the edge: its ends, and for an arc the corners of the
 /// trapezoid whose other sides are tangent to it at the ends and in the middle.
@@ -143,7 +143,8 @@ void DistanceTree::build(std::vector<BoundaryEdge> edges, const Box& box) {
     for (const double c : {box.low.x, box.low.y, box.high.x, box.high.y})
       slack_ = std::max(slack_, 16 * machine_epsilon * std::abs(c));
   if (edges.size() > brute_force) {
-    build_levels(fill_runs(std::move(edges)), diagonal(box));
+    const std::vector<BoundaryEdge> pieces = fill_runs(std::move(edges));  // frees the edges
+    build_levels(pieces, diagonal(box));
     return;
   }
   std::vector<std::uint32_t> index(edges.size());
@@ -160,8 +161,8 @@ std::vector<BoundaryEdge> DistanceTree::fill_runs(std::vector<BoundaryEdge> edge
     return edges;
   }
   std::vector<BoundaryEdge> pieces;
-  std::vector<std::uint32_t> whole;  // the edge of each piece
-  pieces.reserve(edges.size());
+  std::vector<std::uint32_t> whole;              // the edge of each piece
+  pieces.reserve(edges.size() + arcs_->size());  // a quarter of a circle is two
   for (std::uint32_t i = 0; i < edges.size(); ++i) {
     for_each_piece(edges[i], [&](const BoundaryEdge& piece) {
       pieces.push_back(piece);

@@ -122,6 +122,8 @@ Result<Document<Feature>> set_text(const std::vector<Character>& characters, FT_
       &GlyphPen::move_to, &GlyphPen::line_to, &GlyphPen::conic_to, &GlyphPen::cubic_to, 0, 0};
   Document<Feature> dataset;
   dataset.corner_angle = font_corner_angle;
+  const double unit = size > 0 ? size / face->units_per_EM : 1;
+  dataset.arc_tolerance = unit * font_arc_tolerance;
   std::set<std::string> missing;
   double x = 0;
   FT_UInt before = 0;
@@ -142,7 +144,7 @@ Result<Document<Feature>> set_text(const std::vector<Character>& characters, FT_
     if (slot->format == FT_GLYPH_FORMAT_OUTLINE && slot->outline.n_contours > 0) {
       GlyphPen pen;
       pen.origin = {x, 0};
-      if (size > 0) pen.unit = size / face->units_per_EM;
+      pen.unit = unit;
       if ((slot->outline.flags & FT_OUTLINE_EVEN_ODD_FILL) != 0) pen.role = RingRole::any;
       if (FT_Outline_Decompose(&slot->outline, &functions, &pen) != 0) {
         return Error{ErrorCode::malformed,

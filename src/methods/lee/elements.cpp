@@ -126,6 +126,8 @@ std::optional<Elements> elements_of(const Problem& problem) {
   Elements elements;
   elements.sites.reserve(problem.numbers().count);
   elements.originals.reserve(problem.numbers().count);
+  // Without holes and arcs: of each vertex that is no site.
+  elements.chains.reserve(2 * shape.points.size() - problem.numbers().count + 1);
   if (shape.hole_count() > 0 || has_arcs(shape))
     add_connected(problem, elements);
   else
