@@ -65,8 +65,8 @@ Status prune_image(LoadedAxes& axes, const AxisArguments& arguments) {
   if (!report) return report.error();
   if (!arguments.common.quiet && report->branches < report->branches_before)
     say("medial: {}: note: {} of {} branches matter (`prune --prominence {:g}`) and are kept; "
-        "--smooth-contour keeps all of the smooth outline's, --pixel-outline those of the "
-        "pixels' stairs\n",
+        "--smooth-contour keeps all branches of the smooth outline, --pixel-outline also those of "
+        "the pixels' steps\n",
         arguments.input.path, report->branches, report->branches_before, image_prominence);
   return success();
 }

@@ -265,12 +265,12 @@ Result<int> finish_carve(const Document<io::CarveItem>& file, const CarveArgumen
        {"travel_unordered", unordered},
        {"seconds_cutting", report.seconds}},
       phases,
-      fmt::format("{}: {}, {} of {}, deepest {:.6g} {}; cut {:.6g}, travel {:.6g} (unordered "
-                  "{:.6g}), {:.3g} times the passes' own {:.6g}; about {} min {} s",
+      fmt::format("{0}: {1}, {2} of {3}, deepest {4:.6g} {5}; cut {6:.6g} {5}, travel {7:.6g} {5}, "
+                  "together {8:.3g} times the paths' {9:.6g} {5}; about {10} min {11} s",
                   input, counted(file.items.size(), "feature"), counted(paths, "path"),
                   counted(report.moves, "move"), deepest, unit, report.cut, report.travel,
-                  unordered, (report.cut + report.travel) / std::max(report.own, 1e-300),
-                  report.own, seconds / 60, seconds % 60));
+                  (report.cut + report.travel) / std::max(report.own, 1e-300), report.own,
+                  seconds / 60, seconds % 60));
 }
 
 Status write_preview(const CarveArguments& arguments, const Document<io::CarveItem>& file,

@@ -131,12 +131,12 @@ void note_what_is_left_out(const LineSums& sums, const CentrelineArguments& argu
   constexpr double worth_a_note = 0.01;
   const bool kept = arguments.keep_loops;
   if (channels > worth_a_note * chosen)
-    say("medial: {}: note: the main paths are {:.6g} long, the other paths around holes {:.6g}; "
+    say("medial: {}: note: the main paths are {:.10g} long, the other paths around holes {:.10g}; "
         "{}\n",
         arguments.input.path, chosen, channels,
         kept ? "both are kept" : "--loops=keep keeps them, --all the whole network");
   else if (whole - chosen > worth_a_note * whole)
-    say("medial: {}: note: the main paths are {:.6g} long, the whole network {:.6g}; --all keeps "
+    say("medial: {}: note: the main paths are {:.10g} long, the whole network {:.10g}; --all keeps "
         "it\n",
         arguments.input.path, chosen, whole);
 }

@@ -156,7 +156,9 @@ std::string unknown_words(const CLI::App& command, const std::string& otherwise)
   if (extra.empty()) return otherwise;
   std::string text = "unexpected argument: " + extra.back();
   double number = 0;
-  if (!CLI::detail::lexical_cast(extra.back(), number)) return text;
+  if (!CLI::detail::lexical_cast(extra.back(), number))
+    return command.get_option_no_throw("--output") != nullptr ? text + "; -o names the output"
+                                                              : text;
   return text + "; an optional value follows its option after '=', as in --option=" + extra.back();
 }
 
@@ -175,8 +177,12 @@ std::string explain_in(const CLI::ParseError& error, const CLI::App& command) {
   std::string text = error.what();
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) return unknown_words(command, text);
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr &&
-      text.find(" required ") != std::string::npos)
-    return text.substr(0, text.find(':')) + " needs a value";
+      text.find(" required ") != std::string::npos) {
+    const std::string option = text.substr(0, text.find(':'));
+    if (text.find("At Most") != std::string::npos) return option + " is given more than once";
+    return option +
+           (text.find(": 2 ") != std::string::npos ? " needs two values" : " needs a value");
+  }
   if (const auto end = text.find(" was given a disallowed flag override"); end != std::string::npos)
     return "--" + text.substr(0, end) + " takes no value";
   if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) return no_number(text, command);
@@ -202,10 +208,11 @@ void describe_program(CLI::App& program) {
   program.footer(
       "Run `medial COMMAND --help` for its options and examples.\n"
       "\n"
-      "Exit status: 0 for success; 1 if `verify`, `legal` or `compare` rejects an axis; 2 for an\n"
-      "error, printed as one line on standard error: `medial: FILE: feature F, ring R, vertex V\n"
-      "at (X, Y): TEXT [CODE]`. Features, rings and vertices count from 0. After an error or an\n"
-      "interruption there is no output, not even a partial file.");
+      "Exit status: 0 for success; 1 if `verify`, `legal` or `compare` rejects an axis, or\n"
+      "`doctor` finds a fault; 2 for an error, printed as one line on standard error: `medial:\n"
+      "FILE: feature F, ring R, vertex V at (X, Y): TEXT [CODE]`. Features, rings and vertices\n"
+      "count from 0. After an error or an interruption there is no output, not even a partial\n"
+      "file.");
 }
 
 void heed_help_anywhere(CLI::App& program) {

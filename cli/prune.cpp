@@ -117,7 +117,7 @@ void note_specks(const Document<AxisItem>& file, const InputOptions& input,
   for (const AxisItem& item : file.items)
     specks += item.shape.loop_count() - without_specks(item.shape, speck_share).loop_count();
   if (specks > 0)
-    say("medial: {}: note: {}, with a separate axis or cycle; `medial prune --specks` leaves "
+    say("medial: {}: note: {} with an axis or a cycle of its own; `medial prune --specks` leaves "
         "out specks\n",
         input.path,
         specks == 1 ? "1 part or hole of the image is a speck"

@@ -212,8 +212,9 @@ class Features {
   void add_notes() {
     if (open_ > 0) {
       std::string note =
-          fmt::format("{} where ends within {:.3g} are joined, left out",
-                      open_ == 1 ? "1 curve stays open" : fmt::format("{} curves stay open", open_),
+          fmt::format("{} left out, although ends within {:.3g} are joined",
+                      open_ == 1 ? "1 curve stays open and was"
+                                 : fmt::format("{} curves stay open and were", open_),
                       tolerance_);
       if (std::isfinite(smallest_gap_))
         note += fmt::format("; the smallest gap is {:.3g}", smallest_gap_);

@@ -128,9 +128,9 @@ Status convert_units(Document<Feature>& features, const UnitOptions& options) {
     factor *= from / millimetres(options.wanted);
     if (options.assumed != Unit::unknown && options.given == Unit::unknown &&
         features.unit != Unit::css_pixel && features.unit != Unit::pixel)
-      features.notes.push_back(std::string("the drawing is in ") + name_of(features.unit) +
-                               ", the result and lengths of options in " + name_of(options.wanted) +
-                               "; --output-units chooses");
+      features.notes.push_back(std::string("the unit of the input is '") + name_of(features.unit) +
+                               "', that of the result and of options '" + name_of(options.wanted) +
+                               "'; --output-units chooses another");
     features.unit = options.wanted;
   }
   scale(features, factor);

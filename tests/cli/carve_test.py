@@ -217,9 +217,10 @@ class Carve(CommandLine):
                                         "SECTION", "2", "ENTITIES", "0", "CIRCLE", "8", "0", "10", "0", "20", "0", "40", "1",
                                         "0", "ENDSEC", "0", "EOF", ""]))
         if self.supported("i.dxf"):
-            self.assertIn(b"the drawing is in in", self.succeed("carve", "i.dxf", "--angle", "60", "-o", "i.nc").stderr)
-            self.assertNotIn(b"drawing is in", self.succeed("carve", "i.dxf", "--angle", "60", "--output-units", "in",
-                                                            "-o", "i.tap").stderr)
+            carved = self.succeed("carve", "i.dxf", "--angle", "60", "-o", "i.nc")
+            self.assertIn(b"the unit of the input is 'in', that of the result and of options 'mm'", carved.stderr)
+            carved = self.succeed("carve", "i.dxf", "--angle", "60", "--output-units", "in", "-o", "i.tap")
+            self.assertNotIn(b"unit of the input", carved.stderr)
         for wrong in (["--angle", "0"], ["--angle", "0", "--tool", "3", "--depth", "2", "--tip", "1"],
                       ["--angle", "60", "--clear-tool", "3"], ["--angle", "60", "--post", "grbl", "-o", "a.png"]):
             self.refuse("invalid_option", *common, *wrong)

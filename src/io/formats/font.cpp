@@ -42,8 +42,11 @@ Result<std::vector<Character>> characters_of(const std::string& text) {
       return Error{ErrorCode::malformed, fmt::format("byte {} of the text is not UTF-8", at), {}};
     }
     if (code < ' ' || code == 0x7F) {
-      return Error{
-          ErrorCode::malformed, fmt::format("byte {} of the text is a control character", at), {}};
+      return Error{ErrorCode::malformed,
+                   fmt::format("byte {} of the text is a control character, such as the end of a "
+                               "line: a text is one line",
+                               at),
+                   {}};
     }
     const auto count = static_cast<std::size_t>(length);
     result.push_back({static_cast<FT_ULong>(code), text.substr(at, count)});

@@ -365,7 +365,7 @@ Result<Document<Feature>> read_svg(const Input& input, const ReadOptions& option
         {ErrorCode::empty,
          drawing.unfilled > 0
              ? "no shape is filled, and a stroke alone has no inside: give closed paths a fill"
-             : "there is no filled shape",
+             : "there is no filled shape; text and images are not read: convert text to paths",
          {}});
   }
   if (drawing.unfilled > 0) {

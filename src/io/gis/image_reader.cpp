@@ -42,8 +42,8 @@ class Values {
     if (different_ < 3) return {};
     return {
         fmt::format("the image has more than two values: pixels of at least {:g} are its "
-                    "foreground; --threshold chooses another, --labels takes each value for "
-                    "a feature",
+                    "foreground; --threshold chooses another, --labels makes a feature of each "
+                    "value",
                     threshold)};
   }
 
@@ -519,8 +519,8 @@ Result<ImageFile> read_foreground(const Input& input, const ImageOptions& option
       return Error{ErrorCode::empty,
                    options.invert ? "no pixel is below the threshold, so there is no foreground"
                                   : "no pixel reaches the threshold, so there is no foreground; "
-                                    "--threshold chooses another, --labels takes each value for a "
-                                    "feature",
+                                    "--threshold chooses another, --invert takes dark pixels, "
+                                    "--labels makes a feature of each value",
                    {}};
     const bool chosen = options.threshold || options.invert || options.labels;
     if (file && !chosen && surrounds(file->image))
