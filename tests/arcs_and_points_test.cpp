@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "medial/planar_graph.h"
 #include "medial/verify.h"
 #include "medial/voronoi.h"
+#include "support/generate.h"
 #include "support/nasty_check.h"
 
 namespace medial::test {
@@ -31,6 +33,35 @@ TEST_P(ArcsAndPoints, HaveADiagram) {
   EXPECT_TRUE(certificate.passed) << certificate.failures.front();
 }
 
+/// Chains of arcs that lie on one circle but for 1e-14 to 1e-8 have a diagram, or an error.
+TEST(ArcsOfOneCircle, HaveADiagramThatPassesOrNone) {
+  constexpr std::uint64_t chains = 200;
+  std::uint64_t passed = 0;
+  for (std::uint64_t seed = 0; seed < chains; ++seed) {
+    Random random(seed);
+    const double noise = random.power_of_ten(-14, -8);
+    const auto arcs = static_cast<std::size_t>(random.integer(2, 8));
+    const double turn = random.between(0.2, 6.2) / static_cast<double>(arcs);
+    Chain chain;
+    for (std::size_t i = 0; i <= arcs; ++i) {
+      const double angle = static_cast<double>(i) * turn, radius = 1 + noise * random.unit();
+      chain.points.push_back(radius * Vec2{std::cos(angle), std::sin(angle)});
+    }
+    chain.bulges.assign(arcs, std::tan(turn / 4));
+    const auto graph = build_planar_graph({&chain, 1});
+    ASSERT_TRUE(graph) << to_string(graph.error());
+    const auto diagram = voronoi_diagram(*graph, {.threads = 1});
+    if (!diagram) {
+      EXPECT_EQ(diagram.error().code, ErrorCode::unsupported) << seed;
+      continue;
+    }
+    const VoronoiCertificate certificate = verify(*graph, *diagram, {.threads = 1});
+    EXPECT_TRUE(certificate.passed) << seed << ": " << certificate.failures.front();
+    ++passed;
+  }
+  EXPECT_GE(passed, chains - 2);
+}
+
 Chain point(double x, double y) { return {{{x, y}}}; }
 
 const Chain half_circle{{{-8, 5}, {2, 5}}, {1}};
@@ -50,6 +81,13 @@ const std::vector<NamedGraph> graphs{
      {{{{4.3370217292062589, 6.1839729256427178}, {1.6629782707937411, 3.8160270743572822}},
        {0.99999999999999989}},
       point(1.6629782707937923, 3.8160270743571334)}},
+    // The edge to the common centre bends next to it, so sharply that its usual parameter has no
+    // digits left where the enclosure cuts it off.
+    {"ArcsOfOneCircleCutOffShortOfTheirCentre",
+     {{{{0.5683079345137978, -0.82281595242717787},
+        {0.82711609556900678, -0.56203110630168851},
+        {0.97427152387356053, -0.22537745621308855}},
+       {0.092640909440565966, 0.092640909440565744}}}},
     // The parameter of a foot half a circle on is infinite, of either sign.
     {"AFootHalfACircleOn",
      {{{{5.0220406557331971, -2.0220406557331971}, {4.9779593442668029, -1.9779593442668029}}, {1}},

@@ -4,12 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "base/arc.h"
 #include "support/environment.h"
 #include "support/nasty.h"
 #include "support/property.h"
@@ -74,6 +76,44 @@ TEST(NarrowGap, EdgesThatCrossBehindACusp) {
     else
       EXPECT_TRUE(!failures.empty() && failures[0].ends_with("[crossing]")) << slope;
   }
+}
+
+/// A needle's short side is an arc of some tolerances, which crosses the sides beside it by less
+/// than the tolerance, or the shape is refused: its rounded coordinates decide.
+TEST(NarrowGap, NeedlesThatEndInAnArc) {
+  struct Needle {
+    double side, tilt, bulge;  ///< the short side, in 4e-15, and its angle to the upright
+    std::array<double, 2> others;
+  };
+  constexpr std::array<Needle, 8> needles{{{16.3, -1.40725, -0.1865, {0, 0.00668}},
+                                           {8.92, 1.24225, -0.3416, {0, 0}},
+                                           {5.41, 1.00586, -1, {0.00256, 0}},
+                                           {3.61, 1.23372, -0.7732, {0, 0}},
+                                           {4.22, -0.798549, -1, {0, 0}},
+                                           {11.4, -1.37586, -0.4006, {0, 0}},
+                                           {2.16, 0, 1, {0, -1.375e-14}},
+                                           {1.2, 0, 0.1961, {-1.018e-14, 0}}}};
+  int accepted = 0;
+  for (const Needle& needle : needles) {
+    for (int pose = 0; pose < 8; ++pose) {
+      const auto posed = [&](Vec2 p) {
+        return turned(p, std::cos(0.7 * pose), std::sin(0.7 * pose));
+      };
+      const double side = 4e-15 * needle.side;
+      const Ring ring{{{0, 0},
+                       posed({1, 0}),
+                       posed(side * Vec2{-std::sin(needle.tilt), std::cos(needle.tilt)})},
+                      RingRole::any,
+                      {needle.others[0], needle.others[1], needle.bulge}};
+      const std::vector<std::string> failures = check_axis({ring});
+      accepted += failures.empty() ? 1 : 0;
+      const bool refused = !failures.empty() && (failures[0].ends_with("[crossing]") ||
+                                                 failures[0].ends_with("[overlap]"));
+      EXPECT_TRUE(failures.empty() || refused)
+          << needle.side << " pose " << pose << ": " << failures[0];
+    }
+  }
+  EXPECT_GE(accepted, 24);
 }
 
 /// A hole's vertex, from which a disk connects it to others, is next to another one: what such a

@@ -103,6 +103,27 @@ TEST(VerifyArcs, PassesAxesInClosedForm) {
   EXPECT_NEAR(verify(m.shape, m.axis).shape_area, 6 + std::numbers::pi, 1e-14);
 }
 
+/// A bar whose half circle ends 4e-13 beyond one of its sides: of three disks that touch the side
+/// in its end, or all but do, the outermost fills the half circle.
+TEST(VerifyArcs, OfDisksAtTheEndOfASideTheOutermostGoesOn) {
+  const double eighth = std::tan(std::numbers::pi / 16), quarter = std::tan(std::numbers::pi / 8);
+  const Ring bar{{{0.31689702389709007, 0.94906854133144192},
+                  {-0.96906634307001815, 0.36059745553488481},
+                  {-0.38059525727346599, -0.92536591143223401},
+                  {-0.31689702389713531, -0.94906854133147511},
+                  {0.44796101198710564, -0.92116473208956973},
+                  {0.96906634307004547, -0.36059745553488393},
+                  {0.94116253382807891, 0.40426058034937079},
+                  {0.3805952572734807, 0.92536591143226099}},
+                 RingRole::any,
+                 {quarter, quarter, 0, eighth, eighth, eighth, eighth, 0}};
+  const auto shape = build_shape({&bar, 1});
+  const auto axis = compute(*shape);
+  const Certificate certificate = verify(*shape, *axis);
+  EXPECT_EQ(certificate.failures, std::vector<std::string>{});
+  EXPECT_LT(certificate.largest_uncovered, 2e-14);
+}
+
 TEST(VerifyArcsFinds, MovedNodes) {
   for (const HandMadeArcs& m : all_hand_made_arcs()) {
     for (std::size_t i = 0; i < m.axis.nodes.size(); ++i) {

@@ -73,6 +73,18 @@ Meetings meetings(const MonotoneArc& a, const MonotoneArc& b) {
   return result;
 }
 
+/// The point of an arc next to p, if p is on its circle or line up to a small error, or rounding of
+/// local coordinates, and on the same side of the chord. (It may lie beyond the ends of a segment.)
+std::optional<Vec2> on_arc(const MonotoneArc& arc, Vec2 p) {
+  constexpr double small = 1e-6, rounding = 0x1p-50;
+  const double offset = arc.above_circle(p);
+  if (!(std::abs(offset) <= small * distance(arc.left, arc.right) + rounding)) return std::nullopt;
+  const Vec2 gradient = arc.up - 2 * arc.half_curvature * (p - arc.left);
+  const Vec2 result = p - (offset / squared_norm(gradient)) * gradient;
+  if (arc.bulge * cross(arc.right - arc.left, result - arc.left) > 0) return std::nullopt;
+  return result;
+}
+
 /// Finds where edges meet, each in its inside or one of them in an end: what noding splits them at.
 /// Their common ends are none of these places.
 class CrossingFinder {
@@ -134,7 +146,7 @@ class CrossingFinder {
   void meet(const Piece& a, const Piece& b) {
     const Meetings found = meetings(a.arc, b.arc);
     for (std::size_t i = 0; i < found.size; ++i) {
-      const auto point = a.arc.projected(found.points[i]);
+      const auto point = on_arc(a.arc, found.points[i]);
       if (!point || !a.arc.is_near(*point, tolerance_) || !b.arc.is_near(*point, tolerance_))
         continue;
       const std::uint32_t end_of_a = end_at(a, *point), end_of_b = end_at(b, *point);
@@ -378,7 +390,8 @@ class ArcSweeper {
     double along;
   };
   /// The circles' meetings cut the common range of two pieces, from `begin` to `end`, into
-  /// intervals. In each of them the sign of the gap is that at its middle. Returns how many stops.
+  /// intervals. In each of them the gap has one sign, that at its middle; the first and the last
+  /// may be widest at the range's end. Returns how many stops.
   static std::size_t stops_between(const MonotoneArc& a, const MonotoneArc& b, Vec2 begin, Vec2 end,
                                    std::array<Stop, 4>& stops) {
     std::size_t count = 0;
@@ -390,7 +403,7 @@ class ArcSweeper {
     const Meetings found = meetings(a, b);
     for (std::size_t i = 0; i < found.size; ++i) {
       // Of circles that are the same to rounding the meetings are of no meaning.
-      const std::optional<Vec2> p = a.projected(found.points[i]);
+      const std::optional<Vec2> p = on_arc(a, found.points[i]);
       if (!p) continue;
       const double along = dot(chord, *p - a.left);
       if (along > stops[0].along && along < last_along) add(*p);
@@ -420,10 +433,14 @@ class ArcSweeper {
     const Vec2 last = stops[count - 1].point;
 
     const auto gap = [&](Vec2 on_lower) { return -b.above(on_lower); };
+    const double at_begin = a.left == b.left ? 0 : gap(stops[0].point);
+    const double at_end = a.right == b.right ? 0 : gap(last);
     std::array<int, 3> signs{};
     bool any_positive = false;
     for (std::size_t i = 0; i + 1 < count; ++i) {
-      const double value = gap(a.halfway(stops[i].point, stops[i + 1].point));
+      double value = gap(a.halfway(stops[i].point, stops[i + 1].point));
+      if (i == 0 && std::abs(at_begin) > std::abs(value)) value = at_begin;
+      if (i + 2 == count && std::abs(at_end) > std::abs(value)) value = at_end;
       signs[i] = value > tolerance_ ? 1 : value < -tolerance_ ? -1 : 0;
       if (signs[i] < 0) {
         return pending_or(crossing(lower, upper, stops[i].point));
@@ -431,8 +448,6 @@ class ArcSweeper {
       any_positive = any_positive || signs[i] > 0;
     }
     if (!any_positive) {
-      const double at_begin = a.left == b.left ? 0 : gap(stops[0].point);
-      const double at_end = a.right == b.right ? 0 : gap(last);
       const bool together = std::abs(at_begin) <= tolerance_ && std::abs(at_end) <= tolerance_;
       if (together && distance(stops[0].point, last) > 4 * tolerance_) {
         if (cleaned_.open && note_overlap(lower, upper)) return std::nullopt;

@@ -62,8 +62,8 @@ Result<Shape> build_once(std::span<const Ring> rings, const ShapeOptions& option
   if (!loops) return std::move(loops).error();
   if (auto error = nest(arrangement, *loops)) return std::move(*error);
   if (auto error = check_roles(rings, arrangement, *loops)) return std::move(*error);
-  Shape shape = assemble(arrangement, *loops);
-  if (shape.points.empty())
+  Result<Shape> shape = assemble(arrangement, *loops);
+  if (shape && shape->points.empty())
     return error_of_ring(ErrorCode::no_area, "the ring encloses no area", 0);
   return shape;
 }

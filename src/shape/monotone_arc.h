@@ -93,22 +93,20 @@ inline MonotoneArc monotone_arc(Vec2 left, Vec2 right, double bulge) {
   return {left, right, bulge, left_of(start_tangent(arc)), curvature(arc) / 2};
 }
 
-/// Whether a lies below b next to their common left end. Where their tangents do not decide, what
-/// lies further right does, as the arcs do not cross.
+/// How far an arc lies above a longer one from the same left end, with the right sign, where they
+/// are further apart: at its end or halfway. If nowhere, by how much more it turns.
+inline double above_longer(const MonotoneArc& arc, const MonotoneArc& longer) {
+  const double at_end = longer.above(arc.right);
+  const double before = longer.above(arc.halfway(arc.left, arc.right));
+  const double above = std::abs(at_end) > std::abs(before) ? at_end : before;
+  return above != 0 ? above : arc.half_curvature - longer.half_curvature;
+}
+
+/// Whether a lies below b next to their common left end. Arcs do not cross, but within the
+/// tolerance they may: where they are further apart decides, and not their tangents.
 inline bool is_below(const MonotoneArc& a, const MonotoneArc& b) {
-  // Arcs that are tangent to rounding separate by a rounding after the square root of one, about.
-  constexpr double clear_angle = 1e-7;
   if (dot(a.up, b.up) < 0) return a.up.x > b.up.x;  // by how much they go down
-  const double sine = cross(a.up, b.up);
-  if (std::abs(sine) > clear_angle) return sine > 0;
-  const bool a_ends = lexicographic_less(a.right, b.right);
-  const MonotoneArc& shorter = a_ends ? a : b;
-  const MonotoneArc& longer = a_ends ? b : a;
-  const double at_end = longer.above(shorter.right);
-  const double before = longer.above(shorter.halfway(shorter.left, shorter.right));
-  double above = std::abs(at_end) > std::abs(before) ? at_end : before;
-  if (above == 0) above = shorter.half_curvature - longer.half_curvature;
-  return a_ends ? above < 0 : above > 0;
+  return lexicographic_less(a.right, b.right) ? above_longer(a, b) < 0 : above_longer(b, a) > 0;
 }
 
 }  // namespace medial

@@ -210,17 +210,6 @@ LoopArea area_from(const Shape& shape, std::size_t first) {
   return area;
 }
 
-/// Where edges of one loop are within the tolerance, the sweep may take its inside for its outside.
-void turn_around(Shape& shape, std::size_t first) {
-  const auto from = [first](auto& list) {
-    return list.begin() + static_cast<std::ptrdiff_t>(first);
-  };
-  std::reverse(from(shape.points) + 1, shape.points.end());
-  std::reverse(from(shape.sources) + 1, shape.sources.end());
-  std::reverse(from(shape.bulges), shape.bulges.end());
-  std::for_each(from(shape.bulges), shape.bulges.end(), [](double& bulge) { bulge = 0 - bulge; });
-}
-
 /// Whether the loop of two edges that a shape ends with is no wider than the spacing of its
 /// coordinates: two arcs that count as straight.
 bool has_no_width(const Shape& shape, std::size_t first) {
@@ -231,25 +220,18 @@ bool has_no_width(const Shape& shape, std::size_t first) {
   return width <= spacing;
 }
 
-/// Corrects the last loop if edges were merged within the tolerance. False where that
-/// leaves nothing of it.
-bool mend_last_loop(Shape& shape, bool hole) {
-  const std::size_t first = shape.loop_begin.back(), size = shape.points.size() - first;
-  if (size == 2 && has_no_width(shape, first)) {
-    shape.points.resize(first);
-    shape.sources.resize(first);
-    shape.bulges.resize(first);
-    shape.loop_begin.pop_back();
-    return false;
-  }
-  const LoopArea area = area_from(shape, first);
-  if ((hole ? area.doubled : -area.doubled) > area.rounding) turn_around(shape, first);
-  return true;
+/// Takes the last loop of a shape out again.
+void remove_last_loop(Shape& shape) {
+  const std::size_t first = shape.loop_begin.back();
+  shape.points.resize(first);
+  shape.sources.resize(first);
+  shape.bulges.resize(first);
+  shape.loop_begin.pop_back();
 }
 
 }  // namespace
 
-Shape assemble(const Arrangement& arrangement, const SplicedLoops& loops) {
+Result<Shape> assemble(const Arrangement& arrangement, const SplicedLoops& loops) {
   std::vector<std::uint32_t> order(loops.loops.size());
   std::iota(order.begin(), order.end(), 0U);
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -283,7 +265,18 @@ Shape assemble(const Arrangement& arrangement, const SplicedLoops& loops) {
       }
       edge = loops.successor[edge];
     } while (edge != loop.first_edge);
-    if (with_arcs && !mend_last_loop(shape, loop.hole)) continue;
+    if (with_arcs) {
+      const std::size_t first = shape.loop_begin.back();
+      if (shape.points.size() - first == 2 && has_no_width(shape, first)) {
+        remove_last_loop(shape);
+        continue;
+      }
+      // Edges that cross within the tolerance may enclose more between them than the loop does.
+      const LoopArea area = area_from(shape, first);
+      if ((loop.hole ? area.doubled : -area.doubled) > area.rounding)
+        return error_at(ErrorCode::crossing, "edges cross next to this vertex",
+                        shape.sources[first], shape.points[first]);
+    }
     components += loop.hole ? 0 : 1;
     shape.component.push_back(components - 1);
     shape.hole.push_back(loop.hole);

@@ -22,6 +22,7 @@ std::optional<Error> check_roles(std::span<const Ring> rings, const Arrangement&
 std::optional<Error> nest(const Arrangement& arrangement, SplicedLoops& loops);
 
 /// The shape with its loops in order: by component, the outer loop first, then by lowest source.
-Shape assemble(const Arrangement& arrangement, const SplicedLoops& loops);
+/// Error: crossing, where arcs cross within the tolerance and a loop has no inside by its area.
+Result<Shape> assemble(const Arrangement& arrangement, const SplicedLoops& loops);
 
 }  // namespace medial

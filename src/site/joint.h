@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "base/arc.h"
+#include "shape/monotone_arc.h"
 
 namespace medial::site {
 
@@ -22,9 +23,10 @@ enum class Joint : std::uint8_t {
 /// four times `tolerance` (that of the coordinates, in their units) against the chords; but no more
 /// than 1e-7, where a disk as large as the shape that touches one edge reaches over the other by
 /// 1e-14 of its size. At a cusp the interior is inside or around it as the edges lie next to each
-/// other half a chord away, where they are (sine - (sum of the curvatures) s / 2) s apart, s from
-/// the cusp. It is one as well where they cross again before they are `tolerance` apart, which is
-/// at most sine^2 / (2 (sum of the curvatures)). `corner_angle` in radians.
+/// other where they are further apart, at the end of the shorter one or halfway: so build_shape()
+/// orders them. It is a cusp as well where they cross again before they are `tolerance` apart:
+/// s from it, they are (sine - (sum of the curvatures) s / 2) s apart, which is at most
+/// sine^2 / (2 (sum of the curvatures)). `corner_angle` in radians.
 inline Joint joint_of(const BulgeArc& before, const BulgeArc& after, double tolerance,
                       double corner_angle) {
   constexpr double least = 1e-12, most = 1e-7;
@@ -43,9 +45,11 @@ inline Joint joint_of(const BulgeArc& before, const BulgeArc& after, double tole
   const double both = curvature(before) + curvature(after);
   const bool crosses_again = sine * sine <= 2 * tolerance * std::abs(both);
   if (cosine < 0 && (std::abs(sine) <= least + rounding || crosses_again)) {
-    const double away = 0.5 * std::min(chord_before, chord_after);
-    const double bend = 0.5 * both * away;
-    return sine > bend ? Joint::corner : Joint::reflex;
+    const MonotoneArc back = monotone_arc(before.end, before.start, -before.bulge);
+    const MonotoneArc on = monotone_arc(after.start, after.end, after.bulge);
+    const bool corner =
+        chord_before < chord_after ? above_longer(back, on) > 0 : above_longer(on, back) < 0;
+    return corner ? Joint::corner : Joint::reflex;
   }
   if (sine < 0) return Joint::reflex;
   return std::atan2(sine, cosine) <= corner_angle ? Joint::blunt : Joint::corner;

@@ -166,8 +166,10 @@ class Track {
   double length() const { return length_; }
   double foot_at(Vec2 p) const {
     if (arc_ != nullptr) return arc_->foot_at(p);
-    return std::clamp(dot(edge_.chord(), p - edge_.start) / length_, 0.0, length_);
+    return std::clamp(foot_on_line(p), 0.0, length_);
   }
+  /// Of a straight edge, which may be longer.
+  double foot_on_line(Vec2 p) const { return dot(edge_.chord(), p - edge_.start) / length_; }
   /// Of an arc.
   double opposite_at(Vec2 p) const { return arc_->opposite_at(p); }
   Vec2 point_at(double length) const;

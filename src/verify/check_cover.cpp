@@ -11,7 +11,8 @@ namespace {
 /// The stretch of a boundary edge that the disks of one axis edge touch; a vertex is a stretch
 /// without length at the start of the edge that begins there.
 struct Stretch {
-  double begin, end;                   ///< parameters along the boundary edge, in units of length
+  /// Parameters along the boundary edge, in units of length; beyond a straight one's ends, too.
+  double begin, end;
   std::uint32_t begin_node, end_node;  ///< whose disks touch there
   /// Of disks around a vertex, which touch it one after the other: turn_of() the clockwise angle of
   /// the first from the normal where the vertex is arrived at; an edge's come after them.
@@ -19,13 +20,17 @@ struct Stretch {
 };
 
 /// Where one disk touches a boundary edge. Next to the centre of an arc, rounding alone decides
-/// where the foot lies: the disk touches all of the arc where it may lie.
+/// where the foot lies: the disk touches all of the arc where it may lie. Of disks that touch the
+/// end of a straight edge, or all but do, the outermost comes last: feet on its line do not end.
 Stretch touched_by(const Problem& problem, const ArcFeet& feet, const Track& on, const Edge& edge,
                    std::size_t side, std::size_t end) {
   const std::uint32_t node = edge.node[end];
   const Vec2 center = problem.disk(node).center;
-  const double foot = on.is_straight() ? on.foot_at(center) : feet.at(edge, side, end);
-  if (on.is_straight()) return {foot, foot, node, node};
+  if (on.is_straight()) {
+    const double foot = on.foot_on_line(center);
+    return {foot, foot, node, node};
+  }
+  const double foot = feet.at(edge, side, end);
   const double slack = on.foot_slack(center, problem.tolerance);
   return {std::max(0.0, foot - slack), std::min(on.length(), foot + slack), node, node};
 }
@@ -90,9 +95,11 @@ class Touching {
       const std::size_t side = problem_.place[edge.site[0]] == place && !again ? 0 : 1;
       found.push_back(stretch_of(problem_, feet_, place, before, edge, side));
     }
-    std::sort(found.begin(), found.end(), [](const Stretch& a, const Stretch& b) {
-      return std::tie(a.begin, a.turn, a.end) < std::tie(b.begin, b.turn, b.end);
-    });
+    const auto key = [](const Stretch& a) {
+      return std::tuple(std::max(0.0, a.begin), a.turn, a.begin, a.end);
+    };
+    std::sort(found.begin(), found.end(),
+              [&](const Stretch& a, const Stretch& b) { return key(a) < key(b); });
   }
 
  private:
@@ -206,7 +213,7 @@ void cross_gap(const Problem& problem, const Foot& from, const Foot& to, bool wr
     allowed = angle * std::max(a.radius, b.radius);
   }
   const auto advance = [&](const Track& on, double begin, double end) {
-    worst.open += allowed * (end - begin);
+    worst.open += allowed * std::max(0.0, end - begin);
     worst.add(uncovered(a, b, on, begin, end), allowed, on, 0.5 * (begin + end));
   };
   const Track first = problem.track(from.edge);

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "axis/curve.h"
-
 namespace medial::voronoi {
 namespace {
 
@@ -20,25 +18,48 @@ Weighted sum(double a, const Weighted& u, double b, const Weighted& v, double c,
           a * u.weight + b * v.weight + c * w.weight};
 }
 
+/// 1 - t and t.
+std::array<double, 2> shares_of(double s) {
+  if (s == ConicEdge::last) return {0, 1};
+  return {1 / (1 + s), s / (1 + s)};
+}
+
 /// The curve's polar form: its points at s = t, and the control point of the part from s to t.
 Weighted blossom(const ConicEdge& edge, double s, double t) {
-  return sum((1 - s) * (1 - t), weighted(edge.from, 1), (1 - s) * t + s * (1 - t),
-             weighted(edge.control, edge.weight), s * t, weighted(edge.to, 1));
+  const auto [before, at] = shares_of(s);
+  const auto [other_before, other_at] = shares_of(t);
+  return sum(before * other_before, weighted(edge.from, 1), before * other_at + at * other_before,
+             weighted(edge.control, edge.weight), at * other_at, weighted(edge.to, 1));
 }
 Disk disk_of(const Weighted& w) { return {(1 / w.weight) * w.center, w.radius / w.weight}; }
 
+/// Appends the s above 0 where a + 2 b s + c s^2 is 0, without cancellation.
+void add_ratios(double a, double b, double c, std::vector<double>& out) {
+  const double squared = b * b - a * c;
+  if (!(squared >= 0)) return;
+  const double sum = -(b + std::copysign(std::sqrt(squared), b));
+  for (const double s : {sum / c, a / sum})
+    if (s > 0 && s < ConicEdge::last) out.push_back(s);
+}
+
+/// A parameter between two others.
+double between(double s, double t) {
+  if (t == ConicEdge::last) return s > 0 ? 2 * s : 1;
+  return s > 0 ? std::sqrt(s) * std::sqrt(t) : 0.5 * t;
+}
+
 }  // namespace
 
-Disk ConicEdge::at(double t) const {
-  return t == 0 ? from : t == 1 ? to : disk_of(blossom(*this, t, t));
+Disk ConicEdge::at(double s) const {
+  return s == 0 ? from : s == last ? to : disk_of(blossom(*this, s, s));
 }
 
 ConicEdge ConicEdge::part(double begin, double end) const {
-  if (begin == 0 && end == 1) return *this;
-  const Weighted first = blossom(*this, begin, begin), last = blossom(*this, end, end);
+  if (begin == 0 && end == last) return *this;
+  const Weighted first = blossom(*this, begin, begin), other = blossom(*this, end, end);
   const Weighted middle = blossom(*this, begin, end);
   return {at(begin), disk_of(middle), at(end),
-          middle.weight / std::sqrt(first.weight * last.weight)};
+          middle.weight / std::sqrt(first.weight * other.weight)};
 }
 
 void clip(const ConicEdge& edge, const Box& box, std::vector<ClippedPart>& parts) {
@@ -47,7 +68,7 @@ void clip(const ConicEdge& edge, const Box& box, std::vector<ClippedPart>& parts
   const auto all = [&](auto&& holds) { return std::all_of(hull.begin(), hull.end(), holds); };
   // By its weights, a curve stays in the hull of its control points.
   if (all([&](Vec2 p) { return is_inside(box, p); })) {
-    parts.push_back({0, 1});
+    parts.push_back({});
     return;
   }
   if (all([&](Vec2 p) { return p.x <= box.low.x; }) ||
@@ -55,15 +76,15 @@ void clip(const ConicEdge& edge, const Box& box, std::vector<ClippedPart>& parts
       all([&](Vec2 p) { return p.y <= box.low.y; }) ||
       all([&](Vec2 p) { return p.y >= box.high.y; }))
     return;
-  std::vector<double> stops{0, 1};
+  std::vector<double> stops{0, ConicEdge::last};
   for (const double x : {box.low.x, box.high.x})
-    add_roots(hull[0].x - x, edge.weight * (hull[1].x - x), hull[2].x - x, stops);
+    add_ratios(hull[0].x - x, edge.weight * (hull[1].x - x), hull[2].x - x, stops);
   for (const double y : {box.low.y, box.high.y})
-    add_roots(hull[0].y - y, edge.weight * (hull[1].y - y), hull[2].y - y, stops);
+    add_ratios(hull[0].y - y, edge.weight * (hull[1].y - y), hull[2].y - y, stops);
   std::sort(stops.begin(), stops.end());
   for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
     if (!(stops[i] < stops[i + 1])) continue;
-    if (!is_inside(box, edge.at(0.5 * (stops[i] + stops[i + 1])).center)) continue;
+    if (!is_inside(box, edge.at(between(stops[i], stops[i + 1])).center)) continue;
     if (!parts.empty() && parts.back().to == stops[i])
       parts.back().to = stops[i + 1];
     else

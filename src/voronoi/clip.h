@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "medial/axis.h"
@@ -9,19 +10,22 @@
 
 namespace medial::voronoi {
 
-/// The part of an edge from parameter `from` to `to`.
-struct ClippedPart {
-  double from = 0, to = 1;
-};
-
-/// An edge as a curve: rational quadratic, end weights 1.
+/// An edge as a curve: rational quadratic, end weights 1. Its parameter is t / (1 - t) for the
+/// usual t from 0 to 1: where the control point weighs much, most of the curve is next to the ends,
+/// and t would lose its digits at one of them.
 struct ConicEdge {
+  static constexpr double last = std::numeric_limits<double>::infinity();
   Disk from, control, to;
   double weight = 1;
 
-  Disk at(double t) const;
+  Disk at(double s) const;
   /// The part between two parameters as a curve of the same kind, exactly.
   ConicEdge part(double begin, double end) const;
+};
+
+/// The part of an edge from one parameter to another.
+struct ClippedPart {
+  double from = 0, to = ConicEdge::last;
 };
 
 /// The parts of an edge strictly inside a box, in order: none, all of it, or several.

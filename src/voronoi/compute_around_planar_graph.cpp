@@ -214,17 +214,44 @@ Error explained(Error error, const PlanarGraph& planar_graph, double tolerance) 
   return error;
 }
 
-/// Points next to arcs, or in their centres, may mislead the walk: such a diagram is measured. An
-/// error where the certificate refuses it.
+/// Whether two arcs that end in one point lie on one circle, or nearly so. O(n).
+bool has_arcs_of_one_circle(const PlanarGraph& planar_graph) {
+  constexpr double near = 1e-6;  // of the radius
+  struct Circle {
+    Vec2 center;
+    double radius = 0;
+  };
+  std::vector<Circle> last(planar_graph.points.size());  // of the arcs at a point
+  for (const PlanarGraphEdge& edge : planar_graph.edges) {
+    if (edge.bulge == 0) continue;
+    const BulgeArc arc{planar_graph.points[edge.from], planar_graph.points[edge.to], edge.bulge};
+    const double radius = 1 / curvature(arc);
+    const Circle own{arc.start + radius * left_of(start_tangent(arc)), std::abs(radius)};
+    for (const std::uint32_t point : {edge.from, edge.to}) {
+      if (distance(own.center, last[point].center) + std::abs(own.radius - last[point].radius) <=
+          near * own.radius)
+        return true;
+      last[point] = own;
+    }
+  }
+  return false;
+}
+
+/// Points next to arcs, or in their centres, may mislead the walk, and so may the common centre of
+/// arcs that follow each other: such a diagram is measured. An error where the certificate refuses
+/// it.
 std::optional<Error> refused_next_to_arcs(const PlanarGraph& planar_graph,
                                           const VoronoiDiagram& diagram, const Options& options) {
   const bool has_arcs = ranges::any_of(planar_graph.edges,
                                        [](const PlanarGraphEdge& edge) { return edge.bulge != 0; });
   if (!has_arcs) return std::nullopt;
   const auto close = [&] { return too_close(planar_graph, doubtful * diagram.tolerance); };
-  if (planar_graph.lone_points.empty() && !close()) return std::nullopt;
   VerifyOptions demands;
   demands.threads = options.threads;
+  if (planar_graph.lone_points.empty() && !close()) {
+    if (!has_arcs_of_one_circle(planar_graph)) return std::nullopt;
+    demands.samples_per_edge = 1;  // nodes are wrong there, if anything is
+  }
   const VoronoiCertificate certificate = verify(planar_graph, diagram, demands);
   if (certificate.passed) return std::nullopt;
   if (auto error = close()) return error;

@@ -125,11 +125,13 @@ bool EnclosureCut::add(const ConicEdge& curve, std::array<std::uint32_t, 2> site
   // Whether a node is inside is decided for all of its edges alike; where it is so near to the
   // enclosure that an edge saw it otherwise, a part without length makes up for that.
   const bool begins = holds(curve.from.center), ends_inside = holds(curve.to.center);
-  if (begins && ends_inside && parts_.empty()) parts_.push_back({0, 1});
+  if (begins && ends_inside && parts_.empty()) parts_.push_back({});
   if (begins && (parts_.empty() || parts_.front().from > 0)) parts_.insert(parts_.begin(), {0, 0});
-  if (ends_inside && (parts_.empty() || parts_.back().to < 1)) parts_.push_back({1, 1});
+  if (ends_inside && (parts_.empty() || parts_.back().to < ConicEdge::last))
+    parts_.push_back({ConicEdge::last, ConicEdge::last});
   for (const ClippedPart& part : parts_) {
-    const bool from_node = begins && part.from == 0, to_node = ends_inside && part.to == 1;
+    const bool from_node = begins && part.from == 0,
+               to_node = ends_inside && part.to == ConicEdge::last;
     const bool whole = from_node && to_node && part.from < part.to;
     if (whole) {
       diagram_.edges.push_back(
