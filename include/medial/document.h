@@ -41,8 +41,7 @@ struct DocumentInfo {
   std::vector<std::string> notes;      ///< changes by repair or reprojection, one sentence each
   std::vector<std::uint64_t> indices;  ///< of items in the file; empty if none was left out
   std::vector<std::string> texts;      ///< names of attributes that are text, even if all digits
-  double corner_angle = 0;             ///< suitable Options::corner_angle; 0: the default
-  double arc_tolerance = 0;            ///< suitable distance of arcs from curves; 0: the default
+  double corner_angle = 0, arc_tolerance = 0;  ///< suitable for Options, ArcOptions; 0: defaults
   std::uint64_t index_of(std::size_t i) const { return indices.empty() ? i : indices[i]; }
 };
 
