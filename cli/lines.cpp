@@ -123,9 +123,9 @@ void note_places_outside(const Document<AxisItem>& file, const PathOptions& argu
 void add_path_options(CLI::App& command, PathOptions& arguments) {
   CLI::Option* from = command.add_option(
       "--from", arguments.from,
-      "Where the line begins: at a point X,Y, or in the middle of the side that starts\n"
-      "at RING/VERTEX of the input. With --to, replaces the two ends that are farthest\n"
-      "apart.");
+      "Where the line begins: at a point X,Y (with --project, in its plane), or in the\n"
+      "middle of the side that starts at RING/VERTEX of the input. With --to, replaces\n"
+      "the two ends that are farthest apart.");
   CLI::Option* to = command.add_option("--to", arguments.to, "Where the line ends.");
   CLI::Option* widest = command.add_option(
       "--widest", arguments.widest,
