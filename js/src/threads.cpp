@@ -60,6 +60,7 @@ MEDIAL_JS void _initialize() { __wasm_call_ctors(); }
 /// In a new worker, which has set its instance's stack.
 MEDIAL_JS void medial_run_thread(pthread_t thread, void* (*begin)(void*), void* given) {
   become(thread, false, true);
+  pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, nullptr);  // or it would wake ten times a second
   begin(given);
 }
 
