@@ -319,8 +319,7 @@ BoundaryTree::Hit BoundaryTree::nearest(Vec2 c, double reach, std::uint32_t firs
       }
     }
     for (; from <= to; ++from, ++site)
-      if (!is_out_of_reach(*site, c, reach))
-        take_if_nearer(from, site::squared_distance(*site, c));
+      if (!is_out_of_reach(*site, c, reach)) take_if_nearer(from, site::squared_distance(*site, c));
     if (hit.squared_distance < before) reach = std::sqrt(hit.squared_distance);
   });
   return hit;
