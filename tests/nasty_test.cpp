@@ -426,7 +426,7 @@ TEST(Gear, IsMeasuredInsteadOfDecided) {
   EXPECT_TRUE(verify(*shape, *axis, {.threads = 1}).passed);
 }
 
-/// Both feet of a disk between two teeth pass on at once, but for rounding.
+/// Both feet of a disk between two teeth pass on at once, up to rounding.
 TEST(Gears, HaveNoEdgeOfRoundingLength) {
   const NastyClass& gears = class_of("gears");
   for (const std::uint64_t seed : {1U, 4U, 27U, 36U, 41U, 43U}) {
