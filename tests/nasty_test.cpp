@@ -423,6 +423,22 @@ TEST(Gear, IsMeasuredInsteadOfDecided) {
   EXPECT_TRUE(verify(*shape, *axis, {.threads = 1}).passed);
 }
 
+/// Both feet of a disk between two teeth pass on at once, up to rounding.
+TEST(Gears, HaveNoEdgeOfRoundingLength) {
+  const NastyClass& gears = class_of("gears");
+  for (const std::uint64_t seed : {1U, 4U, 27U, 36U, 41U, 43U}) {
+    const auto shape = build_shape(nasty_shape(gears, 20261215400000000U + seed, false));
+    ASSERT_TRUE(shape) << to_string(shape.error());
+    const auto axis = compute(*shape, {.threads = 1});
+    ASSERT_TRUE(axis) << to_string(axis.error());
+    for (const Edge& edge : axis->edges)
+      EXPECT_GT(
+          distance(axis->nodes[edge.node[0]].disk.center, axis->nodes[edge.node[1]].disk.center),
+          0.2 * axis->tolerance)
+          << "seed " << seed;
+  }
+}
+
 /// The inner vertices of a regular star touch one disk: near ones leave its place open, all of them
 /// do not.
 TEST(RegularStar, IsOneTieDecidedInDouble) {
