@@ -460,6 +460,31 @@ TEST(RegularStar, IsOneTieDecidedInDouble) {
     }
 }
 
+/// So they are at random angles, with some of them next to each other: no nearer than 2^14
+/// tolerances, whose bisector passes beside the centre by a small share of the radius.
+TEST(RandomStar, IsOneTieDecidedInDouble) {
+  Random random(7);
+  std::vector<double> angles;
+  for (int i = 0; i < 400; ++i) angles.push_back(random.between(0, 2 * std::numbers::pi));
+  for (const double beside : {1e-9, 1e-8, 1e-7}) angles.push_back(angles[0] + beside);
+  std::sort(angles.begin(), angles.end());
+  Ring ring;
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    const double angle = angles[i];
+    const double next = i + 1 < angles.size() ? angles[i + 1] : angles[0] + 2 * std::numbers::pi;
+    ring.points.push_back(0.5 * Vec2{std::cos(angle), std::sin(angle)});
+    const double middle = 0.5 * (angle + next);
+    ring.points.push_back({std::cos(middle), std::sin(middle)});
+  }
+  const auto shape = build_shape(Rings{ring});
+  ASSERT_TRUE(shape) << to_string(shape.error());
+  const auto axis = compute(*shape, {.threads = 1});
+  ASSERT_TRUE(axis) << to_string(axis.error());
+  EXPECT_LE(axis->statistics.exact_twofold + axis->statistics.exact_precise, 4U);
+  EXPECT_EQ(axis->nodes.size(), 2 * angles.size() + 1);
+  EXPECT_TRUE(verify(*shape, *axis, {.threads = 1}).passed);
+}
+
 // ---- Classes.
 
 /// How many of a thousand shapes of a class may fail: none where it is mended.
