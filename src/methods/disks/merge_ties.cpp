@@ -480,12 +480,15 @@ class Merger {
     if (tie_sites_.exact == nullptr) return std::nullopt;
     const Disk& about = graph_.nodes[node].disk;
     std::vector<std::uint32_t> sites;  // of several pieces of one site, one
-    for (const Touch& contact : contacts_[place_of(node)])
-      if (ranges::none_of(sites, [&](std::uint32_t other) {
+    for (const Touch& contact : contacts_[place_of(node)]) {
+      if (ranges::any_of(sites, [&](std::uint32_t other) {
             return boundary_.originals[other] == boundary_.originals[contact.site];
           }))
-        sites.push_back(contact.site);
-    if (sites.size() != 3) return std::nullopt;
+        continue;
+      if (sites.size() == 3) return std::nullopt;
+      sites.push_back(contact.site);
+    }
+    if (sites.size() < 3) return std::nullopt;
     // Where pieces lie on two sides of a bridge their order is open.
     for (int order = 0; order < 2; ++order, std::swap(sites[1], sites[2])) {
       const auto disk = tie_sites_.exact->disk_of<Real>({sites[0], sites[1], sites[2]});
