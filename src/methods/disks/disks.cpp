@@ -87,7 +87,8 @@ std::vector<std::uint32_t> all_pieces(const Boundary& boundary,
 }
 
 /// Connects the holes of the boundary, walks it, and joins what the walk finds. Nothing where the
-/// caller cancels, and where contacts are separated too coarsely.
+/// caller cancels, where sites of a polygon are lost, and where contacts are separated too
+/// coarsely.
 std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers,
                               double walk_tolerance, const Way& way, Boundary& boundary,
                               Statistics& statistics, Findings& findings) {
@@ -116,7 +117,7 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   if (problem.is_cancelled()) return std::nullopt;
   findings.too_coarse = in_centers;
   for (const auto& chunk : chunks) find_lost(*chunk, findings.lost);
-  if (findings.too_coarse) return std::nullopt;
+  if (findings.too_coarse || (!findings.lost.empty() && !boundary.has_arcs)) return std::nullopt;
 
   // A diagram has nodes for a planar graph's points, and edges that lead there, as well.
   const std::size_t spare_nodes = boundary.two_sided ? problem.shape.points.size() : 0;
@@ -124,7 +125,7 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   const double tolerance = problem.local_tolerance();
   merge_ties(boundary, tree, takes_exact ? &sites : nullptr, tolerance, graph);
   // Edges may be right beside others that are missing: a planar graph's diagram is not measured.
-  if (!findings.lost.empty() && boundary.has_arcs && !boundary.two_sided &&
+  if (!findings.lost.empty() && !boundary.two_sided &&
       is_right_around(boundary, tree, graph, all_pieces(boundary, findings.lost), tolerance))
     findings.lost.clear();
   statistics.seconds_collect = watch.lap();
@@ -214,72 +215,108 @@ Result<MedialAxis> attempt(const Problem& problem, const SiteNumbers& own_number
   return axis;
 }
 
-/// Whether walking a shape in 256 bits takes seconds.
-bool takes_long(const Shape& shape) {
-  constexpr std::size_t of_arcs = 1 << 10, of_segments = 1 << 14;
-  return shape.points.size() > (has_arcs(shape) ? of_arcs : of_segments);
+/// Whether the disks of all edges touch their sites to the tolerance: where all of an axis is some
+/// tolerances long, contracting ties may move them further.
+bool touches_all_sites(const MedialAxis& axis) {
+  return ranges::all_of(
+      axis.edges, [&](const Edge& edge) { return touches_its_sites(axis, edge, axis.tolerance); });
 }
 
-/// What to try after a walk that lost its way at these sites, or anywhere if there are none, or
-/// failed: joints of arcs as they stand around the sites, then 256 bits and all such joints in
-/// their components; first of all, 256 bits where double alone decided in the centres of arcs. None
+/// Marks points along the boundary, so many on both sides of each of these sites.
+std::vector<bool> points_around(const Problem& problem, const std::vector<std::uint32_t>& sites,
+                                std::size_t around) {
+  const std::vector<std::uint32_t>& edge = problem.numbers().edge;
+  std::vector<bool> marked(edge.size(), false);
+  for (const std::uint32_t site : sites) {
+    const auto point = static_cast<std::size_t>(ranges::lower_bound(edge, site) - edge.begin());
+    const auto& begin = problem.shape.loop_begin;
+    const auto loop = std::upper_bound(begin.begin(), begin.end(), point) - 1;
+    const std::size_t size = loop[1] - loop[0];
+    for (std::size_t i = 0; i <= std::min(2 * around, size); ++i)
+      marked[loop[0] + (point - loop[0] + size + i - std::min(around, size)) % size] = true;
+  }
+  return marked;
+}
+
+/// Marks the components of these sites, and all of their points.
+void mark_components(const Problem& problem, const std::vector<std::uint32_t>& sites, Way& way) {
+  const Shape& shape = problem.shape;
+  const std::vector<bool> points = points_around(problem, sites, 0);
+  way.in_precise.assign(shape.component_count(), sites.empty());
+  way.parted.assign(shape.points.size(), false);
+  for (const bool marks_points : {false, true})
+    for (std::size_t loop = 0; loop < shape.loop_count(); ++loop)
+      for (std::size_t i = shape.loop_begin[loop]; i < shape.loop_begin[loop + 1]; ++i)
+        if (marks_points)
+          way.parted[i] = way.in_precise[shape.component[loop]];
+        else if (points[i])
+          way.in_precise[shape.component[loop]] = true;
+}
+
+/// What has been tried, and what to try next.
+struct Attempts {
+  int parted = 0;
+  bool in_precise = false, in_double = false;
+};
+
+/// What to try after an attempt that lost its way at these sites, or failed: joints of arcs as they
+/// stand around the sites, in ever more of them; 256 bits in their components; double only, which
+/// comes before where so many sites would take seconds, and first in the centres of arcs. None
 /// where all has been tried.
 std::optional<Way> next_way(const Problem& problem, const Way& last,
-                            const std::vector<std::uint32_t>& lost) {
-  constexpr std::size_t around = 4;  // points on both sides
+                            const std::vector<std::uint32_t>& lost, Attempts& attempts) {
+  constexpr int most_parted = 3;
+  constexpr std::size_t around = 4;
   Way way;
   way.in_centers = last.in_centers;
-  if (last.in_double) return way;
-  if (!last.in_precise.empty()) return std::nullopt;
-  const Shape& shape = problem.shape;
-  const bool only_parts = has_arcs(shape) && last.parted.empty() && !lost.empty();
-  way.parted = last.parted;
-  way.parted.resize(shape.points.size());
-  std::vector<bool> components(shape.component_count(), lost.empty());
-  const std::vector<std::uint32_t>& edge = problem.numbers().edge;
-  const auto& begin = shape.loop_begin;
-  for (const std::uint32_t site : lost) {
-    const auto point = static_cast<std::size_t>(ranges::lower_bound(edge, site) - edge.begin());
-    const auto loop = std::upper_bound(begin.begin(), begin.end(), point) - 1;
-    components[shape.component[static_cast<std::size_t>(loop - begin.begin())]] = true;
-    const std::size_t size = loop[1] - loop[0], most = std::min(around, size);
-    for (std::size_t i = 0; only_parts && i <= 2 * most; ++i)
-      way.parted[loop[0] + (point - loop[0] + size + i - most) % size] = true;
+  const bool with_arcs = has_arcs(problem.shape);
+  if (last.in_centers && last.in_double) return way;
+  const bool goes_on = !attempts.in_precise && (last.in_centers || !attempts.in_double);
+  if (goes_on && with_arcs && !lost.empty() && attempts.parted < most_parted) {
+    way.parted = points_around(problem, lost, around << (2 * attempts.parted++));
+    for (std::size_t i = 0; i < last.parted.size(); ++i)
+      if (last.parted[i]) way.parted[i] = true;
+    return way;
   }
-  if (only_parts) return way;
-  for (std::size_t loop = 0; loop < shape.loop_count(); ++loop)
-    if (components[shape.component[loop]])
-      std::fill(way.parted.begin() + begin[loop], way.parted.begin() + begin[loop + 1], true);
-  way.in_precise = std::move(components);
+  if (attempts.in_precise && attempts.in_double) return std::nullopt;
+  mark_components(problem, lost, way);
+  const std::ptrdiff_t long_time = with_arcs ? 1 << 10 : 1 << 14;
+  const bool takes_long = std::count(way.parted.begin(), way.parted.end(), true) > long_time;
+  if (!attempts.in_precise && (attempts.in_double || !takes_long)) {
+    attempts.in_precise = true;
+    return way;
+  }
+  attempts.in_double = way.in_double = true;
+  way.parted.clear();
+  way.in_precise.clear();
   return way;
 }
 
 /// The axis of a shape, walked as it is.
 Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbers) {
-  const bool with_arcs = has_arcs(problem.shape);
+  Attempts attempts;
   std::optional<Error> error;
   for (std::optional<Way> way = Way{}; way;) {
-    const bool is_first = !way->in_centers && way->parted.empty() && way->in_precise.empty();
+    const bool is_first = attempts.parted == 0 && !attempts.in_precise && !attempts.in_double;
     std::vector<Edge> edges;
     Findings findings;
     Result<MedialAxis> axis = attempt(problem, numbers, false, *way, edges, findings);
     if (findings.too_coarse) {
       // All that is left open there is mostly one node: what double makes of it is measured.
-      way->in_double = way->in_centers = true;
+      way->in_double = way->in_centers = attempts.in_double = true;
       continue;
     }
     if (axis) {
       axis->edges = std::move(edges);
-      const bool is_certain = findings.lost.empty() && (is_first || !with_arcs);
+      const bool is_certain = findings.lost.empty() &&
+                              (!way->in_centers || touches_all_sites(*axis)) &&
+                              (is_first || (!way->in_double && !has_arcs(problem.shape)));
       if (is_certain || problem.is_cancelled()) return axis;
     }
-    // A polygon whose first walk lost its way is measured only if another one takes seconds.
-    if (with_arcs || !is_first || takes_long(problem.shape)) {
-      auto refused = axis ? error_if_refused(problem, *axis) : axis.error();
-      if (!refused) return axis;
-      if (!error || axis) error = std::move(refused);
-    }
-    way = next_way(problem, *way, findings.lost);
+    auto refused = axis ? error_if_refused(problem, *axis) : axis.error();
+    if (!refused) return axis;
+    if (!error || axis) error = std::move(refused);
+    way = next_way(problem, *way, findings.lost, attempts);
   }
   return std::move(*error);
 }
@@ -287,7 +324,9 @@ Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbe
 template <class E>
 TwoSided run_two_sided_in_place(const Problem& problem, const SiteNumbers& numbers,
                                 std::vector<E>& edges) {
+  Attempts attempts;
   Way way;
+  way.in_double = !has_exact;
   for (;;) {
     edges.clear();
     Findings findings;
@@ -296,9 +335,9 @@ TwoSided run_two_sided_in_place(const Problem& problem, const SiteNumbers& numbe
       way.in_centers = true;
       continue;
     }
-    if (axis && findings.lost.empty()) return {std::move(*axis), has_exact};
-    std::optional<Way> next = next_way(problem, way, findings.lost);
-    if (!next || takes_long(problem.shape)) {
+    if (axis && findings.lost.empty()) return {std::move(*axis), !way.in_double};
+    std::optional<Way> next = next_way(problem, way, findings.lost, attempts);
+    if (!next) {
       if (axis) return {std::move(*axis), false};
       edges.clear();
       return {};
