@@ -338,6 +338,7 @@ Result<int> run_centreline(const CentrelineArguments& arguments) {
   Status writable =
       check_output(arguments, arguments.collapse > 0 ? collapse_formats
                                                      : io::formats_of(io::DocumentKind::axes));
+  if (writable) writable = check_places(arguments.path, input);
   if (!writable) return std::move(writable).error();
   const auto streamed = stream_centreline(arguments);
   if (!streamed) return streamed.error();

@@ -552,6 +552,7 @@ Result<int> run_measure(const MeasureArguments& given) {
     writable = check_output(arguments.plot, {}, ".svg .png .pdf", input.path, common.json);
   if (writable && !arguments.plot.empty() && name_one_file(arguments.plot, arguments.output))
     writable = invalid_option("--plot and -o name the same file");
+  if (writable) writable = check_places(arguments.path, input);
   if (!writable) return std::move(writable).error();
   // Layers without any would be empty.
   if (arguments.transects == 0 && arguments.spacing == 0 && arguments.necks == 0 &&
