@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -293,11 +294,21 @@ Result<int> run_collapse(LoadedAxes axes, const CentrelineArguments& arguments) 
                 axes.phases, arguments.common.quiet ? std::string() : line);
 }
 
-void keep_clearance(Document<AxisItem>& file, double clearance) {
+/// Returns whether anything is left.
+bool keep_clearance(Document<AxisItem>& file, double clearance) {
+  bool any = false;
   for (AxisItem& item : file.items) {
     item.axis = clearance_part(item.axis, clearance);
     item.part = true;
+    any = any || !item.axis.nodes.empty();
   }
+  return any;
+}
+
+void note_if_empty(bool any, const CentrelineArguments& arguments) {
+  if (any || arguments.common.quiet) return;
+  say("medial: {}: note: the result is empty: no shape is wide enough for a disk of that radius\n",
+      arguments.input.path);
 }
 
 /// The same for a file of many features, part by part; nothing if that is impossible.
@@ -313,8 +324,9 @@ Result<std::optional<int>> stream_centreline(const CentrelineArguments& argument
   };
   const auto line = [&] { return describe(sum(), arguments); };
   const bool lines = !arguments.all && arguments.clearance == 0;
+  std::atomic<bool> any = arguments.clearance == 0;
   const auto change = [&](Document<AxisItem>& part) -> Status {
-    if (arguments.clearance > 0) keep_clearance(part, arguments.clearance);
+    if (arguments.clearance > 0 && keep_clearance(part, arguments.clearance)) any = true;
     if (arguments.all) return make_networks(part, arguments, 1);
     if (!lines) return success();
     const auto paths = choose_paths(part, arguments.path, 1);
@@ -330,6 +342,7 @@ Result<std::optional<int>> stream_centreline(const CentrelineArguments& argument
   auto done = stream_axes(arguments, arguments.input, arguments.options, change,
                           lines ? line : std::function<std::string()>());
   if (lines && done && *done) note_what_is_left_out(sum(), arguments);
+  if (done && *done) note_if_empty(any, arguments);
   return done;
 }
 
@@ -349,7 +362,7 @@ Result<int> run_centreline(const CentrelineArguments& arguments) {
   if (!axes) return std::move(axes).error();
   if (arguments.collapse > 0) return run_collapse(std::move(axes).value(), arguments);
   if (arguments.clearance > 0) {
-    keep_clearance(axes->file, arguments.clearance);
+    note_if_empty(keep_clearance(axes->file, arguments.clearance), arguments);
     return finish_axes(*axes, arguments);
   }
   if (arguments.all) {
