@@ -113,6 +113,7 @@ Result<Packed> pack_axes(Document<AxisItem>& axes, double bound) {
     io::PackFile file;
     file.code = std::move(code).value();
     file.crs_wkt = axes.crs_wkt;
+    file.unit = axes.unit;
     file.y_down = axes.y_down;
     auto bytes = io::pack_bytes(file);
     if (!bytes) return std::move(bytes).error();

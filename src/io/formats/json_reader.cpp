@@ -296,9 +296,14 @@ double corner_angle_from(double degrees) {
   return degrees;
 }
 
+std::optional<Unit> stored_unit(std::string_view name) {
+  for (const Unit unit : {Unit::pixel, Unit::degree})
+    if (name == name_of(unit)) return unit;
+  return unit_of(name);
+}
+
 Unit unit_from(const std::string& name) {
-  if (name == name_of(Unit::pixel)) return Unit::pixel;
-  const auto unit = unit_of(name);
+  const auto unit = stored_unit(name);
   demand(unit.has_value(), "an unknown unit");
   return *unit;
 }

@@ -174,7 +174,8 @@ void put_head(Target& target, const Document<Item>& file) {
                     });
   put_member(out, "{\"medial\":", arcs ? native_version : 1);
   if (!file.crs_wkt.empty()) put_member(out, ",\n\"crs\":", file.crs_wkt);
-  put_unit(target);
+  // Also where the reference system has it: not every reader understands those.
+  if (file.unit != Unit::unknown) put_member(out, ",\n\"unit\":", name_of(file.unit));
   if (file.y_down) out.put(",\n\"y_down\":true");
   if (file.corner_angle > 0) put_member(out, ",\n\"corner_angle\":", file.corner_angle);
   if (!file.texts.empty()) {
