@@ -151,7 +151,8 @@ std::string describe(const LineSums& sums, const CentrelineArguments& arguments)
   return line;
 }
 
-Json json_of(const std::vector<AxisPath>& paths, const Attributes& attributes) {
+Json json_of(const std::vector<AxisPath>& paths, std::uint64_t feature,
+             const Attributes& attributes) {
   Json list = Json::array();
   for (const AxisPath& path : paths) {
     list.push_back({{"length", path.length},
@@ -159,7 +160,7 @@ Json json_of(const std::vector<AxisPath>& paths, const Attributes& attributes) {
                     {"closed", path.closed},
                     {"gap", path.gap}});
   }
-  return {{"lines", std::move(list)}, {"attributes", to_json(attributes)}};
+  return {{"feature", feature}, {"lines", std::move(list)}, {"attributes", to_json(attributes)}};
 }
 
 Result<int> finish_lines(const Paths& paths, const LineSums& sums, const LoadedAxes& axes,
@@ -168,7 +169,8 @@ Result<int> finish_lines(const Paths& paths, const LineSums& sums, const LoadedA
   if (!arguments.output.empty()) object["output"] = arguments.output;
   object["features"] = Json::array();
   for (std::size_t i = 0; i < paths.size(); ++i)
-    object["features"].push_back(json_of(paths[i], axes.file.items[i].attributes));
+    object["features"].push_back(
+        json_of(paths[i], axes.file.index_of(i), axes.file.items[i].attributes));
   return finish(arguments, std::move(object), axes.phases, describe(sums, arguments));
 }
 

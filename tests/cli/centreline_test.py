@@ -129,7 +129,7 @@ class Measure(CommandLine):
         disks = ["measure", "rectangle.wkt", "--disks", "3"]
         all_of_it = json.loads(self.succeed(*disks, "--necks", "5", "--json").stdout)["features"][0]
         done = json.loads(self.succeed(*disks, "--json", "--stats").stdout)
-        self.assertEqual(done["features"], [{"attributes": {}, "disks": all_of_it["disks"]}])
+        self.assertEqual(done["features"], [{"feature": 0, "attributes": {}, "disks": all_of_it["disks"]}])
         self.assertNotIn("axis", done["seconds"])
         rows = self.succeed(*disks).stdout.decode().splitlines()
         self.assertEqual([row.split()[-5] for row in rows], ["r"] * 3)

@@ -86,6 +86,7 @@ void put_column_heads(Target& target, const DocumentInfo& file, const Tables& ta
   if (file.unit != Unit::unknown) about["unit"] = name_of(file.unit);
   if (file.y_down) about["y_down"] = "true";
   if (file.corner_angle > 0) about["corner_angle"] = ordered_json(file.corner_angle).dump();
+  if (!file.indices.empty()) about["features"] = ordered_json(file.indices).dump();
   if (!file.texts.empty()) about["texts"] = ordered_json(file.texts).dump();
   ordered_json whole{{"__metadata__", about}};
   whole.update(header);
