@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -150,7 +151,8 @@ std::string describe(const LineSums& sums, const CentrelineArguments& arguments)
   return line;
 }
 
-Json json_of(const std::vector<AxisPath>& paths, const Attributes& attributes) {
+Json json_of(const std::vector<AxisPath>& paths, std::uint64_t feature,
+             const Attributes& attributes) {
   Json list = Json::array();
   for (const AxisPath& path : paths) {
     list.push_back({{"length", path.length},
@@ -158,7 +160,7 @@ Json json_of(const std::vector<AxisPath>& paths, const Attributes& attributes) {
                     {"closed", path.closed},
                     {"gap", path.gap}});
   }
-  return {{"lines", std::move(list)}, {"attributes", to_json(attributes)}};
+  return {{"feature", feature}, {"lines", std::move(list)}, {"attributes", to_json(attributes)}};
 }
 
 Result<int> finish_lines(const Paths& paths, const LineSums& sums, const LoadedAxes& axes,
@@ -167,7 +169,8 @@ Result<int> finish_lines(const Paths& paths, const LineSums& sums, const LoadedA
   if (!arguments.output.empty()) object["output"] = arguments.output;
   object["features"] = Json::array();
   for (std::size_t i = 0; i < paths.size(); ++i)
-    object["features"].push_back(json_of(paths[i], axes.file.items[i].attributes));
+    object["features"].push_back(
+        json_of(paths[i], axes.file.index_of(i), axes.file.items[i].attributes));
   return finish(arguments, std::move(object), axes.phases, describe(sums, arguments));
 }
 
@@ -293,11 +296,21 @@ Result<int> run_collapse(LoadedAxes axes, const CentrelineArguments& arguments) 
                 axes.phases, arguments.common.quiet ? std::string() : line);
 }
 
-void keep_clearance(Document<AxisItem>& file, double clearance) {
+/// Returns whether anything is left.
+bool keep_clearance(Document<AxisItem>& file, double clearance) {
+  bool any = false;
   for (AxisItem& item : file.items) {
     item.axis = clearance_part(item.axis, clearance);
     item.part = true;
+    any = any || !item.axis.nodes.empty();
   }
+  return any;
+}
+
+void note_if_empty(bool any, const CentrelineArguments& arguments) {
+  if (any || arguments.common.quiet) return;
+  say("medial: {}: note: the result is empty: no shape is wide enough for a disk of that radius\n",
+      arguments.input.path);
 }
 
 /// The same for a file of many features, part by part; nothing if that is impossible.
@@ -313,8 +326,9 @@ Result<std::optional<int>> stream_centreline(const CentrelineArguments& argument
   };
   const auto line = [&] { return describe(sum(), arguments); };
   const bool lines = !arguments.all && arguments.clearance == 0;
+  std::atomic<bool> any = arguments.clearance == 0;
   const auto change = [&](Document<AxisItem>& part) -> Status {
-    if (arguments.clearance > 0) keep_clearance(part, arguments.clearance);
+    if (arguments.clearance > 0 && keep_clearance(part, arguments.clearance)) any = true;
     if (arguments.all) return make_networks(part, arguments, 1);
     if (!lines) return success();
     const auto paths = choose_paths(part, arguments.path, 1);
@@ -330,6 +344,7 @@ Result<std::optional<int>> stream_centreline(const CentrelineArguments& argument
   auto done = stream_axes(arguments, arguments.input, arguments.options, change,
                           lines ? line : std::function<std::string()>());
   if (lines && done && *done) note_what_is_left_out(sum(), arguments);
+  if (done && *done) note_if_empty(any, arguments);
   return done;
 }
 
@@ -338,6 +353,7 @@ Result<int> run_centreline(const CentrelineArguments& arguments) {
   Status writable =
       check_output(arguments, arguments.collapse > 0 ? collapse_formats
                                                      : io::formats_of(io::DocumentKind::axes));
+  if (writable) writable = check_places(arguments.path, input);
   if (!writable) return std::move(writable).error();
   const auto streamed = stream_centreline(arguments);
   if (!streamed) return streamed.error();
@@ -348,7 +364,7 @@ Result<int> run_centreline(const CentrelineArguments& arguments) {
   if (!axes) return std::move(axes).error();
   if (arguments.collapse > 0) return run_collapse(std::move(axes).value(), arguments);
   if (arguments.clearance > 0) {
-    keep_clearance(axes->file, arguments.clearance);
+    note_if_empty(keep_clearance(axes->file, arguments.clearance), arguments);
     return finish_axes(*axes, arguments);
   }
   if (arguments.all) {

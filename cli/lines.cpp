@@ -99,15 +99,33 @@ std::size_t feature_of(const Document<AxisItem>& file, const NamedPlace& place) 
   return best;
 }
 
+/// As they were given.
+std::vector<std::string> places_of(const PathOptions& arguments) {
+  std::vector<std::string> texts = arguments.widest;
+  for (const std::string& text : {arguments.from, arguments.to})
+    if (!text.empty()) texts.push_back(text);
+  return texts;
+}
+
 }  // namespace
+
+Status check_places(const PathOptions& arguments, const InputOptions& input) {
+  if (!input.source.read.project) return success();
+  for (const std::string& text : places_of(arguments)) {
+    if (!named(text)->point) continue;
+    return invalid_option(
+        fmt::format("--project cannot be used with the place {}, as the projection is not known in "
+                    "advance: name a side as RING/VERTEX, or project the file first (ogr2ogr "
+                    "-t_srs) and give its coordinates",
+                    text));
+  }
+  return success();
+}
 
 void note_places_outside(const Document<AxisItem>& file, const PathOptions& arguments,
                          const FileArguments& files) {
   if (files.common.quiet) return;
-  std::vector<std::string> texts = arguments.widest;
-  for (const std::string& text : {arguments.from, arguments.to})
-    if (!text.empty()) texts.push_back(text);
-  for (const std::string& text : texts) {
+  for (const std::string& text : places_of(arguments)) {
     const NamedPlace place = *named(text);
     if (!place.point || std::ranges::any_of(file.items, [&](const AxisItem& item) {
           return item.axis.exterior > 0 || clearance(item.shape, *place.point) >= 0;
@@ -123,9 +141,9 @@ void note_places_outside(const Document<AxisItem>& file, const PathOptions& argu
 void add_path_options(CLI::App& command, PathOptions& arguments) {
   CLI::Option* from = command.add_option(
       "--from", arguments.from,
-      "Where the line begins: at a point X,Y (with --project, in its plane), or in the\n"
-      "middle of the side that starts at RING/VERTEX of the input. With --to, replaces\n"
-      "the two ends that are farthest apart.");
+      "Where the line begins: at a point X,Y, or in the middle of the side that starts\n"
+      "at RING/VERTEX of the input (with --project only there). With --to, replaces the\n"
+      "two ends that are farthest apart.");
   CLI::Option* to = command.add_option("--to", arguments.to, "Where the line ends.");
   CLI::Option* widest = command.add_option(
       "--widest", arguments.widest,

@@ -26,6 +26,9 @@ void add_path_options(CLI::App& command, PathOptions& arguments);
 Result<std::vector<std::vector<AxisPath>>> choose_paths(const Document<AxisItem>& file,
                                                         const PathOptions& arguments, int threads);
 
+/// Refuses places X,Y in what is projected: nobody knows its coordinates before it is read.
+Status check_places(const PathOptions& arguments, const InputOptions& input);
+
 /// A note on each named place that lies in no shape.
 void note_places_outside(const Document<AxisItem>& file, const PathOptions& arguments,
                          const FileArguments& files);

@@ -530,9 +530,10 @@ Result<int> finish_measure(const std::vector<Measured>& all, const LoadedAxes& a
   std::string text;
   if (common.json) {
     for (std::size_t i = 0; i < all.size(); ++i) {
-      Json one = disks_alone
+      Json one = {{"feature", axes.file.index_of(i)}};
+      one.update(disks_alone
                      ? Json{{"disks", json_of_disks(all[i])}}
-                     : json_of(all[i], arguments.necks > 0 ? arguments.necks : default_necks);
+                     : json_of(all[i], arguments.necks > 0 ? arguments.necks : default_necks));
       one["attributes"] = to_json(axes.file.items[i].attributes);
       object["features"].push_back(std::move(one));
     }
@@ -552,6 +553,7 @@ Result<int> run_measure(const MeasureArguments& given) {
     writable = check_output(arguments.plot, {}, ".svg .png .pdf", input.path, common.json);
   if (writable && !arguments.plot.empty() && name_one_file(arguments.plot, arguments.output))
     writable = invalid_option("--plot and -o name the same file");
+  if (writable) writable = check_places(arguments.path, input);
   if (!writable) return std::move(writable).error();
   // Layers without any would be empty.
   if (arguments.transects == 0 && arguments.spacing == 0 && arguments.necks == 0 &&

@@ -91,7 +91,8 @@ Result<int> run_nearest(const FileArguments& arguments, const NearestArguments& 
   const auto& [input, common, output, format, write] = arguments;
   if (input.source.read.project)
     return invalid_option(
-        "--project cannot be used with places: their projection is not known in advance");
+        "--project cannot be used with places, as the projection is not known in advance: project "
+        "the file first (ogr2ogr -t_srs) and give its coordinates");
   Status writable = check_output(arguments, answer_formats);
   if (writable && !asked.queries.empty())
     writable = check_output(output, format, answer_formats, asked.queries, common.json);

@@ -113,6 +113,7 @@ Result<Packed> pack_axes(Document<AxisItem>& axes, double bound) {
     io::PackFile file;
     file.code = std::move(code).value();
     file.crs_wkt = axes.crs_wkt;
+    file.unit = axes.unit;
     file.y_down = axes.y_down;
     auto bytes = io::pack_bytes(file);
     if (!bytes) return std::move(bytes).error();
@@ -128,6 +129,11 @@ Result<int> run_pack(const PackArguments& arguments) {
   Status writable =
       check_output(output, output == "-" ? "mpk" : "", pack_formats, input, arguments.common.json);
   if (!writable) return std::move(writable).error();
+  if (!arguments.absolute && arguments.error >= 1)
+    return invalid_option(
+        fmt::format("--error {} is a share of the diagonal, which has to be below 1; with "
+                    "--absolute it is in units of the input",
+                    arguments.error));
   if (arguments.squares) return pack_squares(arguments);
   auto axes = load_axes(arguments.input, arguments.common);
   if (!axes) return std::move(axes).error();
@@ -206,7 +212,8 @@ Command make_pack_command(CLI::App& program) {
       ->required();
   CLI::Option* error =
       add_value(*command, "--error", arguments->error, "E", in_range(0, 1e300),
-                "The largest change of the shape, as a share of the diagonal (default: 0.001).");
+                "The largest change of the shape, as a share of the diagonal, below 1 (default:\n"
+                "0.001).");
   command
       ->add_flag("--absolute", arguments->absolute,
                  "--error is in units of the input, or with --squares in pixels.")

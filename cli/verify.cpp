@@ -74,9 +74,13 @@ Certificate merge(const std::vector<Certificate>& certificates, const DocumentIn
   return all;
 }
 
-Json json_of(const Certificate& c) {
+/// `whole`: the axis is not a part and not of the exterior. What is not checked is null.
+Json json_of(const Certificate& c, bool whole) {
   Json object = {{"passed", c.passed}, {"failures", c.failures}};
   each_number([&](const char* name, auto number, bool) { object[name] = c.*number; });
+  if (!whole || c.resolution > 0)
+    for (const char* unchecked : {"largest_uncovered", "shape_area", "disks_area"})
+      object[unchecked] = nullptr;
   object["worst"] = {{"x", c.worst.x}, {"y", c.worst.y}};
   return object;
 }
@@ -309,9 +313,13 @@ Result<int> run_verify(const VerifyArguments& arguments) {
   const Kind kind = kind_of(*stored);
   object["part"] = kind.part;
   object["exterior"] = kind.exterior;
-  object.update(json_of(all));
+  object.update(json_of(all, kind.whole()));
   object["certificates"] = Json::array();
-  for (const Certificate& one : *certificates) object["certificates"].push_back(json_of(one));
+  for (std::size_t i = 0; i < count; ++i) {
+    const AxisItem& item = stored->items[i];
+    object["certificates"].push_back(
+        json_of((*certificates)[i], !item.part && item.axis.exterior == 0));
+  }
   return finish(common, std::move(object), loaded->phases,
                 common.quiet ? std::string() : verdict_table(all, count, kind), {},
                 all.passed ? exit_success : exit_failed_verdict);

@@ -237,6 +237,8 @@ class Carve(CommandLine):
         self.assertEqual(self.lines("s.nc")[-2:], ["M5", "%"])
         self.write("odd.post", "[start]\n{header}\n[tool]\n[cut]\n[end]\nM5 {unknown}\n")
         self.assertIn("{spindle}", self.refuse("invalid_option", *common, "--post", self.path("odd.post"), "-o", "t.nc"))
+        self.write("low.post", "[start]\nG0 Z{safe}\n[tool]\n[cut]\n{spindle}\n[end]\nM5\n")
+        self.assertIn("{safe}", self.refuse("invalid_option", *common, "--post", self.path("low.post"), "-o", "t.nc"))
         self.write("bad.post", "[start]\n")
         self.refuse("invalid_option", *common, "--post", self.path("bad.post"), "-o", "t.nc")
         self.refuse("invalid_option", *common, "--post", "nowhere", "-o", "t.nc")

@@ -37,6 +37,52 @@ class Centreline(CommandLine):
         self.refuse("invalid_option", "centreline", "frame.wkt", "--widest", "1,1", "2,2", "--clearance", "1")
         self.refuse("invalid_option", "centreline", "frame.wkt", "--collapse", "0")
 
+    def test_places_and_projections(self):
+        """Degrees would be taken as metres: only sides can be named, by their numbers."""
+        self.write("g.geojson", GEOGRAPHIC)
+        for command, *places in (("centreline", "--from", "9.01,47.02", "--to", "0/1"),
+                                 ("centreline", "--widest", "0/3", "9.09,47.02"),
+                                 ("measure", "--from", "0/3", "--to", "9.09,47.02")):
+            error = self.refuse("invalid_option", command, "g.geojson", "--project", *places)
+            self.assertIn("RING/VERTEX", error)
+        line = json.loads(self.succeed("centreline", "g.geojson", "--project", "--where", "name = 'east'",
+                                       "--from", "0/3", "--to", "0/1", "--json").stdout)["features"][0]["lines"][0]
+        # Between the disks that touch these sides in their middles: 0.1 degrees less 0.05 of a meridian.
+        self.assertAlmostEqual(line["length"], 2040, delta=20)
+
+    def test_no_room(self):
+        self.write("frame.wkt", FRAME)
+        note = b"note: the result is empty"
+        for radius, empty in (("0.9", False), ("100", True)):
+            arguments = ["centreline", "frame.wkt", "--clearance", radius, "-o", "room.json"]
+            self.assertEqual(note in self.succeed(*arguments).stderr, empty)
+            self.assertEqual(self.succeed(*arguments, "--quiet").stderr, b"")
+        self.write("many.wkt", (RECTANGLE + "\n") * 30000)  # a megabyte: in parts
+        for radius, empty in (("0.9", False), ("100", True)):
+            done = self.succeed("centreline", "many.wkt", "--clearance", radius, "-o", "room.csv")
+            self.assertEqual(note in done.stderr, empty)
+
+    def test_numbers_of_features(self):
+        """Those of the input, also through files, so that results can be joined to it."""
+        self.write("f.wkt", "\n".join([RECTANGLE, *["POLYGON ((0 0, 1 0, 2 0, 0 0))"] * 4, FRAME]))
+
+        def numbers(*arguments):
+            done = self.succeed(*arguments, "--json", "--quiet").stdout
+            return [feature["feature"] for feature in json.loads(done)["features"]]
+
+        for command in (["measure"], ["measure", "--disks", "1"], ["centreline"]):
+            self.assertEqual(numbers(*command, "f.wkt", "--skip-invalid"), [0, 5])
+            self.assertEqual(numbers(*command, self.write("r.wkt", RECTANGLE)), [0])
+        for stored in ("a.json", "a.safetensors"):
+            self.succeed("axis", "f.wkt", "--skip-invalid", "--quiet", "-o", stored)
+            self.assertEqual(numbers("measure", stored), [0, 5])
+            self.succeed("prune", stored, "-o", "p.json", "--quiet")
+            self.assertEqual(numbers("centreline", "p.json"), [0, 5])
+        self.write("many.wkt", "POLYGON ((0 0, 1 0, 2 0, 0 0))\n" + (RECTANGLE + "\n") * 30000)
+        self.succeed("axis", "many.wkt", "--skip-invalid", "--quiet", "-o", "parts.json")
+        self.assertIn(b'"feature":30000,', self.read("parts.json"))
+        self.assertNotIn(b'"feature":0,', self.read("parts.json"))
+
     def test_side_channels(self):
         self.write("river.wkt", "POLYGON((0 0,60 0,60 8,0 8,0 0),(25 2,35 2,35 4,25 4,25 2))")
         line = self.succeed("centreline", "river.wkt", "-o", "line.wkt")
@@ -83,7 +129,7 @@ class Measure(CommandLine):
         disks = ["measure", "rectangle.wkt", "--disks", "3"]
         all_of_it = json.loads(self.succeed(*disks, "--necks", "5", "--json").stdout)["features"][0]
         done = json.loads(self.succeed(*disks, "--json", "--stats").stdout)
-        self.assertEqual(done["features"], [{"attributes": {}, "disks": all_of_it["disks"]}])
+        self.assertEqual(done["features"], [{"feature": 0, "attributes": {}, "disks": all_of_it["disks"]}])
         self.assertNotIn("axis", done["seconds"])
         rows = self.succeed(*disks).stdout.decode().splitlines()
         self.assertEqual([row.split()[-5] for row in rows], ["r"] * 3)

@@ -3,7 +3,7 @@
 import json
 import os
 
-from support import DATA, FRAME, CommandLine
+from support import DATA, FRAME, RECTANGLE, CommandLine
 
 
 class Pack(CommandLine):
@@ -50,6 +50,28 @@ class Pack(CommandLine):
         self.refuse("malformed", "unpack", "damaged.mpk", "-o", "x.json")
         self.refuse("malformed", "unpack", "frame.wkt", "-o", "x.json")
         self.refuse("invalid_option", "pack", "frame.wkt", "-o", "x.mpk", "--error", "0")
+        share = self.refuse("invalid_option", "pack", "frame.wkt", "-o", "x.mpk", "--error", "5")
+        self.assertIn("--absolute", share)
+
+    def test_packs_know_their_unit(self):
+        self.write("r.wkt", RECTANGLE)
+        for unit in ("in", "pixel", "degree", ""):
+            options = ["--units", unit] if unit == "in" else []
+            self.succeed("axis", "r.wkt", *options, "-o", "a.json")
+            if unit not in ("in", ""):
+                axis = json.loads(self.read("a.json"))
+                self.write("a.json", json.dumps({"medial": axis["medial"], "unit": unit, "items": axis["items"]}))
+            self.succeed("pack", "a.json", "-o", "r.mpk")
+            self.succeed("unpack", "r.mpk", "-o", "u.json")
+            self.assertEqual(json.loads(self.read("u.json")).get("unit", ""), unit)
+        content = self.read("r.mpk")
+        self.write("odd.mpk", content[:5] + bytes([content[5] | 16, 3]) + b"ell" + content[6:])
+        self.refuse("malformed", "unpack", "odd.mpk", "-o", "x.json")
+        for command in ("info", "axis", "rebuild"):
+            self.assertIn("medial unpack", self.refuse("unsupported", command, "r.mpk"))
+        self.assertIn("medial unpack", self.refuse("unsupported", "info", "-", given=content))
+        self.write("short.mpk", content[:5] + bytes([content[5] | 16, 99]) + b"mm")
+        self.refuse("malformed", "unpack", "short.mpk", "-o", "x.json")
 
     def test_pack_squares(self):
         """An image of three squares is three squares, without loss."""

@@ -4,7 +4,7 @@ import json
 import struct
 import zlib
 
-from support import CommandLine
+from support import GEOGRAPHIC, CommandLine
 
 BOX = '<svg xmlns="http://www.w3.org/2000/svg" {}><rect width="400" height="200"/></svg>'
 
@@ -96,6 +96,16 @@ class Units(CommandLine):
         self.assertEqual(info["unit"], "us-ft")
         info = json.loads(self.succeed("info", "a.wkt", "--crs", "EPSG:2263", "--output-units", "m", "--json").stdout)
         self.assertAlmostEqual(info["area"], 1e5 * (1200 / 3937) ** 2, 6)
+
+    def test_stored_axes_know_the_unit_of_their_reference_system(self):
+        self.write("p.wkt", "POLYGON ((500000 5000000, 500400 5000000, 500400 5000200, 500000 5000200, 500000 5000000))")
+        self.write("g.geojson", GEOGRAPHIC)
+        for name, *options in (("p.wkt", "--crs", "EPSG:25832"), ("g.geojson", "--project")):
+            for stored in ("a.json", "a.safetensors"):
+                self.succeed("axis", name, *options, "-o", stored)
+                self.assertEqual(json.loads(self.succeed("measure", stored, "--json").stdout)["unit"], "m")
+        self.succeed("axis", "g.geojson", "--quiet", "-o", "a.json")
+        self.assertEqual(json.loads(self.succeed("info", "a.json", "--json", "--quiet").stdout)["unit"], "degree")
 
     def test_images(self):
         self.write("i.png", self.png(0))

@@ -33,6 +33,13 @@ class Verify(CommandLine):
         self.assertAlmostEqual(verdict["shape_area"], 9 * 6 - 3 * 2 + 3, delta=1e-9)
         self.assertEqual(len(verdict["certificates"]), 4)
 
+    def test_what_is_not_checked_is_null(self):
+        self.succeed("prune", "axes.json", "-o", "pruned.json")
+        verdict = json.loads(self.succeed("verify", "shapes.wkt", "pruned.json", "--json").stdout)
+        self.assertTrue(verdict["part"])
+        for one in [verdict, *verdict["certificates"]]:
+            self.assertEqual([one[name] for name in ("shape_area", "disks_area", "largest_uncovered")], [None] * 3)
+
     def test_the_axis_of_another_shape_is_refused(self):
         self.write("moved.wkt", FRAME.replace("3 4, 6 4", "3 5, 6 4") + "\n" + SQUARES)
         done = self.run_medial("verify", "moved.wkt", "axes.json")

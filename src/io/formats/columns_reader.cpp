@@ -199,6 +199,14 @@ Document<AxisItem> read_columns(const ColumnFile& reader) {
       file.texts.push_back(name.get<std::string>());
     }
   }
+  if (const std::string text = reader.about("features"); !text.empty()) {
+    const auto numbers = nlohmann::json::parse(text, nullptr, false);
+    demand(numbers.is_array(), "the numbers of features are missing");
+    for (const auto& number : numbers) {
+      demand(number.is_number_unsigned(), "the number of a feature is none");
+      file.indices.push_back(number.get<std::uint64_t>());
+    }
+  }
   Tables tables;
   const auto methods = nlohmann::json::parse(reader.about("methods"), nullptr, false);
   demand(methods.is_array(), "the methods are missing");
@@ -211,6 +219,8 @@ Document<AxisItem> read_columns(const ColumnFile& reader) {
   visit_short_tables(tables, read);
   check_tables(tables);
   file.items.resize(tables.tolerance.size());
+  demand(file.indices.empty() || file.indices.size() == file.items.size(),
+         "the numbers of features are not one for each");
   const auto column = [&](const auto& of) { read_column(reader, tables, of, file.items); };
   visit_wide_columns(column);
   visit_columns(column);

@@ -111,6 +111,11 @@ Result<PostTemplate> PostTemplate::make(const std::string& name_or_text) {
           fmt::format("a template of G-code has the part {}, one of {}, on a line of its own",
                       part_names[i], fmt::join(part_names, " ")),
           {}};
+  // The first move goes across at the height that this part leaves the tool at.
+  if (result.parts_[PostPart::cut].find("{safe}") == std::string::npos)
+    return Error{ErrorCode::invalid_option,
+                 "the part [cut] of a template of G-code has to lift the tool: G0 Z{safe}",
+                 {}};
   return result;
 }
 

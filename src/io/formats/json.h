@@ -26,6 +26,9 @@ Result<Document<VoronoiItem>> read_voronoi(TextSource& source);
 bool begins_like_safetensors(std::string_view text);
 Result<Document<AxisItem>> read_safetensors(TextSource& source);
 
+/// unit_of(), and what else a stored file may name: pixels of images, degrees.
+std::optional<Unit> stored_unit(std::string_view name);
+
 /// What files in JSON and in columns have in common: they throw Malformed.
 void check_item(const AxisItem& item);
 Unit unit_from(const std::string& name);

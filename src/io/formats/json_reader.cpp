@@ -244,11 +244,13 @@ Contour read_contour(json::value value) {
   return contour;
 }
 
-AxisItem read_item(json::value value) {
+/// `number`: that of the feature, its place in this file unless the file names another.
+AxisItem read_item(json::value value, std::uint64_t& number) {
   AxisItem item;
   Unresolved unresolved;
   read_members(
       value.get_object(),
+      Member{"feature", [&](json::value v) { number = integer<std::uint64_t>(v); }},
       Member{"attributes",
              [&](json::value v) {
                read_attributes(v, "an attribute is not a pair of strings", item.attributes);
@@ -267,8 +269,15 @@ AxisItem read_item(json::value value) {
 
 Document<AxisItem> read_file(json::document& document) {
   Document<AxisItem> file;
-  file.items = read_items(
-      document, "medial", native_version, read_item,
+  bool renumbered = false;
+  const auto read_next = [&](json::value v) {
+    const std::uint64_t place = file.indices.size();
+    AxisItem item = read_item(v, file.indices.emplace_back(place));
+    renumbered = renumbered || file.indices.back() != place;
+    return item;
+  };
+  file.items = read_items<AxisItem>(
+      document, "medial", native_version, read_next,
       Member{"crs", [&](json::value v) { file.crs_wkt = text_of(v); }},
       Member{"unit", [&](json::value v) { file.unit = unit_from(text_of(v)); }},
       Member{"y_down", [&](json::value v) { file.y_down = v.get_bool(); }},
@@ -277,6 +286,7 @@ Document<AxisItem> read_file(json::document& document) {
       Member{"texts", [&](json::value v) {
                for_each(v, [&file](json::value name) { file.texts.push_back(text_of(name)); });
              }});
+  if (!renumbered) file.indices.clear();
   return file;
 }
 
@@ -296,9 +306,14 @@ double corner_angle_from(double degrees) {
   return degrees;
 }
 
+std::optional<Unit> stored_unit(std::string_view name) {
+  for (const Unit unit : {Unit::pixel, Unit::degree})
+    if (name == name_of(unit)) return unit;
+  return unit_of(name);
+}
+
 Unit unit_from(const std::string& name) {
-  if (name == name_of(Unit::pixel)) return Unit::pixel;
-  const auto unit = unit_of(name);
+  const auto unit = stored_unit(name);
   demand(unit.has_value(), "an unknown unit");
   return *unit;
 }

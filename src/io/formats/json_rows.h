@@ -139,9 +139,9 @@ void read_members(Object object, const Member<Reads>&... known) {
 }
 
 /// Reads a file: its version, a whole number from 1 to `newest`, its items, and what else is known.
-template <class Item, class... Reads>
+template <class Item, class ReadItem, class... Reads>
 std::vector<Item> read_items(json::document& document, const char* version, std::uint64_t newest,
-                             Item (*read_item)(json::value), const Member<Reads>&... others) {
+                             const ReadItem& read_item, const Member<Reads>&... others) {
   std::vector<Item> items;
   bool versioned = false, itemized = false;
   read_members(document.get_object(),

@@ -87,7 +87,8 @@ VoronoiItem read_voronoi_item(json::value value) {
 
 Document<VoronoiItem> read_voronoi_file(json::document& document) {
   Document<VoronoiItem> file;
-  file.items = read_items(document, "medial_voronoi", newest_version, read_voronoi_item);
+  file.items =
+      read_items<VoronoiItem>(document, "medial_voronoi", newest_version, read_voronoi_item);
   return file;
 }
 

@@ -81,7 +81,14 @@ bool is_plain(const MedialAxis& axis, const Edge& edge) {
          std::signbit(middle.radius) == std::signbit(edge.control.radius);
 }
 
-void put_attributes_and_shape(OutputStream& out, const Attributes& attributes, const Shape& shape) {
+/// `place` is that in the file, `number` what the input calls the feature: it is written where they
+/// differ.
+void put_attributes_and_shape(OutputStream& out, std::uint64_t place, std::uint64_t number,
+                              const Attributes& attributes, const Shape& shape) {
+  if (number != place) {
+    put_member(out, "\"feature\":", number);
+    out.put(",\n");
+  }
   out.put("\"attributes\":");
   put_attributes(out, attributes);
   out.put(",\n\"shape\":{\"points\":");
@@ -174,7 +181,8 @@ void put_head(Target& target, const Document<Item>& file) {
                     });
   put_member(out, "{\"medial\":", arcs ? native_version : 1);
   if (!file.crs_wkt.empty()) put_member(out, ",\n\"crs\":", file.crs_wkt);
-  put_unit(target);
+  // Also where the reference system has it: not every reader understands those.
+  if (file.unit != Unit::unknown) put_member(out, ",\n\"unit\":", name_of(file.unit));
   if (file.y_down) out.put(",\n\"y_down\":true");
   if (file.corner_angle > 0) put_member(out, ",\n\"corner_angle\":", file.corner_angle);
   if (!file.texts.empty()) {
@@ -187,10 +195,14 @@ void put_head(Target& target, const Document<Item>& file) {
 template <class Item>
 Status put_file(Target& target, const Document<Item>& file) {
   OutputStream& out = *target.out;
-  if (target.part.begins) put_head(target, file);
-  put_items(out, target.part, file.items, [&](const Item& item) {
+  const Part& part = target.part;
+  if (part.begins) put_head(target, file);
+  std::size_t i = 0;
+  put_items(out, part, file.items, [&](const Item& item) {
     out.put('{');
-    put_attributes_and_shape(out, item.attributes, item.shape);
+    put_attributes_and_shape(out, part.feature + i, part.number_of(file, i), item.attributes,
+                             item.shape);
+    ++i;
     if constexpr (std::is_same_v<Item, AxisItem>)
       put_axis(out, item.shape, item.axis);
     else
@@ -258,8 +270,10 @@ class GrowingJson final : public AxisWriter {
   /// The shape, the sites and what else stands before the nodes.
   void put_beginning(const MedialAxis& about) {
     out_.put(begun_ == 0 ? "\n{" : ",\n{");
-    const ShapeItem& item = frame_.shapes.items[begun_++];
-    put_attributes_and_shape(out_, item.attributes, item.shape);
+    const ShapeItem& item = frame_.shapes.items[begun_];
+    put_attributes_and_shape(out_, begun_, frame_.shapes.index_of(begun_), item.attributes,
+                             item.shape);
+    ++begun_;
     put_axis_head(out_, about);
     const Problem problem(item.shape, frame_.options);
     out_.put(",\n\"sites\":[");

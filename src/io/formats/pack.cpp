@@ -5,6 +5,7 @@
 #include <memory>
 #include <new>
 
+#include "io/formats/json.h"
 #include "io/guarded.h"
 #include "io/text_source.h"
 #include "medial/io/read.h"
@@ -19,11 +20,11 @@ namespace {
 using ops::ByteReader;
 using ops::Bytes;
 
-// A file: magic, version, kind and flags, a byte each; then the frames. Text and streams stand
-// before their bytes with their lengths.
+// A file: magic, version, kind and flags, a byte each; the name of the unit; then the frames. Text
+// and streams stand before their bytes with their lengths.
 constexpr std::array<std::uint8_t, 3> magic{'m', 'p', 'k'};
 constexpr std::uint8_t code_version = 1;
-constexpr std::uint8_t down_bit = 1, crs_bit = 2, apart_bit = 4, stored_bit = 8;
+constexpr std::uint8_t down_bit = 1, crs_bit = 2, apart_bit = 4, stored_bit = 8, unit_bit = 16;
 constexpr int level = 19;
 
 /// No frame may grow by more: what does is stored as it is.
@@ -126,8 +127,14 @@ Result<std::vector<std::uint8_t>> pack_bytes(const PackFile& file) {
     out.push_back(code_version);
     out.push_back(static_cast<std::uint8_t>(file.kind));
     body.flags = static_cast<std::uint8_t>(body.flags | (file.y_down ? down_bit : 0) |
-                                           (file.crs_wkt.empty() ? 0 : crs_bit));
+                                           (file.crs_wkt.empty() ? 0 : crs_bit) |
+                                           (file.unit == Unit::unknown ? 0 : unit_bit));
     out.push_back(body.flags);
+    if (file.unit != Unit::unknown) {
+      const std::string_view unit = name_of(file.unit);
+      ops::put_number(out, unit.size());
+      out.insert(out.end(), unit.begin(), unit.end());
+    }
     if (!file.crs_wkt.empty()) {
       const Bytes crs = compressed(
           {reinterpret_cast<const std::uint8_t*>(file.crs_wkt.data()), file.crs_wkt.size()});
@@ -153,15 +160,27 @@ Result<PackFile> unpack_bytes(std::span<const std::uint8_t> bytes) {
     const std::uint8_t flags = bytes[5];
     file.y_down = (flags & down_bit) != 0;
     std::span<const std::uint8_t> rest = bytes.subspan(header);
-    const auto next_frame = [&rest]() -> Result<Bytes> {
+    const auto next = [&rest]() -> std::optional<std::span<const std::uint8_t>> {
       ByteReader reader(rest);
       const auto size = reader.number();
-      if (!size || *size > reader.left()) return malformed("the pack ends early");
+      if (!size || *size > reader.left()) return std::nullopt;
       const auto length = static_cast<std::size_t>(*size);
-      const auto frame = rest.subspan(rest.size() - reader.left(), length);
+      const auto bytes_of_next = rest.subspan(rest.size() - reader.left(), length);
       rest = rest.last(reader.left() - length);
-      return expanded(frame);
+      return bytes_of_next;
     };
+    const auto next_frame = [&next]() -> Result<Bytes> {
+      const auto frame = next();
+      return frame ? expanded(*frame) : malformed("the pack ends early");
+    };
+    if ((flags & unit_bit) != 0) {
+      const auto name = next();
+      const auto unit =
+          name ? stored_unit({reinterpret_cast<const char*>(name->data()), name->size()})
+               : std::nullopt;
+      if (!unit) return malformed("the pack's unit is not known");
+      file.unit = *unit;
+    }
     if ((flags & crs_bit) != 0) {
       auto crs = next_frame();
       if (!crs) return std::move(crs).error();

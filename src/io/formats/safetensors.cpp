@@ -83,9 +83,10 @@ void put_column_heads(Target& target, const DocumentInfo& file, const Tables& ta
                      {"methods", ordered_json(tables.methods).dump()},
                      {"crc32", checksums.dump()}};
   if (!file.crs_wkt.empty()) about["crs"] = nlohmann::json::parse(json_quoted(file.crs_wkt));
-  if (!target.unit.empty()) about["unit"] = target.unit;
+  if (file.unit != Unit::unknown) about["unit"] = name_of(file.unit);
   if (file.y_down) about["y_down"] = "true";
   if (file.corner_angle > 0) about["corner_angle"] = ordered_json(file.corner_angle).dump();
+  if (!file.indices.empty()) about["features"] = ordered_json(file.indices).dump();
   if (!file.texts.empty()) about["texts"] = ordered_json(file.texts).dump();
   ordered_json whole{{"__metadata__", about}};
   whole.update(header);
