@@ -112,6 +112,11 @@ Body body_of(const ShapeCode& code) {
   return apart.bytes.size() < one.bytes.size() ? apart : one;
 }
 
+std::optional<Unit> unit_of_name(std::optional<std::span<const std::uint8_t>> name) {
+  if (!name) return std::nullopt;
+  return stored_unit({reinterpret_cast<const char*>(name->data()), name->size()});
+}
+
 }  // namespace
 
 std::size_t compressed_size(std::span<const std::uint8_t> bytes) {
@@ -174,10 +179,7 @@ Result<PackFile> unpack_bytes(std::span<const std::uint8_t> bytes) {
       return frame ? expanded(*frame) : malformed("the pack ends early");
     };
     if ((flags & unit_bit) != 0) {
-      const auto name = next();
-      const auto unit =
-          name ? stored_unit({reinterpret_cast<const char*>(name->data()), name->size()})
-               : std::nullopt;
+      const auto unit = unit_of_name(next());
       if (!unit) return malformed("the pack's unit is not known");
       file.unit = *unit;
     }
