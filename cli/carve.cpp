@@ -477,8 +477,8 @@ void add_machine_options(CLI::App& command, CarveArguments& arguments) {
       .add_option(
           "--origin", arguments.origin,
           "The place that becomes 0,0: lower-left, lower-right, upper-left, upper-right or\n"
-          "center of the shapes; drawing, for its own origin; or a point X,Y of it (default:\n"
-          "lower-left if y points down in the file, else drawing).")
+          "center of the shapes; drawing, for its own origin; or a point X,Y of it, in the\n"
+          "result's unit (default: lower-left if y points down in the file, else drawing).")
       ->check(CLI::Validator(check, ""))
       ->option_text("WHERE");
   command

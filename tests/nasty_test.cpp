@@ -423,6 +423,22 @@ TEST(Gear, IsMeasuredInsteadOfDecided) {
   EXPECT_TRUE(verify(*shape, *axis, {.threads = 1}).passed);
 }
 
+/// Both feet of a disk between two teeth pass on at once, up to rounding.
+TEST(Gears, HaveNoEdgeOfRoundingLength) {
+  const NastyClass& gears = class_of("gears");
+  for (const std::uint64_t seed : {1U, 4U, 27U, 36U, 41U, 43U}) {
+    const auto shape = build_shape(nasty_shape(gears, 20261215400000000U + seed, false));
+    ASSERT_TRUE(shape) << to_string(shape.error());
+    const auto axis = compute(*shape, {.threads = 1});
+    ASSERT_TRUE(axis) << to_string(axis.error());
+    for (const Edge& edge : axis->edges)
+      EXPECT_GT(
+          distance(axis->nodes[edge.node[0]].disk.center, axis->nodes[edge.node[1]].disk.center),
+          0.2 * axis->tolerance)
+          << "seed " << seed;
+  }
+}
+
 /// The inner vertices of a regular star touch one disk: near ones leave its place open, all of them
 /// do not.
 TEST(RegularStar, IsOneTieDecidedInDouble) {
@@ -442,6 +458,31 @@ TEST(RegularStar, IsOneTieDecidedInDouble) {
       EXPECT_EQ(axis->nodes.size(), 2 * points + 1U) << points << " points, turned by " << turned;
       EXPECT_TRUE(verify(*shape, *axis, {.threads = 1}).passed);
     }
+}
+
+/// So they are at random angles, with some of them next to each other: no nearer than 2^14
+/// tolerances, whose bisector passes beside the centre by a small share of the radius.
+TEST(RandomStar, IsOneTieDecidedInDouble) {
+  Random random(7);
+  std::vector<double> angles;
+  for (int i = 0; i < 400; ++i) angles.push_back(random.between(0, 2 * std::numbers::pi));
+  for (const double beside : {1e-9, 1e-8, 1e-7}) angles.push_back(angles[0] + beside);
+  std::sort(angles.begin(), angles.end());
+  Ring ring;
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    const double angle = angles[i];
+    const double next = i + 1 < angles.size() ? angles[i + 1] : angles[0] + 2 * std::numbers::pi;
+    ring.points.push_back(0.5 * Vec2{std::cos(angle), std::sin(angle)});
+    const double middle = 0.5 * (angle + next);
+    ring.points.push_back({std::cos(middle), std::sin(middle)});
+  }
+  const auto shape = build_shape(Rings{ring});
+  ASSERT_TRUE(shape) << to_string(shape.error());
+  const auto axis = compute(*shape, {.threads = 1});
+  ASSERT_TRUE(axis) << to_string(axis.error());
+  EXPECT_LE(axis->statistics.exact_twofold + axis->statistics.exact_precise, 4U);
+  EXPECT_EQ(axis->nodes.size(), 2 * angles.size() + 1);
+  EXPECT_TRUE(verify(*shape, *axis, {.threads = 1}).passed);
 }
 
 // ---- Classes.

@@ -4,6 +4,7 @@
     tools/serve.py FOLDER [PORT]
 """
 
+import contextlib
 import functools
 import http.server
 import sys
@@ -19,4 +20,5 @@ class Isolated(http.server.SimpleHTTPRequestHandler):
 folder, port = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 8000
 handler = functools.partial(Isolated, directory=folder)
 with http.server.ThreadingHTTPServer(("127.0.0.1", port), handler) as server:
-    server.serve_forever()
+    with contextlib.suppress(KeyboardInterrupt):
+        server.serve_forever()

@@ -1,9 +1,14 @@
 // Threads, by emscripten's pthreads without its JavaScript: what that would do is done here and in
 // js/lib/threads.mjs. A thread is a worker with an instance of the module on the same memory.
 
+#include "src/base/threads.h"
+
 #include <pthread.h>
 
+#include <atomic>
 #include <cstdlib>
+#include <new>
+#include <stdexcept>
 
 #include "binding.h"
 
@@ -60,10 +65,33 @@ MEDIAL_JS void _initialize() { __wasm_call_ctors(); }
 /// In a new worker, which has set its instance's stack.
 MEDIAL_JS void medial_run_thread(pthread_t thread, void* (*begin)(void*), void* given) {
   become(thread, false, true);
+  pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, nullptr);  // or it would wake ten times a second
   begin(given);
 }
 
 MEDIAL_JS void medial_start_threads(int count) { allow_startable_threads(count); }
 MEDIAL_JS int medial_threads() { return effective_threads(0); }
+
+/// For the tests: how many of `count` tasks catch what they throw, by its type; 0 if what another
+/// one throws does not come out.
+MEDIAL_JS int medial_tasks_that_catch(int count) {
+  std::atomic<int> right{0};
+  parallel_for(static_cast<std::size_t>(count), [&](std::size_t i) {
+    try {
+      if (i % 2 == 0) throw std::bad_alloc();
+      refuse(ErrorCode::internal, std::to_string(i));
+    } catch (const Failure& failure) {
+      right += failure.error.text == std::to_string(i) ? 1 : 0;
+    } catch (const std::bad_alloc&) {
+      right += i % 2 == 0 ? 1 : 0;
+    }
+  });
+  try {
+    in_parallel([] {}, [] { throw std::out_of_range("of a task"); });
+  } catch (const std::out_of_range&) {
+    return right;
+  }
+  return 0;
+}
 
 }  // namespace medial::js

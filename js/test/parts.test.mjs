@@ -2,6 +2,7 @@
 
 import assert from "node:assert/strict";
 import { existsSync } from "node:fs";
+import { readFile } from "node:fs/promises";
 import { test } from "node:test";
 
 import * as medial from "../lazy.mjs";
@@ -24,4 +25,11 @@ test("axes need only the first part", { skip }, async (t) => {
   await medial.complete();
   assert.ok(medial.verify(axis).passed);
   assert.equal(medial.offset(axis, 0.5)[0].area, 3);
+});
+
+test("the module asks for nothing but what js/lib gives it, and what is never called", async () => {
+  const first = new WebAssembly.Module(await readFile(new URL("../lib/medial.wasm", import.meta.url)));
+  const names = WebAssembly.Module.imports(first).filter((one) => one.module !== "placeholder").map((one) => one.name);
+  const never = ["emscripten_notify_memory_growth", "fd_write", "proc_exit"];
+  assert.deepEqual(names.sort(), ["can_wait", "clock_time_get", "memory", "start_thread", ...never].sort());
 });

@@ -7,6 +7,7 @@ import { test } from "node:test";
 import { promisify } from "node:util";
 
 import * as medial from "../index.mjs";
+import { loaded } from "../lib/core.mjs";
 import { with_memory } from "../lib/threads.mjs";
 import { inWorker } from "../worker.mjs";
 
@@ -54,6 +55,10 @@ test("any number of threads gives the same bytes", async () => {
   }
   for (const threads of [-1, 1025, 1.5])
     assert.throws(() => medial.axis(maze, { threads }), { code: "invalid_option" });
+});
+
+test("each thread catches its own exceptions", () => {
+  for (let time = 0; time < 20; ++time) assert.equal(loaded().medial_tasks_that_catch(1000), 1000);
 });
 
 test("what is made of axes is the same", async () => {

@@ -44,7 +44,7 @@ class Threads {
       const std::scoped_lock lock(mutex_);
       is_over_ = true;
     }
-    changed_.notify_all();
+    more_.notify_all();
     for (std::thread& thread : threads_) thread.join();
   }
   Threads(const Threads&) = delete;
@@ -79,6 +79,7 @@ class Threads {
       ++batch.open;
       arena.tasks.push_back({std::move(work), &batch});
     }
+    more_.notify_one();
     changed_.notify_all();
   }
 
@@ -112,7 +113,7 @@ class Threads {
         return !arena->tasks.empty() && arena->working < arena->most;
       });
       if (found == arenas_.end()) {
-        changed_.wait(lock);
+        more_.wait(lock);
         continue;
       }
       Arena& arena = **found;
@@ -145,7 +146,8 @@ class Threads {
   }
 
   std::mutex mutex_;
-  std::condition_variable changed_;
+  std::condition_variable more_;     ///< for threads without work: there is some
+  std::condition_variable changed_;  ///< for those who wait: there is some, or theirs has ended
   std::atomic<int> count_{1};
   bool is_over_ = false;
   Arena common_{INT_MAX};

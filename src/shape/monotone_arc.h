@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "base/arc.h"
 #include "base/predicates.h"
@@ -55,18 +54,6 @@ struct MonotoneArc {
     if (along < -tolerance * length || along > length * (length + tolerance)) return false;
     const double above_chord = cross(chord, p - left);
     return bulge == 0 || above_chord * bulge <= 0 || std::abs(above_chord) <= tolerance * length;
-  }
-
-  /// The point of the arc next to p, if p is on its circle or line up to a small error and on the
-  /// same side of the chord. (It may lie beyond the ends of a segment.)
-  std::optional<Vec2> projected(Vec2 p) const {
-    constexpr double small = 1e-6;
-    const double offset = above_circle(p);
-    if (!(std::abs(offset) <= small * distance(left, right))) return std::nullopt;
-    const Vec2 gradient = up - 2 * half_curvature * (p - left);
-    const Vec2 result = p - (offset / squared_norm(gradient)) * gradient;
-    if (bulge * cross(right - left, result - left) > 0) return std::nullopt;
-    return result;
   }
 
   /// Its y at x, clamped to its range.

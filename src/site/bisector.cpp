@@ -212,8 +212,9 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
   };
   const Control straight{middle_of(from, to), 1};
   // A curve that leads another way around a focus is no better than a line that strays no further
-  // than the ends do, beside joints that are smooth but for some tolerances, or that is shorter
-  // than rounding sees.
+  // than the ends do, beside joints that are smooth but for some tolerances. Nor than one so short
+  // that it need not be measured: as distances change by no more than the place, it strays by half
+  // its length at most, and 2^-47 is less than verify() allows a size of one.
   const bool leads_between = is_between(best.point.center);
   constexpr double short_line = 0x1p-46;
   if (!leads_between && length <= short_line) return straight;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <boost/multiprecision/cpp_bin_float.hpp>
+#include <cmath>
 #include <limits>
 #include <optional>
+#include <type_traits>
 
 #include "site/apollonius.h"
 
@@ -78,11 +80,16 @@ Disk improved(const Disk& disk, const Site& a, const Site& b, const Site& c) {
   return usable ? better : disk;
 }
 
+/// Numbers of 113 bits: the compiler's own, where it has them.
+using Quad = std::conditional_t<std::numeric_limits<long double>::digits == 113, long double,
+                                boost::multiprecision::cpp_bin_float_quad>;
+
 /// tangent_disks() in 113-bit arithmetic, rounded to double: of its disks the one nearest to
 /// `near`, if there is one.
 std::optional<Disk> tangent_disk_in_high_precision(const Site& a, const Site& b, const Site& c,
                                                    const Disk& near) {
-  using Real = boost::multiprecision::cpp_bin_float_quad;
+  using Real = Quad;
+  using std::sqrt;
   std::array<Carrier<Real>, 3> carriers{carrier<Real>(a), carrier<Real>(b), carrier<Real>(c)};
   for (Carrier<Real>& one : carriers)
     if (!one.vertex) one.normal = (Real(1) / sqrt(dot(one.normal, one.normal))) * one.normal;

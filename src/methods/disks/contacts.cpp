@@ -285,6 +285,14 @@ bool Contacts::is_clean_tie(const Span& span, const Disk& disk, std::uint32_t su
   if (!(touching_ * spread <= furthest * disk.radius)) return false;
   std::uint32_t before = sites.back();
   Vec2 foot_before = site::foot(site(before), disk.center);
+  // The bisector of two points passes the centre by touching_ over their angle: where that is so
+  // little, both are touched in the tie. (Diagrams tell points apart that are nearer.)
+  constexpr double beside = 0x1p-16;  // of the radius
+  const auto are_points = [&](std::uint32_t i, double squared) {
+    const double apart = touching_ / beside;
+    return !boundary_.two_sided && site(before).is_vertex() && site(i).is_vertex() &&
+           squared > apart * apart;
+  };
   for (const std::uint32_t i : sites) {
     const double beyond = beyond_ends(i, disk.center);
     const bool at_joint = beyond > -clearance() * spread;
@@ -293,8 +301,9 @@ bool Contacts::is_clean_tie(const Span& span, const Disk& disk, std::uint32_t su
       return false;
     const Vec2 foot = site::foot(site(i), disk.center);
     // A disk that touches one place all but touches what is beside it.
-    if ((before + 1 != i || !boundary_.is_smooth(before)) &&
-        squared_norm(foot - foot_before) <= 2 * disk.radius * clearance()) {
+    const double squared = squared_norm(foot - foot_before);
+    if ((before + 1 != i || !boundary_.is_smooth(before)) && !are_points(i, squared) &&
+        squared <= 2 * disk.radius * clearance()) {
       crowded_ = {before, i};
       return false;
     }

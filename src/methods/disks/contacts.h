@@ -24,6 +24,7 @@ struct WalkContext {
   const std::vector<Bridge>& bridges;
   const site::BoundaryTree& tree;
   double tolerance = 0;                ///< in the local frame
+  double joints = 0;                   ///< joints are smooth to so much
   double radius_limit = 0;             ///< no disk inside the shape is larger
   const ExactEvents* exact = nullptr;  ///< none: double decides
   const std::atomic<bool>* cancel = nullptr;

@@ -109,8 +109,8 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   std::atomic<std::uint64_t> finished = 0;
   std::atomic<bool> in_centers = false;
   const ExactEvents exact(sites, boundary, tree, way.in_precise);
-  auto chunks = walk({boundary, bridges, tree, walk_tolerance, problem.radius_limit,
-                      takes_exact ? &exact : nullptr, problem.options.cancel,
+  auto chunks = walk({boundary, bridges, tree, walk_tolerance, problem.fine_tolerance,
+                      problem.radius_limit, takes_exact ? &exact : nullptr, problem.options.cancel,
                       way.in_centers ? nullptr : &in_centers, near_circle * problem.fine_tolerance,
                       reporter(problem.options, boundary, finished)});
   statistics.seconds_walk = watch.lap();

@@ -221,8 +221,7 @@ class Merger {
 
   bool could_be_contracted(const Edge& edge) const {
     const Disk &from = graph_.nodes[edge.node[0]].disk, &to = graph_.nodes[edge.node[1]].disk;
-    if (!boundary_.has_arcs && squared_norm(to.center - from.center) <= tolerance_ * tolerance_)
-      return true;
+    if (squared_norm(to.center - from.center) <= tolerance_ * tolerance_) return true;
     if (!is_branching(edge.node[0]) || !is_branching(edge.node[1]))
       return boundary_.has_arcs && could_be_at_hub(edge);
     // Seen from both ends, so that it does not matter from which one the walk came.
@@ -431,7 +430,7 @@ class Merger {
   bool is_near(const Edge& edge, const Nearness& nearness) const {
     const auto [from, to] = edge.node;
     const Disk &a = graph_.nodes[from].disk, &b = graph_.nodes[to].disk;
-    if (!boundary_.has_arcs && are_near(from, to, nearness.length * tolerance_)) return true;
+    if (are_near(from, to, nearness.length * tolerance_)) return true;
     if (!is_branching(from) || !is_branching(to))
       return nearness.level == nearnesses[0].level && boundary_.has_arcs && could_be_at_hub(edge);
     const std::vector<Touch>&at_from = contacts_[place_of(from)], &at_to = contacts_[place_of(to)];
@@ -481,12 +480,15 @@ class Merger {
     if (tie_sites_.exact == nullptr) return std::nullopt;
     const Disk& about = graph_.nodes[node].disk;
     std::vector<std::uint32_t> sites;  // of several pieces of one site, one
-    for (const Touch& contact : contacts_[place_of(node)])
-      if (ranges::none_of(sites, [&](std::uint32_t other) {
+    for (const Touch& contact : contacts_[place_of(node)]) {
+      if (ranges::any_of(sites, [&](std::uint32_t other) {
             return boundary_.originals[other] == boundary_.originals[contact.site];
           }))
-        sites.push_back(contact.site);
-    if (sites.size() != 3) return std::nullopt;
+        continue;
+      if (sites.size() == 3) return std::nullopt;
+      sites.push_back(contact.site);
+    }
+    if (sites.size() < 3) return std::nullopt;
     // Where pieces lie on two sides of a bridge their order is open.
     for (int order = 0; order < 2; ++order, std::swap(sites[1], sites[2])) {
       const auto disk = tie_sites_.exact->disk_of<Real>({sites[0], sites[1], sites[2]});
@@ -501,7 +503,7 @@ class Merger {
 #endif
 
   /// Whether one disk touches all that a group's nodes touch, and nothing reaches into it. Around a
-  /// hole a group is no tree, and the hole stays; among arcs one of the nodes branches.
+  /// hole a group is no tree, and the hole stays.
   bool fits(Group& group) const {
     std::vector<Touch> contacts;
     std::size_t ends = 0;
@@ -515,9 +517,6 @@ class Merger {
         ends += group_of(other_node(end), false) == &group ? 1 : 0;
     }
     if (ends != 2 * (group.nodes.size() - 1)) return false;
-    if (boundary_.has_arcs &&
-        ranges::none_of(group.nodes, [&](std::uint32_t node) { return is_branching(node); }))
-      return false;
     const double share = 1 / static_cast<double>(group.nodes.size());
     mean = {share * mean.center, share * mean.radius};
     join(mean, contacts);

@@ -80,6 +80,7 @@ Result<std::optional<MedialAxis>> run_in_parts(const Problem& problem, const Axi
       bridges,
       tree,
       tolerance,
+      problem.fine_tolerance,
       problem.radius_limit,
       exact_sites != nullptr ? &exact : nullptr,
       problem.options.cancel,

@@ -2,7 +2,6 @@
 
 #include "base/threads.h"
 #include "methods/disks/certainty.h"
-#include "methods/disks/disks.h"
 #include "methods/disks/events.h"
 #include "methods/disks/exact_event.h"
 #include "methods/disks/near_circle.h"
@@ -274,10 +273,9 @@ class Walker {
   /// span's own sites, by more than joints are smooth, it is the circle of an arc that joins it,
   /// and not empty.
   bool is_wrong(const Span& span, const Disk& disk) const {
-    const double smooth =
-        (context_.in_centers == nullptr ? 1 / fine_share : 1) * context_.tolerance;
     return reaches_over(span.third, disk, context_.tolerance) ||
-           reaches_over(span.right, disk, smooth) || reaches_over(span.left, disk, smooth);
+           reaches_over(span.right, disk, context_.joints) ||
+           reaches_over(span.left, disk, context_.joints);
   }
   bool reaches_over(std::uint32_t i, const Disk& disk, double slack) const {
     if (i >= boundary_.sites.size() || element(i) == Element::bridge) return false;

@@ -287,9 +287,10 @@ Rings::Judgement Rings::judge_with_arcs(const Edit& edit) const {
       }
     }
     // What has touched the old edges may be something else without them.
-    for (const BulgeArc& one : old)
-      if (t != edit.before && s != edit.after && !apartness.apart(one, other))
-        result.verdict = Verdict::unclear;
+    for (std::size_t i = 0; i < old.size(); ++i) {
+      const bool meets = (i == 0 && t == edit.before) || (i + 1 == old.size() && s == edit.after);
+      if (!meets && !apartness.apart(old[i], other)) result.verdict = Verdict::unclear;
+    }
     if (result.verdict != Verdict::keeps_form) return;
     if ((s != edit.after && turns_around(swept, other.start) != 0) ||
         turns_around(swept, apex(other)) != 0)

@@ -102,6 +102,7 @@ class Repairer {
         window_.bridges,
         tree,
         (rings_.has_arcs() ? 1 : disks::fine_share) * measures_.fine_tolerance,
+        measures_.fine_tolerance,
         measures_.radius_limit,
         decide,
         nullptr,
