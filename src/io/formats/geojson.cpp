@@ -182,9 +182,8 @@ Status write_geojson(Target& target, const ShapesOutput& output) {
     collection.start();
     collection.attributes(columns, item.attributes);
     collection.geometry("MultiPolygon");
-    put_list(*target.out, polygons_of(item.shape), [&](const std::vector<Ring>& polygon) {
-      collection.polygon(polygon, chord);
-    });
+    put_list(*target.out, polygons_of(item.shape),
+             [&](const std::vector<Ring>& polygon) { collection.polygon(polygon, chord); });
     collection.end();
   }
   return collection.finish();
