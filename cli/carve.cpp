@@ -368,9 +368,23 @@ void add_length(CLI::App& command, const char* name, T& value, const char* text,
   add_value(command, name, value, text, a_positive_number(), help);
 }
 
+/// 0 or 1 to 170 degrees.
+CLI::Validator an_angle() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        double value = 0;
+        if (!CLI::detail::lexical_cast(text, value))
+          return fmt::format("'{}' is not a number", text);
+        return value == 0 || (value >= 1 && value <= 170)
+                   ? std::string()
+                   : fmt::format("{} is neither 0 nor in [1 - 170]", text);
+      },
+      "");
+}
+
 void add_tool_options(CLI::App& command, CarveArguments& arguments) {
   CarveOptions& carve = arguments.carve;
-  add_value(command, "--angle", carve.angle, "A REQUIRED", in_range(0, 170),
+  add_value(command, "--angle", carve.angle, "A REQUIRED", an_angle(),
             "The angle between the sides of the V-shaped tool, in degrees, in [1, 170]; or 0\n"
             "for an end mill, which clears pockets.")
       ->required();

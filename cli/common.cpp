@@ -90,6 +90,11 @@ void add_curve_options(CLI::App& command, InputOptions& input) {
   command
       .add_option("--text", input.source.text,
                   "Instead of INPUT: the outlines of this text; each character is a feature.")
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            return text.empty() ? "the text is empty" : std::string();
+          },
+          ""))
       ->option_text("TEXT");
   command.add_option("--font", input.font, "The font file of --text.")->option_text("FILE");
   add_value(command, "--font-size", input.source.font_size, "S", a_positive_number(),

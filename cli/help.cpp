@@ -181,7 +181,7 @@ std::string explain_in(const CLI::ParseError& error, const CLI::App& command) {
     const std::string option = text.substr(0, text.find(':'));
     if (text.find("At Most") != std::string::npos) return option + " is given more than once";
     return option +
-           (text.find(": 2 ") != std::string::npos ? " needs two values" : " needs a value");
+           (text.find(" 2 required") != std::string::npos ? " needs two values" : " needs a value");
   }
   if (const auto end = text.find(" was given a disallowed flag override"); end != std::string::npos)
     return "--" + text.substr(0, end) + " takes no value";

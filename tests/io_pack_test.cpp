@@ -31,12 +31,14 @@ TEST(PackFiles, GoThereAndBack) {
   file.y_down = true;
   for (const std::string crs : {"", "LOCAL_CS[\"here\"]"}) {
     file.crs_wkt = crs;
+    file.unit = crs.empty() ? Unit::unknown : Unit::inch;
     const auto bytes = io::pack_bytes(file);
     ASSERT_TRUE(bytes.ok());
     const auto back = io::unpack_bytes(*bytes);
     ASSERT_TRUE(back.ok()) << back.error().text;
     EXPECT_EQ(back->code, file.code);
     EXPECT_EQ(back->crs_wkt, crs);
+    EXPECT_EQ(back->unit, file.unit);
     EXPECT_TRUE(back->y_down);
     EXPECT_EQ(back->kind, io::PackKind::axes);
   }

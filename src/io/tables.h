@@ -50,6 +50,7 @@ class TableSink {
   Status add(std::size_t table, std::span<const Value> first, std::span<const Value> rest,
              std::span<std::vector<Vec2>> parts) {
     for (std::vector<Vec2>& part : parts) target_.place(part);
+    if (target_.crs.within_half_turn) turn_back(parts);
     return target_.status() ? put(table, first, rest, parts) : target_.status();
   }
 

@@ -1,6 +1,7 @@
 """`medial centreline` and `medial measure`."""
 
 import json
+import re
 import sqlite3
 
 from support import FORMATS, FRAME, GEOGRAPHIC, RECTANGLE, CommandLine
@@ -124,6 +125,14 @@ class Centreline(CommandLine):
 
 
 class Measure(CommandLine):
+    def test_labels_of_large_numbers(self):
+        """42613 is narrower than 4.261e+04, at 8 pixels a digit."""
+        self.write("s.wkt", "POLYGON ((0 0, 85226 0, 85226 85226, 0 85226, 0 0))")
+        self.succeed("measure", "s.wkt", "--disks", "1", "-o", "s.svg")
+        label = re.findall(r' d="([^"]*)"', self.read("s.svg").decode())[-1]
+        across = [float(x) for x, _ in re.findall(r"([\d.]+) ([\d.]+)", label)]
+        self.assertTrue(30 < max(across) - min(across) < 50, across)
+
     def test_disks_alone_need_no_axis(self):
         self.write("rectangle.wkt", RECTANGLE)
         disks = ["measure", "rectangle.wkt", "--disks", "3"]

@@ -172,6 +172,9 @@ class Words(CommandLine):
                 ("'1,2' is not 4 numbers separated by commas", "axis", "r.wkt", "--within", "1,2"),
                 ("'1,2' is not 4 numbers separated by commas", "voronoi", "r.wkt", "--frame", "1,2"),
                 ("--fit is for --method curve-axis", "axis", "r.wkt", "--fit", "1"),
+                ("the text is empty", "axis", "--text", "", "--font", "f.ttf"),
+                ("--angle: 200 is neither 0 nor in [1 - 170]", "carve", "r.wkt", "--angle", "200"),
+                ("--angle: 0.5 is neither 0 nor in [1 - 170]", "carve", "r.wkt", "--angle", "0.5"),
                 ("0 is not in [1 - 1e+06]", "measure", "r.wkt", "--samples", "0")):
             report = self.refuse("invalid_option", *line)
             self.assertIn(words, report)

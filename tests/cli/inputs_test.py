@@ -129,6 +129,19 @@ class Inputs(CommandLine):
         self.succeed("centreline", "a.geojson", "--project", "-o", "b.geojson")
         for line in json.loads(self.read("b.geojson"))["features"]:
             self.assertTrue(all(179 < x < 181 for x, _ in line["geometry"]["coordinates"]), line)
+        # Where the input has no longitudes beyond 180, only what crosses that meridian has.
+        boxes = [[[[a, 0], [b, 0], [b, 1], [a, 1], [a, 0]]] for a, b in ((178, 179.9), (-180, -178), (179.95, -179.95))]
+        for last in (2, 3):
+            self.write("d.geojson", json.dumps({"type": "FeatureCollection", "features": [
+                {"type": "Feature", "properties": {"box": i}, "geometry": {"type": "Polygon", "coordinates": box}}
+                for i, box in enumerate(boxes[:last])]}))
+            for command in ("centreline", "rebuild"):
+                self.succeed(command, "d.geojson", "--project", "-o", "e.geojson")
+                for row in json.loads(self.read("e.geojson"))["features"]:
+                    points = row["geometry"]["coordinates"]
+                    longitudes = [x for x, *_ in (points[0][0] if command == "rebuild" else points)]
+                    low, high = ((177.9, 179.91), (-180.01, -177.9), (179.9, 180.1))[row["properties"]["box"]]
+                    self.assertTrue(all(low < x < high for x in longitudes), (command, row))
         # What one projection of a wide file does to lengths is said.
         far = [[[10, 60], [10.1, 60], [10.1, 60.1], [10, 60]], [[-120, -40], [-119, -40], [-119, -39], [-120, -40]]]
         self.write("c.geojson", json.dumps({"type": "MultiPolygon", "coordinates": [[ring] for ring in far]}))

@@ -279,6 +279,9 @@ class ReadingDetails(CommandLine):
         # A file says so itself.
         self.succeed("rebuild", "a.wkt", "--crs", "EPSG:4807", "-o", "a.gpkg")
         self.assertIn("NTF", json.loads(self.succeed("info", "a.gpkg", "--json").stdout)["crs"])
+        # Through a pipe, without the name that GDAL gets for it.
+        self.assertNotIn(b"note", self.succeed("info", "-", given=self.read("a.gpkg")).stderr)
+        self.assertNotIn("vsimem", self.refuse("malformed", "info", "-", given=self.read("a.gpkg")[:5000]))
 
     def test_attributes_have_one_type_whatever_the_command(self):
         self.write("a.geojson", collection(feature(square(0, 0, 4), pop=5, zip="01115", share=0.5, region="x")))

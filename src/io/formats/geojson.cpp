@@ -92,8 +92,15 @@ class Collection {
   }
   /// Points in their places of the output.
   void points(std::vector<Vec2> points) {
-    target_.place(points);
+    place({&points, 1});
     put_geojson_points(out_, points);
+  }
+  /// The rings of a polygon, the outer one first, likewise.
+  void polygon(const std::vector<Ring>& rings, double chord) {
+    std::vector<std::vector<Vec2>> parts;
+    for (const Ring& ring : rings) parts.push_back(chords_of(ring, chord));
+    place(parts);
+    put_list(out_, parts, [&](const std::vector<Vec2>& part) { put_geojson_points(out_, part); });
   }
   void end() { out_.put("}}"); }
   /// Behind the last feature.
@@ -103,6 +110,11 @@ class Collection {
   }
 
  private:
+  void place(std::span<std::vector<Vec2>> parts) {
+    for (std::vector<Vec2>& part : parts) target_.place(part);
+    if (target_.crs.within_half_turn) turn_back(parts);
+  }
+
   Target& target_;
   OutputStream& out_;
   bool first_feature_;
@@ -170,10 +182,8 @@ Status write_geojson(Target& target, const ShapesOutput& output) {
     collection.start();
     collection.attributes(columns, item.attributes);
     collection.geometry("MultiPolygon");
-    put_list(*target.out, polygons_of(item.shape), [&](const std::vector<Ring>& polygon) {
-      put_list(*target.out, polygon,
-               [&](const Ring& ring) { collection.points(chords_of(ring, chord)); });
-    });
+    put_list(*target.out, polygons_of(item.shape),
+             [&](const std::vector<Ring>& polygon) { collection.polygon(polygon, chord); });
     collection.end();
   }
   return collection.finish();
@@ -205,8 +215,7 @@ Status write_geojson(Target& target, const OffsetsOutput& output) {
       collection.attributes(columns,
                             item.sources.empty() ? item.attributes : item.sources[k].attributes);
       collection.geometry("Polygon");
-      put_list(*target.out, region.rings,
-               [&](const Ring& ring) { collection.points(chords_of(ring, chord)); });
+      collection.polygon(region.rings, chord);
       collection.end();
     }
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 #include <new>
+#include <optional>
 
 #include "io/formats/json.h"
 #include "io/guarded.h"
@@ -63,6 +64,17 @@ void append(Bytes& out, std::span<const std::uint8_t> bytes) {
   out.insert(out.end(), bytes.begin(), bytes.end());
 }
 
+/// Takes bytes that stand behind their length off the rest; nothing where that is too short.
+std::optional<std::span<const std::uint8_t>> take(std::span<const std::uint8_t>& rest) {
+  ByteReader reader(rest);
+  const auto size = reader.number();
+  if (!size || *size > reader.left()) return std::nullopt;
+  const auto length = static_cast<std::size_t>(*size);
+  const auto taken = rest.subspan(rest.size() - reader.left(), length);
+  rest = rest.last(reader.left() - length);
+  return taken;
+}
+
 /// The streams as one, each but the last behind its length.
 Bytes together(const ShapeCode& code) {
   Bytes all;
@@ -110,11 +122,6 @@ Body body_of(const ShapeCode& code) {
     append(apart.bytes, frame);
   }
   return apart.bytes.size() < one.bytes.size() ? apart : one;
-}
-
-std::optional<Unit> unit_of_name(std::optional<std::span<const std::uint8_t>> name) {
-  if (!name) return std::nullopt;
-  return stored_unit({reinterpret_cast<const char*>(name->data()), name->size()});
 }
 
 }  // namespace
@@ -165,21 +172,15 @@ Result<PackFile> unpack_bytes(std::span<const std::uint8_t> bytes) {
     const std::uint8_t flags = bytes[5];
     file.y_down = (flags & down_bit) != 0;
     std::span<const std::uint8_t> rest = bytes.subspan(header);
-    const auto next = [&rest]() -> std::optional<std::span<const std::uint8_t>> {
-      ByteReader reader(rest);
-      const auto size = reader.number();
-      if (!size || *size > reader.left()) return std::nullopt;
-      const auto length = static_cast<std::size_t>(*size);
-      const auto bytes_of_next = rest.subspan(rest.size() - reader.left(), length);
-      rest = rest.last(reader.left() - length);
-      return bytes_of_next;
-    };
-    const auto next_frame = [&next]() -> Result<Bytes> {
-      const auto frame = next();
+    const auto next_frame = [&rest]() -> Result<Bytes> {
+      const auto frame = take(rest);
       return frame ? expanded(*frame) : malformed("the pack ends early");
     };
     if ((flags & unit_bit) != 0) {
-      const auto unit = unit_of_name(next());
+      const auto name = take(rest);
+      const auto unit =
+          name ? stored_unit({reinterpret_cast<const char*>(name->data()), name->size()})
+               : std::nullopt;
       if (!unit) return malformed("the pack's unit is not known");
       file.unit = *unit;
     }

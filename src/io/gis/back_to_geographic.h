@@ -23,12 +23,15 @@ class BackToGeographic {
   Status transform(std::vector<Vec2>& points) const;
   /// The geographic reference system, as WKT.
   const std::string& crs_wkt() const { return crs_wkt_; }
+  /// Whether no longitude of the input was beyond 180.
+  bool within_half_turn() const { return within_half_turn_; }
 
  private:
   BackToGeographic() = default;
   std::shared_ptr<OGRCoordinateTransformation> transformation_;
   double middle_ = 0;  ///< of the projection, as a longitude
   std::string crs_wkt_;
+  bool within_half_turn_ = false;
 };
 
 }  // namespace medial::io

@@ -91,6 +91,7 @@ class GdalReader final : public FeatureReader {
   }
 
   Status open(const std::string& name) {
+    name_ = name;
     register_gdal();
     const GdalMessages messages;
     const unsigned flags = GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
@@ -145,7 +146,7 @@ class GdalReader final : public FeatureReader {
                                                                      nullptr, nullptr) != nullptr;
     if (known) {
       return error(ErrorCode::malformed,
-                   failure.empty() ? "the content is not what the format says" : failure);
+                   failure.empty() ? "the content is not what the format says" : said(failure));
     }
     return error(
         ErrorCode::unsupported,
@@ -227,10 +228,17 @@ class GdalReader final : public FeatureReader {
 
   /// An error among the messages; its warnings become notes, each once.
   Status heard(const GdalMessages& messages) {
-    if (!messages.failure().empty()) return error(ErrorCode::malformed, messages.failure());
+    if (!messages.failure().empty()) return error(ErrorCode::malformed, said(messages.failure()));
     for (const std::string& warning : messages.warnings())
-      if (warnings_.insert(warning).second) common_.notes.push_back(warning);
+      if (warnings_.insert(warning).second) common_.notes.push_back(said(warning));
     return success();
+  }
+
+  /// A message of GDAL: what it calls by a name of this program's own is the file.
+  std::string said(std::string message) const {
+    const std::size_t at = name_ == shown_ ? std::string::npos : message.find(name_);
+    if (at != std::string::npos) message.replace(at, name_.size(), shown_);
+    return message;
   }
 
   Status finish() {
@@ -252,7 +260,7 @@ class GdalReader final : public FeatureReader {
     return success();
   }
 
-  std::string shown_;
+  std::string shown_, name_;  ///< in messages, and for GDAL
   const ReadOptions options_;
   GDALDatasetUniquePtr source_;
   OGRLayer* layer_ = nullptr;

@@ -85,7 +85,8 @@ void CPL_STDCALL GdalMessages::collect(CPLErr level, CPLErrorNum, const char* te
   constexpr std::size_t enough = 20;  // a broken file can warn at each of its features
   // What is no news, or noted in other words.
   if (line.starts_with("Non closed ring detected") ||
-      line.starts_with("This version of GeoPackage"))
+      line.starts_with("This version of GeoPackage") ||
+      line.ends_with("non conformant file extension"))
     return;
   if (level == CE_Warning) {
     if (self->warnings_.size() < enough &&

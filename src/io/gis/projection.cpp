@@ -20,6 +20,8 @@ namespace {
 
 // The name by which a projection of our own is known again, in memory and in files.
 constexpr const char* local_name = "medial local projection";
+// The same of an input with longitudes beyond 180, which the output has alike.
+constexpr const char* beyond_name = "medial local projection beyond 180 degrees";
 
 // Beyond this distance from the middle, in degrees of the great circle (about 300 km), the
 // transverse Mercator projection stretches by more than 0.11 percent.
@@ -183,7 +185,9 @@ Status project_to_local(Document<Feature>& dataset) {
   const GlobeExtent extent = extent_of(dataset, unit);
   const bool conformal = extent.reach <= conformal_reach;
   OGRSpatialReference local;
-  local.SetProjCS(local_name);
+  bool beyond = false;
+  for_each_point(dataset, [&](Vec2 p) { beyond = beyond || std::abs(unit * p.x) > 180; });
+  local.SetProjCS(beyond ? beyond_name : local_name);
   local.CopyGeogCSFrom(&geographic);
   if (conformal) {
     local.SetTM(extent.latitude, extent.longitude, 1, 0, 0);
@@ -214,9 +218,17 @@ Status project_to_local(Document<Feature>& dataset) {
   return success();
 }
 
+namespace {
+
+bool has_name(const std::string& crs_wkt, const char* name) {
+  return crs_wkt.starts_with(fmt::format("PROJCRS[\"{}\"", name)) ||
+         crs_wkt.starts_with(fmt::format("PROJCS[\"{}\"", name));
+}
+
+}  // namespace
+
 bool is_local_projection(const std::string& crs_wkt) {
-  return crs_wkt.starts_with(fmt::format("PROJCRS[\"{}\"", local_name)) ||
-         crs_wkt.starts_with(fmt::format("PROJCS[\"{}\"", local_name));
+  return has_name(crs_wkt, local_name) || has_name(crs_wkt, beyond_name);
 }
 
 Result<BackToGeographic> BackToGeographic::make(const std::string& crs_wkt) {
@@ -232,6 +244,7 @@ Result<BackToGeographic> BackToGeographic::make(const std::string& crs_wkt) {
   BackToGeographic back;
   back.middle_ =
       local.GetProjParm(SRS_PP_CENTRAL_MERIDIAN, local.GetProjParm(SRS_PP_LONGITUDE_OF_CENTER));
+  back.within_half_turn_ = has_name(crs_wkt, local_name);
   back.transformation_ = transformer(local, geographic);
   if (!back.transformation_) {
     return Error{ErrorCode::unsupported, "the local projection cannot be undone", {}};
@@ -256,9 +269,11 @@ Result<OutputCrs> output_crs_of(const std::string& crs_wkt, Unit unit) {
   if (!is_local_projection(crs_wkt)) return OutputCrs{crs_wkt, unit, nullptr};
   Result<BackToGeographic> back = BackToGeographic::make(crs_wkt);
   if (!back) return std::move(back).error();
-  return OutputCrs{back->crs_wkt(), unit, [back = std::move(*back)](std::vector<Vec2>& points) {
-                     return back.transform(points);
-                   }};
+  const bool within_half_turn = back->within_half_turn();
+  return OutputCrs{
+      back->crs_wkt(), unit,
+      [back = std::move(*back)](std::vector<Vec2>& points) { return back.transform(points); },
+      within_half_turn};
 }
 
 std::string urn_of_crs(const std::string& crs_wkt) {

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
+#include <string>
 
 #include "io/pictures/labels.h"
 #include "io/pictures/pictures.h"
@@ -12,6 +14,12 @@ namespace {
 // Layers get these colours in turn; polygons have the first.
 constexpr std::array<Color, 4> layer_colors{
     {{0.00, 0.45, 0.70}, {0.84, 0.37, 0.00}, {0.80, 0.15, 0.20}, {0.00, 0.62, 0.45}}};
+
+/// Four digits, and of longer numbers those before the point: 3.142, 42613.
+std::string short_number(double value) {
+  const bool longer = std::abs(value) >= 1e4 && std::abs(value) < 1e15;
+  return longer ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
+}
 
 }  // namespace
 
@@ -74,7 +82,7 @@ void draw_numbers(Canvas& canvas, const Document<AxisItem>& file, const Document
     for (const LayerFeature& feature : layer.features) {
       const std::vector<Vec2>& part = feature.parts[0];
       const Vec2 at = canvas.viewport()(midpoint(part.front(), part.back()));
-      const std::string number = fmt::format("{:.4g}", feature.values[*layer.label]);
+      const std::string number = short_number(feature.values[*layer.label]);
       if (count < most && labels.put(at, number, color)) ++count;
     }
   }
