@@ -37,7 +37,7 @@ std::string collected(const std::string& features, const std::string& more = "")
 std::string geo_told(const Result<Document<Feature>>& file) {
   if (!file) return "error " + std::string(name_of(file.error().code));
   std::string text = file->crs_wkt + '|' + name_of(file->unit) + '|';
-  for (const std::string& name : file->texts) text += name + '|';
+  for (const std::string& name : file->text_attributes) text += name + '|';
   for (const std::string& note : file->notes) text += note + '|';
   for (const Feature& feature : file->items) {
     text += "\n" + std::to_string(feature.id);

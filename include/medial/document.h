@@ -40,7 +40,7 @@ struct DocumentInfo {
   double dots_per_inch = 0;            ///< of an image, if the file states it
   std::vector<std::string> notes;      ///< changes by repair or reprojection, one sentence each
   std::vector<std::uint64_t> indices;  ///< of items in the file; empty if none was left out
-  std::vector<std::string> texts;      ///< names of attributes that are text, even if all digits
+  std::vector<std::string> text_attributes;    ///< names of those that are text, not numbers
   double corner_angle = 0, arc_tolerance = 0;  ///< suitable for Options, ArcOptions; 0: defaults
   std::uint64_t index_of(std::size_t i) const { return indices.empty() ? i : indices[i]; }
 };

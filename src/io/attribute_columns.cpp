@@ -45,7 +45,7 @@ void AttributeColumns::add(const Attributes& attributes) {
 }
 
 void AttributeColumns::finish(const DocumentInfo& info, std::span<const Column> own) {
-  for (const std::string& name : info.texts)
+  for (const std::string& name : info.text_attributes)
     if (const auto found = index_.find(name); found != index_.end())
       columns_[found->second].type = ColumnType::text;
   std::set<std::string> taken{"fid", "ogc_fid", "geom"};

@@ -178,6 +178,7 @@ class Features {
     feature.filled = true;
     feature.id = static_cast<std::int64_t>(dataset_.items.size());
     feature.attributes.emplace_back("layer", layer);
+    dataset_.text_attributes = {"layer"};
     dataset_.items.push_back(std::move(feature));
   }
 

@@ -86,7 +86,8 @@ Result<Survey> survey_of(PartReader reader, const std::string& crs, std::uint64_
     if (!features.crs_wkt.empty()) common.crs_wkt = features.crs_wkt;
     common.geographic = common.geographic || features.geographic;
     if (features.unit != Unit::unknown) common.unit = features.unit;
-    if (!features.texts.empty()) common.texts = std::move(features.texts);
+    if (!features.text_attributes.empty())
+      common.text_attributes = std::move(features.text_attributes);
     std::ranges::move(features.notes, std::back_inserter(common.notes));
     const Vec2 own = reach_of(features);
     reach = {std::max(reach.x, own.x), std::max(reach.y, own.y)};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -214,25 +215,35 @@ Error explained(Error error, const PlanarGraph& planar_graph, double tolerance) 
   return error;
 }
 
-/// Whether two arcs that end in one point lie on one circle, or nearly so. O(n).
+/// Whether two arcs that end in one point lie on one circle, or nearly so, or may, where very many
+/// of one radius do. O(n log n).
 bool has_arcs_of_one_circle(const PlanarGraph& planar_graph) {
   constexpr double near = 1e-6;  // of the radius
+  constexpr std::size_t very_many = 64;
   struct Circle {
+    std::uint32_t point;  ///< on it, where the arc ends
+    double radius;
     Vec2 center;
-    double radius = 0;
   };
-  std::vector<Circle> last(planar_graph.points.size());  // of the arcs at a point
+  std::vector<Circle> circles;
   for (const PlanarGraphEdge& edge : planar_graph.edges) {
     if (edge.bulge == 0) continue;
     const BulgeArc arc{planar_graph.points[edge.from], planar_graph.points[edge.to], edge.bulge};
     const double radius = 1 / curvature(arc);
-    const Circle own{arc.start + radius * left_of(start_tangent(arc)), std::abs(radius)};
-    for (const std::uint32_t point : {edge.from, edge.to}) {
-      if (distance(own.center, last[point].center) + std::abs(own.radius - last[point].radius) <=
-          near * own.radius)
-        return true;
-      last[point] = own;
-    }
+    const Vec2 center = arc.start + radius * left_of(start_tangent(arc));
+    for (const std::uint32_t point : {edge.from, edge.to})
+      circles.push_back({point, std::abs(radius), center});
+  }
+  std::sort(circles.begin(), circles.end(), [](const Circle& a, const Circle& b) {
+    return std::tie(a.point, a.radius) < std::tie(b.point, b.radius);
+  });
+  for (std::size_t i = 0; i < circles.size(); ++i) {
+    const Circle& own = circles[i];
+    const double most = near * own.radius;
+    for (std::size_t k = i + 1; k < circles.size() && circles[k].point == own.point &&
+                                circles[k].radius <= own.radius + most;
+         ++k)
+      if (k > i + very_many || distance(own.center, circles[k].center) <= most) return true;
   }
   return false;
 }

@@ -191,12 +191,12 @@ Document<AxisItem> read_columns(const ColumnFile& reader) {
     demand(angle.is_number(), "the corner angle is no number");
     file.corner_angle = corner_angle_from(angle.get<double>());
   }
-  if (const std::string text = reader.about("texts"); !text.empty()) {
+  if (const std::string text = reader.about("text_attributes"); !text.empty()) {
     const auto names = nlohmann::json::parse(text, nullptr, false);
     demand(names.is_array(), "the names of texts are missing");
     for (const auto& name : names) {
       demand(name.is_string(), "the name of a text is none");
-      file.texts.push_back(name.get<std::string>());
+      file.text_attributes.push_back(name.get<std::string>());
     }
   }
   if (const std::string text = reader.about("features"); !text.empty()) {

@@ -125,6 +125,7 @@ Result<Document<Feature>> set_text(const std::vector<Character>& characters, FT_
       &GlyphPen::move_to, &GlyphPen::line_to, &GlyphPen::conic_to, &GlyphPen::cubic_to, 0, 0};
   Document<Feature> dataset;
   dataset.corner_angle = font_corner_angle;
+  dataset.text_attributes = {"character"};
   const double unit = size > 0 ? size / face->units_per_EM : 1;
   dataset.arc_tolerance = unit * font_arc_tolerance;
   std::set<std::string> missing;

@@ -318,7 +318,7 @@ class Columns {
       if (column->second == Kind::real) text = text_of(std::strtod(text.c_str(), nullptr));
     }
   }
-  std::vector<std::string> texts() const {
+  std::vector<std::string> text_attributes() const {
     std::vector<std::string> names;
     for (const auto& [name, kind] : columns_)
       if (kind == Kind::text || kind == Kind::none) names.push_back(name);
@@ -416,7 +416,7 @@ class GeojsonReader final : public FeatureReader {
       if (!collection_->next(text_)) {
         if (!is_known_) finish_first();
         document.crs_wkt = crs_;
-        document.texts = columns_.texts();
+        document.text_attributes = columns_.text_attributes();
         return false;
       }
       ParsedFeature parsed = parse(parser_, text_);

@@ -283,8 +283,9 @@ Document<AxisItem> read_file(json::document& document) {
       Member{"y_down", [&](json::value v) { file.y_down = v.get_bool(); }},
       Member{"corner_angle",
              [&](json::value v) { file.corner_angle = corner_angle_from(number(v)); }},
-      Member{"texts", [&](json::value v) {
-               for_each(v, [&file](json::value name) { file.texts.push_back(text_of(name)); });
+      Member{"text_attributes", [&](json::value v) {
+               for_each(
+                   v, [&file](json::value name) { file.text_attributes.push_back(text_of(name)); });
              }});
   if (!renumbered) file.indices.clear();
   return file;

@@ -185,9 +185,9 @@ void put_head(Target& target, const Document<Item>& file) {
   if (file.unit != Unit::unknown) put_member(out, ",\n\"unit\":", name_of(file.unit));
   if (file.y_down) out.put(",\n\"y_down\":true");
   if (file.corner_angle > 0) put_member(out, ",\n\"corner_angle\":", file.corner_angle);
-  if (!file.texts.empty()) {
-    out.put(",\n\"texts\":");
-    put_list(out, file.texts, [&](const std::string& name) { put_quoted(out, name); });
+  if (!file.text_attributes.empty()) {
+    out.put(",\n\"text_attributes\":");
+    put_list(out, file.text_attributes, [&](const std::string& name) { put_quoted(out, name); });
   }
   out.put(",\n\"items\":");
 }

@@ -87,7 +87,8 @@ void put_column_heads(Target& target, const DocumentInfo& file, const Tables& ta
   if (file.y_down) about["y_down"] = "true";
   if (file.corner_angle > 0) about["corner_angle"] = ordered_json(file.corner_angle).dump();
   if (!file.indices.empty()) about["features"] = ordered_json(file.indices).dump();
-  if (!file.texts.empty()) about["texts"] = ordered_json(file.texts).dump();
+  if (!file.text_attributes.empty())
+    about["text_attributes"] = ordered_json(file.text_attributes).dump();
   ordered_json whole{{"__metadata__", about}};
   whole.update(header);
   std::string text = whole.dump();

@@ -350,6 +350,7 @@ Result<Document<Feature>> read_svg(const Input& input, const ReadOptions& option
   Document<Feature>& dataset = drawing.dataset;
   dataset.corner_angle = drawn_corner_angle;
   dataset.y_down = true;
+  dataset.text_attributes = {"id"};
   dataset.unit = document->unit();
   if (dataset.items.empty() && !drawing.strokes.empty()) {
     dataset.notes.push_back(

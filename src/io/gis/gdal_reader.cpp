@@ -113,7 +113,7 @@ class GdalReader final : public FeatureReader {
                                options_.where, messages.failure(), fields_of(*layer_)));
     }
     read_crs();
-    read_texts();
+    read_text_attributes();
     layer_->ResetReading();
     return heard(messages);
   }
@@ -123,7 +123,7 @@ class GdalReader final : public FeatureReader {
     document.crs_wkt = common_.crs_wkt;
     document.geographic = common_.geographic;
     document.unit = common_.unit;
-    document.texts = common_.texts;
+    document.text_attributes = common_.text_attributes;
     const bool more = read_features(points, document);
     if (Status fine = heard(messages); !fine) return std::move(fine).error();
     if (!more)
@@ -182,12 +182,13 @@ class GdalReader final : public FeatureReader {
         (reference->EPSGTreatsAsLatLong() || reference->EPSGTreatsAsNorthingEasting());
   }
 
-  void read_texts() {
-    if (source_->GetDriverName() == std::string_view("CSV")) return;  // which has no types
+  void read_text_attributes() {
+    for (const std::string_view without_types : {"CSV", "KML", "LIBKML"})
+      if (source_->GetDriverName() == without_types) return;
     const OGRFeatureDefn& fields = *layer_->GetLayerDefn();
     for (int i = 0; i < fields.GetFieldCount(); ++i)
       if (fields.GetFieldDefn(i)->GetType() == OFTString)
-        common_.texts.push_back(utf8(fields.GetFieldDefn(i)->GetNameRef()));
+        common_.text_attributes.push_back(utf8(fields.GetFieldDefn(i)->GetNameRef()));
   }
 
   /// False at the end of the layer.

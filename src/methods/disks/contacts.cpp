@@ -285,10 +285,11 @@ bool Contacts::is_clean_tie(const Span& span, const Disk& disk, std::uint32_t su
   if (!(touching_ * spread <= furthest * disk.radius)) return false;
   std::uint32_t before = sites.back();
   Vec2 foot_before = site::foot(site(before), disk.center);
-  // The bisector of two points passes the centre by touching_ over their angle: where that is so
-  // little, both are touched in the tie. (Diagrams tell points apart that are nearer.)
+  // Moving one of two points by touching_ makes the tie exact, so both may be touched in it; their
+  // bisector then passes the centre by touching_ over their angle. (Diagrams tell points apart that
+  // are nearer.)
   constexpr double beside = 0x1p-16;  // of the radius
-  const auto are_points = [&](std::uint32_t i, double squared) {
+  const auto are_points_apart = [&](std::uint32_t i, double squared) {
     const double apart = touching_ / beside;
     return !boundary_.two_sided && site(before).is_vertex() && site(i).is_vertex() &&
            squared > apart * apart;
@@ -302,7 +303,7 @@ bool Contacts::is_clean_tie(const Span& span, const Disk& disk, std::uint32_t su
     const Vec2 foot = site::foot(site(i), disk.center);
     // A disk that touches one place all but touches what is beside it.
     const double squared = squared_norm(foot - foot_before);
-    if ((before + 1 != i || !boundary_.is_smooth(before)) && !are_points(i, squared) &&
+    if ((before + 1 != i || !boundary_.is_smooth(before)) && !are_points_apart(i, squared) &&
         squared <= 2 * disk.radius * clearance()) {
       crowded_ = {before, i};
       return false;

@@ -16,13 +16,13 @@ namespace medial::disks {
 /// within half of the tolerance, or if its ends are no further than a quarter of it apart. The
 /// latter is a case of the former, whatever the sites are: the distance to a site changes by no
 /// more than a centre moves, and so does the radius, so the disk of one end touches what the other
-/// end does within half. It is asked apart because a foot that only passes on has no fourth
-/// contact, and because such edges, left alone, run backward once their ends are rounded. What near
-/// edges connect becomes one node if one disk touches all its sites within half of the tolerance,
-/// no site reaches into it, and all edges that leave keep their directions. Where that is not so,
-/// the same is tried with edges that are nearer. Half, because coordinates rounded to doubles move
-/// a tie's contacts by at most the square root of 1/2 of a spacing, and the tolerance is at least
-/// two spacings.
+/// end does within half, but for what the nodes themselves are off. It is asked apart because a
+/// foot that only passes on has no fourth contact, and because such edges, left alone, run backward
+/// once their ends are rounded. What near edges connect becomes one node if one disk touches all
+/// its sites within half of the tolerance, no site reaches into it, and all edges that leave keep
+/// their directions. Where that is not so, the same is tried with edges that are nearer. Half,
+/// because coordinates rounded to doubles move a tie's contacts by at most the square root of 1/2
+/// of a spacing, and the tolerance is at least two spacings.
 ///
 /// So the result depends on the graph only, and not on the order in which it was found; whether a
 /// disk touches to a bound is decided in 256 bits where double leaves it open.
