@@ -349,8 +349,9 @@ export class Editor extends Handle {
 }
 
 /**
- * Lets the module compute on `count` threads, the caller's among them; 0: as many as the machine has. Gives how many
- * there are: 1 where workers cannot share memory, as in pages that are not isolated from other sites.
+ * Lets the module compute on `count` threads, the caller's among them, at most 64; 0: as many as the machine has.
+ * Returns how many there are: 1 where workers cannot start, or cannot share memory, as in pages that are not isolated
+ * from other sites.
  */
 export function startThreads(count?: number): Promise<number>;
 /** How many threads the module has: 1 until startThreads(). */

@@ -1,8 +1,11 @@
 #include "base/threads.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
 #include <thread>
 
@@ -117,6 +120,41 @@ TEST(Threads, CallersAtTheSameTime) {
     });
   for (std::thread& caller : callers) caller.join();
   EXPECT_EQ(sum, 60U * 124'750);
+}
+
+TEST(Threads, AnExceptionWaitsForTheTasksOfAGroup) {
+  for (int time = 0; time < 20; ++time) {
+    std::atomic<int> running = 0;
+    const auto fail = [&] {
+      TaskGroup tasks;
+      for (int i = 0; i < 100; ++i)
+        tasks.run([&] {
+          ++running;
+          std::this_thread::sleep_for(std::chrono::microseconds(100));
+          --running;
+        });
+      std::this_thread::sleep_for(std::chrono::microseconds(300));
+      throw std::runtime_error("lost");
+    };
+    on_threads(4, [&] {
+      EXPECT_THROW(fail(), std::runtime_error);
+      EXPECT_EQ(running, 0);
+    });
+  }
+}
+
+TEST(Threads, AForkedProcessHasOne) {
+  std::atomic<std::size_t> sum = 0;
+  on_threads(2, [&] { add_up(0, 500, sum); });
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(60);
+    on_threads(2, [&] { add_up(0, 500, sum); });
+    _exit(effective_threads(2) == 1 && sum == 2U * 124'750 ? 0 : 1);
+  }
+  int status = 1;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
 }
 
 }  // namespace

@@ -15,6 +15,8 @@ export class MedialError extends Error {
   }
 }
 
+const most_threads = 64; // each has a stack of 4 MB
+
 let module; // what the WebAssembly module exports
 let heap; // its memory
 let parts; // it, compiled
@@ -22,6 +24,7 @@ let starting;
 let completing; // the second part of the module
 let is_incomplete = false; // whether a function of the second part was called too soon
 let start_worker; // while threads start
+let missing = 0; // threads whose workers could not start
 
 /**
  * Compiles the module, once; from other places if the sources give bytes, a URL, or it compiled. It has two
@@ -91,26 +94,26 @@ async function compile(source, shared) {
 }
 
 /**
- * Lets the module compute on `count` threads, this one among them; 0: as many as the machine has. Gives how many
- * there are now: 1 where workers cannot share memory. They stay until the page or the process ends.
+ * Lets the module compute on `count` threads, this one among them; 0: as many as the machine has. Returns how many
+ * there are now: 1 where workers cannot share memory, or cannot start. They stay until the page or the process ends.
  */
 export async function startThreads(count = 0) {
-  if (!(Number.isInteger(count) && count >= 0 && count <= 1024))
-    throw new MedialError("the number of threads is a whole number in [0, 1024]");
+  if (!(Number.isInteger(count) && count >= 0 && count <= most_threads))
+    throw new MedialError(`the number of threads is a whole number in [0, ${most_threads}]`);
   await complete();
   if (!(heap.buffer instanceof ArrayBuffer)) {
     const make = await worker_starter();
     const started = [];
     start_worker = (data) => started.push(make(data));
-    module.medial_start_threads(count || (await threads_of_machine()));
+    module.medial_start_threads(count || Math.min(await threads_of_machine(), most_threads));
     start_worker = undefined;
-    await Promise.all(started);
+    missing += (await Promise.allSettled(started)).filter(({ status }) => status === "rejected").length;
   }
   return threads();
 }
 
 /** How many threads the module has. */
-export const threads = () => loaded().medial_threads();
+export const threads = () => loaded().medial_threads() - missing;
 
 function start_thread(thread, stack, begin, given) {
   if (!start_worker) return 6; // EAGAIN

@@ -12,7 +12,7 @@ export function shared_memory() {
   try {
     return new WebAssembly.Memory({ ...PAGES, shared: true });
   } catch {
-    return null; // the whole of it has no place
+    return null; // no room for its largest size
   }
 }
 
@@ -23,13 +23,15 @@ export async function threads_of_machine() {
   return availableParallelism?.() ?? cpus().length;
 }
 
-/** A copy of a part of the module which imports memory that is shared, or not. */
+/** A copy of a part of the module which imports memory that is shared, or not; of other bytes, the same. */
 export function with_memory(part, shared) {
   const bytes = new Uint8Array(part.buffer ?? part, part.byteOffset ?? 0, part.byteLength).slice();
+  if ([..."\0asm"].some((letter, i) => bytes[i] !== letter.charCodeAt())) return bytes;
   let at = 8; // behind the format's name and version
   const number = () => {
     let value = 0;
     for (let shift = 0; ; shift += 7) {
+      if (at >= bytes.length) throw new Error("medial-axis: this is not its module");
       value |= (bytes[at] & 127) << shift;
       if (bytes[at++] < 128) return value >>> 0;
     }

@@ -6,6 +6,7 @@
 #include <pthread.h>
 
 #include <atomic>
+#include <cerrno>
 #include <cstdlib>
 #include <new>
 #include <stdexcept>
@@ -22,6 +23,7 @@ int medial_start_thread(pthread_t thread, void* stack, void* (*begin)(void*), vo
 // What emscripten's libraries have and need.
 extern "C" {
 void _emscripten_thread_init(pthread_t thread, int in_page, int first, int can_wait, int profiled);
+void _emscripten_thread_free_data(pthread_t thread);
 void __wasm_call_ctors();
 void __wasm_init_tls(void* storage);
 }
@@ -48,7 +50,11 @@ int __pthread_create_js(pthread_t thread, const pthread_attr_t* /*attributes*/,
   std::size_t size = 0;
   pthread_getattr_np(thread, &attributes);
   pthread_attr_getstack(&attributes, &lowest, &size);
-  return medial_start_thread(thread, static_cast<char*>(lowest) + size, begin, given);
+  int error = EAGAIN;  // without memory for its stack
+  if (lowest != nullptr)
+    error = medial_start_thread(thread, static_cast<char*>(lowest) + size, begin, given);
+  if (error != 0) _emscripten_thread_free_data(thread);
+  return error;
 }
 int _emscripten_default_pthread_stack_size() { return 4 << 20; }
 int emscripten_num_logical_cores() { return 1; }  // until medial_start_threads()

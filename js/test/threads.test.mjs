@@ -32,9 +32,51 @@ const bytes = (axis) =>
   Buffer.concat([axis.nodes, axis.edges, axis.sites].flatMap((records) =>
     Object.values({ ...records }).filter(ArrayBuffer.isView).map(({ buffer }) => Buffer.from(buffer))));
 
+/** The size of the module's memory after `times` axes. */
+function memory_after(times, shape, options) {
+  for (let i = 1; i < times; ++i) medial.axis(shape, options).free();
+  const axis = medial.axis(shape, options);
+  const { byteLength } = axis.nodes.view(Uint8Array).buffer;
+  axis.free();
+  return byteLength;
+}
+
+/** What a program prints in a process of its own, with the package as `medial`. */
+async function run(program) {
+  const text = `(async () => {const medial = await import(${JSON.stringify(here("../index.mjs").href)}); ${program}})()`;
+  return (await promisify(execFile)(process.execPath, ["-e", text])).stdout;
+}
+
 test("before threads start there is one", () => {
   assert.equal(medial.threads(), 1);
-  assert.equal(medial.axis(coast(2000), { threads: 4 }).exterior, 0);
+  const shape = new medial.Shape(coast(2000));
+  const before = memory_after(10, shape, { threads: 8 });
+  assert.equal(memory_after(200, shape, { threads: 8 }), before, "the module's memory grew");
+});
+
+test("what is not the module is an error", async () => {
+  const again = await import(here("../lib/core.mjs?refused"));
+  const module = await readFile(here("../lib/medial.wasm"));
+  const cut = [0, 8, 9, 20, 200, 2000].map((size) => module.subarray(0, size));
+  for (const source of [...cut, Buffer.from("<!doctype html><title>Not found</title>")])
+    await assert.rejects(again.init(source), Error);
+  await again.init(module);
+});
+
+test("threads start as far as there is memory and workers are allowed", { timeout: 60000 }, async () => {
+  const axis = "medial.axis('POLYGON ((0 0, 6 0, 6 2, 0 2, 0 0))', { threads: 3 }).branchCount";
+  const full = `const { malloc, free } = (await import(${JSON.stringify(here("../lib/core.mjs").href)})).loaded();
+    const taken = [];
+    for (let size = 2 ** 30; size >= 2 ** 20; size /= 2) for (let at; (at = malloc(size)); ) taken.push(at);
+    console.log(await medial.startThreads(3));
+    taken.forEach((at) => free(at));
+    console.log(${axis}, await medial.startThreads(3), ${axis});`;
+  assert.equal(await run(full), "1\n5 3 5\n");
+  const forbidden = `const workers = require("node:worker_threads");
+    workers.Worker = function () { throw new Error("forbidden"); };
+    require("node:module").syncBuiltinESMExports();
+    console.log(await medial.startThreads(3), await medial.startThreads(3), medial.threads(), ${axis});`;
+  assert.equal(await run(forbidden), "1 1 1 5\n");
 });
 
 test("any number of threads gives the same bytes", async () => {
@@ -81,19 +123,12 @@ test("what is made of axes is the same", async () => {
 
 test("memory stays, and errors come, while threads work", () => {
   const shape = new medial.Shape(coast(4000));
-  const size = () => {
-    const axis = medial.axis(shape, { threads: 4 });
-    const { byteLength } = axis.nodes.view(Uint8Array).buffer;
-    axis.free();
-    return byteLength;
-  };
-  for (let i = 0; i < 50; ++i) size();
-  const before = size();
+  const before = memory_after(50, shape, { threads: 8 });
   for (let i = 0; i < 300; ++i) {
-    size();
+    memory_after(1, shape, { threads: 8 });
     assert.throws(() => medial.axis([[0, 0], [2, 2], [2, 0], [0, 2]]), { code: "crossing" });
   }
-  assert.equal(size(), before, "the module's memory grew");
+  assert.equal(memory_after(1, shape, { threads: 8 }), before, "the module's memory grew");
 });
 
 test("a compiled module has the memory that it asks for", async () => {
@@ -107,13 +142,12 @@ test("a compiled module has the memory that it asks for", async () => {
 });
 
 test("a process ends that has threads, and one whose worker has them", { timeout: 60000 }, async () => {
-  const run = async (program) => (await promisify(execFile)(process.execPath, ["-e", `(async () => {${program}})()`])).stdout;
-  const from = (path) => `await import(${JSON.stringify(here(path).href)})`;
   const shape = "'POLYGON ((0 0, 6 0, 6 2, 0 2, 0 0))', { threads: 3 }";
-  const own = `const medial = ${from("../index.mjs")}; await medial.startThreads(3);
+  const own = `await medial.startThreads(3);
     console.log(medial.threads(), medial.axis(${shape}).branchCount);`;
   assert.equal(await run(own), "3 5\n");
-  const of_worker = `const medial = await (${from("../worker.mjs")}).inWorker({ threads: 3 });
-    console.log(await medial.threads(), (await medial.axis(${shape})).branchCount); await medial.terminate();`;
+  const of_worker = `const { inWorker } = await import(${JSON.stringify(here("../worker.mjs").href)});
+    const apart = await inWorker({ threads: 3 });
+    console.log(await apart.threads(), (await apart.axis(${shape})).branchCount); await apart.terminate();`;
   assert.equal(await run(of_worker), "3 5\n");
 });

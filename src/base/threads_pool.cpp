@@ -1,3 +1,5 @@
+#include <pthread.h>
+
 #include <atomic>
 #include <climits>
 #include <condition_variable>
@@ -8,8 +10,8 @@
 #include "base/pipeline.h"
 #include "base/threads.h"
 
-// Threads of the standard library, for where there is no oneTBB: in browsers. Who waits for tasks
-// runs some meanwhile: all work ends however late the other threads start, and if none does.
+// Threads of the standard library, for where there is no oneTBB: in browsers. A thread that waits
+// runs tasks meanwhile, so the work ends however late the others start, or if none starts.
 
 namespace medial {
 namespace {
@@ -33,29 +35,28 @@ struct Arena {
   std::deque<Task> tasks{};
 };
 
+/// Set in a process that is forked from one that has threads: there it has none of them.
+std::atomic<bool> forked{false};
+
 /// Whose tasks this thread runs.
 thread_local Arena* current = nullptr;
 
 class Threads {
  public:
-  Threads() { add_up_to(static_cast<int>(std::thread::hardware_concurrency())); }
-  ~Threads() {
-    {
-      const std::scoped_lock lock(mutex_);
-      is_over_ = true;
-    }
-    more_.notify_all();
-    for (std::thread& thread : threads_) thread.join();
+  Threads() {
+    pthread_atfork(nullptr, nullptr, [] { forked = true; });
+    add_up_to(static_cast<int>(std::thread::hardware_concurrency()));
   }
-  Threads(const Threads&) = delete;
-  Threads& operator=(const Threads&) = delete;
 
-  /// Starts threads until, with the caller, there are `count`, or the system refuses one.
-  void add_up_to(int count) {
+  /// Starts threads until, with the caller, there are `count`, or the system refuses one: then it
+  /// is not asked for more, unless `again`.
+  void add_up_to(int count, bool again = false) {
     const std::scoped_lock lock(mutex_);
+    if (again) is_refused_ = false;
     try {
-      for (; count_ < count; ++count_) threads_.emplace_back([this] { serve(); });
+      for (; !is_refused_ && count_ < count; ++count_) threads_.emplace_back([this] { serve(); });
     } catch (const std::exception&) {  // no thread, or no memory for one
+      is_refused_ = true;
     }
   }
   int count() const { return count_; }
@@ -76,14 +77,14 @@ class Threads {
   void put(Arena& arena, Batch& batch, std::function<void()> work) {
     {
       const std::scoped_lock lock(mutex_);
+      arena.tasks.push_back({std::move(work), &batch});  // throws if memory runs out
       ++batch.open;
-      arena.tasks.push_back({std::move(work), &batch});
     }
     more_.notify_one();
     changed_.notify_all();
   }
 
-  /// Runs own() and the batch's tasks.
+  /// Runs own(), which may put tasks, and the batch's tasks.
   void finish(Arena& arena, Batch& batch, threads::FunctionRef<> own) {
     std::exception_ptr error;
     try {
@@ -91,6 +92,11 @@ class Threads {
     } catch (...) {
       error = std::current_exception();
     }
+    end(arena, batch, error);
+    if (batch.error) std::rethrow_exception(batch.error);
+  }
+  /// Returns when no task of the batch is left; after an error those that have not begun never do.
+  void end(Arena& arena, Batch& batch, const std::exception_ptr& error) {
     std::unique_lock lock(mutex_);
     if (error && !batch.error) batch.error = error;
     while (batch.open > 0)
@@ -101,14 +107,13 @@ class Threads {
         arena.tasks.pop_back();
         run(lock, std::move(newest));
       }
-    if (batch.error) std::rethrow_exception(batch.error);
   }
 
  private:
   /// What every thread but the callers' does.
-  void serve() {
+  [[noreturn]] void serve() {
     std::unique_lock lock(mutex_);
-    while (!is_over_) {
+    while (true) {
       const auto found = std::find_if(arenas_.begin(), arenas_.end(), [](const Arena* arena) {
         return !arena->tasks.empty() && arena->working < arena->most;
       });
@@ -149,25 +154,29 @@ class Threads {
   std::condition_variable more_;     ///< for threads without work: there is some
   std::condition_variable changed_;  ///< for those who wait: there is some, or theirs has ended
   std::atomic<int> count_{1};
-  bool is_over_ = false;
+  bool is_refused_ = false;
   Arena common_{INT_MAX};
   std::vector<Arena*> arenas_{&common_};
   std::vector<std::thread> threads_;
 };
 
 Threads& pool() {
-  static Threads threads;
-  return threads;
+  static Threads* const threads = new Threads;  // never deleted: its threads sleep to the end
+  return *threads;
 }
 Arena& arena_here() { return current != nullptr ? *current : pool().common(); }
 /// How many threads there are for the work of this one.
-int threads_here() { return std::min(arena_here().most, pool().count()); }
+int threads_here() {
+  if (forked || arena_here().most == 1) return 1;
+  return std::min(arena_here().most, pool().count());
+}
 
 /// The arena of the caller's work, as long as it lives.
 class Scope {
  public:
-  explicit Scope(int threads) : arena_(threads), before_(std::exchange(current, &arena_)) {
+  explicit Scope(int threads) : arena_(threads) {
     if (threads > 1) pool().open(arena_);
+    before_ = std::exchange(current, &arena_);
   }
   ~Scope() {
     if (arena_.most > 1) pool().close(arena_);
@@ -178,16 +187,20 @@ class Scope {
 
  private:
   Arena arena_;
-  Arena* before_;
+  Arena* before_ = nullptr;
 };
 
 }  // namespace
 
 int effective_threads(int requested) {
+  if (forked) return 1;
   return requested > 0 ? std::min(requested, most_threads) : threads_here();
 }
 
-void allow_startable_threads(int requested) { pool().add_up_to(effective_threads(requested)); }
+void allow_startable_threads(int requested) {
+  const int threads = effective_threads(requested);
+  if (threads > 1) pool().add_up_to(threads, true);
+}
 
 namespace threads {
 
@@ -212,9 +225,11 @@ void run_ranges(std::size_t count, std::size_t grain, FunctionRef<std::size_t, s
     }
   };
   Batch batch;
-  for (std::size_t i = 1; i < std::min(threads, pieces); ++i)
-    pool().put(arena_here(), batch, [&take] { take(); });
-  pool().finish(arena_here(), batch, take);
+  pool().finish(arena_here(), batch, [&] {
+    for (std::size_t i = 1; i < std::min(threads, pieces); ++i)
+      pool().put(arena_here(), batch, [&take] { take(); });
+    take();
+  });
 }
 
 void run_both(FunctionRef<> first, FunctionRef<> second) {
@@ -223,13 +238,15 @@ void run_both(FunctionRef<> first, FunctionRef<> second) {
     return second();
   }
   Batch batch;
-  pool().put(arena_here(), batch, [&second] { second(); });
-  pool().finish(arena_here(), batch, first);
+  pool().finish(arena_here(), batch, [&] {
+    pool().put(arena_here(), batch, [&second] { second(); });
+    first();
+  });
 }
 
 void run_on(int requested, FunctionRef<> work) {
   const int threads = effective_threads(requested);
-  pool().add_up_to(threads);
+  if (threads > 1) pool().add_up_to(threads);
   const Scope scope(threads);
   work();
 }
@@ -244,7 +261,10 @@ struct TaskGroup::Tasks {
 };
 
 TaskGroup::TaskGroup() : tasks_(std::make_unique<Tasks>()) {}
-TaskGroup::~TaskGroup() = default;
+TaskGroup::~TaskGroup() {  // after an exception there may be tasks
+  if (tasks_->is_shared)
+    pool().end(tasks_->arena, tasks_->batch, std::make_exception_ptr(std::exception()));
+}
 
 void TaskGroup::run(std::function<void()> task) {
   if (tasks_->is_shared) return pool().put(tasks_->arena, tasks_->batch, std::move(task));
@@ -252,13 +272,12 @@ void TaskGroup::run(std::function<void()> task) {
 }
 
 void TaskGroup::wait() {
-  pool().finish(tasks_->arena, tasks_->batch, [&] {
-    while (!tasks_->waiting.empty()) {
-      const std::function<void()> next = std::move(tasks_->waiting.back());
-      tasks_->waiting.pop_back();
-      next();
-    }
-  });
+  if (tasks_->is_shared) return pool().finish(tasks_->arena, tasks_->batch, [] {});
+  while (!tasks_->waiting.empty()) {
+    const std::function<void()> next = std::move(tasks_->waiting.back());
+    tasks_->waiting.pop_back();
+    next();
+  }
 }
 
 void run_pipeline(int requested, std::size_t /*window*/,

@@ -33,6 +33,7 @@ before(async () => {
   browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox"] });
   servers.isolated = await serve(ISOLATED);
   servers.plain = await serve({});
+  servers.strict = await serve({ ...ISOLATED, "Content-Security-Policy": "worker-src 'self'" }); // not blob:
 });
 after(async () => {
   await browser?.close();
@@ -74,9 +75,9 @@ async function sums(source) {
 
 test("a page has threads where it is isolated; the axes are the same", async () => {
   const all = [];
-  for (const [server, threads] of [["isolated", 3], ["plain", 1]]) {
+  for (const [server, threads] of [["isolated", 3], ["plain", 1], ["strict", 1]]) {
     const page = await open(servers[server], "/empty.html");
-    assert.equal(await page.evaluate(() => crossOriginIsolated), server === "isolated");
+    assert.equal(await page.evaluate(() => crossOriginIsolated), server !== "plain");
     const [count, ...digests] = await page.evaluate(sums, "/package/index.mjs");
     assert.equal(count, threads);
     all.push(...digests);
@@ -89,7 +90,7 @@ test("a page has threads where it is isolated; the axes are the same", async () 
 });
 
 test("a worker of a page has threads", async () => {
-  for (const [server, threads] of [["isolated", 2], ["plain", 1]]) {
+  for (const [server, threads] of [["isolated", 2], ["plain", 1], ["strict", 1]]) {
     const page = await open(servers[server], "/empty.html");
     const found = await page.evaluate(async () => {
       const { inWorker } = await import("/package/worker.mjs");
