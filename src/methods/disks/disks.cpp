@@ -215,13 +215,6 @@ Result<MedialAxis> attempt(const Problem& problem, const SiteNumbers& own_number
   return axis;
 }
 
-/// Whether the disks of all edges touch their sites to the tolerance: where all of an axis is some
-/// tolerances long, contracting ties may move them further.
-bool touches_all_sites(const MedialAxis& axis) {
-  return ranges::all_of(
-      axis.edges, [&](const Edge& edge) { return touches_its_sites(axis, edge, axis.tolerance); });
-}
-
 /// Marks points along the boundary, so many on both sides of each of these sites.
 std::vector<bool> points_around(const Problem& problem, const std::vector<std::uint32_t>& sites,
                                 std::size_t around) {
@@ -308,9 +301,8 @@ Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbe
     }
     if (axis) {
       axis->edges = std::move(edges);
-      const bool is_certain = findings.lost.empty() &&
-                              (!way->in_centers || touches_all_sites(*axis)) &&
-                              (is_first || (!way->in_double && !has_arcs(problem.shape)));
+      const bool is_certain =
+          findings.lost.empty() && (is_first || (!way->in_double && !has_arcs(problem.shape)));
       if (is_certain || problem.is_cancelled()) return axis;
     }
     auto refused = axis ? error_if_refused(problem, *axis) : axis.error();
