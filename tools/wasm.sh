@@ -20,7 +20,7 @@ configure() {
   cmake -G Ninja -B "$tree" -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG" \
     -DCMAKE_TOOLCHAIN_FILE=/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake \
     -DBoost_NO_BOOST_CMAKE=ON -DBoost_INCLUDE_DIR="$(realpath -s "$tree")/headers" \
-    -DMEDIAL_TBB=OFF -DMEDIAL_GMP=OFF -DMEDIAL_IO=OFF -DMEDIAL_TESTS=OFF -DMEDIAL_JS=ON \
+    -DMEDIAL_THREADS=ON -DMEDIAL_TBB=OFF -DMEDIAL_GMP=OFF -DMEDIAL_IO=OFF -DMEDIAL_TESTS=OFF -DMEDIAL_JS=ON \
     -DMEDIAL_UNITY="${UNITY:-ON}" > /dev/null
 }
 
