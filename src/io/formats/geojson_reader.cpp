@@ -158,10 +158,9 @@ bool may_be_date(std::string_view text) {
          text.find_first_of("-/:") != std::string_view::npos;
 }
 
-Property property_of(json::field field) {
+Property property_of(std::string_view name, json::value value) {
   Property property;
-  property.name = std::string_view(field.unescaped_key());
-  json::value value = field.value();
+  property.name = name;
   switch (json::json_type(value.type())) {
     case json::json_type::number: {
       constexpr double exact = 1LL << 53;
@@ -270,11 +269,13 @@ ParsedFeature parse(json::parser& parser, std::string& text) {
       add_geometry(field.value().get_object(), feature.rings);
     } else if (key == "properties") {
       usual(++lists == 1);
-      for (json::field property : field.value().get_object())
-        feature.properties.push_back(property_of(property));
+      for (json::field property : field.value().get_object()) {
+        const std::string_view name = property.unescaped_key();  // once, and before the value
+        feature.properties.push_back(property_of(name, property.value()));
+      }
     } else if (key == "id") {
       usual(!id);
-      id = property_of(field);
+      id = property_of(key, field.value());
       usual(id->kind == Kind::text);
     } else {
       usual(key == "bbox");
