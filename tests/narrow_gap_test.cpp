@@ -116,6 +116,23 @@ TEST(NarrowGap, NeedlesThatEndInAnArc) {
   EXPECT_GE(accepted, 24);
 }
 
+/// Crescents between two almost equal, almost full circles: the middles of half circles decide which
+/// arc lies inside at a tip, and a chord's length does not give these to all digits.
+TEST(NarrowGap, OfCrescentsOfAlmostFullCircles) {
+  struct Crescent {
+    Vec2 tip;
+    double outer, inner;
+  };
+  for (const Crescent& crescent :
+       {Crescent{
+            {2.5023580635925422e-05, 0.000212992315731372}, 674819.6475585127, -674819.6475611577},
+        Crescent{{1, 0}, 22025.18275097196, -22025.18275097258},
+        Crescent{{1, 0}, 6278.434989622477, -6278.434989621985}}) {
+    const Ring ring{{{0, 0}, crescent.tip}, RingRole::any, {crescent.outer, crescent.inner}};
+    EXPECT_EQ(check_axis({ring}), std::vector<std::string>{}) << crescent.outer;
+  }
+}
+
 /// A hole's vertex, from which a disk connects it to others, is next to another one: what such a
 /// disk seems to touch first in double it does not touch.
 TEST(NarrowGap, BetweenVerticesOfTwoHoles) {

@@ -84,7 +84,7 @@ inline MonotoneArc monotone_arc(Vec2 left, Vec2 right, double bulge) {
 /// are further apart: at its end or halfway. If nowhere, by how much more it turns.
 inline double above_longer(const MonotoneArc& arc, const MonotoneArc& longer) {
   const double at_end = longer.above(arc.right);
-  const double before = longer.above(arc.halfway(arc.left, arc.right));
+  const double before = longer.above(apex(arc.arc()));  // halfway() loses digits of half circles
   const double above = std::abs(at_end) > std::abs(before) ? at_end : before;
   return above != 0 ? above : arc.half_curvature - longer.half_curvature;
 }
