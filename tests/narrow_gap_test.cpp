@@ -116,8 +116,8 @@ TEST(NarrowGap, NeedlesThatEndInAnArc) {
   EXPECT_GE(accepted, 24);
 }
 
-/// Crescents between two almost equal, almost full circles: the middles of half circles decide which
-/// arc lies inside at a tip, and a chord's length does not give these to all digits.
+/// Crescents between two almost equal, almost full circles: the middles of half circles decide
+/// which arc lies inside at a tip, and a chord's length does not give these to all digits.
 TEST(NarrowGap, OfCrescentsOfAlmostFullCircles) {
   struct Crescent {
     Vec2 tip;
