@@ -7,26 +7,11 @@ import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 
+import { coast } from "./coast.mjs";
+
 const tree = resolve(process.argv[2]);
 const counts = process.argv.slice(3).map(Number);
 const { chromium } = createRequire(join(tree, "npm/node_modules/"))("playwright-core");
-
-/** A coast: a circle whose radius is a random fractal. In the page. */
-function coast(n) {
-  let state = 1;
-  const random = () => (state = (48271 * state) % 0x7fffffff) / 0x7fffffff - 0.5;
-  const size = 2 ** Math.ceil(Math.log2(n));
-  const height = new Float64Array(size);
-  for (let step = size, rough = 0.5; step > 1; step /= 2, rough *= 0.6)
-    for (let i = step / 2; i < size; i += step)
-      height[i] = (height[i - step / 2] + height[(i + step / 2) % size]) / 2 + rough * random();
-  const xy = Float64Array.from({ length: 2 * n }, (_, k) => {
-    const angle = (2 * Math.PI * (k >> 1)) / n;
-    return 1000 * Math.exp(0.7 * height[Math.floor(((k >> 1) * size) / n)]) * (k % 2 ? Math.sin(angle) : Math.cos(angle));
-  });
-  studio.change([{ xy, edges: new Map() }]);
-  studio.frame();
-}
 
 /** Centres a vertex, with edges this many pixels long; 0: shows all. Returns its place. */
 function look(pixels) {
@@ -69,7 +54,10 @@ await page.goto(pathToFileURL(join(tree, "studio/index.html")).href);
 await page.waitForFunction(() => globalThis.studio?.opened);
 console.log("| vertices | edges on the screen | frames a second | moves | edit, ms: median | 99 % | drawing, ms: median | 99 % | refused |\n|--:|---|--:|--:|--:|--:|--:|--:|--:|");
 for (const n of counts.length ? counts : [1e4, 1e5, 1e6]) {
-  await page.evaluate(coast, n);
+  await page.evaluate(`{
+    studio.change([{ xy: (${coast})(${n}), edges: new Map() }]);
+    studio.frame();
+  }`);
   for (const [name, pixels] of [["60 pixels", 60], ["6 pixels", 6], ["all", 0]]) {
     const [x, y] = await page.evaluate(look, pixels);
     await page.waitForTimeout(500);

@@ -154,6 +154,20 @@ Attributes attributes_from(std::string_view text) {
   return attributes;
 }
 
+/// A list of texts, or of whole numbers that are not negative, as JSON.
+template <class T>
+std::vector<T> list_from(const std::string& text, const char* otherwise) {
+  constexpr bool of_texts = std::is_same_v<T, std::string>;
+  const auto list = nlohmann::json::parse(text, nullptr, false);
+  demand(list.is_array(), otherwise);
+  std::vector<T> values;
+  for (const auto& value : list) {
+    demand(of_texts ? value.is_string() : value.is_number_unsigned(), otherwise);
+    values.push_back(value.template get<T>());
+  }
+  return values;
+}
+
 void take_tables(const Tables& t, std::size_t i, AxisItem& item) {
   MedialAxis& axis = item.axis;
   axis.tolerance = t.tolerance[i];
@@ -191,29 +205,13 @@ Document<AxisItem> read_columns(const ColumnFile& reader) {
     demand(angle.is_number(), "the corner angle is no number");
     file.corner_angle = corner_angle_from(angle.get<double>());
   }
-  if (const std::string text = reader.about("text_attributes"); !text.empty()) {
-    const auto names = nlohmann::json::parse(text, nullptr, false);
-    demand(names.is_array(), "the names of texts are missing");
-    for (const auto& name : names) {
-      demand(name.is_string(), "the name of a text is none");
-      file.text_attributes.push_back(name.get<std::string>());
-    }
-  }
-  if (const std::string text = reader.about("features"); !text.empty()) {
-    const auto numbers = nlohmann::json::parse(text, nullptr, false);
-    demand(numbers.is_array(), "the numbers of features are missing");
-    for (const auto& number : numbers) {
-      demand(number.is_number_unsigned(), "the number of a feature is none");
-      file.indices.push_back(number.get<std::uint64_t>());
-    }
-  }
+  if (const std::string text = reader.about("text_attributes"); !text.empty())
+    file.text_attributes =
+        list_from<std::string>(text, "the names of text attributes are no texts");
+  if (const std::string text = reader.about("features"); !text.empty())
+    file.indices = list_from<std::uint64_t>(text, "the numbers of features are no whole numbers");
   Tables tables;
-  const auto methods = nlohmann::json::parse(reader.about("methods"), nullptr, false);
-  demand(methods.is_array(), "the methods are missing");
-  for (const auto& method : methods) {
-    demand(method.is_string(), "a method is not a text");
-    tables.methods.push_back(method.get<std::string>());
-  }
+  tables.methods = list_from<std::string>(reader.about("methods"), "the methods are no texts");
   const auto read = [&](const char* name, auto& values) { reader.read(name, values); };
   visit_tables(tables, read);
   visit_short_tables(tables, read);
