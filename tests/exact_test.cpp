@@ -44,6 +44,13 @@ TEST(Bounded, KnowsWhatDoubleRepresents) {
   EXPECT_EQ((root * root - Bounded<double>(2)).sign(), std::nullopt);
 }
 
+/// The bound of a product follows from the sizes of its factors, not of what they came from.
+TEST(Bounded, IsAsSmallAsADifference) {
+  using Number = Bounded<exact::Precise>;
+  const Number small = Number(1 + 0x1p-50) - Number(1.0);
+  EXPECT_LE((small * Number(exact::Precise(1.0), 0x1p-200L)).error, 0x1.1p-250L);
+}
+
 exact::Precise precise(double x) { return exact::Precise(x); }
 exact::Precise precise(const Twofold& x) { return exact::Precise(x.high) + x.low; }
 

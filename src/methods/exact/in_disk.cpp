@@ -89,9 +89,7 @@ class Kernel {
     }
     for (Number& coordinate : disk) coordinate = coordinate / three.scale;
     if (!disk[2].positive()) return std::nullopt;
-    DiskBounds<Real> found{three.origin + Vector<Number>{disk[0], disk[1]}, disk[2]};
-    tighten(found.center.x, found.center.y, found.radius);
-    return found;
+    return DiskBounds<Real>{three.origin + Vector<Number>{disk[0], disk[1]}, disk[2]};
   }
 
   /// `a` and `b` are joined: the disk that touches their joint and `third`.
@@ -295,7 +293,6 @@ class Kernel {
     const Row<Number> a = plane_of(base, forms[1]), b = plane_of(base, forms[2]);
     auto& along =
         three.along = {a.y * b.r - a.r * b.y, a.r * b.x - a.x * b.r, a.x * b.y - a.y * b.x};
-    tighten(along[0], along[1], along[2]);
     // The point of the line where one coordinate is zero: that along which the line is longest.
     std::size_t k = 0;
     for (std::size_t i = 1; i < 3; ++i)
@@ -312,7 +309,6 @@ class Kernel {
     point[i] = column(a, j) * b.rest - a.rest * column(b, j);
     point[j] = a.rest * column(b, i) - column(a, i) * b.rest;
     point[k] = Number(0.0);
-    tighten(point[i], point[j]);
 
     const auto quadric = [](const std::array<Number, 3>& u, const std::array<Number, 3>& v) {
       return u[0] * v[0] + u[1] * v[1] - u[2] * v[2];
@@ -325,9 +321,7 @@ class Kernel {
     three.first = two * base.round * quadric(point, along) + scale * linear(along);
     three.zeroth =
         two * (base.round * quadric(point, point) + scale * (linear(point) + scale * base.height));
-    tighten(three.second, three.first, three.zeroth);
     three.discriminant = three.first * three.first - three.second * three.zeroth;
-    tighten(three.discriminant);
     const Sign real = sign_of(three.discriminant);
     if (real == Sign::open) return Sign::open;
     if (real == Sign::negative) return Sign::none;

@@ -66,7 +66,7 @@ Factors product(const RootField* field, View a, View b) {
 
 Bounded<Precise> bounded_rational(const Rational& value) {
   const Bounded<Precise> near{Precise(value)};
-  return {near.value, near.largest * Bounded<Precise>::unit};
+  return {near.value, near.most() * Bounded<Precise>::unit};
 }
 
 Bounded<Precise> bounded_number(const RootField* field, View factors) {

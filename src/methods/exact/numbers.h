@@ -40,21 +40,18 @@ using Precise = boost::multiprecision::number<PreciseBackend, boost::multiprecis
 
 }  // namespace exact
 
-/// As for double, but the bounds are rough and quick: with 256 bits there is room. `size` bounds
-/// the number and its value.
+/// As for double, but the bounds are rough and quick: with 256 bits there is room.
 template <>
 struct Bounded<exact::Precise> {
   using Real = exact::Precise;
   using Size = long double;  // its exponents have room for products of many small coordinates
   Real value{0};
-  Size largest = 0;
   Size error = 0;
 
   Bounded() = default;
-  explicit Bounded(double exact) : value(exact), largest(std::abs(exact)) {}
-  explicit Bounded(const Real& exact) : Bounded(exact, 0) {}
-  Bounded(Real approximate, Size bound)
-      : value(std::move(approximate)), largest(widen * (magnitude() + bound)), error(bound) {}
+  explicit Bounded(double exact) : value(exact) {}
+  explicit Bounded(Real exact) : value(std::move(exact)) {}
+  Bounded(Real approximate, Size bound) : value(std::move(approximate)), error(bound) {}
 
   std::optional<int> sign() const {
     if (magnitude() > widen * error) return value > 0 ? 1 : -1;
@@ -65,31 +62,25 @@ struct Bounded<exact::Precise> {
   Size most() const { return widen * (magnitude() + error); }
   Size least() const { return std::max<Size>(0, magnitude() / widen - error); }
 
-  /// Bounds the size again, where differences have made it smaller than the operations show.
-  void tighten() { largest = most(); }
-
   /// Every operation is correctly rounded to 259 bits at least.
   static constexpr Size unit = 0x1p-256L;
   /// Bounds are sums and products of positive numbers with a few roundings each.
   static constexpr Size widen = 1 + 0x1p-48L;
 
-  friend Bounded operator-(const Bounded& a) { return {Real(-a.value), a.largest, a.error}; }
+  friend Bounded operator-(const Bounded& a) { return {Real(-a.value), a.error}; }
   friend Bounded operator+(const Bounded& a, const Bounded& b) {
-    const Size size = widen * (a.largest + b.largest);
-    return {Real(a.value + b.value), size, widen * (a.error + b.error + unit * size)};
+    return rounded(a.value + b.value, a.error + b.error);
   }
   friend Bounded operator-(const Bounded& a, const Bounded& b) { return a + (-b); }
   friend Bounded operator*(const Bounded& a, const Bounded& b) {
-    const Size size = widen * a.largest * b.largest;
-    return {Real(a.value * b.value), size,
-            widen * (a.largest * b.error + b.largest * a.error + unit * size)};
+    const auto of = [](const Bounded& one, Size off) { return off == 0 ? 0 : one.most() * off; };
+    return rounded(a.value * b.value, of(a, b.error) + of(b, a.error));
   }
   friend Bounded operator/(const Bounded& a, const Bounded& b) {
     const Size divisor = b.least();
     if (!(divisor > 0)) return {Real(0), std::numeric_limits<Size>::infinity()};
-    const Size size = widen * a.most() / divisor;  // a quotient's error grows by its size
-    return {Real(a.value / b.value), size,
-            widen * ((a.error + size * b.error) / divisor + unit * size)};
+    const Size size = a.most() / divisor;  // a quotient's error grows by its size
+    return rounded(a.value / b.value, (a.error + size * b.error) / divisor);
   }
   friend Bounded root_of(const Bounded& a) {
     if (a.value == 0 && a.error == 0) return {};
@@ -97,13 +88,16 @@ struct Bounded<exact::Precise> {
       const Size half = std::sqrt(std::max<Size>(0, a.most())) / 2;
       return {Real(half), widen * half};
     }
-    const Size root = std::sqrt(a.least()), size = std::sqrt(a.most());
-    return {Real(sqrt(a.value)), widen * size, widen * (a.error / root + unit * size)};
+    return rounded(sqrt(a.value), a.error / std::sqrt(a.least()));
   }
 
  private:
-  Bounded(Real approximate, Size size, Size bound)
-      : value(std::move(approximate)), largest(size), error(bound) {}
+  /// A result that is off by `error` before it is rounded.
+  static Bounded rounded(Real value, Size error) {
+    Bounded result(std::move(value), error);
+    result.error = widen * (error + unit * result.magnitude());
+    return result;
+  }
   /// Off by two roundings at most, for which `widen` has room.
   Size magnitude() const {
 #ifdef MEDIAL_WITHOUT_GMP
@@ -124,6 +118,14 @@ struct Bounded<exact::Precise> {
 };
 
 namespace exact {
+
+/// The same number with fewer digits.
+inline Bounded<Twofold> twofold_of(const Bounded<Precise>& number) {
+  const auto high = static_cast<double>(number.value);
+  const auto low = static_cast<double>(Precise(number.value - high));
+  const auto error = static_cast<double>(number.error) + 0x1p-104 * std::abs(high);
+  return {Twofold(high) + Twofold(low), (1 + 0x1p-48) * error + Rounding<double>::lost};
+}
 
 class RootField;
 

@@ -27,26 +27,12 @@ struct ApproximateRoots {
   Bounded<Real> root(const Bounded<Real>& square) { return root_of(square); }
 };
 
-/// See Bounded<Precise>::tighten().
-template <class... Numbers>
-void tighten(Numbers&... numbers) {
-  const auto one = [](auto& number) {
-    if constexpr (requires { number.tighten(); }) number.tighten();
-  };
-  (one(numbers), ...);
-}
-
 template <class Number>
 struct Vector {
   Number x, y;
 
   friend Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y}; }
-  /// Places near to each other have a difference that is smaller than they are.
-  friend Vector operator-(const Vector& a, const Vector& b) {
-    Vector difference{a.x - b.x, a.y - b.y};
-    tighten(difference.x, difference.y);
-    return difference;
-  }
+  friend Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y}; }
   friend Vector operator*(const Number& s, const Vector& a) { return {s * a.x, s * a.y}; }
 };
 template <class Number>
