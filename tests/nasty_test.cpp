@@ -413,13 +413,13 @@ TEST(Polygon, WithBulgesOfZeroHasTheSameAxis) {
   }
 }
 
-/// The tips of its teeth are of one circle, and all that rounding leaves open there is one node.
-TEST(Gear, IsMeasuredInsteadOfDecided) {
+/// The roots of its teeth are of one circle, and all that rounding leaves open there is one node.
+TEST(Gear, TakesFewQuestions) {
   const auto shape = build_shape(Rings{gear(40, 0.8)});
   ASSERT_TRUE(shape) << to_string(shape.error());
   const auto axis = compute(*shape, {.threads = 1});
   ASSERT_TRUE(axis) << to_string(axis.error());
-  EXPECT_EQ(axis->statistics.exact_precise, 0);
+  EXPECT_LE(axis->statistics.exact_twofold + axis->statistics.exact_precise, 40);
   EXPECT_TRUE(verify(*shape, *axis, {.threads = 1}).passed);
 }
 
@@ -539,7 +539,7 @@ constexpr std::array<Mended, 15> shapes{{{"strips", 0, 0},
                                          {"splinters", 0, 0},
                                          {"rounds", 0, 0},
                                          {"groups", 0, 20},
-                                         {"circles", 5},
+                                         {"circles"},
                                          {"bars"},
                                          {"tangents"},
                                          {"gears"},
@@ -572,6 +572,16 @@ constexpr std::array<Mended, 12> shapes_by_lee{{{"strips"},
 
 INSTANTIATE_TEST_SUITE_P(Classes, NastyShapesByLee, testing::ValuesIn(shapes_by_lee),
                          [](const auto& tested) { return std::string(tested.param.name); });
+
+/// In the centre of arcs of nearly one circle feet lie in directions that only bounds as small as a
+/// difference tell apart, and an edge of the axis may have one name on both sides.
+TEST(Circles, AreDecidedInTheirCentre) {
+  const NastyClass& circles = class_of("circles");
+  Faults faults;
+  faults.add(examine_nasty(circles, 20261301000000011, false, {.planar = true}));
+  faults.add(examine_nasty(circles, 20261302000000425, false, {}));
+  EXPECT_EQ(faults.count(Fault::none), 2U);
+}
 
 class NastyPlanarGraphs : public NastyShapes {};
 

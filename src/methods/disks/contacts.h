@@ -28,10 +28,6 @@ struct WalkContext {
   double radius_limit = 0;             ///< no disk inside the shape is larger
   const ExactEvents* exact = nullptr;  ///< none: double decides
   const std::atomic<bool>* cancel = nullptr;
-  /// Set, and the walk ends, where rounding leaves open what goes on in an arc's own circle, to
-  /// within `near`; none where contacts are separated for that already.
-  std::atomic<bool>* in_centers = nullptr;
-  double near = 0;
   std::function<void(std::uint64_t)> finished_sites;  ///< gets the number of further finished sites
   /// Above 0, tasks are deferred, and so is the rest of one that has found this many nodes.
   std::uint32_t most_nodes = 0;

@@ -8,7 +8,8 @@
 
 namespace medial::disks {
 
-/// The share of the tolerance to which the walk separates contacts between segments.
+/// The share of the tolerance to which the walk separates contacts: so fine that it asks for
+/// rounding only. What remains of a tie is merged at the end.
 constexpr double fine_share = 0.125;
 
 /// The method `disks` (docs/disks.md). Requires what compute() has checked. The graph has one part

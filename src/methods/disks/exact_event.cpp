@@ -95,7 +95,6 @@ class ExactEvents::Search {
         else
           consider(site);
       candidates = best_ ? intruders(*best_) : neighbors;
-      if (is_hopeless_) return std::nullopt;
       if (best_ && candidates.empty()) return Found{site_, rounded(*best_), error_of_best()};
       erase_seen(candidates);
       if (candidates.empty() && !std::exchange(node_asked, true)) {
@@ -123,8 +122,6 @@ class ExactEvents::Search {
   static constexpr double rounding = 0x1p-47;
   /// No two points of the local frame are further apart.
   static constexpr double furthest = 8;
-  /// In the centre of more arcs of one circle up to rounding, 256 bits take too long.
-  static constexpr std::size_t most_around = 1 << 14;
   /// An event nearer to the node than what this leaves of the way is touched by the node's disk.
   static constexpr int most_halvings = 128;
 
@@ -152,7 +149,7 @@ class ExactEvents::Search {
       if (disk && !is_too_large(*disk) && (!best_ || comes_before(*disk, *best_)) &&
           is_touched(span_.right, *disk, false) && is_touched(span_.left, *disk, false)) {
         std::vector<std::uint32_t> found = intruders(*disk);
-        if (found.empty() && !is_hopeless_) {
+        if (found.empty()) {
           low = middle;
           continue;
         }
@@ -318,17 +315,14 @@ class ExactEvents::Search {
     std::vector<std::uint32_t> near;
     events_.tree_.within(disk.center, disk.radius + rounding, span_.right + 1, span_.left - 1,
                          near);
-    std::size_t touched = 0;
     const std::vector<Vec2> vertices = touched_vertices();
     std::erase_if(near, [&](std::uint32_t site) {
-      if (is_bridge(site) || is_hopeless_ || (best_ && site == site_)) return true;
+      if (is_bridge(site) || (best_ && site == site_)) return true;
       const double gap = gap_of(site, disk);
       if (gap >= -events_.sites_.fine_tolerance_ && continues_touched(site)) return true;
       if (gap < -rounding) return false;
-      is_hopeless_ = events_.boundary_.has_arcs && ++touched > most_around;
-      return is_hopeless_ || exact::clearance(exact_site(site), exact_disk, vertices) >= 0;
+      return clearance(exact_site(site), exact_disk, vertices) >= 0;
     });
-    if (is_hopeless_) return found;
     // Of many that are new, a few take the place of most others.
     std::vector<std::uint32_t> fresh = near;
     std::erase_if(fresh, [&](std::uint32_t site) {
@@ -337,6 +331,19 @@ class ExactEvents::Search {
     const std::vector<std::uint32_t>& some = fresh.empty() ? near : fresh;
     for (std::size_t i = 0; i < some.size(); i += some.size() / few_ + 1) add(some[i]);
     return found;
+  }
+
+  /// exact::clearance(): a disk in the centre of arcs all but touches thousands of sites, most of
+  /// which fewer digits tell apart.
+  static int clearance(const exact::ExactSite& site, const KnownDisk& disk,
+                       std::span<const Vec2> touched) {
+    if constexpr (std::is_same_v<Real, Precise>) {
+      using exact::twofold_of;
+      const exact::DiskBounds<Twofold> about{{twofold_of(disk.center.x), twofold_of(disk.center.y)},
+                                             twofold_of(disk.radius)};
+      if (const int sign = exact::clearance(site, about, touched); sign != 0) return sign;
+    }
+    return exact::clearance(site, disk, touched);
   }
 
   /// Vertices among what the best disk touches: beside one of them, it neither keeps clear of an
@@ -439,7 +446,6 @@ class ExactEvents::Search {
   std::optional<KnownDisk> node_;  ///< of the span, where it is asked for
   std::unordered_set<std::uint32_t> seen_;
   std::size_t few_ = 8;  ///< intruders that are considered at a time
-  bool is_hopeless_ = false;
   std::optional<KnownDisk> best_;
   std::optional<std::array<Real, 2>>
       way_;  ///< where the event may be; asked for where none is near

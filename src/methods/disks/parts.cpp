@@ -84,8 +84,6 @@ Result<std::optional<MedialAxis>> run_in_parts(const Problem& problem, const Axi
       problem.radius_limit,
       exact_sites != nullptr ? &exact : nullptr,
       problem.options.cancel,
-      nullptr,
-      0,
       problem.options.progress ? report : std::function<void(std::uint64_t)>(),
       static_cast<std::uint32_t>(part_nodes / tasks_in_part)};
   OpenGraph open(problem, numbers, boundary, bridges.size(), tree, exact_sites);

@@ -4,7 +4,6 @@
 #include "methods/disks/certainty.h"
 #include "methods/disks/events.h"
 #include "methods/disks/exact_event.h"
-#include "methods/disks/near_circle.h"
 #include "site/tangent_disk.h"
 
 namespace medial::disks {
@@ -77,7 +76,7 @@ class Walker {
     while (!stack_.empty()) {
       const Step next = stack_.back();
       stack_.pop_back();
-      if (is_set(context_.cancel) || is_set(context_.in_centers)) break;
+      if (is_set(context_.cancel)) break;
       follow(next);
       if (is_full()) put_off_rest();
     }
@@ -239,16 +238,6 @@ class Walker {
     return flag != nullptr && flag->load(std::memory_order_relaxed);
   }
 
-  /// Whether a step stays in the centre of an arc that its node touches, and the walk is to end
-  /// there.
-  bool needs_separation(const Span& span, const Disk& from, const Disk& to) const {
-    if (context_.in_centers == nullptr) return false;
-    return ranges::any_of(std::array{span.right, span.left, span.third}, [&](std::uint32_t i) {
-      return i < boundary_.sites.size() && is_own_circle(site(i), from, context_.near) &&
-             is_own_circle(site(i), to, context_.near);
-    });
-  }
-
   /// Passes on to the last piece of an arc that the boundary has in several, which are one site of
   /// the shape. Whether there were any.
   bool joins_pieces(Span& span) const {
@@ -304,12 +293,16 @@ class Walker {
     return boundary_.is_same(i, i + 1);
   }
 
+  Event event_in_double(const Span& span, const Disk& from) {
+    return EventSearch(context_, contacts_, chunk_.statistics, span, from).next();
+  }
+
   /// What ends the edge of a step's span, in double, and whether that is certain.
   void propose(Step& step, const Disk& from) {
     step.is_proposed = true;
     if (is_exact_) return;
     const Span& span = step.span;
-    step.event = EventSearch(context_, contacts_, chunk_.statistics, span, from).next();
+    step.event = event_in_double(span, from);
     step.is_certain = context_.exact == nullptr;
     if (step.is_certain) return;
     const Certainty certainty(boundary_, context_.tolerance, span, from, step.event);
@@ -325,15 +318,11 @@ class Walker {
                                    : chunk_.statistics.exact_precise);
   }
 
-  /// The same exactly. Where that finds nothing, double's event stays and is noted. Whether
+  /// The same exactly. Where that finds nothing, double's event is taken and noted. Whether
   /// anything has changed.
   bool decide_exactly(Step& step, const Disk& from) {
     Event& event = step.event;
     Span& span = step.span;
-    if (needs_separation(span, from, event.disk)) {
-      context_.in_centers->store(true, std::memory_order_relaxed);
-      return false;
-    }
     Span asked = span;
     // Where nothing but pieces of one arc is left, the foot passes on over them.
     if (joins_pieces(asked) && asked.left - asked.right == 1 && stays_on_arc(span, event))
@@ -345,8 +334,9 @@ class Walker {
     const auto found = context_.exact->next(asked, from, hint, from_exact);
     count(found);
     if (!found) {
+      if (is_exact_) event = event_in_double(span, from);
       lose(span, event.site);
-      return false;
+      return is_exact_;
     }
     // Between sites that are all but parallel, double's disk is as good as any.
     if (!found->is_well_known() && event.site == found->site) return false;
@@ -415,7 +405,7 @@ class Walker {
     count(found);
     if (!found) {
       lose(whole, hint);
-      return is_exact_;
+      return false;
     }
     const std::uint32_t node = add_node(found->disk);
     push({{whole.right, found->site, node, whole.left, Certainty::rounding, true}},

@@ -8,7 +8,6 @@
 #include "methods/disks/disks.h"
 #include "methods/disks/exact_event.h"
 #include "methods/disks/merge_ties.h"
-#include "methods/disks/near_circle.h"
 #include "methods/disks/tie_fit.h"
 #include "site/bisector.h"
 #include "site/boundary_tree.h"
@@ -21,8 +20,6 @@ using disks::Element;
 
 /// How far a border's disk may be off, in tolerances: as the node of a tie.
 constexpr double border_error = 16;
-/// In tolerances: arcs that are within them of one circle are near to it, as `disks` has it.
-constexpr double near_circle = 1 << 12;
 /// What no disk is off by, in the local frame.
 constexpr double loose = 0x1p-20;
 
@@ -74,8 +71,7 @@ class Repairer {
     const site::BoundaryTree tree(boundary_.sites);
     std::vector<std::unique_ptr<disks::Chunk>> chunks;
     chunks.push_back(walk(tree));
-    if (in_centers_ || !chunks[0]->lost.empty() || !ends_well(*chunks[0], doubtful))
-      return std::nullopt;
+    if (!chunks[0]->lost.empty() || !ends_well(*chunks[0], doubtful)) return std::nullopt;
     disks::Graph part = disks::collect(chunks, window_.bridges, 0, false);
     if (degree_of_first(part) != 1) {
       doubtful.push_back(borders_[0].node);
@@ -97,18 +93,15 @@ class Repairer {
     const disks::ExactEvents events(sites_, boundary_, tree, never);
     decide = &events;
 #endif
-    const disks::WalkContext context{
-        boundary_,
-        window_.bridges,
-        tree,
-        (rings_.has_arcs() ? 1 : disks::fine_share) * measures_.fine_tolerance,
-        measures_.fine_tolerance,
-        measures_.radius_limit,
-        decide,
-        nullptr,
-        &in_centers_,
-        near_circle * measures_.fine_tolerance,
-        {}};
+    const disks::WalkContext context{boundary_,
+                                     window_.bridges,
+                                     tree,
+                                     disks::fine_share * measures_.fine_tolerance,
+                                     measures_.fine_tolerance,
+                                     measures_.radius_limit,
+                                     decide,
+                                     nullptr,
+                                     {}};
     return disks::walk_part(context, window_.bridges[0].disk,
                             border_error * measures_.fine_tolerance);
   }
@@ -232,6 +225,18 @@ class Repairer {
       }
   }
 
+  /// Whether a disk may be an arc's own circle: as round, and through both ends.
+  bool is_own_circle(const site::Site& site, const Disk& disk) const {
+    constexpr double alike = 0x1p-33, tolerances = 1 << 12;
+    const double slack = tolerances * measures_.fine_tolerance;
+    const auto is_on_disk = [&](Vec2 p) {
+      return std::abs(distance(p, disk.center) - disk.radius) <= slack;
+    };
+    return site.curvature > 0 &&
+           std::abs(site.curvature * disk.radius - 1) <= std::min(slack * site.curvature, alike) &&
+           is_on_disk(site.point) && is_on_disk(site.end());
+  }
+
   /// Whether merge_ties() may make one of two nodes of which not both branch: they are no further
   /// apart than their disks may move, or one of them is the own disk of an arc.
   bool may_be_hub(const AxisGraph::Edge& edge, const Disk& border, const Disk& inner) const {
@@ -239,7 +244,7 @@ class Repairer {
     std::array<Vec2, 2> outward;
     for (std::size_t i = 0; i < 2; ++i) {
       const site::Site site = rings_.site_near(edge.site[i], border.center);
-      if (disks::is_own_circle(site, border, near_circle * measures_.fine_tolerance)) return true;
+      if (is_own_circle(site, border)) return true;
       outward[i] = site::outward(site, border.center);
     }
     const double play = 2 / norm(outward[0] - outward[1]);
@@ -267,7 +272,6 @@ class Repairer {
   const Window& window_;
   const disks::Boundary& boundary_;
   const Measures& measures_;
-  std::atomic<bool> in_centers_ = false;  ///< see WalkContext
 #ifdef MEDIAL_HAS_EXACT
   const disks::ExactSites sites_;
 #endif
