@@ -585,8 +585,8 @@ TEST_F(Io, VectorPicturesHoldTheParabolaAsCubics) {
   EXPECT_GE(cubics, 8U);
 }
 
-/// Short edges in a row, whose radii alternate, and every other node is `aside`. First come the even
-/// edges, then the odd ones.
+/// Short edges in a row, whose radii alternate, and every other node is `aside`. First come the
+/// even edges, then the odd ones.
 AxisItem short_edges(std::uint32_t count, double aside) {
   AxisItem row;
   row.axis.resolution = 1;

@@ -22,8 +22,8 @@ namespace {
 constexpr std::size_t fan_out = 4;
 /// Below this many edges no tree is built.
 constexpr std::size_t brute_force = 16;
-/// Above this many edges a set gets no slab: it would be about as wide as the box.
-constexpr std::size_t largest_slab = 4096;
+/// Above this many edges the box of a set is not turned: it would be about as large.
+constexpr std::size_t largest_turned = 4096;
 constexpr double machine_epsilon = std::numeric_limits<double>::epsilon();
 constexpr double endless = std::numeric_limits<double>::infinity();
 
@@ -212,34 +212,31 @@ void DistanceTree::Run::set(std::size_t i, const BoundaryEdge& edge, std::uint32
   index[i] = its_index;
 }
 
+void DistanceTree::Bounds::set(std::size_t i, Vec2 normal, const Box& along_and_across) {
+  normal_x[i] = normal.x;
+  normal_y[i] = normal.y;
+  low_along[i] = along_and_across.low.x;
+  high_along[i] = along_and_across.high.x;
+  low_across[i] = along_and_across.low.y;
+  high_across[i] = along_and_across.high.y;
+}
+
 /// Bounds edges, or pieces of them; nothing is near to an empty set.
 void DistanceTree::bound(std::span<const BoundaryEdge> edges, const Extremes& extremes,
                          Bounds& bounds, std::size_t place) const {
   const auto [left, right, bottom, top] = extremes;
-  bounds.low_x[place] = left.x;
-  bounds.high_x[place] = right.x;
-  bounds.low_y[place] = bottom.y;
-  bounds.high_y[place] = top.y;
-
-  // Without a normal the slab is everything.
-  Vec2 normal;
-  double low = 0, high = 0;
+  const Box box{Vec2{left.x, bottom.y} - origin_, Vec2{right.x, top.y} - origin_};
+  const auto area = [](const Box& of) { return (of.high.x - of.low.x) * (of.high.y - of.low.y); };
+  bounds.set(place, {0, 1}, box);
   const Vec2 extent = right.x - left.x >= top.y - bottom.y ? right - left : top - bottom;
-  if (!edges.empty() && edges.size() <= largest_slab && norm(extent) > 0) {
-    normal = (1 / norm(extent)) * left_of(extent);
-    low = endless;
-    high = -endless;
-    for (const BoundaryEdge& edge : edges)
-      for_each_hull_point(edge, [&](Vec2 p) {
-        const double at = dot(normal, p - origin_);
-        low = std::min(low, at);
-        high = std::max(high, at);
-      });
-  }
-  bounds.normal_x[place] = normal.x;
-  bounds.normal_y[place] = normal.y;
-  bounds.slab_low[place] = low;
-  bounds.slab_high[place] = high;
+  if (edges.empty() || edges.size() > largest_turned || !(norm(extent) > 0)) return;
+  const Vec2 along = (1 / norm(extent)) * extent, normal = left_of(along);
+  Box turned = Box::nothing();
+  for (const BoundaryEdge& edge : edges)
+    for_each_hull_point(edge, [&](Vec2 p) {
+      turned.add(Vec2{dot(along, p - origin_), dot(normal, p - origin_)});
+    });
+  if (area(turned) < area(box)) bounds.set(place, normal, turned);
 }
 
 /// A place behind the centre of the circle through three points of a set. From the centre all sets
@@ -268,7 +265,7 @@ std::optional<Vec2> DistanceTree::centre_behind(std::span<const BoundaryEdge> ed
 /// The clearances of sets of `run` edges each; none where few sets are round.
 std::vector<DistanceTree::Clearances> DistanceTree::clearances_of(
     const std::vector<BoundaryEdge>& edges, std::size_t run, double size) {
-  if (run > largest_slab) return {};
+  if (run > largest_turned) return {};
   const std::size_t sets = (edges.size() + run - 1) / run;
   std::vector<Clearances> level((sets + fan_out - 1) / fan_out);
   std::atomic<std::size_t> round = 0;
@@ -296,28 +293,16 @@ inline Pair outside(const double* low, const double* high, Pair at) {
   return larger(larger(pair_at(low) - at, at - pair_at(high)), both(0));
 }
 
-/// Squared distances from p to the boxes of four sets of edges.
-inline void DistanceTree::squared_box_bounds(const Bounds& bounds, Vec2 p,
-                                             double (&squared)[fan_out]) {
+/// Squared distances from a place, relative to the origin, to the boxes of four sets of edges.
+inline void DistanceTree::squared_bounds(const Bounds& bounds, Vec2 q, double (&squared)[fan_out]) {
   for (std::size_t j = 0; j < fan_out; j += 2) {
-    const Pair x = outside(bounds.low_x + j, bounds.high_x + j, both(p.x));
-    const Pair y = outside(bounds.low_y + j, bounds.high_y + j, both(p.y));
-    const Pair box = x * x + y * y;
-    std::memcpy(squared + j, &box, sizeof box);
-  }
-}
-
-/// Lower bounds of the squared distances from p to the four sets of edges.
-inline void DistanceTree::squared_bounds(const Visit& visit, Vec2 p,
-                                         double (&squared)[fan_out]) const {
-  const Bounds& bounds = levels_[visit.level][visit.index];
-  squared_box_bounds(bounds, p, squared);
-  const Vec2 q = p - origin_;
-  for (std::size_t j = 0; j < fan_out; j += 2) {
-    const Pair along = pair_at(bounds.normal_x + j) * q.x + pair_at(bounds.normal_y + j) * q.y;
-    const Pair across = outside(bounds.slab_low + j, bounds.slab_high + j, along);
-    const Pair nearest = larger(pair_at(squared + j), across * across);
-    std::memcpy(squared + j, &nearest, sizeof nearest);
+    const Pair normal_x = pair_at(bounds.normal_x + j), normal_y = pair_at(bounds.normal_y + j);
+    const Pair along = outside(bounds.low_along + j, bounds.high_along + j,
+                               normal_y * both(q.x) - normal_x * both(q.y));
+    const Pair across = outside(bounds.low_across + j, bounds.high_across + j,
+                                normal_x * both(q.x) + normal_y * both(q.y));
+    const Pair square = along * along + across * across;
+    std::memcpy(squared + j, &square, sizeof square);
   }
 }
 
@@ -350,7 +335,7 @@ bool DistanceTree::search(Vec2 p, double& best) const {
     const Visit visit = stack[--size];
     if (visit.squared > limit) continue;
     double squared[fan_out];
-    squared_bounds(visit, p, squared);
+    squared_bounds(levels_[visit.level][visit.index], p - origin_, squared);
     raise(visit, p, squared);
     // The nearest child goes on top.
     const auto child = static_cast<std::uint32_t>(visit.index * fan_out);
@@ -378,11 +363,15 @@ bool DistanceTree::search(Vec2 p, double& best) const {
   return found;
 }
 
-/// All disks that are expected around some places, with room for rounding.
+/// All disks that are expected around some places, with room for rounding: a hull of three disks.
+/// The larger one of those at the ends is the one that other edges may be near to: they are looked
+/// at from its centre.
 class DistanceTree::Hull {
  public:
   Hull(const Places& places, double slack, bool arcs)
-      : center_(places.place(places.size / 2)), reach_(0), arcs_(arcs) {
+      : center_(places.hull[places.hull[0].radius > places.hull[2].radius ? 0 : 2].center),
+        reach_(0),
+        arcs_(arcs) {
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec2 to = places.hull[i].center - center_;
       const double radius = (1 + 8 * machine_epsilon) *
@@ -396,29 +385,23 @@ class DistanceTree::Hull {
   double reach() const { return reach_; }
 
   /// Whether no disk reaches a set in a box: all of it lies behind the line through the place of
-  /// the box nearest to the centre that is perpendicular to the way there.
-  bool misses_box(const Bounds& bounds, std::size_t set) const {
-    const Vec2 to = {
-        std::min(std::max(bounds.low_x[set] - center_.x, 0.0), bounds.high_x[set] - center_.x),
-        std::min(std::max(bounds.low_y[set] - center_.y, 0.0), bounds.high_y[set] - center_.y)};
-    const double square = squared_norm(to);
-    const auto behind = [&](const Corner& corner) {
-      const double ahead = square - (to.x * corner.x[0] + to.y * corner.y[0]);
-      return ahead > 0 && ahead * ahead > corner.radius[0] * corner.radius[0] * square;
+  /// the box nearest to the centre that is perpendicular to the way there, or behind the longer
+  /// side of the box that faces the centre.
+  bool misses_box(const Bounds& bounds, std::size_t set, Vec2 origin) const {
+    const Vec2 normal{bounds.normal_x[set], bounds.normal_y[set]}, along{normal.y, -normal.x};
+    const auto nearest = [](double low, double high, double at) {
+      return std::min(std::max(low - at, 0.0), high - at);
     };
-    return behind(corner_[0]) && behind(corner_[1]) && behind(corner_[2]);
-  }
-
-  /// Whether no disk reaches a set in a slab.
-  bool misses_slab(const Bounds& bounds, std::size_t set, Vec2 origin) const {
-    const Vec2 normal{bounds.normal_x[set], bounds.normal_y[set]};
-    const double along = dot(normal, center_ - origin);
-    const double low = bounds.slab_low[set] - along, high = bounds.slab_high[set] - along;
-    if (!(low > 0 || high < 0)) return false;
-    return std::all_of(corner_.begin(), corner_.end(), [&](const Corner& corner) {
-      const double at = normal.x * corner.x[0] + normal.y * corner.y[0];
-      return (low > 0 ? low - at : at - high) > corner.radius[0];
-    });
+    const Vec2 q = center_ - origin;
+    const double a = nearest(bounds.low_along[set], bounds.high_along[set], dot(along, q));
+    const double b = nearest(bounds.low_across[set], bounds.high_across[set], dot(normal, q));
+    const auto behind = [&](Vec2 to, double square) {
+      return std::all_of(corner_.begin(), corner_.end(), [&](const Corner& corner) {
+        const double ahead = square - (to.x * corner.x[0] + to.y * corner.y[0]);
+        return ahead > 0 && ahead * ahead > corner.radius[0] * corner.radius[0] * square;
+      });
+    };
+    return behind(a * along + b * normal, a * a + b * b) || (a != 0 && behind(b * normal, b * b));
   }
 
   /// Of two edges of a run, whether no disk reaches it. Of an edge, all but the height of an arc
@@ -520,12 +503,10 @@ MEDIAL_WIDE bool DistanceTree::find_in(const Hull& hull, Places& places) const {
     const Visit visit = stack[--size];
     double squared[fan_out];
     const Bounds& bounds = levels_[visit.level][visit.index];
-    squared_box_bounds(bounds, hull.center(), squared);
+    squared_bounds(bounds, hull.center() - origin_, squared);
     for (std::uint32_t j = 0; j < fan_out; ++j) {
       if (!(squared[j] <= limit)) continue;
-      // Where a box holds the centre, only its slab may lie elsewhere.
-      if ((squared[j] > 0 && hull.misses_box(bounds, j)) || hull.misses_slab(bounds, j, origin_))
-        continue;
+      if (squared[j] > 0 && hull.misses_box(bounds, j, origin_)) continue;
       const auto child = static_cast<std::uint32_t>(visit.index * fan_out) + j;
       if (visit.level > 0) {
         stack[size++] = {visit.level - 1, child, squared[j]};
@@ -567,18 +548,10 @@ double DistanceTree::some_distance(Vec2 p) const {
   // Down to the nearest box of each level.
   std::uint32_t index = 0;
   for (std::size_t level = levels_.size(); level-- > 0;) {
-    const Bounds& boxes = levels_[level][index];
-    std::uint32_t best = 0;
-    double nearest = endless;
-    for (std::uint32_t j = 0; j < fan_out; ++j) {
-      const double x = std::max({boxes.low_x[j] - p.x, 0.0, p.x - boxes.high_x[j]});
-      const double y = std::max({boxes.low_y[j] - p.y, 0.0, p.y - boxes.high_y[j]});
-      if (std::hypot(x, y) < nearest) {
-        nearest = std::hypot(x, y);
-        best = j;
-      }
-    }
-    index = index * static_cast<std::uint32_t>(fan_out) + best;
+    double squared[fan_out];
+    squared_bounds(levels_[level][index], p - origin_, squared);
+    const auto best = std::min_element(std::begin(squared), std::end(squared)) - squared;
+    index = index * static_cast<std::uint32_t>(fan_out) + static_cast<std::uint32_t>(best);
   }
   return distance_to(runs_[std::min<std::size_t>(index, runs_.size() - 1)], 0, p);
 }

@@ -59,12 +59,15 @@ class DistanceTree {
   void find_distances(Places& places) const;
 
  private:
-  /// Bounds of four sets of edges side by side, so that a compiler can compare them at once. Each
-  /// set lies in a box, and in a slab low <= normal . (p - origin_) <= high along its longest
-  /// extent: on a smooth boundary, boxes alone would let far too many edges near a contact pass.
+  /// Boxes around four sets of edges side by side, so that a compiler can compare them at once. A
+  /// box lies along the longest extent of its set or along the axes, whichever is the smaller: on a
+  /// smooth boundary, boxes along the axes would let far too many edges near a contact pass.
+  /// `across` is normal . (p - origin_), `along` the same with the normal turned to the right.
   struct Bounds {
-    double low_x[4], low_y[4], high_x[4], high_y[4];
-    double normal_x[4], normal_y[4], slab_low[4], slab_high[4];
+    double normal_x[4], normal_y[4];
+    double low_along[4], high_along[4], low_across[4], high_across[4];
+
+    void set(std::size_t i, Vec2 normal, const Box& along_and_across);
   };
 
   /// Beside each of four sets a disk that no edge of it reaches into, about a place behind the
@@ -87,8 +90,7 @@ class DistanceTree {
     void set(std::size_t i, const BoundaryEdge& edge, std::uint32_t its_index);
   };
 
-  static void squared_box_bounds(const Bounds& bounds, Vec2 p, double (&squared)[4]);
-  void squared_bounds(const Visit& visit, Vec2 p, double (&squared)[4]) const;
+  static void squared_bounds(const Bounds& bounds, Vec2 q, double (&squared)[4]);
   void raise(const Visit& visit, Vec2 p, double (&squared)[4]) const;
   double limit_for(double distance) const;
   void bound(std::span<const BoundaryEdge> edges, const Extremes& extremes, Bounds& bounds,
@@ -115,7 +117,7 @@ class DistanceTree {
   std::vector<std::vector<Bounds>> levels_;  ///< levels_[0] bounds the runs; none of few edges
   std::vector<std::vector<Clearances>> clearances_;  ///< of levels_, or empty: few sets are round
   Vec2 origin_;
-  double slack_;  ///< what rounding may add to the distance from a slab
+  double slack_;  ///< what rounding may add to the distance from a box
   EdgeArcs own_arcs_;
   const EdgeArcs* arcs_;
 };

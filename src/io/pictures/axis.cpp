@@ -69,7 +69,8 @@ void cut(const MedialAxis& axis, const Step& step, const Viewport& viewport, dou
     const double ends = std::fabs(curve.radius(0) - curve.radius(1));
     const double dip = std::fabs(curve.radius(0.5) - 0.5 * (curve.radius(0) + curve.radius(1)));
     const double shades = (ends + 2 * dip) / largest * shade_count;
-    pieces = static_cast<int>(std::clamp(std::min(std::ceil(shades), cells), 1.0, 1.0 * most_pieces));
+    pieces =
+        static_cast<int>(std::clamp(std::min(std::ceil(shades), cells), 1.0, 1.0 * most_pieces));
   }
   for (int i = 0; i < pieces; ++i) {
     const double t0 = static_cast<double>(i) / pieces;
