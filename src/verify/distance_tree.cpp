@@ -506,7 +506,9 @@ MEDIAL_WIDE bool DistanceTree::find_in(const Hull& hull, Places& places) const {
     squared_bounds(bounds, hull.center() - origin_, squared);
     for (std::uint32_t j = 0; j < fan_out; ++j) {
       if (!(squared[j] <= limit)) continue;
-      if (squared[j] > 0 && hull.misses_box(bounds, j, origin_)) continue;
+      // What is longer is reached nearly always.
+      const bool is_short = bounds.high_along[j] - bounds.low_along[j] < 0.5 * hull.reach();
+      if (is_short && hull.misses_box(bounds, j, origin_)) continue;
       const auto child = static_cast<std::uint32_t>(visit.index * fan_out) + j;
       if (visit.level > 0) {
         stack[size++] = {visit.level - 1, child, squared[j]};
