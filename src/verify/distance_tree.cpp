@@ -492,7 +492,7 @@ MEDIAL_WIDE void DistanceTree::lower(Places& places, const Run& run, std::size_t
 /// Lowers the distances of places to those from all edges within the expected ones; false if it
 /// gave up.
 MEDIAL_WIDE bool DistanceTree::find_in(const Hull& hull, Places& places) const {
-  constexpr int most_visits = 256, most_near = 64;
+  constexpr int most_visits = 96, most_near = 24;
   const double limit = limit_for(hull.reach());
   std::array<Visit, 64> stack;
   std::size_t size = 0;
