@@ -12,14 +12,13 @@
 #include <utility>
 
 #include "base/pair.h"
-#include "base/spatial_order.h"
 #include "base/threads.h"
 #include "base/wide.h"
+#include "verify/piece_order.h"
 
 namespace medial::verify_detail {
 namespace {
 
-constexpr std::size_t fan_out = 4;
 /// Below this many edges no tree is built.
 constexpr std::size_t brute_force = 16;
 /// Above this many edges the box of a set is not turned: it would be about as large.
@@ -30,20 +29,6 @@ constexpr double endless = std::numeric_limits<double>::infinity();
 /// Longer arcs are bounded piece by piece: the boxes of concentric half circles would lie in each
 /// other, and all of them in the way of every query. Shorter pieces are more, in the way as well.
 constexpr double longest_piece = std::numbers::pi / 4;
-
-/// Calls `visit` with points whose hull holds the edge: its ends, and for an arc the corners of the
-/// trapezoid whose other sides are tangent to it at the ends and in the middle.
-template <class Visitor>
-void for_each_hull_point(const BoundaryEdge& edge, const Visitor& visit) {
-  visit(edge.start);
-  visit(edge.end);
-  if (edge.bulge == 0) return;
-  const Vec2 chord = edge.chord();
-  const Vec2 side = (0.25 * (1 - edge.bulge) * (1 + edge.bulge)) * chord;
-  const Vec2 height = (-0.5 * edge.bulge) * left_of(chord);
-  visit(edge.start + side + height);
-  visit(edge.end - side + height);
-}
 
 /// Calls `visit` with the edge, cut into pieces of at most longest_piece.
 template <class Visitor>
@@ -61,13 +46,6 @@ void for_each_piece(const BoundaryEdge& edge, const Visitor& visit) {
     visit({start, end, std::tan(0.25 * angle / count)});
     start = end;
   }
-}
-
-std::vector<std::uint32_t> order_of(const std::vector<BoundaryEdge>& pieces) {
-  std::vector<Vec2> middle;
-  middle.reserve(pieces.size());
-  for (const BoundaryEdge& piece : pieces) middle.push_back(midpoint(piece.start, piece.end));
-  return spatial_order(middle, fan_out);
 }
 
 std::vector<BoundaryEdge> in_order(const std::vector<BoundaryEdge>& edges,
