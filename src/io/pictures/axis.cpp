@@ -51,6 +51,16 @@ bool runs_straight(const MedialAxis& axis, const Edge& edge) {
   return kind == axis.sites[edge.site[1]].kind() && kind != SiteKind::arc;
 }
 
+/// By how much nobody sees that a line is off.
+double slack_of(double cell) { return 0.1 * cell; }
+
+/// Whether a piece is nowhere further than `slack` from its chord.
+bool is_flat(const Piece& piece, double slack) {
+  const Vec2 chord = piece.to - piece.from, to = piece.control - piece.from;
+  const double across = cross(chord, to), along = dot(chord, to), square = squared_norm(chord);
+  return across * across <= slack * slack * square && along >= 0 && along <= square;
+}
+
 /// Cuts an edge where its radius passes from shade to shade, about, into pieces not shorter than
 /// `cell`: take(shade, piece).
 template <class Take>
@@ -84,8 +94,12 @@ void cut(const MedialAxis& axis, const Step& step, const Viewport& viewport, dou
     const double radius = std::max(curve.radius(0.5 * (t0 + t1)), 0.0);
     const int index =
         largest > 0 ? static_cast<int>(std::lround(radius / largest * (shade_count - 1))) : 0;
-    take(std::clamp(index, 0, shade_count - 1),
-         Piece{place(a), place(straight ? c : b), place(c), b.w / std::sqrt(a.w * c.w), straight});
+    Piece piece{place(a), place(straight ? c : b), place(c), b.w / std::sqrt(a.w * c.w), straight};
+    if (!straight && is_flat(piece, slack_of(cell))) {
+      piece.control = piece.to;
+      piece.straight = true;
+    }
+    take(std::clamp(index, 0, shade_count - 1), piece);
   }
 }
 
@@ -119,7 +133,7 @@ void draw_axes(Canvas& canvas, const Document<AxisItem>& file, double largest) {
     left -= distance(piece.from, piece.to);
     end = piece.to;
     std::vector<Piece>& line = pieces[chosen];
-    if (!line.empty() && lengthen(line.back(), piece, 0.1 * canvas.cell())) return;
+    if (!line.empty() && lengthen(line.back(), piece, slack_of(canvas.cell()))) return;
     if (cells[chosen].add(piece)) line.push_back(piece);
   };
   for (const AxisItem& item : file.items) {
