@@ -7,8 +7,10 @@ namespace medial {
 
 /// What verify() measured of the disks of an axis or diagram. Lengths in units of the input.
 struct DiskCertificate {
-  double tolerance = 0;            ///< bound on the residuals
-  double largest_residual = 0;     ///< max |distance to the boundary - r| over samples of all edges
+  double tolerance = 0;  ///< bound on the residuals
+  /// max |distance to the boundary - r|: a bound on all disks of edges where there is one within
+  /// the tolerance, elsewhere over samples
+  double largest_residual = 0;
   double largest_contact_gap = 0;  ///< max |distance to an edge's own sites - r|
   Vec2 worst;                      ///< where the largest residual is
   std::uint64_t disks_checked = 0;

@@ -76,6 +76,8 @@ class Arc {
     const Vec2 middle = 0.5 * ((p - edge_.start) + (p - edge_.end));
     return curvature_ * middle - cosine_ * left_of(chord_);
   }
+  /// Whether p lies on the arc's side of the circle's centre.
+  bool is_in_front(Vec2 p) const { return dot(left_of(chord_), from_center(p)) <= 0; }
   /// Whether the nearest point of the circle to p lies on the arc.
   bool is_beside(Vec2 p) const { return is_beside(p, from_center(p)); }
   /// Of the whole circle, positive on its left: see distance_to_carrier().

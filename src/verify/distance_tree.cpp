@@ -63,11 +63,20 @@ void for_each_piece(const BoundaryEdge& edge, const Visitor& visit) {
   }
 }
 
-std::vector<std::uint32_t> order_of(const std::vector<BoundaryEdge>& pieces) {
+/// An order in which sets of `size` pieces, each a part of a loop, lie close together.
+std::vector<std::uint32_t> order_of(const std::vector<BoundaryEdge>& pieces, std::size_t size) {
   std::vector<Vec2> middle;
-  middle.reserve(pieces.size());
-  for (const BoundaryEdge& piece : pieces) middle.push_back(midpoint(piece.start, piece.end));
-  return spatial_order(middle, fan_out);
+  middle.reserve(pieces.size() / size);
+  for (std::size_t i = 0; i < pieces.size(); i += size)
+    middle.push_back(midpoint(pieces[i].start, pieces[i + size - 1].end));
+  const std::vector<std::uint32_t> sets = spatial_order(middle, fan_out);
+  if (size == 1) return sets;
+  std::vector<std::uint32_t> order;
+  order.reserve(pieces.size());
+  for (const std::uint32_t set : sets)
+    for (std::size_t k = 0; k < size; ++k)
+      order.push_back(static_cast<std::uint32_t>(set * size + k));
+  return order;
 }
 
 std::vector<BoundaryEdge> in_order(const std::vector<BoundaryEdge>& edges,
@@ -96,17 +105,18 @@ EdgeArcs arcs_of(const Shape& shape) {
   return shape.bulges.empty() ? EdgeArcs() : EdgeArcs(edges_of(shape));
 }
 
-DistanceTree::DistanceTree(const Shape& shape)
-    : DistanceTree(edges_of(shape), bounding_box(shape), !shape.bulges.empty()) {}
+DistanceTree::DistanceTree(const Shape& shape) : own_arcs_(arcs_of(shape)), arcs_(&own_arcs_) {
+  build(edges_of(shape), bounding_box(shape), shape.loop_begin);
+}
 
-DistanceTree::DistanceTree(std::vector<BoundaryEdge> edges, const Box& box, bool arcs)
+DistanceTree::DistanceTree(const std::vector<BoundaryEdge>& edges, const Box& box, bool arcs)
     : own_arcs_(arcs ? EdgeArcs(edges) : EdgeArcs()), arcs_(&own_arcs_) {
-  build(std::move(edges), box);
+  build(edges, box, {});
 }
 
 DistanceTree::DistanceTree(const Shape& shape, const Box& box, const EdgeArcs& arcs)
     : arcs_(&arcs) {
-  build(edges_of(shape), box);
+  build(edges_of(shape), box, shape.loop_begin);
 }
 
 /// The first points of a set in each of four directions.
@@ -134,7 +144,8 @@ std::vector<DistanceTree::Run> DistanceTree::runs_of(const std::vector<std::uint
   return runs;
 }
 
-void DistanceTree::build(std::vector<BoundaryEdge> edges, const Box& box) {
+void DistanceTree::build(const std::vector<BoundaryEdge>& edges, const Box& box,
+                         std::span<const std::uint32_t> loop_begin) {
   const bool arcs = !arcs_->empty();
   origin_ = box.low;
   slack_ = 16 * machine_epsilon * diagonal(box);
@@ -143,8 +154,7 @@ void DistanceTree::build(std::vector<BoundaryEdge> edges, const Box& box) {
     for (const double c : {box.low.x, box.low.y, box.high.x, box.high.y})
       slack_ = std::max(slack_, 16 * machine_epsilon * std::abs(c));
   if (edges.size() > brute_force) {
-    const std::vector<BoundaryEdge> pieces = fill_runs(std::move(edges));  // frees the edges
-    build_levels(pieces, diagonal(box));
+    build_levels(fill_runs(edges, loop_begin), diagonal(box));
     return;
   }
   std::vector<std::uint32_t> index(edges.size());
@@ -153,27 +163,34 @@ void DistanceTree::build(std::vector<BoundaryEdge> edges, const Box& box) {
 }
 
 /// Makes runs of many edges in spatial order, and returns the pieces that they are bounded by.
-std::vector<BoundaryEdge> DistanceTree::fill_runs(std::vector<BoundaryEdge> edges) {
-  if (arcs_->empty()) {
-    const std::vector<std::uint32_t> order = order_of(edges);
-    edges = in_order(edges, order);
-    runs_ = runs_of(order, [&](std::size_t i) { return edges[i]; });
-    return edges;
-  }
+/// Along loops, four neighbours are one run.
+std::vector<BoundaryEdge> DistanceTree::fill_runs(const std::vector<BoundaryEdge>& edges,
+                                                  std::span<const std::uint32_t> loop_begin) {
   std::vector<BoundaryEdge> pieces;
-  std::vector<std::uint32_t> whole;              // the edge of each piece
-  pieces.reserve(edges.size() + arcs_->size());  // a quarter of a circle is two
+  std::vector<std::uint32_t> whole;  // the edge of each piece
+  // A quarter of a circle is two; a loop's last run is filled.
+  const std::size_t most = edges.size() + arcs_->size() + fan_out * loop_begin.size();
+  pieces.reserve(most);
+  whole.reserve(most);
+  std::size_t loop = 1;
   for (std::uint32_t i = 0; i < edges.size(); ++i) {
     for_each_piece(edges[i], [&](const BoundaryEdge& piece) {
       pieces.push_back(piece);
       whole.push_back(i);
     });
+    if (loop >= loop_begin.size() || i + 1 < loop_begin[loop]) continue;
+    ++loop;
+    while (pieces.size() % fan_out != 0) {
+      pieces.push_back(pieces.back());
+      whole.push_back(i);
+    }
   }
-  std::vector<std::uint32_t> order = order_of(pieces);
-  pieces = in_order(pieces, order);
-  for (std::uint32_t& i : order) i = whole[i];
-  runs_ = runs_of(order, [&](std::size_t i) { return edges[order[i]]; });
-  return pieces;
+  const std::vector<std::uint32_t> order = order_of(pieces, loop_begin.empty() ? 1 : fan_out);
+  std::vector<std::uint32_t> index;
+  index.reserve(order.size());
+  for (const std::uint32_t i : order) index.push_back(whole[i]);
+  runs_ = runs_of(index, [&](std::size_t i) { return edges[index[i]]; });
+  return in_order(pieces, order);
 }
 
 void DistanceTree::build_levels(const std::vector<BoundaryEdge>& pieces, double size) {
@@ -378,22 +395,26 @@ bool DistanceTree::search(Vec2 p, double& best) const {
   return found;
 }
 
-/// All disks that are expected around some places, with room for rounding.
+/// All disks of an edge, with room for rounding.
 class DistanceTree::Hull {
  public:
-  Hull(const Places& places, double slack, bool arcs)
-      : center_(places.place(places.size / 2)), reach_(0), arcs_(arcs) {
+  Hull(const DiskHull& disks, double slack)
+      : center_(0.5 * disks[1].center + 0.25 * (disks[0].center + disks[2].center)) {
+    double reach = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      const Vec2 to = places.hull[i].center - center_;
-      const double radius = (1 + 8 * machine_epsilon) *
-                            (std::max(0.0, places.hull[i].radius) + places.tolerance + slack);
-      corner_[i] = {both(to.x), both(to.y), both(radius)};
-      reach_ = std::max(reach_, norm(to) + radius);
+      const Vec2 to = disks[i].center - center_;
+      const double radius = (1 + 8 * machine_epsilon) * (disks[i].radius + slack);
+      corner_[i] = {both(to.x), both(to.y), both(radius), both(radius * radius)};
+      reach = std::max(reach, norm(to) + radius);
     }
+    // Nothing reaches the infinite bounds of empty sets.
+    limit_ =
+        std::min((1 + 8 * machine_epsilon) * reach * reach, std::numeric_limits<double>::max());
   }
+
   Vec2 center() const { return center_; }
-  /// The radius of a disk around the centre that holds all of them.
-  double reach() const { return reach_; }
+  /// The square of the radius of a disk around the centre that holds all of them.
+  double limit() const { return limit_; }
 
   /// Whether no disk reaches a set in a box: all of it lies behind the line through the place of
   /// the box nearest to the centre that is perpendicular to the way there.
@@ -404,7 +425,7 @@ class DistanceTree::Hull {
     const double square = squared_norm(to);
     const auto behind = [&](const Corner& corner) {
       const double ahead = square - (to.x * corner.x[0] + to.y * corner.y[0]);
-      return ahead > 0 && ahead * ahead > corner.radius[0] * corner.radius[0] * square;
+      return ahead > 0 && ahead * ahead > corner.square[0] * square;
     };
     return behind(corner_[0]) && behind(corner_[1]) && behind(corner_[2]);
   }
@@ -421,12 +442,12 @@ class DistanceTree::Hull {
     });
   }
 
-  /// Of two edges of a run, whether no disk reaches it. Of an edge, all but the height of an arc
-  /// lies behind the line through the point of its chord nearest to the centre, or through its
-  /// nearer end, that is perpendicular to the way there.
+  /// Whether no disk reaches two edges of a run. Of an edge, all but the height of an arc lies
+  /// behind the line through the point of its chord nearest to the centre, or through its nearer
+  /// end, that is perpendicular to the way there.
   Pairwise misses(const Run& run, std::size_t i) const {
     const Pair start_x = pair_at(run.start_x + i), start_y = pair_at(run.start_y + i);
-    const Pair from_x = both(center_.x) - start_x, from_y = both(center_.y) - start_y;
+    const Pair from_x = center_.x - start_x, from_y = center_.y - start_y;
     const Pair along_x = pair_at(run.end_x + i) - start_x;
     const Pair along_y = pair_at(run.end_y + i) - start_y;
     const Pair square = along_x * along_x + along_y * along_y;
@@ -437,58 +458,45 @@ class DistanceTree::Hull {
     const Pair distance_2 = off_x * off_x + off_y * off_y;
     const Pair to_start = off_x * from_x + off_y * from_y;
     const Pair behind = smaller(to_start, to_start - (off_x * along_x + off_y * along_y));
-    const auto misses_by = [&](const Corner& corner, Pair height) {
+    const Pair height =
+        0.5 * size_of(pair_at(run.bulge + i)) * (size_of(along_x) + size_of(along_y));
+    Pairwise missed = distance_2 > 0;
+    for (const Corner& corner : corner_) {
       const Pair ahead = larger(behind + off_x * corner.x + off_y * corner.y, both(0));
       const Pair reach = corner.radius + height;
-      return ahead * ahead > reach * reach * distance_2;
-    };
-    const auto misses_all = [&](Pair height) {
-      return misses_by(corner_[0], height) & misses_by(corner_[1], height) &
-             misses_by(corner_[2], height);
-    };
-    if (!arcs_) {
-      const Pairwise missed = misses_all(both(0));
-      if (all(missed)) return missed;
-      // Next to a convex corner, the line of the edge decides more than that through its nearer
-      // end.
-      const Pair across = along_x * from_y - along_y * from_x;
-      const Pair side = with_sign_of(both(1), across);
-      const auto beside = [&](const Corner& corner) {
-        const Pair away =
-            larger(side * (across + along_x * corner.y - along_y * corner.x), both(0));
-        return away * away > corner.radius * corner.radius * square;
-      };
-      return missed | (beside(corner_[0]) & beside(corner_[1]) & beside(corner_[2]));
+      missed &= ahead * ahead > reach * reach * distance_2;
     }
-    const Pair bulge = pair_at(run.bulge + i);
-    const Pair size = larger(along_x, -along_x) + larger(along_y, -along_y);
-    return misses_all(both(0.5) * larger(bulge, -bulge) * size);  // at least the height
+    if (all(missed) || any(height > 0)) return missed;
+    // Next to a convex corner, the line of a straight edge decides more than that through its
+    // nearer end.
+    const Pair across = along_x * from_y - along_y * from_x, side = with_sign_of(both(1), across);
+    Pairwise beside = square > 0;
+    for (const Corner& corner : corner_) {
+      const Pair away = larger(side * (across + along_x * corner.y - along_y * corner.x), both(0));
+      beside &= away * away > corner.square * square;
+    }
+    return missed | beside;
   }
 
  private:
   static constexpr double smallest = std::numeric_limits<double>::min();
 
   Vec2 center_;
-  double reach_;
-  bool arcs_;  ///< whether any edge is not straight
+  double limit_;
   struct Corner {
     Pair x, y;  ///< from the centre
-    Pair radius;
+    Pair radius, square;
   };
   std::array<Corner, 3> corner_;
 };
 
 /// Lowers the distances of places to those from an edge.
 MEDIAL_WIDE void DistanceTree::lower(Places& places, const Run& run, std::size_t i) const {
-  const std::uint32_t index = run.index[i];
-  if (index == places.known[0] || index == places.known[1] || index == places.known[2] ||
-      index == places.known[3])
-    return;
   const Vec2 start{run.start_x[i], run.start_y[i]}, end{run.end_x[i], run.end_y[i]};
   const Segment segment(start, end);
   const double length = segment.length();
   const Vec2 along = length > 0 ? (1 / length) * (end - start) : end - start;
-  const Arc* const arc = run.bulge[i] != 0 ? &(*arcs_)[index] : nullptr;
+  const Arc* const arc = run.bulge[i] != 0 ? &(*arcs_)[run.index[i]] : nullptr;
   const double room = slack_ + 0.5 * std::abs(run.bulge[i]) * length;  // an arc's height
   for (std::size_t k = 0; k < places.size; k += 2) {
     const Pair x = pair_at(&places.x[k]), y = pair_at(&places.y[k]);
@@ -506,58 +514,66 @@ MEDIAL_WIDE void DistanceTree::lower(Places& places, const Run& run, std::size_t
   }
 }
 
-/// Lowers the distances of places to those from all edges within the expected ones; false if it
-/// gave up.
-MEDIAL_WIDE bool DistanceTree::find_in(const Hull& hull, Places& places) const {
-  constexpr int most_visits = 256, most_near = 64;
-  const double limit = limit_for(hull.reach());
-  std::array<Visit, 64> stack;
+/// Adds those edges of a run that disks may reach, each once.
+inline void DistanceTree::add_near(const Hull& hull, std::uint32_t run, NearEdges& near) const {
+  const auto is_known = [&](std::uint32_t index) {
+    for (std::size_t i = 0; i < near.size; ++i)
+      if (index_at(near.place[i]) == index) return true;
+    return false;
+  };
+  for (std::uint32_t i = 0; i < fan_out; i += 2) {
+    const Pairwise missed = hull.misses(runs_[run], i);
+    if (all(missed)) continue;
+    for (std::uint32_t k = i; k < i + 2; ++k)
+      if (missed[k - i] == 0 && near.size < near.most && !is_known(runs_[run].index[k]))
+        near.place[near.size++] = static_cast<std::uint32_t>(fan_out * run) + k;
+  }
+}
+
+MEDIAL_WIDE bool DistanceTree::find_near(const DiskHull& disks, double tolerance,
+                                         NearEdges& near) const {
+  constexpr int most_visits = 256;
+  struct Set {
+    std::uint32_t level, index;
+  };
+  const Hull hull(disks, slack_ + tolerance);
+  std::array<Set, 64> stack;
   std::size_t size = 0;
-  stack[size++] = {static_cast<std::uint32_t>(levels_.size() - 1), 0, 0};
-  int near = 0;
+  if (levels_.empty())
+    for (std::uint32_t run = 0; run < runs_.size(); ++run) add_near(hull, run, near);
+  else
+    stack[size++] = {static_cast<std::uint32_t>(levels_.size() - 1), 0};
   for (int visits = 0; size > 0; ++visits) {
-    if (visits == most_visits || near > most_near) return false;
-    const Visit visit = stack[--size];
+    if (visits == most_visits || near.size == near.most) return false;
+    const Set set = stack[--size];
+    const Bounds& bounds = levels_[set.level][set.index];
     double squared[fan_out];
-    const Bounds& bounds = levels_[visit.level][visit.index];
     squared_box_bounds(bounds, hull.center(), squared);
     for (std::uint32_t j = 0; j < fan_out; ++j) {
-      if (!(squared[j] <= limit)) continue;
+      if (!(squared[j] <= hull.limit())) continue;
       // Where a box holds the centre, only its slab may lie elsewhere.
       if ((squared[j] > 0 && hull.misses_box(bounds, j)) || hull.misses_slab(bounds, j, origin_))
         continue;
-      const auto child = static_cast<std::uint32_t>(visit.index * fan_out) + j;
-      if (visit.level > 0) {
-        stack[size++] = {visit.level - 1, child, squared[j]};
-        continue;
-      }
-      const Run& run = runs_[child];
-      for (std::size_t i = 0; i < fan_out; i += 2) {
-        const Pairwise missed = hull.misses(run, i);
-        for (std::size_t k = 0; k < 2; ++k) {
-          if (missed[k] != 0) continue;
-          lower(places, run, i + k);
-          ++near;
-        }
-      }
+      const auto child = static_cast<std::uint32_t>(set.index * fan_out) + j;
+      if (set.level > 0)
+        stack[size++] = {set.level - 1, child};
+      else
+        add_near(hull, child, near);
     }
   }
-  return true;
+  return near.size < near.most;
 }
 
-void DistanceTree::find_distances(Places& places) const {
-  if (places.size == 0) return;
-  if (levels_.empty()) {
-    for (const Run& run : runs_)
-      for (std::size_t i = 0; i < fan_out; ++i) lower(places, run, i);
-    return;
-  }
-  const bool found = find_in(Hull(places, slack_, !arcs_->empty()), places);
+void DistanceTree::find_distances(const NearEdges* near, Places& places) const {
+  if (near != nullptr)
+    for (std::size_t i = 0; i < near->size; ++i)
+      lower(places, runs_[near->place[i] / fan_out], near->place[i] % fan_out);
   for (std::size_t i = 0; i < places.size; i += 2) {
     const Pair expected = larger(pair_at(&places.radius[i]), both(0)) + both(places.tolerance);
-    if (found && all(pair_at(&places.distance[i]) <= expected)) continue;  // nearly always
+    if (near != nullptr && all(pair_at(&places.distance[i]) <= expected))
+      continue;  // nearly always
     for (std::size_t k = i; k < std::min(i + 2, places.size); ++k)
-      if (!found || !(places.distance[k] <= expected[k - i]))
+      if (near == nullptr || !(places.distance[k] <= expected[k - i]))
         places.distance[k] =
             distance(places.place(k), std::min(places.distance[k], expected[k - i]));
   }
