@@ -63,20 +63,11 @@ void for_each_piece(const BoundaryEdge& edge, const Visitor& visit) {
   }
 }
 
-/// An order in which sets of `size` pieces, each a part of a loop, lie close together.
-std::vector<std::uint32_t> order_of(const std::vector<BoundaryEdge>& pieces, std::size_t size) {
+std::vector<std::uint32_t> order_of(const std::vector<BoundaryEdge>& pieces) {
   std::vector<Vec2> middle;
-  middle.reserve(pieces.size() / size);
-  for (std::size_t i = 0; i < pieces.size(); i += size)
-    middle.push_back(midpoint(pieces[i].start, pieces[i + size - 1].end));
-  const std::vector<std::uint32_t> sets = spatial_order(middle, fan_out);
-  if (size == 1) return sets;
-  std::vector<std::uint32_t> order;
-  order.reserve(pieces.size());
-  for (const std::uint32_t set : sets)
-    for (std::size_t k = 0; k < size; ++k)
-      order.push_back(static_cast<std::uint32_t>(set * size + k));
-  return order;
+  middle.reserve(pieces.size());
+  for (const BoundaryEdge& piece : pieces) middle.push_back(midpoint(piece.start, piece.end));
+  return spatial_order(middle, fan_out);
 }
 
 std::vector<BoundaryEdge> in_order(const std::vector<BoundaryEdge>& edges,
@@ -105,18 +96,17 @@ EdgeArcs arcs_of(const Shape& shape) {
   return shape.bulges.empty() ? EdgeArcs() : EdgeArcs(edges_of(shape));
 }
 
-DistanceTree::DistanceTree(const Shape& shape) : own_arcs_(arcs_of(shape)), arcs_(&own_arcs_) {
-  build(edges_of(shape), bounding_box(shape), shape.loop_begin);
-}
+DistanceTree::DistanceTree(const Shape& shape)
+    : DistanceTree(edges_of(shape), bounding_box(shape), !shape.bulges.empty()) {}
 
-DistanceTree::DistanceTree(const std::vector<BoundaryEdge>& edges, const Box& box, bool arcs)
+DistanceTree::DistanceTree(std::vector<BoundaryEdge> edges, const Box& box, bool arcs)
     : own_arcs_(arcs ? EdgeArcs(edges) : EdgeArcs()), arcs_(&own_arcs_) {
-  build(edges, box, {});
+  build(std::move(edges), box);
 }
 
 DistanceTree::DistanceTree(const Shape& shape, const Box& box, const EdgeArcs& arcs)
     : arcs_(&arcs) {
-  build(edges_of(shape), box, shape.loop_begin);
+  build(edges_of(shape), box);
 }
 
 /// The first points of a set in each of four directions.
@@ -144,8 +134,7 @@ std::vector<DistanceTree::Run> DistanceTree::runs_of(const std::vector<std::uint
   return runs;
 }
 
-void DistanceTree::build(const std::vector<BoundaryEdge>& edges, const Box& box,
-                         std::span<const std::uint32_t> loop_begin) {
+void DistanceTree::build(std::vector<BoundaryEdge> edges, const Box& box) {
   const bool arcs = !arcs_->empty();
   origin_ = box.low;
   slack_ = 16 * machine_epsilon * diagonal(box);
@@ -154,7 +143,8 @@ void DistanceTree::build(const std::vector<BoundaryEdge>& edges, const Box& box,
     for (const double c : {box.low.x, box.low.y, box.high.x, box.high.y})
       slack_ = std::max(slack_, 16 * machine_epsilon * std::abs(c));
   if (edges.size() > brute_force) {
-    build_levels(fill_runs(edges, loop_begin), diagonal(box));
+    const std::vector<BoundaryEdge> pieces = fill_runs(std::move(edges));  // frees the edges
+    build_levels(pieces, diagonal(box));
     return;
   }
   std::vector<std::uint32_t> index(edges.size());
@@ -163,34 +153,27 @@ void DistanceTree::build(const std::vector<BoundaryEdge>& edges, const Box& box,
 }
 
 /// Makes runs of many edges in spatial order, and returns the pieces that they are bounded by.
-/// Along loops, four neighbours are one run.
-std::vector<BoundaryEdge> DistanceTree::fill_runs(const std::vector<BoundaryEdge>& edges,
-                                                  std::span<const std::uint32_t> loop_begin) {
+std::vector<BoundaryEdge> DistanceTree::fill_runs(std::vector<BoundaryEdge> edges) {
+  if (arcs_->empty()) {
+    const std::vector<std::uint32_t> order = order_of(edges);
+    edges = in_order(edges, order);
+    runs_ = runs_of(order, [&](std::size_t i) { return edges[i]; });
+    return edges;
+  }
   std::vector<BoundaryEdge> pieces;
-  std::vector<std::uint32_t> whole;  // the edge of each piece
-  // A quarter of a circle is two; a loop's last run is filled.
-  const std::size_t most = edges.size() + arcs_->size() + fan_out * loop_begin.size();
-  pieces.reserve(most);
-  whole.reserve(most);
-  std::size_t loop = 1;
+  std::vector<std::uint32_t> whole;              // the edge of each piece
+  pieces.reserve(edges.size() + arcs_->size());  // a quarter of a circle is two
   for (std::uint32_t i = 0; i < edges.size(); ++i) {
     for_each_piece(edges[i], [&](const BoundaryEdge& piece) {
       pieces.push_back(piece);
       whole.push_back(i);
     });
-    if (loop >= loop_begin.size() || i + 1 < loop_begin[loop]) continue;
-    ++loop;
-    while (pieces.size() % fan_out != 0) {
-      pieces.push_back(pieces.back());
-      whole.push_back(i);
-    }
   }
-  const std::vector<std::uint32_t> order = order_of(pieces, loop_begin.empty() ? 1 : fan_out);
-  std::vector<std::uint32_t> index;
-  index.reserve(order.size());
-  for (const std::uint32_t i : order) index.push_back(whole[i]);
-  runs_ = runs_of(index, [&](std::size_t i) { return edges[index[i]]; });
-  return in_order(pieces, order);
+  std::vector<std::uint32_t> order = order_of(pieces);
+  pieces = in_order(pieces, order);
+  for (std::uint32_t& i : order) i = whole[i];
+  runs_ = runs_of(order, [&](std::size_t i) { return edges[order[i]]; });
+  return pieces;
 }
 
 void DistanceTree::build_levels(const std::vector<BoundaryEdge>& pieces, double size) {

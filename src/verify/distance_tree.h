@@ -47,7 +47,7 @@ class DistanceTree {
  public:
   explicit DistanceTree(const Shape& shape);
   /// Of edges anywhere; those without length are points. `arcs`: whether any edge is not straight.
-  DistanceTree(const std::vector<BoundaryEdge>& edges, const Box& box, bool arcs);
+  DistanceTree(std::vector<BoundaryEdge> edges, const Box& box, bool arcs);
   /// Of a shape of which these are known; `arcs`, arcs_of() the shape, stay the caller's.
   DistanceTree(const Shape& shape, const Box& box, const EdgeArcs& arcs);
   DistanceTree(const DistanceTree&) = delete;
@@ -112,10 +112,8 @@ class DistanceTree {
     if (run.bulge[i] != 0) return (*arcs_)[run.index[i]].distance(p);
     return distance_to_segment(p, {run.start_x[i], run.start_y[i]}, {run.end_x[i], run.end_y[i]});
   }
-  void build(const std::vector<BoundaryEdge>& edges, const Box& box,
-             std::span<const std::uint32_t> loop_begin);
-  std::vector<BoundaryEdge> fill_runs(const std::vector<BoundaryEdge>& edges,
-                                      std::span<const std::uint32_t> loop_begin);
+  void build(std::vector<BoundaryEdge> edges, const Box& box);
+  std::vector<BoundaryEdge> fill_runs(std::vector<BoundaryEdge> edges);
   void build_levels(const std::vector<BoundaryEdge>& pieces, double size);
 
   /// An arc as often as the tree has pieces of it; the last edge again where fewer are left.
