@@ -105,11 +105,15 @@ double WholeEdge::intrusion(Vec2 point) const {
 /// at most, that does so at both ends. The foot of one that lies ahead is off the end by the angle
 /// at the circle's centre times the radius.
 double WholeEdge::nearer_than_end(const BoundaryEdge& edge, const Arc* arc, bool start) const {
-  const Vec2 first = start_tangent_of(edge, arc),
-             last = arc != nullptr ? arc->end_tangent() : first;
+  if (arc == nullptr) {
+    const double ahead =
+        start ? most_ahead(edge.start, edge.chord()) : most_ahead(edge.end, -edge.chord());
+    return ahead > 0 ? ahead / norm(edge.chord()) : 0;
+  }
+  const Vec2 first = arc->start_tangent(), last = arc->end_tangent();
   if (start ? most_ahead(edge.end, last) > 0 : most_ahead(edge.start, -first) > 0) return unknown;
   const double ahead = start ? most_ahead(edge.start, first) : most_ahead(edge.end, -last);
-  if (ahead == 0 || arc == nullptr) return ahead;
+  if (ahead == 0) return 0;
   double nearest = 1;  // to the circle's centre, in radii
   for (const Disk& disk : control_)
     nearest =
