@@ -337,14 +337,20 @@ bool Converter::try_tilted(const Bezier& part, const Shares& shares, const Stati
   const double curved_end = demands.apex ? osculating_end : fixed_end;
   const double needed = tilted_parts * shares.total() + curved_end;
   if (!(needed + tilted_attempts <= most_divisions)) return false;
-  const double biarcs = std::ceil(needed + fixed_end);
-  const bool is_odd = needed + single_end <= biarcs;
-  int arcs = std::max(3, 2 * static_cast<int>(biarcs) - (is_odd ? 1 : 0));
+  // Where the flatter end is limited, and a balanced arc would break that, there is a biarc that
+  // osculates there.
+  const double limit = forward ? demands.limits.end : demands.limits.begin;
+  const double low = std::abs((forward ? b : a).curvature),
+               high = std::abs((forward ? a : b).curvature);
+  const bool limited = low + (high - low) / (6 * (needed + fixed_end)) > limit;
+  const double biarcs = std::ceil(needed + (limited ? osculating_end : fixed_end));
+  const bool is_odd = !limited && needed + single_end <= biarcs;
+  int arcs = std::max(limited ? 4 : 3, 2 * static_cast<int>(biarcs) - (is_odd ? 1 : 0));
   const Emitted before = emitted();
-  for (int attempt = 0; attempt < tilted_attempts; ++attempt, ++arcs) {
+  for (int attempt = 0; attempt < tilted_attempts; ++attempt, arcs += limited ? 2 : 1) {
     const int count = (arcs + 1) / 2;
     const bool single = arcs % 2 == 1;
-    const double flat_end = single ? single_end : fixed_end;
+    const double flat_end = limited ? osculating_end : single ? single_end : fixed_end;
     Knots knots;
     place_knots(shares, a, b, count, forward ? curved_end : flat_end,
                 forward ? flat_end : curved_end, knots);
