@@ -37,7 +37,7 @@ constexpr double spiral_length = 2.0 / 3;
 
 /// Between knots where arcs may meet at an angle to the curve, a biarc of that error is this much
 /// of a balanced one: by (998 / 324)^(1/3) longer, and a tenth less for what is uneven.
-constexpr double tilted_parts = 0.75;
+constexpr double tilted_parts = 0.78;
 /// What a biarc is shorter by, of such a length, at an end whose direction is the curve's: see
 /// tilt(). And a single arc there instead; and a biarc whose first arc is the osculating circle.
 constexpr double fixed_end = 0.157, single_end = 0.657, osculating_end = 0.35;
