@@ -40,11 +40,11 @@ constexpr double spiral_length = 2.0 / 3;
 constexpr double tilted_parts = 0.78;
 /// What a biarc is shorter by, of such a length, at an end whose direction is the curve's: see
 /// tilt(). And a single arc there instead; and a biarc whose first arc is the osculating circle.
-constexpr double fixed_end = 0.157, single_end = 0.657, osculating_end = 0.35;
+constexpr double fixed_end = 0.157, single_end = 0.657, osculating_end = 0.38;
 /// Numbers of arcs that are tried.
 constexpr int tilted_attempts = 3;
 /// Beyond so many balanced biarcs, by the ends of a part, one is not tried.
-constexpr double hopeless = 1.5;
+constexpr double hopeless = 2;
 
 /// Places at which a part is looked at to divide it, for each part that it may have and in all; and
 /// parts that it is divided into at once.
@@ -336,7 +336,7 @@ bool Converter::try_tilted(const Bezier& part, const Shares& shares, const Stati
   const bool forward = std::abs(a.curvature) >= std::abs(b.curvature);
   const double curved_end = demands.apex ? osculating_end : fixed_end;
   const double needed = tilted_parts * shares.total() + curved_end;
-  if (!(needed + tilted_attempts <= most_divisions)) return false;
+  if (!(needed + 1 <= most_divisions)) return false;
   // Where the flatter end is limited, and a balanced arc would break that, there is a biarc that
   // osculates there.
   const double limit = forward ? demands.limits.end : demands.limits.begin;
@@ -347,7 +347,8 @@ bool Converter::try_tilted(const Bezier& part, const Shares& shares, const Stati
   const bool is_odd = !limited && needed + single_end <= biarcs;
   int arcs = std::max(limited ? 4 : 3, 2 * static_cast<int>(biarcs) - (is_odd ? 1 : 0));
   const Emitted before = emitted();
-  for (int attempt = 0; attempt < tilted_attempts; ++attempt, arcs += limited ? 2 : 1) {
+  for (int attempt = 0; attempt < tilted_attempts && arcs <= 2 * most_divisions;
+       ++attempt, arcs += std::max(limited ? 2 : 1, arcs / 32 * 2)) {
     const int count = (arcs + 1) / 2;
     const bool single = arcs % 2 == 1;
     const double flat_end = limited ? osculating_end : single ? single_end : fixed_end;
