@@ -7,7 +7,7 @@ namespace medial {
 
 /// What verify() measured of the disks of an axis or diagram. Lengths in units of the input.
 struct DiskCertificate {
-  double tolerance = 0;  ///< bound on the residuals
+  double tolerance = 0;            ///< bound on the residuals
   double largest_residual = 0;     ///< max |distance to the boundary - r|: a bound, else sampled
   double largest_contact_gap = 0;  ///< max |distance to an edge's own sites - r|, likewise
   Vec2 worst;                      ///< where the largest residual is
