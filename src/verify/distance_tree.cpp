@@ -341,26 +341,27 @@ bool DistanceTree::search(Vec2 p, double& best) const {
   return found;
 }
 
-/// All disks that are expected around some places, with room for rounding: a hull of three disks.
-/// The larger one of those at the ends is the one that other edges may be near to: they are looked
-/// at from its centre.
+/// All disks of an edge, with room for rounding. The larger one of those at the ends is the one
+/// that other edges may be near to: they are looked at from its centre.
 class DistanceTree::Hull {
  public:
-  Hull(const Places& places, double slack, bool arcs)
-      : center_(places.hull[places.hull[0].radius > places.hull[2].radius ? 0 : 2].center),
-        reach_(0),
-        arcs_(arcs) {
+  Hull(const DiskHull& disks, double slack)
+      : center_(disks[disks[0].radius > disks[2].radius ? 0 : 2].center) {
+    double reach = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      const Vec2 to = places.hull[i].center - center_;
-      const double radius = (1 + 8 * machine_epsilon) *
-                            (std::max(0.0, places.hull[i].radius) + places.tolerance + slack);
-      corner_[i] = {both(to.x), both(to.y), both(radius)};
-      reach_ = std::max(reach_, norm(to) + radius);
+      const Vec2 to = disks[i].center - center_;
+      const double radius = (1 + 8 * machine_epsilon) * (disks[i].radius + slack);
+      corner_[i] = {both(to.x), both(to.y), both(radius), both(radius * radius)};
+      reach = std::max(reach, norm(to) + radius);
     }
+    // Nothing reaches the infinite bounds of empty sets.
+    limit_ =
+        std::min((1 + 8 * machine_epsilon) * reach * reach, std::numeric_limits<double>::max());
   }
+
   Vec2 center() const { return center_; }
-  /// The radius of a disk around the centre that holds all of them.
-  double reach() const { return reach_; }
+  /// The square of the radius of a disk around the centre that holds all of them.
+  double limit() const { return limit_; }
 
   /// Whether no disk reaches a set in a box: all of it lies behind the line through the place of
   /// the box nearest to the centre that is perpendicular to the way there, or behind the longer
@@ -376,18 +377,18 @@ class DistanceTree::Hull {
     const auto behind = [&](Vec2 to, double square) {
       return std::all_of(corner_.begin(), corner_.end(), [&](const Corner& corner) {
         const double ahead = square - (to.x * corner.x[0] + to.y * corner.y[0]);
-        return ahead > 0 && ahead * ahead > corner.radius[0] * corner.radius[0] * square;
+        return ahead > 0 && ahead * ahead > corner.square[0] * square;
       });
     };
     return behind(a * along + b * normal, a * a + b * b) || (a != 0 && behind(b * normal, b * b));
   }
 
-  /// Of two edges of a run, whether no disk reaches it. Of an edge, all but the height of an arc
-  /// lies behind the line through the point of its chord nearest to the centre, or through its
-  /// nearer end, that is perpendicular to the way there.
+  /// Whether no disk reaches two edges of a run. Of an edge, all but the height of an arc lies
+  /// behind the line through the point of its chord nearest to the centre, or through its nearer
+  /// end, that is perpendicular to the way there.
   Pairwise misses(const Run& run, std::size_t i) const {
     const Pair start_x = pair_at(run.start_x + i), start_y = pair_at(run.start_y + i);
-    const Pair from_x = both(center_.x) - start_x, from_y = both(center_.y) - start_y;
+    const Pair from_x = center_.x - start_x, from_y = center_.y - start_y;
     const Pair along_x = pair_at(run.end_x + i) - start_x;
     const Pair along_y = pair_at(run.end_y + i) - start_y;
     const Pair square = along_x * along_x + along_y * along_y;
@@ -398,58 +399,45 @@ class DistanceTree::Hull {
     const Pair distance_2 = off_x * off_x + off_y * off_y;
     const Pair to_start = off_x * from_x + off_y * from_y;
     const Pair behind = smaller(to_start, to_start - (off_x * along_x + off_y * along_y));
-    const auto misses_by = [&](const Corner& corner, Pair height) {
+    const Pair height =
+        0.5 * size_of(pair_at(run.bulge + i)) * (size_of(along_x) + size_of(along_y));
+    Pairwise missed = distance_2 > 0;
+    for (const Corner& corner : corner_) {
       const Pair ahead = larger(behind + off_x * corner.x + off_y * corner.y, both(0));
       const Pair reach = corner.radius + height;
-      return ahead * ahead > reach * reach * distance_2;
-    };
-    const auto misses_all = [&](Pair height) {
-      return misses_by(corner_[0], height) & misses_by(corner_[1], height) &
-             misses_by(corner_[2], height);
-    };
-    if (!arcs_) {
-      const Pairwise missed = misses_all(both(0));
-      if (all(missed)) return missed;
-      // Next to a convex corner, the line of the edge decides more than that through its nearer
-      // end.
-      const Pair across = along_x * from_y - along_y * from_x;
-      const Pair side = with_sign_of(both(1), across);
-      const auto beside = [&](const Corner& corner) {
-        const Pair away =
-            larger(side * (across + along_x * corner.y - along_y * corner.x), both(0));
-        return away * away > corner.radius * corner.radius * square;
-      };
-      return missed | (beside(corner_[0]) & beside(corner_[1]) & beside(corner_[2]));
+      missed &= ahead * ahead > reach * reach * distance_2;
     }
-    const Pair bulge = pair_at(run.bulge + i);
-    const Pair size = larger(along_x, -along_x) + larger(along_y, -along_y);
-    return misses_all(both(0.5) * larger(bulge, -bulge) * size);  // at least the height
+    if (all(missed) || any(height > 0)) return missed;
+    // Next to a convex corner, the line of a straight edge decides more than that through its
+    // nearer end.
+    const Pair across = along_x * from_y - along_y * from_x, side = with_sign_of(both(1), across);
+    Pairwise beside = square > 0;
+    for (const Corner& corner : corner_) {
+      const Pair away = larger(side * (across + along_x * corner.y - along_y * corner.x), both(0));
+      beside &= away * away > corner.square * square;
+    }
+    return missed | beside;
   }
 
  private:
   static constexpr double smallest = std::numeric_limits<double>::min();
 
   Vec2 center_;
-  double reach_;
-  bool arcs_;  ///< whether any edge is not straight
+  double limit_;
   struct Corner {
     Pair x, y;  ///< from the centre
-    Pair radius;
+    Pair radius, square;
   };
   std::array<Corner, 3> corner_;
 };
 
 /// Lowers the distances of places to those from an edge.
 MEDIAL_WIDE void DistanceTree::lower(Places& places, const Run& run, std::size_t i) const {
-  const std::uint32_t index = run.index[i];
-  if (index == places.known[0] || index == places.known[1] || index == places.known[2] ||
-      index == places.known[3])
-    return;
   const Vec2 start{run.start_x[i], run.start_y[i]}, end{run.end_x[i], run.end_y[i]};
   const Segment segment(start, end);
   const double length = segment.length();
   const Vec2 along = length > 0 ? (1 / length) * (end - start) : end - start;
-  const Arc* const arc = run.bulge[i] != 0 ? &(*arcs_)[index] : nullptr;
+  const Arc* const arc = run.bulge[i] != 0 ? &(*arcs_)[run.index[i]] : nullptr;
   const double room = slack_ + 0.5 * std::abs(run.bulge[i]) * length;  // an arc's height
   for (std::size_t k = 0; k < places.size; k += 2) {
     const Pair x = pair_at(&places.x[k]), y = pair_at(&places.y[k]);
@@ -467,58 +455,66 @@ MEDIAL_WIDE void DistanceTree::lower(Places& places, const Run& run, std::size_t
   }
 }
 
-/// Lowers the distances of places to those from all edges within the expected ones; false if it
-/// gave up.
-MEDIAL_WIDE bool DistanceTree::find_in(const Hull& hull, Places& places) const {
-  constexpr int most_visits = 96, most_near = 24;
-  const double limit = limit_for(hull.reach());
-  std::array<Visit, 64> stack;
-  std::size_t size = 0;
-  stack[size++] = {static_cast<std::uint32_t>(levels_.size() - 1), 0, 0};
-  int near = 0;
-  for (int visits = 0; size > 0; ++visits) {
-    if (visits == most_visits || near > most_near) return false;
-    const Visit visit = stack[--size];
-    double squared[fan_out];
-    const Bounds& bounds = levels_[visit.level][visit.index];
-    squared_bounds(bounds, hull.center() - origin_, squared);
-    for (std::uint32_t j = 0; j < fan_out; ++j) {
-      if (!(squared[j] <= limit)) continue;
-      // What is longer is reached nearly always.
-      const bool is_short = bounds.high_along[j] - bounds.low_along[j] < 0.5 * hull.reach();
-      if (is_short && hull.misses_box(bounds, j, origin_)) continue;
-      const auto child = static_cast<std::uint32_t>(visit.index * fan_out) + j;
-      if (visit.level > 0) {
-        stack[size++] = {visit.level - 1, child, squared[j]};
-        continue;
-      }
-      const Run& run = runs_[child];
-      for (std::size_t i = 0; i < fan_out; i += 2) {
-        const Pairwise missed = hull.misses(run, i);
-        for (std::size_t k = 0; k < 2; ++k) {
-          if (missed[k] != 0) continue;
-          lower(places, run, i + k);
-          ++near;
-        }
-      }
-    }
+/// Adds those edges of a run that disks may reach, each once.
+inline void DistanceTree::add_near(const Hull& hull, std::uint32_t run, NearEdges& near) const {
+  const auto is_known = [&](std::uint32_t index) {
+    for (std::size_t i = 0; i < near.size; ++i)
+      if (index_at(near.place[i]) == index) return true;
+    return false;
+  };
+  for (std::uint32_t i = 0; i < fan_out; i += 2) {
+    const Pairwise missed = hull.misses(runs_[run], i);
+    if (all(missed)) continue;
+    for (std::uint32_t k = i; k < i + 2; ++k)
+      if (missed[k - i] == 0 && near.size < near.most && !is_known(runs_[run].index[k]))
+        near.place[near.size++] = static_cast<std::uint32_t>(fan_out * run) + k;
   }
-  return true;
 }
 
-void DistanceTree::find_distances(Places& places) const {
-  if (places.size == 0) return;
-  if (levels_.empty()) {
-    for (const Run& run : runs_)
-      for (std::size_t i = 0; i < fan_out; ++i) lower(places, run, i);
-    return;
+MEDIAL_WIDE bool DistanceTree::find_near(const DiskHull& disks, double tolerance,
+                                         NearEdges& near) const {
+  constexpr int most_visits = 96;
+  struct Set {
+    std::uint32_t level, index;
+  };
+  const Hull hull(disks, slack_ + tolerance);
+  std::array<Set, 64> stack;
+  std::size_t size = 0;
+  if (levels_.empty())
+    for (std::uint32_t run = 0; run < runs_.size(); ++run) add_near(hull, run, near);
+  else
+    stack[size++] = {static_cast<std::uint32_t>(levels_.size() - 1), 0};
+  for (int visits = 0; size > 0; ++visits) {
+    if (visits == most_visits || near.size == near.most) return false;
+    const Set set = stack[--size];
+    const Bounds& bounds = levels_[set.level][set.index];
+    double squared[fan_out];
+    squared_bounds(bounds, hull.center() - origin_, squared);
+    for (std::uint32_t j = 0; j < fan_out; ++j) {
+      if (!(squared[j] <= hull.limit())) continue;
+      // What is longer is reached nearly always.
+      const double length = bounds.high_along[j] - bounds.low_along[j];
+      if (4 * length * length < hull.limit() && hull.misses_box(bounds, j, origin_)) continue;
+      const auto child = static_cast<std::uint32_t>(set.index * fan_out) + j;
+      if (set.level > 0)
+        stack[size++] = {set.level - 1, child};
+      else
+        add_near(hull, child, near);
+    }
   }
-  const bool found = find_in(Hull(places, slack_, !arcs_->empty()), places);
+  return near.size < near.most;
+}
+
+void DistanceTree::find_distances(const NearEdges* near, Places& places) const {
+  if (near != nullptr)
+    for (std::size_t i = 0; i < near->size; ++i)
+      lower(places, runs_[near->place[i] / fan_out], near->place[i] % fan_out);
   for (std::size_t i = 0; i < places.size; i += 2) {
     const Pair expected = larger(pair_at(&places.radius[i]), both(0)) + both(places.tolerance);
-    if (found && all(pair_at(&places.distance[i]) <= expected)) continue;  // nearly always
+    if (near != nullptr && all(pair_at(&places.distance[i]) <= expected))
+      continue;  // nearly always
     for (std::size_t k = i; k < std::min(i + 2, places.size); ++k)
-      if (!found || !(places.distance[k] <= expected[k - i]))
+      if (near == nullptr || !(places.distance[k] <= expected[k - i]))
         places.distance[k] =
             distance(places.place(k), std::min(places.distance[k], expected[k - i]));
   }

@@ -9,15 +9,21 @@
 
 #include "medial/axis.h"
 #include "medial/shape.h"
-#include "verify/boundary_edge.h"
+#include "verify/whole_edge.h"
 
 namespace medial::verify_detail {
 
-/// Places beside each other, whose distances are asked for together: the centres of disks on one
-/// rational Bézier curve, whose radii are expected.
+/// Edges that disks may reach, by their places in the tree.
+struct NearEdges {
+  static constexpr std::size_t most = 24;
+
+  std::size_t size = 0;
+  std::array<std::uint32_t, most> place;
+};
+
+/// Centres of disks, whose radii are expected.
 struct Places {
   static constexpr std::size_t most = 16;
-  static constexpr std::uint32_t no_edge = 0xFFFFFFFF;
 
   Vec2 place(std::size_t i) const { return {x[i], y[i]}; }
   /// Where their number is odd, the last one is looked at with a second one beside it.
@@ -25,12 +31,7 @@ struct Places {
     for (auto* const of : {&x, &y, &radius, &distance}) (*of)[size] = (*of)[size - 1];
   }
 
-  /// The disks are convex combinations of these, in x, y and radius.
-  std::array<Disk, 3> hull;
   double tolerance;
-  /// Edges that are no nearer than what is known: two sites, or the edges next to a vertex; or
-  /// no_edge.
-  std::array<std::uint32_t, 4> known;
   std::size_t size = 0;
   std::array<double, most> x, y, radius;
   /// At first the distance to the nearer one of the sites, or infinite; then to the nearest edge.
@@ -55,8 +56,13 @@ class DistanceTree {
   /// Distance from p to the nearest edge. `expected` is a guess at it: a query is fast where the
   /// guess is not much too large and not too small. O(log n) expected then.
   double distance(Vec2 p, double expected) const;
-  /// Finds the distances of places, sooner than one by one.
-  void find_distances(Places& places) const;
+  /// Finds the edges that disks, each larger by the tolerance, may reach; false if there are too
+  /// many.
+  bool find_near(const DiskHull& disks, double tolerance, NearEdges& near) const;
+  std::uint32_t index_at(std::uint32_t place) const { return runs_[place / 4].index[place % 4]; }
+  /// Finds the distances of disks' centres, of which these edges are near, sooner than one by one;
+  /// without `near`, one by one.
+  void find_distances(const NearEdges* near, Places& places) const;
 
  private:
   /// Boxes around four sets of edges side by side, so that a compiler can compare them at once. A
@@ -102,7 +108,7 @@ class DistanceTree {
   double some_distance(Vec2 p) const;
   template <class EdgeAt>
   static std::vector<Run> runs_of(const std::vector<std::uint32_t>& index, const EdgeAt& edge_at);
-  bool find_in(const Hull& hull, Places& places) const;
+  void add_near(const Hull& hull, std::uint32_t run, NearEdges& near) const;
   void lower(Places& places, const Run& run, std::size_t i) const;
   double distance_to(const Run& run, std::size_t i, Vec2 p) const {
     if (run.bulge[i] != 0) return (*arcs_)[run.index[i]].distance(p);
