@@ -585,28 +585,40 @@ TEST_F(Io, VectorPicturesHoldTheParabolaAsCubics) {
   EXPECT_GE(cubics, 8U);
 }
 
-/// Edges too short to be seen are not cut where their shade changes.
-TEST_F(Io, PicturesDrawShortEdgesInOnePiece) {
-  constexpr std::uint32_t count = 20000;
-  AxisItem zigzag;
-  zigzag.axis.resolution = 1;
+/// Short edges in a row, whose radii alternate, and every other node is `aside`. First come the
+/// even edges, then the odd ones.
+AxisItem short_edges(std::uint32_t count, double aside) {
+  AxisItem row;
+  row.axis.resolution = 1;
   for (std::uint32_t i = 0; i <= count; ++i)
-    zigzag.axis.nodes.push_back({{{static_cast<double>(i), 0}, i % 2 == 0 ? 1.0 : 1000.0}});
-  for (std::uint32_t i = 0; i < count; ++i) {
-    Edge& edge = zigzag.axis.edges.emplace_back();
-    edge.node = {i, i + 1};
-    edge.control = {{i + 0.5, 0}, 500.5};
+    row.axis.nodes.push_back({{{i + 0.0, i % 2 == 0 ? 0 : aside}, i % 2 == 0 ? 1.0 : 1000.0}});
+  for (const std::uint32_t first : {0U, 1U}) {
+    for (std::uint32_t i = first; i < count; i += 2) {
+      Edge& edge = row.axis.edges.emplace_back();
+      edge.node = {i, i + 1};
+      edge.control = {{i + 0.5, 0.5 * aside}, 500.5};
+    }
   }
-  Document<AxisItem> file;
-  file.items = {zigzag};
-  WriteOptions options;
-  options.shape = false;
-  ASSERT_TRUE(write_axes(path("a.svg"), "", file, options).ok());
-  const std::string text = content("a.svg");
-  std::size_t lines = 0;
-  for (std::size_t at = 0; (at = text.find(" L ", at)) != std::string::npos; ++at) ++lines;
-  EXPECT_GT(lines, count / 8);
-  EXPECT_LE(lines, count);
+  return row;
+}
+
+TEST_F(Io, PicturesDrawShortEdgesInFewPieces) {
+  const auto lines = [this](std::uint32_t count, double aside) {
+    Document<AxisItem> file;
+    file.items = {short_edges(count, aside)};
+    WriteOptions options;
+    options.shape = false;
+    EXPECT_TRUE(write_axes(path("a.svg"), "", file, options).ok());
+    const std::string text = content("a.svg");
+    std::size_t found = 0;
+    for (std::size_t at = 0; (at = text.find(" L ", at)) != std::string::npos; ++at) ++found;
+    return found;
+  };
+  // Edges too short to be seen are not cut where their shade changes; those in line are one line.
+  EXPECT_GT(lines(20000, 3), 20000U / 8);
+  EXPECT_LE(lines(20000, 3), 20000U);
+  EXPECT_EQ(lines(20000, 0), 1U);
+  EXPECT_GT(lines(200, 0), 200U * 5);  // five points long: cut, and no line of one shade
 }
 
 TEST_F(Io, PicturesOfAnythingAreDrawn) {

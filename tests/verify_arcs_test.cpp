@@ -14,6 +14,7 @@
 #include "support/property.h"
 #include "verify/boundary_edge.h"
 #include "verify/distance_tree.h"
+#include "verify/whole_edge.h"
 
 namespace medial {
 namespace {
@@ -404,6 +405,53 @@ TEST(BoundaryEdge, IsAsFarFromTwoPlacesAsFromEach) {
       EXPECT_EQ(from_segment[k], segment.signed_distance({x[k], y[k]})) << i;
     }
   }
+}
+
+/// Bounds of all disks of an edge against its disks one by one, of edges that touch nothing.
+TEST(WholeEdge, BoundsItsDisks) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  int contacts = 0, intrusions = 0, ends = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double bulge =
+        i % 3 == 0 ? 0 : std::copysign(std::pow(10, 2 * unit(random) - 2), unit(random));
+    const BoundaryEdge edge{{-1, 0}, {1, 0}, bulge};
+    verify_detail::DiskHull hull;
+    const double spread = std::pow(10, 2 * unit(random) - 2);
+    const Vec2 near{2 * unit(random), 3 * unit(random)};
+    for (Disk& disk : hull) {
+      disk.center = near + spread * Vec2{unit(random), unit(random)};
+      disk.radius =
+          std::abs(verify_detail::distance_to_edge(disk.center, edge) + spread * unit(random));
+    }
+    const double weight = 0.2 + std::abs(unit(random));
+    const verify_detail::WholeEdge whole(hull, weight);
+    const verify_detail::Arc arc_there(edge.bulge != 0 ? edge : BoundaryEdge{{-1, 0}, {1, 0}, 1});
+    const verify_detail::Arc* const arc = edge.bulge != 0 ? &arc_there : nullptr;
+    const Site site{edge.start, edge.end, 0, 0, edge.bulge}, vertex{edge.start, edge.start, 0, 0};
+    const double gap = whole.contact_gap(site, arc),
+                 gap_of_vertex = whole.contact_gap(vertex, nullptr);
+    const double intrusion = whole.intrusion(edge, arc), of_point = whole.intrusion(edge.start);
+    const double nearer = whole.nearer_than_end(edge, arc, true);
+    contacts += std::isfinite(gap) ? 1 : 0;
+    intrusions += std::isfinite(intrusion) ? 1 : 0;
+    ends += std::isfinite(nearer) ? 1 : 0;
+    const Curve curve(hull[0], hull[1], hull[2], weight);
+    for (int k = 0; k <= 32; ++k) {
+      const auto [p, r] = curve.at(k / 32.0);
+      const double d = verify_detail::distance_to_edge(p, edge), to_start = distance(p, edge.start);
+      const double side = verify_detail::distance_to_carrier(p, edge) < 0 ? -1 : 1;
+      constexpr double slack = 1e-13;
+      EXPECT_LE(std::abs(side * d - r), gap + slack) << i;
+      EXPECT_LE(std::abs(to_start - r), gap_of_vertex + slack) << i;
+      EXPECT_LE(r - d, intrusion + slack) << i;
+      EXPECT_LE(r - to_start, of_point + slack) << i;
+      EXPECT_LE(to_start - d, nearer + slack) << i;
+    }
+  }
+  EXPECT_GT(contacts, 4000);
+  EXPECT_GT(intrusions, 4000);
+  EXPECT_GT(ends, 4000);
 }
 
 TEST(BoundaryEdge, IsFarthestOppositeToTheFoot) {

@@ -13,6 +13,7 @@
 #include "support/hand_made.h"
 #include "support/property.h"
 #include "verify/distance_tree.h"
+#include "verify/piece_order.h"
 
 namespace medial {
 namespace {
@@ -545,6 +546,55 @@ TEST(DistanceTree, AgreesWithBruteForce) {
     for (const double guess : {0.0, 1.0, 1e300}) {
       EXPECT_DOUBLE_EQ(tree.distance({1e100, 0}, guess), 1e100);
       EXPECT_FALSE(tree.distance({1e300, -1e300}, guess) <= 1e200);
+    }
+  }
+}
+
+/// Regular polygons of so many corners around the origin, one in the other or beside each other.
+std::vector<verify_detail::BoundaryEdge> polygons(std::size_t corners, std::size_t count,
+                                                  bool nested) {
+  std::vector<verify_detail::BoundaryEdge> edges;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double radius = nested ? 1 + 0.01 * static_cast<double>(k) : 0.4;
+    const Vec2 centre{nested ? 0.0 : static_cast<double>(k), 0};
+    const auto corner = [&](std::size_t i) {
+      const double angle =
+          6.28318 * static_cast<double>(i % corners) / static_cast<double>(corners);
+      return centre + radius * Vec2{std::cos(angle), std::sin(angle)};
+    };
+    for (std::size_t i = 0; i < corners; ++i) edges.push_back({corner(i), corner(i + 1), 0});
+  }
+  return edges;
+}
+
+TEST(DistanceTree, RunsAreChainsUnlessTheyLieInEachOthersWay) {
+  const auto chains = [](const std::vector<verify_detail::BoundaryEdge>& edges) {
+    const std::vector<std::uint32_t> order = verify_detail::order_of(edges);
+    std::vector<bool> seen(edges.size(), false);
+    for (const std::uint32_t i : order) seen[i] = true;
+    EXPECT_EQ(std::count(seen.begin(), seen.end(), true), std::ssize(edges));
+    std::size_t found = 0;
+    for (std::size_t i = 0; i + 3 < order.size(); i += 4)
+      if (order[i] + 3 == order[i + 3] && edges[order[i]].end == edges[order[i + 1]].start) ++found;
+    return found;
+  };
+  EXPECT_EQ(chains(polygons(400, 1, false)), 100U);
+  EXPECT_EQ(chains(polygons(4, 100, false)), 100U);
+  EXPECT_LE(chains(polygons(4, 100, true)), 5U);
+  EXPECT_EQ(chains(polygons(3, 100, false)), 0U);
+  for (const std::size_t corners : {3U, 4U, 5U, 6U, 7U, 64U}) {
+    for (const bool nested : {false, true}) {
+      const auto edges = polygons(corners, 60, nested);
+      const verify_detail::DistanceTree tree(edges, {{-2, -2}, {62, 2}}, false);
+      std::mt19937 random(1);
+      std::uniform_real_distribution<double> unit(-1, 1);
+      for (int i = 0; i < 100; ++i) {
+        const Vec2 p{2 * unit(random), 2 * unit(random)};
+        double expected = std::numeric_limits<double>::infinity();
+        for (const auto& edge : edges)
+          expected = std::min(expected, verify_detail::distance_to_edge(p, edge));
+        EXPECT_EQ(tree.distance(p, 2 * expected), expected);
+      }
     }
   }
 }

@@ -55,7 +55,7 @@ def run(words):
 
 
 def skeletonize(image):
-    shape = np.array(image)
+    shape = np.array(image.convert("L")) > 0  # of one bit, Pillow's are no proper bools
     begin = time.process_time()
     skimage.morphology.skeletonize(shape)
     return time.process_time() - begin

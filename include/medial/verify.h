@@ -8,8 +8,8 @@ namespace medial {
 /// What verify() measured of the disks of an axis or diagram. Lengths in units of the input.
 struct DiskCertificate {
   double tolerance = 0;            ///< bound on the residuals
-  double largest_residual = 0;     ///< max |distance to the boundary - r| over samples of all edges
-  double largest_contact_gap = 0;  ///< max |distance to an edge's own sites - r|
+  double largest_residual = 0;     ///< max |distance to the boundary - r|: a bound, else sampled
+  double largest_contact_gap = 0;  ///< max |distance to an edge's own sites - r|, likewise
   Vec2 worst;                      ///< where the largest residual is
   std::uint64_t disks_checked = 0;
   bool passed = false;                ///< all requirements hold

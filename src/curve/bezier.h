@@ -76,6 +76,7 @@ struct Station {
   Vec2 point;
   Vec2 tangent;          ///< unit length, in the direction of travel
   double curvature = 0;  ///< infinite: a cusp, or an end where the first derivative is zero
+  double tilt = 0;       ///< the small angle from the tangent to the curve's own
 };
 
 /// Which part of the curve a tangent belongs to; they differ at cusps only.

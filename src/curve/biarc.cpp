@@ -1,8 +1,11 @@
 #include "curve/biarc.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <utility>
 
 #include "base/numbers.h"
 #include "curve/binomials.h"
@@ -32,34 +35,53 @@ bool in_sector(const Bezier& curve, Vec2 from, Vec2 begin, Vec2 to, Vec2 end, do
 
 using DoubleDegree = Fixed<double, 2 * max_degree + 1>;
 
-/// One level of de Casteljau's algorithm: coefficients 0 to `last` become one fewer.
-void reduce(DoubleDegree& b, int last, double t) {
-  for (int i = 0; i < last; ++i) b[i] += t * (b[i + 1] - b[i]);
+/// A bound on a polynomial over W^2, both in Bernstein coefficients (W^2 of rational curves only),
+/// piece by piece: a mean of the coefficients' ratios, with positive weights, is nowhere larger.
+inline double largest_on_pieces(DoubleDegree& f, DoubleDegree* w, int degree,
+                                std::span<const double> cuts) {
+  double largest = 0, before = 0;
+  const auto add = [&](int i) {
+    largest = std::max(largest, std::abs(w != nullptr ? f[i] / (*w)[i] : f[i]));
+  };
+  for (const double cut : cuts) {
+    // The first ones of each level are the coefficients before it.
+    const double t = (cut - before) / (1 - before);
+    for (int last = degree; last >= 0; --last) {
+      add(0);
+      for (int i = 0; i < last; ++i) f[i] += t * (f[i + 1] - f[i]);
+      for (int i = 0; w != nullptr && i < last; ++i) (*w)[i] += t * ((*w)[i + 1] - (*w)[i]);
+    }
+    before = cut;
+  }
+  for (int i = 0; i <= degree; ++i) add(i);
+  return largest;
 }
 
-/// A bound on a polynomial over W^2, both in Bernstein coefficients (W^2 of rational curves only),
-/// on both sides of t: a mean of the coefficients' ratios, with positive weights, is nowhere
-/// larger.
-inline double largest_on_parts(DoubleDegree& f, DoubleDegree* w, int degree, double t) {
-  double largest = 0;
-  // The first and last ones of each level are the parts' coefficients.
-  for (int last = degree; last >= 0; --last) {
-    for (const int i : {0, last}) {
-      largest = std::max(largest, std::abs(w != nullptr ? f[i] / (*w)[i] : f[i]));
-    }
-    reduce(f, last, t);
-    if (w != nullptr) reduce(*w, last, t);
-  }
-  return largest;
+/// Where a curve is farthest from an arc that it meets at both ends, at small angles: at the zeros
+/// of the derivative of s (1 - s) (a (1 - s) - b s), with the slopes a and b there. Where two
+/// pieces meet there, the bound is the function itself.
+struct Peaks {
+  std::array<double, 2> at{};
+  std::size_t count = 0;
+};
+Peaks peaks_of(const Bezier& curve, const Arc& arc) {
+  const int n = curve.degree;
+  const Vec2 first = curve.point(1) - curve.point(0), last = curve.point(n) - curve.point(n - 1);
+  const double a = cross(tangent_at_begin(arc), first) / norm(first);
+  const double b = cross(tangent_at_end(arc), last) / norm(last);
+  const double middle = 2 * a + b;
+  const double q = middle + std::copysign(std::sqrt(a * a + a * b + b * b), middle);
+  Peaks peaks;
+  constexpr double margin = 0.05;  // next to an end a cut would be in vain
+  for (const double s : {a / q, q / (3 * (a + b))})
+    if (s > margin && s < 1 - margin) peaks.at[peaks.count++] = s;
+  if (peaks.count == 2 && peaks.at[0] > peaks.at[1]) std::swap(peaks.at[0], peaks.at[1]);
+  return peaks;
 }
 
 /// A bound on F of the curve, for the circle at one end of the arc.
 double largest_circle_function(const Bezier& curve, Vec2 base, Vec2 tangent, double k,
-                               bool at_begin) {
-  // Where the arc touches the curve the distance is at first like s^2 (1 - s), largest at two
-  // thirds of the way: where the two parts meet, the bound is the function itself.
-  constexpr double peak = 2.0 / 3;
-  const double cut = at_begin ? peak : 1 - peak;
+                               std::span<const double> cuts) {
   return with_degree(curve.degree, [&](auto n) {
     const Binomials& binomials = binomials_of(n);
     // Coefficients times the binomials: c, its turned component, and the weight.
@@ -81,9 +103,9 @@ double largest_circle_function(const Bezier& curve, Vec2 base, Vec2 tangent, dou
     };
     DoubleDegree numerator =
         sum([&](int i, int j) { return k * (cx[i] * cx[j] + cy[i] * cy[j]) - side[i] * w[j]; });
-    if (!curve.rational) return largest_on_parts(numerator, nullptr, 2 * n, cut);
+    if (!curve.rational) return largest_on_pieces(numerator, nullptr, 2 * n, cuts);
     DoubleDegree denominator = sum([&](int i, int j) { return w[i] * w[j]; });
-    return largest_on_parts(numerator, &denominator, 2 * n, cut);
+    return largest_on_pieces(numerator, &denominator, 2 * n, cuts);
   });
 }
 
@@ -92,7 +114,9 @@ double circle_error(const Bezier& curve, const Arc& arc, bool at_begin) {
   const Vec2 base = at_begin ? arc.begin : arc.end;
   const Vec2 tangent = at_begin ? tangent_at_begin(arc) : tangent_at_end(arc);
   const double k = curvature(arc);
-  const double f = largest_circle_function(curve, base, tangent, k, at_begin);
+  const Peaks peaks = peaks_of(curve, arc);
+  const double f =
+      largest_circle_function(curve, base, tangent, k, std::span(peaks.at.data(), peaks.count));
   return distance_of(k > 0 ? -f : f, k);  // the larger of both sides
 }
 
@@ -156,7 +180,13 @@ Vec2 flat_joint(const Station& a, const Station& b) {
 }
 
 Vec2 balanced_joint(const Station& a, const Station& b) {
-  Vec2 joint = 0.5 * (osculating_joint(a, b) + osculating_joint(reversed(b), reversed(a)));
+  const double whole = (b.curvature - a.curvature) * distance(a.point, b.point);
+  const double p = a.tilt / whole, q = b.tilt / whole;
+  const double first = (1.0 / 6 - p - q) / (0.5 + p - q);
+  const double last = (1.0 / 3 + 2 * q) / (0.5 + q - p);
+  const double weight = (last - (0.5 + 3 * (p - q))) / (last - first);
+  Vec2 joint =
+      weight * osculating_joint(a, b) + (1 - weight) * osculating_joint(reversed(b), reversed(a));
   const JointCircle circle = joint_circle(a, b);
   // Newton's steps: the middle of a chord is off by the square of its length, not by rounding.
   for (int step = 0; step < 3; ++step) joint = joint - circle.off(joint) * circle.normal(joint);

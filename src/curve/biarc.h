@@ -54,9 +54,11 @@ Vec2 spiral_joint(const Station& a, const Station& b);
 /// curvature.
 Vec2 flat_joint(const Station& a, const Station& b);
 
-/// The joint halfway between the other two: the curvatures of both arcs are then between those of
-/// the ends. Along a short spiral it is where the biarc's error is least, less than a third of the
-/// spiral biarc's.
+/// The joint between the other two, halfway if no tangent is tilted: the curvatures of both arcs
+/// are then between those of the ends. Along a short spiral it is where the biarc's error is least,
+/// less than a third of the spiral biarc's. Where curvature changes by d over the way c, between
+/// tilts p d c and q d c, that joint is at 1/2 + 3 (p - q) of the way, and the others, whose arcs
+/// osculate at either end, at (1/6 - p - q) / (1/2 + p - q) and (1/3 + 2 q) / (1/2 + q - p).
 Vec2 balanced_joint(const Station& a, const Station& b);
 
 /// The joint moved by whole steps of a grid to a grid point next to the joint circle: by at most

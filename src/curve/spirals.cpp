@@ -35,6 +35,17 @@ constexpr double same_curvature = 1e-8;
 constexpr double balanced_error = 1.03 / 324;
 constexpr double spiral_length = 2.0 / 3;
 
+/// Between knots where arcs may meet at an angle to the curve, a biarc of that error is this much
+/// of a balanced one: by (998 / 324)^(1/3) longer, and a tenth less for what is uneven.
+constexpr double tilted_parts = 0.78;
+/// What a biarc is shorter by, of such a length, at an end whose direction is the curve's: see
+/// tilt(). And a single arc there instead; and a biarc whose first arc is the osculating circle.
+constexpr double fixed_end = 0.157, single_end = 0.657, osculating_end = 0.38;
+/// Numbers of arcs that are tried.
+constexpr int tilted_attempts = 3;
+/// Beyond so many balanced biarcs, by the ends of a part, one is not tried.
+constexpr double hopeless = 2;
+
 /// Places at which a part is looked at to divide it, for each part that it may have and in all; and
 /// parts that it is divided into at once.
 constexpr double samples_per_part = 2;
@@ -106,10 +117,45 @@ class Converter {
   using Knots = Fixed<Station, most_divisions + 1>;
 
   void convert(const Bezier& part, const Station& a, const Station& b, Demands demands, int depth);
-  void convert_between(const Bezier& part, Knots& knots, int first, int last, Demands demands,
-                       int depth);
-  int knots_of(const Bezier& part, const Station& a, const Station& b, Demands demands,
-               Knots& knots) const;
+  template <class Leaf>
+  bool visit_between(const Bezier& part, Knots& knots, int first, int last, Demands demands,
+                     const Leaf& leaf);
+  /// How many balanced biarcs there are up to some places along a part, evenly spaced in the
+  /// parameter.
+  struct Shares {
+    int samples;
+    Fixed<double, most_samples + 1> sum;
+
+    double total() const { return sum[samples]; }
+    bool even() const { return !(total() > 0 && total() <= std::numeric_limits<double>::max()); }
+    double parameter_at(double share) const;
+  };
+  Shares shares_of(const Bezier& part, const Station& a, const Station& b) const;
+  void place_knots(const Shares& shares, const Station& a, const Station& b, int count,
+                   double saved_begin, double saved_end, Knots& knots) const;
+  bool try_tilted(const Bezier& part, const Shares& shares, const Station& a, const Station& b,
+                  Demands demands);
+  static void tilt(Knots& knots, int count);
+  static void align(Station& knot, const Station& end);
+  bool try_arc(const Bezier& part, const Station& a, const Station& b, Demands demands);
+  /// What is there to go back to.
+  struct Emitted {
+    std::size_t arcs;
+    double last_bulge, error;
+    bool merge, ends_osculating;
+  };
+  Emitted emitted() const {
+    return {chain_.bulges.size(), chain_.bulges.empty() ? 0 : chain_.bulges.back(), error_, merge_,
+            ends_osculating_};
+  }
+  void restore(const Emitted& before) {
+    chain_.points.resize(before.arcs);
+    chain_.bulges.resize(before.arcs);
+    if (before.arcs > 0) chain_.bulges.back() = before.last_bulge;
+    error_ = before.error;
+    merge_ = before.merge;
+    ends_osculating_ = before.ends_osculating;
+  }
   /// How many balanced biarcs there are on a short part. The error of one grows with the change of
   /// curvature and the square of the length; its cube root adds up along a curve.
   double parts_between(const Station& a, const Station& b) const {
@@ -186,7 +232,7 @@ void Converter::convert(const Bezier& part, const Station& a, const Station& b, 
     } else if (std::abs(a.curvature - b.curvature) * squared_norm(chord) <=
                constant * options_.rounding) {
       if (try_single_arc(part, a, b)) return;
-    } else if (try_biarc(part, a, b, demands)) {
+    } else if (parts_between(a, b) <= hopeless && try_biarc(part, a, b, demands)) {
       return;
     }
   }
@@ -198,76 +244,174 @@ void Converter::convert(const Bezier& part, const Station& a, const Station& b, 
     error_ = std::max(error_, size);
     return;
   }
+  const Shares shares = shares_of(part, a, b);
+  if (try_tilted(part, shares, a, b, demands)) return;
+  // Into parts that all have about the tolerance as their error.
+  const bool forward = std::abs(a.curvature) >= std::abs(b.curvature);
+  const double saved = demands.apex && !shares.even() ? 1 - spiral_length : 0;
+  const double wanted = std::ceil(shares.total() + saved);
+  // More are made in blocks that have many parts each: one of few is rounded up to one more.
+  const double fitting =
+      wanted <= most_divisions ? wanted : std::ceil(wanted / (0.5 * most_divisions));
+  const int count =
+      shares.even() ? 2 : static_cast<int>(std::clamp(fitting, 2.0, double{most_divisions}));
   Knots knots;
-  const int count = knots_of(part, a, b, demands, knots);
-  convert_between(part, knots, 0, count, demands, depth + 1);
+  place_knots(shares, a, b, count, forward ? saved : 0, forward ? 0 : saved, knots);
+  visit_between(part, knots, 0, count, demands,
+                [&](const Bezier& piece, const Station& from, const Station& to, Demands own) {
+                  convert(piece, from, to, own, depth + 1);
+                  return true;
+                });
 }
 
 /// The parts between some knots of a part, which is cut in the middle again and again: that rounds
-/// control points less often than cutting off one after the other.
-void Converter::convert_between(const Bezier& part, Knots& knots, int first, int last,
-                                Demands demands, int depth) {
+/// control points less often than cutting off one after the other. As long as `leaf` can take them.
+template <class Leaf>
+bool Converter::visit_between(const Bezier& part, Knots& knots, int first, int last,
+                              Demands demands, const Leaf& leaf) {
   const Station& a = knots[first];
   const Station& b = knots[last];
-  if (last == first + 1) {
-    convert(part, a, b, demands, depth);
-    return;
-  }
+  if (last == first + 1) return leaf(part, a, b, demands);
   const int middle = (first + last) / 2;
   Station& m = knots[middle];
   Bezier left, right;
   split(part, (m.t - a.t) / (b.t - a.t), left, right);
   const bool forward = std::abs(a.curvature) >= std::abs(b.curvature);
-  convert_between(left, knots, first, middle,
-                  {{demands.limits.begin, infinity}, demands.apex && forward}, depth);
+  if (!visit_between(left, knots, first, middle,
+                     {{demands.limits.begin, infinity}, demands.apex && forward}, leaf))
+    return false;
   if (is_singular(m)) m = snapped(station_at(curve_, m.t, Side::after));
-  convert_between(right, knots, middle, last,
-                  {{infinity, demands.limits.end}, demands.apex && !forward}, depth);
+  return visit_between(right, knots, middle, last,
+                       {{infinity, demands.limits.end}, demands.apex && !forward}, leaf);
 }
 
-/// Where to divide a part, with its ends, into two parts or more, enough that all have about the
-/// tolerance as their error. Gives their number.
-int Converter::knots_of(const Bezier& part, const Station& a, const Station& b, Demands demands,
-                        Knots& knots) const {
-  // The parts up to some places, evenly spaced in the parameter.
-  Fixed<double, most_samples + 1> sum;
+Converter::Shares Converter::shares_of(const Bezier& part, const Station& a,
+                                       const Station& b) const {
+  Shares shares;
   const double expected = std::min(parts_between(a, b), double{most_samples});
-  const int samples = std::clamp(static_cast<int>(std::ceil(samples_per_part * expected)),
-                                 fewest_samples, most_samples);
-  sum[0] = 0;
+  shares.samples = std::clamp(static_cast<int>(std::ceil(samples_per_part * expected)),
+                              fewest_samples, most_samples);
+  shares.sum[0] = 0;
   Station from = a;
-  for (int i = 1; i <= samples; ++i) {
+  for (int i = 1; i <= shares.samples; ++i) {
     Station to = b;
-    if (i < samples) {
-      const Jet jet = evaluate(part, static_cast<double>(i) / samples);
+    if (i < shares.samples) {
+      const Jet jet = evaluate(part, static_cast<double>(i) / shares.samples);
       to.point = jet.point;
       to.curvature = curvature(jet);
     }
-    sum[i] = sum[i - 1] + parts_between(from, to);
+    shares.sum[i] = shares.sum[i - 1] + parts_between(from, to);
     from = to;
   }
-  const double total = sum[samples];
-  const bool even = !(total > 0 && total <= std::numeric_limits<double>::max());
-  const double saved = demands.apex && !even ? 1 - spiral_length : 0;
-  const double wanted = std::ceil(total + saved);
-  // More are made in blocks that have many parts each: one of few is rounded up to one more.
-  const double fitting =
-      wanted <= most_divisions ? wanted : std::ceil(wanted / (0.5 * most_divisions));
-  const int count = even ? 2 : static_cast<int>(std::clamp(fitting, 2.0, double{most_divisions}));
-  const bool forward = std::abs(a.curvature) >= std::abs(b.curvature);
+  return shares;
+}
+
+double Converter::Shares::parameter_at(double share) const {
+  if (even()) return share;
+  const double place = share * total();
+  int sample = 0;
+  while (sample + 1 < samples && sum[sample + 1] < place) ++sample;
+  const double step = sum[sample + 1] - sum[sample];
+  const double along = step > 0 ? std::min((place - sum[sample]) / step, 1.0) : 0.5;
+  return (sample + along) / samples;
+}
+
+/// Knots between parts of equal shares, except for the first and the last part, whose shares are
+/// smaller.
+void Converter::place_knots(const Shares& shares, const Station& a, const Station& b, int count,
+                            double saved_begin, double saved_end, Knots& knots) const {
   knots[0] = a;
-  for (int i = 1, sample = 0; i < count; ++i) {
-    double place = (i - (forward ? saved : 0)) / (count - saved);  // of all parts
-    if (!even) {
-      while (sample + 1 < samples && sum[sample + 1] < place * total) ++sample;
-      const double step = sum[sample + 1] - sum[sample];
-      const double along = step > 0 ? std::min((place * total - sum[sample]) / step, 1.0) : 0.5;
-      place = (sample + along) / samples;
-    }
-    knots[i] = snapped(station_at(curve_, a.t + place * (b.t - a.t), Side::before));
+  for (int i = 1; i < count; ++i) {
+    const double t = shares.parameter_at((i - saved_begin) / (count - saved_begin - saved_end));
+    knots[i] = snapped(station_at(curve_, a.t + t * (b.t - a.t), Side::before));
   }
   knots[count] = b;
-  return count;
+}
+
+/// A part as the fewest arcs of equal error: biarcs between knots, and where their number is odd a
+/// single arc at the flatter end.
+bool Converter::try_tilted(const Bezier& part, const Shares& shares, const Station& a,
+                           const Station& b, Demands demands) {
+  if (shares.even() || is_singular(a) || is_singular(b)) return false;
+  const bool forward = std::abs(a.curvature) >= std::abs(b.curvature);
+  const double curved_end = demands.apex ? osculating_end : fixed_end;
+  const double needed = tilted_parts * shares.total() + curved_end;
+  if (!(needed + 1 <= most_divisions)) return false;
+  // Where the flatter end is limited, and a balanced arc would break that, there is a biarc that
+  // osculates there.
+  const double limit = forward ? demands.limits.end : demands.limits.begin;
+  const double low = std::abs((forward ? b : a).curvature),
+               high = std::abs((forward ? a : b).curvature);
+  const bool limited = low + (high - low) / (6 * (needed + fixed_end)) > limit;
+  const double biarcs = std::ceil(needed + (limited ? osculating_end : fixed_end));
+  const bool is_odd = !limited && needed + single_end <= biarcs;
+  int arcs = std::max(limited ? 4 : 3, 2 * static_cast<int>(biarcs) - (is_odd ? 1 : 0));
+  const Emitted before = emitted();
+  for (int attempt = 0; attempt < tilted_attempts && arcs <= 2 * most_divisions;
+       ++attempt, arcs += std::max(limited ? 2 : 1, arcs / 32 * 2)) {
+    const int count = (arcs + 1) / 2;
+    const bool single = arcs % 2 == 1;
+    const double flat_end = limited ? osculating_end : single ? single_end : fixed_end;
+    Knots knots;
+    place_knots(shares, a, b, count, forward ? curved_end : flat_end,
+                forward ? flat_end : curved_end, knots);
+    tilt(knots, count);
+    Station& last = knots[forward ? count - 1 : 1];
+    if (single) align(last, forward ? b : a);
+    const auto try_one = [&](const Bezier& piece, const Station& from, const Station& to,
+                             Demands own) {
+      const bool is_last = &(forward ? from : to) == &last;
+      return single && is_last ? try_arc(piece, from, to, own) : try_biarc(piece, from, to, own);
+    };
+    if (visit_between(part, knots, 0, count, demands, try_one)) return true;
+    restore(before);
+  }
+  return false;
+}
+
+/// Turns the tangents of the knots between the ends from the curve's. Where curvature changes
+/// evenly by d over an arc of length h, an arc between two points of the curve is off its direction
+/// at both ends by angles that add up to d h / 6: least where they are alike.
+void Converter::tilt(Knots& knots, int count) {
+  Fixed<double, most_divisions> angle;
+  for (int i = 1; i < count; ++i) {
+    const Station &before = knots[i - 1], &after = knots[i + 1];
+    const double arcs =  // four of them
+        distance(before.point, knots[i].point) + distance(knots[i].point, after.point);
+    angle[i] = (after.curvature - before.curvature) / 4 * (arcs / 4) / 12;
+  }
+  for (int i = 1; i < count; ++i) {
+    const Vec2 along = knots[i].tangent;
+    knots[i].tilt = angle[i];
+    knots[i].tangent = std::sqrt(1 - angle[i] * angle[i]) * along - angle[i] * left_of(along);
+  }
+}
+
+/// Turns the tangent of a knot to that of the arc from there to an end, or back, along its tangent.
+void Converter::align(Station& knot, const Station& end) {
+  const Vec2 chord = end.point - knot.point;
+  const Vec2 tangent = (2 * dot(end.tangent, chord) / squared_norm(chord)) * chord - end.tangent;
+  knot.tilt += cross(tangent, knot.tangent);
+  knot.tangent = tangent;
+}
+
+/// One arc, to whose ends the tangents fit.
+bool Converter::try_arc(const Bezier& part, const Station& a, const Station& b, Demands demands) {
+  const bool forward = std::abs(a.curvature) >= std::abs(b.curvature);
+  const Station &high = forward ? a : b, &low = forward ? b : a;
+  const Vec2 chord = b.point - a.point;
+  const double bulge = forward ? bulge_arriving(chord, b.tangent) : bulge_leaving(a.tangent, chord);
+  if (!(std::abs(bulge) <= largest_bulge)) return false;
+  const Arc arc{a.point, b.point, bulge};
+  const double sign = std::copysign(1.0, high.curvature), amount = sign * curvature(arc);
+  const double limit = forward ? demands.limits.end : demands.limits.begin;
+  if (!(sign * low.curvature <= amount && amount <= std::min(limit, sign * high.curvature)))
+    return false;
+  const double error = certified_error(part, arc, options_.rounding);
+  if (!(error <= options_.tolerance)) return false;
+  emit(a.point, bulge, error);
+  merge_ = ends_osculating_ = false;
+  return true;
 }
 
 /// Where curvature is constant up to rounding: one arc, between the directions at both ends.

@@ -67,7 +67,7 @@ struct ArcChain {
 /// (both in local units). Requires a curve that is no point and not straight. The chain's first arc
 /// begins at the curve's first control point; the last one ends at its last, which is not appended.
 ///
-/// The curve is split at its apices, inflections and cusps into spirals, each of these bisected
+/// The curve is split at its apices, inflections and cusps into spirals, each of these divided
 /// until the biarc of Algorithm 1 is valid and within the tolerance. Along each spiral the arcs'
 /// curvature is monotone; two spirals that meet in an apex of largest curvature share one arc,
 /// which is their osculating circle there. No allocation except for the result.

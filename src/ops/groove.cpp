@@ -149,46 +149,45 @@ std::vector<std::vector<GrooveStep>> trails_of(const Grooves& grooves, Vec2 star
     places[parts[i].from] = parts[i].disks.front().center;
     places[parts[i].to] = parts[i].disks.back().center;
   }
-  // A trail that begins at a junction of odd degree ends at another one: there is no way to need
-  // fewer. What then is left are closed trails.
-  std::vector<std::uint32_t> left(grooves.junctions);
-  std::vector<Box> boxes;
-  for (const Vec2 place : places) boxes.push_back({place, place});
-  OpenBoxes odd_ends(boxes, false), even_ends(std::move(boxes), false);
-  for (std::uint32_t j = 0; j < grooves.junctions; ++j) {
+  std::vector<std::uint32_t> left(grooves.junctions), place_of(grooves.junctions);
+  for (std::uint32_t j = 0; j < grooves.junctions; ++j)
     left[j] = static_cast<std::uint32_t>(around[j].size());
-    if (left[j] > 0) (left[j] % 2 == 1 ? odd_ends : even_ends).insert(j);
-  }
   std::vector<bool> done(parts.size(), false);
   std::vector<std::vector<GrooveStep>> trails;
   Vec2 at = start;
-  while (!odd_ends.empty() || !even_ends.empty()) {
-    const bool from_odd = !odd_ends.empty();
-    std::uint32_t j = (from_odd ? odd_ends : even_ends).nearest(at, [&](std::uint32_t i) {
-      return squared_norm(places[i] - at);
-    });
-    if (left[j] == 0) {
-      even_ends.erase(j);
-      continue;
+  // A trail that begins at a junction of odd degree ends at another one: there is no way to need
+  // fewer. What then is left are closed trails.
+  for (const bool odd : {true, false}) {
+    std::vector<std::uint32_t> ends;
+    for (std::uint32_t j = 0; j < grooves.junctions; ++j)
+      if (odd ? left[j] % 2 == 1 : left[j] > 0) ends.push_back(j);
+    std::vector<Box> boxes;
+    for (const std::uint32_t j : ends) {
+      place_of[j] = static_cast<std::uint32_t>(boxes.size());
+      boxes.push_back({places[j], places[j]});
     }
-    if (from_odd) odd_ends.erase(j);
-    auto& trail = trails.emplace_back();
-    const std::uint32_t begin = j;
-    while (left[j] > 0) {
-      auto& ends = around[j];
-      while (done[ends.back().part]) ends.pop_back();
-      const End step = ends.back();
-      ends.pop_back();
-      done[step.part] = true;
-      trail.push_back({step.part, step.forward});
-      --left[j];
-      j = step.forward ? parts[step.part].to : parts[step.part].from;
-      --left[j];
+    OpenBoxes open(std::move(boxes), true);
+    while (!open.empty()) {
+      const std::uint32_t nearest =
+          open.nearest(at, [&](std::uint32_t i) { return squared_norm(places[ends[i]] - at); });
+      open.erase(nearest);
+      std::uint32_t j = ends[nearest];
+      if (left[j] == 0) continue;
+      auto& trail = trails.emplace_back();
+      while (left[j] > 0) {
+        auto& on = around[j];
+        while (done[on.back().part]) on.pop_back();
+        const End step = on.back();
+        on.pop_back();
+        done[step.part] = true;
+        trail.push_back({step.part, step.forward});
+        --left[j];
+        j = step.forward ? parts[step.part].to : parts[step.part].from;
+        --left[j];
+      }
+      if (odd) open.erase(place_of[j]);
+      at = places[j];
     }
-    // The first junction has become even and the last one, too.
-    if (from_odd && j != begin) odd_ends.erase(j);
-    if (from_odd && left[begin] > 0) even_ends.insert(begin);
-    at = places[j];
   }
   shorten_ways(grooves, start, trails);
   return trails;

@@ -13,8 +13,8 @@ inline bool is_on_arc(const Site& site) {
   return site.kind() == SiteKind::arc && !(site.start == site.end);
 }
 
-/// Where the disks at the ends of each edge touch those of its sites that are arcs, as lengths
-/// along these: what several checks ask for.
+/// Where the disks at the ends of each edge touch those of its sites that are arcs, as ways along
+/// these: what several checks ask for.
 class ArcFeet {
  public:
   explicit ArcFeet(const Problem& problem) : edges_(problem.axis.edges.data()) {
@@ -27,7 +27,7 @@ class ArcFeet {
         if (is_on_arc(problem.axis.sites[edge.site[side]]))
           with_arc(problem, edge.site[side], [&](const Arc& arc) {
             for (std::size_t end = 0; end < 2; ++end)
-              at_[i][2 * side + end] = arc.foot_at(problem.disk(edge.node[end]).center);
+              at_[i][2 * side + end] = arc.way_to_foot(problem.disk(edge.node[end]).center);
           });
     });
   }

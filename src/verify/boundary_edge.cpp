@@ -8,8 +8,7 @@
 
 namespace medial::verify_detail {
 
-Arc::Arc(const BoundaryEdge& edge)
-    : edge_(edge), chord_length_(norm(edge.chord())), length_(length_of(edge)) {
+Arc::Arc(const BoundaryEdge& edge) : edge_(edge), chord_length_(norm(edge.chord())) {
   const Vec2 half = half_angle(edge.bulge);
   cosine_ = half.x;
   sine_ = half.y;
@@ -17,6 +16,7 @@ Arc::Arc(const BoundaryEdge& edge)
   start_tangent_ = turned(chord_, half.x, -half.y);
   end_tangent_ = turned(chord_, half.x, half.y);
   curvature_ = 2 * half.y / chord_length_;
+  whole_way_ = 4 * edge.bulge / curvature_;
 }
 
 double Arc::signed_distance(Vec2 p) const {
@@ -46,34 +46,57 @@ MEDIAL_WIDE Pair Arc::signed_distances(const Pair& x, const Pair& y) const {
   return beside ? carrier : with_sign_of(root_of(smaller(to_start, to_end)), carrier);
 }
 
-double Arc::foot_at(Vec2 p) const {
+/// tan(a / 4) with the angle a, in (-pi, pi], turned up to the point of the circle nearest to p.
+double Arc::quarter_tangent_at(Vec2 p) const {
+  const Vec2 from = from_center(p);
+  const double radius = norm(from), sine = curvature_ * dot(start_tangent_, p - edge_.start);
+  const double cosine = -dot(left_of(start_tangent_), from);
+  if (cosine >= 0) {
+    const double half = sine / (radius + cosine);  // tan(a / 2)
+    return radius > 0 ? half / (1 + std::sqrt(1 + half * half)) : 0;
+  }
+  const double inverse = sine / (radius - cosine);
+  return std::copysign(1 / (std::abs(inverse) + std::sqrt(1 + inverse * inverse)), inverse);
+}
+
+double Arc::way_to_foot(Vec2 p) const {
   if (!is_beside(p))
-    return medial::distance(p, edge_.start) <= medial::distance(p, edge_.end) ? 0 : length_;
-  return std::min(std::max(0.0, turned_at(p) / curvature_), length_);
+    return medial::distance(p, edge_.start) <= medial::distance(p, edge_.end) ? 0 : whole_way_;
+  return std::min(std::max(0.0, 4 / curvature_ * quarter_tangent_at(p)), whole_way_);
 }
 
-double Arc::opposite_at(Vec2 p) const {
-  const double angle = turned_at(p);
-  const double opposite = angle * curvature_ > 0
-                              ? angle - std::copysign(std::numbers::pi, angle)
-                              : angle + std::copysign(std::numbers::pi, curvature_);
-  return opposite / curvature_;
+double Arc::way_to_opposite(Vec2 p) const {
+  // A half circle forward or back: tan((a + pi) / 4) or tan((a - pi) / 4), whichever is ahead
+  // first.
+  const double t = quarter_tangent_at(p);
+  const double ahead = (1 + t) / (1 - t), behind = (t - 1) / (1 + t);
+  const bool back = t * curvature_ > 0;
+  return 4 / curvature_ * ((curvature_ > 0) != back ? ahead : behind);
 }
 
-Vec2 Arc::point_at(double length) const {
-  if (length <= 0) return edge_.start;
-  if (length >= length_) return edge_.end;
-  const bool from_start = length <= 0.5 * length_;
-  const double way = from_start ? length : length_ - length;
-  const double half = 0.5 * way * curvature_;
-  const double chord = way * (std::sin(half) / half);
-  if (from_start)
-    return edge_.start + chord * turned(start_tangent_, std::cos(half), std::sin(half));
-  return edge_.end - chord * turned(end_tangent_, std::cos(half), -std::sin(half));
+Vec2 Arc::point_at(double way) const {
+  if (way <= 0) return edge_.start;
+  if (way >= whole_way_) return edge_.end;
+  // From the nearer end: half of the angle from there has the tangent 2 t / (1 - t^2).
+  const double from_start = 0.25 * way * curvature_;
+  const double from_end = (edge_.bulge - from_start) / (1 + edge_.bulge * from_start);
+  const bool by_start = std::abs(from_start) <= std::abs(from_end);
+  const double t = by_start ? from_start : from_end, scale = 1 / (1 + t * t);
+  const double chord = (by_start ? way : 4 * t / curvature_) * scale;
+  const double cosine = (1 - t) * (1 + t) * scale, sine = 2 * t * scale;
+  if (by_start) return edge_.start + chord * turned(start_tangent_, cosine, sine);
+  return edge_.end - chord * turned(end_tangent_, cosine, -sine);
+}
+
+double Arc::length_at(double way) const {
+  return 4 / curvature_ * std::atan(0.25 * way * curvature_);
+}
+double Arc::way_at(double length) const {
+  return 4 / curvature_ * std::tan(0.25 * length * curvature_);
 }
 
 double Arc::foot_slack(Vec2 p, double slack) const {
-  return std::min(slack / norm(from_center(p)), length_);
+  return std::min(slack / norm(from_center(p)), whole_way_);
 }
 
 EdgeArcs::EdgeArcs(std::span<const BoundaryEdge> edges) {
@@ -88,13 +111,13 @@ EdgeArcs::EdgeArcs(std::span<const BoundaryEdge> edges) {
   }
 }
 
-Vec2 Track::point_at(double length) const {
-  if (arc_ != nullptr) return arc_->point_at(length);
-  if (length <= 0) return edge_.start;
-  if (length >= length_) return edge_.end;
-  const bool from_start = length <= 0.5 * length_;
-  const Vec2 chord = (1 / length_) * edge_.chord();
-  return from_start ? edge_.start + length * chord : edge_.end - (length_ - length) * chord;
+Vec2 Track::point_at(double way) const {
+  if (arc_ != nullptr) return arc_->point_at(way);
+  if (way <= 0) return edge_.start;
+  if (way >= whole_way_) return edge_.end;
+  const bool from_start = way <= 0.5 * whole_way_;
+  const Vec2 chord = (1 / whole_way_) * edge_.chord();
+  return from_start ? edge_.start + way * chord : edge_.end - (whole_way_ - way) * chord;
 }
 
 double distance_to_carrier(Vec2 p, const BoundaryEdge& edge) {
@@ -117,13 +140,20 @@ double length_of(const BoundaryEdge& edge) {
 }
 
 double foot_at(const BoundaryEdge& edge, Vec2 p) {
-  return edge.bulge == 0 ? Track(edge).foot_at(p) : Arc(edge).foot_at(p);
+  if (edge.bulge == 0) return Track(edge).way_to_foot(p);
+  const Arc arc(edge);
+  return arc.length_at(arc.way_to_foot(p));
 }
 
-double opposite_at(const BoundaryEdge& arc, Vec2 p) { return Arc(arc).opposite_at(p); }
+double opposite_at(const BoundaryEdge& arc, Vec2 p) {
+  const Arc known(arc);
+  return known.length_at(known.way_to_opposite(p));
+}
 
 Vec2 point_at(const BoundaryEdge& edge, double length) {
-  return edge.bulge == 0 ? Track(edge).point_at(length) : Arc(edge).point_at(length);
+  if (edge.bulge == 0) return Track(edge).point_at(length);
+  const Arc arc(edge);
+  return length < length_of(edge) ? arc.point_at(arc.way_at(length)) : edge.end;
 }
 
 }  // namespace medial::verify_detail

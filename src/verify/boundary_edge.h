@@ -61,7 +61,9 @@ class Segment {
 };
 inline double distance_to_segment(Vec2 p, Vec2 a, Vec2 b) { return Segment(a, b).distance(p); }
 
-/// An arc that distances of many places are measured from, by its directions.
+/// An arc that distances of many places are measured from, by its directions. A place on it is
+/// known by the way from its start, 4 tan(a / 4) / k with the angle a turned so far: as good as a
+/// length, which it exceeds by little, but without trigonometry.
 class Arc {
  public:
   explicit Arc(const BoundaryEdge& edge);
@@ -69,13 +71,15 @@ class Arc {
   Vec2 start_tangent() const { return start_tangent_; }
   Vec2 end_tangent() const { return end_tangent_; }
   double curvature() const { return curvature_; }
-  double length() const { return length_; }
+  double whole_way() const { return whole_way_; }
 
   /// curvature() * (p - centre): from the centre to p, in radii, whatever the radius.
   Vec2 from_center(Vec2 p) const {
     const Vec2 middle = 0.5 * ((p - edge_.start) + (p - edge_.end));
     return curvature_ * middle - cosine_ * left_of(chord_);
   }
+  /// Whether p lies on the arc's side of the circle's centre.
+  bool is_in_front(Vec2 p) const { return dot(left_of(chord_), from_center(p)) <= 0; }
   /// Whether the nearest point of the circle to p lies on the arc.
   bool is_beside(Vec2 p) const { return is_beside(p, from_center(p)); }
   /// Of the whole circle, positive on its left: see distance_to_carrier().
@@ -85,15 +89,16 @@ class Arc {
   /// The same of two places.
   Pair signed_distances(const Pair& x, const Pair& y) const;
   double distance(Vec2 p) const { return std::abs(signed_distance(p)); }
-  /// The angle by which the circle has turned, from the start, at the point nearest to p.
-  double turned_at(Vec2 p) const {
-    const double sine = curvature_ * dot(start_tangent_, p - edge_.start);
-    return std::atan2(sine, -dot(left_of(start_tangent_), from_center(p)));
-  }
-  // The functions of these names below.
-  double foot_at(Vec2 p) const;
-  double opposite_at(Vec2 p) const;
-  Vec2 point_at(double length) const;
+  /// The way to the point nearest to p, and to the farthest one of the circle: beyond the arc's
+  /// ends where that is none of the arc's.
+  double way_to_foot(Vec2 p) const;
+  double way_to_opposite(Vec2 p) const;
+  /// The point at a way; exactly the ends at and beyond them.
+  Vec2 point_at(double way) const;
+  double length_at(double way) const;
+  double way_at(double length) const;
+  /// How far rounding may move the foot of p along the arc if it moves p by `slack`: without bound
+  /// where p is the centre of the circle.
   double foot_slack(Vec2 p, double slack) const;
 
  private:
@@ -110,12 +115,14 @@ class Arc {
     return 2 * (cosine_ * across - sine_ * along) / (1 + norm(from));
   }
 
+  double quarter_tangent_at(Vec2 p) const;
+
   BoundaryEdge edge_;
-  double chord_length_, length_;
+  double chord_length_;
   Vec2 chord_;            ///< unit vector
   double cosine_, sine_;  ///< of half of its angle
   Vec2 start_tangent_, end_tangent_;
-  double curvature_;
+  double curvature_, whole_way_;
 };
 
 /// The arcs among some edges.
@@ -155,34 +162,37 @@ double opposite_at(const BoundaryEdge& arc, Vec2 p);
 /// The point at a length along the edge; exactly the ends at and beyond them.
 Vec2 point_at(const BoundaryEdge& edge, double length);
 
-/// An edge with what is known of it, if it is an arc.
+/// An edge with what is known of it, if it is an arc. Ways along straight edges are lengths.
 class Track {
  public:
   explicit Track(const BoundaryEdge& edge, const Arc* arc = nullptr)
-      : edge_(edge), arc_(arc), length_(arc != nullptr ? arc->length() : norm(edge.chord())) {}
+      : edge_(edge),
+        arc_(arc),
+        whole_way_(arc != nullptr ? arc->whole_way() : norm(edge.chord())) {}
 
   const BoundaryEdge& edge() const { return edge_; }
   bool is_straight() const { return arc_ == nullptr; }
-  double length() const { return length_; }
-  double foot_at(Vec2 p) const {
-    if (arc_ != nullptr) return arc_->foot_at(p);
-    return std::clamp(foot_on_line(p), 0.0, length_);
+  double whole_way() const { return whole_way_; }
+  double way_to_foot(Vec2 p) const {
+    if (arc_ != nullptr) return arc_->way_to_foot(p);
+    return std::clamp(way_on_line(p), 0.0, whole_way_);
   }
   /// Of a straight edge, which may be longer.
-  double foot_on_line(Vec2 p) const { return dot(edge_.chord(), p - edge_.start) / length_; }
+  double way_on_line(Vec2 p) const { return dot(edge_.chord(), p - edge_.start) / whole_way_; }
   /// Of an arc.
-  double opposite_at(Vec2 p) const { return arc_->opposite_at(p); }
-  Vec2 point_at(double length) const;
-  /// How far rounding may move the foot of p along the edge if it moves p by `slack`: without bound
-  /// where p is the centre of the arc.
-  double foot_slack(Vec2 p, double slack) const {
-    return arc_ != nullptr ? arc_->foot_slack(p, slack) : slack;
+  double way_to_opposite(Vec2 p) const { return arc_->way_to_opposite(p); }
+  Vec2 point_at(double way) const;
+  double length_at(double way) const { return arc_ != nullptr ? arc_->length_at(way) : way; }
+  /// Of an arc: Arc::foot_slack(), as a way from there.
+  double way_slack(Vec2 p, double slack, double way) const {
+    const double quarter = 0.25 * way * arc_->curvature();
+    return (1 + quarter * quarter) * arc_->foot_slack(p, slack);
   }
 
  private:
   BoundaryEdge edge_;
   const Arc* arc_;
-  double length_;
+  double whole_way_;
 };
 
 }  // namespace medial::verify_detail

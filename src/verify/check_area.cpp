@@ -39,7 +39,7 @@ class Sum {
 /// Where the disk of an edge's end touches one of its sites.
 struct FootPoint {
   Vec2 foot;
-  double at = 0;  ///< of an arc: length along it
+  double at = 0;  ///< of an arc: the way along it
 };
 
 FootPoint foot_point_of(const Problem& problem, const ArcFeet& feet, const Edge& edge,
@@ -84,8 +84,9 @@ std::array<FootPoint, 2> foot_points_of(const Problem& problem, const ArcFeet& f
 /// The area between the boundary and the chord from one contact forward to another.
 double area_beside(const Site& site, const FootPoint& from, const FootPoint& to) {
   if (site.kind() != SiteKind::arc || from.foot == to.foot) return 0;
-  const double angle = (to.at - from.at) * curvature(edge_of(site));
-  return area_beside_chord({from.foot, to.foot, std::tan(0.25 * angle)});
+  const double quarter = 0.25 * curvature(edge_of(site));
+  const double a = quarter * from.at, b = quarter * to.at;
+  return area_beside_chord({from.foot, to.foot, (b - a) / (1 + a * b)});
 }
 
 /// The areas on both sides of an edge, between the curve and the feet of its disks: the polygon of

@@ -11,7 +11,7 @@ namespace {
 /// The stretch of a boundary edge that the disks of one axis edge touch; a vertex is a stretch
 /// without length at the start of the edge that begins there.
 struct Stretch {
-  /// Parameters along the boundary edge, in units of length; beyond a straight one's ends, too.
+  /// Ways along the boundary edge; beyond a straight one's ends, too.
   double begin, end;
   std::uint32_t begin_node, end_node;  ///< whose disks touch there
   /// Of disks around a vertex, which touch it one after the other: turn_of() the clockwise angle of
@@ -27,12 +27,12 @@ Stretch touched_by(const Problem& problem, const ArcFeet& feet, const Track& on,
   const std::uint32_t node = edge.node[end];
   const Vec2 center = problem.disk(node).center;
   if (on.is_straight()) {
-    const double foot = on.foot_on_line(center);
+    const double foot = on.way_on_line(center);
     return {foot, foot, node, node};
   }
   const double foot = feet.at(edge, side, end);
-  const double slack = on.foot_slack(center, problem.tolerance);
-  return {std::max(0.0, foot - slack), std::min(on.length(), foot + slack), node, node};
+  const double slack = on.way_slack(center, problem.tolerance, foot);
+  return {std::max(0.0, foot - slack), std::min(on.whole_way(), foot + slack), node, node};
 }
 
 /// Grows with the angle that has this sine and cosine, times one number, in [-1, 3): 1 for a
@@ -119,7 +119,7 @@ class Touching {
 /// How far p lies outside a disk; negative inside.
 double outside(const Disk& disk, Vec2 p) { return distance(disk.center, p) - disk.radius; }
 
-/// The largest distance from a point of an edge between two lengths along it to the union of two
+/// The largest distance from a point of an edge between two ways along it to the union of two
 /// disks.
 ///
 /// With f and g the distances outside each: along a line or a circle, each rises and falls
@@ -130,23 +130,23 @@ double uncovered(const Disk& a, const Disk& b, const Track& edge, double from, d
     double a, b;
     double least() const { return std::min(a, b); }
   };
-  const auto outside_at = [&](double length) {
-    const Vec2 p = edge.point_at(length);
+  const auto outside_at = [&](double way) {
+    const Vec2 p = edge.point_at(way);
     return Outside{outside(a, p), outside(b, p)};
   };
   if (!(from < to)) return std::max(0.0, outside_at(from).least());
   std::array<double, 6> bound;
   std::size_t bounds = 0;
   bound[bounds++] = from;
-  const auto turns_at = [&](double length) {
-    if (!(length > from && length < to)) return;
+  const auto turns_at = [&](double way) {
+    if (!(way > from && way < to)) return;
     std::size_t place = bounds++;
-    for (; bound[place - 1] > length; --place) bound[place] = bound[place - 1];
-    bound[place] = length;
+    for (; bound[place - 1] > way; --place) bound[place] = bound[place - 1];
+    bound[place] = way;
   };
   for (const Disk& disk : {a, b}) {
-    turns_at(edge.foot_at(disk.center));
-    if (!edge.is_straight()) turns_at(edge.opposite_at(disk.center));
+    turns_at(edge.way_to_foot(disk.center));
+    if (!edge.is_straight()) turns_at(edge.way_to_opposite(disk.center));
   }
   bound[bounds++] = to;
   double worst = 0;
@@ -183,13 +183,13 @@ struct Uncovered {
   double excess = 0;  ///< above what is allowed there
   double open = 0;    ///< area that blunt joints may leave open
 
-  /// At a length along an edge.
-  void add(double amount, double allowed, const Track& edge, double length) {
+  /// At a way along an edge.
+  void add(double amount, double allowed, const Track& edge, double way) {
     if (std::isnan(amount)) amount = std::numeric_limits<double>::infinity();
     value = std::max(value, amount);
     if (amount - allowed <= excess) return;
     excess = amount - allowed;
-    where = edge.point_at(length);
+    where = edge.point_at(way);
   }
 };
 
@@ -213,7 +213,7 @@ void cross_gap(const Problem& problem, const Foot& from, const Foot& to, bool wr
     allowed = angle * std::max(a.radius, b.radius);
   }
   const auto advance = [&](const Track& on, double begin, double end) {
-    worst.open += allowed * std::max(0.0, end - begin);
+    if (allowed > 0) worst.open += allowed * std::max(0.0, on.length_at(end) - on.length_at(begin));
     worst.add(uncovered(a, b, on, begin, end), allowed, on, 0.5 * (begin + end));
   };
   const Track first = problem.track(from.edge);
@@ -221,10 +221,10 @@ void cross_gap(const Problem& problem, const Foot& from, const Foot& to, bool wr
     advance(first, from.at, to.at);
     return;
   }
-  advance(first, from.at, first.length());
+  advance(first, from.at, first.whole_way());
   for (std::uint32_t edge = problem.next[from.edge]; edge != to.edge; edge = problem.next[edge]) {
     const Track whole = problem.track(edge);
-    advance(whole, 0, whole.length());
+    advance(whole, 0, whole.whole_way());
   }
   advance(problem.track(to.edge), 0, to.at);
 }

@@ -3,17 +3,16 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "axis/curve.h"
-#include "base/wide.h"
 #include "medial/query.h"
 #include "verify/checks.h"
 #include "verify/distance_tree.h"
+#include "verify/edge_samples.h"
+#include "verify/whole_edge.h"
 
 namespace medial::verify_detail {
 namespace {
@@ -31,77 +30,6 @@ void report_worst(const Worst& worst, const char* what, const char* which, const
 /// The most points inside an edge that are checked.
 constexpr int most_samples = 1 << 20;
 
-/// What the disks of nodes, or those inside edges, are measured against the boundary for.
-struct Measured {
-  Worst residual, intrusion, negative;
-  std::uint64_t disks = 0;
-
-  /// Whether two disks are no worse than what is known.
-  bool are_better(const Problem& problem, Pair radius, Pair distance) const {
-    const auto within = [&](Pair amount, const Worst& worst) {
-      return amount <= both(std::min(worst.value, problem.tolerance));
-    };
-    return all(within(size_of(distance - radius), residual) & within(radius - distance, intrusion) &
-               within(-radius, negative));
-  }
-  void add(const Problem& problem, const Disk& disk, double distance, std::size_t index) {
-    ++disks;
-    residual.add(std::abs(distance - disk.radius), problem.tolerance, disk.center, index);
-    intrusion.add(disk.radius - distance, problem.tolerance, disk.center, index);
-    negative.add(-disk.radius, problem.tolerance, disk.center, index);
-  }
-  void add(const Measured& other) {
-    residual.add(other.residual);
-    intrusion.add(other.intrusion);
-    negative.add(other.negative);
-    disks += other.disks;
-  }
-};
-
-struct Findings {
-  Measured nodes, inside;
-  Worst contact, legality, turned;
-
-  void add(const Findings& other) {
-    nodes.add(other.nodes);
-    inside.add(other.inside);
-    contact.add(other.contact);
-    legality.add(other.legality);
-    turned.add(other.turned);
-  }
-};
-
-/// A site, to measure many disks against.
-class NearSite {
- public:
-  /// `known`: the site's arc, if it is one of the boundary.
-  NearSite(const Site& site, const Arc* known)
-      : segment_(site.start, site.end), arc_(known), is_point_(site.start == site.end) {
-    if (arc_ == nullptr && !is_point_ && site.bulge != 0) arc_ = &own_.emplace(edge_of(site));
-  }
-  NearSite(const NearSite&) = delete;
-  NearSite& operator=(const NearSite&) = delete;
-
-  /// Negative where a place lies behind an edge, seen from the interior.
-  Pair signed_distances(const Pair& x, const Pair& y) const {
-    if (is_point_) return segment_.distances_from_start(x, y);
-    return arc_ != nullptr ? arc_->signed_distances(x, y) : segment_.signed_distances(x, y);
-  }
-
- private:
-  Segment segment_;
-  std::optional<Arc> own_;
-  const Arc* arc_;
-  bool is_point_;
-};
-
-/// The arc of a site, if it is one of the boundary.
-const Arc* arc_of(const Problem& problem, std::uint32_t site) {
-  const std::uint32_t place = problem.place[site];
-  const bool is_known = place != no_index && problem.axis.sites[site].kind() == SiteKind::arc;
-  return is_known ? &problem.arcs[place] : nullptr;
-}
-
 /// As far as the boundary is expected from the centre of a disk.
 double expected_distance(const Problem& problem, const Disk& disk) {
   return std::max(0.0, disk.radius) + problem.tolerance;
@@ -112,160 +40,6 @@ void measure_node(const Problem& problem, const DistanceTree& boundary, std::siz
   const Disk& disk = problem.axis.nodes[node].disk;
   measured.add(problem, disk, boundary.distance(disk.center, expected_distance(problem, disk)),
                node);
-}
-
-/// Two disks of an edge.
-struct DiskPair {
-  Pair x, y, radius;
-
-  Disk operator[](std::size_t i) const { return {{x[i], y[i]}, radius[i]}; }
-};
-
-/// Two parameters of a curve, and the Bernstein polynomials there for curves of weight 1, which
-/// most edges are.
-struct Parameters {
-  Pair t, s;
-  std::array<Pair, 3> polynomial;
-  std::size_t count;  ///< 1 where both are the same
-
-  Parameters(Pair at, std::size_t the_count) : t(at), s(1 - at), count(the_count) {
-    polynomial = weighted(1).first;
-  }
-  /// The weighted polynomials, divided by their sum, and that.
-  std::pair<std::array<Pair, 3>, Pair> weighted(double weight) const {
-    const Pair sum = s * s + 2 * s * t * weight + t * t;
-    return {{s * s / sum, 2 * s * t * weight / sum, t * t / sum}, sum};
-  }
-};
-
-/// The parameters of `samples` disks inside an edge.
-std::vector<Parameters> parameters_of(int samples) {
-  std::vector<Parameters> all;
-  all.reserve(static_cast<std::size_t>(samples + 1) / 2);
-  const auto parts = static_cast<double>(samples + 1);
-  for (int k = 1; k <= samples; k += 2) {
-    const bool two = k < samples;
-    all.emplace_back(Pair{static_cast<double>(k), static_cast<double>(k + (two ? 1 : 0))} / parts,
-                     two ? 2 : 1);
-  }
-  return all;
-}
-
-/// An edge's curve at two parameters at once.
-class PairOnCurve {
- public:
-  PairOnCurve(const Curve& curve, const Parameters& at)
-      : curve_(curve), t_(at.t), s_(at.s), by_start_(at.t <= 0.5) {
-    if (curve.weight == 1) {
-      std::tie(b0_, b1_, b2_) = std::tie(at.polynomial[0], at.polynomial[1], at.polynomial[2]);
-    } else {
-      const auto [polynomial, sum] = at.weighted(curve.weight);
-      std::tie(b0_, b1_, b2_) = std::tie(polynomial[0], polynomial[1], polynomial[2]);
-      scale_ = sum;
-    }
-    const Vec2 p1 = curve.p1, p2 = curve.p2, back = p2 - p1;
-    x_ = from_nearer_end([&] { return b1_ * p1.x + b2_ * p2.x; },
-                         [&] { return b0_ * p2.x + b1_ * back.x; });
-    y_ = from_nearer_end([&] { return b1_ * p1.y + b2_ * p2.y; },
-                         [&] { return b0_ * p2.y + b1_ * back.y; });
-  }
-
-  DiskPair disks() const {
-    return {
-        from_nearer_end([&] { return curve_.origin.x + x_; }, [&] { return curve_.end.x - x_; }),
-        from_nearer_end([&] { return curve_.origin.y + y_; }, [&] { return curve_.end.y - y_; }),
-        b0_ * curve_.r0 + b1_ * curve_.r1 + b2_ * curve_.r2};
-  }
-
-  /// The first and second derivatives of a coordinate with these control points relative to the
-  /// first one, which has this value: see Curve::derivatives().
-  std::array<Pair, 2> derivatives(double c1, double c2, Pair value) const {
-    const double w = curve_.weight;
-    if (w == 1) return {2 * (s_ - t_) * c1 + 2 * t_ * c2, both(2 * (c2 - 2 * c1))};
-    const Pair scale_first = 2 * (w - 1) * (s_ - t_);
-    const Pair first = (2 * (s_ - t_) * w * c1 + 2 * t_ * c2 - scale_first * value) / scale_;
-    const double second = -4 * w * c1 + 2 * c2;
-    return {first, (second - 2 * scale_first * first - 4 * (1 - w) * value) / scale_};
-  }
-  std::array<Pair, 2> x() const {
-    return derivatives(curve_.p1.x, curve_.p2.x,
-                       from_nearer_end([&] { return x_; }, [&] { return curve_.p2.x - x_; }));
-  }
-  std::array<Pair, 2> y() const {
-    return derivatives(curve_.p1.y, curve_.p2.y,
-                       from_nearer_end([&] { return y_; }, [&] { return curve_.p2.y - y_; }));
-  }
-  std::array<Pair, 2> radius() const {
-    const double q1 = curve_.r1 - curve_.r0, q2 = curve_.r2 - curve_.r0;
-    return derivatives(q1, q2, b1_ * q1 + b2_ * q2);
-  }
-
- private:
-  /// What one of these makes, for each parameter that of its nearer end. Mostly it is the same one.
-  template <class FromStart, class FromEnd>
-  Pair from_nearer_end(const FromStart& from_start, const FromEnd& from_end) const {
-    if (all(by_start_)) return from_start();
-    if (!any(by_start_)) return from_end();
-    return by_start_ ? from_start() : from_end();
-  }
-
-  const Curve& curve_;
-  Pair t_, s_;
-  Pairwise by_start_;  ///< whether the start is the nearer end
-  Pair scale_;         ///< the sum of the weighted Bernstein polynomials, unless the weight is 1
-  Pair b0_, b1_, b2_;  ///< these, divided by it
-  Pair x_, y_;         ///< from the nearer end
-};
-
-/// The derivatives of an edge's curve at two parameters.
-struct Derivatives {
-  std::array<Pair, 2> x, y, radius;  ///< first, second
-  Pair square;                       ///< of the speed
-  Pair cross, along;                 ///< of the first and the second ones
-
-  explicit Derivatives(const PairOnCurve& curve)
-      : x(curve.x()), y(curve.y()), radius(curve.radius()) {
-    square = x[0] * x[0] + y[0] * y[0];
-    cross = x[0] * y[1] - y[0] * x[1];
-    along = x[0] * x[1] + y[0] * y[1];
-  }
-};
-
-/// Whether illegality() is 0, by its main terms, multiplied by powers of the speed.
-bool is_legal(const Derivatives& d, Pair radius, double delta) {
-  const Pair speed = root_of(d.square), slope = d.radius[0], first_error = both(8 * delta);
-  const Pair rest = d.square - slope * slope, height = larger(rest, both(0));
-  const Pair bend = d.square * d.radius[1] - slope * d.along;
-  const Pair bound = d.square * (rest + 4 * first_error * speed) - radius * bend;
-  const Pair turn = d.cross * radius;
-  return all((size_of(slope) <= speed + first_error) & (bound > 0) &
-             (turn * turn * height < bound * bound));
-}
-
-/// By how much an edge breaks Shaked and Bruckstein's conditions (9) and (10),
-///   |R'| <= 1   and   1 - R'^2 - R R'' >= |K| R sqrt(1 - R'^2),
-/// with the derivatives by arc length and the curvature K at a parameter, beyond what the tolerance
-/// leaves open.
-///
-/// At a vertex (10) is an equation, so what remains is rounding: control points that are `delta`
-/// off change R' by about delta / speed, and R'' and K by delta / speed^2. Where that is not small
-/// against 1, the edge is too short for its derivatives to mean anything.
-Pair illegality(const Derivatives& d, Pair radius, double delta) {
-  const Pair speed = root_of(d.square), first_error = 8 * delta / speed;
-  const Pair second_error = 8 * delta / (speed * speed);
-  const Pair slope = d.radius[0] / speed;
-  // The root is the less certain the closer it is to 0: sqrt(x + e) - sqrt(x) <= sqrt(e).
-  const Pair root_error = root_of(4 * first_error);
-  const Pair root = root_of(larger((1 - slope) * (1 + slope), both(0)));
-  const Pair curvature = size_of(d.cross) / (speed * speed * speed);
-  const Pair error = 4 * first_error + 2 * radius * second_error +
-                     curvature * radius * smaller(4 * first_error / root, root_error);
-  const Pair along = d.along / speed;
-  const Pair bend = (d.radius[1] - slope * along) / (speed * speed);
-  const Pair cauchy = size_of(slope) - 1;
-  const Pair balance = curvature * radius * root - ((1 - slope) * (1 + slope) - radius * bend);
-  const Pair worse = larger(balance - error, larger(cauchy - first_error, both(0)));
-  return (speed > 0) & (error < 0.1) ? worse : both(0);
 }
 
 /// Whether the feet lie on the sides that the edge says, seen from its middle: how far the left
@@ -338,125 +112,124 @@ class EdgeCheck {
         boundary_(boundary),
         index_(index),
         edge_(problem.axis.edges[index]),
-        curve_(curve_of(problem.axis, edge_)),
-        left_(problem.axis.sites[edge_.site[0]], arc_of(problem, edge_.site[0])),
-        right_(problem.axis.sites[edge_.site[1]], arc_of(problem, edge_.site[1])),
+        hull_{problem.disk(edge_.node[0]), edge_.control, problem.disk(edge_.node[1])},
         findings_(findings) {
-    places_.hull = {problem.disk(edge_.node[0]), edge_.control, problem.disk(edge_.node[1])};
-    places_.tolerance = problem.tolerance;
-    places_.known.fill(Places::no_edge);
-    for (std::size_t side = 0; side < 2; ++side) {
-      const std::uint32_t place = problem.place[edge_.site[side]];
-      on_boundary_[side] = place != no_index;
-      if (!on_boundary_[side]) continue;
-      if (problem.axis.sites[edge_.site[side]].kind() != SiteKind::vertex) {
-        places_.known[side] = place;
-        continue;
-      }
-      // From behind its normal at the vertex, nothing of an edge next to it is nearer.
-      if (is_behind(problem.edge(place))) places_.known[side] = place;
-      const std::uint32_t before = problem.before(place);
-      if (is_behind(problem.edge(before).reversed())) places_.known[2 + side] = before;
-    }
+    for (std::size_t side = 0; side < 2; ++side)
+      on_boundary_[side] = problem.place[edge_.site[side]] != no_index;
   }
 
-  MEDIAL_WIDE void run(std::span<const Parameters> samples,
-                       const std::vector<std::uint32_t>& first_edge) {
-    const Disk &from = problem_.disk(edge_.node[0]), &to = problem_.disk(edge_.node[1]);
-    const DiskPair ends{
-        {from.center.x, to.center.x}, {from.center.y, to.center.y}, {from.radius, to.radius}};
-    const Pair known = measure_contacts(ends, 2);
+  void run(int samples, std::span<const Parameters> parameters,
+           const std::vector<std::uint32_t>& first_edge) {
+    std::array<std::uint32_t, 2> counted{no_index, no_index};
     for (std::size_t end = 0; end < 2; ++end) {
       const std::uint32_t node = edge_.node[end];
-      const bool is_first = first_edge[node] == index_ && (end == 0 || node != edge_.node[0]);
-      if (is_first) add(ends, known, end, node);
+      if (first_edge[node] == index_ && (end == 0 || node != edge_.node[0])) counted[end] = node;
     }
-    for (const Parameters& at : samples) {
-      const PairOnCurve place(curve_, at);
-      const DiskPair disks = place.disks();
-      const Pair nearest = measure_contacts(disks, at.count);
-      if (const Derivatives d(place); !is_legal(d, disks.radius, problem_.tolerance))
-        add_worst(findings_.legality, illegality(d, disks.radius, problem_.tolerance), 0, disks,
-                  at.count);
-      for (std::size_t i = 0; i < at.count; ++i) add(disks, nearest, i, no_index);
+    const bool found = find_near();
+    if (found && is_proven()) {
+      for (const std::uint32_t node : counted) findings_.nodes.disks += node != no_index ? 1 : 0;
+      findings_.inside.disks += static_cast<std::uint64_t>(samples);
+    } else {
+      measure_samples(problem_, boundary_, index_, parameters, found ? &near_ : nullptr, counted,
+                      findings_);
     }
-    measure_places();
-    const Vec2 middle = curve_.at(0.5).center;
-    if (feet_are_right(problem_, edge_, curve_.p2, middle)) return;
-    findings_.turned.add(turned_by(problem_, edge_, curve_, middle), problem_.tolerance, middle,
+    const Curve curve = curve_of(problem_.axis, edge_);
+    const Vec2 middle = curve.at(0.5).center;
+    if (feet_are_right(problem_, edge_, curve.p2, middle)) return;
+    findings_.turned.add(turned_by(problem_, edge_, curve, middle), problem_.tolerance, middle,
                          index_);
     findings_.contact.add(missed_beyond_ends(problem_, edge_, middle), problem_.tolerance, middle,
                           index_);
   }
 
  private:
+  /// Finds the boundary edges that may be nearer than the sites, unless they are too many.
+  bool find_near() {
+    if (!boundary_.find_near(hull_, problem_.tolerance, near_)) return false;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < near_.size; ++i)
+      if (!is_no_nearer(boundary_.index_at(near_.place[i]))) near_.place[kept++] = near_.place[i];
+    near_.size = kept;
+    return true;
+  }
+  /// Whether a boundary edge is a site, or straight and wholly behind its end, which is one.
+  bool is_no_nearer(std::uint32_t place) const {
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (!on_boundary_[side]) continue;
+      const std::uint32_t at = problem_.place[edge_.site[side]];
+      const bool vertex = problem_.axis.sites[edge_.site[side]].kind() == SiteKind::vertex;
+      if (place == at && (!vertex || is_behind(problem_.edge(place)))) return true;
+      if (vertex && place == problem_.before(at) && is_behind(problem_.edge(place).reversed()))
+        return true;
+    }
+    return false;
+  }
   /// Whether the whole edge of the axis lies behind where a straight boundary edge begins, so that
   /// this is its nearest point.
   bool is_behind(const BoundaryEdge& edge) const {
-    return edge.bulge == 0 &&
-           std::all_of(places_.hull.begin(), places_.hull.end(), [&](const Disk& disk) {
+    return edge.bulge == 0 && std::all_of(hull_.begin(), hull_.end(), [&](const Disk& disk) {
              return dot(edge.chord(), disk.center - edge.start) <= 0;
            });
   }
 
-  /// Of the first `count` of two disks.
-  void add_worst(Worst& worst, Pair amount, double tolerance, const DiskPair& disks,
-                 std::size_t count) {
-    if (all(amount <= both(std::min(worst.value, tolerance)))) return;  // nearly always
-    for (std::size_t i = 0; i < count; ++i)
-      worst.add(amount[i], tolerance, disks[i].center, index_);
-  }
-  /// Measures the first `count` of two disks against both sites. The distances to the nearer one on
-  /// the boundary.
-  Pair measure_contacts(const DiskPair& disks, std::size_t count) {
-    Pair nearest = both(std::numeric_limits<double>::infinity());
-    for (std::size_t side = 0; side < 2; ++side) {
-      const NearSite& site = side == 0 ? left_ : right_;
-      const Pair distance = site.signed_distances(disks.x, disks.y);
-      add_worst(findings_.contact, size_of(distance - disks.radius), problem_.tolerance, disks,
-                count);
-      if (on_boundary_[side]) nearest = smaller(size_of(distance), nearest);
+  /// Whether all disks of the edge touch its sites and reach over no other boundary edge, within
+  /// the tolerance: then they are legal, too. What it finds without a sample.
+  bool is_proven() {
+    if (!(edge_.weight > 0) || !on_boundary_[0] || !on_boundary_[1]) return false;
+    for (const Disk& disk : hull_)
+      if (!(disk.radius >= 0)) return false;
+    const double tolerance = problem_.tolerance;
+    const WholeEdge whole(hull_, edge_.weight);
+    double gap = 0, intrusion = 0;
+    for (const std::uint32_t site : edge_.site)
+      gap = std::max(gap, whole.contact_gap(problem_.axis.sites[site], arc_of(problem_, site)));
+    if (!(gap <= tolerance)) return false;
+    for (std::size_t i = 0; i < near_.size; ++i) {
+      const std::uint32_t place = boundary_.index_at(near_.place[i]);
+      intrusion = std::max(intrusion, intrusion_of(whole, place));
+      if (!(gap + intrusion <= tolerance)) return false;
     }
-    return nearest;
+    findings_.contact.add(gap, tolerance, hull_[0].center, index_);
+    findings_.inside.residual.add(gap + intrusion, tolerance, hull_[0].center, index_);
+    findings_.inside.intrusion.add(gap + intrusion, tolerance, hull_[0].center, index_);
+    return true;
   }
-  void add(const DiskPair& disks, Pair known, std::size_t which, std::uint32_t node) {
-    if (places_.size == Places::most) measure_places();
-    const std::size_t i = places_.size++;
-    places_.x[i] = disks.x[which];
-    places_.y[i] = disks.y[which];
-    places_.radius[i] = disks.radius[which];
-    places_.distance[i] = known[which];
-    node_[i] = node;
+  /// A bound on how far disks that touch the sites reach over a boundary edge.
+  double intrusion_of(const WholeEdge& whole, std::uint32_t place) const {
+    const BoundaryEdge edge = problem_.edge(place);
+    const Arc* const arc = edge.bulge != 0 ? &problem_.arcs[place] : nullptr;
+    double least = std::numeric_limits<double>::infinity();
+    const auto is_found = [&](double bound) {
+      least = std::min(least, bound);
+      return least <= problem_.tolerance;
+    };
+    // Its nearest point may be an end of a site, or beside the disks, or another end.
+    const bool at_start = is_end_of_site(place), at_end = is_end_of_site(problem_.next[place]);
+    if ((at_start && is_found(whole.nearer_than_end(edge, arc, true))) ||
+        (at_end && is_found(whole.nearer_than_end(edge, arc, false))) ||
+        is_found(whole.intrusion(edge, arc)) ||
+        is_found(whole.nearer_than_end(edge, arc, true) + whole.intrusion(edge.start)))
+      return least;
+    is_found(whole.nearer_than_end(edge, arc, false) + whole.intrusion(edge.end));
+    return least;
   }
-  void measure_places() {
-    if (places_.size % 2 == 1) places_.repeat_last();
-    boundary_.find_distances(places_);
-    for (std::size_t i = 0; i < places_.size; ++i) {
-      const bool inside = node_[i] == no_index, two = inside && i + 1 < places_.size;
-      if (two && node_[i + 1] == no_index &&
-          findings_.inside.are_better(problem_, pair_at(&places_.radius[i]),
-                                      pair_at(&places_.distance[i]))) {
-        findings_.inside.disks += 2;
-        ++i;
-        continue;
-      }
-      (inside ? findings_.inside : findings_.nodes)
-          .add(problem_, {places_.place(i), places_.radius[i]}, places_.distance[i],
-               inside ? index_ : node_[i]);
-    }
-    places_.size = 0;
+  /// Whether a point is an end of a site, or one.
+  bool is_end_of_site(std::uint32_t point) const {
+    return std::any_of(edge_.site.begin(), edge_.site.end(), [&](std::uint32_t site) {
+      const std::uint32_t place = problem_.place[site];
+      return place == point || (problem_.axis.sites[site].kind() != SiteKind::vertex &&
+                                problem_.next[place] == point);
+    });
   }
 
   const Problem& problem_;
   const DistanceTree& boundary_;
   const std::uint32_t index_;
   const Edge& edge_;
-  const Curve curve_;
-  const NearSite left_, right_;
+  const DiskHull hull_;
   Findings& findings_;
   std::array<bool, 2> on_boundary_;
-  Places places_;
-  std::array<std::uint32_t, Places::most> node_;  ///< or no_index
+  NearEdges near_;
 };
 
 /// The first edge of each node, or no_index.
@@ -476,7 +249,7 @@ Findings measure_all(const Problem& problem, int samples) {
   const auto blocks =
       in_blocks<Findings>(axis.edges.size(), block_size, [&](std::size_t i, Findings& findings) {
         EdgeCheck(problem, boundary, static_cast<std::uint32_t>(i), findings)
-            .run(parameters, first_edge);
+            .run(samples, parameters, first_edge);
       });
   Findings all;
   for (const Findings& block : blocks) all.add(block);

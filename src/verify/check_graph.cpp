@@ -106,9 +106,10 @@ bool check_shape(const Shape& shape, Certificate& certificate) {
                (loops == 0 ? shape.points.empty()
                            : shape.loop_begin.size() == loops + 1 && shape.loop_begin[0] == 0 &&
                                  shape.loop_begin[loops] == shape.points.size());
+  const std::size_t components = valid ? shape.component_count() : 0;
   for (std::size_t i = 0; valid && i < loops; ++i)
     valid = shape.loop_begin[i] <= shape.loop_begin[i + 1] &&
-            shape.loop(i).size() >= (arcs ? 2 : 3) && shape.component[i] < shape.component_count();
+            shape.loop(i).size() >= (arcs ? 2 : 3) && shape.component[i] < components;
   for (std::size_t i = 0; valid && i < shape.points.size(); ++i)
     valid = finite(shape.points[i]) && std::abs(shape.bulge(i)) <= 1;
   if (!valid)

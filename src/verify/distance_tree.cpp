@@ -12,38 +12,23 @@
 #include <utility>
 
 #include "base/pair.h"
-#include "base/spatial_order.h"
 #include "base/threads.h"
 #include "base/wide.h"
+#include "verify/piece_order.h"
 
 namespace medial::verify_detail {
 namespace {
 
-constexpr std::size_t fan_out = 4;
 /// Below this many edges no tree is built.
 constexpr std::size_t brute_force = 16;
-/// Above this many edges a set gets no slab: it would be about as wide as the box.
-constexpr std::size_t largest_slab = 4096;
+/// Above this many edges the box of a set is not turned: it would be about as large.
+constexpr std::size_t largest_turned = 4096;
 constexpr double machine_epsilon = std::numeric_limits<double>::epsilon();
 constexpr double endless = std::numeric_limits<double>::infinity();
 
 /// Longer arcs are bounded piece by piece: the boxes of concentric half circles would lie in each
 /// other, and all of them in the way of every query. Shorter pieces are more, in the way as well.
 constexpr double longest_piece = std::numbers::pi / 4;
-
-/// Calls `visit` with points whose hull holds the edge: its ends, and for an arc the corners of the
-/// trapezoid whose other sides are tangent to it at the ends and in the middle.
-template <class Visitor>
-void for_each_hull_point(const BoundaryEdge& edge, const Visitor& visit) {
-  visit(edge.start);
-  visit(edge.end);
-  if (edge.bulge == 0) return;
-  const Vec2 chord = edge.chord();
-  const Vec2 side = (0.25 * (1 - edge.bulge) * (1 + edge.bulge)) * chord;
-  const Vec2 height = (-0.5 * edge.bulge) * left_of(chord);
-  visit(edge.start + side + height);
-  visit(edge.end - side + height);
-}
 
 /// Calls `visit` with the edge, cut into pieces of at most longest_piece.
 template <class Visitor>
@@ -61,13 +46,6 @@ void for_each_piece(const BoundaryEdge& edge, const Visitor& visit) {
     visit({start, end, std::tan(0.25 * angle / count)});
     start = end;
   }
-}
-
-std::vector<std::uint32_t> order_of(const std::vector<BoundaryEdge>& pieces) {
-  std::vector<Vec2> middle;
-  middle.reserve(pieces.size());
-  for (const BoundaryEdge& piece : pieces) middle.push_back(midpoint(piece.start, piece.end));
-  return spatial_order(middle, fan_out);
 }
 
 std::vector<BoundaryEdge> in_order(const std::vector<BoundaryEdge>& edges,
@@ -212,34 +190,31 @@ void DistanceTree::Run::set(std::size_t i, const BoundaryEdge& edge, std::uint32
   index[i] = its_index;
 }
 
+void DistanceTree::Bounds::set(std::size_t i, Vec2 normal, const Box& along_and_across) {
+  normal_x[i] = normal.x;
+  normal_y[i] = normal.y;
+  low_along[i] = along_and_across.low.x;
+  high_along[i] = along_and_across.high.x;
+  low_across[i] = along_and_across.low.y;
+  high_across[i] = along_and_across.high.y;
+}
+
 /// Bounds edges, or pieces of them; nothing is near to an empty set.
 void DistanceTree::bound(std::span<const BoundaryEdge> edges, const Extremes& extremes,
                          Bounds& bounds, std::size_t place) const {
   const auto [left, right, bottom, top] = extremes;
-  bounds.low_x[place] = left.x;
-  bounds.high_x[place] = right.x;
-  bounds.low_y[place] = bottom.y;
-  bounds.high_y[place] = top.y;
-
-  // Without a normal the slab is everything.
-  Vec2 normal;
-  double low = 0, high = 0;
+  const Box box{Vec2{left.x, bottom.y} - origin_, Vec2{right.x, top.y} - origin_};
+  const auto area = [](const Box& of) { return (of.high.x - of.low.x) * (of.high.y - of.low.y); };
+  bounds.set(place, {0, 1}, box);
   const Vec2 extent = right.x - left.x >= top.y - bottom.y ? right - left : top - bottom;
-  if (!edges.empty() && edges.size() <= largest_slab && norm(extent) > 0) {
-    normal = (1 / norm(extent)) * left_of(extent);
-    low = endless;
-    high = -endless;
-    for (const BoundaryEdge& edge : edges)
-      for_each_hull_point(edge, [&](Vec2 p) {
-        const double at = dot(normal, p - origin_);
-        low = std::min(low, at);
-        high = std::max(high, at);
-      });
-  }
-  bounds.normal_x[place] = normal.x;
-  bounds.normal_y[place] = normal.y;
-  bounds.slab_low[place] = low;
-  bounds.slab_high[place] = high;
+  if (edges.empty() || edges.size() > largest_turned || !(norm(extent) > 0)) return;
+  const Vec2 along = (1 / norm(extent)) * extent, normal = left_of(along);
+  Box turned = Box::nothing();
+  for (const BoundaryEdge& edge : edges)
+    for_each_hull_point(edge, [&](Vec2 p) {
+      turned.add(Vec2{dot(along, p - origin_), dot(normal, p - origin_)});
+    });
+  if (area(turned) < area(box)) bounds.set(place, normal, turned);
 }
 
 /// A place behind the centre of the circle through three points of a set. From the centre all sets
@@ -268,7 +243,7 @@ std::optional<Vec2> DistanceTree::centre_behind(std::span<const BoundaryEdge> ed
 /// The clearances of sets of `run` edges each; none where few sets are round.
 std::vector<DistanceTree::Clearances> DistanceTree::clearances_of(
     const std::vector<BoundaryEdge>& edges, std::size_t run, double size) {
-  if (run > largest_slab) return {};
+  if (run > largest_turned) return {};
   const std::size_t sets = (edges.size() + run - 1) / run;
   std::vector<Clearances> level((sets + fan_out - 1) / fan_out);
   std::atomic<std::size_t> round = 0;
@@ -296,28 +271,16 @@ inline Pair outside(const double* low, const double* high, Pair at) {
   return larger(larger(pair_at(low) - at, at - pair_at(high)), both(0));
 }
 
-/// Squared distances from p to the boxes of four sets of edges.
-inline void DistanceTree::squared_box_bounds(const Bounds& bounds, Vec2 p,
-                                             double (&squared)[fan_out]) {
+/// Squared distances from a place, relative to the origin, to the boxes of four sets of edges.
+inline void DistanceTree::squared_bounds(const Bounds& bounds, Vec2 q, double (&squared)[fan_out]) {
   for (std::size_t j = 0; j < fan_out; j += 2) {
-    const Pair x = outside(bounds.low_x + j, bounds.high_x + j, both(p.x));
-    const Pair y = outside(bounds.low_y + j, bounds.high_y + j, both(p.y));
-    const Pair box = x * x + y * y;
-    std::memcpy(squared + j, &box, sizeof box);
-  }
-}
-
-/// Lower bounds of the squared distances from p to the four sets of edges.
-inline void DistanceTree::squared_bounds(const Visit& visit, Vec2 p,
-                                         double (&squared)[fan_out]) const {
-  const Bounds& bounds = levels_[visit.level][visit.index];
-  squared_box_bounds(bounds, p, squared);
-  const Vec2 q = p - origin_;
-  for (std::size_t j = 0; j < fan_out; j += 2) {
-    const Pair along = pair_at(bounds.normal_x + j) * q.x + pair_at(bounds.normal_y + j) * q.y;
-    const Pair across = outside(bounds.slab_low + j, bounds.slab_high + j, along);
-    const Pair nearest = larger(pair_at(squared + j), across * across);
-    std::memcpy(squared + j, &nearest, sizeof nearest);
+    const Pair normal_x = pair_at(bounds.normal_x + j), normal_y = pair_at(bounds.normal_y + j);
+    const Pair along = outside(bounds.low_along + j, bounds.high_along + j,
+                               normal_y * both(q.x) - normal_x * both(q.y));
+    const Pair across = outside(bounds.low_across + j, bounds.high_across + j,
+                                normal_x * both(q.x) + normal_y * both(q.y));
+    const Pair square = along * along + across * across;
+    std::memcpy(squared + j, &square, sizeof square);
   }
 }
 
@@ -350,7 +313,7 @@ bool DistanceTree::search(Vec2 p, double& best) const {
     const Visit visit = stack[--size];
     if (visit.squared > limit) continue;
     double squared[fan_out];
-    squared_bounds(visit, p, squared);
+    squared_bounds(levels_[visit.level][visit.index], p - origin_, squared);
     raise(visit, p, squared);
     // The nearest child goes on top.
     const auto child = static_cast<std::uint32_t>(visit.index * fan_out);
@@ -378,55 +341,54 @@ bool DistanceTree::search(Vec2 p, double& best) const {
   return found;
 }
 
-/// All disks that are expected around some places, with room for rounding.
+/// All disks of an edge, with room for rounding. The larger one of those at the ends is the one
+/// that other edges may be near to: they are looked at from its centre.
 class DistanceTree::Hull {
  public:
-  Hull(const Places& places, double slack, bool arcs)
-      : center_(places.place(places.size / 2)), reach_(0), arcs_(arcs) {
+  Hull(const DiskHull& disks, double slack)
+      : center_(disks[disks[0].radius > disks[2].radius ? 0 : 2].center) {
+    double reach = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      const Vec2 to = places.hull[i].center - center_;
-      const double radius = (1 + 8 * machine_epsilon) *
-                            (std::max(0.0, places.hull[i].radius) + places.tolerance + slack);
-      corner_[i] = {both(to.x), both(to.y), both(radius)};
-      reach_ = std::max(reach_, norm(to) + radius);
+      const Vec2 to = disks[i].center - center_;
+      const double radius = (1 + 8 * machine_epsilon) * (disks[i].radius + slack);
+      corner_[i] = {both(to.x), both(to.y), both(radius), both(radius * radius)};
+      reach = std::max(reach, norm(to) + radius);
     }
+    // Nothing reaches the infinite bounds of empty sets.
+    limit_ =
+        std::min((1 + 8 * machine_epsilon) * reach * reach, std::numeric_limits<double>::max());
   }
+
   Vec2 center() const { return center_; }
-  /// The radius of a disk around the centre that holds all of them.
-  double reach() const { return reach_; }
+  /// The square of the radius of a disk around the centre that holds all of them.
+  double limit() const { return limit_; }
 
   /// Whether no disk reaches a set in a box: all of it lies behind the line through the place of
-  /// the box nearest to the centre that is perpendicular to the way there.
-  bool misses_box(const Bounds& bounds, std::size_t set) const {
-    const Vec2 to = {
-        std::min(std::max(bounds.low_x[set] - center_.x, 0.0), bounds.high_x[set] - center_.x),
-        std::min(std::max(bounds.low_y[set] - center_.y, 0.0), bounds.high_y[set] - center_.y)};
-    const double square = squared_norm(to);
-    const auto behind = [&](const Corner& corner) {
-      const double ahead = square - (to.x * corner.x[0] + to.y * corner.y[0]);
-      return ahead > 0 && ahead * ahead > corner.radius[0] * corner.radius[0] * square;
+  /// the box nearest to the centre that is perpendicular to the way there, or behind the longer
+  /// side of the box that faces the centre.
+  bool misses_box(const Bounds& bounds, std::size_t set, Vec2 origin) const {
+    const Vec2 normal{bounds.normal_x[set], bounds.normal_y[set]}, along{normal.y, -normal.x};
+    const auto nearest = [](double low, double high, double at) {
+      return std::min(std::max(low - at, 0.0), high - at);
     };
-    return behind(corner_[0]) && behind(corner_[1]) && behind(corner_[2]);
+    const Vec2 q = center_ - origin;
+    const double a = nearest(bounds.low_along[set], bounds.high_along[set], dot(along, q));
+    const double b = nearest(bounds.low_across[set], bounds.high_across[set], dot(normal, q));
+    const auto behind = [&](Vec2 to, double square) {
+      return std::all_of(corner_.begin(), corner_.end(), [&](const Corner& corner) {
+        const double ahead = square - (to.x * corner.x[0] + to.y * corner.y[0]);
+        return ahead > 0 && ahead * ahead > corner.square[0] * square;
+      });
+    };
+    return behind(a * along + b * normal, a * a + b * b) || (a != 0 && behind(b * normal, b * b));
   }
 
-  /// Whether no disk reaches a set in a slab.
-  bool misses_slab(const Bounds& bounds, std::size_t set, Vec2 origin) const {
-    const Vec2 normal{bounds.normal_x[set], bounds.normal_y[set]};
-    const double along = dot(normal, center_ - origin);
-    const double low = bounds.slab_low[set] - along, high = bounds.slab_high[set] - along;
-    if (!(low > 0 || high < 0)) return false;
-    return std::all_of(corner_.begin(), corner_.end(), [&](const Corner& corner) {
-      const double at = normal.x * corner.x[0] + normal.y * corner.y[0];
-      return (low > 0 ? low - at : at - high) > corner.radius[0];
-    });
-  }
-
-  /// Of two edges of a run, whether no disk reaches it. Of an edge, all but the height of an arc
-  /// lies behind the line through the point of its chord nearest to the centre, or through its
-  /// nearer end, that is perpendicular to the way there.
+  /// Whether no disk reaches two edges of a run. Of an edge, all but the height of an arc lies
+  /// behind the line through the point of its chord nearest to the centre, or through its nearer
+  /// end, that is perpendicular to the way there.
   Pairwise misses(const Run& run, std::size_t i) const {
     const Pair start_x = pair_at(run.start_x + i), start_y = pair_at(run.start_y + i);
-    const Pair from_x = both(center_.x) - start_x, from_y = both(center_.y) - start_y;
+    const Pair from_x = center_.x - start_x, from_y = center_.y - start_y;
     const Pair along_x = pair_at(run.end_x + i) - start_x;
     const Pair along_y = pair_at(run.end_y + i) - start_y;
     const Pair square = along_x * along_x + along_y * along_y;
@@ -437,58 +399,45 @@ class DistanceTree::Hull {
     const Pair distance_2 = off_x * off_x + off_y * off_y;
     const Pair to_start = off_x * from_x + off_y * from_y;
     const Pair behind = smaller(to_start, to_start - (off_x * along_x + off_y * along_y));
-    const auto misses_by = [&](const Corner& corner, Pair height) {
+    const Pair height =
+        0.5 * size_of(pair_at(run.bulge + i)) * (size_of(along_x) + size_of(along_y));
+    Pairwise missed = distance_2 > 0;
+    for (const Corner& corner : corner_) {
       const Pair ahead = larger(behind + off_x * corner.x + off_y * corner.y, both(0));
       const Pair reach = corner.radius + height;
-      return ahead * ahead > reach * reach * distance_2;
-    };
-    const auto misses_all = [&](Pair height) {
-      return misses_by(corner_[0], height) & misses_by(corner_[1], height) &
-             misses_by(corner_[2], height);
-    };
-    if (!arcs_) {
-      const Pairwise missed = misses_all(both(0));
-      if (all(missed)) return missed;
-      // Next to a convex corner, the line of the edge decides more than that through its nearer
-      // end.
-      const Pair across = along_x * from_y - along_y * from_x;
-      const Pair side = with_sign_of(both(1), across);
-      const auto beside = [&](const Corner& corner) {
-        const Pair away =
-            larger(side * (across + along_x * corner.y - along_y * corner.x), both(0));
-        return away * away > corner.radius * corner.radius * square;
-      };
-      return missed | (beside(corner_[0]) & beside(corner_[1]) & beside(corner_[2]));
+      missed &= ahead * ahead > reach * reach * distance_2;
     }
-    const Pair bulge = pair_at(run.bulge + i);
-    const Pair size = larger(along_x, -along_x) + larger(along_y, -along_y);
-    return misses_all(both(0.5) * larger(bulge, -bulge) * size);  // at least the height
+    if (all(missed) || any(height > 0)) return missed;
+    // Next to a convex corner, the line of a straight edge decides more than that through its
+    // nearer end.
+    const Pair across = along_x * from_y - along_y * from_x, side = with_sign_of(both(1), across);
+    Pairwise beside = square > 0;
+    for (const Corner& corner : corner_) {
+      const Pair away = larger(side * (across + along_x * corner.y - along_y * corner.x), both(0));
+      beside &= away * away > corner.square * square;
+    }
+    return missed | beside;
   }
 
  private:
   static constexpr double smallest = std::numeric_limits<double>::min();
 
   Vec2 center_;
-  double reach_;
-  bool arcs_;  ///< whether any edge is not straight
+  double limit_;
   struct Corner {
     Pair x, y;  ///< from the centre
-    Pair radius;
+    Pair radius, square;
   };
   std::array<Corner, 3> corner_;
 };
 
 /// Lowers the distances of places to those from an edge.
 MEDIAL_WIDE void DistanceTree::lower(Places& places, const Run& run, std::size_t i) const {
-  const std::uint32_t index = run.index[i];
-  if (index == places.known[0] || index == places.known[1] || index == places.known[2] ||
-      index == places.known[3])
-    return;
   const Vec2 start{run.start_x[i], run.start_y[i]}, end{run.end_x[i], run.end_y[i]};
   const Segment segment(start, end);
   const double length = segment.length();
   const Vec2 along = length > 0 ? (1 / length) * (end - start) : end - start;
-  const Arc* const arc = run.bulge[i] != 0 ? &(*arcs_)[index] : nullptr;
+  const Arc* const arc = run.bulge[i] != 0 ? &(*arcs_)[run.index[i]] : nullptr;
   const double room = slack_ + 0.5 * std::abs(run.bulge[i]) * length;  // an arc's height
   for (std::size_t k = 0; k < places.size; k += 2) {
     const Pair x = pair_at(&places.x[k]), y = pair_at(&places.y[k]);
@@ -506,58 +455,66 @@ MEDIAL_WIDE void DistanceTree::lower(Places& places, const Run& run, std::size_t
   }
 }
 
-/// Lowers the distances of places to those from all edges within the expected ones; false if it
-/// gave up.
-MEDIAL_WIDE bool DistanceTree::find_in(const Hull& hull, Places& places) const {
-  constexpr int most_visits = 256, most_near = 64;
-  const double limit = limit_for(hull.reach());
-  std::array<Visit, 64> stack;
-  std::size_t size = 0;
-  stack[size++] = {static_cast<std::uint32_t>(levels_.size() - 1), 0, 0};
-  int near = 0;
-  for (int visits = 0; size > 0; ++visits) {
-    if (visits == most_visits || near > most_near) return false;
-    const Visit visit = stack[--size];
-    double squared[fan_out];
-    const Bounds& bounds = levels_[visit.level][visit.index];
-    squared_box_bounds(bounds, hull.center(), squared);
-    for (std::uint32_t j = 0; j < fan_out; ++j) {
-      if (!(squared[j] <= limit)) continue;
-      // Where a box holds the centre, only its slab may lie elsewhere.
-      if ((squared[j] > 0 && hull.misses_box(bounds, j)) || hull.misses_slab(bounds, j, origin_))
-        continue;
-      const auto child = static_cast<std::uint32_t>(visit.index * fan_out) + j;
-      if (visit.level > 0) {
-        stack[size++] = {visit.level - 1, child, squared[j]};
-        continue;
-      }
-      const Run& run = runs_[child];
-      for (std::size_t i = 0; i < fan_out; i += 2) {
-        const Pairwise missed = hull.misses(run, i);
-        for (std::size_t k = 0; k < 2; ++k) {
-          if (missed[k] != 0) continue;
-          lower(places, run, i + k);
-          ++near;
-        }
-      }
-    }
+/// Adds those edges of a run that disks may reach, each once.
+inline void DistanceTree::add_near(const Hull& hull, std::uint32_t run, NearEdges& near) const {
+  const auto is_known = [&](std::uint32_t index) {
+    for (std::size_t i = 0; i < near.size; ++i)
+      if (index_at(near.place[i]) == index) return true;
+    return false;
+  };
+  for (std::uint32_t i = 0; i < fan_out; i += 2) {
+    const Pairwise missed = hull.misses(runs_[run], i);
+    if (all(missed)) continue;
+    for (std::uint32_t k = i; k < i + 2; ++k)
+      if (missed[k - i] == 0 && near.size < near.most && !is_known(runs_[run].index[k]))
+        near.place[near.size++] = static_cast<std::uint32_t>(fan_out * run) + k;
   }
-  return true;
 }
 
-void DistanceTree::find_distances(Places& places) const {
-  if (places.size == 0) return;
-  if (levels_.empty()) {
-    for (const Run& run : runs_)
-      for (std::size_t i = 0; i < fan_out; ++i) lower(places, run, i);
-    return;
+MEDIAL_WIDE bool DistanceTree::find_near(const DiskHull& disks, double tolerance,
+                                         NearEdges& near) const {
+  constexpr int most_visits = 96;
+  struct Set {
+    std::uint32_t level, index;
+  };
+  const Hull hull(disks, slack_ + tolerance);
+  std::array<Set, 64> stack;
+  std::size_t size = 0;
+  if (levels_.empty())
+    for (std::uint32_t run = 0; run < runs_.size(); ++run) add_near(hull, run, near);
+  else
+    stack[size++] = {static_cast<std::uint32_t>(levels_.size() - 1), 0};
+  for (int visits = 0; size > 0; ++visits) {
+    if (visits == most_visits || near.size == near.most) return false;
+    const Set set = stack[--size];
+    const Bounds& bounds = levels_[set.level][set.index];
+    double squared[fan_out];
+    squared_bounds(bounds, hull.center() - origin_, squared);
+    for (std::uint32_t j = 0; j < fan_out; ++j) {
+      if (!(squared[j] <= hull.limit())) continue;
+      // What is longer is reached nearly always.
+      const double length = bounds.high_along[j] - bounds.low_along[j];
+      if (4 * length * length < hull.limit() && hull.misses_box(bounds, j, origin_)) continue;
+      const auto child = static_cast<std::uint32_t>(set.index * fan_out) + j;
+      if (set.level > 0)
+        stack[size++] = {set.level - 1, child};
+      else
+        add_near(hull, child, near);
+    }
   }
-  const bool found = find_in(Hull(places, slack_, !arcs_->empty()), places);
+  return near.size < near.most;
+}
+
+void DistanceTree::find_distances(const NearEdges* near, Places& places) const {
+  if (near != nullptr)
+    for (std::size_t i = 0; i < near->size; ++i)
+      lower(places, runs_[near->place[i] / fan_out], near->place[i] % fan_out);
   for (std::size_t i = 0; i < places.size; i += 2) {
     const Pair expected = larger(pair_at(&places.radius[i]), both(0)) + both(places.tolerance);
-    if (found && all(pair_at(&places.distance[i]) <= expected)) continue;  // nearly always
+    if (near != nullptr && all(pair_at(&places.distance[i]) <= expected))
+      continue;  // nearly always
     for (std::size_t k = i; k < std::min(i + 2, places.size); ++k)
-      if (!found || !(places.distance[k] <= expected[k - i]))
+      if (near == nullptr || !(places.distance[k] <= expected[k - i]))
         places.distance[k] =
             distance(places.place(k), std::min(places.distance[k], expected[k - i]));
   }
@@ -567,18 +524,10 @@ double DistanceTree::some_distance(Vec2 p) const {
   // Down to the nearest box of each level.
   std::uint32_t index = 0;
   for (std::size_t level = levels_.size(); level-- > 0;) {
-    const Bounds& boxes = levels_[level][index];
-    std::uint32_t best = 0;
-    double nearest = endless;
-    for (std::uint32_t j = 0; j < fan_out; ++j) {
-      const double x = std::max({boxes.low_x[j] - p.x, 0.0, p.x - boxes.high_x[j]});
-      const double y = std::max({boxes.low_y[j] - p.y, 0.0, p.y - boxes.high_y[j]});
-      if (std::hypot(x, y) < nearest) {
-        nearest = std::hypot(x, y);
-        best = j;
-      }
-    }
-    index = index * static_cast<std::uint32_t>(fan_out) + best;
+    double squared[fan_out];
+    squared_bounds(levels_[level][index], p - origin_, squared);
+    const auto best = std::min_element(std::begin(squared), std::end(squared)) - squared;
+    index = index * static_cast<std::uint32_t>(fan_out) + static_cast<std::uint32_t>(best);
   }
   return distance_to(runs_[std::min<std::size_t>(index, runs_.size() - 1)], 0, p);
 }

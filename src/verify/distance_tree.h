@@ -9,15 +9,21 @@
 
 #include "medial/axis.h"
 #include "medial/shape.h"
-#include "verify/boundary_edge.h"
+#include "verify/whole_edge.h"
 
 namespace medial::verify_detail {
 
-/// Places beside each other, whose distances are asked for together: the centres of disks on one
-/// rational Bézier curve, whose radii are expected.
+/// Edges that disks may reach, by their places in the tree.
+struct NearEdges {
+  static constexpr std::size_t most = 24;
+
+  std::size_t size = 0;
+  std::array<std::uint32_t, most> place;
+};
+
+/// Centres of disks, whose radii are expected.
 struct Places {
   static constexpr std::size_t most = 16;
-  static constexpr std::uint32_t no_edge = 0xFFFFFFFF;
 
   Vec2 place(std::size_t i) const { return {x[i], y[i]}; }
   /// Where their number is odd, the last one is looked at with a second one beside it.
@@ -25,12 +31,7 @@ struct Places {
     for (auto* const of : {&x, &y, &radius, &distance}) (*of)[size] = (*of)[size - 1];
   }
 
-  /// The disks are convex combinations of these, in x, y and radius.
-  std::array<Disk, 3> hull;
   double tolerance;
-  /// Edges that are no nearer than what is known: two sites, or the edges next to a vertex; or
-  /// no_edge.
-  std::array<std::uint32_t, 4> known;
   std::size_t size = 0;
   std::array<double, most> x, y, radius;
   /// At first the distance to the nearer one of the sites, or infinite; then to the nearest edge.
@@ -55,16 +56,24 @@ class DistanceTree {
   /// Distance from p to the nearest edge. `expected` is a guess at it: a query is fast where the
   /// guess is not much too large and not too small. O(log n) expected then.
   double distance(Vec2 p, double expected) const;
-  /// Finds the distances of places, sooner than one by one.
-  void find_distances(Places& places) const;
+  /// Finds the edges that disks, each larger by the tolerance, may reach; false if there are too
+  /// many.
+  bool find_near(const DiskHull& disks, double tolerance, NearEdges& near) const;
+  std::uint32_t index_at(std::uint32_t place) const { return runs_[place / 4].index[place % 4]; }
+  /// Finds the distances of disks' centres, of which these edges are near, sooner than one by one;
+  /// without `near`, one by one.
+  void find_distances(const NearEdges* near, Places& places) const;
 
  private:
-  /// Bounds of four sets of edges side by side, so that a compiler can compare them at once. Each
-  /// set lies in a box, and in a slab low <= normal . (p - origin_) <= high along its longest
-  /// extent: on a smooth boundary, boxes alone would let far too many edges near a contact pass.
+  /// Boxes around four sets of edges side by side, so that a compiler can compare them at once. A
+  /// box lies along the longest extent of its set or along the axes, whichever is the smaller: on a
+  /// smooth boundary, boxes along the axes would let far too many edges near a contact pass.
+  /// `across` is normal . (p - origin_), `along` the same with the normal turned to the right.
   struct Bounds {
-    double low_x[4], low_y[4], high_x[4], high_y[4];
-    double normal_x[4], normal_y[4], slab_low[4], slab_high[4];
+    double normal_x[4], normal_y[4];
+    double low_along[4], high_along[4], low_across[4], high_across[4];
+
+    void set(std::size_t i, Vec2 normal, const Box& along_and_across);
   };
 
   /// Beside each of four sets a disk that no edge of it reaches into, about a place behind the
@@ -87,8 +96,7 @@ class DistanceTree {
     void set(std::size_t i, const BoundaryEdge& edge, std::uint32_t its_index);
   };
 
-  static void squared_box_bounds(const Bounds& bounds, Vec2 p, double (&squared)[4]);
-  void squared_bounds(const Visit& visit, Vec2 p, double (&squared)[4]) const;
+  static void squared_bounds(const Bounds& bounds, Vec2 q, double (&squared)[4]);
   void raise(const Visit& visit, Vec2 p, double (&squared)[4]) const;
   double limit_for(double distance) const;
   void bound(std::span<const BoundaryEdge> edges, const Extremes& extremes, Bounds& bounds,
@@ -100,7 +108,7 @@ class DistanceTree {
   double some_distance(Vec2 p) const;
   template <class EdgeAt>
   static std::vector<Run> runs_of(const std::vector<std::uint32_t>& index, const EdgeAt& edge_at);
-  bool find_in(const Hull& hull, Places& places) const;
+  void add_near(const Hull& hull, std::uint32_t run, NearEdges& near) const;
   void lower(Places& places, const Run& run, std::size_t i) const;
   double distance_to(const Run& run, std::size_t i, Vec2 p) const {
     if (run.bulge[i] != 0) return (*arcs_)[run.index[i]].distance(p);
@@ -115,7 +123,7 @@ class DistanceTree {
   std::vector<std::vector<Bounds>> levels_;  ///< levels_[0] bounds the runs; none of few edges
   std::vector<std::vector<Clearances>> clearances_;  ///< of levels_, or empty: few sets are round
   Vec2 origin_;
-  double slack_;  ///< what rounding may add to the distance from a slab
+  double slack_;  ///< what rounding may add to the distance from a box
   EdgeArcs own_arcs_;
   const EdgeArcs* arcs_;
 };

@@ -27,9 +27,8 @@ Homogeneous mix(const Homogeneous& a, const Homogeneous& b, double t) {
 /// An edge's curve in homogeneous coordinates, which can be cut exactly.
 class Curve {
  public:
-  Curve(const MedialAxis& axis, const Edge& edge)
-      : points_{lift(axis.nodes[edge.node[0]].disk, 1), lift(edge.control, edge.weight),
-                lift(axis.nodes[edge.node[1]].disk, 1)} {}
+  Curve(const Disk& from, const Edge& edge, const Disk& to)
+      : points_{lift(from, 1), lift(edge.control, edge.weight), lift(to, 1)} {}
 
   Homogeneous blossom(double s, double t) const {
     return mix(mix(points_[0], points_[1], s), mix(points_[1], points_[2], s), t);
@@ -52,22 +51,36 @@ bool runs_straight(const MedialAxis& axis, const Edge& edge) {
   return kind == axis.sites[edge.site[1]].kind() && kind != SiteKind::arc;
 }
 
-/// Cuts an edge where its radius passes from shade to shade, about, into pieces not much shorter
-/// than `cell`: take(shade, piece).
+/// By how much nobody sees that a line is off.
+double slack_of(double cell) { return 0.1 * cell; }
+
+/// Whether a piece is nowhere further than `slack` from its chord.
+bool is_flat(const Piece& piece, double slack) {
+  const Vec2 chord = piece.to - piece.from, to = piece.control - piece.from;
+  const double across = cross(chord, to), along = dot(chord, to), square = squared_norm(chord);
+  return across * across <= slack * slack * square && along >= 0 && along <= square;
+}
+
+/// Cuts an edge where its radius passes from shade to shade, about, into pieces not shorter than
+/// `cell`: take(shade, piece).
 template <class Take>
-void cut(const MedialAxis& axis, const Edge& edge, const Viewport& viewport, double cell,
+void cut(const MedialAxis& axis, const Step& step, const Viewport& viewport, double cell,
          double largest, Take take) {
-  const Curve curve(axis, edge);
+  const Edge& edge = axis.edges[step.edge];
+  const Disk& from = axis.nodes[edge.node[step.forward ? 0 : 1]].disk;
+  const Disk& to = axis.nodes[edge.node[step.forward ? 1 : 0]].disk;
+  const Curve curve(from, edge, to);
   const bool straight = runs_straight(axis, edge);
-  const Vec2 from = axis.nodes[edge.node[0]].disk.center, to = axis.nodes[edge.node[1]].disk.center;
-  const Vec2 control = straight ? to : edge.control.center;
-  const double cells = viewport.scale * (distance(from, control) + distance(control, to)) / cell;
+  const Vec2 control = straight ? to.center : edge.control.center;
+  const double cells =
+      viewport.scale * (distance(from.center, control) + distance(control, to.center)) / cell;
   int pieces = 1;
   if (cells > 1 && largest > 0) {
     const double ends = std::fabs(curve.radius(0) - curve.radius(1));
     const double dip = std::fabs(curve.radius(0.5) - 0.5 * (curve.radius(0) + curve.radius(1)));
     const double shades = (ends + 2 * dip) / largest * shade_count;
-    pieces = std::clamp(static_cast<int>(std::ceil(std::min(shades, cells))), 1, most_pieces);
+    pieces =
+        static_cast<int>(std::clamp(std::min(std::ceil(shades), cells), 1.0, 1.0 * most_pieces));
   }
   for (int i = 0; i < pieces; ++i) {
     const double t0 = static_cast<double>(i) / pieces;
@@ -81,9 +94,24 @@ void cut(const MedialAxis& axis, const Edge& edge, const Viewport& viewport, dou
     const double radius = std::max(curve.radius(0.5 * (t0 + t1)), 0.0);
     const int index =
         largest > 0 ? static_cast<int>(std::lround(radius / largest * (shade_count - 1))) : 0;
-    take(std::clamp(index, 0, shade_count - 1),
-         Piece{place(a), place(b), place(c), b.w / std::sqrt(a.w * c.w), straight});
+    Piece piece{place(a), place(straight ? c : b), place(c), b.w / std::sqrt(a.w * c.w), straight};
+    if (!straight && is_flat(piece, slack_of(cell))) {
+      piece.control = piece.to;
+      piece.straight = true;
+    }
+    take(std::clamp(index, 0, shade_count - 1), piece);
   }
+}
+
+/// Lengthens a straight piece by one that goes on from its end; whether that is nowhere further
+/// than `slack` from the line on which the first part of it, up to its control point, lies.
+bool lengthen(Piece& piece, const Piece& next, double slack) {
+  if (!piece.straight || !next.straight || !(piece.to == next.from)) return false;
+  const Vec2 along = piece.control - piece.from;
+  if (!(std::fabs(cross(along, next.to - piece.from)) <= slack * norm(along))) return false;
+  if (!(dot(along, next.to - next.from) > 0)) return false;
+  piece.to = next.to;
+  return true;
 }
 
 }  // namespace
@@ -92,14 +120,26 @@ void draw_axes(Canvas& canvas, const Document<AxisItem>& file, double largest) {
   // Few changes of colour: pieces are counted, then sorted by shade, then stroked in batches.
   std::array<std::vector<Piece>, shade_count> pieces;
   std::vector<Cells> cells(shade_count, Cells(canvas.cell()));
-  for (const AxisItem& item : file.items) {
-    for (const Edge& edge : item.axis.edges) {
-      cut(item.axis, edge, canvas.viewport(), canvas.cell(), largest,
-          [&](int index, const Piece& piece) {
-            const auto i = static_cast<std::size_t>(index);
-            if (cells[i].add(piece)) pieces[i].push_back(piece);
-          });
+  // Nobody sees on which tenth of a pixel a shade ends: it stays for some cells, so that lines are
+  // few and long.
+  std::size_t chosen = 0;
+  double left = 0;
+  Vec2 end;
+  const auto add = [&](int index, const Piece& piece) {
+    if (left <= 0 || !(piece.from == end)) {
+      chosen = static_cast<std::size_t>(index);
+      left = 4 * canvas.cell();
     }
+    left -= distance(piece.from, piece.to);
+    end = piece.to;
+    std::vector<Piece>& line = pieces[chosen];
+    if (!line.empty() && lengthen(line.back(), piece, slack_of(canvas.cell()))) return;
+    if (cells[chosen].add(piece)) line.push_back(piece);
+  };
+  for (const AxisItem& item : file.items) {
+    for (const Branch& branch : branches(item.axis))
+      for (const Step& step : branch.steps)
+        cut(item.axis, step, canvas.viewport(), canvas.cell(), largest, add);
   }
   canvas.line_width(1.6);
   for (int i = 0; i < shade_count; ++i) {

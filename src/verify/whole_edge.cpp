@@ -1,0 +1,125 @@
+#include "verify/whole_edge.h"
+
+#include <cmath>
+#include <limits>
+
+namespace medial::verify_detail {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::infinity();
+
+Vec2 start_tangent_of(const BoundaryEdge& edge, const Arc* arc) {
+  return arc != nullptr ? arc->start_tangent() : (1 / norm(edge.chord())) * edge.chord();
+}
+
+}  // namespace
+
+WholeEdge::WholeEdge(const DiskHull& control, double weight) : control_(control), weight_(weight) {
+  const double a = control[0].radius, b = control[1].radius, c = control[2].radius;
+  least_radius_ = std::min({a, b, c});
+  largest_radius_ = std::max({a, b, c});
+}
+
+/// Of a quadratic form of the disk, by its polar form.
+template <class Product>
+WholeEdge::Range WholeEdge::range_of(const Product& product) const {
+  const double square = 2 * weight_ * weight_;
+  const double middle = (square * product(1, 1) + product(0, 2)) / (square + 1);
+  const double a = product(0, 0), b = product(0, 1), c = product(1, 2), d = product(2, 2);
+  return {std::min({a, b, middle, c, d}), std::max({a, b, middle, c, d})};
+}
+
+/// H of an edge.
+WholeEdge::Range WholeEdge::range_of(const BoundaryEdge& edge, const Arc* arc) const {
+  const Vec2 normal = left_of(start_tangent_of(edge, arc));
+  std::array<Vec2, 3> u;
+  std::array<double, 3> over;
+  for (std::size_t i = 0; i < 3; ++i) {
+    u[i] = control_[i].center - edge.start;
+    over[i] = dot(normal, u[i]) - control_[i].radius;
+  }
+  if (arc == nullptr)
+    return {2 * std::min({over[0], over[1], over[2]}), 2 * std::max({over[0], over[1], over[2]})};
+  return range_of([&](std::size_t i, std::size_t j) {
+    const double power = dot(u[i], u[j]) - control_[i].radius * control_[j].radius;
+    return over[i] + over[j] - arc->curvature() * power;
+  });
+}
+
+/// H of a point.
+WholeEdge::Range WholeEdge::range_of(Vec2 point) const {
+  return range_of([&](std::size_t i, std::size_t j) {
+    return dot(control_[i].center - point, control_[j].center - point) -
+           control_[i].radius * control_[j].radius;
+  });
+}
+
+/// The least of |1 - k d| + 1 - k r where H is no larger than `size`; 0 where disks may lie round
+/// the centre of the circle.
+double WholeEdge::least_factor(const Arc* arc, double size) const {
+  const double k = arc != nullptr ? arc->curvature() : 0;
+  const double least = 1 - k * (k > 0 ? largest_radius_ : least_radius_);
+  return least > 0 ? least + std::sqrt(std::max(0.0, least * least - std::abs(k) * size)) : 0;
+}
+
+/// On |d - r|, by that on H.
+double WholeEdge::bound_at_point(double size) const {
+  const double r = least_radius_;
+  return r > 0 ? size / (r + std::sqrt(std::max(0.0, r * r - size))) : unknown;
+}
+
+/// How far centres lie ahead of a line, at most, or 0.
+double WholeEdge::most_ahead(Vec2 point, Vec2 tangent) const {
+  double most = 0;
+  for (const Disk& disk : control_) most = std::max(most, dot(tangent, disk.center - point));
+  return most;
+}
+
+double WholeEdge::contact_gap(const Site& site, const Arc* arc) const {
+  if (site.start == site.end) return bound_at_point(range_of(site.start).size());
+  if (arc == nullptr && site.bulge != 0) return unknown;
+  const BoundaryEdge edge = edge_of(site);
+  const double size = range_of(edge, arc).size(), factor = least_factor(arc, size);
+  if (!(factor > 0)) return unknown;
+  const Vec2 start_tangent = start_tangent_of(edge, arc);
+  const Vec2 end_tangent = arc != nullptr ? arc->end_tangent() : start_tangent;
+  const double beyond =
+      std::max(most_ahead(site.start, -start_tangent), most_ahead(site.end, end_tangent));
+  if (arc == nullptr) return size / factor + beyond;
+  for (const Disk& disk : control_)
+    if (!arc->is_in_front(disk.center)) return unknown;
+  // From its end, the foot is off by the angle at the circle's centre times the radius.
+  return (size + 4 * beyond) / factor;
+}
+
+double WholeEdge::intrusion(const BoundaryEdge& edge, const Arc* arc) const {
+  const double size = std::max(0.0, -range_of(edge, arc).low), factor = least_factor(arc, size);
+  return factor > 0 ? size / factor : unknown;
+}
+
+double WholeEdge::intrusion(Vec2 point) const {
+  return bound_at_point(std::max(0.0, -range_of(point).low));
+}
+
+/// An edge leads away from a centre as long as its tangent does: all along an arc, of a half circle
+/// at most, that does so at both ends. The foot of one that lies ahead is off the end by the angle
+/// at the circle's centre times the radius.
+double WholeEdge::nearer_than_end(const BoundaryEdge& edge, const Arc* arc, bool start) const {
+  if (arc == nullptr) {
+    const double ahead =
+        start ? most_ahead(edge.start, edge.chord()) : most_ahead(edge.end, -edge.chord());
+    return ahead > 0 ? ahead / norm(edge.chord()) : 0;
+  }
+  const Vec2 first = arc->start_tangent(), last = arc->end_tangent();
+  if (start ? most_ahead(edge.end, last) > 0 : most_ahead(edge.start, -first) > 0) return unknown;
+  const double ahead = start ? most_ahead(edge.start, first) : most_ahead(edge.end, -last);
+  if (ahead == 0) return 0;
+  double nearest = 1;  // to the circle's centre, in radii
+  for (const Disk& disk : control_)
+    nearest =
+        std::min(nearest, 1 - arc->curvature() * (start ? cross(first, disk.center - edge.start)
+                                                        : cross(last, disk.center - edge.end)));
+  return nearest > 0 ? 2 / nearest * ahead : unknown;
+}
+
+}  // namespace medial::verify_detail
