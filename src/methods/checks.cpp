@@ -100,9 +100,6 @@ std::optional<Error> refuse(const Shape& shape, const Options& options) {
   if (auto error = beyond_limits(shape)) return error;
   if (!is_consistent(shape))
     return Error{ErrorCode::malformed, "the shape was not made by build_shape()", {}};
-#ifndef MEDIAL_HAS_EXACT
-  if (options.exact) return Error{ErrorCode::unsupported, "this build has no exact decisions", {}};
-#endif
   return refuse_untaken(options);
 }
 

@@ -10,15 +10,13 @@
 #include "methods/checks.h"
 #include "methods/disks/disks.h"
 #include "methods/drop_enclosure.h"
+#include "methods/exact/certify.h"
 #include "methods/problem.h"
 #include "methods/refusal.h"
 #include "methods/small_components.h"
 #include "methods/table.h"
 #include "methods/whole_part.h"
 #include "shape/exterior.h"
-#ifdef MEDIAL_HAS_EXACT
-#include "methods/exact/certify.h"
-#endif
 
 namespace medial {
 namespace {
@@ -66,7 +64,6 @@ Result<MedialAxis> compute_exterior(const Problem& problem) {
   return axis;
 }
 
-#ifdef MEDIAL_HAS_EXACT
 /// Makes the combinatorics of an axis certain. Next to arcs the result is measured, and joints that
 /// count as smooth are taken as they stand if it fails so.
 std::optional<Error> make_certain(const Problem& problem, MedialAxis& axis) {
@@ -84,7 +81,6 @@ std::optional<Error> make_certain(const Problem& problem, MedialAxis& axis) {
   axis = std::move(copy);
   return attempt(true);
 }
-#endif
 
 }  // namespace
 
@@ -109,10 +105,8 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options,
           axis,
           "the axis does not have one part for each component and one cycle for each hole: please "
           "report this shape");
-#ifdef MEDIAL_HAS_EXACT
     if (options.exact)
       if (auto error = make_certain(problem, axis)) return std::move(*error);
-#endif
     if (options.progress) options.progress(1);
     return std::move(axis);
   } catch (...) {

@@ -259,7 +259,6 @@ std::optional<Site> pinned_end(const Site& site, const Disk& from, const Disk& t
 }  // namespace
 
 Vec2 Bisector::tangent(Vec2 center) const {
-  if (is_straight) return direction;
   if (!right.is_vertex() && !left.is_vertex() && reference == nullptr) return direction;
   const Vec2 along = left_of(outward(left, center) - outward(right, center));
   const double size = norm(along);
@@ -267,10 +266,6 @@ Vec2 Bisector::tangent(Vec2 center) const {
 }
 
 Disk Bisector::disk_at(double position, const Disk& near) const {
-  if (is_straight) {
-    const double way = position - dot(direction, near.center);
-    return {near.center + way * direction, near.radius + way};
-  }
   if (reference != nullptr) {
     const double s = position / scale;
     const Vec2 foot = reference->at(s), normal = reference->normal_at(s);
@@ -291,7 +286,6 @@ Disk Bisector::disk_at(double position, const Disk& near) const {
 }
 
 double Bisector::last_position(const Disk& near, double limit) const {
-  if (is_straight) return position(near.center) + std::max(0.0, limit - near.radius);
   if (reference != nullptr) {
     const double end = reference == &right ? scale * right.length : 0;
     double low = position(near.center), high = end;

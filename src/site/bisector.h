@@ -41,7 +41,6 @@ struct Bisector {
   Vec2 direction;
   const Site* reference = nullptr;  ///< of a bisector with an arc
   double scale = 0;                 ///< from the reference's parameter to the position
-  bool is_straight = false;         ///< see straighten()
 
   Bisector(const Site& right_site, const Site& left_site) : right(right_site), left(left_site) {
     if (right.is_arc() || left.is_arc()) {
@@ -57,13 +56,6 @@ struct Bisector {
     direction = direction_along(right, left);
     const double size = norm(direction);
     if (size > 0) direction = (1 / size) * direction;
-  }
-
-  /// Of two sites in one line up to rounding, which alone would tell where their feet move: takes
-  /// the disks over one place, with this unit normal, instead.
-  void straighten(Vec2 normal) {
-    is_straight = true;
-    direction = normal;
   }
 
   double position(Vec2 center) const {

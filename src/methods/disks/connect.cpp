@@ -92,7 +92,7 @@ std::uint32_t facing_site(const Boundary& loops, const site::FirstTouch& first_t
 class Connector {
  public:
   Connector(const Shape& shape, const Boundary& loops, const site::FirstTouch& first_touch,
-            double furthest, double typical, double tolerance, const ExactSites* exact,
+            double furthest, double typical, double tolerance, const ExactSites& exact,
             const std::vector<bool>& in_precise)
       : shape_(shape),
         loops_(loops),
@@ -146,7 +146,7 @@ class Connector {
         owner_of_foot(loops_, run_of(loops_, bridge.site), bridge.site, bridge.disk.center);
     const bool is_precise = !in_precise_.empty() && in_precise_[component];
     const bool is_clear = radius > exact_bridges && touch && touches_alone(bridge, *touch);
-    if (exact_ != nullptr && (is_precise || !is_clear))
+    if (is_precise || !is_clear)
       if (const auto exact = exact_bridge(hole, foot, radius)) return *exact;
     found_.push_back(radius);
     return bridge;
@@ -180,7 +180,7 @@ class Connector {
     const double largest = largest_radius(foot);
     for (double reach = radius + rounding;; reach = std::min(largest, growth * reach)) {
       const std::vector<std::uint32_t> near = sites_in(foot, reach, shape_.component[hole], own);
-      const auto touch = exact_->first_touch(foot, loops_, near);
+      const auto touch = exact_.first_touch(foot, loops_, near);
       if (touch && touch->radius <= reach)
         return Bridge{{foot + touch->radius * outreach, touch->radius}, hole, touch->site};
       if (!(reach < largest)) return std::nullopt;
@@ -231,7 +231,7 @@ class Connector {
   const Boundary& loops_;
   const site::FirstTouch& first_touch_;
   const double furthest_, typical_, tolerance_;
-  const ExactSites* exact_;
+  const ExactSites& exact_;
   const std::vector<bool>& in_precise_;
   site::FirstTouch::Region region_;
   double expected_ = 0;        ///< radius: twice the middle one of the last run; 0 before the first
@@ -384,7 +384,7 @@ class Splicer {
 }  // namespace
 
 std::vector<Bridge> connecting_disks(const Shape& shape, const Boundary& loops, double tolerance,
-                                     const ExactSites* exact, const std::vector<bool>& in_precise,
+                                     const ExactSites& exact, const std::vector<bool>& in_precise,
                                      std::uint64_t& queries) {
   std::vector<std::uint32_t> holes;
   for (std::uint32_t loop = 0; loop < shape.loop_count(); ++loop)
@@ -439,14 +439,9 @@ Boundary connect(const Shape& shape, const Boundary& loops, const std::vector<Br
 
 Boundary connected_boundary(const Problem& problem, std::vector<Bridge>& bridges) {
   Boundary loops = loops_boundary(problem, problem.numbers(), false);
-#ifdef MEDIAL_HAS_EXACT
   const ExactSites sites(problem, problem.numbers(), loops);
-  const ExactSites* exact = &sites;
-#else
-  const ExactSites* exact = nullptr;
-#endif
   std::uint64_t queries = 0;
-  bridges = connecting_disks(problem.shape, loops, problem.fine_tolerance, exact, {}, queries);
+  bridges = connecting_disks(problem.shape, loops, problem.fine_tolerance, sites, {}, queries);
   return bridges.empty() ? std::move(loops) : connect(problem.shape, loops, bridges);
 }
 

@@ -27,7 +27,7 @@ constexpr double exact_bridges = 0x1p-24;
 /// open which of several sites they touch, where their radii are up to `exact_bridges`, and in all
 /// components that are `in_precise`. O(h log n) expected.
 std::vector<Bridge> connecting_disks(const Shape& shape, const Boundary& loops, double tolerance,
-                                     const ExactSites* exact, const std::vector<bool>& in_precise,
+                                     const ExactSites& exact, const std::vector<bool>& in_precise,
                                      std::uint64_t& queries);
 
 /// The boundary with all holes spliced in: one run for each component.

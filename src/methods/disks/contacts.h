@@ -23,10 +23,10 @@ struct WalkContext {
   const Boundary& boundary;
   const std::vector<Bridge>& bridges;
   const site::BoundaryTree& tree;
-  double tolerance = 0;                ///< in the local frame
-  double joints = 0;                   ///< joints are smooth to so much
-  double radius_limit = 0;             ///< no disk inside the shape is larger
-  const ExactEvents* exact = nullptr;  ///< none: double decides
+  double tolerance = 0;     ///< in the local frame
+  double joints = 0;        ///< joints are smooth to so much
+  double radius_limit = 0;  ///< no disk inside the shape is larger
+  const ExactEvents& exact;
   const std::atomic<bool>* cancel = nullptr;
   std::function<void(std::uint64_t)> finished_sites;  ///< gets the number of further finished sites
   /// Above 0, tasks are deferred, and so is the rest of one that has found this many nodes.
@@ -57,7 +57,7 @@ class Contacts {
         touching_((is_certain() ? 2 : 1) * context.tolerance) {}
 
   /// Whether what the walk finds in double is taken only where it is certain.
-  bool is_certain() const { return context_.exact != nullptr && !boundary_.has_arcs; }
+  bool is_certain() const { return !boundary_.has_arcs; }
 
   const site::Site& site(std::uint32_t i) const { return boundary_.sites[i]; }
   Element element(std::uint32_t i) const { return boundary_.elements[i]; }

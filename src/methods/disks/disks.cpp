@@ -14,7 +14,6 @@
 #include "methods/disks/collect.h"
 #include "methods/disks/connect.h"
 #include "methods/disks/exact_event.h"
-#include "methods/disks/local_check.h"
 #include "methods/disks/merge_ties.h"
 #include "methods/disks/pose.h"
 #include "methods/disks/walk.h"
@@ -24,12 +23,6 @@
 namespace medial::disks {
 
 namespace {
-
-#ifdef MEDIAL_HAS_EXACT
-constexpr bool has_exact = true;
-#else
-constexpr bool has_exact = false;
-#endif
 
 /// Reports the share of the walk that is done, if the caller wants it.
 std::function<void(std::uint64_t)> reporter(const Options& options, const Boundary& boundary,
@@ -46,19 +39,6 @@ void find_lost(const Chunk& chunk, std::vector<std::uint32_t>& lost) {
   for (const auto& child : chunk.children) find_lost(*child, lost);
 }
 
-/// These sites with all pieces that bridges divide them into: an edge that leads across a bridge is
-/// named after one of them.
-std::vector<std::uint32_t> all_pieces(const Boundary& boundary,
-                                      const std::vector<std::uint32_t>& sites) {
-  std::vector<bool> named(boundary.originals.size());
-  for (const std::uint32_t site : sites) named[boundary.originals[site]] = true;
-  std::vector<std::uint32_t> pieces;
-  for (std::uint32_t i = 0; i < boundary.sites.size(); ++i)
-    if (boundary.elements[i] != Element::bridge && named[boundary.originals[i]])
-      pieces.push_back(i);
-  return pieces;
-}
-
 /// Connects the holes of the boundary, walks it, and joins what the walk finds. Nothing where the
 /// caller cancels. `in_precise`: of each component, whether double is never asked; empty: it always
 /// is.
@@ -67,10 +47,9 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
                               Statistics& statistics, std::vector<std::uint32_t>& lost) {
   Stopwatch watch;
   const ExactSites sites(problem, numbers, boundary);
-  const ExactSites* exact_sites = has_exact ? &sites : nullptr;
   const double tolerance = fine_share * problem.fine_tolerance;
-  const std::vector<Bridge> bridges = connecting_disks(problem.shape, boundary, tolerance,
-                                                       exact_sites, in_precise, statistics.queries);
+  const std::vector<Bridge> bridges =
+      connecting_disks(problem.shape, boundary, tolerance, sites, in_precise, statistics.queries);
   if (!bridges.empty()) boundary = connect(problem.shape, boundary, bridges);
   statistics.bridges = bridges.size();
   statistics.seconds_connect = watch.lap();
@@ -81,9 +60,9 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
 
   std::atomic<std::uint64_t> finished = 0;
   const ExactEvents events(sites, boundary, tree, in_precise);
-  auto chunks = walk({boundary, bridges, tree, tolerance, problem.fine_tolerance,
-                      problem.radius_limit, has_exact ? &events : nullptr, problem.options.cancel,
-                      reporter(problem.options, boundary, finished)});
+  auto chunks =
+      walk({boundary, bridges, tree, tolerance, problem.fine_tolerance, problem.radius_limit,
+            events, problem.options.cancel, reporter(problem.options, boundary, finished)});
   statistics.seconds_walk = watch.lap();
   if (problem.is_cancelled()) return std::nullopt;
   for (const auto& chunk : chunks) find_lost(*chunk, lost);
@@ -91,11 +70,7 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   // A diagram has nodes for a planar graph's points, and edges that lead there, as well.
   const std::size_t spare_nodes = boundary.two_sided ? problem.shape.points.size() : 0;
   Graph graph = collect(chunks, bridges, spare_nodes, boundary.two_sided && boundary.has_arcs);
-  merge_ties(boundary, tree, exact_sites, problem.local_tolerance(), graph);
-  // Edges may be right beside others that are missing: a planar graph's diagram is not measured.
-  if (!lost.empty() && boundary.has_arcs && !boundary.two_sided &&
-      is_right_around(boundary, tree, graph, all_pieces(boundary, lost), problem.local_tolerance()))
-    lost.clear();
+  merge_ties(boundary, tree, sites, problem.local_tolerance(), graph);
   statistics.seconds_collect = watch.lap();
   return graph;
 }
@@ -148,26 +123,20 @@ Result<MedialAxis> attempt(const Problem& problem, const SiteNumbers& own_number
   Stopwatch all, watch;
 
   const SiteNumbers* numbers = &own_numbers;
-#ifdef MEDIAL_HAS_EXACT
   std::optional<exact::PartedNumbers> parted;
   if (!in_precise.empty() && has_arcs(problem.shape)) {
     parted = exact::parted_numbers(problem, points_of(problem.shape, in_precise));
     numbers = &parted->numbers;
   }
-#endif
   Boundary boundary = loops_boundary(problem, *numbers, two_sided);
   axis.statistics.seconds_sites = watch.lap();
 
   auto graph = graph_of(problem, *numbers, in_precise, boundary, axis.statistics, lost);
-#ifdef MEDIAL_HAS_EXACT
   if (parted) rename(parted->names, boundary);
-#endif
   for (std::uint32_t& site : lost) site = boundary.originals[site];
   if (!graph) return axis;
   watch.lap();
-#ifdef MEDIAL_HAS_EXACT
   if (parted) remove_spurs(boundary, *graph);
-#endif
   constexpr double loose = 0x1p-20;  // of the size: no near tie is that far off
   const double slack = std::max(loose * diagonal(problem.box), 4 * axis.tolerance);
   const auto loose_edges = complete(boundary, problem.frame, problem.frame.scale * slack, *graph);
@@ -241,7 +210,7 @@ TwoSided run_two_sided_in_place(const Problem& problem, const SiteNumbers& numbe
     edges.clear();
     std::vector<std::uint32_t> lost;
     auto axis = attempt(problem, numbers, true, in_precise, edges, lost);
-    if (axis && lost.empty()) return {std::move(*axis), has_exact};
+    if (axis && lost.empty()) return {std::move(*axis), true};
     if (axis && (is_last || takes_long(problem.shape))) return {std::move(*axis), false};
     in_precise = components_of(problem, lost);
   }

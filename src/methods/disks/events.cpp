@@ -19,29 +19,10 @@ constexpr int bracket_steps = 128;
 constexpr int most_rounds = 200;
 /// How far beyond() may look, against the radius: there the bisector is still straight.
 constexpr double widest_window = 1e-7;
-/// A disk of radius r reaches by t into a gap of width sqrt(8 r t). Gaps are narrow in this unit,
-/// sqrt(r tolerance): the gap itself up to 1, a foot next to its end up to `past_end`, as the disk
-/// may have come there by a contact within the tolerance, and both together up to `widest_gap`.
-constexpr double past_end = 2, widest_gap = 1 + past_end;
-/// A disk further beside the bisector of two vertices, against their distance, is not on it but for
-/// the tolerance.
-constexpr double off_bisector = 0x1p-10;
 /// In tolerances: the radius of a disk that is as good as a point of a planar graph.
 constexpr double as_good_as_point = 8;
 
 }  // namespace
-
-std::optional<Event> EventSearch::pass_pinned() const {
-  for (const bool on_right : {true, false}) {
-    const std::uint32_t own = on_right ? span_.right : span_.left;
-    if (!end_[on_right] || !boundary_.is_smooth(on_right ? own : own - 1)) continue;
-    const double s = site::foot_parameter(site(own), from_.center);
-    if (on_right ? s >= site(own).length : s <= 0)
-      return Event{on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, from_,
-                   low_};
-  }
-  return std::nullopt;
-}
 
 Event EventSearch::local_event(bool on_right) {
   const std::uint32_t own = on_right ? span_.right : span_.left;
@@ -53,14 +34,8 @@ Event EventSearch::local_event(bool on_right) {
 
 Event EventSearch::event_at_smooth_joint(bool on_right) {
   Event event;
-  if (end_[on_right]) return event;
-  auto joint = disk_at_joint(on_right);
+  const auto joint = disk_at_joint(on_right);
   if (!joint) return event;
-  if (bisector_.is_straight) {
-    // On an edge in line the feet stay where they are.
-    if (!site(span_.right).is_vertex() || !site(span_.left).is_vertex()) return event;
-    joint->disk = bisector_.disk_at(bisector_.position(joint->disk.center), from_);
-  }
   const double position = bisector_.position(joint->disk.center);
   // On a parabola the foot's normal may turn that far only on the way back.
   if (is_behind(position)) return event;
@@ -99,7 +74,8 @@ Event EventSearch::event_at_corner(bool on_right) {
   const std::uint32_t other = on_right ? span_.left : span_.right;
   Event event;
   // At a convex corner too, before the foot gets to the corner: the disk there is not empty,
-  // unless the corner is so flat that it touches both sides within the tolerance.
+  // unless the corner is so flat that it touches both sides within the tolerance. Their carriers
+  // would leave the place open.
   const Vec2 foot = on_right ? site(next).point : site(own).point;
   const Vec2 normal = on_right ? site(own).end_normal() : site(own).normal();
   const Vec2 next_normal = on_right ? site(next).normal() : site(next).end_normal();
@@ -112,11 +88,11 @@ Event EventSearch::event_at_corner(bool on_right) {
                                : 0.5 * radius * squared_norm(normal - next_normal);
   const bool flat = in_reach && intrusion <= 0.5 * context_.tolerance;
   if (!flat) {
-    std::optional<Event> contact = contact_at_joint(next);
+    auto contact = contact_at_joint(next);
     if (!contact) contact = contact_with(next, nowhere);
     if (contact && reaches(*contact)) return *contact;
   }
-  if (!in_reach || bisector_.is_straight || end_[on_right]) return event;
+  if (!in_reach) return event;
   event.kind = flat ? Event::Kind::contact : Event::Kind::far;
   event.site = next;
   event.disk = {foot + radius * normal, radius};
@@ -153,25 +129,11 @@ std::optional<EventSearch::JointDisk> EventSearch::disk_at_joint(bool on_right) 
   const std::uint32_t own = on_right ? span_.right : span_.left;
   const std::uint32_t next = on_right ? own + 1 : own - 1;
   const std::uint32_t other = on_right ? span_.left : span_.right;
-  if (boundary_.has_arcs)
-    if (const auto circle = circle_of_apex(next, other)) return JointDisk{*circle};
   const auto [foot, normal] = boundary_.smooth_place(std::min(own, next), std::max(own, next));
   const double radius = site::tangent_radius(foot, normal, site(other));
   if (!(radius <= context_.radius_limit)) return std::nullopt;
   const double largest = std::max(site(own).curvature, site(next).curvature);
   return JointDisk{{foot + radius * normal, radius}, radius * largest <= 1 + widest_window};
-}
-
-std::optional<Disk> EventSearch::circle_of_apex(std::uint32_t next, std::uint32_t other) const {
-  const Site& arc = site(next);
-  if (!(arc.curvature > 0) || !(1 / arc.curvature <= context_.radius_limit)) return std::nullopt;
-  for (std::uint32_t i = std::min(next, other); i < std::max(next, other); ++i) {
-    const Site& inner = next < other ? site(i) : site(i + 1);
-    const bool same = std::abs(1 / inner.curvature - 1 / arc.curvature) <= context_.tolerance;
-    if (element(i) != Element::edge || !boundary_.is_smooth(i) || !same) return std::nullopt;
-  }
-  const double radius = 1 / arc.curvature;
-  return Disk{arc.point + radius * arc.normal(), radius};
 }
 
 std::optional<Event> EventSearch::contact_at_joint(std::uint32_t third) const {
@@ -190,7 +152,6 @@ std::optional<Event> EventSearch::contact_at_joint(std::uint32_t third) const {
 std::optional<Event> EventSearch::contact_with(const Site& touched, std::uint32_t third,
                                                double high) {
   ++statistics_.apollonius;
-  if (bisector_.is_straight) return contact_over_gap(touched, third, high);
   const site::TangentDisks disks = site::tangent_disks(bisector_.right, bisector_.left, touched);
   const auto speed_at = [&](const Disk& disk) {
     return closing(disk, touched, bisector_.tangent(disk.center));
@@ -220,92 +181,12 @@ std::optional<Event> EventSearch::contact_with(const Site& touched, std::uint32_
   return not_behind(best);
 }
 
-bool EventSearch::at_narrow_gap() const {
-  const Vec2 between =
-      site::foot(site(span_.left), from_.center) - site::foot(site(span_.right), from_.center);
-  return from_.radius > 0 &&
-         squared_norm(between) <= widest_gap * widest_gap * context_.tolerance * from_.radius;
-}
-
-bool EventSearch::in_line(Vec2 gap) const {
-  const Site &right = site(span_.right), &left = site(span_.left);
-  if (right.is_arc() || left.is_arc() || (right.is_vertex() && left.is_vertex())) return false;
-  const double width = squared_norm(gap);
-  if (!(width <= context_.tolerance * from_.radius &&
-        dot(gap, right.direction + left.direction) > 0))
-    return false;
-  if (right.is_vertex() || left.is_vertex()) {
-    const Site& segment = right.is_vertex() ? left : right;
-    const Vec2 vertex = right.is_vertex() ? right.point : left.point;
-    return std::abs(site::carrier_distance(segment, vertex)) <= 0.5 * context_.tolerance;
-  }
-  const double turn = cross(right.direction, left.direction);
-  return dot(right.direction, left.direction) > 0 &&
-         turn * turn * context_.radius_limit <= context_.tolerance;
-}
-
-site::Bisector EventSearch::bisector() const {
-  site::Bisector result(touched_part(true), touched_part(false));
-  if (!at_narrow_gap_) return result;
-  const Site &right = result.right, &left = result.left;
-  if (right.is_vertex() && left.is_vertex()) {
-    const Vec2 chord = left.point - right.point,
-               to = from_.center - midpoint(right.point, left.point);
-    const bool leaves = dot(result.direction, to) > 0;
-    if (leaves && std::abs(dot(chord, to)) > off_bisector * squared_norm(chord))
-      result.straighten(result.direction);
-  } else if (in_line(right.point - left.end())) {
-    result.straighten(right.is_vertex()  ? left.normal()
-                      : left.is_vertex() ? right.normal()
-                                         : result.direction);
-  }
-  return result;
-}
-
-std::optional<Event> EventSearch::pass_into_gap() {
-  const Site &right = site(span_.right), &left = site(span_.left);
-  if (span_.left - span_.right > 2 && !boundary_.two_sided) {
-    const auto& touched = contacts_.touched_between(span_, from_);
-    if (!touched.empty()) return at_node(touched.front());
-  }
-  if (!in_line(left.point - right.end())) return std::nullopt;
-  for (const bool on_right : {true, false}) {
-    const Site& own = on_right ? right : left;
-    if (own.is_vertex() || !boundary_.is_smooth(on_right ? span_.right : span_.left - 1)) continue;
-    const Vec2 end = on_right ? right.end() : left.point;
-    const double along = dot(own.direction, from_.center - end);
-    if (along * along <= past_end * past_end * context_.tolerance * from_.radius)
-      return Event{on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, from_,
-                   low_};
-  }
-  return std::nullopt;
-}
-
-std::optional<Event> EventSearch::contact_over_gap(const Site& touched, std::uint32_t third,
-                                                   double high) const {
-  const Vec2 normal = bisector_.direction, foot = from_.center - from_.radius * normal;
-  const double radius = site::tangent_radius(foot, normal, touched);
-  if (!(radius <= context_.radius_limit)) return std::nullopt;
-  const Disk disk{foot + radius * normal, radius};
-  const double position = bisector_.position(disk.center);
-  if (std::max(low_ - position, position - high) > slack()) return std::nullopt;
-  return not_behind({Event::Kind::contact, third, disk, position});
-}
-
 void EventSearch::polish(Disk& disk, const Site& third) {
   site::polish(disk, bisector_.right, bisector_.left, third, 0.25 * context_.tolerance,
                context_.tolerance, statistics_.precision_retries);
 }
 
 Event EventSearch::next() {
-  if (boundary_.has_arcs) {
-    if (is_at_apex()) return at_node(span_.right + 1);
-    if (const auto touched = at_own_circle()) return *touched;
-    if (const auto passed = pass_over_circle()) return *passed;
-    if (const auto passed = pass_pinned()) return *passed;
-  }
-  if (at_narrow_gap_)
-    if (const auto passed = pass_into_gap()) return *passed;
   // A foot that passes on smoothly is found at little cost, and makes most corners' events
   // needless.
   const bool right_first = boundary_.is_smooth(span_.right) || !boundary_.is_smooth(span_.left - 1);
@@ -327,43 +208,6 @@ Event EventSearch::next() {
     if (span_.left - span_.right == 2 && straight) return event;
   }
   return first_contact(event);
-}
-
-bool EventSearch::is_at_apex() const {
-  const std::uint32_t next = span_.right + 1;
-  if (!(site(next).curvature > 0) || !contacts_.touches_all(next, from_)) return false;
-  const auto circle = circle_of_apex(next, span_.left);
-  if (!circle || !contacts_.touches_all(span_.left - 1, from_)) return false;
-  const double beyond = distance(circle->center, from_.center) + circle->radius - from_.radius;
-  return beyond > context_.tolerance;
-}
-
-std::optional<Event> EventSearch::at_own_circle() const {
-  if (element(span_.right) != Element::edge || element(span_.left) != Element::edge ||
-      boundary_.originals[span_.right] != boundary_.originals[span_.left])
-    return std::nullopt;
-  const auto& touched = contacts_.touched_between(span_, from_);
-  if (touched.empty()) return std::nullopt;
-  return at_node(touched.front());
-}
-
-std::optional<Event> EventSearch::pass_over_circle() const {
-  for (const bool on_right : {true, false}) {
-    const std::uint32_t own = on_right ? span_.right : span_.left;
-    if (!(site(own).curvature > 0) || !boundary_.is_smooth(on_right ? own : own - 1)) continue;
-    // Not on to a rounder arc, whose circle is still to come.
-    const std::uint32_t next = on_right ? own + 1 : own - 1;
-    const bool rounder = site(next).curvature > site(own).curvature;
-    // Nor where the other site lies on the arc, so near to the joint that the foot comes there
-    // late.
-    if (const auto joint = disk_at_joint(on_right);
-        joint && joint->disk.radius < 0.5 * from_.radius)
-      continue;
-    if (contacts_.touches_all(own, from_) && !(rounder && !contacts_.touches_all(next, from_)))
-      return Event{on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, from_,
-                   low_};
-  }
-  return std::nullopt;
 }
 
 bool EventSearch::is_at_node(std::uint32_t touched) const {

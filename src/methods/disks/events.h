@@ -37,9 +37,7 @@ class EventSearch {
         statistics_(statistics),
         span_(span),
         from_(from),
-        end_{pinned_end(span.left), pinned_end(span.right)},
-        at_narrow_gap_(at_narrow_gap()),
-        bisector_(bisector()),
+        bisector_(site(span.right), site(span.left)),
         low_(bisector_.position(from.center)) {}
 
   /// The event; never `none` or `far`.
@@ -55,24 +53,6 @@ class EventSearch {
 
   const site::Site& site(std::uint32_t i) const { return boundary_.sites[i]; }
   Element element(std::uint32_t i) const { return boundary_.elements[i]; }
-  /// Where the node's disk is larger than the own circle of an arc, the end in which it touches it:
-  /// next to a joint that is smooth but for some tolerances.
-  std::optional<site::Site> pinned_end(std::uint32_t i) const {
-    if (!boundary_.has_arcs || !(overreach(site(i), from_.radius) > 0.5 * context_.tolerance))
-      return std::nullopt;
-    return site::make_vertex(site::foot(site(i), from_.center));
-  }
-  /// By how much a disk that touches a convex arc at one end reaches over it, at most.
-  static double overreach(const site::Site& arc, double radius) {
-    if (!(arc.curvature * radius > 1)) return 0;
-    return 0.5 * (radius - 1 / arc.curvature) * squared_norm(arc.normal() - arc.end_normal());
-  }
-  /// What the disks after the node touch of `right` or `left`: all of it, or one end of it.
-  const site::Site& touched_part(bool on_right) const {
-    return end_[on_right] ? *end_[on_right] : site(on_right ? span_.right : span_.left);
-  }
-  /// Where a pinned foot is at the end of its site, it passes on at once.
-  std::optional<Event> pass_pinned() const;
   /// Whether a contact lies on the site itself, not only on its carrier, and on its inner side.
   bool reaches(const Event& event) const {
     return contacts_.reaches(event.site, event.disk) &&
@@ -100,32 +80,12 @@ class EventSearch {
   bool comes_later(bool on_right, const Event& event) const;
   /// The disk where the foot on the right or left passes on to its neighbour, if there is one.
   std::optional<JointDisk> disk_at_joint(bool on_right) const;
-  /// Where the sites from `next` on to `other` are arcs of one circle that continue each other and
-  /// `other` smoothly, that circle: the axis ends in its centre. Joints so near to each other would
-  /// leave the disk that touches both open.
-  std::optional<Disk> circle_of_apex(std::uint32_t next, std::uint32_t other) const;
   /// The contact with a site that continues one of the two smoothly: where the two meet. The three
   /// carriers would leave the place to the square root of a rounding error.
   std::optional<Event> contact_at_joint(std::uint32_t third) const;
   /// The disk on the bisector that touches a third site, at or before position `high`; of several
   /// the first one ahead of `from`.
   std::optional<Event> contact_with(const site::Site& touched, std::uint32_t third, double high);
-  /// Whether the node's disk touches its two sites so near to each other that it reaches into a gap
-  /// between them by some tolerances at most.
-  bool at_narrow_gap() const;
-  /// Whether the two sites lie in one line, as far as a disk can tell, with this gap between them,
-  /// so narrow that the node's disk does not reach into it by the tolerance.
-  bool in_line(Vec2 gap) const;
-  /// The bisector of the two sites; a straightened one where the walk comes out of a gap between
-  /// sites in line, or between two vertices but not where their bisector is.
-  site::Bisector bisector() const;
-  /// At a narrow gap: what else the node's disk touches there. Where the walk goes into a gap
-  /// between sites in line: when the foot passes on to the vertex there is left to rounding, so it
-  /// does at once.
-  std::optional<Event> pass_into_gap();
-  /// contact_with() on a straightened bisector.
-  std::optional<Event> contact_over_gap(const site::Site& touched, std::uint32_t third,
-                                        double high) const;
   /// An event that rounding put behind the node happens at the node.
   Event not_behind(const Event& event) const {
     return event.position < low_ ? Event{event.kind, event.site, from_, low_} : event;
@@ -133,15 +93,6 @@ class EventSearch {
   /// Brings a disk's residual below the tolerance: by Newton's method, and where that fails in
   /// higher precision.
   void polish(Disk& disk, const site::Site& third);
-  /// Whether the axis ends at the node: its disk touches all of the arcs ahead, but is not theirs,
-  /// which reaches over what lies elsewhere. Ends of arcs so near to each other leave their
-  /// bisector open by more than the disk is off.
-  bool is_at_apex() const;
-  /// Between two pieces of one arc, which have no bisector: the node's disk is the arc's own
-  /// circle, and touches what is in between, within the tolerance.
-  std::optional<Event> at_own_circle() const;
-  /// Where the disk of the node is the circle of an arc, it touches all of it: the foot passes on.
-  std::optional<Event> pass_over_circle() const;
   /// Where the node's disk touches the smooth neighbour of one of the two sites as well, within the
   /// tolerance: the foot may pass on to it at once.
   std::optional<Event> pass_at_node() const;
@@ -179,9 +130,6 @@ class EventSearch {
   Statistics& statistics_;
   const Span span_;
   const Disk from_;
-  /// The end of `left` and `right` where that is all of it that can be touched, as a vertex.
-  const std::array<std::optional<site::Site>, 2> end_;
-  const bool at_narrow_gap_;
   const site::Bisector bisector_;
   const double low_;  ///< position of `from`
 };

@@ -1,7 +1,5 @@
 #include "methods/disks/exact_event.h"
 
-#ifdef MEDIAL_HAS_EXACT
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -475,26 +473,3 @@ std::optional<ExactEvents::Found> ExactEvents::start(const Span& whole, const Di
 }
 
 }  // namespace medial::disks
-
-#else
-
-namespace medial::disks {
-
-std::optional<ExactSites::Touch> ExactSites::first_touch(Vec2, const Boundary&,
-                                                         std::span<const std::uint32_t>) const {
-  return std::nullopt;
-}
-
-std::optional<ExactEvents::Found> ExactEvents::next(const Span&, const Disk&, std::uint32_t,
-                                                    bool) const {
-  return std::nullopt;
-}
-
-std::optional<ExactEvents::Found> ExactEvents::start(const Span&, const Disk&,
-                                                     std::uint32_t) const {
-  return std::nullopt;
-}
-
-}  // namespace medial::disks
-
-#endif

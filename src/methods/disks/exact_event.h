@@ -9,10 +9,8 @@
 #include <vector>
 
 #include "methods/disks/contacts.h"
-#ifdef MEDIAL_HAS_EXACT
 #include "methods/exact/disk_bounds.h"
 #include "methods/exact/outline.h"
-#endif
 
 namespace medial::disks {
 
@@ -25,11 +23,8 @@ class ExactSites {
       : fine_tolerance_(problem.fine_tolerance),
         radius_limit_(problem.radius_limit),
         boundary_(boundary) {
-#ifdef MEDIAL_HAS_EXACT
     make_ = [&problem, &numbers] { return exact::outline_of(problem, numbers, false); };
-#endif
   }
-#ifdef MEDIAL_HAS_EXACT
   /// Those of a part of a boundary, whose bridges are any disks.
   ExactSites(std::function<exact::SiteLoops()> make, double fine_tolerance, double radius_limit,
              const Boundary& part)
@@ -38,7 +33,6 @@ class ExactSites {
         radius_limit_(radius_limit),
         reach_out_(false),
         boundary_(part) {}
-#endif
 
   /// Of the sites of a boundary, the one that a disk touches first that grows at a point in the
   /// direction `outreach`, and the disk. None where it touches none.
@@ -48,7 +42,6 @@ class ExactSites {
   };
   std::optional<Touch> first_touch(Vec2 foot, const Boundary& boundary,
                                    std::span<const std::uint32_t> sites) const;
-#ifdef MEDIAL_HAS_EXACT
   /// A site of the boundary as the shape has it.
   exact::ExactSite site(std::uint32_t i) const { return outline().sites[boundary_.originals[i]]; }
   /// The disk that three sites of the boundary touch in their order; none where it is not known.
@@ -58,17 +51,13 @@ class ExactSites {
     return exact::disk_bounds<Real>(outline(), {name(sites[0]), name(sites[1]), name(sites[2])},
                                     Disk{});
   }
-#endif
 
  private:
   friend class ExactEvents;
-#ifdef MEDIAL_HAS_EXACT
   std::function<exact::SiteLoops()> make_;
-#endif
   double fine_tolerance_, radius_limit_;
   bool reach_out_ = true;  ///< whether bridges are those of connecting_disks()
   const Boundary& boundary_;
-#ifdef MEDIAL_HAS_EXACT
   const exact::SiteLoops& outline() const;
   /// The site from which a foot passes on to a site at its start; none where it does not.
   std::optional<std::uint32_t> joined_before(std::uint32_t site) const;
@@ -76,7 +65,6 @@ class ExactSites {
   mutable std::once_flag once_;
   mutable exact::SiteLoops outline_;
   mutable std::vector<std::uint32_t> before_;  ///< of each site on the loop, if `next` is stored
-#endif
 };
 
 /// Answers exactly what ends an edge of the axis where double cannot tell (docs/disks.md, How

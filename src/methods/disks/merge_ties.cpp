@@ -55,11 +55,11 @@ struct Group {
 
 class Merger {
  public:
-  Merger(const Boundary& boundary, const site::BoundaryTree& tree, const ExactSites* exact,
+  Merger(const Boundary& boundary, const site::BoundaryTree& tree, const ExactSites& exact,
          double tolerance, Graph& graph)
       : boundary_(boundary),
         tree_(tree),
-        tie_sites_{boundary.sites, exact},
+        tie_sites_{boundary.sites, &exact},
         tolerance_(tolerance),
         graph_(graph) {}
 
@@ -451,13 +451,10 @@ class Merger {
     const Disk &from = graph_.nodes[a].disk, &to = graph_.nodes[b].disk;
     const double squared = squared_norm(to.center - from.center);
     if (squared > surely * surely * tolerance_ * tolerance_) return false;
-#ifdef MEDIAL_HAS_EXACT
     if (const auto near = are_near_in<Twofold>(a, b, length)) return *near;
     if (const auto near = are_near_in<exact::Precise>(a, b, length)) return *near;
-#endif
     return squared <= length * length && is_short(from, to, 0);
   }
-#ifdef MEDIAL_HAS_EXACT
   /// The same of the disks as the sites have them; none where these are not known.
   template <class Real>
   std::optional<bool> are_near_in(std::uint32_t a, std::uint32_t b, double length) const {
@@ -477,7 +474,6 @@ class Merger {
   /// The disk of a node that touches three sites; none of one that touches more.
   template <class Real>
   std::optional<exact::DiskBounds<Real>> disk_in(std::uint32_t node) const {
-    if (tie_sites_.exact == nullptr) return std::nullopt;
     const Disk& about = graph_.nodes[node].disk;
     std::vector<std::uint32_t> sites;  // of several pieces of one site, one
     for (const Touch& contact : contacts_[place_of(node)]) {
@@ -500,7 +496,6 @@ class Merger {
     }
     return std::nullopt;
   }
-#endif
 
   /// Whether one disk touches all that a group's nodes touch, and nothing reaches into it. Around a
   /// hole a group is no tree, and the hole stays.
@@ -643,13 +638,13 @@ class Merger {
 
 }  // namespace
 
-void merge_ties(const Boundary& boundary, const site::BoundaryTree& tree, const ExactSites* exact,
+void merge_ties(const Boundary& boundary, const site::BoundaryTree& tree, const ExactSites& exact,
                 double tolerance, Graph& graph) {
   Merger(boundary, tree, exact, tolerance, graph).merge();
 }
 
 std::vector<std::uint32_t> tie_candidates(const Boundary& boundary, const site::BoundaryTree& tree,
-                                          const ExactSites* exact, double tolerance, Graph& graph) {
+                                          const ExactSites& exact, double tolerance, Graph& graph) {
   return Merger(boundary, tree, exact, tolerance, graph).candidates();
 }
 

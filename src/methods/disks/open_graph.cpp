@@ -45,7 +45,7 @@ class FirstPlaces {
 
 OpenGraph::OpenGraph(const Problem& problem, const SiteNumbers& numbers, const Boundary& boundary,
                      std::size_t bridge_count, const site::BoundaryTree& tree,
-                     const ExactSites* exact)
+                     const ExactSites& exact)
     : problem_(problem),
       numbers_(numbers),
       boundary_(boundary),

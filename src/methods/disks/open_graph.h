@@ -24,7 +24,7 @@ class OpenGraph {
   };
 
   OpenGraph(const Problem& problem, const SiteNumbers& numbers, const Boundary& boundary,
-            std::size_t bridge_count, const site::BoundaryTree& tree, const ExactSites* exact);
+            std::size_t bridge_count, const site::BoundaryTree& tree, const ExactSites& exact);
 
   /// Adds the tasks at which the walk begins.
   void begin(std::vector<std::unique_ptr<Chunk>> roots);
@@ -80,7 +80,7 @@ class OpenGraph {
   const SiteNumbers& numbers_;
   const Boundary& boundary_;
   const site::BoundaryTree& tree_;
-  const ExactSites* exact_;
+  const ExactSites& exact_;
   double slack_;
   Graph graph_;
   std::vector<std::uint32_t> number_;  ///< of each node: in the whole axis, once it is final

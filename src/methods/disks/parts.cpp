@@ -55,14 +55,9 @@ Result<std::optional<MedialAxis>> run_in_parts(const Problem& problem, const Axi
   statistics.seconds_sites = watch.lap();
   const double tolerance = fine_share * problem.fine_tolerance;
   const ExactSites sites(problem, numbers, boundary);
-#ifdef MEDIAL_HAS_EXACT
-  const ExactSites* const exact_sites = &sites;
-#else
-  constexpr const ExactSites* exact_sites = nullptr;
-#endif
   const std::vector<bool> never_in_precise;
-  const std::vector<Bridge> bridges = connecting_disks(
-      problem.shape, boundary, tolerance, exact_sites, never_in_precise, statistics.queries);
+  const std::vector<Bridge> bridges = connecting_disks(problem.shape, boundary, tolerance, sites,
+                                                       never_in_precise, statistics.queries);
   if (!bridges.empty()) boundary = connect(problem.shape, boundary, bridges);
   statistics.bridges = bridges.size();
   statistics.seconds_connect = watch.lap();
@@ -82,11 +77,11 @@ Result<std::optional<MedialAxis>> run_in_parts(const Problem& problem, const Axi
       tolerance,
       problem.fine_tolerance,
       problem.radius_limit,
-      exact_sites != nullptr ? &exact : nullptr,
+      exact,
       problem.options.cancel,
       problem.options.progress ? report : std::function<void(std::uint64_t)>(),
       static_cast<std::uint32_t>(part_nodes / tasks_in_part)};
-  OpenGraph open(problem, numbers, boundary, bridges.size(), tree, exact_sites);
+  OpenGraph open(problem, numbers, boundary, bridges.size(), tree, sites);
   const auto walked = walk_in_parts(context, sink, part_nodes, open);
   if (!walked) return walked.error();
   if (!*walked) return std::optional<MedialAxis>();

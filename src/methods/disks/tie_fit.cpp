@@ -33,7 +33,6 @@ double residual_of(const TieSites& sites, const Touch& i, const DiskOf<double>& 
   return std::abs(std::sqrt(site::squared_distance(seen, center)) - disk.radius);
 }
 
-#ifdef MEDIAL_HAS_EXACT
 using exact::Precise;
 
 /// Of a site as the shape has it. `Real` has more digits than double.
@@ -68,7 +67,6 @@ template <class Real>
 Real residual_of(const TieSites& sites, const Touch& i, const DiskOf<Real>& disk) {
   return size_of(contact_of(sites, i, disk).residual);
 }
-#endif
 
 enum class Verdict : std::uint8_t { yes, no, open };
 
@@ -317,7 +315,6 @@ bool TieFit::fits(std::span<const Touch> contacts, double bound) {
     disk = {{exchange.disk.x, exchange.disk.y}, exchange.disk.radius};
     worst = exchange.worst;
   }
-#ifdef MEDIAL_HAS_EXACT
   if (verdict == Verdict::open && sites_->exact != nullptr) {
     const Disk start = disk;
     if (!has_arcs(*sites_, contacts))
@@ -327,15 +324,12 @@ bool TieFit::fits(std::span<const Touch> contacts, double bound) {
       verdict = judge_again<Precise>(*sites_, contacts, {bound, 0x1p-200}, disk, worst);
     }
   }
-#endif
   return verdict == Verdict::yes || (verdict == Verdict::open && worst <= bound);
 }
 
 void TieFit::settle(std::span<const Touch> contacts) {
-#ifdef MEDIAL_HAS_EXACT
   if (sites_->exact != nullptr)
     return settle_in<Twofold>(*sites_, contacts, noise_of_twofold, *this);
-#endif
   settle_in<double>(*sites_, contacts, noise_of_double, *this);
 }
 

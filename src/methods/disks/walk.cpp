@@ -27,7 +27,7 @@ class Walker {
         tasks_(tasks),
         chunk_(chunk),
         contacts_(context, chunk.statistics),
-        is_exact_(context.exact != nullptr && context.exact->always(chunk.component)) {}
+        is_exact_(context.exact.always(chunk.component)) {}
 
   /// Walks all of a run: from the convex corner between its last and first site, or from a disk
   /// that touches the boundary where the two join smoothly.
@@ -165,7 +165,7 @@ class Walker {
 
   /// Whether what a step's disk may have missed is searched for before it is taken.
   bool looks_ahead(const Step& step) const {
-    return context_.exact != nullptr && !is_exact_ && !(boundary_.has_arcs && step.joins_node);
+    return !is_exact_ && !(boundary_.has_arcs && step.joins_node);
   }
 
   /// What double takes for the events after the parts' node.
@@ -303,8 +303,6 @@ class Walker {
     if (is_exact_) return;
     const Span& span = step.span;
     step.event = event_in_double(span, from);
-    step.is_certain = context_.exact == nullptr;
-    if (step.is_certain) return;
     const Certainty certainty(boundary_, context_.tolerance, span, from, step.event);
     step.error = certainty.error();
     step.is_certain =
@@ -331,7 +329,7 @@ class Walker {
     const std::uint32_t hint = event.kind == Event::Kind::pass_right  ? span.right + 1
                                : event.kind == Event::Kind::pass_left ? span.left - 1
                                                                       : event.site;
-    const auto found = context_.exact->next(asked, from, hint, from_exact);
+    const auto found = context_.exact.next(asked, from, hint, from_exact);
     count(found);
     if (!found) {
       if (is_exact_) event = event_in_double(span, from);
@@ -393,7 +391,7 @@ class Walker {
   /// Whether double leaves open what the disk touches that grows where a run begins.
   bool is_uncertain(const Boundary::SiteRange& run, std::uint32_t touched, const Disk& disk) const {
     if (is_exact_) return true;
-    return context_.exact != nullptr && touched != Hit::none &&
+    return touched != Hit::none &&
            !(Certainty::error_at_joint(boundary_, run.last, run.first, touched, disk) <=
              spread * context_.tolerance);
   }
@@ -401,7 +399,7 @@ class Walker {
   /// start_at_smooth_place() in 256 bits; `about` and `hint` are what double takes for it. Whether
   /// there is such a disk.
   bool start_exactly(const Span& whole, const Disk& about, std::uint32_t hint) {
-    const auto found = context_.exact->start(whole, about, hint);
+    const auto found = context_.exact.start(whole, about, hint);
     count(found);
     if (!found) {
       lose(whole, hint);
@@ -428,7 +426,7 @@ class Walker {
     const bool at_bridge = is_at_bridge(span);
     const bool ends =
         between == 1 || (!at_bridge && !is_proposed && contacts_.is_reflex_chain(span));
-    if (ends && boundary_.has_arcs && context_.exact != nullptr && !is_exact_ &&
+    if (ends && boundary_.has_arcs && !is_exact_ &&
         !Certainty::ends(boundary_, context_.tolerance, span, chunk_.nodes[span.node]))
       lose(span, span.left);
     if (between == 1) {

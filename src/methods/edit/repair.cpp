@@ -23,7 +23,6 @@ constexpr double border_error = 16;
 /// What no disk is off by, in the local frame.
 constexpr double loose = 0x1p-20;
 
-#ifdef MEDIAL_HAS_EXACT
 /// The window's sites for exact decisions. A site whose neighbour lies outside has none.
 exact::SiteLoops outline_of(const Rings& rings, const Window& window) {
   const std::vector<std::uint32_t>& names = window.names;
@@ -47,7 +46,6 @@ exact::SiteLoops outline_of(const Rings& rings, const Window& window) {
   outline.component = {0};
   return outline;
 }
-#endif
 
 class Repairer {
  public:
@@ -58,14 +56,9 @@ class Repairer {
         borders_(window.borders),
         window_(window),
         boundary_(window.boundary),
-        measures_(measures)
-#ifdef MEDIAL_HAS_EXACT
-        ,
+        measures_(measures),
         sites_([this] { return outline_of(rings_, window_); }, measures.fine_tolerance,
-               measures.radius_limit, window.boundary)
-#endif
-  {
-  }
+               measures.radius_limit, window.boundary) {}
 
   std::optional<Repair> run(std::vector<std::uint32_t>& doubtful) {
     const site::BoundaryTree tree(boundary_.sites);
@@ -77,29 +70,21 @@ class Repairer {
       doubtful.push_back(borders_[0].node);
       return std::nullopt;
     }
-    const disks::ExactSites* sites = nullptr;
-#ifdef MEDIAL_HAS_EXACT
-    sites = &sites_;
-#endif
-    disks::merge_ties(boundary_, tree, sites, measures_.tolerance, part);
+    disks::merge_ties(boundary_, tree, sites_, measures_.tolerance, part);
     return result(part, doubtful);
   }
 
  private:
   std::unique_ptr<disks::Chunk> walk(const site::BoundaryTree& tree) {
     const std::vector<bool> never;
-    const disks::ExactEvents* decide = nullptr;
-#ifdef MEDIAL_HAS_EXACT
     const disks::ExactEvents events(sites_, boundary_, tree, never);
-    decide = &events;
-#endif
     const disks::WalkContext context{boundary_,
                                      window_.bridges,
                                      tree,
                                      disks::fine_share * measures_.fine_tolerance,
                                      measures_.fine_tolerance,
                                      measures_.radius_limit,
-                                     decide,
+                                     events,
                                      nullptr,
                                      {}};
     return disks::walk_part(context, window_.bridges[0].disk,
@@ -272,9 +257,7 @@ class Repairer {
   const Window& window_;
   const disks::Boundary& boundary_;
   const Measures& measures_;
-#ifdef MEDIAL_HAS_EXACT
   const disks::ExactSites sites_;
-#endif
 };
 
 }  // namespace

@@ -262,10 +262,8 @@ std::optional<std::vector<std::uint32_t>> conquer(DiagramIn<Kernel>& diagram,
 
 template std::optional<std::vector<std::uint32_t>> conquer(Diagram&, const ConquerContext&,
                                                            Statistics&, std::vector<Level>*);
-#ifdef MEDIAL_HAS_EXACT
 template std::optional<std::vector<std::uint32_t>> conquer(DiagramIn<InPrecise>&,
                                                            const ConquerContext&, Statistics&,
                                                            std::vector<Level>*);
-#endif
 
 }  // namespace medial::lee

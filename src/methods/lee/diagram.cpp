@@ -42,8 +42,6 @@ void DiagramIn<Kernel>::add_free_place(FreePlaces& places) {
 }
 
 template struct DiagramIn<InDouble>;
-#ifdef MEDIAL_HAS_EXACT
 template struct DiagramIn<InPrecise>;
-#endif
 
 }  // namespace medial::lee

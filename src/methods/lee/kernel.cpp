@@ -1,7 +1,5 @@
 #include "methods/lee/kernel.h"
 
-#ifdef MEDIAL_HAS_EXACT
-
 #include <algorithm>
 #include <limits>
 
@@ -127,5 +125,3 @@ PreciseDisks tangent_disks(const PreciseSite& a, const PreciseSite& b, const Pre
 }
 
 }  // namespace medial::lee
-
-#endif

@@ -5,13 +5,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "methods/exact/numbers.h"
 #include "methods/lee/elements.h"
+#include "site/apollonius.h"
 #include "site/bisector.h"
 #include "site/tangent_disk.h"
-#ifdef MEDIAL_HAS_EXACT
-#include "methods/exact/numbers.h"
-#include "site/apollonius.h"
-#endif
 
 // The numbers in which diagrams are merged: double, and where its rounding breaks a diagram, 256
 // bits. Of each: its disks and sites, and the same questions about them.
@@ -38,8 +36,6 @@ inline double advance(const site::Site& site, Vec2 from, Vec2 to) {
   const double most = distance(from, to);
   return larger > 0 ? std::clamp(way / std::sqrt(larger), -most, most) : 0;
 }
-
-#ifdef MEDIAL_HAS_EXACT
 
 struct PreciseSite {
   using Vector = site::apollonius::Vector<exact::Precise>;
@@ -85,7 +81,5 @@ inline Disk rounded(const InPrecise::Disk& disk) {
   return {{static_cast<double>(disk.center.x), static_cast<double>(disk.center.y)},
           static_cast<double>(disk.radius)};
 }
-
-#endif
 
 }  // namespace medial::lee

@@ -115,7 +115,6 @@ class Solution {
 
   /// The same in 256 bits, from what the shape has: rounded to double at the end.
   void merge_in_precise() {
-#ifdef MEDIAL_HAS_EXACT
     const PreciseSites sites = precise_sites(problem_, elements_);
     DiagramIn<InPrecise> precise(elements_, sites.elements, sites.passages);
     Statistics own;
@@ -130,7 +129,6 @@ class Solution {
                      return ListEdge{edge.element, edge.inward, rounded(edge.inner)};
                    });
     close(last_edges);
-#endif
   }
 
   ConquerContext context(double tolerance) const {

@@ -369,9 +369,7 @@ std::uint32_t merge(DiagramIn<Kernel>& diagram, std::uint32_t first, std::uint32
 
 template std::uint32_t merge(Diagram&, std::uint32_t, std::uint32_t, std::uint32_t,
                              const MergeLimits&, Statistics&);
-#ifdef MEDIAL_HAS_EXACT
 template std::uint32_t merge(DiagramIn<InPrecise>&, std::uint32_t, std::uint32_t, std::uint32_t,
                              const MergeLimits&, Statistics&);
-#endif
 
 }  // namespace medial::lee
