@@ -583,6 +583,14 @@ TEST(Circles, AreDecidedInTheirCentre) {
   EXPECT_EQ(faults.count(Fault::none), 2U);
 }
 
+/// The conic of an edge next to an arc's centre leads another way around it, and strays no less
+/// than the chord, but for rounding.
+TEST(Bars, HaveEdgesThatLeadForward) {
+  Faults faults;
+  faults.add(examine_nasty(class_of("bars"), 20261129600000502, false, {}));
+  EXPECT_EQ(faults.count(Fault::none), 1U);
+}
+
 /// The disk of a needle's end touches both sides of a corner as flat as rounding: three lines leave
 /// open where along the needle.
 TEST(Needle, EndsInAFlatCorner) {

@@ -218,11 +218,12 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
   const bool leads_between = is_between(best.point.center);
   constexpr double short_line = 0x1p-46;
   if (!leads_between && length <= short_line) return straight;
-  double enough = few_roundings;
+  double enough = 0;
   if (!leads_between)
     for (const Disk& end : {from, to})
       for (const Site* s : {&a, &b})
         enough = std::max(enough, std::abs(carrier_distance(*s, end.center) - end.radius));
+  enough += few_roundings;
   if ((strays > few_roundings || !leads_between) &&
       deviation(straight, a, b, from, to, near_focus) <= enough)
     return straight;
