@@ -584,7 +584,7 @@ TEST(Circles, AreDecidedInTheirCentre) {
 }
 
 /// The conic of an edge next to an arc's centre leads another way around it, and strays no less
-/// than the chord, but for rounding.
+/// than the chord, up to rounding.
 TEST(Bars, HaveEdgesThatLeadForward) {
   Faults faults;
   faults.add(examine_nasty(class_of("bars"), 20261129600000502, false, {}));
