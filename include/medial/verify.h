@@ -37,7 +37,7 @@ struct VerifyOptions {
   /// Relative to the diagonal; 0: 1e-14. Never below four spacings of doubles at the largest
   /// coordinate, nor below the axis's own tolerance (at most 1e-3).
   double tolerance = 0;
-  int samples_per_edge = 8;    ///< points inside every edge, in [0, 2^20]
+  int samples_per_edge = 8;    ///< in [0, 2^20]; of edges whose disks no bound settles at once
   double corner_angle = 0.01;  ///< that the axis was computed with; see Options
   int threads = 0;             ///< see Options; more than 1024 count as 1024
   /// The axis is only a part of the shape's: pruned, cut or smoothed. Checks what holds for every

@@ -70,7 +70,7 @@ std::optional<ExactSites::Touch> ExactSites::first_touch(
   return Touch{touched, static_cast<double>(best->radius.value)};
 }
 
-/// The search of one question. By docs/disks.md, Lemma 2, the disk is the only one that touches
+/// The search of one question. By the lemma of docs/exact.md, the disk is the only one that touches
 /// the two sites and a third one between them, in this order around it, and keeps clear of all.
 template <class Real>
 class ExactEvents::Search {

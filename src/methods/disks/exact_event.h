@@ -67,8 +67,8 @@ class ExactSites {
   mutable std::vector<std::uint32_t> before_;  ///< of each site on the loop, if `next` is stored
 };
 
-/// Answers exactly what ends an edge of the axis where double cannot tell (docs/disks.md, How
-/// it is decided).
+/// Answers exactly what ends an edge of the axis where double cannot tell (docs/exact.md, How
+/// `disks` decides).
 class ExactEvents {
  public:
   /// `in_precise`: of each component, whether double is never asked; empty: it always is.
