@@ -454,6 +454,14 @@ TEST(WholeEdge, BoundsItsDisks) {
   EXPECT_GT(ends, 4000);
 }
 
+/// Of weights and control points whose products are infinite nothing is known.
+TEST(WholeEdge, IsNotBoundedByInfiniteProducts) {
+  const verify_detail::DiskHull hull{Disk{{0, 1}, 1}, Disk{{0.5, 1}, 1}, Disk{{1, 1}, 1}};
+  EXPECT_FALSE(std::isfinite(verify_detail::WholeEdge(hull, 1e160).intrusion(Vec2{0.5, 0.5})));
+  const verify_detail::DiskHull far{Disk{{0, 1}, 1}, Disk{{1e200, 1}, 1e200}, Disk{{1, 1}, 1}};
+  EXPECT_FALSE(std::isfinite(verify_detail::WholeEdge(far, 1).intrusion(Vec2{0.5, 0.5})));
+}
+
 TEST(BoundaryEdge, IsFarthestOppositeToTheFoot) {
   std::mt19937 random(6);
   std::uniform_real_distribution<double> unit(-1, 1);

@@ -113,7 +113,7 @@ Bounded<Real> root_of(const Bounded<Real>& a) {
   using std::sqrt;
   if (!(a.value > a.error)) {
     const Real above = a.value + a.error;
-    if (!(above > 0)) return {};
+    if (above <= 0) return {};  // not where nothing is known
     Real half = sqrt(above) * Rounding<Real>::widen / 2;
     return {half, half};
   }

@@ -141,7 +141,7 @@ struct Bounded<Twofold> {
   }
   friend Bounded root_of(const Bounded& a) {
     if (!(a.least() > 0)) {
-      const double half = std::sqrt(std::max(0.0, a.most())) / 2;
+      const double half = std::sqrt(std::max(a.most(), 0.0)) / 2;
       return {half, widen * half};
     }
     const Twofold root = sqrt(a.value);

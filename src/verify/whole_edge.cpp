@@ -26,6 +26,7 @@ WholeEdge::Range WholeEdge::range_of(const Product& product) const {
   const double square = 2 * weight_ * weight_;
   const double middle = (square * product(1, 1) + product(0, 2)) / (square + 1);
   const double a = product(0, 0), b = product(0, 1), c = product(1, 2), d = product(2, 2);
+  if (!std::isfinite(a + b + middle + c + d)) return {-unknown, unknown};
   return {std::min({a, b, middle, c, d}), std::max({a, b, middle, c, d})};
 }
 

@@ -164,9 +164,9 @@ bool takes_long(const Shape& shape) {
 }
 
 /// Marks the components of these sites; all if there are none.
-std::vector<bool> components_of(const Problem& problem, const std::vector<std::uint32_t>& sites) {
-  const Shape& shape = problem.shape;
-  const std::vector<std::uint32_t>& edge = problem.numbers().edge;
+std::vector<bool> components_of(const Shape& shape, const SiteNumbers& numbers,
+                                const std::vector<std::uint32_t>& sites) {
+  const std::vector<std::uint32_t>& edge = numbers.edge;
   std::vector<bool> marked(shape.component_count(), sites.empty());
   for (const std::uint32_t site : sites) {
     const auto point = static_cast<std::size_t>(ranges::lower_bound(edge, site) - edge.begin());
@@ -186,10 +186,10 @@ Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbe
     std::vector<Edge> edges;
     std::vector<std::uint32_t> lost;
     auto axis = attempt(problem, numbers, false, in_precise, edges, lost);
-    const bool is_found = lost.empty() && !(with_arcs && is_last);
+    const bool is_certain = lost.empty() && !(with_arcs && is_last);
     if (axis) {
       axis->edges = std::move(edges);
-      if (is_found || problem.is_cancelled()) return axis;
+      if (is_certain || problem.is_cancelled()) return axis;
     }
     // A polygon in which the walk lost its way is measured only if another walk takes seconds.
     if (with_arcs || is_last || takes_long(problem.shape)) {
@@ -197,7 +197,7 @@ Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbe
       if (!refused) return axis;
       if (!error || axis) error = std::move(refused);
     }
-    in_precise = components_of(problem, lost);
+    in_precise = components_of(problem.shape, numbers, lost);
   }
   return std::move(*error);
 }
@@ -212,7 +212,7 @@ TwoSided run_two_sided_in_place(const Problem& problem, const SiteNumbers& numbe
     auto axis = attempt(problem, numbers, true, in_precise, edges, lost);
     if (axis && lost.empty()) return {std::move(*axis), true};
     if (axis && (is_last || takes_long(problem.shape))) return {std::move(*axis), false};
-    in_precise = components_of(problem, lost);
+    in_precise = components_of(problem.shape, numbers, lost);
   }
   edges.clear();
   return {};

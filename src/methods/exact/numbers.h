@@ -85,7 +85,7 @@ struct Bounded<exact::Precise> {
   friend Bounded root_of(const Bounded& a) {
     if (a.value == 0 && a.error == 0) return {};
     if (!(a.least() > 0)) {
-      const Size half = std::sqrt(std::max<Size>(0, a.most())) / 2;
+      const Size half = std::sqrt(std::max<Size>(a.most(), 0)) / 2;
       return {Real(half), widen * half};
     }
     return rounded(sqrt(a.value), a.error / std::sqrt(a.least()));
