@@ -33,6 +33,20 @@ TEST_P(ArcsAndPoints, HaveADiagram) {
   EXPECT_TRUE(certificate.passed) << certificate.failures.front();
 }
 
+/// A circle of two arcs with a slot of 2e-9: its axis ends in a centre that both arcs leave open.
+TEST(Keyhole, HasADiagram) {
+  Chain chain;
+  chain.points = {{1.000000143972711e-09, -1},   {6.123233995736766e-17, 1},
+                  {-1.0000002664373908e-09, -1}, {-1.0000002664373908e-09, -2.5},
+                  {1.000000143972711e-09, -2.5}, {1.000000143972711e-09, -1}};
+  chain.bulges = {0.9999999994999998, 0.9999999994999998, 0, 0, 0};
+  const auto graph = build_planar_graph({&chain, 1});
+  ASSERT_TRUE(graph) << to_string(graph.error());
+  const auto diagram = voronoi_diagram(*graph, {.threads = 1});
+  ASSERT_TRUE(diagram) << to_string(diagram.error());
+  EXPECT_TRUE(verify(*graph, *diagram, {.threads = 1}).passed);
+}
+
 /// Chains of arcs that lie on one circle but for 1e-14 to 1e-8 have a diagram, or an error.
 TEST(ArcsOfOneCircle, HaveADiagramThatPassesOrNone) {
   constexpr std::uint64_t chains = 200;

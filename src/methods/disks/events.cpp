@@ -129,11 +129,25 @@ std::optional<EventSearch::JointDisk> EventSearch::disk_at_joint(bool on_right) 
   const std::uint32_t own = on_right ? span_.right : span_.left;
   const std::uint32_t next = on_right ? own + 1 : own - 1;
   const std::uint32_t other = on_right ? span_.left : span_.right;
+  if (boundary_.has_arcs)
+    if (const auto circle = circle_of_apex(next, other)) return JointDisk{*circle};
   const auto [foot, normal] = boundary_.smooth_place(std::min(own, next), std::max(own, next));
   const double radius = site::tangent_radius(foot, normal, site(other));
   if (!(radius <= context_.radius_limit)) return std::nullopt;
   const double largest = std::max(site(own).curvature, site(next).curvature);
   return JointDisk{{foot + radius * normal, radius}, radius * largest <= 1 + widest_window};
+}
+
+std::optional<Disk> EventSearch::circle_of_apex(std::uint32_t next, std::uint32_t other) const {
+  const Site& arc = site(next);
+  if (!(arc.curvature > 0) || !(1 / arc.curvature <= context_.radius_limit)) return std::nullopt;
+  for (std::uint32_t i = std::min(next, other); i < std::max(next, other); ++i) {
+    const Site& inner = next < other ? site(i) : site(i + 1);
+    const bool same = std::abs(1 / inner.curvature - 1 / arc.curvature) <= context_.tolerance;
+    if (element(i) != Element::edge || !boundary_.is_smooth(i) || !same) return std::nullopt;
+  }
+  const double radius = 1 / arc.curvature;
+  return Disk{arc.point + radius * arc.normal(), radius};
 }
 
 std::optional<Event> EventSearch::contact_at_joint(std::uint32_t third) const {

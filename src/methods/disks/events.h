@@ -79,6 +79,10 @@ class EventSearch {
   bool comes_later(bool on_right, const Event& event) const;
   /// The disk where the foot on the right or left passes on to its neighbour, if there is one.
   std::optional<JointDisk> disk_at_joint(bool on_right) const;
+  /// Where the sites from `next` on to `other` are arcs of one circle that continue each other and
+  /// `other` smoothly, that circle: the axis ends in its centre. Joints so near to each other would
+  /// leave the disk that touches both open.
+  std::optional<Disk> circle_of_apex(std::uint32_t next, std::uint32_t other) const;
   /// The contact with a site that continues one of the two smoothly: where the two meet. The three
   /// carriers would leave the place to the square root of a rounding error.
   std::optional<Event> contact_at_joint(std::uint32_t third) const;
