@@ -12,21 +12,30 @@
 namespace medial {
 
 namespace detail {
+/// Halves indices by their places, across the longer side of these, and returns how many come
+/// first. Both parts hold whole nodes of the tree: the left one a multiple of the largest power of
+/// the fan-out below the count.
+template <class Place>
+std::size_t halve_by_place(std::span<std::uint32_t> order, const Place& place,
+                           std::size_t fan_out) {
+  Box box = Box::nothing();
+  for (const std::uint32_t i : order) box.add(place(i));
+  const bool by_x = box.high.x - box.low.x >= box.high.y - box.low.y;
+  std::size_t whole = fan_out;
+  while (whole * fan_out < order.size()) whole *= fan_out;
+  const std::size_t middle = ((order.size() + whole - 1) / whole / 2) * whole;
+  std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(middle), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) {
+                     return by_x ? place(a).x < place(b).x : place(a).y < place(b).y;
+                   });
+  return middle;
+}
+
 inline void order_by_place(std::span<std::uint32_t> order, std::span<const Vec2> points,
                            std::size_t fan_out) {
   while (order.size() > fan_out) {
-    Box box = Box::nothing();
-    for (const std::uint32_t i : order) box.add(points[i]);
-    const bool by_x = box.high.x - box.low.x >= box.high.y - box.low.y;
-    // Both parts hold whole nodes of the tree: the left one a multiple of the largest power of the
-    // fan-out below the count.
-    std::size_t whole = fan_out;
-    while (whole * fan_out < order.size()) whole *= fan_out;
-    const std::size_t middle = ((order.size() + whole - 1) / whole / 2) * whole;
-    std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(middle),
-                     order.end(), [&](std::uint32_t a, std::uint32_t b) {
-                       return by_x ? points[a].x < points[b].x : points[a].y < points[b].y;
-                     });
+    const std::size_t middle = halve_by_place(
+        order, [&](std::uint32_t i) { return points[i]; }, fan_out);
     order_by_place(order.first(middle), points, fan_out);
     order = order.subspan(middle);
   }

@@ -42,11 +42,10 @@ class PieceOrder {
   static double area(const Box& of) { return (of.high.x - of.low.x) * (of.high.y - of.low.y); }
   void add(std::span<std::uint32_t> chains) {
     if (chains.size() <= fan_out) return add_pieces(chains);
-    Box all = Box::nothing(), places = Box::nothing();
+    Box all = Box::nothing();
     double areas = 0;
     for (const std::uint32_t c : chains) {
       all.add(boxes_[c]);
-      places.add(place(c));
       areas += area(boxes_[c]);
     }
     if (areas > most_overlap * area(all)) {
@@ -55,14 +54,8 @@ class PieceOrder {
       add_pieces(chains);
       return detail::order_by_place(std::span(order_).subspan(from), middle_, fan_out);
     }
-    const bool by_x = places.high.x - places.low.x >= places.high.y - places.low.y;
-    std::size_t whole = fan_out;
-    while (whole * fan_out < chains.size()) whole *= fan_out;
-    const std::size_t half = ((chains.size() + whole - 1) / whole / 2) * whole;
-    std::nth_element(chains.begin(), chains.begin() + static_cast<std::ptrdiff_t>(half),
-                     chains.end(), [&](std::uint32_t a, std::uint32_t b) {
-                       return by_x ? place(a).x < place(b).x : place(a).y < place(b).y;
-                     });
+    const std::size_t half = detail::halve_by_place(
+        chains, [&](std::uint32_t c) { return place(c); }, fan_out);
     add(chains.first(half));
     add(chains.subspan(half));
   }
