@@ -370,16 +370,9 @@ void add_length(CLI::App& command, const char* name, T& value, const char* text,
 
 /// 0 or 1 to 170 degrees.
 CLI::Validator an_angle() {
-  return CLI::Validator(
-      [](const std::string& text) {
-        double value = 0;
-        if (!CLI::detail::lexical_cast(text, value))
-          return fmt::format("'{}' is not a number", text);
-        return value == 0 || (value >= 1 && value <= 170)
-                   ? std::string()
-                   : fmt::format("{} is neither 0 nor in [1 - 170]", text);
-      },
-      "");
+  return a_number([](double value) {
+    return value == 0 || (value >= 1 && value <= 170) ? "" : " is neither 0 nor in [1 - 170]";
+  });
 }
 
 void add_tool_options(CLI::App& command, CarveArguments& arguments) {

@@ -355,30 +355,29 @@ CLI::Option* add_exterior_options(CLI::App& command, Options& options, const std
   return exterior;
 }
 
-CLI::Validator in_range(double low, double high, bool quiet) {
-  const std::string range = fmt::format("[{:g} - {:g}]", low, high);
+CLI::Validator a_number(std::function<std::string(double)> complaint, const std::string& range) {
   return CLI::Validator(
-      [=](const std::string& text) {
+      [complaint = std::move(complaint)](const std::string& text) {
         double value = 0;
         if (!CLI::detail::lexical_cast(text, value))
           return fmt::format("'{}' is not a number", text);
-        return value >= low && value <= high ? std::string()
-                                             : fmt::format("{} is not in {}", text, range);
+        const std::string found = complaint(value);
+        return found.empty() ? found : text + found;
       },
+      range);
+}
+
+CLI::Validator in_range(double low, double high, bool quiet) {
+  const std::string range = fmt::format("[{:g} - {:g}]", low, high);
+  return a_number(
+      [=](double value) { return value >= low && value <= high ? "" : " is not in " + range; },
       quiet ? std::string() : range);
 }
 
 CLI::Validator a_positive_number() {
-  return CLI::Validator(
-      [](const std::string& text) {
-        double value = 0;
-        if (!CLI::detail::lexical_cast(text, value))
-          return fmt::format("'{}' is not a number", text);
-        return value > 0 && std::isfinite(value)
-                   ? std::string()
-                   : fmt::format("{} is not a finite number above 0", text);
-      },
-      "");
+  return a_number([](double value) {
+    return value > 0 && std::isfinite(value) ? "" : " is not a finite number above 0";
+  });
 }
 
 namespace {

@@ -96,6 +96,10 @@ CLI::Option* add_exterior_options(CLI::App& command, Options& options, const std
 CLI::Validator in_range(double low, double high, bool quiet = false);
 /// A finite number above 0.
 CLI::Validator a_positive_number();
+/// A number about which `complaint` has nothing to say; what it says follows the number in the
+/// error.
+CLI::Validator a_number(std::function<std::string(double)> complaint,
+                        const std::string& range = {});
 /// What the name of a file must be: not empty.
 CLI::Validator a_name();
 /// Digits that make a 64-bit number; CLI11 by itself takes -1 for the largest.
