@@ -36,7 +36,7 @@ constexpr double balanced_error = 1.03 / 324;
 constexpr double spiral_length = 2.0 / 3;
 
 /// Between knots where arcs may meet at an angle to the curve, a biarc of that error is this much
-/// of a balanced one: by (998 / 324)^(1/3) longer, and a tenth less for what is uneven.
+/// of a balanced one: by (998 / 324)^(1/3) longer, and a tenth shorter for what is uneven.
 constexpr double tilted_parts = 0.78;
 /// What a biarc is shorter by, of such a length, at an end whose direction is the curve's: see
 /// tilt(). And a single arc there instead; and a biarc whose first arc is the osculating circle.
