@@ -16,6 +16,7 @@ double turn(Vec2 from, Vec2 to) { return std::atan2(-cross(from, to), dot(from, 
 }  // namespace
 
 bool Contacts::faces(std::uint32_t i, Vec2 c) const {
+  if (!boundary_.two_sided) return true;
   if (element(i) == Element::edge) return faces_edge(site(i), c);
   const auto bound = [&](std::uint32_t beside) {
     if (element(beside) == Element::bridge) return bridge_direction(i, beside);
@@ -125,8 +126,7 @@ bool Contacts::is_reflex_chain(const Span& span) const {
 bool Contacts::are_distinct(std::uint32_t first, std::uint32_t second, double angle,
                             const Disk& disk) const {
   if (angle >= distinct_contacts) return true;
-  if (!(angle > 0) || boundary_.two_sided || site(first).is_arc() || site(second).is_arc())
-    return false;
+  if (!(angle > 0) || site(first).is_arc() || site(second).is_arc()) return false;
   const double apart = distinct_feet * context_.tolerance;
   return squared_norm(site::foot(site(second), disk.center) -
                       site::foot(site(first), disk.center)) > apart * apart;
@@ -160,7 +160,7 @@ const std::vector<std::uint32_t>& Contacts::touched_between(const Span& span, co
   std::size_t kept = 0;
   for (const std::uint32_t hit : touched_) {
     if (looks_away(hit, disk.center)) continue;
-    const std::uint32_t i = boundary_.two_sided ? hit : owner(hit, disk.center, span);
+    const std::uint32_t i = owner(hit, disk.center, span);
     if (i <= before || i >= span.left || !touches(i, disk, touching_) ||
         (is_polygon && is_beside(i, disk.center, run)))
       continue;
@@ -291,7 +291,7 @@ bool Contacts::is_clean_tie(const Span& span, const Disk& disk, std::uint32_t su
   constexpr double beside = 0x1p-16;  // of the radius
   const auto are_points_apart = [&](std::uint32_t i, double squared) {
     const double apart = touching_ / beside;
-    return !boundary_.two_sided && site(before).is_vertex() && site(i).is_vertex() &&
+    return site(before).is_vertex() && site(i).is_vertex() &&
            squared > apart * apart;
   };
   for (const std::uint32_t i : sites) {

@@ -167,7 +167,7 @@ class Contacts {
   }
   /// Whether a site of a planar graph has c behind it: its other side, or another wedge, is
   /// touched.
-  bool looks_away(std::uint32_t i, Vec2 c) const { return boundary_.two_sided && !faces(i, c); }
+  bool looks_away(std::uint32_t i, Vec2 c) const { return !faces(i, c); }
   /// Whether another site, or none, is nearer than site i of a run to a disk that is next to it.
   bool is_beside(std::uint32_t i, Vec2 center, const Boundary::SiteRange& run) const;
   /// What a disk touches or is near to on all of a span's boundary, in order; until the next call.

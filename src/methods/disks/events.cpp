@@ -60,12 +60,9 @@ Event EventSearch::event_across_bridge(bool on_right) {
   for (const std::uint32_t touched : {span_.right, span_.left})
     if (contacts_.in_one_place(across, touched, from_.center, from_.radius)) return event;
   const auto contact = contact_with(across, nowhere);
-  if (boundary_.two_sided) {
-    // What is across may face elsewhere, and a point may have another copy that was just left.
-    const bool faces = contact && contacts_.faces(across, contact->disk.center);
-    return faces && reaches(*contact) ? *contact : end_of_range(on_right);
-  }
-  return contact && reaches(*contact) ? *contact : event;
+  // What is across may face elsewhere, and a point may have another copy that was just left.
+  const bool faces = contact && contacts_.faces(across, contact->disk.center);
+  return faces && reaches(*contact) ? *contact : end_of_range(on_right);
 }
 
 Event EventSearch::event_at_corner(bool on_right) {
@@ -226,7 +223,7 @@ Event EventSearch::next() {
 
 bool EventSearch::is_at_node(std::uint32_t touched) const {
   return from_.radius > 0 && contacts_.touches(touched, from_, context_.tolerance) &&
-         (!boundary_.two_sided || contacts_.faces(touched, from_.center));
+         contacts_.faces(touched, from_.center);
 }
 
 Event EventSearch::at_node(std::uint32_t touched) const {
@@ -238,12 +235,12 @@ Event EventSearch::first_contact(Event event) {
   bool look_beyond = true;
   // Every round but one that looked beyond comes earlier; rounding could make rounds repeat.
   for (int round = 0; round < most_rounds; ++round) {
-    if (boundary_.two_sided) event = short_of_point(event);
+    event = short_of_point(event);
     Event asked = event;
     if (event.kind == Event::Kind::contact && look_beyond) asked = beyond(event);
     const Hit hit = contacts_.nearest(asked.disk, span_);
     if (!hit) {
-      if (boundary_.two_sided && event.kind == Event::Kind::contact)
+      if (event.kind == Event::Kind::contact)
         event.site = contacts_.owner(event.site, event.disk.center, span_);
       // Only the carrier was touched, short of the site.
       if (event.kind == Event::Kind::contact && !reaches(event))
@@ -255,8 +252,6 @@ Event EventSearch::first_contact(Event event) {
       if (event.kind == Event::Kind::far || !contacts_.reaches(span_.right, event.disk) ||
           !contacts_.reaches(span_.left, event.disk))
         return bracket(from_, event);
-      if (event.kind == Event::Kind::contact)
-        event.site = contacts_.owner(event.site, event.disk.center, span_);
       return event;
     }
     const std::uint32_t intruder = contacts_.owner(hit.site, asked.disk.center, span_);
@@ -273,8 +268,7 @@ Event EventSearch::first_contact(Event event) {
       return bracket(from_, asked);
     }
     // A disk too far ahead may reach a point whose other copy was touched before.
-    if (boundary_.two_sided && element(earlier->site) == Element::vertex &&
-        earlier->position <= low_ + slack() &&
+    if (element(earlier->site) == Element::vertex && earlier->position <= low_ + slack() &&
         !contacts_.faces(earlier->site, earlier->disk.center))
       return bracket(from_, asked);
     look_beyond = earlier->position < event.position;

@@ -183,8 +183,7 @@ class Walker {
     const Span& span = step.span;
     // Of vertices that double does not tell apart one is touched, between the normals beside it.
     const std::uint32_t touched = step.event.site;
-    if (!boundary_.two_sided && step.event.kind == Event::Kind::contact &&
-        element(touched) == Element::vertex &&
+    if (step.event.kind == Event::Kind::contact && element(touched) == Element::vertex &&
         contacts_.beyond_ends(touched, step.event.disk.center) > context_.tolerance)
       return false;
     if (certainty.is_tie())
