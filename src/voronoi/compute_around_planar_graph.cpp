@@ -179,7 +179,7 @@ std::optional<Error> too_close(const PlanarGraph& planar_graph, double least) {
 template <class E>
 Result<MedialAxis> run_around(const PlanarGraph& planar_graph, const Problem& surroundings,
                               std::vector<E>& edges) {
-  auto [axis, is_certain] = disks::run_two_sided(surroundings, edges);
+  auto [axis, is_certain] = disks::run_around(surroundings, edges);
   if (surroundings.is_cancelled()) return Error{ErrorCode::cancelled, "cancelled", {}};
   // Double alone may be misled by what is too close.
   if (!is_certain)

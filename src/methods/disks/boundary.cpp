@@ -216,11 +216,11 @@ bool in_wedge(Vec2 first, Vec2 last, Vec2 to) {
   return angle <= wedge + beyond || angle >= 2 * std::numbers::pi - beyond;
 }
 
-Boundary loops_boundary(const Problem& problem, const SiteNumbers& numbers, bool two_sided) {
+Boundary loops_boundary(const Problem& problem, const SiteNumbers& numbers, Sides sides) {
   const Shape& shape = problem.shape;
   Boundary boundary;
   boundary.has_arcs = has_arcs(shape);
-  boundary.two_sided = two_sided;
+  boundary.sides = sides;
   boundary.reserve(numbers.count);
   for (std::size_t l = 0; l < shape.loop_count(); ++l) {
     const LoopEdges loop(shape, l, problem.frame);

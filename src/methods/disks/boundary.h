@@ -26,6 +26,9 @@ enum class Element : std::uint8_t {
   bridge,  ///< the dividing disk between a hole and what it was connected to; touches nothing
 };
 
+/// Which sides of its edges a boundary runs along: on a shape one, around a planar graph both.
+enum class Sides : std::uint8_t { one, both };
+
 /// Of each site of a boundary, what it is called among the result's sites; of a bridge, its number.
 /// Where the boundary is one loop these are the numbers in turn, which take no memory.
 class Originals {
@@ -67,9 +70,7 @@ struct Boundary {
   /// part of a boundary ends, its one place twice.
   std::vector<std::array<std::uint32_t, 2>> bridge_places;
   bool has_arcs = false;
-  /// Whether edges may stand there twice, once for each side: that of a planar graph. Then a disk
-  /// that touches one side is as near to the other, and where several edges meet, to all of them.
-  bool two_sided = false;
+  Sides sides = Sides::one;
 
   void reserve(std::size_t count) {
     sites.reserve(count);
@@ -120,7 +121,7 @@ struct Boundary {
 /// else at the joint where its curvature is smallest; a hole at its furthest point in the direction
 /// `outreach`: a reflex vertex, a smooth joint, or a place inside an arc, which is divided there. A
 /// loop of one point is a vertex with the shape all around it, and without a neighbour.
-Boundary loops_boundary(const Problem& problem, const SiteNumbers& numbers, bool two_sided);
+Boundary loops_boundary(const Problem& problem, const SiteNumbers& numbers, Sides sides);
 
 /// The angle from one direction to another, clockwise, in [0, 2 pi).
 double clockwise_turn(Vec2 from, Vec2 to);

@@ -232,15 +232,15 @@ void remove_spurs(const Boundary& boundary, Graph& graph) {
     for (std::uint32_t& node : edge.node) node = place[node];
 }
 
-std::vector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& frame, double slack,
-                                    Graph& graph) {
+std::vector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& frame,
+                                    std::optional<double> slack, Graph& graph) {
   graph.statistics.largest_residual *= frame.inverse;
   const auto fill_edge = [&](std::size_t i, std::vector<std::uint32_t>& doubtful) {
     Edge& edge = graph.edges[i];
     const site::Site &left = boundary.sites[edge.site[0]], &right = boundary.sites[edge.site[1]];
     const Disk &from = graph.nodes[edge.node[0]].disk, &to = graph.nodes[edge.node[1]].disk;
-    if (!boundary.two_sided)
-      if (const EndDisks ends(from, to, slack); !ends.touch(left) || !ends.touch(right))
+    if (slack)
+      if (const EndDisks ends(from, to, *slack); !ends.touch(left) || !ends.touch(right))
         doubtful.push_back(static_cast<std::uint32_t>(i));
     const site::Control control = site::control_of(left, right, from, to);
     edge.site = {boundary.originals[edge.site[0]], boundary.originals[edge.site[1]]};
@@ -253,7 +253,7 @@ std::vector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& 
     doubtful = in_blocks<std::vector<std::uint32_t>>(graph.edges.size(), 4096, fill_edge);
   };
   const auto count = [&] {
-    if (boundary.two_sided) return;  // spokes are still to come
+    if (!slack) return;
     for (const Edge& edge : graph.edges)
       for (const std::uint32_t node : edge.node)
         if (degree[node] < 3) ++degree[node];

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,7 +23,7 @@ struct Graph {
     std::uint32_t edge = 0;
     Disk disk;
   };
-  std::vector<Passage> passages;  ///< by edge; of planar graphs with arcs
+  std::vector<Passage> passages;  ///< by edge; where there are arcs
 };
 
 /// Joins the walk's chunks into one graph: numbers the nodes and glues the axis at the bridges
@@ -38,9 +39,10 @@ void remove_spurs(const Boundary& boundary, Graph& graph);
 /// Works out the edges' curves and an axis' nodes' kinds, and goes back to the result's numbers of
 /// sites and to the input's units. Returns the edges with an end that does not touch one of the
 /// edge's two sites, give or take `slack` in local units: where bridges divide a site, the piece of
-/// it that the edge names. Planar graphs have none.
-std::vector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& frame, double slack,
-                                    Graph& graph);
+/// it that the edge names. Without slack, of a diagram whose spokes are still to come: neither
+/// kinds nor such edges.
+std::vector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& frame,
+                                    std::optional<double> slack, Graph& graph);
 
 /// Whether the disks at both ends and in the middle of an edge touch its two sites, give or take
 /// `slack`, in units of the input.

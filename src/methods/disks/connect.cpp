@@ -140,7 +140,7 @@ class Connector {
     }
     if (touch) radius = touch->radius;
     Bridge bridge{{foot + radius * outreach, radius}, hole, touch ? touch->site : own.first};
-    if (loops_.two_sided && touch)
+    if (loops_.sides == Sides::both && touch)
       bridge.site = facing_site(loops_, first_touch_, component, bridge.site, bridge.disk.center);
     bridge.site =
         owner_of_foot(loops_, run_of(loops_, bridge.site), bridge.site, bridge.disk.center);
@@ -282,7 +282,7 @@ class Splicer {
   Boundary splice() {
     result_.bridge_places.resize(bridges_.size());
     result_.has_arcs = loops_.has_arcs;
-    result_.two_sided = loops_.two_sided;
+    result_.sides = loops_.sides;
     result_.reserve(loops_.sites.size() + 4 * bridges_.size());
     for (std::uint32_t loop = 0; loop < loops_.runs.size(); ++loop) {
       if (shape_.hole[loop]) continue;
@@ -407,8 +407,7 @@ std::vector<Bridge> connecting_disks(const Shape& shape, const Boundary& loops, 
   for (const Boundary::SiteRange& run : loops.runs) {
     // Of a loose segment or arc, one side is enough, too: a run of two ends and two sides.
     const std::uint32_t side = run.first + 1, other = run.first + 3;
-    const bool is_loose = loops.two_sided && run.last == other &&
-                          loops.elements[run.first] == Element::vertex &&
+    const bool is_loose = run.last == other && loops.elements[run.first] == Element::vertex &&
                           loops.elements[side + 1] == Element::vertex &&
                           site::are_two_sides(loops.sites[side], loops.sites[other]);
     for (std::uint32_t i = run.first; i <= run.last; ++i) {
@@ -438,7 +437,7 @@ Boundary connect(const Shape& shape, const Boundary& loops, const std::vector<Br
 }
 
 Boundary connected_boundary(const Problem& problem, std::vector<Bridge>& bridges) {
-  Boundary loops = loops_boundary(problem, problem.numbers(), false);
+  Boundary loops = loops_boundary(problem, problem.numbers(), Sides::one);
   const ExactSites sites(problem, problem.numbers(), loops);
   std::uint64_t queries = 0;
   bridges = connecting_disks(problem.shape, loops, problem.fine_tolerance, sites, {}, queries);

@@ -15,30 +15,7 @@ double turn(Vec2 from, Vec2 to) { return std::atan2(-cross(from, to), dot(from, 
 
 }  // namespace
 
-bool Contacts::faces(std::uint32_t i, Vec2 c) const {
-  if (!boundary_.two_sided) return true;
-  if (element(i) == Element::edge) return faces_edge(site(i), c);
-  const auto bound = [&](std::uint32_t beside) {
-    if (element(beside) == Element::bridge) return bridge_direction(i, beside);
-    return beside < i ? site(beside).end_normal() : site(beside).normal();
-  };
-  const bool all_around = element(i - 1) == Element::bridge && element(i + 1) == Element::bridge &&
-                          boundary_.originals[i - 1] == boundary_.originals[i + 1];
-  return all_around || in_wedge(bound(i - 1), bound(i + 1), c - site(i).point);
-}
-
-std::uint32_t Contacts::facing(std::uint32_t i, Vec2 center, const Span& span) const {
-  if (faces(i, center)) return i;
-  const double reach = std::sqrt(site::squared_distance(site(i), center));
-  context_.tree.within(center, reach + 2 * context_.tolerance, span.right + 1, span.left - 1,
-                       together_);
-  for (const std::uint32_t other : together_)
-    if (in_one_place(other, i, center, reach) && faces(other, center)) return other;
-  return i;
-}
-
 std::uint32_t Contacts::owner(std::uint32_t i, Vec2 center, const Span& span) const {
-  if (boundary_.two_sided) return facing(i, center, span);
   if (element(i) == Element::edge) {
     // At an end that is a vertex site or a smooth joint, what goes on from there is touched, but
     // for an arc whose own circle is smaller: all of that but its end is still ahead.
@@ -152,17 +129,16 @@ const std::vector<std::uint32_t>& Contacts::touched_between(const Span& span, co
     return angle > 0 ? angle : angle + 2 * std::numbers::pi;
   };
   const double end_angle = all_around ? 2 * std::numbers::pi : angle_of(span.left, 1);
-  // A planar graph's wedges may be wider than a half turn: looks_away() knows them.
-  const bool is_polygon = !boundary_.two_sided && !boundary_.has_arcs;
+  const bool narrow = has_narrow_wedges();
   const Boundary::SiteRange& run = run_of(span);
   double angle_before = 0;
   std::uint32_t before = span.right;
   std::size_t kept = 0;
   for (const std::uint32_t hit : touched_) {
-    if (looks_away(hit, disk.center)) continue;
+    if (!faces(hit, disk.center)) continue;
     const std::uint32_t i = owner(hit, disk.center, span);
     if (i <= before || i >= span.left || !touches(i, disk, touching_) ||
-        (is_polygon && is_beside(i, disk.center, run)))
+        (narrow && is_beside(i, disk.center, run)))
       continue;
     const double angle = angle_of(i, 0.5);
     if (!are_distinct(before, i, angle - angle_before, disk) ||
@@ -214,7 +190,7 @@ const std::vector<std::uint32_t>& Contacts::around(const Span& span, const Disk&
   around_ = disk;
   context_.tree.within(disk.center, disk.radius + clearance(), run.first, run.last, near_);
   std::erase_if(near_, [&](std::uint32_t i) {
-    return is_beside(i, disk.center, run) || looks_away(i, disk.center);
+    return is_beside(i, disk.center, run) || !faces(i, disk.center);
   });
   return near_;
 }
@@ -245,7 +221,7 @@ bool Contacts::may_touch_more(const Span& span, const Disk& disk, std::uint32_t 
                        touched_);
   return ranges::any_of(touched_, [&](std::uint32_t i) {
     return i != next && away(i, disk) <= touching_ && !is_beside(i, disk.center, run_of(span)) &&
-           !looks_away(i, disk.center);
+           faces(i, disk.center);
   });
 }
 
@@ -265,7 +241,7 @@ bool Contacts::is_crowded(const Span& span, const Disk& disk) const {
   const Boundary::SiteRange& run = run_of(span);
   const auto is_near = [&](std::uint32_t i) {
     return i >= run.first && i <= run.last && std::abs(away(i, disk)) <= clearance() &&
-           !is_beside(i, disk.center, run) && !looks_away(i, disk.center);
+           !is_beside(i, disk.center, run) && faces(i, disk.center);
   };
   return is_near(a) && is_near(b) &&
          squared_norm(site::foot(site(a), disk.center) - site::foot(site(b), disk.center)) <=
@@ -291,8 +267,7 @@ bool Contacts::is_clean_tie(const Span& span, const Disk& disk, std::uint32_t su
   constexpr double beside = 0x1p-16;  // of the radius
   const auto are_points_apart = [&](std::uint32_t i, double squared) {
     const double apart = touching_ / beside;
-    return site(before).is_vertex() && site(i).is_vertex() &&
-           squared > apart * apart;
+    return site(before).is_vertex() && site(i).is_vertex() && squared > apart * apart;
   };
   for (const std::uint32_t i : sites) {
     const double beyond = beyond_ends(i, disk.center);

@@ -45,7 +45,8 @@ struct Span {
 };
 
 /// Which sites of a span a disk touches: searches, and what is left to decide when the tree has
-/// answered: joints, and vertices that bridges divide into several copies.
+/// answered: joints, and vertices that bridges divide into several copies. What differs around
+/// planar graphs is virtual (planar_contacts.h).
 class Contacts {
  public:
   using Hit = site::BoundaryTree::Hit;
@@ -55,6 +56,7 @@ class Contacts {
         boundary_(context.boundary),
         statistics_(statistics),
         touching_((is_certain() ? 2 : 1) * context.tolerance) {}
+  virtual ~Contacts() = default;
 
   /// Whether what the walk finds in double is taken only where it is certain.
   bool is_certain() const { return !boundary_.has_arcs; }
@@ -63,11 +65,8 @@ class Contacts {
   Element element(std::uint32_t i) const { return boundary_.elements[i]; }
 
   /// The nearest site inside the span that the disk reaches over by more than the tolerance.
-  Hit nearest(const Disk& disk, const Span& span) {
+  virtual Hit nearest(const Disk& disk, const Span& span) {
     ++statistics_.queries;
-    if (boundary_.two_sided)
-      return context_.tree.nearest_facing(disk.center, disk.radius - context_.tolerance,
-                                          span.right + 1, span.left - 1);
     return context_.tree.nearest(disk.center, disk.radius - context_.tolerance, span.right + 1,
                                  span.left - 1);
   }
@@ -75,11 +74,14 @@ class Contacts {
   /// The site that a disk around `center` really touches where the search found site i: a segment's
   /// end that is a vertex site of its own belongs to the vertex, and a vertex that bridges divide
   /// into several copies is touched by the copy in whose range of directions the centre lies.
-  std::uint32_t owner(std::uint32_t i, Vec2 center, const Span& span) const;
+  virtual std::uint32_t owner(std::uint32_t i, Vec2 center, const Span& span) const;
 
-  /// Whether a site of a planar graph has c on its side and in its own range of directions: see
-  /// Boundary::two_sided.
-  bool faces(std::uint32_t i, Vec2 c) const;
+  /// Whether a disk around c that reaches a site may touch it from where it lies: one inside a
+  /// shape does.
+  virtual bool faces(std::uint32_t, Vec2) const { return true; }
+
+  /// What a disk that reaches across a site has touched before, if that has another side.
+  virtual std::optional<site::Site> other_side(std::uint32_t) const { return std::nullopt; }
 
   /// Whether a disk that reaches site i from inside touches it there: not in the end of an edge,
   /// where its neighbour would be nearer.
@@ -151,7 +153,17 @@ class Contacts {
   /// another site or a bridge takes over: negative between them.
   double beyond_ends(std::uint32_t i, Vec2 center) const;
 
+ protected:
+  Vec2 bridge_direction(std::uint32_t vertex, std::uint32_t bridge) const;
+
+  const WalkContext& context_;
+  const Boundary& boundary_;
+  Statistics& statistics_;
+
  private:
+  /// Whether no more than a half turn of directions lies between the normals beside any vertex, so
+  /// that is_beside() knows them.
+  virtual bool has_narrow_wedges() const { return !boundary_.has_arcs; }
   /// Whether a disk touches two sites in two places, that of the second one by this angle further
   /// around it: narrow slots have walls that a large disk touches next to each other.
   bool are_distinct(std::uint32_t first, std::uint32_t second, double angle,
@@ -165,9 +177,6 @@ class Contacts {
   const Boundary::SiteRange& run_of(const Span& span) const {
     return *ranges::lower_bound(boundary_.runs, span.left, {}, &Boundary::SiteRange::last);
   }
-  /// Whether a site of a planar graph has c behind it: its other side, or another wedge, is
-  /// touched.
-  bool looks_away(std::uint32_t i, Vec2 c) const { return !faces(i, c); }
   /// Whether another site, or none, is nearer than site i of a run to a disk that is next to it.
   bool is_beside(std::uint32_t i, Vec2 center, const Boundary::SiteRange& run) const;
   /// What a disk touches or is near to on all of a span's boundary, in order; until the next call.
@@ -185,17 +194,12 @@ class Contacts {
     constexpr double tolerances = 64;
     return tolerances * context_.tolerance;
   }
-  std::uint32_t facing(std::uint32_t i, Vec2 center, const Span& span) const;
-  Vec2 bridge_direction(std::uint32_t vertex, std::uint32_t bridge) const;
 
   /// Feet further apart than so many tolerances are not two copies of one place.
   static constexpr double distinct_feet = 16;
   /// Longer chains need no check: their ends are distinct.
   static constexpr std::uint32_t longest_flat_chain = 8;
 
-  const WalkContext& context_;
-  const Boundary& boundary_;
-  Statistics& statistics_;
   /// How near a disk has to be to what it touches in a tie: what double leaves open of the disk,
   /// and of the site.
   const double touching_;
@@ -205,7 +209,6 @@ class Contacts {
   const Boundary::SiteRange* around_run_ = nullptr;
   std::vector<std::uint32_t> near_;
   std::array<std::uint32_t, 2> crowded_{Hit::none, Hit::none};  ///< see is_crowded()
-  mutable std::vector<std::uint32_t> together_;                 ///< sites in one place
 };
 
 }  // namespace medial::disks

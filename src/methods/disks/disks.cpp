@@ -43,8 +43,9 @@ void find_lost(const Chunk& chunk, std::vector<std::uint32_t>& lost) {
 /// caller cancels. `in_precise`: of each component, whether double is never asked; empty: it always
 /// is.
 std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers,
-                              const std::vector<bool>& in_precise, Boundary& boundary,
-                              Statistics& statistics, std::vector<std::uint32_t>& lost) {
+                              const std::vector<bool>& in_precise, std::size_t spare_nodes,
+                              Boundary& boundary, Statistics& statistics,
+                              std::vector<std::uint32_t>& lost) {
   Stopwatch watch;
   const ExactSites sites(problem, numbers, boundary);
   const double tolerance = fine_share * problem.fine_tolerance;
@@ -67,9 +68,7 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   if (problem.is_cancelled()) return std::nullopt;
   for (const auto& chunk : chunks) find_lost(*chunk, lost);
 
-  // A diagram has nodes for a planar graph's points, and edges that lead there, as well.
-  const std::size_t spare_nodes = boundary.two_sided ? problem.shape.points.size() : 0;
-  Graph graph = collect(chunks, bridges, spare_nodes, boundary.two_sided && boundary.has_arcs);
+  Graph graph = collect(chunks, bridges, spare_nodes, boundary.has_arcs);
   merge_ties(boundary, tree, sites, problem.local_tolerance(), graph);
   statistics.seconds_collect = watch.lap();
   return graph;
@@ -111,49 +110,90 @@ std::vector<bool> points_of(const Shape& shape, const std::vector<bool>& compone
   return marked;
 }
 
-/// The engine: sites, holes connected, tree, walk, graph. The edges are returned apart from the
-/// axis.
-template <class E>
-Result<MedialAxis> attempt(const Problem& problem, const SiteNumbers& own_numbers, bool two_sided,
-                           const std::vector<bool>& in_precise, std::vector<E>& edges,
-                           std::vector<std::uint32_t>& lost) {
-  MedialAxis axis;
-  axis.method = "disks";
-  axis.tolerance = problem.tolerance;
-  Stopwatch all, watch;
-
+/// The engine up to the graph: sites, holes connected, tree, walk. Nothing where the caller
+/// cancels. `lost` gets the numbers of the sites at which the walk lost its way.
+std::optional<Graph> attempt(const Problem& problem, const SiteNumbers& own_numbers, Sides sides,
+                             const std::vector<bool>& in_precise, std::size_t spare_nodes,
+                             Boundary& boundary, Statistics& statistics,
+                             std::vector<std::uint32_t>& lost) {
+  Stopwatch watch;
   const SiteNumbers* numbers = &own_numbers;
   std::optional<exact::PartedNumbers> parted;
   if (!in_precise.empty() && has_arcs(problem.shape)) {
     parted = exact::parted_numbers(problem, points_of(problem.shape, in_precise));
     numbers = &parted->numbers;
   }
-  Boundary boundary = loops_boundary(problem, *numbers, two_sided);
-  axis.statistics.seconds_sites = watch.lap();
+  boundary = loops_boundary(problem, *numbers, sides);
+  statistics.seconds_sites = watch.lap();
 
-  auto graph = graph_of(problem, *numbers, in_precise, boundary, axis.statistics, lost);
+  auto graph = graph_of(problem, *numbers, in_precise, spare_nodes, boundary, statistics, lost);
   if (parted) rename(parted->names, boundary);
   for (std::uint32_t& site : lost) site = boundary.originals[site];
+  if (graph && parted) remove_spurs(boundary, *graph);
+  return graph;
+}
+
+MedialAxis empty_axis(const Problem& problem) {
+  MedialAxis axis;
+  axis.method = "disks";
+  axis.tolerance = problem.tolerance;
+  return axis;
+}
+
+/// Moves what a graph has found to an axis, but for its edges.
+void take_nodes(Graph& graph, MedialAxis& axis) {
+  axis.nodes = std::move(graph.nodes);
+  axis.statistics += graph.statistics;
+}
+
+/// The axis of a shape by one walk.
+Result<MedialAxis> axis_by(const Problem& problem, const SiteNumbers& numbers,
+                           const std::vector<bool>& in_precise, std::vector<std::uint32_t>& lost) {
+  MedialAxis axis = empty_axis(problem);
+  Stopwatch all;
+  Boundary boundary;
+  auto graph =
+      attempt(problem, numbers, Sides::one, in_precise, 0, boundary, axis.statistics, lost);
   if (!graph) return axis;
-  watch.lap();
-  if (parted) remove_spurs(boundary, *graph);
+  Stopwatch watch;
   constexpr double loose = 0x1p-20;  // of the size: no near tie is that far off
   const double slack = std::max(loose * diagonal(problem.box), 4 * axis.tolerance);
   const auto loose_edges = complete(boundary, problem.frame, problem.frame.scale * slack, *graph);
   boundary = {};
-  take_edges(graph->edges, two_sided ? own_numbers.count : 0, edges);
-  axis.nodes = std::move(graph->nodes);
-  axis.statistics += graph->statistics;
-  if (!two_sided && !has_right_topology(problem.shape, axis.nodes, edges))
+  take_nodes(*graph, axis);
+  axis.edges = std::move(graph->edges);
+  if (!has_right_topology(problem.shape, axis.nodes, axis.edges))
     return error_of_wrong_axis(
         axis, "the axis does not have one cycle for each hole: please report this shape");
-  if (!two_sided) axis.sites = site::result_sites(problem.shape, own_numbers);
+  axis.sites = site::result_sites(problem.shape, numbers);
   axis.statistics.seconds_collect += watch.lap();
   axis.statistics.seconds = all.lap();
   for (const std::uint32_t edge : loose_edges)
-    if (!touches_its_sites(axis, edges[edge], slack))
+    if (!touches_its_sites(axis, axis.edges[edge], slack))
       return error_of_wrong_axis(
           axis, "a disk of the axis misses a site that it should touch: please report this shape");
+  return axis;
+}
+
+/// The same of what lies around a planar graph; the edges are returned apart. A diagram has nodes
+/// for the planar graph's points, and edges that lead there, as well.
+template <class E>
+MedialAxis axis_around_by(const Problem& problem, const SiteNumbers& numbers,
+                          const std::vector<bool>& in_precise, std::vector<E>& edges,
+                          std::vector<std::uint32_t>& lost) {
+  MedialAxis axis = empty_axis(problem);
+  Stopwatch all;
+  Boundary boundary;
+  auto graph = attempt(problem, numbers, Sides::both, in_precise, problem.shape.points.size(),
+                       boundary, axis.statistics, lost);
+  if (!graph) return axis;
+  Stopwatch watch;
+  complete(boundary, problem.frame, std::nullopt, *graph);
+  boundary = {};
+  take_nodes(*graph, axis);
+  take_edges(graph->edges, numbers.count, edges);
+  axis.statistics.seconds_collect += watch.lap();
+  axis.statistics.seconds = all.lap();
   return axis;
 }
 
@@ -183,14 +223,10 @@ Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbe
   std::optional<Error> error;
   std::vector<bool> in_precise;
   for (const bool is_last : {false, true}) {
-    std::vector<Edge> edges;
     std::vector<std::uint32_t> lost;
-    auto axis = attempt(problem, numbers, false, in_precise, edges, lost);
+    auto axis = axis_by(problem, numbers, in_precise, lost);
     const bool is_certain = lost.empty() && !(with_arcs && is_last);
-    if (axis) {
-      axis->edges = std::move(edges);
-      if (is_certain || problem.is_cancelled()) return axis;
-    }
+    if (axis && (is_certain || problem.is_cancelled())) return axis;
     // A polygon in which the walk lost its way is measured only if another walk takes seconds.
     if (with_arcs || is_last || takes_long(problem.shape)) {
       auto refused = axis ? error_if_refused(problem, *axis) : axis.error();
@@ -202,20 +238,20 @@ Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbe
   return std::move(*error);
 }
 
+/// The axis around a planar graph, walked as it is, and once more in 256 bits where the walk lost
+/// its way.
 template <class E>
-TwoSided run_two_sided_in_place(const Problem& problem, const SiteNumbers& numbers,
-                                std::vector<E>& edges) {
+AxisAround run_around_in_place(const Problem& problem, const SiteNumbers& numbers,
+                               std::vector<E>& edges) {
   std::vector<bool> in_precise;
-  for (const bool is_last : {false, true}) {
+  for (bool is_last = false;; is_last = true) {
     edges.clear();
     std::vector<std::uint32_t> lost;
-    auto axis = attempt(problem, numbers, true, in_precise, edges, lost);
-    if (axis && lost.empty()) return {std::move(*axis), true};
-    if (axis && (is_last || takes_long(problem.shape))) return {std::move(*axis), false};
+    MedialAxis axis = axis_around_by(problem, numbers, in_precise, edges, lost);
+    if (lost.empty() || is_last || takes_long(problem.shape))
+      return {std::move(axis), lost.empty()};
     in_precise = components_of(problem.shape, numbers, lost);
   }
-  edges.clear();
-  return {};
 }
 
 /// The image in which a shape with arcs is walked.
@@ -242,15 +278,15 @@ Result<MedialAxis> run(const Problem& problem) {
 }
 
 template <class E>
-TwoSided run_two_sided(const Problem& problem, std::vector<E>& edges) {
-  if (!has_arcs(problem.shape)) return run_two_sided_in_place(problem, problem.numbers(), edges);
+AxisAround run_around(const Problem& problem, std::vector<E>& edges) {
+  if (!has_arcs(problem.shape)) return run_around_in_place(problem, problem.numbers(), edges);
   const Posed posed(problem);
-  TwoSided result = run_two_sided_in_place(posed.problem, posed.numbers, edges);
+  AxisAround result = run_around_in_place(posed.problem, posed.numbers, edges);
   posed.pose.to_input(problem, posed.numbers, result.axis, edges);
   return result;
 }
 
-template TwoSided run_two_sided(const Problem&, std::vector<Edge>&);
-template TwoSided run_two_sided(const Problem&, std::vector<VoronoiEdge>&);
+template AxisAround run_around(const Problem&, std::vector<Edge>&);
+template AxisAround run_around(const Problem&, std::vector<VoronoiEdge>&);
 
 }  // namespace medial::disks

@@ -26,7 +26,7 @@ Result<std::optional<MedialAxis>> run_in_parts(const Problem& problem, const Axi
                                                std::size_t part_nodes = 1 << 14);
 
 /// An axis, and whether the decisions about its graph were made with certainty, not in double.
-struct TwoSided {
+struct AxisAround {
   MedialAxis axis;
   bool is_certain = false;
 };
@@ -35,6 +35,6 @@ struct TwoSided {
 /// stand in `edges`; they and the nodes leave room for a diagram's spokes and the planar graph's
 /// points. It has no sites yet.
 template <class E>
-TwoSided run_two_sided(const Problem& problem, std::vector<E>& edges);
+AxisAround run_around(const Problem& problem, std::vector<E>& edges);
 
 }  // namespace medial::disks

@@ -317,9 +317,8 @@ std::optional<Event> EventSearch::contact_before(const Event& intruded) {
   if (const auto at_joint = contact_at_joint(i)) return at_joint;
   std::optional<Event> contact = contact_with(i, intruded.position);
   if (intruder.is_vertex() || (contact && reaches(*contact))) return contact;
-  // The disk reaches across an edge of a planar graph: its other side is touched first.
-  if (boundary_.two_sided) {
-    auto behind = contact_with(site::reversed(intruder), i, intruded.position);
+  if (const auto other_side = contacts_.other_side(i)) {
+    auto behind = contact_with(*other_side, i, intruded.position);
     if (behind && contacts_.reaches(i, behind->disk)) {
       behind->site = contacts_.owner(i, behind->disk.center, span_);
       if (contacts_.faces(behind->site, behind->disk.center)) return behind;

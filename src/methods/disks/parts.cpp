@@ -51,7 +51,7 @@ Result<std::optional<MedialAxis>> run_in_parts(const Problem& problem, const Axi
   Statistics& statistics = axis.statistics;
   Stopwatch all, watch;
   const SiteNumbers& numbers = problem.numbers();
-  Boundary boundary = loops_boundary(problem, numbers, false);
+  Boundary boundary = loops_boundary(problem, numbers, Sides::one);
   statistics.seconds_sites = watch.lap();
   const double tolerance = fine_share * problem.fine_tolerance;
   const ExactSites sites(problem, numbers, boundary);

@@ -4,6 +4,7 @@
 #include "methods/disks/certainty.h"
 #include "methods/disks/events.h"
 #include "methods/disks/exact_event.h"
+#include "methods/disks/planar_contacts.h"
 #include "site/tangent_disk.h"
 
 namespace medial::disks {
@@ -26,7 +27,8 @@ class Walker {
         boundary_(context.boundary),
         tasks_(tasks),
         chunk_(chunk),
-        contacts_(context, chunk.statistics),
+        own_contacts_(contacts_with(context, chunk.statistics)),
+        contacts_(*own_contacts_),
         is_exact_(context.exact.always(chunk.component)) {}
 
   /// Walks all of a run: from the convex corner between its last and first site, or from a disk
@@ -560,7 +562,8 @@ class Walker {
   const Boundary& boundary_;
   TaskGroup& tasks_;
   Chunk& chunk_;
-  Contacts contacts_;
+  const std::unique_ptr<Contacts> own_contacts_;
+  Contacts& contacts_;
   const bool is_exact_;        ///< double is never asked
   bool starts_blunt_ = false;  ///< the run begins at a blunt joint, node 0
   std::vector<Step> stack_;
