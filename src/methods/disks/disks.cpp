@@ -120,7 +120,7 @@ std::optional<Graph> attempt(const Problem& problem, const SiteNumbers& own_numb
   const SiteNumbers* numbers = &own_numbers;
   std::optional<exact::PartedNumbers> parted;
   if (!in_precise.empty() && has_arcs(problem.shape)) {
-    parted = exact::parted_numbers(problem, points_of(problem.shape, in_precise));
+    parted = exact::parted_numbers(problem, own_numbers, points_of(problem.shape, in_precise));
     numbers = &parted->numbers;
   }
   boundary = loops_boundary(problem, *numbers, sides);

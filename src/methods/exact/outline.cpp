@@ -91,9 +91,9 @@ void part_joints(SiteLoops& outline) {
   }
 }
 
-PartedNumbers parted_numbers(const Problem& problem, const std::vector<bool>& points) {
+PartedNumbers parted_numbers(const Problem& problem, const site::SiteNumbers& whole,
+                             const std::vector<bool>& points) {
   using site::Joint;
-  const site::SiteNumbers& whole = problem.numbers();
   PartedNumbers parted{whole, {}};
   site::SiteNumbers& numbers = parted.numbers;
   std::vector<std::uint32_t> flatter(numbers.joints.size());

@@ -94,8 +94,10 @@ struct PartedNumbers {
   /// What the axis calls each site: a vertex that counts as smooth has the name of an edge there.
   std::vector<std::uint32_t> names;
 };
-/// `points`: those whose joints are parted.
-PartedNumbers parted_numbers(const Problem& problem, const std::vector<bool>& points);
+/// Of the sites that are numbered as `whole`, which need not be the problem's own. `points`: those
+/// whose joints are parted.
+PartedNumbers parted_numbers(const Problem& problem, const site::SiteNumbers& whole,
+                             const std::vector<bool>& points);
 
 /// Takes joints that count as smooth as they stand: as blunt where the boundary turns to the left;
 /// where it turns to the right their vertex becomes a site, added behind the others.
