@@ -821,5 +821,27 @@ TEST(ArcShape, SoSmallFarAwayIsAShapeOrATypedError) {
   EXPECT_GT(shapes, 200);
 }
 
+// A vertex comes to lie on the arc that ends beside it, so that an arc leads there and a chord
+// of 1.5 tolerances back: their bulges tell which one lies on which side, apices round by more. As
+// hole of the exterior it is the tip of a needle.
+TEST(ArcShape, SideBesideItsOwnChordByLessThanAnApexRounds) {
+  const Rings corners[] = {
+      {{{{-93, 33}, {-93.000000000001322, 32.999999999999375}, {0, 0}},
+        RingRole::any,
+        {0, -0.73228346456692917, 0}}},
+      {{{{-43, -35}, {-42.999999999999517, -35.000000000001648}, {0, 0}},
+        RingRole::any,
+        {0, -0.80314960629921262, 0}}},
+  };
+  for (const Rings& rings : corners) {
+    const Shape shape = built(rings);
+    for (const bool exterior : {false, true}) {
+      const auto axis = compute(shape, {.exterior = exterior});
+      ASSERT_TRUE(axis.ok()) << to_string(axis.error());
+      EXPECT_TRUE(verify(shape, *axis).passed) << exterior;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace medial

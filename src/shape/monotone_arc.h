@@ -81,8 +81,11 @@ inline MonotoneArc monotone_arc(Vec2 left, Vec2 right, double bulge) {
 }
 
 /// How far an arc lies above a longer one from the same left end, with the right sign, where they
-/// are further apart: at its end or halfway. If nowhere, by how much more it turns.
+/// are further apart: at its end or halfway. If nowhere, by how much more it turns. Of two with
+/// both ends in common the one lies above that bends downwards more, even by less than an apex
+/// rounds.
 inline double above_longer(const MonotoneArc& arc, const MonotoneArc& longer) {
+  if (arc.right == longer.right) return longer.bulge - arc.bulge;
   const double at_end = longer.above(arc.right);
   const double before = longer.above(apex(arc.arc()));  // halfway() loses digits of half circles
   const double above = std::abs(at_end) > std::abs(before) ? at_end : before;
