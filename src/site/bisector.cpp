@@ -246,17 +246,6 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
   return best;
 }
 
-/// Of a convex arc that both disks touch in one end only, being larger than its own circle: the
-/// end.
-std::optional<Site> pinned_end(const Site& site, const Disk& from, const Disk& to) {
-  if (!(site.curvature * std::min(from.radius, to.radius) > 1)) return std::nullopt;
-  const auto gap = [&](Vec2 end) {
-    return std::max(std::abs(distance(end, from.center) - from.radius),
-                    std::abs(distance(end, to.center) - to.radius));
-  };
-  return make_vertex(gap(site.point) <= gap(site.end()) ? site.point : site.end());
-}
-
 }  // namespace
 
 Vec2 Bisector::tangent(Vec2 center) const {
@@ -322,11 +311,7 @@ double Bisector::last_position(const Disk& near, double limit) const {
 }
 
 Control control_of(const Site& a, const Site& b, const Disk& from, const Disk& to) {
-  if (a.is_arc() || b.is_arc()) {
-    if (const auto end = pinned_end(a, from, to)) return control_of(*end, b, from, to);
-    if (const auto end = pinned_end(b, from, to)) return control_of(a, *end, from, to);
-    return control_with_arc(a, b, from, to);
-  }
+  if (a.is_arc() || b.is_arc()) return control_with_arc(a, b, from, to);
   if (!a.is_vertex() && !b.is_vertex()) return {middle_of(from, to), 1};
   const Control control = a.is_vertex() && b.is_vertex()
                               ? control_of_vertices(a.point, b.point, from, to)

@@ -55,11 +55,12 @@ class Contacts {
       : context_(context),
         boundary_(context.boundary),
         statistics_(statistics),
-        touching_((is_certain() ? 2 : 1) * context.tolerance) {}
+        touching_((is_polygon() ? 2 : 1) * context.tolerance) {}
   virtual ~Contacts() = default;
 
-  /// Whether what the walk finds in double is taken only where it is certain.
-  bool is_certain() const { return !boundary_.has_arcs; }
+  /// Whether the boundary is straight. Then what the walk finds in double is taken only where it is
+  /// certain.
+  bool is_polygon() const { return !boundary_.has_arcs; }
 
   const site::Site& site(std::uint32_t i) const { return boundary_.sites[i]; }
   Element element(std::uint32_t i) const { return boundary_.elements[i]; }

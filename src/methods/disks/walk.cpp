@@ -203,7 +203,7 @@ class Walker {
   bool decide(Step& step, const Disk& from) {
     using Kind = Event::Kind;
     Event& event = step.event;
-    if (contacts_.is_certain() && !is_exact_ && event.kind == Kind::contact) {
+    if (contacts_.is_polygon() && !is_exact_ && event.kind == Kind::contact) {
       // Contacts that are near to each other leave open where they meet: in a tie of the node's
       // own disk, there; but where one only passes on to the next, that may be anywhere.
       const bool passes =
@@ -469,7 +469,7 @@ class Walker {
   bool coincide(const Disk& a, const Disk& b) const {
     // Where a shape is hardly wider than the tolerance, that is no tie.
     constexpr double of_radius = 0x1p-10;
-    if (contacts_.is_certain()) return a.center == b.center && a.radius == b.radius;
+    if (contacts_.is_polygon()) return a.center == b.center && a.radius == b.radius;
     const double slack = std::min(context_.tolerance, of_radius * std::max(a.radius, b.radius));
     return squared_norm(a.center - b.center) <= slack * slack &&
            std::abs(a.radius - b.radius) <= slack;
