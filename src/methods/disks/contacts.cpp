@@ -169,13 +169,14 @@ double Contacts::beyond_ends(std::uint32_t i, Vec2 center) const {
   return std::max(beyond_end(i, false, center), beyond_end(i, true, center));
 }
 
-bool Contacts::is_beside(std::uint32_t i, Vec2 center, const Boundary::SiteRange& run) const {
+bool Contacts::is_beside(std::uint32_t i, Vec2 center, const Boundary::SiteRange& run,
+                         double clear) const {
   if (element(i) == Element::bridge) return true;
   // From behind, at the tip of a needle, the end of an edge is touched, which is a vertex.
   const bool is_straight = !site(i).is_vertex() && !site(i).is_arc();
-  if (is_straight && site::carrier_distance(site(i), center) < -clearance()) return true;
+  if (is_straight && site::carrier_distance(site(i), center) < -clear) return true;
   const double at_start = beyond_end(i, false, center), at_end = beyond_end(i, true, center);
-  if (!(std::max(at_start, at_end) > clearance())) return false;
+  if (!(std::max(at_start, at_end) > clear)) return false;
   if (site(i).is_vertex()) return true;
   return at_end > at_start ? i < run.last && boundary_.is_smooth(i)
                            : i > run.first && boundary_.is_smooth(i - 1);
@@ -286,7 +287,55 @@ bool Contacts::is_clean_tie(const Span& span, const Disk& disk, std::uint32_t su
     before = i;
     foot_before = foot;
   }
-  return true;
+  return is_alone(sites, span, disk);
+}
+
+// A disk that moves comes nearer, in the direction of a contact's normal, by a sum of a constant, a
+// cosine and a sine, which three contacts determine (Lagrange). If it reaches a site between two
+// contacts of the tie and over neither of these, the sum falls towards that site from both sides,
+// so that the three contacts that it touches are next to it.
+bool Contacts::is_alone(const std::vector<std::uint32_t>& tie, const Span& span, const Disk& disk) {
+  std::vector<std::uint32_t> sites;  // without those to which a foot only passes on
+  std::vector<Vec2> toward;
+  for (const std::uint32_t i : tie) {
+    if (!sites.empty() && sites.back() + 1 == i && boundary_.is_smooth(sites.back())) continue;
+    sites.push_back(i);
+    toward.push_back(site::outward(site(i), disk.center));
+  }
+  const std::size_t count = sites.size();
+  if (count < 3) return true;
+  double least = 4;  // of two neighbours' distances, the squared product
+  for (std::size_t i = 0; i < count; ++i)
+    least = std::min(least, squared_norm(toward[(i + 1) % count] - toward[i]) *
+                                squared_norm(toward[(i + 2) % count] - toward[(i + 1) % count]));
+  // Ties are contracted along edges shorter than half of this only.
+  constexpr double short_way = 0x1p-6;  // of the radius
+  const double furthest = std::min(12 * touching_ / std::sqrt(least), short_way * disk.radius);
+  if (furthest <= clearance()) return true;
+  ++statistics_.queries;
+  const Boundary::SiteRange& run = run_of(span);
+  context_.tree.within(disk.center, disk.radius + furthest, run.first, run.last, touched_);
+  // By how many times the residuals of three contacts a disk may be off in another direction.
+  const auto factor = [&](Vec2 to, std::size_t first) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 own = toward[(first + k) % count], a = toward[(first + (k + 1) % 3) % count],
+                 b = toward[(first + (k + 2) % 3) % count];
+      sum += std::sqrt(squared_norm(to - a) * squared_norm(to - b) /
+                       (squared_norm(own - a) * squared_norm(own - b)));
+    }
+    return sum;
+  };
+  return ranges::all_of(touched_, [&](std::uint32_t i) {
+    if (ranges::binary_search(tie, i) || is_beside(i, disk.center, run, furthest) ||
+        !faces(i, disk.center))
+      return true;
+    const Vec2 to = site::outward(site(i), disk.center);
+    const auto next = static_cast<std::size_t>(ranges::lower_bound(sites, i) - sites.begin());
+    for (std::size_t first = next + count - 3; first <= next + count; ++first)
+      if (away(i, disk) <= 2 * touching_ * factor(to, first)) return false;
+    return true;
+  });
 }
 
 std::optional<Disk> Contacts::clean_tie(const Span& span, const Disk& near, std::uint32_t sure) {
@@ -318,7 +367,7 @@ void Contacts::split(const Span& span, const Disk& disk, std::uint32_t sure, boo
     if (sure > span.right && sure < span.left) {
       parts.push_back({span.right, sure, span.node});
       before = sure;
-    } else if (!touches_all(span.right, disk) && !touches_all(span.left, disk)) {
+    } else if (!all_around) {
       return;
     }
   }

@@ -178,8 +178,15 @@ class Contacts {
   const Boundary::SiteRange& run_of(const Span& span) const {
     return *ranges::lower_bound(boundary_.runs, span.left, {}, &Boundary::SiteRange::last);
   }
-  /// Whether another site, or none, is nearer than site i of a run to a disk that is next to it.
-  bool is_beside(std::uint32_t i, Vec2 center, const Boundary::SiteRange& run) const;
+  /// Whether another site, or none, is nearer than site i of a run to a disk that is next to it,
+  /// and to all disks so near to that.
+  bool is_beside(std::uint32_t i, Vec2 center, const Boundary::SiteRange& run, double clear) const;
+  bool is_beside(std::uint32_t i, Vec2 center, const Boundary::SiteRange& run) const {
+    return is_beside(i, center, run, clearance());
+  }
+  /// Whether no disk that touches three sites of a tie, and reaches over no other one of it, each
+  /// within `touching_`, touches anything else.
+  bool is_alone(const std::vector<std::uint32_t>& tie, const Span& span, const Disk& disk);
   /// What a disk touches or is near to on all of a span's boundary, in order; until the next call.
   /// The spans that begin at one node ask for the same disk.
   const std::vector<std::uint32_t>& around(const Span& span, const Disk& disk);

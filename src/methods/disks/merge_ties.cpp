@@ -27,6 +27,9 @@ using site::Site;
 /// tie's nodes are off by rounding over an angle, and distances are nearly linear so far.
 constexpr double short_edge = 0x1p-7;
 
+/// By how much the centres of two nodes may be nearer or further apart than double has them.
+constexpr double rounding_of_nodes = 0x1p-50;
+
 /// The largest residual at the one end of an edge, against the bound, that a contact of its other
 /// end may have: with the smallest angle between contacts at some 2^-12, the factors of their
 /// dependency differ by no more than its square.
@@ -149,11 +152,11 @@ class Merger {
   /// leaf is.
   static bool is_short(const Disk& a, const Disk& b, double slack) {
     const double furthest = short_edge * std::min(a.radius, b.radius) + slack;
-    return squared_norm(b.center - a.center) < furthest * furthest;
+    return furthest > 0 && squared_norm(b.center - a.center) < furthest * furthest;
   }
   /// The edges that are short, or may be so but for the rounding of their nodes.
   WorkVector<std::uint32_t> short_edges() const {
-    const double rounding = boundary_.has_arcs ? 0 : 0x1p-50;
+    const double rounding = boundary_.has_arcs ? 0 : rounding_of_nodes;
     return filter(graph_.edges.size(), [&](std::size_t e) {
       const auto [from, to] = graph_.edges[e].node;
       return is_short(graph_.nodes[from].disk, graph_.nodes[to].disk, rounding);
@@ -430,6 +433,7 @@ class Merger {
   bool is_near(const Edge& edge, const Nearness& nearness) const {
     const auto [from, to] = edge.node;
     const Disk &a = graph_.nodes[from].disk, &b = graph_.nodes[to].disk;
+    if (!is_short(from, to)) return false;
     if (are_near(from, to, nearness.length * tolerance_)) return true;
     if (!is_branching(from) || !is_branching(to))
       return nearness.level == nearnesses[0].level && boundary_.has_arcs && could_be_at_hub(edge);
@@ -445,30 +449,45 @@ class Merger {
     return fit.fits(both, nearness.level * tolerance_);
   }
 
-  /// Whether the disks of two nodes are so near to each other, and near against their radii.
+  /// Whether the disks of two nodes are near to each other against their radii.
+  bool is_short(std::uint32_t a, std::uint32_t b) const {
+    const Disk &from = graph_.nodes[a].disk, &to = graph_.nodes[b].disk;
+    const bool in_double = is_short(from, to, 0);
+    if (is_short(from, to, rounding_of_nodes) == is_short(from, to, -rounding_of_nodes))
+      return in_double;
+    for (const bool first : {true, false}) {
+      const auto near = are_within(a, b, [&](const auto& one, const auto& other) {
+        return std::remove_cvref_t<decltype(one.radius)>(short_edge) * (first ? one : other).radius;
+      });
+      if (!near) return in_double;
+      if (!*near) return false;
+    }
+    return true;
+  }
+  /// Whether the disks of two nodes are so near to each other.
   bool are_near(std::uint32_t a, std::uint32_t b, double length) const {
     constexpr double surely = 16;  // tolerances
-    const Disk &from = graph_.nodes[a].disk, &to = graph_.nodes[b].disk;
-    const double squared = squared_norm(to.center - from.center);
+    const double squared = squared_norm(graph_.nodes[b].disk.center - graph_.nodes[a].disk.center);
     if (squared > surely * surely * tolerance_ * tolerance_) return false;
-    if (const auto near = are_near_in<Twofold>(a, b, length)) return *near;
-    if (const auto near = are_near_in<exact::Precise>(a, b, length)) return *near;
-    return squared <= length * length && is_short(from, to, 0);
+    const auto near = are_within(a, b, [&](const auto& one, const auto&) {
+      return std::remove_cvref_t<decltype(one.radius)>(length);
+    });
+    return near ? *near : squared <= length * length;
   }
-  /// The same of the disks as the sites have them; none where these are not known.
-  template <class Real>
-  std::optional<bool> are_near_in(std::uint32_t a, std::uint32_t b, double length) const {
-    using Number = Bounded<Real>;
+  /// Whether the centres of two nodes are no further apart than `most` of their disks, as the sites
+  /// have these; none where they are not known.
+  template <class Most>
+  std::optional<bool> are_within(std::uint32_t a, std::uint32_t b, const Most& most) const {
+    const auto near = are_within_in<Twofold>(a, b, most);
+    return near ? near : are_within_in<exact::Precise>(a, b, most);
+  }
+  template <class Real, class Most>
+  std::optional<bool> are_within_in(std::uint32_t a, std::uint32_t b, const Most& most) const {
     const auto from = disk_in<Real>(a), to = from ? disk_in<Real>(b) : std::nullopt;
     if (!to) return std::nullopt;
     const auto way = to->center - from->center;
-    const Number squared = dot(way, way), share(short_edge), most(length);
-    std::optional<int> sign = (most * most - squared).sign();
-    for (const auto& disk : {*from, *to}) {
-      if (!sign || *sign < 0) break;
-      const Number furthest = share * disk.radius;
-      sign = (furthest * furthest - squared).sign();
-    }
+    const Bounded<Real> bound = most(*from, *to);
+    const auto sign = (bound * bound - dot(way, way)).sign();
     return sign ? std::optional(*sign >= 0) : std::nullopt;
   }
   /// The disk of a node that touches three sites; none of one that touches more.
