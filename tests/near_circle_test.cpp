@@ -109,6 +109,16 @@ TEST(CircleOfArcs, OffBySomeTolerancesIsVerified) {
   }
 }
 
+/// What ties have contracted stays so where nearer ones would turn an edge around.
+TEST(CircleOfArcs, OfThousandsIsVerified) {
+  constexpr double size = 3e-14;
+  constexpr std::uint64_t seed = 10;
+  Random random(seed);
+  Ring ring = arcs_of_circle(3000);
+  for (Vec2& p : ring.points) p = (1 + random.between(-size, size)) * p;
+  expect_verified(ring, seed);
+}
+
 TEST(BarWithEndsOfArcs, OffBySomeTolerancesIsVerified) {
   const std::uint64_t count = shape_count(40, 50);
   for (std::uint64_t seed = 0; seed < count; ++seed) {

@@ -392,12 +392,13 @@ class Merger {
     const std::size_t first = groups_.size();
     find_groups(open, nearness);
     for (std::size_t i = first; i < groups_.size(); ++i) groups_[i].contracts = fits(groups_[i]);
-    // What would turn an edge around is left for the next pair, and so may others be then.
+    // What would turn an edge around is left for the next pair, and so may others be then; what was
+    // contracted before stays.
     std::vector<std::uint32_t> backward;
     do {
       backward.clear();
       for (std::size_t i = first; i < groups_.size(); ++i)
-        if (groups_[i].contracts) find_backward(groups_[i], backward);
+        if (groups_[i].contracts) find_backward(groups_[i], first, backward);
       for (const std::uint32_t i : backward) groups_[i].contracts = false;
     } while (!backward.empty());
     std::erase_if(open, [&](std::uint32_t e) {
@@ -555,16 +556,18 @@ class Merger {
     return !tree_.nearest(disk.center, disk.radius - tolerance_, run.first, run.last);
   }
 
-  /// Adds the groups at both ends of edges that lead elsewhere and no longer lead forward when the
-  /// group's nodes have its disk.
-  void find_backward(const Group& group, std::vector<std::uint32_t>& backward) const {
+  /// Adds the groups, from the first of these on, at both ends of edges that lead elsewhere and no
+  /// longer lead forward when the group's nodes have its disk.
+  void find_backward(const Group& group, std::size_t first,
+                     std::vector<std::uint32_t>& backward) const {
     for (const std::uint32_t node : group.nodes) {
       for (const std::uint32_t end : ends_at(node)) {
-        const Group* there = group_of(other_node(end));
+        const std::uint32_t node_there = other_node(end);
+        const Group* there = group_of(node_there);
         if (there == &group || leads_forward(end / 2)) continue;
         backward.push_back(group_[place_of(node)]);
-        if (there != nullptr)
-          backward.push_back(static_cast<std::uint32_t>(there - groups_.data()));
+        if (there != nullptr && group_[place_of(node_there)] >= first)
+          backward.push_back(group_[place_of(node_there)]);
       }
     }
   }
