@@ -40,9 +40,10 @@ void find_lost(const Chunk& chunk, std::vector<std::uint32_t>& lost) {
 }
 
 /// Connects the holes of the boundary, walks it, and joins what the walk finds. Nothing where the
-/// caller cancels. `in_precise`: of each component, whether double is never asked; empty: it always
-/// is.
+/// caller cancels. `names`: those of the axis, if `numbers` are others. `in_precise`: of each
+/// component, whether double is never asked; empty: it always is.
 std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers,
+                              std::span<const std::uint32_t> names,
                               const std::vector<bool>& in_precise, Boundary& boundary,
                               Statistics& statistics, std::vector<std::uint32_t>& lost) {
   Stopwatch watch;
@@ -70,7 +71,7 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   // A diagram has nodes for a planar graph's points, and edges that lead there, as well.
   const std::size_t spare_nodes = boundary.two_sided ? problem.shape.points.size() : 0;
   Graph graph = collect(chunks, bridges, spare_nodes, boundary.two_sided && boundary.has_arcs);
-  merge_ties(boundary, tree, sites, problem.local_tolerance(), graph);
+  merge_ties(boundary, tree, sites, problem.local_tolerance(), graph, names);
   statistics.seconds_collect = watch.lap();
   return graph;
 }
@@ -131,7 +132,9 @@ Result<MedialAxis> attempt(const Problem& problem, const SiteNumbers& own_number
   Boundary boundary = loops_boundary(problem, *numbers, two_sided);
   axis.statistics.seconds_sites = watch.lap();
 
-  auto graph = graph_of(problem, *numbers, in_precise, boundary, axis.statistics, lost);
+  std::span<const std::uint32_t> names;
+  if (parted) names = parted->names;
+  auto graph = graph_of(problem, *numbers, names, in_precise, boundary, axis.statistics, lost);
   if (parted) rename(parted->names, boundary);
   for (std::uint32_t& site : lost) site = boundary.originals[site];
   if (!graph) return axis;
