@@ -109,6 +109,41 @@ TEST(CircleOfArcs, OffBySomeTolerancesIsVerified) {
   }
 }
 
+/// What ties have contracted stays so where nearer ones would turn an edge around.
+TEST(CircleOfArcs, OfThousandsIsVerified) {
+  constexpr double size = 3e-14;
+  constexpr std::uint64_t seed = 10;
+  Random random(seed);
+  Ring ring = arcs_of_circle(3000);
+  for (Vec2& p : ring.points) p = (1 + random.between(-size, size)) * p;
+  expect_verified(ring, seed);
+}
+
+/// Four reflex vertices and an end of an arc on one circle: the node there stays where it touches
+/// them all, though the arc's other end is a few tolerances away, and the next node is near.
+TEST(ArcOnACircle, OfVerticesIsTouchedInOneEnd) {
+  Ring ring;
+  ring.points = {{-1.5, -1.5},
+                 {1.5, -1.5},
+                 {1.3053232526290575, 0.5060940684753157},
+                 {0.9249578500640337, 0.3800696983513692},
+                 {1.2925036938674672, 0.5379908933606148},
+                 {0.9214568408215073, 0.3884807466313698},
+                 {0.9212125692973304, 0.38905963831858953},
+                 {1.2856412281863974, 0.5541900688278091},
+                 {0.9153677042433385, 0.4026188843413364},
+                 {1.2694600998787573, 0.5903143694810545},
+                 {0.8977509765824532, 0.44050333034522254},
+                 {1.2487044226011204, 0.6330381228460118},
+                 {0.8859608765266932, 0.4637599867000536},
+                 {1.2271127524012064, 0.6739393836943612},
+                 {1.5, 1.5},
+                 {-1.5, 1.5}};
+  ring.bulges.assign(ring.points.size(), 0);
+  ring.bulges[5] = 0.00015707961770071823;
+  expect_verified(ring, 0);
+}
+
 TEST(BarWithEndsOfArcs, OffBySomeTolerancesIsVerified) {
   const std::uint64_t count = shape_count(40, 50);
   for (std::uint64_t seed = 0; seed < count; ++seed) {

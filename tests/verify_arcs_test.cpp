@@ -390,6 +390,17 @@ TEST(BoundaryEdge, DistanceAgreesWithTheCircle) {
   }
 }
 
+/// Their distances differ in the last digit only.
+TEST(BoundaryEdge, IsTouchedInTheNearerEndNextToItsCentre) {
+  constexpr double turn = 3e-4, beyond = 1e-3, away = 5e-10;
+  for (int i = 0; i < 100; ++i) {
+    const auto at = [&](double angle) { return Vec2{std::cos(angle + i), std::sin(angle + i)}; };
+    const BoundaryEdge edge{at(0), at(turn), std::tan(turn / 4)};
+    EXPECT_EQ(verify_detail::foot_at(edge, away * at(-beyond)), 0);
+    EXPECT_NEAR(verify_detail::foot_at(edge, away * at(turn + beyond)), turn, 1e-12);
+  }
+}
+
 TEST(BoundaryEdge, IsAsFarFromTwoPlacesAsFromEach) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> unit(-1, 1);

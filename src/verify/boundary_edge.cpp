@@ -59,8 +59,8 @@ double Arc::quarter_tangent_at(Vec2 p) const {
 }
 
 double Arc::way_to_foot(Vec2 p) const {
-  if (!is_beside(p))
-    return medial::distance(p, edge_.start) <= medial::distance(p, edge_.end) ? 0 : whole_way_;
+  // Next to the centre the distances from both ends are one but for their last digits.
+  if (!is_beside(p)) return dot(chord_, (p - edge_.start) + (p - edge_.end)) <= 0 ? 0 : whole_way_;
   return std::min(std::max(0.0, 4 / curvature_ * quarter_tangent_at(p)), whole_way_);
 }
 

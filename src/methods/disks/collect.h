@@ -23,7 +23,8 @@ struct Graph {
     std::uint32_t edge = 0;
     Disk disk;
   };
-  std::vector<Passage> passages;  ///< by edge; where there are arcs
+  std::vector<Passage> passages;    ///< by edge; where there are arcs
+  std::vector<std::uint32_t> lost;  ///< sites at which the walk lost its way
 };
 
 /// Joins the walk's chunks into one graph: numbers the nodes and glues the axis at the bridges

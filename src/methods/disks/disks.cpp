@@ -40,12 +40,12 @@ void find_lost(const Chunk& chunk, std::vector<std::uint32_t>& lost) {
 }
 
 /// Connects the holes of the boundary, walks it, and joins what the walk finds. Nothing where the
-/// caller cancels. `in_precise`: of each component, whether double is never asked; empty: it always
-/// is.
+/// caller cancels. `names`: those of the axis, if `numbers` are others. `in_precise`: of each
+/// component, whether double is never asked; empty: it always is.
 std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers,
+                              std::span<const std::uint32_t> names,
                               const std::vector<bool>& in_precise, std::size_t spare_nodes,
-                              Boundary& boundary, Statistics& statistics,
-                              std::vector<std::uint32_t>& lost) {
+                              Boundary& boundary, Statistics& statistics) {
   Stopwatch watch;
   const ExactSites sites(problem, numbers, boundary);
   const double tolerance = fine_share * problem.fine_tolerance;
@@ -66,10 +66,12 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
             events, problem.options.cancel, reporter(problem.options, boundary, finished)});
   statistics.seconds_walk = watch.lap();
   if (problem.is_cancelled()) return std::nullopt;
-  for (const auto& chunk : chunks) find_lost(*chunk, lost);
 
+  std::vector<std::uint32_t> lost;
+  for (const auto& chunk : chunks) find_lost(*chunk, lost);
   Graph graph = collect(chunks, bridges, spare_nodes, boundary.has_arcs);
-  merge_ties(boundary, tree, sites, problem.local_tolerance(), graph);
+  graph.lost = std::move(lost);
+  merge_ties(boundary, tree, sites, problem.local_tolerance(), graph, names);
   statistics.seconds_collect = watch.lap();
   return graph;
 }
@@ -111,11 +113,10 @@ std::vector<bool> points_of(const Shape& shape, const std::vector<bool>& compone
 }
 
 /// The engine up to the graph: sites, holes connected, tree, walk. Nothing where the caller
-/// cancels. `lost` gets the numbers of the sites at which the walk lost its way.
+/// cancels.
 std::optional<Graph> attempt(const Problem& problem, const SiteNumbers& own_numbers, Sides sides,
                              const std::vector<bool>& in_precise, std::size_t spare_nodes,
-                             Boundary& boundary, Statistics& statistics,
-                             std::vector<std::uint32_t>& lost) {
+                             Boundary& boundary, Statistics& statistics) {
   Stopwatch watch;
   const SiteNumbers* numbers = &own_numbers;
   std::optional<exact::PartedNumbers> parted;
@@ -126,10 +127,13 @@ std::optional<Graph> attempt(const Problem& problem, const SiteNumbers& own_numb
   boundary = loops_boundary(problem, *numbers, sides);
   statistics.seconds_sites = watch.lap();
 
-  auto graph = graph_of(problem, *numbers, in_precise, spare_nodes, boundary, statistics, lost);
+  std::span<const std::uint32_t> names;
+  if (parted) names = parted->names;
+  auto graph = graph_of(problem, *numbers, names, in_precise, spare_nodes, boundary, statistics);
+  if (!graph) return graph;
   if (parted) rename(parted->names, boundary);
-  for (std::uint32_t& site : lost) site = boundary.originals[site];
-  if (graph && parted) remove_spurs(boundary, *graph);
+  for (std::uint32_t& site : graph->lost) site = boundary.originals[site];
+  if (parted) remove_spurs(boundary, *graph);
   return graph;
 }
 
@@ -141,7 +145,8 @@ MedialAxis empty_axis(const Problem& problem) {
 }
 
 /// Moves what a graph has found to an axis, but for its edges.
-void take_nodes(Graph& graph, MedialAxis& axis) {
+void take_nodes(Graph& graph, MedialAxis& axis, std::vector<std::uint32_t>& lost) {
+  lost = std::move(graph.lost);
   axis.nodes = std::move(graph.nodes);
   axis.statistics += graph.statistics;
 }
@@ -152,15 +157,14 @@ Result<MedialAxis> axis_by(const Problem& problem, const SiteNumbers& numbers,
   MedialAxis axis = empty_axis(problem);
   Stopwatch all;
   Boundary boundary;
-  auto graph =
-      attempt(problem, numbers, Sides::one, in_precise, 0, boundary, axis.statistics, lost);
+  auto graph = attempt(problem, numbers, Sides::one, in_precise, 0, boundary, axis.statistics);
   if (!graph) return axis;
   Stopwatch watch;
   constexpr double loose = 0x1p-20;  // of the size: no near tie is that far off
   const double slack = std::max(loose * diagonal(problem.box), 4 * axis.tolerance);
   const auto loose_edges = complete(boundary, problem.frame, problem.frame.scale * slack, *graph);
   boundary = {};
-  take_nodes(*graph, axis);
+  take_nodes(*graph, axis, lost);
   axis.edges = std::move(graph->edges);
   if (!has_right_topology(problem.shape, axis.nodes, axis.edges))
     return error_of_wrong_axis(
@@ -185,12 +189,12 @@ MedialAxis axis_around_by(const Problem& problem, const SiteNumbers& numbers,
   Stopwatch all;
   Boundary boundary;
   auto graph = attempt(problem, numbers, Sides::both, in_precise, problem.shape.points.size(),
-                       boundary, axis.statistics, lost);
+                       boundary, axis.statistics);
   if (!graph) return axis;
   Stopwatch watch;
   complete(boundary, problem.frame, std::nullopt, *graph);
   boundary = {};
-  take_nodes(*graph, axis);
+  take_nodes(*graph, axis, lost);
   take_edges(graph->edges, numbers.count, edges);
   axis.statistics.seconds_collect += watch.lap();
   axis.statistics.seconds = all.lap();

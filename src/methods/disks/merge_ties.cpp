@@ -59,11 +59,12 @@ struct Group {
 class Merger {
  public:
   Merger(const Boundary& boundary, const site::BoundaryTree& tree, const ExactSites& exact,
-         double tolerance, Graph& graph)
+         double tolerance, Graph& graph, std::span<const std::uint32_t> names)
       : boundary_(boundary),
         tree_(tree),
         tie_sites_{boundary.sites, &exact},
         tolerance_(tolerance),
+        names_(names),
         graph_(graph) {}
 
   void merge() {
@@ -94,7 +95,8 @@ class Merger {
 
  private:
   /// Beside arcs, the walk takes what one of its disks touches within the tolerance for one node,
-  /// from disk to disk: such a node moves to where it touches all its sites.
+  /// from disk to disk: such a node moves to where it touches all its sites, if it does not
+  /// yet. (All of an arc that its disk nearly touches it need not touch.)
   void put_right() {
     constexpr std::uint8_t several = 4;
     std::vector<std::uint8_t> degree(graph_.nodes.size());
@@ -112,9 +114,9 @@ class Merger {
       Disk& disk = graph_.nodes[node].disk;
       sort_unique(touched);
       if (ranges::all_of(touched, [&](const Touch& one) {
-            return std::abs(
-                       contact_of(one.seen_from(boundary_.sites, disk.center), disk).residual) <=
-                   tolerance_;
+            const double away =
+                std::sqrt(site::squared_distance(boundary_.sites[one.site], disk.center));
+            return std::abs(away - disk.radius) <= tolerance_;
           }))
         continue;
       TieFit fit(tie_sites_, disk);
@@ -392,12 +394,13 @@ class Merger {
     const std::size_t first = groups_.size();
     find_groups(open, nearness);
     for (std::size_t i = first; i < groups_.size(); ++i) groups_[i].contracts = fits(groups_[i]);
-    // What would turn an edge around is left for the next pair, and so may others be then.
+    // What would turn an edge around is left for the next pair, and so may others be then; what was
+    // contracted before stays.
     std::vector<std::uint32_t> backward;
     do {
       backward.clear();
       for (std::size_t i = first; i < groups_.size(); ++i)
-        if (groups_[i].contracts) find_backward(groups_[i], backward);
+        if (groups_[i].contracts) find_backward(groups_[i], first, backward);
       for (const std::uint32_t i : backward) groups_[i].contracts = false;
     } while (!backward.empty());
     std::erase_if(open, [&](std::uint32_t e) {
@@ -555,16 +558,18 @@ class Merger {
     return !tree_.nearest(disk.center, disk.radius - tolerance_, run.first, run.last);
   }
 
-  /// Adds the groups at both ends of edges that lead elsewhere and no longer lead forward when the
-  /// group's nodes have its disk.
-  void find_backward(const Group& group, std::vector<std::uint32_t>& backward) const {
+  /// Adds the groups, from the first of these on, at both ends of edges that lead elsewhere and no
+  /// longer lead forward when the group's nodes have its disk.
+  void find_backward(const Group& group, std::size_t first,
+                     std::vector<std::uint32_t>& backward) const {
     for (const std::uint32_t node : group.nodes) {
       for (const std::uint32_t end : ends_at(node)) {
-        const Group* there = group_of(other_node(end));
+        const std::uint32_t node_there = other_node(end);
+        const Group* there = group_of(node_there);
         if (there == &group || leads_forward(end / 2)) continue;
         backward.push_back(group_[place_of(node)]);
-        if (there != nullptr)
-          backward.push_back(static_cast<std::uint32_t>(there - groups_.data()));
+        if (there != nullptr && group_[place_of(node_there)] >= first)
+          backward.push_back(group_[place_of(node_there)]);
       }
     }
   }
@@ -606,7 +611,23 @@ class Merger {
       const double furthest = std::max(distance(site.point, a), distance(site.point, b));
       return cross(b - site.point, a - site.point) >= -slack * furthest;
     };
-    return moves_forward(right, from, to) && moves_forward(left, to, from);
+    return moves_forward(right, from, to) && moves_forward(left, to, from) &&
+           name_advances(edge.site[1], from, to) && name_advances(edge.site[0], to, from);
+  }
+  /// The same of the edge that the axis names in place of a vertex, which may be touched elsewhere.
+  bool name_advances(std::uint32_t i, Vec2 from, Vec2 to) const {
+    if (names_.empty() || boundary_.elements[i] != Element::vertex) return true;
+    for (const std::uint32_t beside : {i - 1, i + 1}) {
+      if (beside >= boundary_.sites.size() || boundary_.elements[beside] != Element::edge ||
+          names_[boundary_.originals[beside]] != names_[boundary_.originals[i]])
+        continue;
+      const Site& named = boundary_.sites[beside];
+      const double size =
+          std::min(site::view_of_arc(named, from).size, site::view_of_arc(named, to).size);
+      return (site::foot_parameter(named, to) - site::foot_parameter(named, from)) * size >=
+             -4 * tolerance_;
+    }
+    return true;
   }
 
   /// Takes the contracted edges and the nodes that became others out of the graph; the last ones
@@ -639,6 +660,7 @@ class Merger {
   const site::BoundaryTree& tree_;
   TieSites tie_sites_;
   double tolerance_;
+  std::span<const std::uint32_t> names_;
   Graph& graph_;
   /// Of each node of a short edge, its place among them, counted from that of the first one in its
   /// group of `together` nodes: a byte is enough, of all nodes, too.
@@ -658,13 +680,13 @@ class Merger {
 }  // namespace
 
 void merge_ties(const Boundary& boundary, const site::BoundaryTree& tree, const ExactSites& exact,
-                double tolerance, Graph& graph) {
-  Merger(boundary, tree, exact, tolerance, graph).merge();
+                double tolerance, Graph& graph, std::span<const std::uint32_t> names) {
+  Merger(boundary, tree, exact, tolerance, graph, names).merge();
 }
 
 std::vector<std::uint32_t> tie_candidates(const Boundary& boundary, const site::BoundaryTree& tree,
                                           const ExactSites& exact, double tolerance, Graph& graph) {
-  return Merger(boundary, tree, exact, tolerance, graph).candidates();
+  return Merger(boundary, tree, exact, tolerance, graph, {}).candidates();
 }
 
 }  // namespace medial::disks
