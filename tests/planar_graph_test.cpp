@@ -768,5 +768,26 @@ TEST(PlanarGraph, RoundEndsMayBeginAtTheirJoints) {
     }
 }
 
+/// Where spokes end and a bisector goes on, the enclosure passes up to rounding, so that a spoke is
+/// cut next to its end.
+TEST(PlanarGraph, SpokesMayEndAtTheEnclosure) {
+  EXPECT_EQ(fault_of(diagram_of({{{{-0.1, 0}, {-1, 0}}},
+                                 {{{5.000000000000001e-15, 8.660254037844387e-15},
+                                   {0.5000000000000001, 0.8660254037844388}}},
+                                 {{{0, 0}, {0.5000000000000006, -0.8660254037844385}}}})),
+            "");
+  EXPECT_EQ(fault_of(diagram_of({{{{-0.1, 0}, {-1, 0}}},
+                                 {{{0.025000000000000005, 0.04330127018922194},
+                                   {0.5000000000000001, 0.8660254037844389}}},
+                                 {{{0, 0}, {0.5000000000000001, -0.8660254037844386}}}})),
+            "");
+  EXPECT_EQ(
+      fault_of(diagram_of(
+          {{{{-1.5689535913490178, 3.4506525743091117}, {-1.579282574186957, 3.4677789315847716}}},
+           {{{0.9999999999999993, 2.0000000000000013}, {1.0499999999999994, 2.0000000000000013}}}},
+          Box{{-9, -9}, {9, 5}})),
+      "");
+}
+
 }  // namespace
 }  // namespace medial::test

@@ -42,10 +42,10 @@ void add_ratios(double a, double b, double c, std::vector<double>& out) {
     if (s > 0 && s < ConicEdge::last) out.push_back(s);
 }
 
-/// A parameter between two others.
+/// A parameter between two others, at neither end up to rounding unless both are there.
 double between(double s, double t) {
-  if (t == ConicEdge::last) return s > 0 ? 2 * s : 1;
-  return s > 0 ? std::sqrt(s) * std::sqrt(t) : 0.5 * t;
+  if (t == ConicEdge::last) return 1 + 2 * s;
+  return s > 0 ? std::sqrt(s) * std::sqrt(t) : t / (2 + t);
 }
 
 }  // namespace
