@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <fstream>
 #include <stdexcept>
 #include <thread>
 
@@ -155,6 +156,27 @@ TEST(Threads, AForkedProcessHasOne) {
   int status = 1;
   ASSERT_EQ(waitpid(child, &status, 0), child);
   EXPECT_EQ(status, 0);
+}
+
+/// Bytes of memory in use.
+long resident() {
+  long pages = 0, of_program = 0;
+  std::ifstream("/proc/self/statm") >> of_program >> pages;
+  return pages * sysconf(_SC_PAGESIZE);
+}
+
+TEST(Threads, ThousandsOfCallsLoseNoMemory) {
+  const auto call = [] {
+    on_threads(2, [] {
+      TaskGroup tasks;
+      tasks.run([] {});
+      tasks.wait();
+    });
+  };
+  for (int time = 0; time < 100; ++time) call();
+  const long before = resident();
+  for (int time = 0; time < 4000; ++time) call();
+  EXPECT_LT(resident() - before, 8L << 20);  // 29 MB were lost
 }
 
 }  // namespace
