@@ -599,5 +599,60 @@ TEST(DistanceTree, RunsAreChainsUnlessTheyLieInEachOthersWay) {
   }
 }
 
+TEST(DistanceTree, FindsAllThatDisksReach) {
+  test::Random random(7);
+  const Shape shapes[] = {*build_shape(test::jagged_star(300)),
+                          *build_shape(test::nested_squares(80)), *build_shape(test::blob(500))};
+  for (const Shape& shape : shapes) {
+    const Box box = bounding_box(shape);
+    const double size = diagonal(box);
+    const verify_detail::DistanceTree tree(shape);
+    int found = 0;
+    for (int i = 0; i < 1000; ++i) {
+      verify_detail::DiskHull hull;
+      const double spread = random.power_of_ten(-4, -1) * size;
+      const Vec2 at{random.between(box.low.x, box.high.x), random.between(box.low.y, box.high.y)};
+      for (Disk& disk : hull)
+        disk = {at + spread * Vec2{random.between(-1, 1), random.between(-1, 1)},
+                random.power_of_ten(-4, -1) * spread};
+      verify_detail::NearEdges near;
+      if (!tree.find_near(hull, 0, near)) continue;
+      ++found;
+      std::vector<bool> is_near(shape.points.size(), false);
+      for (std::size_t k = 0; k < near.size; ++k) is_near[tree.index_at(near.place[k])] = true;
+      for (int k = 0; k <= 20; ++k) {
+        const double t = k / 20.0, s = 1 - t, a = s * s, b = 2 * s * t, c = t * t;
+        const Vec2 centre = a * hull[0].center + b * hull[1].center + c * hull[2].center;
+        const double radius = a * hull[0].radius + b * hull[1].radius + c * hull[2].radius;
+        for (std::size_t loop = 0; loop < shape.loop_count(); ++loop) {
+          const auto points = shape.loop(loop);
+          for (std::size_t j = 0; j < points.size(); ++j)
+            EXPECT_TRUE(is_near[shape.loop_begin[loop] + j] ||
+                        verify_detail::distance_to_segment(
+                            centre, points[j], points[(j + 1) % points.size()]) > radius);
+        }
+      }
+    }
+    EXPECT_GT(found, 800);
+    verify_detail::NearEdges near;
+    EXPECT_FALSE(tree.find_near({Disk{{0, 0}, 1}, {{1e200, 0}, 1e300}, {{0, 0}, 1}}, 0, near));
+  }
+}
+
+TEST(DistanceTree, SettlesWhatDisksOfNeedlesReach) {
+  for (const auto& rings : {test::jagged_star(2000), test::nested_squares(500)}) {
+    const Shape shape = *build_shape(rings);
+    const MedialAxis axis = *compute(shape);
+    const verify_detail::DistanceTree tree(shape);
+    std::size_t settled = 0;
+    for (const Edge& edge : axis.edges) {
+      const Disk &from = axis.nodes[edge.node[0]].disk, &to = axis.nodes[edge.node[1]].disk;
+      verify_detail::NearEdges near;
+      if (tree.find_near({from, edge.control, to}, axis.tolerance, near)) ++settled;
+    }
+    EXPECT_GE(1000 * settled, 999 * axis.edges.size());
+  }
+}
+
 }  // namespace
 }  // namespace medial

@@ -345,12 +345,14 @@ bool DistanceTree::search(Vec2 p, double& best) const {
 /// that other edges may be near to: they are looked at from its centre.
 class DistanceTree::Hull {
  public:
-  Hull(const DiskHull& disks, double slack)
-      : center_(disks[disks[0].radius > disks[2].radius ? 0 : 2].center) {
+  Hull(const DiskHull& disks, double slack) {
+    const std::size_t larger = disks[0].radius > disks[2].radius ? 0 : 2;
+    center_ = disks[larger].center;
     double reach = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      const Vec2 to = disks[i].center - center_;
-      const double radius = (1 + 8 * machine_epsilon) * (disks[i].radius + slack);
+      const Disk& disk = disks[i == 0 ? larger : i == 1 ? 1 : 2 - larger];
+      const Vec2 to = disk.center - center_;
+      const double radius = (1 + 8 * machine_epsilon) * (disk.radius + slack);
       corner_[i] = {both(to.x), both(to.y), both(radius), both(radius * radius)};
       reach = std::max(reach, norm(to) + radius);
     }
@@ -360,27 +362,40 @@ class DistanceTree::Hull {
   }
 
   Vec2 center() const { return center_; }
-  /// The square of the radius of a disk around the centre that holds all of them.
-  double limit() const { return limit_; }
+  /// Whether all of them lie in a disk whose size is a number.
+  bool is_bounded() const { return limit_ < std::numeric_limits<double>::max(); }
 
-  /// Whether no disk reaches a set in a box: all of it lies behind the line through the place of
-  /// the box nearest to the centre that is perpendicular to the way there, or behind the longer
-  /// side of the box that faces the centre.
-  bool misses_box(const Bounds& bounds, std::size_t set, Vec2 origin) const {
-    const Vec2 normal{bounds.normal_x[set], bounds.normal_y[set]}, along{normal.y, -normal.x};
-    const auto nearest = [](double low, double high, double at) {
-      return std::min(std::max(low - at, 0.0), high - at);
-    };
-    const Vec2 q = center_ - origin;
-    const double a = nearest(bounds.low_along[set], bounds.high_along[set], dot(along, q));
-    const double b = nearest(bounds.low_across[set], bounds.high_across[set], dot(normal, q));
-    const auto behind = [&](Vec2 to, double square) {
-      return std::all_of(corner_.begin(), corner_.end(), [&](const Corner& corner) {
-        const double ahead = square - (to.x * corner.x[0] + to.y * corner.y[0]);
-        return ahead > 0 && ahead * ahead > corner.square[0] * square;
-      });
-    };
-    return behind(a * along + b * normal, a * a + b * b) || (a != 0 && behind(b * normal, b * b));
+  /// Whether disks may reach two sets in their boxes. They do not if the box is out of reach from
+  /// the centre, or all disks lie on one side of it, or behind the line through the place of the
+  /// box nearest to the centre that is perpendicular to the way there.
+  Pairwise reaches(const Bounds& bounds, std::size_t set, Vec2 origin) const {
+    const Pair normal_x = pair_at(bounds.normal_x + set), normal_y = pair_at(bounds.normal_y + set);
+    const Pair x = both(center_.x - origin.x), y = both(center_.y - origin.y);
+    const Pair from_along = normal_y * x - normal_x * y, from_across = normal_x * x + normal_y * y;
+    const Pair low_along = pair_at(bounds.low_along + set) - from_along;
+    const Pair high_along = pair_at(bounds.high_along + set) - from_along;
+    const Pair low_across = pair_at(bounds.low_across + set) - from_across;
+    const Pair high_across = pair_at(bounds.high_across + set) - from_across;
+    const Pair along = smaller(larger(low_along, both(0)), high_along);
+    const Pair across = smaller(larger(low_across, both(0)), high_across);
+    const Pair square = along * along + across * across;
+    const Pairwise reached = square <= both(limit_);
+    if (!any(reached & (square > 0))) return reached;
+    Pair last_along = corner_[0].radius, last_across = last_along;
+    Pair first_along = -last_along, first_across = first_along;
+    Pairwise ahead = square <= corner_[0].square;
+    for (const auto& [at_x, at_y, radius, radius_2] : std::span(corner_).last<2>()) {
+      const Pair at_along = normal_y * at_x - normal_x * at_y;
+      const Pair at_across = normal_x * at_x + normal_y * at_y;
+      first_along = smaller(first_along, at_along - radius);
+      last_along = larger(last_along, at_along + radius);
+      first_across = smaller(first_across, at_across - radius);
+      last_across = larger(last_across, at_across + radius);
+      const Pair away = larger(square - (along * at_along + across * at_across), both(0));
+      ahead |= away * away <= radius_2 * square;
+    }
+    return reached & ahead & (first_along <= high_along) & (last_along >= low_along) &
+           (first_across <= high_across) & (last_across >= low_across);
   }
 
   /// Whether no disk reaches two edges of a run. Of an edge, all but the height of an arc lies
@@ -428,7 +443,7 @@ class DistanceTree::Hull {
     Pair x, y;  ///< from the centre
     Pair radius, square;
   };
-  std::array<Corner, 3> corner_;
+  std::array<Corner, 3> corner_;  ///< the centre's first
 };
 
 /// Lowers the distances of places to those from an edge.
@@ -482,19 +497,18 @@ MEDIAL_WIDE bool DistanceTree::find_near(const DiskHull& disks, double tolerance
   std::size_t size = 0;
   if (levels_.empty())
     for (std::uint32_t run = 0; run < runs_.size(); ++run) add_near(hull, run, near);
-  else
+  else if (hull.is_bounded())
     stack[size++] = {static_cast<std::uint32_t>(levels_.size() - 1), 0};
+  else
+    return false;
   for (int visits = 0; size > 0; ++visits) {
     if (visits == most_visits || near.size == near.most) return false;
     const Set set = stack[--size];
     const Bounds& bounds = levels_[set.level][set.index];
-    double squared[fan_out];
-    squared_bounds(bounds, hull.center() - origin_, squared);
+    const std::array<Pairwise, 2> reached{hull.reaches(bounds, 0, origin_),
+                                          hull.reaches(bounds, 2, origin_)};
     for (std::uint32_t j = 0; j < fan_out; ++j) {
-      if (!(squared[j] <= hull.limit())) continue;
-      // What is longer is reached nearly always.
-      const double length = bounds.high_along[j] - bounds.low_along[j];
-      if (4 * length * length < hull.limit() && hull.misses_box(bounds, j, origin_)) continue;
+      if (reached[j / 2][j % 2] == 0) continue;
       const auto child = static_cast<std::uint32_t>(set.index * fan_out) + j;
       if (set.level > 0)
         stack[size++] = {set.level - 1, child};
