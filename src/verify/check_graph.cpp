@@ -428,6 +428,17 @@ std::uint32_t joint_of_sites(const Problem& problem, const Edge& edge) {
   return problem.next[a] == b ? b : problem.next[b] == a ? a : no_index;
 }
 
+void report_raised(const Problem& problem, const Offences& raised,
+                   std::vector<std::string>& failures) {
+  if (raised.count == 0) return;
+  const Disk& disk = problem.disk(static_cast<std::uint32_t>(raised.first));
+  failures.push_back(
+      sentence("%zu leaves have a radius above 0 and are at no arc of largest curvature; the "
+               "first is node "
+               "%zu at (%.17g, %.17g), r = %.17g.",
+               raised.count, raised.first, disk.center.x, disk.center.y, disk.radius));
+}
+
 Corner corner_at(const Problem& problem, std::uint32_t i) {
   return {problem.point(i), problem.component[i]};
 }
@@ -488,14 +499,7 @@ void check_leaves(const Problem& problem, Certificate& certificate) {
   if (!extra.empty())
     failures.push_back(sentence("%zu leaves are not convex corners; the first is (%.17g, %.17g).",
                                 extra.size(), extra[0].point.x, extra[0].point.y));
-  if (raised.count > 0) {
-    const Disk& disk = problem.disk(static_cast<std::uint32_t>(raised.first));
-    failures.push_back(
-        sentence("%zu leaves have a radius above 0 and are at no arc of largest curvature; the "
-                 "first is node "
-                 "%zu at (%.17g, %.17g), r = %.17g.",
-                 raised.count, raised.first, disk.center.x, disk.center.y, disk.radius));
-  }
+  report_raised(problem, raised, failures);
 }
 
 /// Which boundary points disks touch. A reflex vertex is touched by the disks of its own edges; or,
