@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "axis/curve.h"
 #include "base/numbers.h"
@@ -77,54 +79,75 @@ namespace {
 
 using Trail = std::vector<GrooveStep>;
 
+/// Trails in order, by their ends.
+struct TrailEnds {
+  Vec2 first, last;
+  double gap;  ///< the square of the way to the next one
+  std::uint32_t trail;
+  bool turned;
+};
+
+/// Turns a run of trails around.
+void turn(std::span<TrailEnds> order, std::size_t i, std::size_t j) {
+  std::reverse(order.begin() + static_cast<std::ptrdiff_t>(i),
+               order.begin() + static_cast<std::ptrdiff_t>(j) + 1);
+  for (std::size_t k = i; k <= j; ++k) {
+    std::swap(order[k].first, order[k].last);
+    order[k].turned = !order[k].turned;
+  }
+  for (std::size_t k = i == 0 ? 0 : i - 1; k <= j && k + 1 < order.size(); ++k)
+    order[k].gap = squared_norm(order[k + 1].first - order[k].last);
+}
+
 /// Shortens the ways between trails: turns runs of up to `window` trails around where that helps
 /// (2-opt), a few times over.
 void shorten_ways(const Grooves& grooves, Vec2 start, std::vector<Trail>& trails) {
   constexpr std::size_t window = 150;
   constexpr int passes = 4;
-  struct Ends {
-    Vec2 first, last;
-    std::uint32_t trail;
-    bool turned;
-  };
   const auto place = [&](const GrooveStep& step, bool at_end) {
     const auto& disks = grooves.parts[step.part].disks;
     return (step.forward == at_end ? disks.back() : disks.front()).center;
   };
-  std::vector<Ends> order;
-  for (std::uint32_t i = 0; i < trails.size(); ++i)
-    order.push_back({place(trails[i].front(), false), place(trails[i].back(), true), i, false});
-  for (int pass = 0; pass < passes; ++pass) {
-    bool changed = false;
+  std::vector<TrailEnds> order;
+  for (std::uint32_t i = 0; i < trails.size(); ++i) {
+    order.push_back({place(trails[i].front(), false), place(trails[i].back(), true), 0, i, false});
+    if (i > 0) order[i - 1].gap = squared_norm(order[i].first - order[i - 1].last);
+  }
+  std::vector<bool> changed(order.size(), true), changes;
+  for (int pass = 0; pass < passes && !order.empty(); ++pass) {
+    changes.assign(order.size(), false);
+    // What turns run i to j depends on those from i - 1 to j + 1. The next one that has changed
+    // since i was looked at last, and where those end that have changed now.
+    std::size_t next = 0, end = 0;
     for (std::size_t i = 0; i < order.size(); ++i) {
+      while (next < order.size() && (next + 1 < i || !changed[next])) ++next;
+      if (end + 1 <= i && next > i + window) continue;
       const Vec2 before = i == 0 ? start : order[i - 1].last;
       double way = squared_norm(order[i].first - before);
       for (std::size_t j = i; j < std::min(order.size(), i + window); ++j) {
         // A turn that shortens neither of its two ways gains nothing.
         if (squared_norm(order[j].last - before) >= way &&
-            (j + 1 == order.size() || squared_norm(order[j + 1].first - order[i].first) >=
-                                          squared_norm(order[j + 1].first - order[j].last)))
+            (j + 1 == order.size() ||
+             squared_norm(order[j + 1].first - order[i].first) >= order[j].gap))
           continue;
         double gain = distance(before, order[i].first) - distance(before, order[j].last);
         if (j + 1 < order.size())
           gain += distance(order[j].last, order[j + 1].first) -
                   distance(order[i].first, order[j + 1].first);
         if (!(gain > 1e-9 * distance(before, order[i].first))) continue;
-        std::reverse(order.begin() + static_cast<std::ptrdiff_t>(i),
-                     order.begin() + static_cast<std::ptrdiff_t>(j) + 1);
-        for (std::size_t k = i; k <= j; ++k) {
-          std::swap(order[k].first, order[k].last);
-          order[k].turned = !order[k].turned;
-        }
+        turn(order, i, j);
+        std::fill(changes.begin() + static_cast<std::ptrdiff_t>(i),
+                  changes.begin() + static_cast<std::ptrdiff_t>(j) + 1, true);
+        end = std::max(end, j + 1);
         way = squared_norm(order[i].first - before);
-        changed = true;
       }
     }
-    if (!changed) break;
+    if (end == 0) break;
+    changed.swap(changes);
   }
   std::vector<Trail> out;
   out.reserve(trails.size());
-  for (const Ends& ends : order) {
+  for (const TrailEnds& ends : order) {
     Trail& trail = out.emplace_back(std::move(trails[ends.trail]));
     if (!ends.turned) continue;
     std::reverse(trail.begin(), trail.end());
