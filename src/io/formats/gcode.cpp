@@ -3,6 +3,8 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <initializer_list>
 #include <string_view>
@@ -29,18 +31,26 @@ double millionths(double value) {
 /// A number without useless digits: "12.5", "-0.25", "0".
 std::string decimal(double value) {
   constexpr double exact = 0x1p52;
+  constexpr std::uint64_t million = 1'000'000;
   const double whole = millionths(value);
-  std::string text;
-  if (std::abs(whole) < exact) {
-    const auto size = static_cast<std::uint64_t>(std::abs(whole));
-    text = fmt::format(FMT_COMPILE("{}.{:06}"), size / 1'000'000, size % 1'000'000);
-    if (whole < 0) text.insert(text.begin(), '-');
-  } else {
-    text = fmt::format(FMT_COMPILE("{:.6f}"), value);
+  if (!(std::abs(whole) < exact)) {
+    std::string text = fmt::format(FMT_COMPILE("{:.6f}"), value);
+    while (text.back() == '0') text.pop_back();
+    if (text.back() == '.') text.pop_back();
+    return text;
   }
-  while (text.back() == '0') text.pop_back();
-  if (text.back() == '.') text.pop_back();
-  return text;
+  std::array<char, 32> text;
+  char* end = text.data();
+  if (whole < 0) *end++ = '-';
+  const auto size = static_cast<std::uint64_t>(std::abs(whole));
+  end = std::to_chars(end, text.data() + text.size(), size / million).ptr;
+  if (std::uint64_t rest = size % million; rest != 0) {
+    *end = '.';
+    for (int k = 6; k > 0; --k, rest /= 10) end[k] = static_cast<char>('0' + rest % 10);
+    end += 7;
+    while (end[-1] == '0') --end;
+  }
+  return {text.data(), end};
 }
 
 /// A place as it is written.
