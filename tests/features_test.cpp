@@ -4,13 +4,19 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "medial/compute.h"
 #include "medial/prune.h"
 #include "medial/query.h"
+#include "ops/burn.h"
 #include "support/computed.h"
 #include "support/random_shapes.h"
 
@@ -515,6 +521,53 @@ TEST(Features, KeepUnderSymmetries) {
     }
   }
   EXPECT_GT(checked, 0U);
+}
+
+/// The grassfire, arrival after arrival: two fires that run towards each other meet.
+std::vector<std::array<double, 2>> simulated_fire(const MedialAxis& axis,
+                                                  const std::vector<ops::Fuse>& fuses) {
+  std::vector<std::array<double, 2>> start(fuses.size(), {ops::not_burnt, ops::not_burnt});
+  std::vector<std::vector<std::uint32_t>> unburnt(axis.nodes.size());
+  for (std::uint32_t i = 0; i < 2 * fuses.size(); ++i)
+    unburnt[fuses[i / 2].node[i % 2]].push_back(i);
+  std::set<std::pair<double, std::uint32_t>> arrivals;
+  const auto ignite = [&](std::uint32_t node, double time) {
+    if (unburnt[node].size() != 1) return;
+    const std::uint32_t end = unburnt[node][0];
+    start[end / 2][end % 2] = time;
+    arrivals.insert({time + fuses[end / 2].length, end ^ 1U});
+  };
+  for (std::uint32_t node = 0; node < axis.nodes.size(); ++node)
+    ignite(node, axis.nodes[node].disk.radius);
+  while (!arrivals.empty()) {
+    const auto [time, end] = *arrivals.begin();
+    arrivals.erase(arrivals.begin());
+    if (start[end / 2][end % 2] < ops::not_burnt) continue;
+    const std::uint32_t node = fuses[end / 2].node[end % 2];
+    std::erase(unburnt[node], end);
+    ignite(node, time);
+  }
+  return start;
+}
+
+TEST(Burn, IsWhatASimulationOfTheFireSays) {
+  test::Random random(11);
+  for (int round = 0; round < 3000; ++round) {
+    MedialAxis axis;
+    std::vector<ops::Fuse> fuses;
+    const std::int64_t count = random.integer(1, 30);
+    for (std::int64_t i = 0; i < count; ++i) {
+      axis.nodes.emplace_back().disk.radius = static_cast<double>(random.integer(0, 9));
+      // Trees, some with cycles or in parts; equal lengths in half of them.
+      const auto other = [&] { return static_cast<std::uint32_t>(random.integer(0, i)); };
+      const double length =
+          round % 2 == 0 ? static_cast<double>(random.integer(1, 5)) : random.between(0.1, 5);
+      if (i > 0 && !random.chance(0.05))
+        fuses.push_back({{static_cast<std::uint32_t>(i), std::min(other(), other())}, length});
+      if (random.chance(0.03)) fuses.push_back({{other(), other()}, length});
+    }
+    EXPECT_EQ(ops::burn(axis, fuses), simulated_fire(axis, fuses)) << round;
+  }
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <string>
 
+#include "base/compat.h"
+#include "io/output.h"
 #include "medial/io/write.h"
 #include "medial/query.h"
 
@@ -97,6 +99,20 @@ TEST(TextFormats, WhatNeedsAnotherLibraryIsRefused) {
   const auto read = read_document_text("this is no format");
   ASSERT_FALSE(read);
   EXPECT_EQ(read.error().code, ErrorCode::unsupported);
+}
+
+TEST(OutputStream, PutsTheShortestDigitsOfQuartersToo) {
+  std::string text, expected;
+  OutputStream out = OutputStream::to(text);
+  const auto put = [&](double value) {
+    out.put(value);
+    out.put('\n');
+    expected += shortest_text(value) + '\n';
+  };
+  for (int eighths = -900'000; eighths <= 900'000; ++eighths) put(eighths / 8.0);
+  for (const double value : {-0.0, 99'999.75, 1e5, -1e5, 1e5 + 0.25, 0.1, 1e-300}) put(value);
+  EXPECT_TRUE(out.finish());
+  EXPECT_EQ(text, expected);
 }
 
 }  // namespace

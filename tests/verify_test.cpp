@@ -12,6 +12,7 @@
 #include "support/generate.h"
 #include "support/hand_made.h"
 #include "support/property.h"
+#include "verify/between_feet.h"
 #include "verify/distance_tree.h"
 #include "verify/piece_order.h"
 
@@ -597,6 +598,137 @@ TEST(DistanceTree, RunsAreChainsUnlessTheyLieInEachOthersWay) {
       }
     }
   }
+}
+
+/// Disks near each other in a shape, at random.
+verify_detail::DiskHull random_hull(test::Random& random, const Box& box) {
+  verify_detail::DiskHull hull;
+  const double spread = random.power_of_ten(-4, -1) * diagonal(box);
+  const Vec2 at{random.between(box.low.x, box.high.x), random.between(box.low.y, box.high.y)};
+  for (Disk& disk : hull)
+    disk = {at + spread * Vec2{random.between(-1, 1), random.between(-1, 1)},
+            random.power_of_ten(-4, -0.3) * spread};
+  return hull;
+}
+
+/// Calls `visit` with disks of a hull and an edge over which each reaches, by its number, and the
+/// place of the edge nearest to the disk's centre.
+template <class Visit>
+void for_each_reached(const Shape& shape, const verify_detail::DiskHull& hull, const Visit& visit) {
+  for (int k = 0; k <= 20; ++k) {
+    const double t = k / 20.0, s = 1 - t, a = s * s, b = 2 * s * t, c = t * t;
+    const Disk disk{a * hull[0].center + b * hull[1].center + c * hull[2].center,
+                    a * hull[0].radius + b * hull[1].radius + c * hull[2].radius};
+    for (std::size_t loop = 0; loop < shape.loop_count(); ++loop) {
+      const auto points = shape.loop(loop);
+      for (std::size_t j = 0; j < points.size(); ++j) {
+        const verify_detail::BoundaryEdge edge{points[j], points[(j + 1) % points.size()], 0};
+        const Vec2 place = verify_detail::point_at(edge, verify_detail::foot_at(edge, disk.center));
+        if (distance(place, disk.center) < disk.radius)
+          visit(disk, shape.loop_begin[loop] + j, place);
+      }
+    }
+  }
+}
+
+TEST(BetweenFeet, DisksReachDeeperThanThoseAtTheEndsThereOnly) {
+  test::Random random(3);
+  const auto at_random = [&] { return Vec2{random.between(-1, 1), random.between(-1, 1)}; };
+  int missed = 0, deeper = 0;
+  for (int i = 0; i < 100000; ++i) {
+    verify_detail::DiskHull hull;
+    for (Disk& disk : hull) disk = {at_random(), random.between(0, 2)};
+    const Vec2 place = at_random();
+    const auto reach = [&](const Disk& disk) { return disk.radius - distance(disk.center, place); };
+    double most = reach(hull[0]);
+    for (int k = 0; k <= 50; ++k) {
+      const double t = k / 50.0, a = (1 - t) * (1 - t), b = 2 * t * (1 - t), c = t * t;
+      most = std::max(most, reach({a * hull[0].center + b * hull[1].center + c * hull[2].center,
+                                   a * hull[0].radius + b * hull[1].radius + c * hull[2].radius}));
+    }
+    const bool is_deeper = most > 1e-13 + std::max(reach(hull[0]), reach(hull[2]));
+    verify_detail::Bounds bounds{};
+    bounds.set(i % 4, {0, 1}, {place, place});
+    const bool misses = verify_detail::BetweenFeet(hull, {0, 0}, 1e-15).misses(bounds, i % 4);
+    EXPECT_FALSE(misses && is_deeper);
+    missed += misses ? 1 : 0;
+    deeper += is_deeper ? 1 : 0;
+  }
+  EXPECT_GT(missed, 30000);
+  EXPECT_GT(deeper, 10000);
+}
+
+TEST(DistanceTree, FindsAllThatDisksReach) {
+  test::Random random(7);
+  const Shape shapes[] = {*build_shape(test::jagged_star(300)),
+                          *build_shape(test::nested_squares(80)), *build_shape(test::blob(500)),
+                          *build_shape(test::regular_polygon(500))};
+  int passed_over = 0;
+  for (const Shape& shape : shapes) {
+    const verify_detail::DistanceTree tree(shape);
+    int found = 0, found_between = 0;
+    for (int i = 0; i < 1000; ++i) {
+      const verify_detail::DiskHull hull = random_hull(random, bounding_box(shape));
+      const auto reach = [](const Disk& disk, Vec2 place) {
+        return disk.radius - distance(disk.center, place);
+      };
+      const auto is_near = [&](const verify_detail::NearEdges& near, std::size_t edge) {
+        for (std::size_t k = 0; k < near.size; ++k)
+          if (tree.index_at(near.place[k]) == edge) return true;
+        return false;
+      };
+      verify_detail::NearEdges near, between;
+      const bool all = tree.find_near(hull, 0, near);
+      const bool deeper = tree.find_near_between_feet(hull, 0, between);
+      found += all ? 1 : 0;
+      found_between += deeper ? 1 : 0;
+      for_each_reached(shape, hull, [&](const Disk& disk, std::size_t edge, Vec2 place) {
+        EXPECT_TRUE(!all || is_near(near, edge));
+        if (!deeper || is_near(between, edge)) return;
+        ++passed_over;
+        EXPECT_LE(reach(disk, place),
+                  1e-13 + std::max(reach(hull[0], place), reach(hull[2], place)));
+      });
+    }
+    EXPECT_GT(found, 800);
+    EXPECT_GE(found_between, found);
+    verify_detail::NearEdges near;
+    EXPECT_FALSE(tree.find_near({Disk{{0, 0}, 1}, {{1e200, 0}, 1e300}, {{0, 0}, 1}}, 0, near));
+  }
+  EXPECT_GT(passed_over, 0);
+}
+
+TEST(DistanceTree, SettlesWhatDisksOfNeedlesReach) {
+  for (const auto& rings : {test::jagged_star(2000), test::nested_squares(500)}) {
+    const Shape shape = *build_shape(rings);
+    const MedialAxis axis = *compute(shape);
+    const verify_detail::DistanceTree tree(shape);
+    std::size_t settled = 0;
+    for (const Edge& edge : axis.edges) {
+      const Disk &from = axis.nodes[edge.node[0]].disk, &to = axis.nodes[edge.node[1]].disk;
+      verify_detail::NearEdges near;
+      if (tree.find_near({from, edge.control, to}, axis.tolerance, near)) ++settled;
+    }
+    EXPECT_GE(1000 * settled, 999 * axis.edges.size());
+  }
+}
+
+TEST(VerifyFinds, DamageNextToADiskThatAllEdgesTouch) {
+  const Shape shape = *build_shape(test::regular_polygon(1000));
+  const MedialAxis axis = *compute(shape);
+  EXPECT_TRUE(verify(shape, axis).passed);
+  const auto fails = [&](const auto& damage) {
+    MedialAxis damaged = axis;
+    damage(damaged);
+    return !verify(shape, damaged).passed;
+  };
+  const std::size_t some = axis.edges.size() / 3;
+  EXPECT_TRUE(fails([&](MedialAxis& of) { of.edges[some].control.radius += 1e-12; }));
+  EXPECT_TRUE(fails([&](MedialAxis& of) { of.edges[some].control.center.x += 1e-9; }));
+  EXPECT_TRUE(fails([&](MedialAxis& of) {
+    for (Node& node : of.nodes)
+      if (node.disk.radius > 0.5) node.disk.radius += 1e-12;
+  }));
 }
 
 }  // namespace

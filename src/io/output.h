@@ -2,6 +2,7 @@
 
 #include <signal.h>
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -80,6 +81,12 @@ class OutputStream {
   /// finish() fails.
   void put(double value) {
     finite_ = finite_ && std::isfinite(value);
+    // Quarters, as pixels and many drawings have: their digits are at hand. Longer ones may be
+    // shorter with an exponent.
+    if (const double quarters = 4 * value; std::abs(value) < 1e5 &&
+                                           quarters == std::trunc(quarters) &&
+                                           (value != 0 || !std::signbit(value)))
+      return put_quarters(static_cast<int>(quarters));
 #ifdef __cpp_lib_to_chars
     put_chars(value);
 #else
@@ -104,6 +111,13 @@ class OutputStream {
     char* const end = buffer_.data() + buffer_.size();
     used_ = static_cast<std::size_t>(std::to_chars(buffer_.data() + used_, end, value).ptr -
                                      buffer_.data());
+  }
+  void put_quarters(int quarters) {
+    if (quarters < 0) put('-');
+    const unsigned size = static_cast<unsigned>(quarters < 0 ? -quarters : quarters);
+    put_chars(size / 4);
+    constexpr std::array<std::string_view, 4> rest{"", ".25", ".5", ".75"};
+    if (size % 4 != 0) put(rest[size % 4]);
   }
   void flush();
   void write(const char* data, std::size_t count);

@@ -1,6 +1,7 @@
 #include "ops/burn.h"
 
-#include <queue>
+#include <algorithm>
+#include <utility>
 
 namespace medial::ops {
 
@@ -15,37 +16,49 @@ std::vector<std::array<double, 2>> burn(const MedialAxis& axis, std::span<const 
   for (std::uint32_t i = 0; i < fuses.size(); ++i)
     for (std::uint32_t side = 0; side < 2; ++side) ends[next[fuses[i].node[side]]++] = 2 * i + side;
 
-  std::vector<std::uint32_t> unburnt(axis.nodes.size());
-  for (std::size_t i = 0; i < unburnt.size(); ++i) unburnt[i] = begin[i + 1] - begin[i];
+  // When the fire arrives at each end from the other one: that branch burns once all others there
+  // have. From where the fire does not go, because it comes from the other end sooner, it would
+  // arrive later than from everywhere else, so that this changes nothing.
+  std::vector<double> arrival(ends.size(), not_burnt);
+  std::vector<std::uint32_t> known(axis.nodes.size(), 0), ready;
+  std::vector<bool> sent(ends.size(), false);
+  const auto earlier = [&](std::uint32_t a, std::uint32_t b) {
+    return arrival[a] != arrival[b] ? arrival[a] < arrival[b] : a < b;
+  };
+  // The last end at which the fire arrives at a node, and when it has at all others.
+  const auto last_of = [&](std::uint32_t node) {
+    std::uint32_t last = ends[begin[node]];
+    double others = begin[node + 1] - begin[node] == 1 ? axis.nodes[node].disk.radius : 0;
+    for (std::uint32_t k = begin[node] + 1; k < begin[node + 1]; ++k) {
+      const std::uint32_t first = std::min(last, ends[k], earlier);
+      last = first == last ? ends[k] : last;
+      others = std::max(others, arrival[first]);
+    }
+    return std::pair{last, others};
+  };
+  const auto send = [&](std::uint32_t end, double time) {
+    if (sent[end]) return;
+    sent[end] = true;
+    arrival[end ^ 1U] = time + fuses[end / 2].length;
+    const std::uint32_t node = fuses[end / 2].node[(end ^ 1U) % 2];
+    if (++known[node] + 1 >= begin[node + 1] - begin[node]) ready.push_back(node);
+  };
+  for (std::uint32_t i = 0; i < axis.nodes.size(); ++i)
+    if (begin[i + 1] - begin[i] == 1) ready.push_back(i);
+  while (!ready.empty()) {
+    const std::uint32_t node = ready.back();
+    ready.pop_back();
+    const auto [last, others] = last_of(node);
+    send(last, others);
+    if (known[node] == begin[node + 1] - begin[node])
+      for (std::uint32_t k = begin[node]; k < begin[node + 1]; ++k) send(ends[k], arrival[last]);
+  }
   std::vector<std::array<double, 2>> start(fuses.size(), {not_burnt, not_burnt});
-  std::vector<bool> burnt(ends.size(), false);  // the fire has arrived at this end
-
-  struct Arrival {
-    double time;
-    std::uint32_t end;
-    bool operator<(const Arrival& other) const {
-      return time != other.time ? time > other.time : end > other.end;
-    }
-  };
-  std::priority_queue<Arrival> queue;
-  const auto ignite = [&](std::uint32_t node, double time) {
-    for (std::uint32_t k = begin[node]; k < begin[node + 1]; ++k) {
-      const std::uint32_t end = ends[k];
-      if (burnt[end]) continue;
-      start[end / 2][end % 2] = time;
-      queue.push({time + fuses[end / 2].length, end ^ 1U});
-    }
-  };
-  for (std::uint32_t node = 0; node < unburnt.size(); ++node)
-    if (unburnt[node] == 1) ignite(node, axis.nodes[node].disk.radius);
-  while (!queue.empty()) {
-    const auto [time, end] = queue.top();
-    queue.pop();
-    // Two fires that run towards each other meet inside the branch.
-    if (start[end / 2][end % 2] < not_burnt) continue;
-    burnt[end] = true;
-    const std::uint32_t node = fuses[end / 2].node[end % 2];
-    if (--unburnt[node] == 1) ignite(node, time);
+  for (std::uint32_t i = 0; i < axis.nodes.size(); ++i) {
+    const std::uint32_t count = begin[i + 1] - begin[i];
+    if (count == 0 || known[i] + 1 < count) continue;
+    const auto [last, others] = last_of(i);
+    start[last / 2][last % 2] = others;
   }
   return start;
 }

@@ -23,7 +23,7 @@ constexpr double not_burnt = std::numeric_limits<double>::infinity();
 /// When each branch starts to burn at its two ends. At a node of one branch the fire starts at the
 /// time of the radius there; it goes along branches at speed 1; at a node of several it waits until
 /// all but one have burnt, and goes on into that one. Infinite at ends that it does not start
-/// from: where it arrives, and on cycles and between them. O(n log n).
+/// from: where it arrives, and on cycles and between them. O(n).
 std::vector<std::array<double, 2>> burn(const MedialAxis& axis, std::span<const Fuse> fuses);
 
 }  // namespace medial::ops

@@ -4,11 +4,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "axis/curve.h"
 #include "base/numbers.h"
 #include "base/open_boxes.h"
+#include "base/pair.h"
 #include "medial/geometry.h"
 
 namespace medial::ops {
@@ -77,56 +80,130 @@ namespace {
 
 using Trail = std::vector<GrooveStep>;
 
+/// Trails in order, by their ends, each coordinate side by side. Behind the last one is a place to
+/// which no way leads.
+class TrailOrder {
+ public:
+  explicit TrailOrder(std::size_t count)
+      : first_x_(count + 1),
+        first_y_(count + 1),
+        last_x_(count + 1),
+        last_y_(count + 1),
+        gap_(count + 1, -1),
+        trail_(count),
+        turned_(count, false) {}
+
+  std::size_t size() const { return trail_.size(); }
+  Vec2 first(std::size_t i) const { return {first_x_[i], first_y_[i]}; }
+  Vec2 last(std::size_t i) const { return {last_x_[i], last_y_[i]}; }
+  std::uint32_t trail(std::size_t i) const { return trail_[i]; }
+  bool turned(std::size_t i) const { return turned_[i] != 0; }
+
+  void set(std::uint32_t i, Vec2 first, Vec2 last) {
+    std::tie(first_x_[i], first_y_[i]) = std::tie(first.x, first.y);
+    std::tie(last_x_[i], last_y_[i]) = std::tie(last.x, last.y);
+    trail_[i] = i;
+    if (i > 0) set_gap(i - 1);
+  }
+  /// Turns a run of trails around.
+  void turn(std::size_t from, std::size_t to) {
+    for (auto* const values : {&first_x_, &first_y_, &last_x_, &last_y_})
+      reverse(*values, from, to);
+    reverse(trail_, from, to);
+    reverse(turned_, from, to);
+    const auto swap = [&](std::vector<double>& a, std::vector<double>& b) {
+      std::swap_ranges(a.begin() + offset(from), a.begin() + offset(to) + 1,
+                       b.begin() + offset(from));
+    };
+    swap(first_x_, last_x_);
+    swap(first_y_, last_y_);
+    for (std::size_t k = from; k <= to; ++k) turned_[k] ^= 1;
+    for (std::size_t k = from == 0 ? 0 : from - 1; k <= to && k + 1 < size(); ++k) set_gap(k);
+  }
+  /// The first j from `from` to before `end` for which turning `begin` to j shortens one of its two
+  /// ways, of which the first leads from `before` and has the square `way`; or `end`.
+  std::size_t find_shorter(std::size_t begin, Vec2 before, double way, std::size_t from,
+                           std::size_t end) const {
+    const Vec2 start = first(begin);
+    for (; from + 1 < end; from += 2) {
+      const Pair x = pair_at(&last_x_[from]) - before.x, y = pair_at(&last_y_[from]) - before.y;
+      const Pair u = pair_at(&first_x_[from + 1]) - start.x;
+      const Pair v = pair_at(&first_y_[from + 1]) - start.y;
+      if (!all((x * x + y * y >= both(way)) & (u * u + v * v >= pair_at(&gap_[from])))) break;
+    }
+    for (; from < end; ++from)
+      if (squared_norm(last(from) - before) < way ||
+          squared_norm(first(from + 1) - start) < gap_[from])
+        break;
+    return from;
+  }
+
+ private:
+  static std::ptrdiff_t offset(std::size_t i) { return static_cast<std::ptrdiff_t>(i); }
+  template <class Values>
+  static void reverse(Values& values, std::size_t from, std::size_t to) {
+    std::reverse(values.begin() + offset(from), values.begin() + offset(to) + 1);
+  }
+  void set_gap(std::size_t i) { gap_[i] = squared_norm(first(i + 1) - last(i)); }
+
+  std::vector<double> first_x_, first_y_, last_x_, last_y_;
+  std::vector<double> gap_;  ///< the square of the way to the next one, or -1
+  std::vector<std::uint32_t> trail_;
+  std::vector<std::uint8_t> turned_;
+};
+
+TrailOrder order_of(const Grooves& grooves, const std::vector<Trail>& trails) {
+  const auto place = [&](const GrooveStep& step, bool at_end) {
+    const auto& disks = grooves.parts[step.part].disks;
+    return (step.forward == at_end ? disks.back() : disks.front()).center;
+  };
+  TrailOrder order(trails.size());
+  for (std::uint32_t i = 0; i < trails.size(); ++i)
+    order.set(i, place(trails[i].front(), false), place(trails[i].back(), true));
+  return order;
+}
+
 /// Shortens the ways between trails: turns runs of up to `window` trails around where that helps
 /// (2-opt), a few times over.
 void shorten_ways(const Grooves& grooves, Vec2 start, std::vector<Trail>& trails) {
   constexpr std::size_t window = 150;
   constexpr int passes = 4;
-  struct Ends {
-    Vec2 first, last;
-    std::uint32_t trail;
-    bool turned;
-  };
-  const auto place = [&](const GrooveStep& step, bool at_end) {
-    const auto& disks = grooves.parts[step.part].disks;
-    return (step.forward == at_end ? disks.back() : disks.front()).center;
-  };
-  std::vector<Ends> order;
-  for (std::uint32_t i = 0; i < trails.size(); ++i)
-    order.push_back({place(trails[i].front(), false), place(trails[i].back(), true), i, false});
+  TrailOrder order = order_of(grooves, trails);
+  const std::size_t count = order.size();
+  std::vector<bool> changed(count, true), changes;
   for (int pass = 0; pass < passes; ++pass) {
-    bool changed = false;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      const Vec2 before = i == 0 ? start : order[i - 1].last;
-      double way = squared_norm(order[i].first - before);
-      for (std::size_t j = i; j < std::min(order.size(), i + window); ++j) {
-        // A turn that shortens neither of its two ways gains nothing.
-        if (squared_norm(order[j].last - before) >= way &&
-            (j + 1 == order.size() || squared_norm(order[j + 1].first - order[i].first) >=
-                                          squared_norm(order[j + 1].first - order[j].last)))
-          continue;
-        double gain = distance(before, order[i].first) - distance(before, order[j].last);
-        if (j + 1 < order.size())
-          gain += distance(order[j].last, order[j + 1].first) -
-                  distance(order[i].first, order[j + 1].first);
-        if (!(gain > 1e-9 * distance(before, order[i].first))) continue;
-        std::reverse(order.begin() + static_cast<std::ptrdiff_t>(i),
-                     order.begin() + static_cast<std::ptrdiff_t>(j) + 1);
-        for (std::size_t k = i; k <= j; ++k) {
-          std::swap(order[k].first, order[k].last);
-          order[k].turned = !order[k].turned;
-        }
-        way = squared_norm(order[i].first - before);
-        changed = true;
+    changes.assign(count, false);
+    // What turns run i to j depends on those from i - 1 to j + 1. The next one that has changed
+    // since i was looked at last, and where those end that have changed now.
+    std::size_t next = 0, end = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      while (next < count && (next + 1 < i || !changed[next])) ++next;
+      if (end + 1 <= i && next > i + window) continue;
+      const Vec2 before = i == 0 ? start : order.last(i - 1);
+      const std::size_t last = std::min(count, i + window);
+      double way = squared_norm(order.first(i) - before);
+      for (std::size_t j = i;; ++j) {
+        j = order.find_shorter(i, before, way, j, last);
+        if (j == last) break;
+        double gain = distance(before, order.first(i)) - distance(before, order.last(j));
+        if (j + 1 < count)
+          gain += distance(order.last(j), order.first(j + 1)) -
+                  distance(order.first(i), order.first(j + 1));
+        if (!(gain > 1e-9 * distance(before, order.first(i)))) continue;
+        order.turn(i, j);
+        std::fill_n(changes.begin() + static_cast<std::ptrdiff_t>(i), j + 1 - i, true);
+        end = std::max(end, j + 1);
+        way = squared_norm(order.first(i) - before);
       }
     }
-    if (!changed) break;
+    if (end == 0) break;
+    changed.swap(changes);
   }
   std::vector<Trail> out;
   out.reserve(trails.size());
-  for (const Ends& ends : order) {
-    Trail& trail = out.emplace_back(std::move(trails[ends.trail]));
-    if (!ends.turned) continue;
+  for (std::size_t i = 0; i < count; ++i) {
+    Trail& trail = out.emplace_back(std::move(trails[order.trail(i)]));
+    if (!order.turned(i)) continue;
     std::reverse(trail.begin(), trail.end());
     for (GrooveStep& step : trail) step.forward = !step.forward;
   }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -103,17 +104,61 @@ bool feet_are_right(const Problem& problem, const Edge& edge, Vec2 chord, Vec2 c
   return true;
 }
 
+/// Where very many boundary edges are near to disks, as next to the centre of a round polygon.
+class Crowd {
+ public:
+  /// Whether the next edge is taken to be in it: the more of those before were, the more are.
+  bool is_expected() { return left_ > 0 && left_-- > 0; }
+  void found(bool here) {
+    seen_ = here ? std::min(2 * seen_ + 1, 64) : 0;
+    left_ = here ? seen_ - 1 : 0;
+  }
+
+ private:
+  int seen_ = 0, left_ = 0;
+};
+
+/// Whether the disks of nodes reach over no boundary edge by more than the tolerance, as far as it
+/// is known: in a crowd, very many edges of the axis may share a node.
+class Depths {
+ public:
+  explicit Depths(std::size_t nodes) : is_shallow_(nodes) {}
+
+  void set(std::uint32_t node, bool is_shallow) {
+    is_shallow_[node].store(is_shallow ? 1 : -1, std::memory_order_relaxed);
+  }
+  template <class Find>
+  bool is_shallow(std::uint32_t node, const Find& find) {
+    if (const int known = is_shallow_[node].load(std::memory_order_relaxed); known != 0)
+      return known > 0;
+    const bool found = find();
+    set(node, found);
+    return found;
+  }
+
+ private:
+  std::vector<std::atomic<std::int8_t>> is_shallow_;  ///< 0: not known
+};
+
+/// The findings of edges that follow each other.
+struct Block {
+  Findings findings;
+  Crowd crowd;
+};
+
 /// The checks of one edge. A node is measured with the first of its edges.
 class EdgeCheck {
  public:
   EdgeCheck(const Problem& problem, const DistanceTree& boundary, std::uint32_t index,
-            Findings& findings)
+            Depths& depths, Block& block)
       : problem_(problem),
         boundary_(boundary),
         index_(index),
         edge_(problem.axis.edges[index]),
         hull_{problem.disk(edge_.node[0]), edge_.control, problem.disk(edge_.node[1])},
-        findings_(findings) {
+        findings_(block.findings),
+        crowd_(block.crowd),
+        depths_(depths) {
     for (std::size_t side = 0; side < 2; ++side)
       on_boundary_[side] = problem.place[edge_.site[side]] != no_index;
   }
@@ -125,13 +170,13 @@ class EdgeCheck {
       const std::uint32_t node = edge_.node[end];
       if (first_edge[node] == index_ && (end == 0 || node != edge_.node[0])) counted[end] = node;
     }
-    const bool found = find_near();
-    if (found && is_proven()) {
+    if (is_in_crowd()) {
+      measure_in_crowd(parameters, counted);
+    } else if (leave_nearer(); is_proven()) {
       for (const std::uint32_t node : counted) findings_.nodes.disks += node != no_index ? 1 : 0;
       findings_.inside.disks += static_cast<std::uint64_t>(samples);
     } else {
-      measure_samples(problem_, boundary_, index_, parameters, found ? &near_ : nullptr, counted,
-                      findings_);
+      measure_samples(problem_, boundary_, index_, parameters, &near_, counted, findings_);
     }
     const Curve curve = curve_of(problem_.axis, edge_);
     const Vec2 middle = curve.at(0.5).center;
@@ -143,14 +188,46 @@ class EdgeCheck {
   }
 
  private:
-  /// Finds the boundary edges that may be nearer than the sites, unless they are too many.
-  bool find_near() {
-    if (!boundary_.find_near(hull_, problem_.tolerance, near_)) return false;
+  /// Whether too many boundary edges are near to disks; finds them otherwise.
+  bool is_in_crowd() {
+    if (crowd_.is_expected()) return true;
+    const bool found = boundary_.find_near(hull_, problem_.tolerance, near_);
+    crowd_.found(!found);
+    return !found;
+  }
+  /// Measures samples where too many boundary edges are near to disks. Where both disks at the ends
+  /// reach over none by more than the tolerance, only those between their feet matter.
+  void measure_in_crowd(std::span<const Parameters> parameters,
+                        const std::array<std::uint32_t, 2>& counted) {
+    bool is_shallow = edge_.weight > 0;
+    for (std::size_t end = 0; end < 2; ++end)
+      is_shallow &= measure_end(edge_.node[end], counted[end] != no_index);
+    near_.size = 0;
+    const bool found =
+        is_shallow && boundary_.find_near_between_feet(hull_, problem_.tolerance, near_);
+    if (found) leave_nearer();
+    measure_samples(problem_, boundary_, index_, parameters, found ? &near_ : nullptr,
+                    {no_index, no_index}, findings_);
+  }
+  /// Whether the disk of a node reaches over no boundary edge by more than the tolerance.
+  bool measure_end(std::uint32_t node, bool counted) {
+    const Disk& disk = problem_.disk(node);
+    const double rounding = 16 * std::numeric_limits<double>::epsilon() * diagonal(problem_.box);
+    const double least = disk.radius - problem_.tolerance + rounding;
+    if (!counted)
+      return depths_.is_shallow(
+          node, [&] { return least < 0 || boundary_.is_farther(disk.center, least); });
+    const double distance = boundary_.distance(disk.center, expected_distance(problem_, disk));
+    findings_.nodes.add(problem_, disk, distance, node);
+    depths_.set(node, distance > least);
+    return distance > least;
+  }
+  /// Leaves of what is near only what may be nearer than the sites.
+  void leave_nearer() {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < near_.size; ++i)
       if (!is_no_nearer(boundary_.index_at(near_.place[i]))) near_.place[kept++] = near_.place[i];
     near_.size = kept;
-    return true;
   }
   /// Whether a boundary edge is a site, or straight and wholly behind its end, which is one.
   bool is_no_nearer(std::uint32_t place) const {
@@ -228,6 +305,8 @@ class EdgeCheck {
   const Edge& edge_;
   const DiskHull hull_;
   Findings& findings_;
+  Crowd& crowd_;
+  Depths& depths_;
   std::array<bool, 2> on_boundary_;
   NearEdges near_;
 };
@@ -246,13 +325,14 @@ Findings measure_all(const Problem& problem, int samples) {
   const DistanceTree boundary(problem.shape, problem.box, problem.arcs);
   const std::vector<std::uint32_t> first_edge = first_edges(axis);
   const std::vector<Parameters> parameters = parameters_of(samples);
+  Depths depths(axis.nodes.size());
   const auto blocks =
-      in_blocks<Findings>(axis.edges.size(), block_size, [&](std::size_t i, Findings& findings) {
-        EdgeCheck(problem, boundary, static_cast<std::uint32_t>(i), findings)
+      in_blocks<Block>(axis.edges.size(), block_size, [&](std::size_t i, Block& block) {
+        EdgeCheck(problem, boundary, static_cast<std::uint32_t>(i), depths, block)
             .run(samples, parameters, first_edge);
       });
   Findings all;
-  for (const Findings& block : blocks) all.add(block);
+  for (const Block& block : blocks) all.add(block.findings);
   for (std::size_t i = 0; i < axis.nodes.size(); ++i)
     if (first_edge[i] == no_index) measure_node(problem, boundary, i, all.nodes);
   return all;

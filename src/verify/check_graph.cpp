@@ -51,6 +51,9 @@ struct Corner {
     if (!(a.point == b.point)) return before(a.point, b.point);
     return a.component < b.component;
   }
+  friend bool operator==(const Corner& a, const Corner& b) {
+    return a.point == b.point && a.component == b.component;
+  }
 };
 
 /// Whether an edge may end with a radius above 0: what lies between the two feet of its last disk
@@ -418,18 +421,45 @@ void check_graph(const Problem& problem, bool part, Certificate& certificate) {
 
 namespace {
 
+/// The boundary point in which both sites of an edge meet, one after the other; or no_index.
+std::uint32_t joint_of_sites(const Problem& problem, const Edge& edge) {
+  const std::uint32_t a = problem.place[edge.site[0]], b = problem.place[edge.site[1]];
+  if (a == no_index || b == no_index) return no_index;
+  return problem.next[a] == b ? b : problem.next[b] == a ? a : no_index;
+}
+
+void report_raised(const Problem& problem, const Offences& raised,
+                   std::vector<std::string>& failures) {
+  if (raised.count == 0) return;
+  const Disk& disk = problem.disk(static_cast<std::uint32_t>(raised.first));
+  failures.push_back(
+      sentence("%zu leaves have a radius above 0 and are at no arc of largest curvature; the "
+               "first is node "
+               "%zu at (%.17g, %.17g), r = %.17g.",
+               raised.count, raised.first, disk.center.x, disk.center.y, disk.radius));
+}
+
+Corner corner_at(const Problem& problem, std::uint32_t i) {
+  return {problem.point(i), problem.component[i]};
+}
+
 /// Corners and leaves as sorted lists: what is in only one of them is an offence. Where all joints
-/// are blunt, an axis may begin at one of them.
+/// are blunt, an axis may begin at one of them. Nearly all leaves are found at the corners that
+/// their sites make, and are in no list.
 void check_leaves(const Problem& problem, Certificate& certificate) {
   const MedialAxis& axis = problem.axis;
   const auto count = static_cast<std::uint32_t>(problem.shape.points.size());
   auto& failures = certificate.failures;
   std::vector<Corner> corners, blunt, leaves;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const Corner corner{problem.point(i), problem.component[i]};
-    if (problem.joint[i] == Joint::corner) corners.push_back(corner);
-    if (problem.is_blunt(i)) blunt.push_back(corner);
-  }
+  std::vector<bool> has_leaf(count, false);
+  const auto add_leaf = [&](const Edge& edge, const Corner& leaf) {
+    const std::uint32_t i = joint_of_sites(problem, edge);
+    if (i != no_index && problem.joint[i] == Joint::corner && !has_leaf[i] &&
+        corner_at(problem, i) == leaf)
+      has_leaf[i] = true;
+    else
+      leaves.push_back(leaf);
+  };
   Offences raised;
   std::size_t budget = count;
   for (const Edge& edge : axis.edges) {
@@ -437,12 +467,18 @@ void check_leaves(const Problem& problem, Certificate& certificate) {
       const std::uint32_t i = edge.node[end];
       if (problem.degree[i] != 1) continue;
       if (!(axis.nodes[i].disk.radius > 0))
-        leaves.push_back({axis.nodes[i].disk.center, axis.nodes[i].component});
+        add_leaf(edge, {axis.nodes[i].disk.center, axis.nodes[i].component});
       else if (ends_at_arc(problem, edge, end, budget))
         ++certificate.curvature_leaves;
       else
         raised.add(i);
     }
+  }
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const bool is_corner = problem.joint[i] == Joint::corner;
+    certificate.convex_corners += is_corner ? 1 : 0;
+    if (is_corner && !has_leaf[i]) corners.push_back(corner_at(problem, i));
+    if (problem.is_blunt(i)) blunt.push_back(corner_at(problem, i));
   }
   std::sort(corners.begin(), corners.end());
   std::sort(blunt.begin(), blunt.end());
@@ -454,23 +490,16 @@ void check_leaves(const Problem& problem, Certificate& certificate) {
                       std::back_inserter(strange));
   std::set_difference(strange.begin(), strange.end(), blunt.begin(), blunt.end(),
                       std::back_inserter(extra));
-  certificate.convex_corners = corners.size();
   certificate.corners_without_leaf = bare.size();
   if (!bare.empty())
     failures.push_back(sentence(
-        "%zu of %zu convex corners are not leaves of radius 0; the first is (%.17g, %.17g).",
-        bare.size(), corners.size(), bare[0].point.x, bare[0].point.y));
+        "%zu of %llu convex corners are not leaves of radius 0; the first is (%.17g, %.17g).",
+        bare.size(), static_cast<unsigned long long>(certificate.convex_corners), bare[0].point.x,
+        bare[0].point.y));
   if (!extra.empty())
     failures.push_back(sentence("%zu leaves are not convex corners; the first is (%.17g, %.17g).",
                                 extra.size(), extra[0].point.x, extra[0].point.y));
-  if (raised.count > 0) {
-    const Disk& disk = problem.disk(static_cast<std::uint32_t>(raised.first));
-    failures.push_back(
-        sentence("%zu leaves have a radius above 0 and are at no arc of largest curvature; the "
-                 "first is node "
-                 "%zu at (%.17g, %.17g), r = %.17g.",
-                 raised.count, raised.first, disk.center.x, disk.center.y, disk.radius));
-  }
+  report_raised(problem, raised, failures);
 }
 
 /// Which boundary points disks touch. A reflex vertex is touched by the disks of its own edges; or,

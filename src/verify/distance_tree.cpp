@@ -14,6 +14,7 @@
 #include "base/pair.h"
 #include "base/threads.h"
 #include "base/wide.h"
+#include "verify/between_feet.h"
 #include "verify/piece_order.h"
 
 namespace medial::verify_detail {
@@ -102,8 +103,8 @@ struct DistanceTree::Extremes {
 
 /// The edges of these numbers, in order; edge_at(i) is the one with number index[i].
 template <class EdgeAt>
-std::vector<DistanceTree::Run> DistanceTree::runs_of(const std::vector<std::uint32_t>& index,
-                                                     const EdgeAt& edge_at) {
+std::vector<Run> DistanceTree::runs_of(const std::vector<std::uint32_t>& index,
+                                       const EdgeAt& edge_at) {
   std::vector<Run> runs((index.size() + fan_out - 1) / fan_out);
   for (std::size_t i = 0; i < runs.size() * fan_out; ++i) {
     const std::size_t from = std::min(i, index.size() - 1);
@@ -179,24 +180,6 @@ void DistanceTree::build_levels(const std::vector<BoundaryEdge>& pieces, double 
     if (bounds <= fan_out) break;
     run *= fan_out;
   }
-}
-
-void DistanceTree::Run::set(std::size_t i, const BoundaryEdge& edge, std::uint32_t its_index) {
-  start_x[i] = edge.start.x;
-  start_y[i] = edge.start.y;
-  end_x[i] = edge.end.x;
-  end_y[i] = edge.end.y;
-  bulge[i] = edge.bulge;
-  index[i] = its_index;
-}
-
-void DistanceTree::Bounds::set(std::size_t i, Vec2 normal, const Box& along_and_across) {
-  normal_x[i] = normal.x;
-  normal_y[i] = normal.y;
-  low_along[i] = along_and_across.low.x;
-  high_along[i] = along_and_across.high.x;
-  low_across[i] = along_and_across.low.y;
-  high_across[i] = along_and_across.high.y;
 }
 
 /// Bounds edges, or pieces of them; nothing is near to an empty set.
@@ -302,7 +285,7 @@ double DistanceTree::limit_for(double distance) const {
   return std::min(limit * limit, std::numeric_limits<double>::max());
 }
 
-bool DistanceTree::search(Vec2 p, double& best) const {
+MEDIAL_WIDE bool DistanceTree::search(Vec2 p, double& best) const {
   double limit = limit_for(best);
   bool found = false;
   // Three brothers wait on each of at most 16 levels.
@@ -341,96 +324,6 @@ bool DistanceTree::search(Vec2 p, double& best) const {
   return found;
 }
 
-/// All disks of an edge, with room for rounding. The larger one of those at the ends is the one
-/// that other edges may be near to: they are looked at from its centre.
-class DistanceTree::Hull {
- public:
-  Hull(const DiskHull& disks, double slack)
-      : center_(disks[disks[0].radius > disks[2].radius ? 0 : 2].center) {
-    double reach = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vec2 to = disks[i].center - center_;
-      const double radius = (1 + 8 * machine_epsilon) * (disks[i].radius + slack);
-      corner_[i] = {both(to.x), both(to.y), both(radius), both(radius * radius)};
-      reach = std::max(reach, norm(to) + radius);
-    }
-    // Nothing reaches the infinite bounds of empty sets.
-    limit_ =
-        std::min((1 + 8 * machine_epsilon) * reach * reach, std::numeric_limits<double>::max());
-  }
-
-  Vec2 center() const { return center_; }
-  /// The square of the radius of a disk around the centre that holds all of them.
-  double limit() const { return limit_; }
-
-  /// Whether no disk reaches a set in a box: all of it lies behind the line through the place of
-  /// the box nearest to the centre that is perpendicular to the way there, or behind the longer
-  /// side of the box that faces the centre.
-  bool misses_box(const Bounds& bounds, std::size_t set, Vec2 origin) const {
-    const Vec2 normal{bounds.normal_x[set], bounds.normal_y[set]}, along{normal.y, -normal.x};
-    const auto nearest = [](double low, double high, double at) {
-      return std::min(std::max(low - at, 0.0), high - at);
-    };
-    const Vec2 q = center_ - origin;
-    const double a = nearest(bounds.low_along[set], bounds.high_along[set], dot(along, q));
-    const double b = nearest(bounds.low_across[set], bounds.high_across[set], dot(normal, q));
-    const auto behind = [&](Vec2 to, double square) {
-      return std::all_of(corner_.begin(), corner_.end(), [&](const Corner& corner) {
-        const double ahead = square - (to.x * corner.x[0] + to.y * corner.y[0]);
-        return ahead > 0 && ahead * ahead > corner.square[0] * square;
-      });
-    };
-    return behind(a * along + b * normal, a * a + b * b) || (a != 0 && behind(b * normal, b * b));
-  }
-
-  /// Whether no disk reaches two edges of a run. Of an edge, all but the height of an arc lies
-  /// behind the line through the point of its chord nearest to the centre, or through its nearer
-  /// end, that is perpendicular to the way there.
-  Pairwise misses(const Run& run, std::size_t i) const {
-    const Pair start_x = pair_at(run.start_x + i), start_y = pair_at(run.start_y + i);
-    const Pair from_x = center_.x - start_x, from_y = center_.y - start_y;
-    const Pair along_x = pair_at(run.end_x + i) - start_x;
-    const Pair along_y = pair_at(run.end_y + i) - start_y;
-    const Pair square = along_x * along_x + along_y * along_y;
-    // An edge without length is a point.
-    const Pair place = (from_x * along_x + from_y * along_y) / larger(square, both(smallest));
-    const Pair t = smaller(larger(place, both(0)), both(1));
-    const Pair off_x = from_x - t * along_x, off_y = from_y - t * along_y;
-    const Pair distance_2 = off_x * off_x + off_y * off_y;
-    const Pair to_start = off_x * from_x + off_y * from_y;
-    const Pair behind = smaller(to_start, to_start - (off_x * along_x + off_y * along_y));
-    const Pair height =
-        0.5 * size_of(pair_at(run.bulge + i)) * (size_of(along_x) + size_of(along_y));
-    Pairwise missed = distance_2 > 0;
-    for (const Corner& corner : corner_) {
-      const Pair ahead = larger(behind + off_x * corner.x + off_y * corner.y, both(0));
-      const Pair reach = corner.radius + height;
-      missed &= ahead * ahead > reach * reach * distance_2;
-    }
-    if (all(missed) || any(height > 0)) return missed;
-    // Next to a convex corner, the line of a straight edge decides more than that through its
-    // nearer end.
-    const Pair across = along_x * from_y - along_y * from_x, side = with_sign_of(both(1), across);
-    Pairwise beside = square > 0;
-    for (const Corner& corner : corner_) {
-      const Pair away = larger(side * (across + along_x * corner.y - along_y * corner.x), both(0));
-      beside &= away * away > corner.square * square;
-    }
-    return missed | beside;
-  }
-
- private:
-  static constexpr double smallest = std::numeric_limits<double>::min();
-
-  Vec2 center_;
-  double limit_;
-  struct Corner {
-    Pair x, y;  ///< from the centre
-    Pair radius, square;
-  };
-  std::array<Corner, 3> corner_;
-};
-
 /// Lowers the distances of places to those from an edge.
 MEDIAL_WIDE void DistanceTree::lower(Places& places, const Run& run, std::size_t i) const {
   const Vec2 start{run.start_x[i], run.start_y[i]}, end{run.end_x[i], run.end_y[i]};
@@ -456,7 +349,7 @@ MEDIAL_WIDE void DistanceTree::lower(Places& places, const Run& run, std::size_t
 }
 
 /// Adds those edges of a run that disks may reach, each once.
-inline void DistanceTree::add_near(const Hull& hull, std::uint32_t run, NearEdges& near) const {
+inline void DistanceTree::add_near(const EdgeHull& hull, std::uint32_t run, NearEdges& near) const {
   const auto is_known = [&](std::uint32_t index) {
     for (std::size_t i = 0; i < near.size; ++i)
       if (index_at(near.place[i]) == index) return true;
@@ -471,30 +364,30 @@ inline void DistanceTree::add_near(const Hull& hull, std::uint32_t run, NearEdge
   }
 }
 
-MEDIAL_WIDE bool DistanceTree::find_near(const DiskHull& disks, double tolerance,
-                                         NearEdges& near) const {
+/// Adds edges that disks may reach, in those sets that are wanted; false if there are too many.
+template <class Wanted>
+inline bool DistanceTree::find_near(const EdgeHull& hull, const Wanted& wanted,
+                                    NearEdges& near) const {
   constexpr int most_visits = 96;
   struct Set {
     std::uint32_t level, index;
   };
-  const Hull hull(disks, slack_ + tolerance);
   std::array<Set, 64> stack;
   std::size_t size = 0;
   if (levels_.empty())
     for (std::uint32_t run = 0; run < runs_.size(); ++run) add_near(hull, run, near);
-  else
+  else if (hull.is_bounded())
     stack[size++] = {static_cast<std::uint32_t>(levels_.size() - 1), 0};
+  else
+    return false;
   for (int visits = 0; size > 0; ++visits) {
     if (visits == most_visits || near.size == near.most) return false;
     const Set set = stack[--size];
     const Bounds& bounds = levels_[set.level][set.index];
-    double squared[fan_out];
-    squared_bounds(bounds, hull.center() - origin_, squared);
+    const std::array<Pairwise, 2> reached{hull.reaches(bounds, 0, origin_),
+                                          hull.reaches(bounds, 2, origin_)};
     for (std::uint32_t j = 0; j < fan_out; ++j) {
-      if (!(squared[j] <= hull.limit())) continue;
-      // What is longer is reached nearly always.
-      const double length = bounds.high_along[j] - bounds.low_along[j];
-      if (4 * length * length < hull.limit() && hull.misses_box(bounds, j, origin_)) continue;
+      if (reached[j / 2][j % 2] == 0 || !wanted(bounds, j)) continue;
       const auto child = static_cast<std::uint32_t>(set.index * fan_out) + j;
       if (set.level > 0)
         stack[size++] = {set.level - 1, child};
@@ -503,6 +396,21 @@ MEDIAL_WIDE bool DistanceTree::find_near(const DiskHull& disks, double tolerance
     }
   }
   return near.size < near.most;
+}
+
+MEDIAL_WIDE bool DistanceTree::find_near(const DiskHull& disks, double tolerance,
+                                         NearEdges& near) const {
+  const auto all = [](const Bounds&, std::size_t) { return true; };
+  return find_near(EdgeHull(disks, slack_ + tolerance), all, near);
+}
+
+MEDIAL_WIDE bool DistanceTree::find_near_between_feet(const DiskHull& disks, double tolerance,
+                                                      NearEdges& near) const {
+  const BetweenFeet feet(disks, origin_, slack_);
+  const auto is_there = [&](const Bounds& bounds, std::size_t set) {
+    return !feet.misses(bounds, set);
+  };
+  return find_near(EdgeHull(disks, slack_ + tolerance), is_there, near);
 }
 
 void DistanceTree::find_distances(const NearEdges* near, Places& places) const {
@@ -530,6 +438,11 @@ double DistanceTree::some_distance(Vec2 p) const {
     index = index * static_cast<std::uint32_t>(fan_out) + static_cast<std::uint32_t>(best);
   }
   return distance_to(runs_[std::min<std::size_t>(index, runs_.size() - 1)], 0, p);
+}
+
+bool DistanceTree::is_farther(Vec2 p, double distance) const {
+  if (levels_.empty()) return this->distance(p, distance) > distance;
+  return !search(p, distance);
 }
 
 double DistanceTree::distance(Vec2 p, double expected) const {

@@ -8,6 +8,8 @@
 
 #include "medial/axis.h"
 #include "medial/shape.h"
+#include "verify/edge_hull.h"
+#include "verify/edge_sets.h"
 #include "verify/whole_edge.h"
 
 namespace medial::verify_detail {
@@ -55,26 +57,19 @@ class DistanceTree {
   /// Distance from p to the nearest edge. `expected` is a guess at it: a query is fast where the
   /// guess is not much too large and not too small. O(log n) expected then.
   double distance(Vec2 p, double expected) const;
+  /// Whether no edge is so near.
+  bool is_farther(Vec2 p, double distance) const;
   /// Finds the edges that disks, each larger by the tolerance, may reach; false if there are too
   /// many.
   bool find_near(const DiskHull& disks, double tolerance, NearEdges& near) const;
+  /// The same, but not of edges over which no disk reaches deeper than both at the ends.
+  bool find_near_between_feet(const DiskHull& disks, double tolerance, NearEdges& near) const;
   std::uint32_t index_at(std::uint32_t place) const { return runs_[place / 4].index[place % 4]; }
   /// Finds the distances of disks' centres, of which these edges are near, sooner than one by one;
   /// without `near`, one by one.
   void find_distances(const NearEdges* near, Places& places) const;
 
  private:
-  /// Boxes around four sets of edges side by side, so that a compiler can compare them at once. A
-  /// box lies along the longest extent of its set or along the axes, whichever is the smaller: on a
-  /// smooth boundary, boxes along the axes would let far too many edges near a contact pass.
-  /// `across` is normal . (p - origin_), `along` the same with the normal turned to the right.
-  struct Bounds {
-    double normal_x[4], normal_y[4];
-    double low_along[4], high_along[4], low_across[4], high_across[4];
-
-    void set(std::size_t i, Vec2 normal, const Box& along_and_across);
-  };
-
   /// Beside each of four sets a disk that no edge of it reaches into, about a place behind the
   /// centre that the set bends round. Next to the centre of very many edges, where every box and
   /// slab is in reach, this says which of them are nearest.
@@ -86,15 +81,7 @@ class DistanceTree {
     std::uint32_t level, index;
     double squared;
   };
-  class Hull;
   struct Extremes;
-  /// Four edges side by side.
-  struct Run {
-    double start_x[4], start_y[4], end_x[4], end_y[4], bulge[4];
-    std::uint32_t index[4];  ///< among the shape's
-    void set(std::size_t i, const BoundaryEdge& edge, std::uint32_t its_index);
-  };
-
   static void squared_bounds(const Bounds& bounds, Vec2 q, double (&squared)[4]);
   void raise(const Visit& visit, Vec2 p, double (&squared)[4]) const;
   double limit_for(double distance) const;
@@ -107,7 +94,9 @@ class DistanceTree {
   double some_distance(Vec2 p) const;
   template <class EdgeAt>
   static std::vector<Run> runs_of(const std::vector<std::uint32_t>& index, const EdgeAt& edge_at);
-  void add_near(const Hull& hull, std::uint32_t run, NearEdges& near) const;
+  void add_near(const EdgeHull& hull, std::uint32_t run, NearEdges& near) const;
+  template <class Wanted>
+  bool find_near(const EdgeHull& hull, const Wanted& wanted, NearEdges& near) const;
   void lower(Places& places, const Run& run, std::size_t i) const;
   double distance_to(const Run& run, std::size_t i, Vec2 p) const {
     if (run.bulge[i] != 0) return (*arcs_)[run.index[i]].distance(p);

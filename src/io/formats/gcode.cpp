@@ -3,7 +3,11 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include <array>
+#include <charconv>
 #include <cmath>
+#include <initializer_list>
+#include <string_view>
 
 #include "base/arc.h"
 #include "io/format.h"
@@ -15,12 +19,38 @@ namespace medial::io {
 
 namespace {
 
+/// In millionths, rounded as printf() does: exactly, and to even where two are as near.
+double millionths(double value) {
+  const double scaled = 1e6 * value, rest = std::fma(1e6, value, -scaled);
+  const double whole = std::nearbyint(scaled), off = scaled - whole;
+  if (off == 0.5 && rest > 0) return whole + 1;
+  if (off == -0.5 && rest < 0) return whole - 1;
+  return whole;
+}
+
 /// A number without useless digits: "12.5", "-0.25", "0".
 std::string decimal(double value) {
-  std::string text = fmt::format(FMT_COMPILE("{:.6f}"), value);
-  while (text.back() == '0') text.pop_back();
-  if (text.back() == '.') text.pop_back();
-  return text == "-0" ? "0" : text;
+  constexpr double exact = 0x1p52;
+  constexpr std::uint64_t million = 1'000'000;
+  const double whole = millionths(value);
+  if (!(std::abs(whole) < exact)) {
+    std::string text = fmt::format(FMT_COMPILE("{:.6f}"), value);
+    while (text.back() == '0') text.pop_back();
+    if (text.back() == '.') text.pop_back();
+    return text;
+  }
+  std::array<char, 32> text;
+  char* end = text.data();
+  if (whole < 0) *end++ = '-';
+  const auto size = static_cast<std::uint64_t>(std::abs(whole));
+  end = std::to_chars(end, text.data() + text.size(), size / million).ptr;
+  if (std::uint64_t rest = size % million; rest != 0) {
+    *end = '.';
+    for (int k = 6; k > 0; --k, rest /= 10) end[k] = static_cast<char>('0' + rest % 10);
+    end += 7;
+    while (end[-1] == '0') --end;
+  }
+  return {text.data(), end};
 }
 
 /// A place as it is written.
@@ -44,9 +74,9 @@ class Moves {
     const ToolPoint& first = points.front();
     if (!down_ || !(first.point == at_.point) || first.z != at_.z) {
       lift();
-      line("G0 X" + decimal(first.point.x) + " Y" + decimal(first.point.y));
+      line({"G0 X", decimal(first.point.x), " Y", decimal(first.point.y)});
       spend(started_ ? distance(at_.point, first.point) : 0, machine_.rapid, report_.travel);
-      line("G1 Z" + decimal(first.z) + " F" + decimal(speeds_.plunge));
+      line({"G1 Z", decimal(first.z), " F", decimal(speeds_.plunge)});
       spend(machine_.safe - first.z, speeds_.plunge, vertical_);
       feed_ = speeds_.plunge;
       down_ = started_ = true;
@@ -60,7 +90,7 @@ class Moves {
   }
   void lift() {
     if (!down_) return;
-    line("G0 Z" + decimal(machine_.safe));
+    line({"G0 Z", decimal(machine_.safe)});
     spend(machine_.safe - at_.z, machine_.rapid, vertical_);
     down_ = false;
   }
@@ -69,8 +99,11 @@ class Moves {
   const CutReport& report() const { return report_; }
 
  private:
-  void line(const std::string& text) {
-    text_ += text;
+  void add(std::initializer_list<std::string_view> texts) {
+    for (const std::string_view text : texts) text_ += text;
+  }
+  void line(std::initializer_list<std::string_view> texts) {
+    add(texts);
     text_ += '\n';
   }
   void arrive(const ToolPoint& place, PlaceText text) {
@@ -89,24 +122,23 @@ class Moves {
     const bool same_place = x == at_text_.x && y == at_text_.y;
     const bool same_height = z == at_text_.z;
     if (same_place && same_height && std::abs(bulge) < 1) return;
-    std::string text;
     // Six decimals do not hold the centre of an arc that is hardly longer than they resolve.
     constexpr double shortest = 1e-3;
     if (bulge != 0 && distance(at_.point, to.point) > shortest) {
       const BulgeArc arc{at_.point, to.point, bulge};
       const Vec2 center = (1 / curvature(arc)) * left_of(start_tangent(arc));
-      text = (bulge > 0 ? "G3 X" : "G2 X") + x + " Y" + y + " I" + decimal(center.x) + " J" +
-             decimal(center.y);
+      add({bulge > 0 ? "G3 X" : "G2 X", x, " Y", y, " I", decimal(center.x), " J",
+           decimal(center.y)});
       add_extent(arc);
     } else {
-      text = "G1";
-      if (!same_place) text += " X" + x + " Y" + y;
-      if (!same_height) text += " Z" + z;
+      add({"G1"});
+      if (!same_place) add({" X", x, " Y", y});
+      if (!same_height) add({" Z", z});
     }
     const double feed = same_place && to.z < at_.z ? speeds_.plunge : speeds_.feed;
-    if (feed != feed_) text += " F" + decimal(feed);
+    if (feed != feed_) add({" F", decimal(feed)});
     feed_ = feed;
-    line(text);
+    line({});
     ++report_.moves;
     const double flat = arc_length(distance(at_.point, to.point), bulge);
     spend(std::hypot(flat, to.z - at_.z), feed, report_.cut);

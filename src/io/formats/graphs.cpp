@@ -1,10 +1,12 @@
 // Axes as graphs, for programs of networks: GraphML, node-link JSON and lists of edges. Leaves and
 // branchings are nodes, branches are edges; several can join the same two nodes.
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "io/formats/json_text.h"
 #include "io/ring_text.h"
@@ -82,9 +84,12 @@ class GraphmlTables final : public GraphTables {
     out_.put(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
         "<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n");
+    tags_.resize(tables_.size());
     for (std::size_t table = 0; table < tables_.size(); ++table)
-      for (std::size_t i = 0; i < tables_[table].columns.size(); ++i)
+      for (std::size_t i = 0; i < tables_[table].columns.size(); ++i) {
         put_key(table, i, tables_[table].columns[i]);
+        tags_[table].push_back(fmt::format("<data key=\"{}{}\">", letter(table), i));
+      }
     for (const char* place : {"x", "y"}) put_key_of(place, "node", place, "double");
     put_key_of("geometry", "edge", "geometry", "string");
     if (!target.unit.empty()) put_key_of("unit", "graph", "unit", "string");
@@ -110,14 +115,15 @@ class GraphmlTables final : public GraphTables {
                          xml_of(name), type));
   }
   void put_node(std::span<const Value> values, Vec2 place) override {
-    out_.put(fmt::format("<node id=\"{}\"><data key=\"x\">{}</data><data key=\"y\">{}</data>",
-                         number(values[node_column]), place.x, place.y));
+    out_.put(fmt::format(
+        FMT_COMPILE("<node id=\"{}\"><data key=\"x\">{}</data><data key=\"y\">{}</data>"),
+        number(values[node_column]), place.x, place.y));
     put_values(1 - branch_table, values);
     out_.put("</node>\n");
   }
   /// With its line as well-known text, as OSMnx reads it.
   void put_edge(std::span<const Value> values, const std::vector<Vec2>& line) override {
-    out_.put(fmt::format("<edge id=\"{}\" source=\"{}\" target=\"{}\">", edges_++,
+    out_.put(fmt::format(FMT_COMPILE("<edge id=\"{}\" source=\"{}\" target=\"{}\">"), edges_++,
                          number(values[from_column]), number(values[to_column])));
     put_values(branch_table, values);
     out_.put("<data key=\"geometry\">LINESTRING ");
@@ -126,7 +132,7 @@ class GraphmlTables final : public GraphTables {
   }
   void put_values(std::size_t table, std::span<const Value> values) {
     each_value(table, values, [&](std::size_t i, const Value& value) {
-      out_.put(fmt::format("<data key=\"{}{}\">", letter(table), i));
+      out_.put(tags_[table][i]);
       if (const auto* text = std::get_if<std::string>(&value))
         out_.put(xml_of(*text));
       else if (const auto* whole = std::get_if<std::int64_t>(&value))
@@ -138,6 +144,7 @@ class GraphmlTables final : public GraphTables {
   }
   static char letter(std::size_t table) { return table == branch_table ? 'e' : 'n'; }
 
+  std::vector<std::vector<std::string>> tags_;  ///< of each table's columns
   std::uint64_t edges_ = 0;
 };
 

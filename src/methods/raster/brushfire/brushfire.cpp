@@ -1,7 +1,12 @@
 #include "methods/raster/brushfire/brushfire.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "axis/pixel_graph.h"
 #include "axis/sites.h"
@@ -15,32 +20,64 @@
 namespace medial::brushfire {
 namespace {
 
-/// Exact distances from the boundary, of one place after another.
+/// The edges of a shape, and those of each component: first and last.
+struct ComponentEdges {
+  std::vector<site::Site> all;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> range;
+
+  ComponentEdges(const Shape& shape, const LocalFrame& frame)
+      : range(shape.component_count(), {~std::uint32_t{0}, 0}) {
+    all.reserve(shape.points.size());
+    for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+      auto& [first, last] = range[shape.component[i]];
+      first = std::min(first, static_cast<std::uint32_t>(all.size()));
+      const site::LoopEdges loop(shape, i, frame);
+      for (std::uint32_t k = 0; k < loop.size(); ++k) {
+        const site::Pieces pieces = loop.edge(k);
+        all.insert(all.end(), pieces.site.begin(), pieces.site.begin() + pieces.count);
+      }
+      last = static_cast<std::uint32_t>(all.size() - 1);
+    }
+  }
+};
+
+/// Exact distances of pixels from the boundary, row by row. The edge nearest to a place in a
+/// component is one of that component's.
 class Radius {
  public:
-  Radius(const Shape& shape, const LocalFrame& frame)
-      : frame_(frame), edges_(site::edge_sites(shape, frame)), tree_(edges_) {}
+  Radius(const Shape& shape, const LocalFrame& frame, const raster::Grid& grid)
+      : frame_(frame),
+        grid_(grid),
+        edges_(shape, frame),
+        tree_(edges_.all),
+        nearest_(grid.columns + 2) {}
 
-  double at(Vec2 point) {
-    const Vec2 local = frame_.to_local(point);
-    // The distance changes by no more than the way from the place before.
-    const double reach = (before_.radius + norm(local - before_.center)) * (1 + 1e-9);
-    const auto hit = tree_.nearest(local, reach, 0, static_cast<std::uint32_t>(edges_.size() - 1));
-    const double squared = hit ? hit.squared_distance : reach * reach;
-    before_ = {local, std::sqrt(squared)};
-    return frame_.inverse * before_.radius;
+  double at(const raster::Pixel& pixel, std::uint32_t component) {
+    const Vec2 local = frame_.to_local(grid_.center(pixel));
+    // Neighbours to the left and above mostly have the same nearest edge.
+    double squared = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t edge : std::span(nearest_).subspan(pixel.column, 3))
+      squared = std::min(squared, site::squared_distance(edges_.all[edge], local));
+    const auto [first, last] = edges_.range[component];
+    const auto hit = tree_.nearest(local, std::sqrt(squared) * (1 + 1e-9), first, last);
+    if (hit) {
+      squared = hit.squared_distance;
+      nearest_[pixel.column + 1] = hit.site;
+    }
+    return frame_.inverse * std::sqrt(squared);
   }
 
  private:
   const LocalFrame& frame_;
-  std::vector<site::Site> edges_;
-  site::BoundaryTree tree_;
-  Disk before_{{0, 0}, 16};  // farther than anything in the frame
+  const raster::Grid& grid_;
+  const ComponentEdges edges_;
+  const site::BoundaryTree tree_;
+  std::vector<std::uint32_t> nearest_;  ///< of the last pixel in each column: an edge
 };
 
 /// The pixels of the axis in the order of increasing x within increasing y.
 std::vector<MedialPixel> pixels_of(const Image& axis, const std::vector<raster::PixelRun>& runs,
-                                   const raster::Grid& grid, Radius& radius) {
+                                   Radius& radius) {
   std::vector<MedialPixel> pixels;
   pixels.reserve(axis.count());
   for (const raster::PixelRun& run : runs) {
@@ -51,7 +88,7 @@ std::vector<MedialPixel> pixels_of(const Image& axis, const std::vector<raster::
             static_cast<std::uint32_t>(w * 64) + static_cast<std::uint32_t>(std::countr_zero(bits));
         if (column < run.first || column > run.last) continue;
         const raster::Pixel pixel{column, run.row};
-        pixels.push_back({pixel, radius.at(grid.center(pixel)), run.set, {no_site, no_site}});
+        pixels.push_back({pixel, radius.at(pixel, run.set), run.set, {no_site, no_site}});
       }
     }
   }
@@ -83,7 +120,7 @@ Result<MedialAxis> run(const Problem& problem) {
                  "no pixel's centre lies inside the shape: the resolution is too low",
                  {}};
   statistics.seconds_sites = watch.lap();
-  Radius radius(problem.shape, problem.frame);
+  Radius radius(problem.shape, problem.frame, grid);
   statistics.seconds_tree = watch.lap();
 
   axis.sites = problem.result_sites();
@@ -92,7 +129,7 @@ Result<MedialAxis> run(const Problem& problem) {
         thin(image_of(layer, grid), {own.family, problem.options.progress, problem.options.cancel});
     if (!burnt) return burnt.error();
     statistics.seconds_walk += watch.lap();
-    link_pixels(grid, pixels_of(*burnt, layer, grid, radius), nullptr, axis);
+    link_pixels(grid, pixels_of(*burnt, layer, radius), nullptr, axis);
     statistics.seconds_collect += watch.lap();
   }
   statistics.queries = axis.nodes.size();

@@ -17,11 +17,24 @@ struct Crossing {
   std::uint32_t component;
   double x;  ///< in pixels
 
-  /// In rows from the left; at one place what leaves comes first.
+  /// From the left; at one place what leaves comes first.
   friend bool operator<(const Crossing& a, const Crossing& b) {
-    return std::tie(a.row, a.x, a.enters) < std::tie(b.row, b.x, b.enters);
+    return std::tie(a.x, a.enters) < std::tie(b.x, b.enters);
   }
 };
+
+/// Crossings row by row, each from the left.
+std::vector<Crossing> sorted(const std::vector<Crossing>& crossings, std::uint32_t rows) {
+  std::vector<std::size_t> end(rows + std::size_t{1}, 0);  // first the begin of each row
+  for (const Crossing& crossing : crossings) ++end[crossing.row + 1];
+  for (std::size_t row = 0; row < rows; ++row) end[row + 1] += end[row];
+  std::vector<Crossing> by_rows(crossings.size());
+  for (const Crossing& crossing : crossings) by_rows[end[crossing.row]++] = crossing;
+  for (std::size_t row = 0, begin = 0; row < rows; begin = end[row++])
+    std::sort(by_rows.begin() + static_cast<std::ptrdiff_t>(begin),
+              by_rows.begin() + static_cast<std::ptrdiff_t>(end[row]));
+  return by_rows;
+}
 
 class Scan {
  public:
@@ -32,11 +45,11 @@ class Scan {
   }
 
   std::vector<raster::PixelRun> runs() {
-    std::sort(crossings_.begin(), crossings_.end());
+    const std::vector<Crossing> crossings = sorted(crossings_, grid_.rows);
     std::vector<raster::PixelRun> runs;
-    for (std::size_t i = 0; i + 1 < crossings_.size(); i += 2) {
-      const Crossing& in = crossings_[i];
-      const Crossing& out = crossings_[i + 1];
+    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
+      const Crossing& in = crossings[i];
+      const Crossing& out = crossings[i + 1];
       const double first = std::max(std::ceil(in.x), 0.0);
       const double last = std::min(std::ceil(out.x) - 1, grid_.columns - 1.0);
       if (first > last) continue;
