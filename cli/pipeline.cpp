@@ -74,7 +74,10 @@ Error with_cure(Error error, const InputOptions& input, bool of_image) {
   const bool tangled = error.code == crossing || error.code == overlap ||
                        error.code == hole_outside || error.code == nested_outer;
   const bool flat = error.code == no_area || error.code == too_few_points;
-  if ((tangled || flat) && read.repair == RepairRule::none && !of_image)
+  // medial's own format is not repaired.
+  const bool mends =
+      !of_image && !(std::filesystem::is_regular_file(input.path) && io::is_native(input.path));
+  if ((tangled || flat) && read.repair == RepairRule::none && mends)
     error.text += tangled ? "; --repair repairs such rings"
                           : "; --repair drops such rings, and so does --skip-invalid";
   else if (flat && !read.skip_invalid)

@@ -843,5 +843,22 @@ TEST(ArcShape, SideBesideItsOwnChordByLessThanAnApexRounds) {
   }
 }
 
+// An arc that comes back along its neighbour, 1e-14 away: less than the exterior's tolerance.
+TEST(ArcShape, TooFineForItsExteriorIsNamedInTheInput) {
+  const Ring ring{{{1.136880928071773, 1.2473849762550373},
+                   {0.24439116894908247, 1.6984526317803716},
+                   {-0.6, 1.1510676555253343},
+                   {0.24439116894908786, 1.6984526317802717}},
+                  RingRole::any,
+                  {1, 0.2679491924311227, -0.2679491924311224, 0}};
+  const Shape shape = built({ring});
+  EXPECT_TRUE(compute(shape).ok());
+  const auto axis = compute(shape, {.exterior = true});
+  ASSERT_FALSE(axis.ok());
+  EXPECT_EQ(axis.error().code, ErrorCode::unsupported);
+  EXPECT_EQ(axis.error().place.ring, 0U);
+  EXPECT_NE(axis.error().text.find("choose a smaller margin"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace medial

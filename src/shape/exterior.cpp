@@ -7,6 +7,25 @@
 #include "base/in_flight.h"
 
 namespace medial {
+namespace {
+
+/// Why build_shape() refuses the exterior of a valid shape, at the place in the input.
+Error error_of_exterior(const Shape& shape, const Place& built) {
+  Error error{
+      ErrorCode::unsupported,
+      "edges lie nearer to each other here than the exterior resolves, whose tolerance is a "
+      "share of the enclosure's size: choose a smaller margin, or move them apart",
+      {}};
+  error.place.point = built.point;
+  if (!built.ring || *built.ring == 0) return error;
+  const std::size_t loop = *built.ring - 1;
+  const std::size_t point = shape.loop_begin[loop] + built.vertex.value_or(0);
+  error.place.ring = shape.sources[point].ring;
+  if (built.vertex) error.place.vertex = shape.sources[point].vertex;
+  return error;
+}
+
+}  // namespace
 
 Result<Exterior> exterior_of(const Shape& shape, double margin) {
   const Box box = bounding_box(shape);
@@ -21,7 +40,7 @@ Result<Exterior> exterior_of(const Shape& shape, double margin) {
     ring.bulges.assign(first, first + static_cast<std::ptrdiff_t>(loop.size()));
   }
   auto built = build_shape(rings);
-  if (!built) return std::move(built).error();
+  if (!built) return error_of_exterior(shape, built.error().place);
   Exterior exterior{std::move(built).value(), {}, {}};
   for (VertexSource& source : exterior.shape.sources) {
     exterior.of_loop.push_back(source.ring - 1);
@@ -39,9 +58,8 @@ Result<double> checked_margin_for(const Box& box, double margin) {
   constexpr double least = 1e-6, most = 1e6;
   const double chosen = margin_for(box, margin), size = diagonal(box);
   if (!(margin >= 0 && chosen >= least * size && chosen <= most * size))
-    return Error{ErrorCode::invalid_option,
-                 "the margin must be 0 or in [1e-6, 1e6] of the shape's diagonal",
-                 {}};
+    return Error{
+        ErrorCode::invalid_option, "the margin must be in [1e-6, 1e6] of the shape's diagonal", {}};
   return chosen;
 }
 

@@ -52,7 +52,7 @@ Result<Box> enclosure_for(const PlanarGraph& planar_graph, const Options& option
   if (margin == 0) margin = largest > 0 ? 0.5 * largest : 1;
   if (!(options.margin >= 0 && margin >= 1e-6 * size && margin <= most * std::max(largest, 1.0)))
     return Error{ErrorCode::invalid_option,
-                 "the margin must be 0 or in [1e-6, 1e6] of the input's diagonal",
+                 "the margin must be in [1e-6, 1e6] of the input's diagonal",
                  {}};
   return Box{box.low - Vec2{margin, margin}, box.high + Vec2{margin, margin}};
 }

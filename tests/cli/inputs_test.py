@@ -68,6 +68,12 @@ class Inputs(CommandLine):
             self.assertIn(b"note", done.stderr)
             self.assertEqual(self.succeed("axis", option, "bow.wkt", "--quiet").stderr, b"")
 
+    def test_own_format_is_not_told_to_repair(self):
+        self.write("bow.json", '{"medial":2,"items":[{"contours":[{"start":[0,0],"pieces":'
+                   '[["line",1,1],["line",1,0],["line",0,1],["line",0,0]]}]}]}')
+        error = self.refuse("crossing", "axis", "bow.json")
+        self.assertNotIn("--repair", error)
+
     def test_curves_of_every_kind_of_file(self):
         stadium = (
             '{"medial":2,"items":[{"contours":[{"start":[0,0],"pieces":'
