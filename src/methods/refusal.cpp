@@ -15,7 +15,9 @@ std::optional<Error> error_if_refused(const Problem& problem, const MedialAxis& 
   demands.threads = problem.options.threads;
   const Certificate certificate = verify(problem.shape, axis, demands);
   if (certificate.passed) return std::nullopt;
-  Error error{ErrorCode::unsupported, "rounding alone decides what a disk touches here", {}};
+  Error error{ErrorCode::unsupported,
+              "rounding alone decides what a disk touches here: move the vertices near it apart",
+              {}};
   error.place.point = certificate.worst;
   return error;
 }

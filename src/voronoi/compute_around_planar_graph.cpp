@@ -51,9 +51,8 @@ Result<Box> enclosure_for(const PlanarGraph& planar_graph, const Options& option
   double margin = margin_for(box, options.margin);
   if (margin == 0) margin = largest > 0 ? 0.5 * largest : 1;
   if (!(options.margin >= 0 && margin >= 1e-6 * size && margin <= most * std::max(largest, 1.0)))
-    return Error{ErrorCode::invalid_option,
-                 "the margin must be in [1e-6, 1e6] of the input's diagonal",
-                 {}};
+    return Error{
+        ErrorCode::invalid_option, "the margin must be in [1e-6, 1e6] of the input's diagonal", {}};
   return Box{box.low - Vec2{margin, margin}, box.high + Vec2{margin, margin}};
 }
 
@@ -110,9 +109,10 @@ void for_each_group(const PlanarGraph& planar_graph, const std::vector<std::uint
 
 Error error_of_close_point(const PlanarGraph& planar_graph, std::uint32_t point) {
   const VertexSource source = planar_graph.point_sources[point];
-  Error error{ErrorCode::unsupported,
-              "a point is nearer to another one, or to an edge, than rounding can separate",
-              {}};
+  Error error{
+      ErrorCode::unsupported,
+      "a point is nearer to another one, or to an edge, than rounding can separate: move it away",
+      {}};
   error.place.ring = source.ring;
   error.place.vertex = source.vertex;
   error.place.point = planar_graph.points[point];
@@ -267,7 +267,9 @@ std::optional<Error> refused_next_to_arcs(const PlanarGraph& planar_graph,
   if (certificate.passed) return std::nullopt;
   if (auto error = close()) return error;
   Error error{
-      ErrorCode::unsupported, "rounding alone decides what a disk touches next to arcs here", {}};
+      ErrorCode::unsupported,
+      "rounding alone decides what a disk touches next to arcs here: move what ends near it apart",
+      {}};
   error.place.point = certificate.worst;
   return error;
 }
