@@ -84,10 +84,10 @@ struct VoronoiItem {
   Shape shape;
   VoronoiDiagram diagram;
   Attributes attributes;
+  LoosePieces pieces = {};  ///< of a planar graph; Site::ring is a chain. Chains may be missing
 };
 
-/// Whether write_voronoi() made the file, a .json; and its diagrams, without shapes and reference
-/// system. Errors: also unsupported (a newer version), too_large (4 GiB or more).
+/// Whether write_voronoi() made the .json; and its bare diagrams. Errors: unsupported, too_large.
 bool is_voronoi(const std::string& path);
 Result<Document<VoronoiItem>> read_voronoi(const std::string& path);
 struct ImageFile : PlacedImage, DocumentInfo {};
