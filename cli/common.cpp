@@ -227,9 +227,9 @@ void add_input_options(CLI::App& command, InputOptions& input) {
                   "The reference system of the coordinates; overrides the file's own.")
       ->option_text("EPSG:N");
   command.add_flag("--project", read.project,
-                   "Longitudes and latitudes: compute in a suitable local projection, in\n"
-                   "metres. GIS formats, .wkt and .csv get longitudes and latitudes again;\n"
-                   "radii and lengths stay in metres.");
+                   "Longitudes and latitudes, or Web Mercator and the like: compute in a\n"
+                   "suitable local projection, in metres. GIS formats, .wkt and .csv get\n"
+                   "the coordinates of the input again; radii and lengths stay in metres.");
   add_image_options(command, read.image);
   command.add_flag("--labels", read.image.labels,
                    "Images: make one feature of the pixels of each value except 0.");

@@ -53,6 +53,8 @@ Result<Diagrams> compute_together(const VoronoiArguments& arguments) {
   out.phases.end("voronoi");
   out.file = Document<io::VoronoiItem>{pieces->features, {}};
   out.file.indices.clear();  // the diagram is that of all features
+  item.pieces = std::move(*pieces);
+  item.pieces.chains.clear();
   out.file.items.push_back(std::move(item));
   return out;
 }
@@ -68,8 +70,8 @@ Result<Diagrams> compute_by_lee(const VoronoiArguments& arguments) {
     auto diagram =
         voronoi_diagram(items[i].shape, {.tolerance = common.tolerance, .threads = threads});
     if (!diagram) return std::move(diagram).error();
-    return io::VoronoiItem{std::move(items[i].shape), std::move(diagram).value(),
-                           std::move(items[i].attributes)};
+    return io::VoronoiItem{
+        std::move(items[i].shape), std::move(diagram).value(), std::move(items[i].attributes), {}};
   };
   auto computed = map_items<io::VoronoiItem>(weights_of(shapes->file), common.threads, compute_one);
   if (!computed) return std::move(computed).error();

@@ -20,7 +20,7 @@
 #include <thread>
 #include <tuple>
 
-#include "io/gis/back_to_geographic.h"
+#include "io/gis/back_to_input.h"
 #include "medial/io/read.h"
 #include "medial/io/write.h"
 #include "medial/methods.h"
@@ -407,7 +407,7 @@ TEST_F(Io, LocalProjectionsMeasureMetresAndGoBack) {
       const double meridian = distance(points[0], points[2]);
       EXPECT_NEAR(meridian / size, 111200, 600);  // metres a degree of latitude, on the ellipsoid
     }
-    Result<BackToGeographic> back = BackToGeographic::make(data->crs_wkt);
+    Result<BackToInput> back = BackToInput::make(data->crs_wkt);
     ASSERT_TRUE(back.ok());
     EXPECT_NE(back->crs_wkt().find("WGS 84"), std::string::npos);
     ASSERT_TRUE(back->transform(points).ok());
@@ -417,7 +417,7 @@ TEST_F(Io, LocalProjectionsMeasureMetresAndGoBack) {
       EXPECT_NEAR(points[i].y, plain->items[0].rings[0].points[i].y, 2e-8);
     }
   }
-  EXPECT_FALSE(BackToGeographic::make("").ok());
+  EXPECT_FALSE(BackToInput::make("").ok());
 }
 
 TEST_F(Io, WhatIsNotGeographicIsNotProjected) {

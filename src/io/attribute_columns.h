@@ -16,14 +16,16 @@ namespace medial::io {
 class AttributeColumns {
  public:
   AttributeColumns() = default;
-  /// Takes all items of a document, with what lies in their buffers; an attribute that is named as
-  /// one of the writer's `own` columns gets another name.
+  /// Takes all items of a document, with what lies in their buffers and diagrams; an attribute that
+  /// is named as one of the writer's `own` columns gets another name.
   template <class Item>
   AttributeColumns(const Document<Item>& file, std::span<const Column> own) {
     for (const Item& item : file.items) {
       add(item.attributes);
       if constexpr (requires { item.sources; })
         for (const auto& source : item.sources) add(source.attributes);
+      if constexpr (requires { item.pieces; })
+        for (const Attributes& attributes : item.pieces.features.items) add(attributes);
     }
     finish(file, own);
   }

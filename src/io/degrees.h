@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "medial/document.h"
 
@@ -22,13 +24,34 @@ void for_each_point(const Document<Feature>& document, Action action) {
 /// The largest latitude; rounding may have moved the pole a little further.
 constexpr double pole = 90, beyond_pole = 1e-9;
 
-/// The largest coordinates, whatever their signs.
-inline Vec2 reach_of(const Document<Feature>& document) {
-  Vec2 reach;
-  for_each_point(document, [&reach](Vec2 point) {
-    reach = {std::max(reach.x, std::abs(point.x)), std::max(reach.y, std::abs(point.y))};
-  });
-  return reach;
+/// The points of documents with the lowest and the highest coordinates.
+struct Extremes {
+  std::optional<std::array<Vec2, 4>> points;
+
+  void add(Vec2 p) {
+    if (!points) points = {p, p, p, p};
+    auto& [west, east, south, north] = *points;
+    if (p.x < west.x) west = p;
+    if (p.x > east.x) east = p;
+    if (p.y < south.y) south = p;
+    if (p.y > north.y) north = p;
+  }
+  void add(const Document<Feature>& document) {
+    for_each_point(document, [this](Vec2 point) { add(point); });
+  }
+  /// The largest coordinates, whatever their signs.
+  Vec2 reach() const {
+    if (!points) return {};
+    const auto& [west, east, south, north] = *points;
+    return {std::max(std::abs(west.x), std::abs(east.x)),
+            std::max(std::abs(south.y), std::abs(north.y))};
+  }
+};
+
+inline Extremes extremes_of(const Document<Feature>& document) {
+  Extremes extremes;
+  extremes.add(document);
+  return extremes;
 }
 
 /// Whether coordinates of this reach may be longitudes and latitudes, in a unit of so many degrees.

@@ -19,6 +19,7 @@ struct GisModule {
   decltype(&io::output_crs_of) output_crs_of;
   decltype(&io::urn_of_crs) urn_of_crs;
   decltype(&io::project_to_local) project_to_local;
+  decltype(&io::note_stretch) note_stretch;
   decltype(&io::make_valid) make_valid;
   decltype(&io::read_image) read_image;
   decltype(&io::build_info) build_info;

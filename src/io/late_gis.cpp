@@ -107,6 +107,11 @@ Status project_to_local(Document<Feature>& document) {
   return in_module(&GisModule::project_to_local, document);
 }
 
+void note_stretch(DocumentInfo& document, const Extremes& extremes) {
+  if (!document.crs_wkt.empty() && loaded().module != nullptr)
+    loaded().module->note_stretch(document, extremes);
+}
+
 Status make_valid(Feature& feature, std::size_t index, std::vector<std::string>& notes) {
   return in_module(&GisModule::make_valid, feature, index, notes);
 }

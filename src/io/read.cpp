@@ -141,10 +141,13 @@ Result<Document<Feature>> finish(Document<Feature> document, const ReadOptions& 
   FeatureChecks checks(options);
   if (Status checked = checks.check(document); !checked) return std::move(checked).error();
   if (Status complete = checks.finish(document); !complete) return std::move(complete).error();
-  if (Status settled = settle_crs(document, options.crs, reach_of(document)); !settled)
+  const Extremes extremes = extremes_of(document);
+  if (Status settled = settle_crs(document, options.crs, extremes.reach()); !settled)
     return settled.error();
-  if (options.project) {
-    if (Status status = project_to_local(document); !status) return status.error();
+  if (!options.project) {
+    note_stretch(document, extremes);
+  } else if (Status status = project_to_local(document); !status) {
+    return status.error();
   }
   if (options.repair == RepairRule::make_valid) {
     Status repaired = check_each(document, options.skip_invalid, [&](Feature& feature, auto index) {

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "io/degrees.h"
 #include "io/output_crs.h"
 #include "medial/io/read.h"
 
@@ -22,7 +23,11 @@ double degrees_of_unit(const std::string& crs_wkt);
 /// be projected).
 Status project_to_local(Document<Feature>& document);
 
-/// The reference system of an output: that of the document, or its longitudes and latitudes again
+/// Adds a note if lengths in the projected reference system are off by more than one percent at one
+/// of these points, so that project_to_local() would help.
+void note_stretch(DocumentInfo& document, const Extremes& extremes);
+
+/// The reference system of an output: that of the document, or what its coordinates were before
 /// where that is a local projection of project_to_local(). Errors: unsupported (a local projection
 /// that cannot be undone).
 Result<OutputCrs> output_crs_of(const std::string& crs_wkt, Unit unit);

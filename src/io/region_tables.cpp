@@ -48,27 +48,35 @@ Status add_regions(TableSink& sink, const OffsetItem& item, std::size_t feature,
   return success();
 }
 
-Status add_diagram(TableSink& sink, const VoronoiItem& item, std::size_t feature,
-                   std::span<const Value> attributes, double chord) {
+Status add_diagram(TableSink& sink, const Document<VoronoiItem>& file, std::size_t i,
+                   const AttributeColumns& attributes, double chord) {
+  const VoronoiItem& item = file.items[i];
   const VoronoiDiagram& diagram = item.diagram;
   for (std::uint32_t k = 0; k < diagram.sites.size(); ++k) {
     std::vector<std::vector<Vec2>> parts{ring_of_face(diagram, k, chord)};
     if (parts[0].empty()) continue;
     const Site& site = diagram.sites[k];
-    const std::vector<Value> values{whole(feature), whole(k), std::string(name_of(site.kind())),
-                                    whole(site.ring), whole(site.vertex)};
-    if (Status added = sink.add(0, values, attributes, parts); !added) return added;
+    const Owner owner = owner_of(file, i, site);
+    const std::vector<Value> values{whole(owner.feature), whole(k),
+                                    std::string(name_of(site.kind())),
+                                    whole(ring_in_feature(item, site)), whole(site.vertex)};
+    if (Status added = sink.add(0, values, attributes.values_of(*owner.attributes), parts); !added)
+      return added;
   }
   for (const VoronoiEdge& edge : diagram.edges) {
     std::vector<std::vector<Vec2>> line(1);
     for (const Disk& disk : sample_by_chord(diagram, edge, chord)) line[0].push_back(disk.center);
-    const std::vector<Value> values{whole(feature),
+    const std::optional<Owner> owner = owner_of(file, i, edge);
+    const std::vector<Value> values{owner ? whole(owner->feature) : Value{},
                                     std::string(name_of(edge)),
                                     number_of(edge.site[0]),
                                     number_of(edge.site[1]),
                                     diagram.nodes[edge.node[0]].disk.radius,
                                     diagram.nodes[edge.node[1]].disk.radius};
-    if (Status added = sink.add(1, values, attributes, line); !added) return added;
+    if (Status added = sink.add(
+            1, values, attributes.values_of(owner ? *owner->attributes : Attributes()), line);
+        !added)
+      return added;
   }
   return success();
 }
@@ -138,9 +146,8 @@ TableSource tables_of(const VoronoiOutput& output, const Target&) {
   source.fill = [&output, attributes](TableSink& sink) -> Status {
     const auto& items = output.document.items;
     for (std::size_t i = 0; i < items.size(); ++i) {
-      const auto rest = attributes.values_of(items[i].attributes);
-      if (Status added = add_diagram(sink, items[i], output.document.index_of(i), rest,
-                                     chord_of(items[i], output.options));
+      if (Status added =
+              add_diagram(sink, output.document, i, attributes, chord_of(items[i], output.options));
           !added)
         return added;
     }

@@ -13,6 +13,7 @@
 #include "io/format_name.h"
 #include "io/open.h"
 #include "io/part_writer.h"
+#include "io/reference_system.h"
 #include "io/tables.h"
 #include "io/write_target.h"
 #include "medial/io/write.h"
@@ -76,7 +77,7 @@ struct Survey {
 
 Result<Survey> survey_of(PartReader reader, const std::string& crs, std::uint64_t most_points) {
   Survey survey;
-  Vec2 reach;
+  Extremes extremes;
   for (;;) {
     auto part = reader.next();
     if (!part) return std::move(part).error();
@@ -89,8 +90,7 @@ Result<Survey> survey_of(PartReader reader, const std::string& crs, std::uint64_
     if (!features.text_attributes.empty())
       common.text_attributes = std::move(features.text_attributes);
     std::ranges::move(features.notes, std::back_inserter(common.notes));
-    const Vec2 own = reach_of(features);
-    reach = {std::max(reach.x, own.x), std::max(reach.y, own.y)};
+    extremes.add(features);
     for (const Feature& feature : features.items) {
       survey.too_large = survey.too_large || point_count(feature) > most_points;
       survey.columns.add(feature.attributes);
@@ -103,8 +103,9 @@ Result<Survey> survey_of(PartReader reader, const std::string& crs, std::uint64_
     if (survey.too_large) return survey;
   }
   if (Status complete = reader.finish(survey.common); !complete) return std::move(complete).error();
-  if (Status settled = settle_crs(survey.common, crs, reach); !settled)
+  if (Status settled = settle_crs(survey.common, crs, extremes.reach()); !settled)
     return std::move(settled).error();
+  note_stretch(survey.common, extremes);
   return survey;
 }
 

@@ -2,6 +2,7 @@
 
 // What the writers of Voronoi diagrams share.
 
+#include <optional>
 #include <vector>
 
 #include "medial/io/write.h"
@@ -13,6 +14,20 @@ const char* name_of(const VoronoiEdge& edge);
 
 /// A site's number, -1 for none.
 std::int64_t number_of(std::uint32_t site);
+
+/// A feature of the input.
+struct Owner {
+  std::uint64_t feature = 0;  ///< its number
+  const Attributes* attributes = nullptr;
+};
+
+/// Whose a site of the i-th diagram is.
+Owner owner_of(const Document<VoronoiItem>& file, std::size_t i, const Site& site);
+/// Whose an edge is; nobody's between two features.
+std::optional<Owner> owner_of(const Document<VoronoiItem>& file, std::size_t i,
+                              const VoronoiEdge& edge);
+/// The ring of a site, counted in its feature.
+std::uint64_t ring_in_feature(const VoronoiItem& item, const Site& site);
 
 /// The allowed deviation of chords, in units of the input.
 double chord_of(const VoronoiItem& item, const WriteOptions& options);

@@ -33,6 +33,8 @@ std::string urn_of_crs(const std::string&) { return {}; }
 
 Status project_to_local(Document<Feature>&) { return missing("GDAL", "project"); }
 
+void note_stretch(DocumentInfo&, const Extremes&) {}
+
 /// load_shapes() mends these by noding.
 Status make_valid(Feature&, std::size_t, std::vector<std::string>&) { return success(); }
 

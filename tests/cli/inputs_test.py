@@ -60,6 +60,50 @@ class Inputs(CommandLine):
                 for x, y, *_ in feature["geometry"]["coordinates"]:
                     self.assertTrue(8.99 < x < 9.41 and 46.99 < y < 47.06, (x, y))
 
+    def test_projected_coordinates_that_stretch_lengths(self):
+        """A rectangle of 100 by 10 m at 60 degrees north, in Web Mercator, which doubles lengths."""
+        def layer(name, code, points):
+            self.write(name, json.dumps({
+                "type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": f"EPSG:{code}"}}, "features": [
+                    {"type": "Feature", "properties": {"k": 7}, "geometry": {"type": "Polygon", "coordinates": [points]}}]}))
+        left, low, right, high = 1113194.9079, 8399737.8898, 1113394.9070, 8399757.8732
+        layer("m.geojson", 3857, [[left, low], [right, low], [right, high], [left, high], [left, low]])
+        plain = self.succeed("axis", "m.geojson", "--json")
+        self.assertIn(b"are 2.00 times those on the ground at 10.00", plain.stderr)
+        self.assertIn(b"--project", plain.stderr)
+        metres = self.succeed("axis", "m.geojson", "--project", "--json", "-o", "m.json")
+        self.assertNotIn(b"times those on the ground", metres.stderr)
+        self.assertAlmostEqual(json.loads(plain.stdout)["deepest"]["radius"], 9.99, delta=0.01)
+        self.assertAlmostEqual(json.loads(metres.stdout)["deepest"]["radius"], 5, delta=0.03)
+        self.succeed("verify", "m.geojson", "m.json", "--project")
+        # Outputs have the layer's own coordinates again.
+        self.succeed("rebuild", "m.json", "-o", "r.geojson")
+        for command, output, *options in (
+                ("axis", "a.geojson"), ("centreline", "c.geojson"), ("offset", "o.geojson", "--distance", "1"),
+                ("measure", "t.geojson", "--transects", "5"), ("voronoi", "v.geojson", "--margin", "1"),
+                ("rebuild", "r.geojson")):
+            if command != "rebuild":
+                self.succeed(command, "m.geojson", "--project", "-o", output, *options)
+            written = json.loads(self.read(output))
+            self.assertIn("3857", written["crs"]["properties"]["name"], command)
+            text = re.findall(r"\[(-?[0-9][-+.0-9e]*),(-?[0-9][-+.0-9e]*)", self.read(output).decode())
+            self.assertGreater(len(text), 1, command)
+            for x, y in text:
+                self.assertTrue(left - 4 < float(x) < right + 4 and low - 4 < float(y) < high + 4, (command, x, y))
+        # A grid that is true within a percent is left alone: UTM, and a state plane in feet.
+        for code, x, y in (32632, 500000, 6651000), (2263, 990000, 200000):
+            layer("u.geojson", code, [[x, y], [x + 99, y], [x + 99, y + 9], [x, y + 9], [x, y]])
+            self.assertEqual(self.succeed("axis", "u.geojson", "--json").stderr, b"")
+            self.assertIn(b"nothing was projected", self.succeed("axis", "u.geojson", "--project", "--json").stderr)
+        # Read part by part, the note is the same.
+        ring = f"{left} {low}, {right} {low}, {right} {high}, {left} {high}, {left} {low}"
+        self.write("long.wkt", "\n".join([f"SRID=3857;POLYGON(({ring}))"] * 10000))
+        self.assertEqual(self.succeed("axis", "long.wkt", "-o", "long.csv").stderr.count(b"2.00 times those"), 1)
+        # What lies beyond the end of the system would come back elsewhere.
+        x = 20037508.342789244
+        layer("e.geojson", 3857, [[x - 50, high], [x + 50, high], [x + 50, high + 50], [x - 50, high]])
+        self.assertIn("beyond the end", self.refuse("unsupported", "axis", "e.geojson", "--project"))
+
     def test_repair(self):
         self.write("bow.wkt", BOW_TIE)
         for option in ("--repair", "--repair=make-valid", "--repair=even-odd", "--repair=non-zero"):

@@ -1,6 +1,8 @@
 """`medial voronoi`: diagrams and nearest sites."""
 
+import contextlib
 import json
+import sqlite3
 
 from support import FRAME, CommandLine, comb
 
@@ -71,6 +73,33 @@ class Voronoi(CommandLine):
         self.refuse("unsupported", "verify", "outline.wkt", "lee.json")
         self.write("cut.json", json.dumps(stored)[:-9])
         self.refuse("malformed", "verify", "crossing.wkt", "cut.json", "--repair")
+
+    def test_cells_name_their_features(self):
+        self.write("wells.csv", "x,y,name\n0,0,a\n10,0,b\n5,8,c\n")
+        self.succeed("voronoi", "wells.csv", "-o", "v.geojson")
+        rows = [f["properties"] for f in json.loads(self.read("v.geojson"))["features"]]
+        faces = sorted((row["feature"], row["name"], row["ring"]) for row in rows if row["part"] == "face")
+        self.assertEqual(faces, [(0, "a", 0), (1, "b", 0), (2, "c", 0)])
+        # Between two features an edge is nobody's.
+        self.assertEqual([row["feature"] for row in rows if row["part"] == "edge"], [None] * 3)
+        for output in self.supported("v.gpkg"):
+            self.succeed("voronoi", "wells.csv", "-o", output)
+            with contextlib.closing(sqlite3.connect(self.path(output))) as table:
+                self.assertEqual(sorted(table.execute("SELECT feature, name, ring FROM faces")), faces)
+                kinds = table.execute("SELECT DISTINCT feature, name FROM edges WHERE kind = 'edge'")
+                self.assertEqual(list(kinds), [(None, None)])
+        # Rings count in their feature, and features as the input does: here one is left out.
+        self.write("two.geojson", json.dumps({"type": "FeatureCollection", "features": [
+            {"type": "Feature", "properties": {"name": name}, "geometry": shape} for name, shape in (
+                ("none", {"type": "Point", "coordinates": []}),
+                ("pair", {"type": "MultiLineString", "coordinates": [[[0, 0], [1, 0]], [[0, 3], [1, 3]]]}),
+                ("well", {"type": "Point", "coordinates": [5, 5]}))]}))
+        self.succeed("voronoi", "two.geojson", "-o", "w.geojson")
+        rows = [f["properties"] for f in json.loads(self.read("w.geojson"))["features"]]
+        of = {(row["feature"], row["name"], row["ring"]) for row in rows if row["part"] == "face"}
+        self.assertEqual(of, {(1, "pair", 0), (1, "pair", 1), (2, "well", 0)})
+        spokes = {(row["feature"], row["name"]) for row in rows if row["part"] == "spoke"}
+        self.assertEqual(spokes, {(1, "pair")})
 
     def test_nearest_sites(self):
         """Site, feature, distance and foot point for places on the command line and in a file."""

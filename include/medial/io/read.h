@@ -27,9 +27,9 @@ struct ReadOptions {
   /// Leaves out features that cannot be read, repaired or made a shape, with a note each.
   bool skip_invalid = false;
   std::string crs;  ///< "EPSG:n" or WKT; overrides the file's own; empty: the file's
-  /// Projects longitudes and latitudes to metres, all features alike: within 300 km of their middle
-  /// by transverse Mercator (conformal: disks stay disks), else by azimuthal equal-area. Without a
-  /// reference system, coordinates that can be degrees count as WGS 84; projected ones get a note.
+  /// Projects degrees, and plane coordinates whose lengths are off by 1 %, to metres, all alike: up
+  /// to 300 km from their middle by transverse Mercator (conformal: disks stay disks), else by
+  /// azimuthal equal-area. Without a reference system, what can be degrees counts as WGS 84.
   bool project = false;
   /// For loose curves (DXF): joins ends at most this far apart, in units of the input, and drops
   /// chains that stay open; infinity closes all. By default 1e-6 of the bounding box's diagonal.
@@ -84,10 +84,10 @@ struct VoronoiItem {
   Shape shape;
   VoronoiDiagram diagram;
   Attributes attributes;
+  LoosePieces pieces = {};  ///< of a planar graph; Site::ring is a chain. Chains may be missing
 };
 
-/// Whether write_voronoi() made the file, a .json; and its diagrams, without shapes and reference
-/// system. Errors: also unsupported (a newer version), too_large (4 GiB or more).
+/// Whether write_voronoi() made the .json; and its bare diagrams. Errors: unsupported, too_large.
 bool is_voronoi(const std::string& path);
 Result<Document<VoronoiItem>> read_voronoi(const std::string& path);
 struct ImageFile : PlacedImage, DocumentInfo {};

@@ -222,18 +222,21 @@ Status write_geojson(Target& target, const OffsetsOutput& output) {
   return collection.finish();
 }
 
-void put_face(Collection& collection, OutputStream& out, std::size_t item,
-              const VoronoiDiagram& diagram, std::uint32_t k, double chord) {
+void put_face(Collection& collection, OutputStream& out, const Document<VoronoiItem>& file,
+              std::size_t i, const AttributeColumns& columns, std::uint32_t k, double chord) {
+  const VoronoiDiagram& diagram = file.items[i].diagram;
   std::vector<Vec2> ring = ring_of_face(diagram, k, chord);
   if (ring.empty()) return;
   const Site& site = diagram.sites[k];
+  const Owner owner = owner_of(file, i, site);
   collection.start();
-  collection.member("\"feature\"", item);
+  collection.member("\"feature\"", owner.feature);
   collection.member("\"part\"", "face");
   collection.member("\"site\"", k);
   collection.member("\"kind\"", name_of(site.kind()));
-  collection.member("\"ring\"", site.ring);
+  collection.member("\"ring\"", ring_in_feature(file.items[i], site));
   collection.member("\"vertex\"", site.vertex);
+  collection.attributes(columns, *owner.attributes);
   collection.geometry("Polygon");
   out.put('[');
   collection.points(std::move(ring));
@@ -241,15 +244,20 @@ void put_face(Collection& collection, OutputStream& out, std::size_t item,
   collection.end();
 }
 
-void put_edge(Collection& collection, std::size_t item, const VoronoiDiagram& diagram,
-              const VoronoiEdge& edge, double chord) {
+void put_edge(Collection& collection, OutputStream& out, const Document<VoronoiItem>& file,
+              std::size_t i, const AttributeColumns& columns, const VoronoiEdge& edge,
+              double chord) {
+  const VoronoiDiagram& diagram = file.items[i].diagram;
+  const std::optional<Owner> owner = owner_of(file, i, edge);
   collection.start();
-  collection.member("\"feature\"", item);
+  collection.key("\"feature\"");
+  owner ? out.put(owner->feature) : out.put("null");
   collection.member("\"part\"", name_of(edge));
   collection.member("\"left\"", number_of(edge.site[0]));
   collection.member("\"right\"", number_of(edge.site[1]));
   collection.member("\"radius_from\"", diagram.nodes[edge.node[0]].disk.radius);
   collection.member("\"radius_to\"", diagram.nodes[edge.node[1]].disk.radius);
+  if (owner) collection.attributes(columns, *owner->attributes);
   collection.geometry("LineString");
   std::vector<Vec2> line;
   for (const Disk& disk : sample_by_chord(diagram, edge, chord)) line.push_back(disk.center);
@@ -260,14 +268,18 @@ void put_edge(Collection& collection, std::size_t item, const VoronoiDiagram& di
 /// Faces as polygons and edges as lines.
 Status write_geojson(Target& target, const VoronoiOutput& output) {
   Collection collection(target);
+  std::vector<Column> own;
+  for (const char* name : {"feature", "part", "site", "kind", "ring", "vertex", "left", "right",
+                           "radius_from", "radius_to"})
+    own.push_back({name, ColumnType::text});
+  const AttributeColumns columns(output.document, own);
   for (std::size_t i = 0; i < output.document.items.size(); ++i) {
     const VoronoiDiagram& diagram = output.document.items[i].diagram;
     const double chord = chord_of(output.document.items[i], output.options);
-    const std::uint64_t feature = output.document.index_of(i);
     for (std::uint32_t k = 0; k < diagram.sites.size(); ++k)
-      put_face(collection, *target.out, feature, diagram, k, chord);
+      put_face(collection, *target.out, output.document, i, columns, k, chord);
     for (const VoronoiEdge& edge : diagram.edges)
-      put_edge(collection, feature, diagram, edge, chord);
+      put_edge(collection, *target.out, output.document, i, columns, edge, chord);
   }
   return collection.finish();
 }

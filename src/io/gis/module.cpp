@@ -5,8 +5,8 @@ namespace medial::io {
 extern "C" {
 extern const GisModule medial_gis_module;
 const GisModule medial_gis_module{formats,       describe_crs, describe_crs,     degrees_of_unit,
-                                  output_crs_of, urn_of_crs,   project_to_local, make_valid,
-                                  read_image,    build_info};
+                                  output_crs_of, urn_of_crs,   project_to_local, note_stretch,
+                                  make_valid,    read_image,   build_info};
 }
 
 }  // namespace medial::io
