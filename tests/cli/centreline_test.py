@@ -24,6 +24,32 @@ class Centreline(CommandLine):
         for name in ("line.json", "smooth.json"):
             self.succeed("draw", name, "-o", "again.svg")
 
+    def test_numbers_are_those_of_the_file(self):
+        """With extensions, smoothed and with loops: lengths as written; radii without the extensions."""
+        self.write("rectangle.wkt", RECTANGLE)
+        self.write("bend.wkt", "POLYGON((0 0,90 0,90 90,70 90,70 20,0 20,0 0))")
+        self.write("frame.wkt", FRAME)
+        self.write("river.wkt", "POLYGON((0 0,60 0,60 8,0 8,0 0),(25 2,35 2,35 4,25 4,25 2))")
+        for name, *options in (("rectangle.wkt", "--extend"), ("bend.wkt", "--smooth", "2"), ("bend.wkt",),
+                               ("bend.wkt", "--smooth", "2", "--extend"), ("frame.wkt", "--smooth", "1"),
+                               ("river.wkt", "--loops", "keep"), ("frame.wkt", "--loops", "keep")):
+            with self.subTest(name=name, options=options):
+                done = self.succeed("centreline", name, *options, "--json", "-o", "lines.geojson").stdout
+                lines = json.loads(done)["features"][0]["lines"]
+                written = [f["properties"] for f in json.loads(self.read("lines.geojson"))["features"]]
+                self.assertEqual(len(lines), len(written))
+                for line, row in zip(lines, written):
+                    self.assertAlmostEqual(line["length"], row["length"])
+                    if "--extend" not in options:
+                        self.assertAlmostEqual(line["narrowest_radius"], row["r_min"])
+                text = self.succeed("centreline", name, *options, "--threads", "1").stdout.decode()
+                self.assertIn(f"length {sum(row['length'] for row in written):.10g}", text)
+        extended = json.loads(self.succeed("centreline", "rectangle.wkt", "--extend", "--json").stdout)
+        self.assertAlmostEqual(extended["features"][0]["lines"][0]["length"], 4)
+        self.assertAlmostEqual(extended["features"][0]["lines"][0]["narrowest_radius"], 1)
+        extended = json.loads(self.succeed("centreline", "bend.wkt", "--extend", "--smooth", "1", "--json").stdout)
+        self.assertGreater(extended["features"][0]["lines"][0]["narrowest_radius"], 9)
+
     def test_between_places(self):
         self.write("frame.wkt", FRAME)
         path = json.loads(self.succeed("centreline", "frame.wkt", "--from", "0/3", "--to=1,1", "--json").stdout)
