@@ -219,6 +219,10 @@ void note_uncut(const std::vector<CarvedItem>& items, const CarveArguments& argu
     say("medial: {}: note: --margin is narrower than the tool, which does not fit between the "
         "shape and the rectangle around it\n",
         input);
+  if (tool.angle == 0 && tool.step > tool.tool / 2)
+    say("medial: {}: note: --step {:.6g} is more than half of the tool's diameter, which may leave "
+        "ridges; at most {:.6g} leaves nothing\n",
+        input, tool.step, tool.tool / 2);
   if (arguments.clear_tool > 0 && clearing == 0)
     say("medial: {}: note: the mill of --clear-tool fits nowhere: the V clears everything\n",
         input);
@@ -293,6 +297,20 @@ Status read_post(std::string& post) {
   return success();
 }
 
+/// Refuses a distance between passes at which the tool does not reach from one to the next.
+Status check_step(const CarveOptions& carve) {
+  const bool mill = carve.angle == 0;
+  const double flat = mill ? carve.tool : carve.tip;
+  const double width = mill ? flat : flat + 2 * clearing_before(carve, 0, 0).allowance;
+  const bool bottom = mill || carve.depth > 0 || carve.tool > 0;
+  if (!bottom || carve.step <= width) return success();
+  return invalid_option(fmt::format(
+      "--step {:.6g} is more than the tool's diameter of {:.6g}{}: ridges as high as the material "
+      "would be left; at most {:.6g} {}",
+      carve.step, width, mill ? "" : " at the largest depth", flat > 0 ? flat / 2 : width / 40,
+      flat > 0 ? "leaves nothing" : "leaves low ones"));
+}
+
 /// Refuses missing options, and options without effect.
 Status check_tools(const CarveArguments& arguments) {
   const CarveOptions& carve = arguments.carve;
@@ -310,7 +328,7 @@ Status check_tools(const CarveArguments& arguments) {
   if (!arguments.machine.post.empty() && !output.empty() &&
       !writes_one_of(arguments, gcode_formats))
     return invalid_option(std::string("--post is for G-code: ") + gcode_formats);
-  return success();
+  return check_step(carve);
 }
 
 Result<int> run_carve(const CarveArguments& given) {
@@ -398,7 +416,7 @@ void add_tool_options(CLI::App& command, CarveArguments& arguments) {
   add_length(command, "--step", carve.step, "S",
              "The distance between passes that clear a flat bottom (default: half of the tip's\n"
              "diameter, which leaves nothing; for a pointed tool, 1/20 of its radius at the\n"
-             "bottom, which leaves ridges).");
+             "bottom, which leaves ridges); at most the tool's diameter.");
   add_length(command, "--path-tolerance", carve.chord, "T",
              "The largest error of straight moves: above the axis's curves (default: 1e-5 of\n"
              "the diagonal), and in .csv inside arcs (default: 1e-6 of the tool's radius at\n"
