@@ -448,7 +448,7 @@ Result<int> run_centreline(const CentrelineArguments& arguments) {
     axes->phases.end("lines");
     return finish_axes(*axes, arguments);
   }
-  note_places_outside(axes->file, arguments.path, arguments);
+  note_places(axes->file, arguments.path, arguments);
   auto paths = choose_paths(axes->file, arguments.path, common.threads);
   if (!paths) return std::move(paths).error();
   auto sums = what_is_left_out(axes->file, *paths, arguments, common.threads);

@@ -202,12 +202,14 @@ Json json_of(const Measured& measured, std::size_t necks_wanted) {
                      {"closed", line.path.closed},
                      {"necks", std::move(necks)}});
   }
-  Json object = {{"area", measured.mean.area},
-                 {"length", measured.mean.length},
+  const MeanWidth& mean = measured.mean;
+  const auto along = [&mean](double value) { return mean.length > 0 ? Json(value) : Json(); };
+  Json object = {{"area", mean.area},
+                 {"length", mean.length},
                  {"mean_width",
-                  {{"by_length", measured.mean.by_length},
-                   {"by_area", measured.mean.by_area},
-                   {"area_by_length", measured.mean.area_by_length}}},
+                  {{"by_length", along(mean.by_length)},
+                   {"by_area", mean.by_area},
+                   {"area_by_length", along(mean.area_by_length)}}},
                  {"widest", to_json(measured.widest)},
                  {"lines", std::move(lines)}};
   object["necks"] = Json::array();
@@ -236,9 +238,10 @@ std::string summary_of(const Measured& measured, const MeasureArguments& argumen
   }
   const MeanWidth& mean = measured.mean;
   rows.add("area", number(mean.area));
-  rows.add("length", number(mean.length) + (measured.lines.size() > 1
-                                                ? fmt::format(" ({} lines)", measured.lines.size())
-                                                : std::string()));
+  const std::size_t lines = measured.lines.size();
+  rows.add("length", lines == 0   ? "- (no line)"
+                     : lines == 1 ? number(mean.length)
+                                  : fmt::format("{:.10g} ({} lines)", mean.length, lines));
   if (mean.length > 0) {
     rows.add("mean width by length", number(mean.by_length));
     rows.add("area by length", number(mean.area_by_length));
@@ -299,8 +302,8 @@ std::string table_row(const Measured& one, const std::string& name, bool disks_a
     return known ? fmt::format("{:.6g}", value) : std::string("-");
   };
   const bool line = one.mean.length > 0;
-  return fmt::format("{:>7} {:>12.6g} {:>12.6g} {:>12} {:>12} {:>12.6g} {:>12.6g} {:>12}\n", name,
-                     one.mean.area, one.mean.length, number(narrowest_of(one), line),
+  return fmt::format("{:>7} {:>12.6g} {:>12} {:>12} {:>12} {:>12.6g} {:>12.6g} {:>12}\n", name,
+                     one.mean.area, number(one.mean.length, line), number(narrowest_of(one), line),
                      number(one.mean.by_length, line), one.mean.by_area, 2 * one.widest.radius,
                      number(neck == nullptr ? 0 : neck->width.width(), neck != nullptr));
 }
@@ -571,7 +574,7 @@ Result<int> run_measure(const MeasureArguments& given) {
     return compute_axes(std::move(shapes).value(), input, common, arguments.options);
   }();
   if (!axes) return std::move(axes).error();
-  note_places_outside(axes->file, arguments.path, arguments);
+  note_places(axes->file, arguments.path, arguments);
   if (axes->file.pixel > 0 && input.source.read.smooth_contour && !common.quiet)
     say("medial: {}: note: areas and widths are those of the smoothed outline, which lies within "
         "half a pixel of the pixels' edges; --pixel-outline measures the pixels\n",

@@ -185,6 +185,23 @@ class Measure(CommandLine):
         self.assertEqual([row.split()[:2] for row in table],
                          [["feature", "rank"]] + [[str(i), str(k)] for i in range(2) for k in range(3)])
 
+    def test_shapes_without_a_line(self):
+        """A disk has no line, and so no widths along one; nor have features that the places do not touch."""
+        self.write("disk.wkt", "CURVEPOLYGON(CIRCULARSTRING(-3 0, 3 0, -3 0))")
+        disk = json.loads(self.succeed("measure", "disk.wkt", "--json").stdout)["features"][0]
+        self.assertIsNone(disk["mean_width"]["by_length"])
+        self.assertIsNone(disk["mean_width"]["area_by_length"])
+        self.assertAlmostEqual(disk["mean_width"]["by_area"], 6)
+        self.assertIn(b"no line", self.succeed("measure", "disk.wkt").stdout)
+        self.write("both.wkt", "CURVEPOLYGON(CIRCULARSTRING(-3 0, 3 0, -3 0))\n" + "POLYGON ((10 0,20 0,20 4,10 4,10 0))")
+        row = self.succeed("measure", "both.wkt").stdout.decode().splitlines()[1].split()
+        self.assertEqual(row[2:5], ["-", "-", "-"])
+        for command in ("measure", "centreline"):
+            done = self.succeed(command, "both.wkt", "--from", "12,2", "--to", "17,2")
+            self.assertIn(b"note: the line lies in feature 1", done.stderr)
+            one = self.succeed(command, "disk.wkt").stderr + self.succeed(command, "both.wkt").stderr
+            self.assertNotIn(b"the line lies in", one)
+
     def test_measure(self):
         self.write("rectangle.wkt", RECTANGLE)
         table = self.succeed("measure", "rectangle.wkt").stdout.decode()
