@@ -176,14 +176,35 @@ class Measure(CommandLine):
         for extension in ("gpkg", "wkt", "svg", "pdf", "png"):
             self.succeed(*disks, "-o", "alone." + extension)
         # Each of these asks for more.
-        for more in (["--samples", "9"], ["--transects", "2"], ["--spacing", "1"], ["--necks", "1"], ["--trim", "0"],
-                     ["--widening", "2"], ["--route", "shortest"], ["--from", "0,0", "--to", "4,2"],
+        for more in (["--samples", "9", "--plot", "plot.svg"], ["--transects", "2", "-o", "t.svg"],
+                     ["--spacing", "1", "-o", "t.svg"], ["--necks", "1"], ["--trim", "0"], ["--widening", "2"],
+                     ["--route", "shortest"], ["--from", "0,0", "--to", "4,2"],
                      ["--widest", "0,0", "4,2"], ["--plot", "plot.svg"], ["-o", "profile.csv"]):  # fmt: skip
             self.assertIn("area", json.loads(self.succeed(*disks, "--json", *more).stdout)["features"][0], more)
         self.write("two.wkt", RECTANGLE + "\n" + RECTANGLE)
         table = self.succeed("measure", "two.wkt", "--disks", "3").stdout.decode().splitlines()
         self.assertEqual([row.split()[:2] for row in table],
                          [["feature", "rank"]] + [[str(i), str(k)] for i in range(2) for k in range(3)])
+
+    def test_options_for_what_is_not_written(self):
+        """None is ignored: each error names what the option is for."""
+        self.write("rectangle.wkt", RECTANGLE)
+        self.write("two.wkt", RECTANGLE + "\n" + RECTANGLE)
+        for option in ("--transects", "--spacing", "--necks", "--disks"):
+            error = self.refuse("invalid_option", "measure", "rectangle.wkt", option, "2", "-o", "x.csv")
+            self.assertIn(option, error)
+            self.assertIn("FILE.geojson", error)
+        for output in ([], ["-o", "x.geojson"]):
+            error = self.refuse("invalid_option", "measure", "rectangle.wkt", "--samples", "10", *output)
+            self.assertIn("FILE.csv", error)
+        for options in (["--necks", "1"], ["--disks", "2", "--necks", "1"], ["--disks", "2", "--trim", "0"]):
+            self.assertIn("--json", self.refuse("invalid_option", "measure", "two.wkt", *options))
+            self.succeed("measure", "two.wkt", *options, "-o", "layers.geojson")
+            feature = json.loads(self.succeed("measure", "two.wkt", *options, "--json").stdout)["features"][1]
+            self.assertEqual(len(feature.get("disks", [])), 2 if "--disks" in options else 0)
+            self.assertIn(b"widest", self.succeed("measure", "rectangle.wkt", *options).stdout)
+        self.write("many.wkt", (RECTANGLE + "\n") * 30000)  # a megabyte: in parts
+        self.refuse("invalid_option", "measure", "many.wkt", "--necks", "1")
 
     def test_shapes_without_a_line(self):
         """A disk has no line, and so no widths along one; nor have features that the places do not touch."""
