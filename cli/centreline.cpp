@@ -161,14 +161,16 @@ Status make_networks(Document<AxisItem>& file, const CentrelineArguments& argume
 struct LineSums {
   std::uint64_t features = 0, lines = 0;
   double length = 0, narrowest = infinity;
-  double chosen = 0;    ///< length of the main paths alone
-  double network = 0;   ///< length of the whole networks
-  double channels = 0;  ///< of the paths around holes
+  double chosen = 0;         ///< length of the main paths alone
+  double network = 0;        ///< length of the whole networks
+  double channels = 0;       ///< of the paths around holes
+  std::uint64_t points = 0;  ///< features without a line
 
   LineSums& operator+=(const LineSums& more) {
     features += more.features, lines += more.lines;
     length += more.length, narrowest = std::min(narrowest, more.narrowest);
     chosen += more.chosen, network += more.network, channels += more.channels;
+    points += more.points;
     return *this;
   }
 };
@@ -189,6 +191,7 @@ Result<LineSums> what_is_left_out(const Document<AxisItem>& file, const Paths& p
         auto network = network_of(axis, arguments.path.path.trim);
         if (!network) return std::move(network).error();
         LineSums out;
+        out.points = paths[i].empty() ? 1 : 0;
         for (const AxisPath& path : paths[i]) out.chosen += path.length;
         out.network = total_length(*network);
         for (const PathPiece& piece : side_channels(axis, all_of(paths[i])))
@@ -200,11 +203,15 @@ Result<LineSums> what_is_left_out(const Document<AxisItem>& file, const Paths& p
   return sums;
 }
 
-/// A note on what main paths leave out of the networks and of the paths around holes.
+/// Notes on features without a line, and on what main paths leave out of the networks and of the
+/// paths around holes.
 void note_what_is_left_out(const LineSums& sums, const CentrelineArguments& arguments) {
   const double whole = sums.network, channels = sums.channels, chosen = sums.chosen;
   constexpr double worth_a_note = 0.01;
   const bool kept = arguments.keep_loops;
+  if (sums.points > 0)
+    say("medial: {}: note: {} no line, as the axis is a single point, the centre of a disk\n",
+        arguments.input.path, counted(sums.points, "feature has", "features have"));
   if (channels > worth_a_note * chosen)
     say("medial: {}: note: the main paths are {:.10g} long, the other paths around holes {:.10g}; "
         "{}\n",

@@ -178,6 +178,8 @@ Result<std::vector<std::vector<AxisPath>>> choose_paths(const Document<AxisItem>
     const NamedPlace begin = *named(from), end = *named(to);
     const std::size_t chosen = feature_of(file, begin);
     auto path = path_between_named(file.items[chosen], begin, end, arguments);
+    if (path && !(path->length > 0))
+      path = invalid_option("the two places are one place of the axis: no line joins them");
     if (!path) {
       path.error().place.feature = chosen;
       return std::move(path).error();

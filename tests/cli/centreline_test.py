@@ -50,6 +50,21 @@ class Centreline(CommandLine):
         extended = json.loads(self.succeed("centreline", "bend.wkt", "--extend", "--smooth", "1", "--json").stdout)
         self.assertGreater(extended["features"][0]["lines"][0]["narrowest_radius"], 9)
 
+    def test_disks_have_no_line(self):
+        self.write("disk.wkt", "CURVEPOLYGON(CIRCULARSTRING(-3 0, 3 0, -3 0))\n" + RECTANGLE)
+        note = b"note: 1 feature has no line, as the axis is a single point"
+        self.assertIn(note, self.succeed("centreline", "disk.wkt", "-o", "c.geojson").stderr)
+        self.assertNotIn(note, self.succeed("centreline", "disk.wkt", "-o", "c.geojson", "--quiet").stderr)
+
+    def test_two_places_that_are_one(self):
+        self.write("rectangle.wkt", RECTANGLE)
+        for command in ("centreline", "measure"):
+            error = self.refuse("invalid_option", command, "rectangle.wkt", "--widest", "2,1", "2,1")
+            self.assertIn("one place of the axis", error)
+        self.write("strokes.svg", '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"><path d="M0 0h4v4z"/>'
+                                  '<path fill="none" d="M0 0h4v4z"/></svg>')
+        self.assertIn(b"1 shape is not filled and was", self.succeed("info", "strokes.svg").stderr)
+
     def test_between_places(self):
         self.write("frame.wkt", FRAME)
         path = json.loads(self.succeed("centreline", "frame.wkt", "--from", "0/3", "--to=1,1", "--json").stdout)
