@@ -376,6 +376,8 @@ Result<int> run_carve(const CarveArguments& given) {
       write_output(arguments, shapes->phases, [&](const auto& path, const auto& format) {
         return io::write_carving(path, format, file, machine, arguments.write);
       });
+  if (!written && written.error().code == ErrorCode::invalid_option && !machine.post.empty())
+    written.error().place.file = given.machine.post;
   if (written) written = write_preview(arguments, file, machine);
   if (!written) return std::move(written).error();
   return finish_carve(file, arguments, shapes->phases);
@@ -518,6 +520,10 @@ Command make_carve_command(CLI::App& program) {
       *command, arguments->options,
       "Cut around the shape, up to a rectangle, and in its holes, so that the shape\n"
       "stands out. The rectangle's edges become walls, too.");
+  command->get_option("--margin")
+      ->description(
+          "The distance from the shape's bounding box to that rectangle, in units of\n"
+          "the result (default: half of the box's longer side).");
   add_machine_options(*command, *arguments);
   add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::carving),
                      "for example nc");
@@ -527,7 +533,8 @@ Command make_carve_command(CLI::App& program) {
       "The tip of the tool follows the axis at the depth where the tool is as wide as the\n"
       "disk, so walls begin at the boundary and corners are sharp. Nothing outside is\n"
       "touched. Flat bottoms are cleared from the inside out, without lifting where that is\n"
-      "safe. Lengths are millimetres, or inches with --output-units in. For an SVG, the\n"
+      "safe. Lengths are millimetres, or inches with --output-units in; only --font-size\n"
+      "is in --units, by default millimetres, too. For an SVG, the\n"
       "physical size applies, or 96 pixels per inch. z is 0 on the surface.\n"
       "\n"
       "Examples:\n"
