@@ -219,6 +219,10 @@ void note_uncut(const std::vector<CarvedItem>& items, const CarveArguments& argu
     say("medial: {}: note: --margin is narrower than the tool, which does not fit between the "
         "shape and the rectangle around it\n",
         input);
+  if (tool.angle == 0 && tool.step > tool.tool / 2)
+    say("medial: {}: note: --step {:.6g} is more than half of the tool's diameter, which may leave "
+        "ridges; at most {:.6g} leaves nothing\n",
+        input, tool.step, tool.tool / 2);
   if (arguments.clear_tool > 0 && clearing == 0)
     say("medial: {}: note: the mill of --clear-tool fits nowhere: the V clears everything\n",
         input);
@@ -293,6 +297,20 @@ Status read_post(std::string& post) {
   return success();
 }
 
+/// Refuses a distance between passes at which the tool does not reach from one to the next.
+Status check_step(const CarveOptions& carve) {
+  const bool mill = carve.angle == 0;
+  const double flat = mill ? carve.tool : carve.tip;
+  const double width = mill ? flat : flat + 2 * clearing_before(carve, 0, 0).allowance;
+  const bool bottom = mill || carve.depth > 0 || carve.tool > 0;
+  if (!bottom || carve.step <= width) return success();
+  return invalid_option(fmt::format(
+      "--step {:.6g} is more than the tool's diameter of {:.6g}{}: ridges as high as the material "
+      "would be left; at most {:.6g} {}",
+      carve.step, width, mill ? "" : " at the largest depth", flat > 0 ? flat / 2 : width / 40,
+      flat > 0 ? "leaves nothing" : "leaves low ones"));
+}
+
 /// Refuses missing options, and options without effect.
 Status check_tools(const CarveArguments& arguments) {
   const CarveOptions& carve = arguments.carve;
@@ -310,7 +328,7 @@ Status check_tools(const CarveArguments& arguments) {
   if (!arguments.machine.post.empty() && !output.empty() &&
       !writes_one_of(arguments, gcode_formats))
     return invalid_option(std::string("--post is for G-code: ") + gcode_formats);
-  return success();
+  return check_step(carve);
 }
 
 Result<int> run_carve(const CarveArguments& given) {
@@ -358,6 +376,8 @@ Result<int> run_carve(const CarveArguments& given) {
       write_output(arguments, shapes->phases, [&](const auto& path, const auto& format) {
         return io::write_carving(path, format, file, machine, arguments.write);
       });
+  if (!written && written.error().code == ErrorCode::invalid_option && !machine.post.empty())
+    written.error().place.file = given.machine.post;
   if (written) written = write_preview(arguments, file, machine);
   if (!written) return std::move(written).error();
   return finish_carve(file, arguments, shapes->phases);
@@ -398,7 +418,7 @@ void add_tool_options(CLI::App& command, CarveArguments& arguments) {
   add_length(command, "--step", carve.step, "S",
              "The distance between passes that clear a flat bottom (default: half of the tip's\n"
              "diameter, which leaves nothing; for a pointed tool, 1/20 of its radius at the\n"
-             "bottom, which leaves ridges).");
+             "bottom, which leaves ridges); at most the tool's diameter.");
   add_length(command, "--path-tolerance", carve.chord, "T",
              "The largest error of straight moves: above the axis's curves (default: 1e-5 of\n"
              "the diagonal), and in .csv inside arcs (default: 1e-6 of the tool's radius at\n"
@@ -500,6 +520,10 @@ Command make_carve_command(CLI::App& program) {
       *command, arguments->options,
       "Cut around the shape, up to a rectangle, and in its holes, so that the shape\n"
       "stands out. The rectangle's edges become walls, too.");
+  command->get_option("--margin")
+      ->description(
+          "The distance from the shape's bounding box to that rectangle, in units of\n"
+          "the result (default: half of the box's longer side).");
   add_machine_options(*command, *arguments);
   add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::carving),
                      "for example nc");
@@ -509,7 +533,8 @@ Command make_carve_command(CLI::App& program) {
       "The tip of the tool follows the axis at the depth where the tool is as wide as the\n"
       "disk, so walls begin at the boundary and corners are sharp. Nothing outside is\n"
       "touched. Flat bottoms are cleared from the inside out, without lifting where that is\n"
-      "safe. Lengths are millimetres, or inches with --output-units in. For an SVG, the\n"
+      "safe. Lengths are millimetres, or inches with --output-units in; only --font-size\n"
+      "is in --units, by default millimetres, too. For an SVG, the\n"
       "physical size applies, or 96 pixels per inch. z is 0 on the surface.\n"
       "\n"
       "Examples:\n"

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -36,6 +37,8 @@ struct CentrelineArguments : FileArguments {
 
 constexpr char collapse_formats[] = ".json .geojson .gpkg .wkt .svg .pdf .png .ps";
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 using Paths = std::vector<std::vector<AxisPath>>;
 
 /// The pieces of all paths of a shape together, as some functions take O(shape) time.
@@ -46,23 +49,93 @@ AxisPath all_of(const std::vector<AxisPath>& paths) {
   return all;
 }
 
-/// Replaces the axes of a file by lines along the paths.
-Status make_lines(Document<AxisItem>& file, const Paths& paths,
-                  const CentrelineArguments& arguments, int threads) {
-  const auto make = [&](std::size_t i, int) -> Status {
+/// The smallest radius on an edge.
+double narrowest_of(const MedialAxis& axis, Edge edge) {
+  MedialAxis alone;
+  alone.nodes = {axis.nodes[edge.node[0]], axis.nodes[edge.node[1]]};
+  edge.node = {0, 1};
+  alone.edges = {edge};
+  const auto path = path_between(alone, {0, 0}, {0, 1});
+  return path ? path->narrowest : infinity;
+}
+
+/// The branches of lines with their lengths and smallest radii, as paths without pieces.
+std::vector<AxisPath> measured(const MedialAxis& lines) {
+  std::vector<AxisPath> out;
+  for (const Branch& branch : branches(lines)) {
+    AxisPath& line = out.emplace_back();
+    line.closed = branch.from == branch.to;
+    line.narrowest = infinity;
+    for (const Step& step : branch.steps) {
+      line.length += length(lines, lines.edges[step.edge]);
+      line.narrowest = std::min(line.narrowest, narrowest_of(lines, lines.edges[step.edge]));
+    }
+  }
+  return out;
+}
+
+/// The smallest radius of a smoothed line between its extensions to the boundary, where radii
+/// shrink to 0. `ends` are those of the path.
+double narrowest_between(const MedialAxis& lines, const Branch& branch,
+                         const std::array<Vec2, 2>& ends) {
+  const auto disk = [&lines](std::uint32_t node) { return lines.nodes[node].disk; };
+  const double before = distance(disk(branch.from).center, ends[0]);
+  const double after = distance(disk(branch.to).center, ends[1]);
+  double whole = 0, along = 0, narrowest = infinity;
+  for (const Step& step : branch.steps) whole += length(lines, lines.edges[step.edge]);
+  std::uint32_t node = branch.from;
+  for (std::size_t i = 0;; ++i) {
+    const bool closed = branch.from == branch.to;
+    if (closed || (along >= before && whole - along >= after))
+      narrowest = std::min(narrowest, disk(node).radius);
+    if (i == branch.steps.size()) return narrowest;
+    const Edge& edge = lines.edges[branch.steps[i].edge];
+    node = edge.node[branch.steps[i].forward ? 1 : 0];
+    along += length(lines, edge);
+  }
+}
+
+/// What the lines along paths measure, as paths without pieces: lengths with extensions, smallest
+/// radii without them.
+std::vector<AxisPath> measured(const MedialAxis& lines, const MedialAxis& axis,
+                               const std::vector<AxisPath>& paths,
+                               const CentreLineOptions& options) {
+  std::vector<AxisPath> out = paths;
+  for (AxisPath& path : out) path.pieces.clear();
+  const std::vector<Branch> found = branches(lines);
+  if ((options.smooth == 0 && !options.extend) || found.size() != paths.size()) return out;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i].length = 0;
+    for (const Step& step : found[i].steps) out[i].length += length(lines, lines.edges[step.edge]);
+    if (options.smooth == 0) continue;
+    const PathPiece first = paths[i].pieces.front(), last = paths[i].pieces.back();
+    out[i].narrowest = narrowest_between(lines, found[i],
+                                         {disk_at(axis, axis.edges[first.edge], first.from).center,
+                                          disk_at(axis, axis.edges[last.edge], last.to).center});
+  }
+  return out;
+}
+
+/// Replaces the axes of a file by lines along the paths. Returns what these measure.
+Result<Paths> make_lines(Document<AxisItem>& file, const Paths& paths,
+                         const CentrelineArguments& arguments, int threads) {
+  const auto make = [&](std::size_t i, int) -> Result<std::vector<AxisPath>> {
     AxisItem& item = file.items[i];
+    item.part = true;
     if (arguments.keep_loops) {
       AxisPath whole = all_of(paths[i]);
       const std::vector<PathPiece> channels = side_channels(item.axis, whole);
       whole.pieces.insert(whole.pieces.end(), channels.begin(), channels.end());
       item.axis = part_of(item.axis, whole.pieces);
-    } else {
-      item.axis = centre_lines(item.shape, item.axis, paths[i], arguments.line);
+      return measured(item.axis);
     }
-    item.part = true;
-    return success();
+    MedialAxis lines = centre_lines(item.shape, item.axis, paths[i], arguments.line);
+    std::vector<AxisPath> sizes = measured(lines, item.axis, paths[i], arguments.line);
+    item.axis = std::move(lines);
+    return sizes;
   };
-  return for_each_item(std::vector<double>(file.items.size(), 1.0), threads, make);
+  return map_items<std::vector<AxisPath>>(std::vector<double>(file.items.size(), 1.0), threads,
+                                          make);
 }
 
 /// The axis without forks in corners: for a network, all of its paths, including cycles.
@@ -84,38 +157,42 @@ Status make_networks(Document<AxisItem>& file, const CentrelineArguments& argume
   });
 }
 
-/// The lines of some features, and the lengths that they leave out.
+/// The lines of some features as they are written, and the lengths that main paths leave out.
 struct LineSums {
   std::uint64_t features = 0, lines = 0;
-  double length = 0, narrowest = std::numeric_limits<double>::infinity();
-  double network = 0;   ///< length of the whole networks
-  double channels = 0;  ///< of the paths around holes
+  double length = 0, narrowest = infinity;
+  double chosen = 0;         ///< length of the main paths alone
+  double network = 0;        ///< length of the whole networks
+  double channels = 0;       ///< of the paths around holes
+  std::uint64_t points = 0;  ///< features without a line
 
   LineSums& operator+=(const LineSums& more) {
     features += more.features, lines += more.lines;
     length += more.length, narrowest = std::min(narrowest, more.narrowest);
-    network += more.network, channels += more.channels;
+    chosen += more.chosen, network += more.network, channels += more.channels;
+    points += more.points;
     return *this;
   }
 };
 
-LineSums sums_of(const Paths& paths) {
-  LineSums sums{paths.size()};
-  for (const auto& of_item : paths)
-    for (const AxisPath& path : of_item) sums += {0, 1, path.length, path.narrowest};
-  return sums;
+void add_sizes(const Paths& written, LineSums& sums) {
+  for (const auto& of_item : written)
+    for (const AxisPath& line : of_item) sums += {0, 1, line.length, line.narrowest};
 }
 
-/// Adds the lengths that main paths leave out, for a note.
-Status add_what_is_left_out(const Document<AxisItem>& file, const Paths& paths,
-                            const CentrelineArguments& arguments, int threads, LineSums& sums) {
-  if (arguments.common.quiet || arguments.path.between_places()) return success();
+/// The lengths of the paths and of what main paths leave out, for a note.
+Result<LineSums> what_is_left_out(const Document<AxisItem>& file, const Paths& paths,
+                                  const CentrelineArguments& arguments, int threads) {
+  LineSums sums{paths.size()};
+  if (arguments.common.quiet || arguments.path.between_places()) return sums;
   auto each = map_items<LineSums>(
       edge_weights_of(file), threads, [&](std::size_t i, int) -> Result<LineSums> {
         const MedialAxis& axis = file.items[i].axis;
         auto network = network_of(axis, arguments.path.path.trim);
         if (!network) return std::move(network).error();
         LineSums out;
+        out.points = paths[i].empty() ? 1 : 0;
+        for (const AxisPath& path : paths[i]) out.chosen += path.length;
         out.network = total_length(*network);
         for (const PathPiece& piece : side_channels(axis, all_of(paths[i])))
           out.channels += length(axis, axis.edges[piece.edge]);
@@ -123,14 +200,18 @@ Status add_what_is_left_out(const Document<AxisItem>& file, const Paths& paths,
       });
   if (!each) return std::move(each).error();
   for (const LineSums& one : *each) sums += one;
-  return success();
+  return sums;
 }
 
-/// A note on what main paths leave out of the networks and of the paths around holes.
+/// Notes on features without a line, and on what main paths leave out of the networks and of the
+/// paths around holes.
 void note_what_is_left_out(const LineSums& sums, const CentrelineArguments& arguments) {
-  const double whole = sums.network, channels = sums.channels, chosen = sums.length;
+  const double whole = sums.network, channels = sums.channels, chosen = sums.chosen;
   constexpr double worth_a_note = 0.01;
   const bool kept = arguments.keep_loops;
+  if (sums.points > 0)
+    say("medial: {}: note: {} no line, as the axis is a single point, the centre of a disk\n",
+        arguments.input.path, counted(sums.points, "feature has", "features have"));
   if (channels > worth_a_note * chosen)
     say("medial: {}: note: the main paths are {:.10g} long, the other paths around holes {:.10g}; "
         "{}\n",
@@ -151,26 +232,26 @@ std::string describe(const LineSums& sums, const CentrelineArguments& arguments)
   return line;
 }
 
-Json json_of(const std::vector<AxisPath>& paths, std::uint64_t feature,
+Json json_of(const std::vector<AxisPath>& lines, std::uint64_t feature,
              const Attributes& attributes) {
   Json list = Json::array();
-  for (const AxisPath& path : paths) {
-    list.push_back({{"length", path.length},
-                    {"narrowest_radius", path.narrowest},
-                    {"closed", path.closed},
-                    {"gap", path.gap}});
+  for (const AxisPath& line : lines) {
+    list.push_back({{"length", line.length},
+                    {"narrowest_radius", line.narrowest},
+                    {"closed", line.closed},
+                    {"gap", line.gap}});
   }
   return {{"feature", feature}, {"lines", std::move(list)}, {"attributes", to_json(attributes)}};
 }
 
-Result<int> finish_lines(const Paths& paths, const LineSums& sums, const LoadedAxes& axes,
+Result<int> finish_lines(const Paths& lines, const LineSums& sums, const LoadedAxes& axes,
                          const CentrelineArguments& arguments) {
   Json object = {{"input", arguments.input.path}};
   if (!arguments.output.empty()) object["output"] = arguments.output;
   object["features"] = Json::array();
-  for (std::size_t i = 0; i < paths.size(); ++i)
+  for (std::size_t i = 0; i < lines.size(); ++i)
     object["features"].push_back(
-        json_of(paths[i], axes.file.index_of(i), axes.file.items[i].attributes));
+        json_of(lines[i], axes.file.index_of(i), axes.file.items[i].attributes));
   return finish(arguments, std::move(object), axes.phases, describe(sums, arguments));
 }
 
@@ -212,7 +293,7 @@ void add_polygons(const Shape& shape, std::uint32_t feature, double chord, io::L
 void add_lines(const MedialAxis& lines, std::uint32_t feature, double chord, io::Layer& layer) {
   for (const Branch& branch : branches(lines)) {
     std::vector<Vec2> points;
-    double sum = 0, narrowest = std::numeric_limits<double>::infinity();
+    double sum = 0, narrowest = infinity;
     for (const Step& step : branch.steps) {
       const Edge& edge = lines.edges[step.edge];
       std::vector<Disk> samples = sample_by_chord(lines, edge, chord);
@@ -333,13 +414,14 @@ Result<std::optional<int>> stream_centreline(const CentrelineArguments& argument
     if (!lines) return success();
     const auto paths = choose_paths(part, arguments.path, 1);
     if (!paths) return paths.error();
-    LineSums sums = sums_of(*paths);
-    if (Status added = add_what_is_left_out(part, *paths, arguments, 1, sums); !added) return added;
-    {
-      const std::lock_guard<std::mutex> alone(adding);
-      parts[part.index_of(0)] = sums;
-    }
-    return make_lines(part, *paths, arguments, 1);
+    auto sums = what_is_left_out(part, *paths, arguments, 1);
+    if (!sums) return std::move(sums).error();
+    auto written = make_lines(part, *paths, arguments, 1);
+    if (!written) return std::move(written).error();
+    add_sizes(*written, *sums);
+    const std::lock_guard<std::mutex> alone(adding);
+    parts[part.index_of(0)] = *sums;
+    return success();
   };
   auto done = stream_axes(arguments, arguments.input, arguments.options, change,
                           lines ? line : std::function<std::string()>());
@@ -373,21 +455,21 @@ Result<int> run_centreline(const CentrelineArguments& arguments) {
     axes->phases.end("lines");
     return finish_axes(*axes, arguments);
   }
-  note_places_outside(axes->file, arguments.path, arguments);
+  note_places(axes->file, arguments.path, arguments);
   auto paths = choose_paths(axes->file, arguments.path, common.threads);
   if (!paths) return std::move(paths).error();
-  LineSums sums = sums_of(*paths);
-  Status added = add_what_is_left_out(axes->file, *paths, arguments, common.threads, sums);
-  if (!added) return std::move(added).error();
-  note_what_is_left_out(sums, arguments);
-  Status made = make_lines(axes->file, *paths, arguments, common.threads);
-  if (!made) return std::move(made).error();
+  auto sums = what_is_left_out(axes->file, *paths, arguments, common.threads);
+  if (!sums) return std::move(sums).error();
+  note_what_is_left_out(*sums, arguments);
+  const auto lines = make_lines(axes->file, *paths, arguments, common.threads);
+  if (!lines) return lines.error();
+  add_sizes(*lines, *sums);
   axes->phases.end("lines");
   Status written = write_output(arguments, axes->phases, [&](const auto& path, const auto& format) {
     return io::write_axes(path, format, axes->file, write_options(arguments));
   });
   if (!written) return std::move(written).error();
-  return finish_lines(*paths, sums, *axes, arguments);
+  return finish_lines(*lines, *sums, *axes, arguments);
 }
 
 /// Options of lines; returns --all.

@@ -122,9 +122,15 @@ Status check_places(const PathOptions& arguments, const InputOptions& input) {
   return success();
 }
 
-void note_places_outside(const Document<AxisItem>& file, const PathOptions& arguments,
-                         const FileArguments& files) {
-  if (files.common.quiet) return;
+void note_places(const Document<AxisItem>& file, const PathOptions& arguments,
+                 const FileArguments& files) {
+  if (files.common.quiet || !arguments.between_places()) return;
+  if (file.items.size() > 1) {
+    const NamedPlace begin = *named(places_of(arguments)[0]);
+    say("medial: {}: note: the line lies in feature {}, where it begins; other features have "
+        "none\n",
+        files.input.path, file.index_of(feature_of(file, begin)));
+  }
   for (const std::string& text : places_of(arguments)) {
     const NamedPlace place = *named(text);
     if (!place.point || std::ranges::any_of(file.items, [&](const AxisItem& item) {
@@ -172,6 +178,8 @@ Result<std::vector<std::vector<AxisPath>>> choose_paths(const Document<AxisItem>
     const NamedPlace begin = *named(from), end = *named(to);
     const std::size_t chosen = feature_of(file, begin);
     auto path = path_between_named(file.items[chosen], begin, end, arguments);
+    if (path && !(path->length > 0))
+      path = invalid_option("the two places are one place of the axis: no line joins them");
     if (!path) {
       path.error().place.feature = chosen;
       return std::move(path).error();

@@ -29,8 +29,8 @@ Result<std::vector<std::vector<AxisPath>>> choose_paths(const Document<AxisItem>
 /// Refuses places X,Y in what is projected: nobody knows its coordinates before it is read.
 Status check_places(const PathOptions& arguments, const InputOptions& input);
 
-/// A note on each named place that lies in no shape.
-void note_places_outside(const Document<AxisItem>& file, const PathOptions& arguments,
-                         const FileArguments& files);
+/// Notes on named places: each that lies in no shape, and in which of several features the line is.
+void note_places(const Document<AxisItem>& file, const PathOptions& arguments,
+                 const FileArguments& files);
 
 }  // namespace medial::cli

@@ -27,13 +27,14 @@ namespace {
 
 constexpr std::uint64_t most_transects = 1'000'000;
 constexpr std::uint64_t most_measured_disks = 10'000;
+constexpr std::uint64_t default_samples = 200, default_transects = 50;
 constexpr std::size_t default_necks = 5;
 
 struct MeasureArguments : FileArguments {
   std::string plot;
   PathOptions path;
-  std::uint64_t samples = 200;
-  std::uint64_t transects = 0;
+  std::uint64_t samples = 0;    ///< 0: default_samples
+  std::uint64_t transects = 0;  ///< 0: none, or default_transects if the layers would be empty
   double spacing = 0;
   std::uint64_t necks = 0;
   double widening = 1.1;
@@ -59,6 +60,9 @@ struct Measured {
 };
 
 bool is_profile(const MeasureArguments& arguments) { return writes_one_of(arguments, "csv"); }
+bool has_layers(const MeasureArguments& arguments) {
+  return !arguments.output.empty() && !is_profile(arguments);
+}
 
 /// Whether nothing is asked for that needs an axis.
 bool wants_disks_alone(const MeasureArguments& arguments) {
@@ -202,12 +206,14 @@ Json json_of(const Measured& measured, std::size_t necks_wanted) {
                      {"closed", line.path.closed},
                      {"necks", std::move(necks)}});
   }
-  Json object = {{"area", measured.mean.area},
-                 {"length", measured.mean.length},
+  const MeanWidth& mean = measured.mean;
+  const auto along = [&mean](double value) { return mean.length > 0 ? Json(value) : Json(); };
+  Json object = {{"area", mean.area},
+                 {"length", mean.length},
                  {"mean_width",
-                  {{"by_length", measured.mean.by_length},
-                   {"by_area", measured.mean.by_area},
-                   {"area_by_length", measured.mean.area_by_length}}},
+                  {{"by_length", along(mean.by_length)},
+                   {"by_area", mean.by_area},
+                   {"area_by_length", along(mean.area_by_length)}}},
                  {"widest", to_json(measured.widest)},
                  {"lines", std::move(lines)}};
   object["necks"] = Json::array();
@@ -236,9 +242,10 @@ std::string summary_of(const Measured& measured, const MeasureArguments& argumen
   }
   const MeanWidth& mean = measured.mean;
   rows.add("area", number(mean.area));
-  rows.add("length", number(mean.length) + (measured.lines.size() > 1
-                                                ? fmt::format(" ({} lines)", measured.lines.size())
-                                                : std::string()));
+  const std::size_t lines = measured.lines.size();
+  rows.add("length", lines == 0   ? "- (no line)"
+                     : lines == 1 ? number(mean.length)
+                                  : fmt::format("{:.10g} ({} lines)", mean.length, lines));
   if (mean.length > 0) {
     rows.add("mean width by length", number(mean.by_length));
     rows.add("area by length", number(mean.area_by_length));
@@ -299,8 +306,8 @@ std::string table_row(const Measured& one, const std::string& name, bool disks_a
     return known ? fmt::format("{:.6g}", value) : std::string("-");
   };
   const bool line = one.mean.length > 0;
-  return fmt::format("{:>7} {:>12.6g} {:>12.6g} {:>12} {:>12} {:>12.6g} {:>12.6g} {:>12}\n", name,
-                     one.mean.area, one.mean.length, number(narrowest_of(one), line),
+  return fmt::format("{:>7} {:>12.6g} {:>12} {:>12} {:>12} {:>12.6g} {:>12.6g} {:>12}\n", name,
+                     one.mean.area, number(one.mean.length, line), number(narrowest_of(one), line),
                      number(one.mean.by_length, line), one.mean.by_area, 2 * one.widest.radius,
                      number(neck == nullptr ? 0 : neck->width.width(), neck != nullptr));
 }
@@ -430,6 +437,36 @@ bool prints_table(const MeasureArguments& arguments) {
          (!arguments.common.quiet || (arguments.output.empty() && arguments.plot.empty()));
 }
 
+/// Refuses options for what is not written or printed.
+Status check_used(const MeasureArguments& arguments) {
+  const bool table = prints_table(arguments) && !is_profile(arguments);
+  if (arguments.samples > 0 && !is_profile(arguments) && arguments.plot.empty())
+    return invalid_option("--samples is for width profiles: -o FILE.csv, or --plot");
+  if (has_layers(arguments)) return success();
+  if (arguments.transects > 0 || arguments.spacing > 0)
+    return invalid_option(
+        "--transects and --spacing are for layers and pictures: -o FILE.geojson, FILE.svg and "
+        "others; a .csv has the width profile, with --samples");
+  if ((arguments.necks > 0 || arguments.disks > 0) && !arguments.common.json && !table)
+    return invalid_option(
+        "--necks and --disks are for layers and pictures, -o FILE.geojson, FILE.svg and others, "
+        "for --json and for the printed table");
+  return success();
+}
+
+/// Refuses what the table of several features does not hold.
+Status check_table(const MeasureArguments& arguments, std::uint64_t features) {
+  const bool lists = arguments.necks > 0 || arguments.disks > 0;
+  if (features <= 1 || !lists || has_layers(arguments) || arguments.common.json ||
+      wants_disks_alone(arguments))
+    return success();
+  return invalid_option(fmt::format(
+      "the table of {} features has no room for {}: use --json, or -o FILE.geojson, FILE.svg and "
+      "others{}",
+      features, arguments.necks > 0 ? "--necks" : "--disks with options of lines",
+      arguments.disks > 0 ? "; --disks alone has a table of its own" : ""));
+}
+
 /// The table of a stream, in a temporary file until the end: errors print nothing.
 class LateTable {
  public:
@@ -442,6 +479,7 @@ class LateTable {
   }
   Status print_all(const MeasureArguments& arguments, Unit unit) {
     if (features_ == 1) return print(summary_of(first_, arguments, unit));
+    if (Status held = check_table(arguments, features_); !held) return held;
     if (!file_ || std::fflush(file_.get()) != 0 || std::fseek(file_.get(), 0, SEEK_SET) != 0)
       failed_ = true;
     if (failed_) return Error{ErrorCode::unwritable, "cannot write a temporary file", {}};
@@ -554,16 +592,19 @@ Result<int> run_measure(const MeasureArguments& given) {
   if (writable && !arguments.plot.empty() && name_one_file(arguments.plot, arguments.output))
     writable = invalid_option("--plot and -o name the same file");
   if (writable) writable = check_places(arguments.path, input);
+  if (writable) writable = check_used(arguments);
   if (!writable) return std::move(writable).error();
-  // Layers without any would be empty.
+  if (arguments.samples == 0) arguments.samples = default_samples;
   if (arguments.transects == 0 && arguments.spacing == 0 && arguments.necks == 0 &&
-      arguments.disks == 0 && !arguments.output.empty())
-    arguments.transects = 50;
+      arguments.disks == 0 && has_layers(arguments))
+    arguments.transects = default_transects;
   const auto streamed = stream_measures(arguments);
   if (!streamed) return streamed.error();
   if (*streamed) return **streamed;
   auto shapes = load_shapes(input, common);
   if (!shapes) return std::move(shapes).error();
+  if (Status held = check_table(arguments, shapes->file.items.size()); !held)
+    return std::move(held).error();
   auto axes = [&]() -> Result<LoadedAxes> {
     if (wants_disks_alone(arguments))
       return LoadedAxes{
@@ -571,7 +612,7 @@ Result<int> run_measure(const MeasureArguments& given) {
     return compute_axes(std::move(shapes).value(), input, common, arguments.options);
   }();
   if (!axes) return std::move(axes).error();
-  note_places_outside(axes->file, arguments.path, arguments);
+  note_places(axes->file, arguments.path, arguments);
   if (axes->file.pixel > 0 && input.source.read.smooth_contour && !common.quiet)
     say("medial: {}: note: areas and widths are those of the smoothed outline, which lies within "
         "half a pixel of the pixels' edges; --pixel-outline measures the pixels\n",

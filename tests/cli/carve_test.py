@@ -225,6 +225,24 @@ class Carve(CommandLine):
                       ["--angle", "60", "--clear-tool", "3"], ["--angle", "60", "--post", "grbl", "-o", "a.png"]):
             self.refuse("invalid_option", *common, *wrong)
 
+    def test_passes_that_do_not_reach_each_other(self):
+        """A step beyond the tool's diameter would leave ridges as high as the material."""
+        self.write("s.wkt", "POLYGON ((0 0, 40 0, 40 30, 0 30, 0 0))")
+        common = ["carve", "s.wkt", "--units", "mm", "-o", "s.nc"]
+        mill = ["--angle", "0", "--tool", "4", "--depth", "2"]
+        cone = ["--angle", "90", "--depth", "2"]  # 4 wide at that depth
+        for tool, step, most in ((mill, "4.01", "at most 2 leaves nothing"), (cone, "4.01", "at most 0.1 leaves low ones"),
+                                 (["--angle", "90", "--tool", "3"], "3.01", "at most 0.075"),
+                                 ([*cone, "--tip", "1"], "5.01", "at most 0.5 leaves nothing")):
+            with self.subTest(tool=tool):
+                error = self.refuse("invalid_option", *common, *tool, "--step", step)
+                self.assertIn("--step", error)
+                self.assertIn(most, error)
+        note = b"note: --step 3 is more than half of the tool's diameter"
+        self.assertIn(note, self.succeed(*common, *mill, "--step", "3").stderr)
+        self.assertEqual(self.succeed(*common, *mill, "--step", "2").stderr, b"")
+        self.assertEqual(self.succeed(*common, *cone, "--step", "3").stderr, b"")
+
     def test_templates_and_preview(self):
         self.write("s.wkt", self.SQUARE)
         common = ["carve", "s.wkt", "--units", "mm", "--angle", "60"]
@@ -240,7 +258,8 @@ class Carve(CommandLine):
         self.write("low.post", "[start]\nG0 Z{safe}\n[tool]\n[cut]\n{spindle}\n[end]\nM5\n")
         self.assertIn("{safe}", self.refuse("invalid_option", *common, "--post", self.path("low.post"), "-o", "t.nc"))
         self.write("bad.post", "[start]\n")
-        self.refuse("invalid_option", *common, "--post", self.path("bad.post"), "-o", "t.nc")
+        error = self.refuse("invalid_option", *common, "--post", self.path("bad.post"), "-o", "t.nc")
+        self.assertIn("bad.post: the template of G-code has no part [tool]", error)
         self.refuse("invalid_option", *common, "--post", "nowhere", "-o", "t.nc")
         self.succeed(*common, "--preview", "p.png", "--width", "200", "-o", "s.nc")
         self.assertTrue(self.read("p.png").startswith(b"\x89PNG"))

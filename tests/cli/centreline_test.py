@@ -24,6 +24,47 @@ class Centreline(CommandLine):
         for name in ("line.json", "smooth.json"):
             self.succeed("draw", name, "-o", "again.svg")
 
+    def test_numbers_are_those_of_the_file(self):
+        """With extensions, smoothed and with loops: lengths as written; radii without the extensions."""
+        self.write("rectangle.wkt", RECTANGLE)
+        self.write("bend.wkt", "POLYGON((0 0,90 0,90 90,70 90,70 20,0 20,0 0))")
+        self.write("frame.wkt", FRAME)
+        self.write("river.wkt", "POLYGON((0 0,60 0,60 8,0 8,0 0),(25 2,35 2,35 4,25 4,25 2))")
+        for name, *options in (("rectangle.wkt", "--extend"), ("bend.wkt", "--smooth", "2"), ("bend.wkt",),
+                               ("bend.wkt", "--smooth", "2", "--extend"), ("frame.wkt", "--smooth", "1"),
+                               ("river.wkt", "--loops", "keep"), ("frame.wkt", "--loops", "keep")):
+            with self.subTest(name=name, options=options):
+                done = self.succeed("centreline", name, *options, "--json", "-o", "lines.geojson").stdout
+                lines = json.loads(done)["features"][0]["lines"]
+                written = [f["properties"] for f in json.loads(self.read("lines.geojson"))["features"]]
+                self.assertEqual(len(lines), len(written))
+                for line, row in zip(lines, written):
+                    self.assertAlmostEqual(line["length"], row["length"])
+                    if "--extend" not in options:
+                        self.assertAlmostEqual(line["narrowest_radius"], row["r_min"])
+                text = self.succeed("centreline", name, *options, "--threads", "1").stdout.decode()
+                self.assertIn(f"length {sum(row['length'] for row in written):.10g}", text)
+        extended = json.loads(self.succeed("centreline", "rectangle.wkt", "--extend", "--json").stdout)
+        self.assertAlmostEqual(extended["features"][0]["lines"][0]["length"], 4)
+        self.assertAlmostEqual(extended["features"][0]["lines"][0]["narrowest_radius"], 1)
+        extended = json.loads(self.succeed("centreline", "bend.wkt", "--extend", "--smooth", "1", "--json").stdout)
+        self.assertGreater(extended["features"][0]["lines"][0]["narrowest_radius"], 9)
+
+    def test_disks_have_no_line(self):
+        self.write("disk.wkt", "CURVEPOLYGON(CIRCULARSTRING(-3 0, 3 0, -3 0))\n" + RECTANGLE)
+        note = b"note: 1 feature has no line, as the axis is a single point"
+        self.assertIn(note, self.succeed("centreline", "disk.wkt", "-o", "c.geojson").stderr)
+        self.assertNotIn(note, self.succeed("centreline", "disk.wkt", "-o", "c.geojson", "--quiet").stderr)
+
+    def test_two_places_that_are_one(self):
+        self.write("rectangle.wkt", RECTANGLE)
+        for command in ("centreline", "measure"):
+            error = self.refuse("invalid_option", command, "rectangle.wkt", "--widest", "2,1", "2,1")
+            self.assertIn("one place of the axis", error)
+        self.write("strokes.svg", '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"><path d="M0 0h4v4z"/>'
+                                  '<path fill="none" d="M0 0h4v4z"/></svg>')
+        self.assertIn(b"1 shape is not filled and was", self.succeed("info", "strokes.svg").stderr)
+
     def test_between_places(self):
         self.write("frame.wkt", FRAME)
         path = json.loads(self.succeed("centreline", "frame.wkt", "--from", "0/3", "--to=1,1", "--json").stdout)
@@ -150,14 +191,52 @@ class Measure(CommandLine):
         for extension in ("gpkg", "wkt", "svg", "pdf", "png"):
             self.succeed(*disks, "-o", "alone." + extension)
         # Each of these asks for more.
-        for more in (["--samples", "9"], ["--transects", "2"], ["--spacing", "1"], ["--necks", "1"], ["--trim", "0"],
-                     ["--widening", "2"], ["--route", "shortest"], ["--from", "0,0", "--to", "4,2"],
+        for more in (["--samples", "9", "--plot", "plot.svg"], ["--transects", "2", "-o", "t.svg"],
+                     ["--spacing", "1", "-o", "t.svg"], ["--necks", "1"], ["--trim", "0"], ["--widening", "2"],
+                     ["--route", "shortest"], ["--from", "0,0", "--to", "4,2"],
                      ["--widest", "0,0", "4,2"], ["--plot", "plot.svg"], ["-o", "profile.csv"]):  # fmt: skip
             self.assertIn("area", json.loads(self.succeed(*disks, "--json", *more).stdout)["features"][0], more)
         self.write("two.wkt", RECTANGLE + "\n" + RECTANGLE)
         table = self.succeed("measure", "two.wkt", "--disks", "3").stdout.decode().splitlines()
         self.assertEqual([row.split()[:2] for row in table],
                          [["feature", "rank"]] + [[str(i), str(k)] for i in range(2) for k in range(3)])
+
+    def test_options_for_what_is_not_written(self):
+        """None is ignored: each error names what the option is for."""
+        self.write("rectangle.wkt", RECTANGLE)
+        self.write("two.wkt", RECTANGLE + "\n" + RECTANGLE)
+        for option in ("--transects", "--spacing", "--necks", "--disks"):
+            error = self.refuse("invalid_option", "measure", "rectangle.wkt", option, "2", "-o", "x.csv")
+            self.assertIn(option, error)
+            self.assertIn("FILE.geojson", error)
+        for output in ([], ["-o", "x.geojson"]):
+            error = self.refuse("invalid_option", "measure", "rectangle.wkt", "--samples", "10", *output)
+            self.assertIn("FILE.csv", error)
+        for options in (["--necks", "1"], ["--disks", "2", "--necks", "1"], ["--disks", "2", "--trim", "0"]):
+            self.assertIn("--json", self.refuse("invalid_option", "measure", "two.wkt", *options))
+            self.succeed("measure", "two.wkt", *options, "-o", "layers.geojson")
+            feature = json.loads(self.succeed("measure", "two.wkt", *options, "--json").stdout)["features"][1]
+            self.assertEqual(len(feature.get("disks", [])), 2 if "--disks" in options else 0)
+            self.assertIn(b"widest", self.succeed("measure", "rectangle.wkt", *options).stdout)
+        self.write("many.wkt", (RECTANGLE + "\n") * 30000)  # a megabyte: in parts
+        self.refuse("invalid_option", "measure", "many.wkt", "--necks", "1")
+
+    def test_shapes_without_a_line(self):
+        """A disk has no line, and so no widths along one; nor have features that the places do not touch."""
+        self.write("disk.wkt", "CURVEPOLYGON(CIRCULARSTRING(-3 0, 3 0, -3 0))")
+        disk = json.loads(self.succeed("measure", "disk.wkt", "--json").stdout)["features"][0]
+        self.assertIsNone(disk["mean_width"]["by_length"])
+        self.assertIsNone(disk["mean_width"]["area_by_length"])
+        self.assertAlmostEqual(disk["mean_width"]["by_area"], 6)
+        self.assertIn(b"no line", self.succeed("measure", "disk.wkt").stdout)
+        self.write("both.wkt", "CURVEPOLYGON(CIRCULARSTRING(-3 0, 3 0, -3 0))\n" + "POLYGON ((10 0,20 0,20 4,10 4,10 0))")
+        row = self.succeed("measure", "both.wkt").stdout.decode().splitlines()[1].split()
+        self.assertEqual(row[2:5], ["-", "-", "-"])
+        for command in ("measure", "centreline"):
+            done = self.succeed(command, "both.wkt", "--from", "12,2", "--to", "17,2")
+            self.assertIn(b"note: the line lies in feature 1", done.stderr)
+            one = self.succeed(command, "disk.wkt").stderr + self.succeed(command, "both.wkt").stderr
+            self.assertNotIn(b"the line lies in", one)
 
     def test_measure(self):
         self.write("rectangle.wkt", RECTANGLE)

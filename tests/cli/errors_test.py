@@ -181,7 +181,7 @@ class Words(CommandLine):
             self.assertLess(len(report), 160, report)
         report = json.loads(self.succeed("offset", "r.wkt", "--distance", "0.25,0.5,-1", "--json").stdout)
         self.assertEqual(report["regions"], 3)
-        self.refuse("too_large", "measure", "r.wkt", "--spacing", "1e-300")
+        self.refuse("too_large", "measure", "r.wkt", "--spacing", "1e-300", "-o", "r.svg")
         # Corners rounded by 1e-7: curvatures as unlike as that are followed.
         self.write("island.wkt", "POLYGON((0 0,10 0,14 5,10 9,4 8,0 6,0 0))")
         self.succeed("axis", "island.wkt", "--method", "curve-axis", "--fit", "1e-7", "-o", "island.json")

@@ -108,7 +108,7 @@ Result<PostTemplate> PostTemplate::make(const std::string& name_or_text) {
     if (!result.parts_.contains(static_cast<PostPart>(i)))
       return Error{
           ErrorCode::invalid_option,
-          fmt::format("a template of G-code has the part {}, one of {}, on a line of its own",
+          fmt::format("the template of G-code has no part {}; it needs {}, each on its own line",
                       part_names[i], fmt::join(part_names, " ")),
           {}};
   // The first move goes across at the height that this part leaves the tool at.

@@ -371,7 +371,9 @@ Result<Document<Feature>> read_svg(const Input& input, const ReadOptions& option
   }
   if (drawing.unfilled > 0) {
     dataset.notes.push_back(
-        fmt::format("{} shapes are not filled and were left out", drawing.unfilled));
+        drawing.unfilled == 1
+            ? std::string("1 shape is not filled and was left out")
+            : fmt::format("{} shapes are not filled and were left out", drawing.unfilled));
   }
   if (document->selectors_left_out() > 0) {
     dataset.notes.push_back(
