@@ -64,11 +64,11 @@ class PieceOrder {
   /// direction in which they are short beside how far they are apart.
   void order_overlapping(std::span<std::uint32_t> order) const {
     while (order.size() > fan_out) {
-      const auto [along, across] = directions_of(order);
+      const std::pair<Vec2, Vec2> direction = directions_of(order);
       const std::size_t half = detail::halve_by_place(
           order,
           [&](std::uint32_t i) {
-            return Vec2{dot(along, middle_[i]), dot(across, middle_[i])};
+            return Vec2{dot(direction.first, middle_[i]), dot(direction.second, middle_[i])};
           },
           fan_out);
       order_overlapping(order.first(half));
