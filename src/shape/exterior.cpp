@@ -9,10 +9,16 @@
 namespace medial {
 namespace {
 
-/// Why build_shape() refuses the exterior of a valid shape, at the place in the input.
-Error error_of_exterior(const Shape& shape, const Place& built) {
+/// Why build_shape() refuses the exterior of a valid shape, at the place in the input; where that
+/// has another reason than its tolerance, that reason.
+Error error_of_exterior(const Shape& shape, const Error& refused) {
+  using enum ErrorCode;
+  const ErrorCode code = refused.code;
+  if (code != overlap && code != crossing && code != no_area && code != too_few_points)
+    return refused;
+  const Place& built = refused.place;
   Error error{
-      ErrorCode::unsupported,
+      unsupported,
       "edges lie nearer to each other here than the exterior resolves, whose tolerance is a "
       "share of the enclosure's size: choose a smaller margin, or move them apart",
       {}};
@@ -40,7 +46,7 @@ Result<Exterior> exterior_of(const Shape& shape, double margin) {
     ring.bulges.assign(first, first + static_cast<std::ptrdiff_t>(loop.size()));
   }
   auto built = build_shape(rings);
-  if (!built) return error_of_exterior(shape, built.error().place);
+  if (!built) return error_of_exterior(shape, built.error());
   Exterior exterior{std::move(built).value(), {}, {}};
   for (VertexSource& source : exterior.shape.sources) {
     exterior.of_loop.push_back(source.ring - 1);

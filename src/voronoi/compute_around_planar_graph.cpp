@@ -268,7 +268,7 @@ std::optional<Error> refused_next_to_arcs(const PlanarGraph& planar_graph,
   if (auto error = close()) return error;
   Error error{
       ErrorCode::unsupported,
-      "rounding alone decides what a disk touches next to arcs here: move what ends near it apart",
+      "rounding alone decides what a disk touches next to arcs here: move the ends near it apart",
       {}};
   error.place.point = certificate.worst;
   return error;
