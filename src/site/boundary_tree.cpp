@@ -234,9 +234,22 @@ using Stack = std::array<Waiting, 4 * 16 + 4>;
   return top;
 }
 
+/// The first of the children in `mask`, at least one; the others wait, the last at the bottom.
+[[gnu::always_inline]] inline Waiting take_first(std::uint32_t mask, std::uint32_t child,
+                                                 std::uint32_t level, const Lanes& squared,
+                                                 Stack& stack, std::size_t& size) {
+  for (;;) {
+    const auto lane = static_cast<std::uint32_t>(std::bit_width(mask) - 1);
+    const Waiting last{child + lane, level, squared[lane]};
+    mask ^= 1u << lane;
+    if (mask == 0) return last;
+    stack[size++] = last;
+  }
+}
+
 }  // namespace
 
-template <class Visit>
+template <BoundaryTree::Order order, class Visit>
 [[gnu::always_inline]] inline void BoundaryTree::visit_blocks(Vec2 c, double& reach,
                                                               std::uint32_t first,
                                                               std::uint32_t last,
@@ -276,7 +289,10 @@ template <class Visit>
       if (below < chord_count && mask != 0 && !chords_[below].empty())
         mask &= ~beyond(chords_[below][top.index], c, reach);
       if (mask != 0) {
-        top = take_nearest(mask, child, below, squared, stack, size);
+        if constexpr (order == Order::nearest_first)
+          top = take_nearest(mask, child, below, squared, stack, size);
+        else
+          top = take_first(mask, child, below, squared, stack, size);
         continue;
       }
     }
@@ -307,7 +323,7 @@ BoundaryTree::Hit BoundaryTree::nearest(Vec2 c, double reach, std::uint32_t firs
   const auto take_if_nearer = [&](std::uint32_t i, double squared) {
     if (squared < hit.squared_distance) hit = {i, squared};
   };
-  visit_blocks(c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
+  visit_blocks<Order::nearest_first>(c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
     const double before = hit.squared_distance;
     const Site* site = &sites_[from];
     if (!has_arcs_) {
@@ -346,7 +362,7 @@ BoundaryTree::Hit BoundaryTree::nearest_facing(Vec2 c, double reach, std::uint32
     const double near = std::sqrt(back.squared_distance) + rounding;
     limit = std::min({front.squared_distance, near * near, limit});
   };
-  visit_blocks(c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
+  visit_blocks<Order::nearest_first>(c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
     const double before = limit;
     if (!has_arcs_) {
       for (; from < to; from += 2) {
@@ -378,7 +394,7 @@ BoundaryTree::Hit BoundaryTree::nearest_lowest(Vec2 c, double reach) const {
       hit = {i, d};
     }
   };
-  visit_blocks(c, reach, 0, static_cast<std::uint32_t>(sites_.size() - 1),
+  visit_blocks<Order::nearest_first>(c, reach, 0, static_cast<std::uint32_t>(sites_.size() - 1),
                [&](std::uint32_t from, std::uint32_t to) {
                  const double before = squared;
                  if (!has_arcs_)
@@ -403,7 +419,7 @@ void BoundaryTree::within(Vec2 c, double reach, std::uint32_t first, std::uint32
   const auto take_if_near = [&](std::uint32_t i) {
     if (site::squared_distance(sites_[i], c) < squared) found.push_back(i);
   };
-  visit_blocks(c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
+  visit_blocks<Order::along_boundary>(c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
     if (!has_arcs_)
       for (; from < to; from += 2) {
         if (!one_is_nearer(sites_[from], sites_[from + 1], c, squared)) continue;
@@ -412,7 +428,6 @@ void BoundaryTree::within(Vec2 c, double reach, std::uint32_t first, std::uint32
       }
     for (; from <= to; ++from) take_if_near(from);
   });
-  std::sort(found.begin(), found.end());
 }
 
 bool BoundaryTree::few_within(Vec2 c, double reach, std::size_t most,
@@ -420,7 +435,7 @@ bool BoundaryTree::few_within(Vec2 c, double reach, std::size_t most,
   found.clear();
   if (sites_.empty() || !(reach > 0)) return true;
   const double squared = reach * reach;
-  visit_blocks(c, reach, 0, static_cast<std::uint32_t>(sites_.size() - 1),
+  visit_blocks<Order::nearest_first>(c, reach, 0, static_cast<std::uint32_t>(sites_.size() - 1),
                [&](std::uint32_t from, std::uint32_t to) {
                  for (; from <= to; ++from)
                    if (site::squared_distance(sites_[from], c) < squared) found.push_back(from);

@@ -74,7 +74,9 @@ class BoundaryTree {
   static std::optional<ChordBox> chord_box(std::span<const site::Site> sites);
   static std::uint32_t beyond(const ChordBoxes& boxes, Vec2 c, double reach);
 
-  template <class Visit>
+  /// In which order nodes are visited.
+  enum class Order : std::uint8_t { nearest_first, along_boundary };
+  template <Order order, class Visit>
   void visit_blocks(Vec2 c, double& reach, std::uint32_t first, std::uint32_t last,
                     Visit&& visit) const;
 

@@ -111,9 +111,19 @@ bool Contacts::are_distinct(std::uint32_t first, std::uint32_t second, double an
 
 const std::vector<std::uint32_t>& Contacts::touched_between(const Span& span, const Disk& disk,
                                                             bool all_around) {
-  ++statistics_.queries;
-  context_.tree.within(disk.center, disk.radius + touching_, span.right + 1, span.left - 1,
-                       touched_);
+  const Boundary::SiteRange& run = run_of(span);
+  const bool narrow = has_narrow_wedges();
+  if (narrow && is_around(run, disk)) {
+    // What is beside the disk is left out below, too.
+    touched_.clear();
+    for (const Neighbor& near : near_)
+      if (near.site > span.right && near.site < span.left && near.away < touching_)
+        touched_.push_back(near.site);
+  } else {
+    ++statistics_.queries;
+    context_.tree.within(disk.center, disk.radius + touching_, span.right + 1, span.left - 1,
+                         touched_);
+  }
   if (touched_.empty()) return touched_;
   // Along the boundary the contacts go around the disk counter-clockwise. What comes out of order
   // is another copy of a vertex that was touched before.
@@ -129,8 +139,6 @@ const std::vector<std::uint32_t>& Contacts::touched_between(const Span& span, co
     return angle > 0 ? angle : angle + 2 * std::numbers::pi;
   };
   const double end_angle = all_around ? 2 * std::numbers::pi : angle_of(span.left, 1);
-  const bool narrow = has_narrow_wedges();
-  const Boundary::SiteRange& run = run_of(span);
   double angle_before = 0;
   std::uint32_t before = span.right;
   std::size_t kept = 0;
@@ -182,37 +190,46 @@ bool Contacts::is_beside(std::uint32_t i, Vec2 center, const Boundary::SiteRange
                            : i > run.first && boundary_.is_smooth(i - 1);
 }
 
-const std::vector<std::uint32_t>& Contacts::around(const Span& span, const Disk& disk) {
+const std::vector<Contacts::Neighbor>& Contacts::around(const Span& span, const Disk& disk) {
   const Boundary::SiteRange& run = run_of(span);
-  if (&run == around_run_ && disk.center == around_.center && disk.radius == around_.radius)
-    return near_;
+  if (is_around(run, disk)) return near_;
   ++statistics_.queries;
   around_run_ = &run;
   around_ = disk;
-  context_.tree.within(disk.center, disk.radius + clearance(), run.first, run.last, near_);
-  std::erase_if(near_, [&](std::uint32_t i) {
-    return is_beside(i, disk.center, run) || !faces(i, disk.center);
-  });
+  // So much further that is_alone() mostly finds there what it asks for.
+  constexpr double further = 1 << 12;
+  around_reach_ = std::min(further * clearance(), std::max(clearance(), short_way * disk.radius));
+  context_.tree.within(disk.center, disk.radius + around_reach_, run.first, run.last, within_);
+  near_.clear();
+  for (const std::uint32_t i : within_) {
+    const double distance = std::sqrt(site::squared_distance(site(i), disk.center));
+    if (distance < disk.radius + clearance() && !is_beside(i, disk.center, run) &&
+        faces(i, disk.center))
+      near_.push_back({i, distance - disk.radius, site::foot(site(i), disk.center)});
+  }
   return near_;
 }
 
-double Contacts::spread_of(const std::vector<std::uint32_t>& sites, const Span& span,
+double Contacts::spread_of(const std::vector<Neighbor>& sites, const Span& span,
                            Vec2 center) const {
   // Feet that only pass on are where they pass.
   const std::array<Vec2, 2> own{site::foot(site(span.right), center),
                                 site::foot(site(span.left), center)};
-  if (ranges::all_of(sites, [&](std::uint32_t i) {
-        const Vec2 foot = site::foot(site(i), center);
-        return std::min(distance(foot, own[0]), distance(foot, own[1])) <= 4 * context_.tolerance;
+  const double here = 4 * context_.tolerance;
+  if (ranges::all_of(sites, [&](const Neighbor& near) {
+        return std::min(squared_norm(near.foot - own[0]), squared_norm(near.foot - own[1])) <=
+               here * here;
       }))
     return 1;
-  const Vec2 first = site::outward(site(sites[0]), center);
-  const auto turned = [&](std::uint32_t i) { return site::outward(site(i), center) - first; };
+  const Vec2 first = site::outward(site(sites[0].site), center);
+  const auto turned = [&](const Neighbor& near) {
+    return site::outward(site(near.site), center) - first;
+  };
   Vec2 ab, ac;
-  for (const std::uint32_t i : sites)
-    if (const Vec2 to = turned(i); squared_norm(to) > squared_norm(ab)) ab = to;
-  for (const std::uint32_t i : sites)
-    if (const Vec2 to = turned(i); std::abs(cross(ab, to)) > std::abs(cross(ab, ac))) ac = to;
+  for (const Neighbor& near : sites)
+    if (const Vec2 to = turned(near); squared_norm(to) > squared_norm(ab)) ab = to;
+  for (const Neighbor& near : sites)
+    if (const Vec2 to = turned(near); std::abs(cross(ab, to)) > std::abs(cross(ab, ac))) ac = to;
   return 1 + 2 * (norm(ab) + norm(ac)) / std::abs(cross(ab, ac));
 }
 
@@ -254,14 +271,15 @@ bool Contacts::is_clean_tie(const Span& span, const Disk& disk, std::uint32_t su
   for (const std::uint32_t i : {span.right, span.left, sure})
     if (std::abs(away(i, disk)) > touching_) return false;
   if (is_crowded(span, disk)) return false;
-  const std::vector<std::uint32_t>& sites = around(span, disk);
-  const auto has = [&](std::uint32_t i) { return ranges::binary_search(sites, i); };
+  const std::vector<Neighbor>& sites = around(span, disk);
+  const auto has = [&](std::uint32_t i) {
+    return ranges::binary_search(sites, i, {}, &Neighbor::site);
+  };
   if (!has(span.right) || !has(span.left) || !has(sure)) return false;
   const double spread = spread_of(sites, span, disk.center);
   // Where the tie may be, and not only its disk, decides whether a foot has come to a joint.
   if (!(touching_ * spread <= furthest * disk.radius)) return false;
-  std::uint32_t before = sites.back();
-  Vec2 foot_before = site::foot(site(before), disk.center);
+  auto [before, ignored, foot_before] = sites.back();
   // Moving one of two points by touching_ makes the tie exact, so both may be touched in it; their
   // bisector then passes the centre by touching_ over their angle. (Diagrams tell points apart that
   // are nearer.)
@@ -270,13 +288,12 @@ bool Contacts::is_clean_tie(const Span& span, const Disk& disk, std::uint32_t su
     const double apart = touching_ / beside;
     return site(before).is_vertex() && site(i).is_vertex() && squared > apart * apart;
   };
-  for (const std::uint32_t i : sites) {
+  for (const auto& [i, away, foot] : sites) {
     const double beyond = beyond_ends(i, disk.center);
     const bool at_joint = beyond > -clearance() * spread;
-    if (std::abs(away(i, disk)) > touching_ || beyond > context_.tolerance ||
+    if (std::abs(away) > touching_ || beyond > context_.tolerance ||
         (at_joint && (spread > well_placed || beyond < -context_.tolerance)))
       return false;
-    const Vec2 foot = site::foot(site(i), disk.center);
     // A disk that touches one place all but touches what is beside it.
     const double squared = squared_norm(foot - foot_before);
     if ((before + 1 != i || !boundary_.is_smooth(before)) && !are_points_apart(i, squared) &&
@@ -294,10 +311,13 @@ bool Contacts::is_clean_tie(const Span& span, const Disk& disk, std::uint32_t su
 // cosine and a sine, which three contacts determine (Lagrange). If it reaches a site between two
 // contacts of the tie and over neither of these, the sum falls towards that site from both sides,
 // so that the three contacts that it touches are next to it.
-bool Contacts::is_alone(const std::vector<std::uint32_t>& tie, const Span& span, const Disk& disk) {
-  std::vector<std::uint32_t> sites;  // without those to which a foot only passes on
-  std::vector<Vec2> toward;
-  for (const std::uint32_t i : tie) {
+bool Contacts::is_alone(const std::vector<Neighbor>& tie, const Span& span, const Disk& disk) {
+  std::vector<std::uint32_t>& sites = tie_;  // without those to which a foot only passes on
+  std::vector<Vec2>& toward = toward_;
+  sites.clear();
+  toward.clear();
+  for (const Neighbor& near : tie) {
+    const std::uint32_t i = near.site;
     if (!sites.empty() && sites.back() + 1 == i && boundary_.is_smooth(sites.back())) continue;
     sites.push_back(i);
     toward.push_back(site::outward(site(i), disk.center));
@@ -308,13 +328,14 @@ bool Contacts::is_alone(const std::vector<std::uint32_t>& tie, const Span& span,
   for (std::size_t i = 0; i < count; ++i)
     least = std::min(least, squared_norm(toward[(i + 1) % count] - toward[i]) *
                                 squared_norm(toward[(i + 2) % count] - toward[(i + 1) % count]));
-  // Ties are contracted along edges shorter than half of this only.
-  constexpr double short_way = 0x1p-6;  // of the radius
   const double furthest = std::min(12 * touching_ / std::sqrt(least), short_way * disk.radius);
   if (furthest <= clearance()) return true;
-  ++statistics_.queries;
   const Boundary::SiteRange& run = run_of(span);
-  context_.tree.within(disk.center, disk.radius + furthest, run.first, run.last, touched_);
+  const bool known = furthest <= around_reach_;
+  if (!known) {
+    ++statistics_.queries;
+    context_.tree.within(disk.center, disk.radius + furthest, run.first, run.last, touched_);
+  }
   // By how many times the residuals of three contacts a disk may be off in another direction.
   const auto factor = [&](Vec2 to, std::size_t first) {
     double sum = 0;
@@ -326,9 +347,9 @@ bool Contacts::is_alone(const std::vector<std::uint32_t>& tie, const Span& span,
     }
     return sum;
   };
-  return ranges::all_of(touched_, [&](std::uint32_t i) {
-    if (ranges::binary_search(tie, i) || is_beside(i, disk.center, run, furthest) ||
-        !faces(i, disk.center))
+  return ranges::all_of(known ? within_ : touched_, [&](std::uint32_t i) {
+    if (!(away(i, disk) < furthest) || ranges::binary_search(tie, i, {}, &Neighbor::site) ||
+        is_beside(i, disk.center, run, furthest) || !faces(i, disk.center))
       return true;
     const Vec2 to = site::outward(site(i), disk.center);
     const auto next = static_cast<std::size_t>(ranges::lower_bound(sites, i) - sites.begin());
@@ -344,7 +365,7 @@ std::optional<Disk> Contacts::clean_tie(const Span& span, const Disk& near, std:
   // What touches a disk places it better, so that it touches more.
   for (std::size_t before = 3; !is_crowded(span, disk);) {
     std::vector<Touch> contacts;
-    for (const std::uint32_t i : around(span, disk)) contacts.push_back({i});
+    for (const Neighbor& one : around(span, disk)) contacts.push_back({one.site});
     if (contacts.size() <= before) return std::nullopt;
     before = 2 * contacts.size();
     TieFit fit(sites, disk);

@@ -184,15 +184,24 @@ class Contacts {
   bool is_beside(std::uint32_t i, Vec2 center, const Boundary::SiteRange& run) const {
     return is_beside(i, center, run, clearance());
   }
+  /// A site that a disk touches or is near to.
+  struct Neighbor {
+    std::uint32_t site;
+    double away;  ///< how far it is from the disk
+    Vec2 foot;
+  };
   /// Whether no disk that touches three sites of a tie, and reaches over no other one of it, each
   /// within `touching_`, touches anything else.
-  bool is_alone(const std::vector<std::uint32_t>& tie, const Span& span, const Disk& disk);
+  bool is_alone(const std::vector<Neighbor>& tie, const Span& span, const Disk& disk);
   /// What a disk touches or is near to on all of a span's boundary, in order; until the next call.
   /// The spans that begin at one node ask for the same disk.
-  const std::vector<std::uint32_t>& around(const Span& span, const Disk& disk);
+  const std::vector<Neighbor>& around(const Span& span, const Disk& disk);
+  bool is_around(const Boundary::SiteRange& run, const Disk& disk) const {
+    return &run == around_run_ && disk.center == around_.center && disk.radius == around_.radius;
+  }
   /// How far a disk may be from the one that it should be, at most, against the residuals of its
   /// contacts with some of these sites (docs/exact.md).
-  double spread_of(const std::vector<std::uint32_t>& sites, const Span& span, Vec2 center) const;
+  double spread_of(const std::vector<Neighbor>& sites, const Span& span, Vec2 center) const;
   /// Whether a disk is near to the two feet that the last tie had too near to each other: a tie of
   /// thousands is not collected again for each of its contacts. That spares work and changes no
   /// answer, since is_clean_tie() would find the two again.
@@ -203,6 +212,8 @@ class Contacts {
     return tolerances * context_.tolerance;
   }
 
+  /// Of the radius: ties are contracted along edges shorter than half of this only.
+  static constexpr double short_way = 0x1p-6;
   /// Feet further apart than so many tolerances are not two copies of one place.
   static constexpr double distinct_feet = 16;
   /// Longer chains need no check: their ends are distinct.
@@ -215,7 +226,11 @@ class Contacts {
   /// The last disk and boundary that around() was asked for, and the answer.
   Disk around_{{0, 0}, -1};
   const Boundary::SiteRange* around_run_ = nullptr;
-  std::vector<std::uint32_t> near_;
+  double around_reach_ = 0;  ///< how far from that disk `within_` goes
+  std::vector<std::uint32_t> within_;
+  std::vector<Neighbor> near_;  ///< of those within clearance(), what is not beside the disk
+  std::vector<std::uint32_t> tie_;  ///< of is_alone()
+  std::vector<Vec2> toward_;
   std::array<std::uint32_t, 2> crowded_{Hit::none, Hit::none};  ///< see is_crowded()
 };
 
