@@ -117,6 +117,15 @@ class Contacts {
   /// chain is flat.
   bool is_reflex_chain(const Span& span) const;
 
+  /// Whether nothing but a bridge lies between the two sites.
+  bool is_at_bridge(const Span& span) const {
+    return span.left - span.right == 2 && element(span.right + 1) == Element::bridge;
+  }
+  /// Whether a walk is needed between the two sites.
+  bool needs_walk(const Span& span) const {
+    return span.left - span.right > 1 && !is_at_bridge(span) && !is_reflex_chain(span);
+  }
+
   /// The sites strictly inside the span that a disk touches in places of their own, in order; until
   /// the next call. `all_around`: both ends of the span are touched in one point.
   const std::vector<std::uint32_t>& touched_between(const Span& span, const Disk& disk,
@@ -148,6 +157,18 @@ class Contacts {
     if (a.is_vertex() && b.is_vertex()) return a.point == b.point;
     const double apart = distinct_contacts * radius;
     return squared_norm(site::foot(a, center) - site::foot(b, center)) < apart * apart;
+  }
+
+  /// Whether a centre is past the normals beside a vertex: of vertices that double does not tell
+  /// apart one is touched, between them.
+  bool is_past_vertex(std::uint32_t i, Vec2 center) const {
+    return element(i) == Element::vertex && beyond_ends(i, center) > context_.tolerance;
+  }
+  /// Whether two disks are so near to each other that on the way a disk may reach over a site all
+  /// along by less than double sees.
+  bool is_short_way(const Disk& from, const Disk& to) const {
+    constexpr double many = 1 << 10;
+    return !(squared_norm(to.center - from.center) > many * context_.tolerance * from.radius);
   }
 
   /// How far a disk's centre lies beyond the nearer of the normals at the ends of a site, where

@@ -197,7 +197,7 @@ void EventSearch::polish(Disk& disk, const Site& third) {
                context_.tolerance, statistics_.precision_retries);
 }
 
-Event EventSearch::next() {
+Event EventSearch::by_neighbors() {
   // A foot that passes on smoothly is found at little cost, and makes most corners' events
   // needless.
   const bool right_first = boundary_.is_smooth(span_.right) || !boundary_.is_smooth(span_.left - 1);
@@ -212,6 +212,25 @@ Event EventSearch::next() {
     event.position = bisector_.last_position(from_, context_.radius_limit);
     event.disk = bisector_.disk_at(event.position, from_);
   }
+  return event;
+}
+
+std::optional<Event> EventSearch::plain(const Event& by_neighbors) {
+  Event event = by_neighbors;
+  if (event.kind == Event::Kind::far || span_.left - span_.right == 2 ||
+      event.disk.radius <= as_good_as_point * context_.tolerance)
+    return std::nullopt;
+  if (event.kind == Event::Kind::contact) {
+    if (is_at_node(event.site)) return std::nullopt;
+    event.site = contacts_.owner(event.site, event.disk.center, span_);
+    if (!reaches(event)) return std::nullopt;
+  }
+  if (!contacts_.reaches(span_.right, event.disk) || !contacts_.reaches(span_.left, event.disk))
+    return std::nullopt;
+  return event;
+}
+
+Event EventSearch::next(const Event& event) {
   if (event.kind == Event::Kind::contact) {
     if (is_at_node(event.site)) return at_node(event.site);
     // The only site in between is the one found; but a circle may be touched in the wrong place.

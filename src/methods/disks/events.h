@@ -39,8 +39,16 @@ class EventSearch {
         bisector_(site(span.right), site(span.left)),
         low_(bisector_.position(from.center)) {}
 
-  /// The event; never `none` or `far`.
-  Event next();
+  /// The first event that the two sites and their neighbours alone tell.
+  Event by_neighbors();
+  /// What that comes to; never `none` or `far`.
+  Event next(const Event& by_neighbors);
+  Event next() { return next(by_neighbors()); }
+  /// What next() makes of such an event if asked_disk() is empty, and if that is all it asks for.
+  std::optional<Event> plain(const Event& by_neighbors);
+  Disk asked_disk(const Event& event) const {
+    return event.kind == Event::Kind::contact ? beyond(event).disk : event.disk;
+  }
 
  private:
   /// A disk that touches a smooth joint. It does not fit if it is larger than the circle of an arc

@@ -5,6 +5,7 @@
 #include "methods/disks/events.h"
 #include "methods/disks/exact_event.h"
 #include "methods/disks/planar_contacts.h"
+#include "methods/disks/run_ahead.h"
 #include "site/tangent_disk.h"
 
 namespace medial::disks {
@@ -29,6 +30,7 @@ class Walker {
         chunk_(chunk),
         own_contacts_(contacts_with(context, chunk.statistics)),
         contacts_(*own_contacts_),
+        ahead_(context, contacts_, chunk.statistics),
         is_exact_(context.exact.always(chunk.component)) {}
 
   /// Walks all of a run: from the convex corner between its last and first site, or from a disk
@@ -134,34 +136,16 @@ class Walker {
 
   /// The spans into which an event divides its own, in `parts_`; looked ahead at, if asked for.
   void find_parts(const Step& step, const Disk& from) {
-    using Kind = Event::Kind;
     const Span& span = step.span;
     const Event& event = step.event;
     parts_.clear();
-    if (step.is_tie) {
-      split(span, event.disk, event.site, false);
-      look_ahead(step);
-      return;
+    if (step.is_tie || event.kind == Event::Kind::at_node) {
+      split(span, step.is_tie ? event.disk : from, event.site, false);
+      return look_ahead(step);
     }
     const bool moves = event.disk.center != from.center || event.disk.radius != from.radius;
-    Span next{span.right, span.left, span.node, 0, step.error, moves};
-    switch (event.kind) {
-      case Kind::none:
-        return;
-      case Kind::pass_right:
-      case Kind::pass_left:
-        next.third = event.kind == Kind::pass_right ? next.right++ : next.left--;
-        parts_.push_back({next});
-        break;
-      case Kind::at_node:
-        split(span, from, event.site, false);
-        break;
-      default:
-        // On a shape that crosses itself nothing may be left to touch.
-        if (event.site <= span.right || event.site >= span.left) return;
-        parts_.push_back({{event.site, span.left, span.node, span.right, step.error, moves}});
-        parts_.push_back({{span.right, event.site, span.node, span.left, step.error, moves}});
-    }
+    const Division parts(span, event, step.error, moves);
+    for (std::size_t i = 0; i < parts.count; ++i) parts_.push_back({parts.part[i]});
     look_ahead(step);
   }
 
@@ -175,7 +159,7 @@ class Walker {
     if (!looks_ahead(step)) return;
     const Disk& disk = step.event.disk;
     for (Step& part : parts_) {
-      part.is_open = needs_walk(part.span);
+      part.is_open = contacts_.needs_walk(part.span);
       if (part.is_open) propose(part, disk);
     }
   }
@@ -183,18 +167,13 @@ class Walker {
   /// Whether nothing within the tolerance may come before an event on a polygon.
   bool is_settled(const Step& step, const Disk& from, const Certainty& certainty) {
     const Span& span = step.span;
-    // Of vertices that double does not tell apart one is touched, between the normals beside it.
-    const std::uint32_t touched = step.event.site;
-    if (step.event.kind == Event::Kind::contact && element(touched) == Element::vertex &&
-        contacts_.beyond_ends(touched, step.event.disk.center) > context_.tolerance)
+    if (step.event.kind == Event::Kind::contact &&
+        contacts_.is_past_vertex(step.event.site, step.event.disk.center))
       return false;
     if (certainty.is_tie())
       return contacts_.passes_at(span, from, certainty.fourth()) ||
              contacts_.is_clean_tie(span, from, certainty.fourth());
-    // On a short way a disk may reach over a site all along by less than double sees.
-    constexpr double many = 1 << 10;
-    const double short_way = many * context_.tolerance * from.radius;
-    return squared_norm(step.event.disk.center - from.center) > short_way ||
+    return !contacts_.is_short_way(from, step.event.disk) ||
            !contacts_.may_touch_more(span, from, certainty.fourth());
   }
 
@@ -303,7 +282,18 @@ class Walker {
     step.is_proposed = true;
     if (is_exact_) return;
     const Span& span = step.span;
-    step.event = event_in_double(span, from);
+    const RunAhead::Found* const found = ahead_.find(span, from);
+    if (found != nullptr && found->is_certain) {
+      step.event = found->event;
+      step.error = found->error;
+      step.is_certain = true;
+      ++chunk_.statistics.exact_filtered;
+      return;
+    }
+    const std::uint64_t queries = chunk_.statistics.queries;
+    EventSearch search(context_, contacts_, chunk_.statistics, span, from);
+    step.event = found != nullptr ? search.next(found->event) : search.next();
+    ahead_.note(chunk_.statistics.queries - queries <= 1);
     const Certainty certainty(boundary_, context_.tolerance, span, from, step.event);
     step.error = certainty.error();
     step.is_certain =
@@ -412,19 +402,11 @@ class Walker {
     return true;
   }
 
-  bool is_at_bridge(const Span& span) const {
-    return span.left - span.right == 2 && element(span.right + 1) == Element::bridge;
-  }
-  /// Whether a walk is needed between the two sites.
-  bool needs_walk(const Span& span) const {
-    return span.left - span.right > 1 && !is_at_bridge(span) && !contacts_.is_reflex_chain(span);
-  }
-
-  /// needs_walk(); where the two sites are neighbours, ends the axis there. What is known of a
+  /// Whether a walk is needed; where the two sites are neighbours, ends the axis there. What is known of a
   /// proposed step is not asked again.
   bool is_open(const Span& span, bool is_proposed = false) {
     const std::uint32_t between = span.left - span.right;
-    const bool at_bridge = is_at_bridge(span);
+    const bool at_bridge = contacts_.is_at_bridge(span);
     const bool ends =
         between == 1 || (!at_bridge && !is_proposed && contacts_.is_reflex_chain(span));
     if (ends && boundary_.has_arcs && !is_exact_ &&
@@ -564,6 +546,7 @@ class Walker {
   Chunk& chunk_;
   const std::unique_ptr<Contacts> own_contacts_;
   Contacts& contacts_;
+  RunAhead ahead_;
   const bool is_exact_;        ///< double is never asked
   bool starts_blunt_ = false;  ///< the run begins at a blunt joint, node 0
   std::vector<Step> stack_;

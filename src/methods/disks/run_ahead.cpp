@@ -1,0 +1,93 @@
+#include "methods/disks/run_ahead.h"
+
+#include <algorithm>
+
+namespace medial::disks {
+namespace {
+
+/// The sites that a run passes are tested with each of its disks.
+constexpr std::size_t longest_run = 16;
+
+}  // namespace
+
+Division::Division(const Span& span, const Event& event, double error, bool moves) {
+  using Kind = Event::Kind;
+  Span next{span.right, span.left, span.node, 0, error, moves};
+  if (event.kind == Kind::pass_right || event.kind == Kind::pass_left) {
+    next.third = event.kind == Kind::pass_right ? next.right++ : next.left--;
+    part[count++] = next;
+  } else if (event.kind != Kind::none && event.site > span.right && event.site < span.left) {
+    part[count++] = {event.site, span.left, span.node, span.right, error, moves};
+    part[count++] = {span.right, event.site, span.node, span.left, error, moves};
+  }
+}
+
+RunAhead::RunAhead(const WalkContext& context, Contacts& contacts, Statistics& statistics)
+    : context_(context),
+      contacts_(contacts),
+      statistics_(statistics),
+      is_possible_(contacts.is_polygon() && context.boundary.sides == Sides::one) {}
+
+const RunAhead::Found* RunAhead::find_or_run(const Span& span, const Disk& from) {
+  const auto is_next = [&] {
+    if (next_ == found_.size()) return false;
+    const Found& next = found_[next_];
+    return next.span.right == span.right && next.span.left == span.left &&
+           next.span.third == span.third && next.from.center == from.center &&
+           next.from.radius == from.radius;
+  };
+  if (is_next()) return &found_[next_++];
+  found_.clear();
+  next_ = 0;
+  const std::size_t most = std::min(streak_ / patience, longest_run);
+  if (most < 2 || !is_possible_) return nullptr;
+  run(span, from, most);
+  const bool has_open = !found_.back().is_certain;
+  const std::size_t certain = found_.size() - (has_open ? 1 : 0);
+  std::size_t count = certain;
+  while (count > 0 && !are_empty(count)) count /= 2;
+  streak_ = count == certain && count > 1 ? streak_ + count : 0;
+  if (count < certain) found_.resize(count);
+  return is_next() ? &found_[next_++] : nullptr;
+}
+
+void RunAhead::run(const Span& first, const Disk& start, std::size_t most) {
+  Span span = first;
+  Disk from = start;
+  while (found_.size() < most) {
+    EventSearch search(context_, contacts_, statistics_, span, from);
+    Found& found = found_.emplace_back(Found{span, from, search.by_neighbors(), false, 0, {}});
+    // Nothing else within the tolerance may come before the event.
+    if (contacts_.is_short_way(from, found.event.disk)) return;
+    const auto event = search.plain(found.event);
+    if (!event || (event->kind == Event::Kind::contact &&
+                   contacts_.is_past_vertex(event->site, event->disk.center)))
+      return;
+    const Certainty certainty(context_.boundary, context_.tolerance, span, from, *event);
+    if (!certainty.is_certain() || certainty.is_tie()) return;
+    found = {span, from, *event, true, certainty.error(), search.asked_disk(*event)};
+    const Division parts(span, *event, certainty.error(), true);
+    const bool first_open = parts.count > 0 && contacts_.needs_walk(parts.part[0]),
+               second_open = parts.count > 1 && contacts_.needs_walk(parts.part[1]);
+    if (first_open == second_open) return;
+    span = parts.part[first_open ? 0 : 1];
+    from = event->disk;
+  }
+}
+
+bool RunAhead::are_empty(std::size_t count) {
+  const Span& last = found_[count - 1].span;
+  if (contacts_.nearest(found_[count - 1].asked, last)) return false;
+  for (std::size_t i = 0; i + 1 < count; ++i) {
+    const Found& one = found_[i];
+    Span passed = one.span;
+    passed.left = last.right + 1;
+    if (contacts_.nearest(one.asked, passed)) return false;
+    passed = one.span;
+    passed.right = last.left - 1;
+    if (contacts_.nearest(one.asked, passed)) return false;
+  }
+  return true;
+}
+
+}  // namespace medial::disks
