@@ -217,8 +217,7 @@ Event EventSearch::by_neighbors() {
 
 std::optional<Event> EventSearch::plain(const Event& by_neighbors) {
   Event event = by_neighbors;
-  if (event.kind == Event::Kind::far || span_.left - span_.right == 2 ||
-      event.disk.radius <= as_good_as_point * context_.tolerance)
+  if (event.kind == Event::Kind::far || span_.left - span_.right == 2 || is_in_point(event))
     return std::nullopt;
   if (event.kind == Event::Kind::contact) {
     if (is_at_node(event.site)) return std::nullopt;
@@ -254,9 +253,9 @@ Event EventSearch::first_contact(Event event) {
   bool look_beyond = true;
   // Every round but one that looked beyond comes earlier; rounding could make rounds repeat.
   for (int round = 0; round < most_rounds; ++round) {
-    event = short_of_point(event);
-    Event asked = event;
-    if (event.kind == Event::Kind::contact && look_beyond) asked = beyond(event);
+    if (is_in_point(event)) event = short_of_point(event);
+    Event asked =
+        event.kind == Event::Kind::contact && look_beyond ? beyond(event) : event;
     const Hit hit = contacts_.nearest(asked.disk, span_);
     if (!hit) {
       if (event.kind == Event::Kind::contact)
@@ -296,10 +295,12 @@ Event EventSearch::first_contact(Event event) {
   return bracket(from_, intruded);
 }
 
-Event EventSearch::short_of_point(Event event) {
-  const bool in_point = event.disk.radius <= as_good_as_point * context_.tolerance &&
-                        span_.left - span_.right > 2 && from_.radius > 0;
-  if (!in_point) return event;
+bool EventSearch::is_in_point(const Event& event) const {
+  return event.disk.radius <= as_good_as_point * context_.tolerance &&
+         span_.left - span_.right > 2 && from_.radius > 0;
+}
+
+Event EventSearch::short_of_point(const Event& event) {
   double way = event.position - low_;
   for (int step = 0; step < bracket_steps; ++step) {
     way *= 0.5;

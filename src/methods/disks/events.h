@@ -25,7 +25,7 @@ struct Event {
 };
 
 /// Finds what ends an edge of the axis: the first event on the bisector of a span's two sites after
-/// the disk `from`.
+/// the disk `from`. Refers to both.
 class EventSearch {
  public:
   EventSearch(const WalkContext& context, Contacts& contacts, Statistics& statistics,
@@ -114,7 +114,8 @@ class EventSearch {
   Event first_contact(Event event);
   /// Where edges of a planar graph meet, a disk of no radius touches them all, and those between
   /// the two sites reach into the disks before. Such an event becomes one of those disks.
-  Event short_of_point(Event event);
+  Event short_of_point(const Event& event);
+  bool is_in_point(const Event& event) const;
   /// The disk a little further, where the touched site intrudes by half of the tolerance. A flat
   /// contact leaves its position open: many neighbours on a circle are touched by one disk within
   /// the tolerance, although each three of them ask for another one. Looking from beyond finds the
@@ -139,8 +140,8 @@ class EventSearch {
   const Boundary& boundary_;
   Contacts& contacts_;
   Statistics& statistics_;
-  const Span span_;
-  const Disk from_;
+  const Span& span_;
+  const Disk& from_;
   const site::Bisector bisector_;
   const double low_;  ///< position of `from`
 };

@@ -118,15 +118,20 @@ class Walker {
       const std::uint32_t node = stays ? step.span.node : arrive(step.span, from, step.event.disk);
       for (Step& part : parts_) part.span.node = node;
       if (node != step.span.node) from = step.event.disk;
-      if (parts_.size() == 1) {
-        step = parts_[0];
-        step.is_open = is_open(step.span, step.is_proposed);
-        if (step.is_open && is_full()) return stack_.push_back(step);
-      } else if (parts_.size() == 2 && !stays) {
-        push(parts_[0], parts_[1]);
-      } else {
+      const Step* next = parts_.data();
+      if (parts_.size() == 2 && !stays) {
+        const bool first_larger = size(parts_[0]) > size(parts_[1]);
+        const Step &larger = parts_[first_larger ? 0 : 1], &smaller = parts_[first_larger ? 1 : 0];
+        if (smaller.is_open) return push(larger, smaller);
+        is_open(smaller.span);  // ends there
+        next = &larger;
+      } else if (parts_.size() > 1) {
         stack_.insert(stack_.end(), parts_.begin(), parts_.end());
+        return;
       }
+      step = *next;
+      step.is_open = is_open(step.span, step.is_proposed);
+      if (step.is_open && is_full()) return stack_.push_back(step);
     }
   }
 
@@ -397,8 +402,12 @@ class Walker {
       return false;
     }
     const std::uint32_t node = add_node(found->disk);
-    push({{whole.right, found->site, node, whole.left, Certainty::rounding, true}},
-         {{found->site, whole.left, node, whole.right, Certainty::rounding, true}});
+    const Step first{{whole.right, found->site, node, whole.left, Certainty::rounding, true}},
+        second{{found->site, whole.left, node, whole.right, Certainty::rounding, true}};
+    if (size(first) > size(second))
+      push(first, second);
+    else
+      push(second, first);
     return true;
   }
 
@@ -481,13 +490,11 @@ class Walker {
     return node;
   }
 
+  static std::uint32_t size(const Step& step) { return step.span.left - step.span.right; }
+
   /// Queues two spans, the larger to be walked later, so that the stack stays as shallow as log n;
   /// large ones apart, as tasks of their own.
-  void push(const Step& a, const Step& b) {
-    const auto size = [](const Step& step) { return step.span.left - step.span.right; };
-    const bool a_larger = size(a) > size(b);
-    const Step& larger = a_larger ? a : b;
-    const Step& smaller = a_larger ? b : a;
+  void push(const Step& larger, const Step& smaller) {
     if (size(smaller) >= fork_size_)
       fork(larger);
     else
