@@ -173,17 +173,13 @@ double Contacts::beyond_end(std::uint32_t i, bool at_end, Vec2 center) const {
   return (at_end ? cross(to, bound) : cross(bound, to)) / norm(bound);
 }
 
-double Contacts::beyond_ends(std::uint32_t i, Vec2 center) const {
-  return std::max(beyond_end(i, false, center), beyond_end(i, true, center));
-}
-
-bool Contacts::is_beside(std::uint32_t i, Vec2 center, const Boundary::SiteRange& run,
-                         double clear) const {
+bool Contacts::is_beside(std::uint32_t i, Vec2 center, const Boundary::SiteRange& run, double clear,
+                         const std::array<double, 2>& beyond) const {
   if (element(i) == Element::bridge) return true;
   // From behind, at the tip of a needle, the end of an edge is touched, which is a vertex.
   const bool is_straight = !site(i).is_vertex() && !site(i).is_arc();
   if (is_straight && site::carrier_distance(site(i), center) < -clear) return true;
-  const double at_start = beyond_end(i, false, center), at_end = beyond_end(i, true, center);
+  const auto [at_start, at_end] = beyond;
   if (!(std::max(at_start, at_end) > clear)) return false;
   if (site(i).is_vertex()) return true;
   return at_end > at_start ? i < run.last && boundary_.is_smooth(i)
@@ -203,9 +199,11 @@ const std::vector<Contacts::Neighbor>& Contacts::around(const Span& span, const 
   near_.clear();
   for (const std::uint32_t i : within_) {
     const double distance = std::sqrt(site::squared_distance(site(i), disk.center));
-    if (distance < disk.radius + clearance() && !is_beside(i, disk.center, run) &&
-        faces(i, disk.center))
-      near_.push_back({i, distance - disk.radius, site::foot(site(i), disk.center)});
+    if (!(distance < disk.radius + clearance())) continue;
+    const auto beyond = beyond_each(i, disk.center);
+    if (is_beside(i, disk.center, run, clearance(), beyond) || !faces(i, disk.center)) continue;
+    near_.push_back({i, distance - disk.radius, std::max(beyond[0], beyond[1]),
+                     site::foot(site(i), disk.center)});
   }
   return near_;
 }
@@ -279,7 +277,8 @@ bool Contacts::is_clean_tie(const Span& span, const Disk& disk, std::uint32_t su
   const double spread = spread_of(sites, span, disk.center);
   // Where the tie may be, and not only its disk, decides whether a foot has come to a joint.
   if (!(touching_ * spread <= furthest * disk.radius)) return false;
-  auto [before, ignored, foot_before] = sites.back();
+  std::uint32_t before = sites.back().site;
+  Vec2 foot_before = sites.back().foot;
   // Moving one of two points by touching_ makes the tie exact, so both may be touched in it; their
   // bisector then passes the centre by touching_ over their angle. (Diagrams tell points apart that
   // are nearer.)
@@ -288,8 +287,7 @@ bool Contacts::is_clean_tie(const Span& span, const Disk& disk, std::uint32_t su
     const double apart = touching_ / beside;
     return site(before).is_vertex() && site(i).is_vertex() && squared > apart * apart;
   };
-  for (const auto& [i, away, foot] : sites) {
-    const double beyond = beyond_ends(i, disk.center);
+  for (const auto& [i, away, beyond, foot] : sites) {
     const bool at_joint = beyond > -clearance() * spread;
     if (std::abs(away) > touching_ || beyond > context_.tolerance ||
         (at_joint && (spread > well_placed || beyond < -context_.tolerance)))

@@ -66,10 +66,18 @@ class Contacts {
   Element element(std::uint32_t i) const { return boundary_.elements[i]; }
 
   /// The nearest site inside the span that the disk reaches over by more than the tolerance.
-  virtual Hit nearest(const Disk& disk, const Span& span) {
+  Hit nearest(const Disk& disk, const Span& span) {
+    // Where both feet pass on at once, the same is asked again.
+    if (span.right >= empty_.right && span.left <= empty_.left &&
+        disk.center == empty_disk_.center && disk.radius == empty_disk_.radius)
+      return {};
     ++statistics_.queries;
-    return context_.tree.nearest(disk.center, disk.radius - context_.tolerance, span.right + 1,
-                                 span.left - 1);
+    const Hit hit = search(disk.center, disk.radius - context_.tolerance, span);
+    if (!hit) {
+      empty_ = span;
+      empty_disk_ = disk;
+    }
+    return hit;
   }
 
   /// The site that a disk around `center` really touches where the search found site i: a segment's
@@ -173,10 +181,17 @@ class Contacts {
 
   /// How far a disk's centre lies beyond the nearer of the normals at the ends of a site, where
   /// another site or a bridge takes over: negative between them.
-  double beyond_ends(std::uint32_t i, Vec2 center) const;
+  double beyond_ends(std::uint32_t i, Vec2 center) const {
+    const auto [at_start, at_end] = beyond_each(i, center);
+    return std::max(at_start, at_end);
+  }
 
  protected:
   Vec2 bridge_direction(std::uint32_t vertex, std::uint32_t bridge) const;
+  /// The nearest site inside a span, if one is nearer than `reach`.
+  virtual Hit search(Vec2 center, double reach, const Span& span) const {
+    return context_.tree.nearest(center, reach, span.right + 1, span.left - 1);
+  }
 
   const WalkContext& context_;
   const Boundary& boundary_;
@@ -190,7 +205,12 @@ class Contacts {
   /// around it: narrow slots have walls that a large disk touches next to each other.
   bool are_distinct(std::uint32_t first, std::uint32_t second, double angle,
                     const Disk& disk) const;
-  /// The same for one end.
+  /// The same for each end, and for one.
+  std::array<double, 2> beyond_each(std::uint32_t i, Vec2 center) const {
+    if (site(i).is_vertex()) return {beyond_end(i, false, center), beyond_end(i, true, center)};
+    const double s = site::carrier_parameter(site(i), center);
+    return {-s, s - site(i).length};
+  }
   double beyond_end(std::uint32_t i, bool at_end, Vec2 center) const;
   /// How far a site is from a disk: negative where the disk reaches over it.
   double away(std::uint32_t i, const Disk& disk) const {
@@ -201,14 +221,20 @@ class Contacts {
   }
   /// Whether another site, or none, is nearer than site i of a run to a disk that is next to it,
   /// and to all disks so near to that.
-  bool is_beside(std::uint32_t i, Vec2 center, const Boundary::SiteRange& run, double clear) const;
+  bool is_beside(std::uint32_t i, Vec2 center, const Boundary::SiteRange& run, double clear) const {
+    return is_beside(i, center, run, clear, beyond_each(i, center));
+  }
   bool is_beside(std::uint32_t i, Vec2 center, const Boundary::SiteRange& run) const {
     return is_beside(i, center, run, clearance());
   }
+  /// The same by what beyond_each() says.
+  bool is_beside(std::uint32_t i, Vec2 center, const Boundary::SiteRange& run, double clear,
+                 const std::array<double, 2>& beyond) const;
   /// A site that a disk touches or is near to.
   struct Neighbor {
     std::uint32_t site;
-    double away;  ///< how far it is from the disk
+    double away;    ///< how far it is from the disk
+    double beyond;  ///< see beyond_ends()
     Vec2 foot;
   };
   /// Whether no disk that touches three sites of a tie, and reaches over no other one of it, each
@@ -244,6 +270,9 @@ class Contacts {
   /// and of the site.
   const double touching_;
   std::vector<std::uint32_t> touched_;
+  /// The last disk that nearest() has found to be empty, and of which span.
+  Disk empty_disk_{{0, 0}, -1};
+  Span empty_{0, 0, 0};
   /// The last disk and boundary that around() was asked for, and the answer.
   Disk around_{{0, 0}, -1};
   const Boundary::SiteRange* around_run_ = nullptr;

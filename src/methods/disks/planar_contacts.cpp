@@ -4,12 +4,6 @@
 
 namespace medial::disks {
 
-PlanarContacts::Hit PlanarContacts::nearest(const Disk& disk, const Span& span) {
-  ++statistics_.queries;
-  return context_.tree.nearest_facing(disk.center, disk.radius - context_.tolerance, span.right + 1,
-                                      span.left - 1);
-}
-
 bool PlanarContacts::faces(std::uint32_t i, Vec2 c) const {
   if (element(i) == Element::edge) return faces_edge(site(i), c);
   const auto bound = [&](std::uint32_t beside) {

@@ -14,12 +14,14 @@ class PlanarContacts final : public Contacts {
  public:
   using Contacts::Contacts;
 
-  Hit nearest(const Disk& disk, const Span& span) override;
   std::uint32_t owner(std::uint32_t i, Vec2 center, const Span& span) const override;
   bool faces(std::uint32_t i, Vec2 c) const override;
   std::optional<site::Site> other_side(std::uint32_t i) const override;
 
  private:
+  Hit search(Vec2 center, double reach, const Span& span) const override {
+    return context_.tree.nearest_facing(center, reach, span.right + 1, span.left - 1);
+  }
   /// A point may have all directions to itself.
   bool has_narrow_wedges() const override { return false; }
 };
