@@ -118,19 +118,22 @@ bool Certainty::has_place(std::uint32_t third) const {
 }
 
 /// Newton and Kantorovich, as in exact/disk_bounds.h.
-double Certainty::error_of_three(std::uint32_t third) const {
-  const Contact a = contact(span_.right), b = contact(third), c = contact(span_.left);
+double Certainty::error_of_three(const Boundary& boundary,
+                                 const std::array<std::uint32_t, 3>& sites, const Disk& disk) {
+  const Contact a = contact_of(boundary.sites[sites[0]], disk),
+                b = contact_of(boundary.sites[sites[1]], disk),
+                c = contact_of(boundary.sites[sites[2]], disk);
   const double residual =
       std::max({std::abs(a.residual) + a.unsure, std::abs(b.residual) + b.unsure,
                 std::abs(c.residual) + c.unsure});
   const Vec2 ab = b.toward - a.toward, ac = c.toward - a.toward;
   const double area = cross(ab, ac);
   const double bend =
-      std::max({1.0, a.bend * to_.radius, b.bend * to_.radius, c.bend * to_.radius});
+      std::max({1.0, a.bend * disk.radius, b.bend * disk.radius, c.bend * disk.radius});
   if (!(area > 4 * (a.askew + b.askew + c.askew))) return unknown;
   const double spread = 1 + 2 * (taxicab_norm(ab) + taxicab_norm(ac)) / area;
   const double within = 2.01 * spread * residual;
-  return 2 * spread * within * bend < to_.radius ? within + rounding : unknown;
+  return 2 * spread * within * bend < disk.radius ? within + rounding : unknown;
 }
 
 double Certainty::error_at_joint(const Boundary& boundary, std::uint32_t before,

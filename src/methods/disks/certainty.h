@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "methods/disks/events.h"
 
 namespace medial::disks {
@@ -25,6 +27,11 @@ class Certainty {
   static double error_at_joint(const Boundary& boundary, std::uint32_t before, std::uint32_t after,
                                std::uint32_t third, const Disk& disk);
 
+  /// How far the exact disk that touches three sites, in this order around it, may be: infinite
+  /// where it may not exist.
+  static double error_of_three(const Boundary& boundary, const std::array<std::uint32_t, 3>& sites,
+                               const Disk& disk);
+
   /// What rounding a centre of the local frame moves it by, at most.
   static constexpr double rounding = 0x1p-51;
 
@@ -45,7 +52,9 @@ class Certainty {
   Contact contact(std::uint32_t i) const { return contact_of(site(i), to_); }
   bool is_near(std::uint32_t i, double slack) const;
   bool touches(std::uint32_t third, double slack) const;
-  double error_of_three(std::uint32_t third) const;
+  double error_of_three(std::uint32_t third) const {
+    return error_of_three(boundary_, {span_.right, third, span_.left}, to_);
+  }
   /// Whether three contacts leave only rounding open of where their disk is: not where two feet lie
   /// in one place. In an arc's own circle they may be anywhere on it.
   bool has_place(std::uint32_t third) const;

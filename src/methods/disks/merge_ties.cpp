@@ -15,6 +15,7 @@
 #include "base/memory.h"
 #include "base/numbers.h"
 #include "base/threads.h"
+#include "methods/disks/certainty.h"
 #include "methods/disks/tie_fit.h"
 #include "site/bisector.h"
 
@@ -435,9 +436,16 @@ class Merger {
 
   bool is_near(const Edge& edge, const Nearness& nearness) const {
     const auto [from, to] = edge.node;
-    const Disk &a = graph_.nodes[from].disk, &b = graph_.nodes[to].disk;
     if (!is_short(from, to)) return false;
-    if (are_near(from, to, nearness.length * tolerance_)) return true;
+    const double length = nearness.length * tolerance_;
+    const auto in_double = are_near_in_double(from, to, length);
+    if (in_double.value_or(false) || touch_alike(edge, nearness)) return true;
+    return in_double ? false : are_near(from, to, length);
+  }
+  /// Whether the disk of one end of an edge or one next to it touches all that is touched at both.
+  bool touch_alike(const Edge& edge, const Nearness& nearness) const {
+    const auto [from, to] = edge.node;
+    const Disk &a = graph_.nodes[from].disk, &b = graph_.nodes[to].disk;
     if (!is_branching(from) || !is_branching(to))
       return nearness.level == nearnesses[0].level && boundary_.has_arcs && could_be_at_hub(edge);
     const std::vector<Touch>&at_from = contacts_[place_of(from)], &at_to = contacts_[place_of(to)];
@@ -467,15 +475,21 @@ class Merger {
     }
     return true;
   }
-  /// Whether the disks of two nodes are so near to each other.
-  bool are_near(std::uint32_t a, std::uint32_t b, double length) const {
+  /// Whether the disks of two nodes are so near to each other, if double tells.
+  std::optional<bool> are_near_in_double(std::uint32_t a, std::uint32_t b, double length) const {
     constexpr double surely = 16;  // tolerances
-    const double squared = squared_norm(graph_.nodes[b].disk.center - graph_.nodes[a].disk.center);
-    if (squared > surely * surely * tolerance_ * tolerance_) return false;
+    const double way = distance(graph_.nodes[a].disk.center, graph_.nodes[b].disk.center);
+    if (way > surely * tolerance_) return false;
+    const bool known = std::abs(way - length) > error_of(a) + error_of(b);
+    return known ? std::optional(way <= length) : std::nullopt;
+  }
+  /// The same as the sites have them.
+  bool are_near(std::uint32_t a, std::uint32_t b, double length) const {
     const auto near = are_within(a, b, [&](const auto& one, const auto&) {
       return std::remove_cvref_t<decltype(one.radius)>(length);
     });
-    return near ? *near : squared <= length * length;
+    return near ? *near
+                : distance(graph_.nodes[a].disk.center, graph_.nodes[b].disk.center) <= length;
   }
   /// Whether the centres of two nodes are no further apart than `most` of their disks, as the sites
   /// have these; none where they are not known.
@@ -486,6 +500,7 @@ class Merger {
   }
   template <class Real, class Most>
   std::optional<bool> are_within_in(std::uint32_t a, std::uint32_t b, const Most& most) const {
+    if (!three_of(a) || !three_of(b)) return std::nullopt;
     const auto from = disk_in<Real>(a), to = from ? disk_in<Real>(b) : std::nullopt;
     if (!to) return std::nullopt;
     const auto way = to->center - from->center;
@@ -493,23 +508,43 @@ class Merger {
     const auto sign = (bound * bound - dot(way, way)).sign();
     return sign ? std::optional(*sign >= 0) : std::nullopt;
   }
+  /// The sites of a node that touches three; of several pieces of one site, one.
+  std::optional<std::array<std::uint32_t, 3>> three_of(std::uint32_t node) const {
+    std::array<std::uint32_t, 3> sites;
+    std::size_t count = 0;
+    for (const Touch& contact : contacts_[place_of(node)]) {
+      const std::uint32_t own = boundary_.originals[contact.site];
+      const auto known = std::span(sites).first(count);
+      if (ranges::any_of(known, [&](std::uint32_t s) { return boundary_.originals[s] == own; }))
+        continue;
+      if (count == 3) return std::nullopt;
+      sites[count++] = contact.site;
+    }
+    return count == 3 ? std::optional(sites) : std::nullopt;
+  }
+  /// How far a node's exact disk may be from the one in double; nothing else is known of one that
+  /// touches more than three sites.
+  double error_of(std::uint32_t node) const {
+    const auto sites = three_of(node);
+    if (!sites) return 0;
+    const auto [a, b, c] = *sites;
+    const Disk& disk = graph_.nodes[node].disk;
+    const auto joins = [&](std::uint32_t i, std::uint32_t j) {
+      return i + 1 == j && boundary_.is_smooth(i);
+    };
+    return joins(a, b)   ? Certainty::error_at_joint(boundary_, a, b, c, disk)
+           : joins(b, c) ? Certainty::error_at_joint(boundary_, b, c, a, disk)
+                         : Certainty::error_of_three(boundary_, *sites, disk);
+  }
   /// The disk of a node that touches three sites; none of one that touches more.
   template <class Real>
   std::optional<exact::DiskBounds<Real>> disk_in(std::uint32_t node) const {
     const Disk& about = graph_.nodes[node].disk;
-    std::vector<std::uint32_t> sites;  // of several pieces of one site, one
-    for (const Touch& contact : contacts_[place_of(node)]) {
-      if (ranges::any_of(sites, [&](std::uint32_t other) {
-            return boundary_.originals[other] == boundary_.originals[contact.site];
-          }))
-        continue;
-      if (sites.size() == 3) return std::nullopt;
-      sites.push_back(contact.site);
-    }
-    if (sites.size() < 3) return std::nullopt;
+    auto sites = three_of(node);
+    if (!sites) return std::nullopt;
     // Where pieces lie on two sides of a bridge their order is open.
-    for (int order = 0; order < 2; ++order, std::swap(sites[1], sites[2])) {
-      const auto disk = tie_sites_.exact->disk_of<Real>({sites[0], sites[1], sites[2]});
+    for (int order = 0; order < 2; ++order, std::swap((*sites)[1], (*sites)[2])) {
+      const auto disk = tie_sites_.exact->disk_of<Real>(*sites);
       if (!disk) continue;
       const Vec2 center{static_cast<double>(disk->center.x.value),
                         static_cast<double>(disk->center.y.value)};
