@@ -113,6 +113,8 @@ class ExactEvents::Search {
   }
 
  private:
+  template <class>
+  friend class Search;
   using KnownDisk = exact::DiskBounds<Real>;
   using Number = Bounded<Real>;
 
@@ -143,9 +145,7 @@ class ExactEvents::Search {
     auto& [low, high] = *way_;
     for (; halvings_ < most_halvings; ++halvings_) {
       const Real middle = (low + high) / 2;
-      const auto disk = disk_at(middle);
-      if (disk && !is_too_large(*disk) && (!best_ || comes_before(*disk, *best_)) &&
-          is_touched(span_.right, *disk, false) && is_touched(span_.left, *disk, false)) {
+      if (const auto disk = possible_at(middle)) {
         std::vector<std::uint32_t> found = intruders(*disk);
         if (found.empty()) {
           low = middle;
@@ -178,9 +178,34 @@ class ExactEvents::Search {
     return {Real((y * dx - x * dy) / squared), Real(events_.sites_.radius_limit_ / sqrt(squared))};
   }
 
-  std::optional<KnownDisk> disk_at(const Real& place) const {
+  /// The disk at a place, if it touches the two sites and comes before the best one, as far as the
+  /// numbers can tell: mostly fewer digits tell that it does not.
+  std::optional<KnownDisk> possible_at(const Real& place) const {
+    if constexpr (std::is_same_v<Real, Precise>) {
+      const std::uint64_t before = Bounded<Twofold>::open_signs;
+      Search<Twofold> coarse(events_, span_, from_, false);
+      if (best_) coarse.best_ = twofold_of(*best_);
+      if (!coarse.possible_at(exact::twofold_of(Number(place, 0))) &&
+          Bounded<Twofold>::open_signs == before)
+        return std::nullopt;
+    }
+    return possible_at(Number(place, 0));
+  }
+  std::optional<KnownDisk> possible_at(const Number& place) const {
+    auto disk = disk_at(place);
+    const bool is_possible =
+        disk && !is_too_large(*disk) && (!best_ || comes_before(*disk, *best_)) &&
+        is_touched(span_.right, *disk, false) && is_touched(span_.left, *disk, false);
+    return is_possible ? disk : std::nullopt;
+  }
+  static exact::DiskBounds<Twofold> twofold_of(const exact::DiskBounds<Precise>& disk) {
+    return {{exact::twofold_of(disk.center.x), exact::twofold_of(disk.center.y)},
+            exact::twofold_of(disk.radius)};
+  }
+
+  std::optional<KnownDisk> disk_at(const Number& way) const {
     const exact::ExactSite right = exact_site(span_.right), left = exact_site(span_.left);
-    const Number way(place, 0), half(0.5);
+    const Number half(0.5);
     exact::ApproximateRoots<Real> roots;
     if (!right.is_vertex()) return exact::disk_along(exact::spoke_at(right, way, roots), left);
     if (!left.is_vertex()) return exact::disk_along(exact::spoke_at(left, way, roots), right);
@@ -335,12 +360,8 @@ class ExactEvents::Search {
   /// which fewer digits tell apart.
   static int clearance(const exact::ExactSite& site, const KnownDisk& disk,
                        std::span<const Vec2> touched) {
-    if constexpr (std::is_same_v<Real, Precise>) {
-      using exact::twofold_of;
-      const exact::DiskBounds<Twofold> about{{twofold_of(disk.center.x), twofold_of(disk.center.y)},
-                                             twofold_of(disk.radius)};
-      if (const int sign = exact::clearance(site, about, touched); sign != 0) return sign;
-    }
+    if constexpr (std::is_same_v<Real, Precise>)
+      if (const int sign = exact::clearance(site, twofold_of(disk), touched); sign != 0) return sign;
     return exact::clearance(site, disk, touched);
   }
 
