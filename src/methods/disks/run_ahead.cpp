@@ -26,7 +26,8 @@ RunAhead::RunAhead(const WalkContext& context, Contacts& contacts, Statistics& s
     : context_(context),
       contacts_(contacts),
       statistics_(statistics),
-      is_possible_(contacts.is_polygon() && context.boundary.sides == Sides::one) {}
+      is_possible_(contacts.is_polygon() && context.bridges.empty() &&
+                   context.boundary.sides == Sides::one) {}
 
 const RunAhead::Found* RunAhead::find_or_run(const Span& span, const Disk& from) {
   const auto is_next = [&] {
@@ -40,7 +41,7 @@ const RunAhead::Found* RunAhead::find_or_run(const Span& span, const Disk& from)
   found_.clear();
   next_ = 0;
   const std::size_t most = std::min(streak_ / patience, longest_run);
-  if (most < 2 || !is_possible_) return nullptr;
+  if (most < 2) return nullptr;
   run(span, from, most);
   const bool has_open = !found_.back().is_certain;
   const std::size_t certain = found_.size() - (has_open ? 1 : 0);

@@ -41,7 +41,7 @@ class RunAhead {
     return next_ == found_.size() && streak_ < 2 * patience ? nullptr : find_or_run(span, from);
   }
   /// Notes whether an event that was not found ahead is the one that its neighbours tell.
-  void note(bool by_neighbors) { streak_ = by_neighbors ? streak_ + 1 : 0; }
+  void note(bool by_neighbors) { streak_ = by_neighbors && is_possible_ ? streak_ + 1 : 0; }
 
  private:
   /// So many events that their neighbours told let one more be found ahead: where the axis branches
