@@ -1,9 +1,9 @@
 #include "methods/small_components.h"
 
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -55,9 +55,13 @@ class Piece {
       : options_(whole.options), shape_(shape_of(whole.shape, loops)), problem_(shape_, options_) {
     options_.progress = std::move(progress);
     component_.resize(shape_.component_count());
-    for (std::size_t i = 0; i < loops.size(); ++i) {
+    names_.resize(problem_.numbers().count);
+    for (std::size_t i = loops.size(), end = names_.size(); i-- > 0;) {
       component_[shape_.component[i]] = whole.shape.component[loops[i]];
-      first_site_.push_back({first_site(problem_, i), first_site(whole, loops[i])});
+      const std::uint32_t begin = first_site(problem_, i);
+      std::iota(names_.begin() + begin, names_.begin() + static_cast<std::ptrdiff_t>(end),
+                first_site(whole, loops[i]));
+      end = begin;
     }
   }
   Piece(const Piece&) = delete;
@@ -66,13 +70,7 @@ class Piece {
   const Problem& problem() const { return problem_; }
 
   /// The whole's number of a site.
-  std::uint32_t site(std::uint32_t own) const {
-    const auto after = std::upper_bound(
-        first_site_.begin(), first_site_.end(), own,
-        [](std::uint32_t a, const std::array<std::uint32_t, 2>& first) { return a < first[0]; });
-    const auto [here, there] = *(after - 1);
-    return own - here + there;
-  }
+  std::uint32_t site(std::uint32_t own) const { return names_[own]; }
   /// Gives nodes the whole's numbers of their components.
   void name_components(std::vector<Node>& nodes) const {
     for (Node& node : nodes) node.component = component_[node.component];
@@ -87,8 +85,8 @@ class Piece {
   Options options_;
   Shape shape_;
   Problem problem_;
-  std::vector<std::uint32_t> component_;                  ///< of each, the whole's
-  std::vector<std::array<std::uint32_t, 2>> first_site_;  ///< of each loop, here and in the whole
+  std::vector<std::uint32_t> component_;  ///< of each, the whole's
+  std::vector<std::uint32_t> names_;      ///< of each site, the whole's
 };
 
 /// What is done with the axis of a piece; an error ends the computation.
