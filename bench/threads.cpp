@@ -9,6 +9,8 @@
 // cores (Brent 1974). What cores share, caches and memory, is not in the model. Prints a table in
 // Markdown: the least of several rounds.
 
+#include "base/threads.h"
+
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -17,7 +19,6 @@
 
 #include "axes/inputs.h"
 #include "base/pipeline.h"
-#include "base/threads.h"
 #include "medial/compute.h"
 
 namespace {
@@ -80,8 +81,7 @@ void allow_startable_threads(int /*requested*/) {}
 
 namespace threads {
 
-void run_ranges(std::size_t count, std::size_t grain,
-                FunctionRef<std::size_t, std::size_t> work) {
+void run_ranges(std::size_t count, std::size_t grain, FunctionRef<std::size_t, std::size_t> work) {
   const std::size_t length = std::max(grain, count / most_ranges + 1);
   Fork fork;
   for (std::size_t begin = 0; begin < count; begin += length)
@@ -133,7 +133,8 @@ void run_pipeline(int /*requested*/, std::size_t /*window*/,
 
 int main(int count, char** words) {
   const bool quick = count > 1 && std::strcmp(words[1], "--quick") == 0;
-  std::puts("| input | vertices | work, ms | span, ms | times as fast on 2 | on 4 | on 8 | on 16 |");
+  std::puts(
+      "| input | vertices | work, ms | span, ms | times as fast on 2 | on 4 | on 8 | on 16 |");
   std::puts("|---|--:|--:|--:|--:|--:|--:|--:|");
   for (const auto& input : medial::bench::inputs(quick)) {
     const auto rings = input.rings();
