@@ -104,8 +104,9 @@ struct Chunk {
 
 /// Walks the axis of every run of the boundary (docs/disks.md, step 4), from a convex corner, or
 /// from the disk at a smooth place of a component that has no corner: one chunk for each component,
-/// whose children were forked at branching nodes. The chunks, their order and their content depend
-/// on the boundary only, never on the number of threads. O(n log n) expected.
+/// whose children were forked at branching nodes or walked from early starts (early_starts.h). The
+/// chunks, their order and their content depend on the boundary only, never on the number of
+/// threads. O(n log n) expected.
 std::vector<std::unique_ptr<Chunk>> walk(const WalkContext& context);
 
 /// The same deferred, with WalkContext::most_nodes: chunks that Chunk::walk walks, once and on any
