@@ -15,7 +15,7 @@ namespace {
 using site::Site;
 using Hit = Contacts::Hit;
 
-/// So many disks are tried for each early start, as most touch what is near along the boundary.
+/// How many disks are tried for each early start: most touch what is near along the boundary.
 constexpr int most_tries = 12;
 /// How many tolerances away everything else is. The disk is off by four at most, and disks of the
 /// same edge nearer to where the walk comes from reach no further beyond the two feet.
