@@ -180,8 +180,9 @@ TEST_F(CurvedIo, SvgFillRulesAndWhatIsPainted) {
   EXPECT_EQ(widths, (std::vector<double>{2, 3, 4, 8, 10}));
   EXPECT_EQ(roles, (std::vector<RingRole>{RingRole::winding, RingRole::any, RingRole::winding,
                                           RingRole::winding, RingRole::winding}));
-  ASSERT_EQ(data.notes.size(), 1U);
+  ASSERT_EQ(data.notes.size(), 2U);
   EXPECT_NE(data.notes[0].find("2 shapes are not filled"), std::string::npos);
+  EXPECT_EQ(data.notes[1], "1 text or picture was left out: convert texts to paths");
 }
 
 TEST_F(CurvedIo, SvgOfStrokesAloneIsWhatTheyEnclose) {

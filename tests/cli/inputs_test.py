@@ -326,5 +326,8 @@ class Inputs(CommandLine):
             error = self.refuse("unsupported", "axis", lines)
             self.assertIn("no polygons", error)
             self.assertIn("medial voronoi", error)
+        self.write("square.wkt", "POLYGON ((0 0, 9000 0, 9000 9000, 0 9000, 0 0))")
+        self.succeed("axis", "square.wkt", "-o", "layers.gpkg")
+        self.assertIn("--layer chooses among axis, nodes", self.refuse("unsupported", "axis", "layers.gpkg"))
         self.write("names.txt", "x y\nwords only\n")
         self.refuse("malformed", "axis", "names.txt")

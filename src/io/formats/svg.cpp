@@ -375,6 +375,12 @@ Result<Document<Feature>> read_svg(const Input& input, const ReadOptions& option
             ? std::string("1 shape is not filled and was left out")
             : fmt::format("{} shapes are not filled and were left out", drawing.unfilled));
   }
+  if (const std::size_t count = document->texts_and_pictures(); count > 0) {
+    dataset.notes.push_back(fmt::format("{} left out: convert texts to paths",
+                                        count == 1
+                                            ? std::string("1 text or picture was")
+                                            : fmt::format("{} texts or pictures were", count)));
+  }
   if (document->selectors_left_out() > 0) {
     dataset.notes.push_back(
         fmt::format("{} selectors of style sheets were not understood and left out",

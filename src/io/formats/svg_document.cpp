@@ -81,6 +81,20 @@ bool paints_nothing(const xmlNode* node) {
   return false;
 }
 
+/// Whether an element is a text or a picture that is shown where it stands.
+bool is_text_or_picture(const xmlNode* node) {
+  const std::string_view own = as_text(node->name);
+  if (own != "text" && own != "image") return false;
+  for (; node != nullptr && node->type == XML_ELEMENT_NODE; node = node->parent) {
+    const std::string_view name = as_text(node->name);
+    for (const std::string_view unseen :
+         {"defs", "symbol", "clipPath", "mask", "pattern", "marker", "foreignObject"})
+      if (name == unseen) return false;
+    if (attribute(node, "display") == "none") return false;
+  }
+  return true;
+}
+
 /// The element that follows in document order; `descend`: children included.
 xmlNode* next_node(xmlNode* node, const xmlNode* root, bool descend) {
   if (descend && node->children != nullptr && node->type == XML_ELEMENT_NODE) {
@@ -183,6 +197,7 @@ void SvgDocument::prepare() {
     }
     next = next_node(node, top, true);
     if (!element) continue;
+    if (is_text_or_picture(node)) ++texts_and_pictures_;
     if (std::string id = attribute(node, "id"); !id.empty())
       by_id_.try_emplace(std::move(id), node);
     const std::string href = as_text(node->name) == "use" ? attribute(node, "href") : "";

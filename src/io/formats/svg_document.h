@@ -34,6 +34,8 @@ class SvgDocument {
   Unit unit() const { return unit_; }
   /// How many selectors of style sheets were of other kinds.
   std::size_t selectors_left_out() const { return selectors_left_out_; }
+  /// How many texts and pictures it shows, which are not read.
+  std::size_t texts_and_pictures() const { return texts_and_pictures_; }
 
  private:
   struct Free {
@@ -48,6 +50,7 @@ class SvgDocument {
   std::unique_ptr<xmlDoc, Free> document_;
   std::unordered_map<std::string, xmlNode*> by_id_;
   std::size_t selectors_left_out_ = 0;
+  std::size_t texts_and_pictures_ = 0;
   Unit unit_ = Unit::css_pixel;
 };
 

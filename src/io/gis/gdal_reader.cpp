@@ -246,7 +246,12 @@ class GdalReader final : public FeatureReader {
     if (!any_) {
       if (counts_.others > 0) {
         const Error none = without_polygons(counts_.others);
-        return error(none.code, none.text);
+        const bool is_first_of_many = options_.layer.empty() && source_->GetLayerCount() > 1;
+        return error(none.code, !is_first_of_many
+                                    ? none.text
+                                    : fmt::format("the first layer has {}; --layer chooses "
+                                                  "among {}",
+                                                  none.text, layer_names(*source_)));
       }
       return error(ErrorCode::empty, options_.where.empty() ? "no feature with a geometry"
                                                             : "no feature passes the filter");
