@@ -29,7 +29,7 @@ class RunAhead {
   struct Found {
     Span span;
     Disk from;
-    Event event;              ///< if it is not certain, what the neighbours tell
+    Event event;  ///< if it is not certain, what the neighbours tell
     bool is_certain = false;
     double error = 0;
     Disk asked{};  ///< the disk that has to be empty
@@ -44,15 +44,15 @@ class RunAhead {
   void note(bool by_neighbors) { streak_ = by_neighbors && is_possible_ ? streak_ + 1 : 0; }
 
  private:
-  /// So many events that their neighbours told let one more be found ahead: where the axis branches
-  /// often, most of what is found ahead is in vain.
+  /// So many events in turn that neighbours decide let one more be found ahead: where the axis
+  /// branches often, most of what is found ahead is in vain.
   static constexpr std::size_t patience = 8;
 
   const Found* find_or_run(const Span& span, const Disk& from);
   /// Events in turn that could be the next ones.
   void run(const Span& span, const Disk& from, std::size_t most);
   /// Whether the disks of the first `count` are empty.
-  bool are_empty(std::size_t count);
+  bool are_empty(std::size_t count) const;
 
   const WalkContext& context_;
   Contacts& contacts_;
@@ -60,7 +60,7 @@ class RunAhead {
   const bool is_possible_;
   std::vector<Found> found_;
   std::size_t next_ = 0;
-  std::size_t streak_ = 0;  ///< of events that their neighbours told
+  std::size_t streak_ = 0;  ///< of events that neighbours decide
 };
 
 }  // namespace medial::disks
