@@ -20,8 +20,17 @@ struct Division {
 };
 
 /// Events of a polygon's walk that follow each other, found ahead by the sites next to the feet
-/// alone. Whether their disks are empty is asked once for all: of disks along the axis, what lies
-/// ahead of the last one and is not in that is in none before it (docs/disks.md, step 4).
+/// alone. Whether their disks are empty is asked once for all: what lies ahead of the last one and
+/// is not in that is in none before it, where no holes are connected.
+///
+/// Proof. Let D come before the last disk L, and s be what is nearest to D's centre of all that
+/// lies ahead of L, inside D. The way to s crosses a spoke of L, as the two divide the shape, and
+/// leaves L between its feet, ahead. D holds neither foot of L, so what it holds of L's circle is
+/// one piece between them: that one, ahead. Then D's own spokes lead out of L there; but its feet
+/// are behind.
+///
+/// What is taken for certain does not depend on this: a walk that gets around is right
+/// (docs/exact.md).
 class RunAhead {
  public:
   RunAhead(const WalkContext& context, Contacts& contacts, Statistics& statistics);
