@@ -17,6 +17,15 @@
 namespace medial::test {
 namespace {
 
+// Along a smooth boundary one search answers for the disks of many events.
+TEST(Compute, AsksForRunsOfEventsAtOnce) {
+  const Shape shape = *build_shape(blob(20000));
+  const auto axis = compute(shape);
+  ASSERT_TRUE(axis.ok());
+  EXPECT_LT(axis->statistics.queries, 15000U);
+  EXPECT_TRUE(verify(shape, *axis).passed);
+}
+
 TEST(Compute, IsCancelledBeforeItBegins) {
   const Shape shape = *build_shape(hole_grid(10));
   const std::atomic<bool> cancel = true;

@@ -323,21 +323,23 @@ BoundaryTree::Hit BoundaryTree::nearest(Vec2 c, double reach, std::uint32_t firs
   const auto take_if_nearer = [&](std::uint32_t i, double squared) {
     if (squared < hit.squared_distance) hit = {i, squared};
   };
-  visit_blocks<Order::nearest_first>(c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
-    const double before = hit.squared_distance;
-    const Site* site = &sites_[from];
-    if (!has_arcs_) {
-      // Two at a time; rarely is one of them near enough.
-      for (; from < to; from += 2, site += 2) {
-        if (!one_is_nearer(site[0], site[1], c, hit.squared_distance)) continue;
-        take_if_nearer(from, site::squared_distance(site[0], c));
-        take_if_nearer(from + 1, site::squared_distance(site[1], c));
-      }
-    }
-    for (; from <= to; ++from, ++site)
-      if (!is_out_of_reach(*site, c, reach)) take_if_nearer(from, site::squared_distance(*site, c));
-    if (hit.squared_distance < before) reach = std::sqrt(hit.squared_distance);
-  });
+  visit_blocks<Order::nearest_first>(
+      c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
+        const double before = hit.squared_distance;
+        const Site* site = &sites_[from];
+        if (!has_arcs_) {
+          // Two at a time; rarely is one of them near enough.
+          for (; from < to; from += 2, site += 2) {
+            if (!one_is_nearer(site[0], site[1], c, hit.squared_distance)) continue;
+            take_if_nearer(from, site::squared_distance(site[0], c));
+            take_if_nearer(from + 1, site::squared_distance(site[1], c));
+          }
+        }
+        for (; from <= to; ++from, ++site)
+          if (!is_out_of_reach(*site, c, reach))
+            take_if_nearer(from, site::squared_distance(*site, c));
+        if (hit.squared_distance < before) reach = std::sqrt(hit.squared_distance);
+      });
   return hit;
 }
 
@@ -362,18 +364,19 @@ BoundaryTree::Hit BoundaryTree::nearest_facing(Vec2 c, double reach, std::uint32
     const double near = std::sqrt(back.squared_distance) + rounding;
     limit = std::min({front.squared_distance, near * near, limit});
   };
-  visit_blocks<Order::nearest_first>(c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
-    const double before = limit;
-    if (!has_arcs_) {
-      for (; from < to; from += 2) {
-        if (!one_is_nearer(sites_[from], sites_[from + 1], c, limit)) continue;
-        look_at(from);
-        look_at(from + 1);
-      }
-    }
-    for (; from <= to; ++from) look_at(from);
-    if (limit < before) reach = std::sqrt(limit);
-  });
+  visit_blocks<Order::nearest_first>(
+      c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
+        const double before = limit;
+        if (!has_arcs_) {
+          for (; from < to; from += 2) {
+            if (!one_is_nearer(sites_[from], sites_[from + 1], c, limit)) continue;
+            look_at(from);
+            look_at(from + 1);
+          }
+        }
+        for (; from <= to; ++from) look_at(from);
+        if (limit < before) reach = std::sqrt(limit);
+      });
   if (!back) return front;
   if (!front) return back;
   return std::sqrt(front.squared_distance) <= std::sqrt(back.squared_distance) + rounding ? front
@@ -394,20 +397,20 @@ BoundaryTree::Hit BoundaryTree::nearest_lowest(Vec2 c, double reach) const {
       hit = {i, d};
     }
   };
-  visit_blocks<Order::nearest_first>(c, reach, 0, static_cast<std::uint32_t>(sites_.size() - 1),
-               [&](std::uint32_t from, std::uint32_t to) {
-                 const double before = squared;
-                 if (!has_arcs_)
-                   for (; from < to; from += 2) {
-                     const double or_equal =
-                         a_little_more * squared + std::numeric_limits<double>::min();
-                     if (!one_is_nearer(sites_[from], sites_[from + 1], c, or_equal)) continue;
-                     take_if_nearer(from);
-                     take_if_nearer(from + 1);
-                   }
-                 for (; from <= to; ++from) take_if_nearer(from);
-                 if (squared < before) reach = a_little_more * std::sqrt(squared);
-               });
+  visit_blocks<Order::nearest_first>(
+      c, reach, 0, static_cast<std::uint32_t>(sites_.size() - 1),
+      [&](std::uint32_t from, std::uint32_t to) {
+        const double before = squared;
+        if (!has_arcs_)
+          for (; from < to; from += 2) {
+            const double or_equal = a_little_more * squared + std::numeric_limits<double>::min();
+            if (!one_is_nearer(sites_[from], sites_[from + 1], c, or_equal)) continue;
+            take_if_nearer(from);
+            take_if_nearer(from + 1);
+          }
+        for (; from <= to; ++from) take_if_nearer(from);
+        if (squared < before) reach = a_little_more * std::sqrt(squared);
+      });
   return hit;
 }
 
@@ -419,15 +422,16 @@ void BoundaryTree::within(Vec2 c, double reach, std::uint32_t first, std::uint32
   const auto take_if_near = [&](std::uint32_t i) {
     if (site::squared_distance(sites_[i], c) < squared) found.push_back(i);
   };
-  visit_blocks<Order::along_boundary>(c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
-    if (!has_arcs_)
-      for (; from < to; from += 2) {
-        if (!one_is_nearer(sites_[from], sites_[from + 1], c, squared)) continue;
-        take_if_near(from);
-        take_if_near(from + 1);
-      }
-    for (; from <= to; ++from) take_if_near(from);
-  });
+  visit_blocks<Order::along_boundary>(
+      c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
+        if (!has_arcs_)
+          for (; from < to; from += 2) {
+            if (!one_is_nearer(sites_[from], sites_[from + 1], c, squared)) continue;
+            take_if_near(from);
+            take_if_near(from + 1);
+          }
+        for (; from <= to; ++from) take_if_near(from);
+      });
 }
 
 bool BoundaryTree::few_within(Vec2 c, double reach, std::size_t most,
@@ -436,11 +440,13 @@ bool BoundaryTree::few_within(Vec2 c, double reach, std::size_t most,
   if (sites_.empty() || !(reach > 0)) return true;
   const double squared = reach * reach;
   visit_blocks<Order::nearest_first>(c, reach, 0, static_cast<std::uint32_t>(sites_.size() - 1),
-               [&](std::uint32_t from, std::uint32_t to) {
-                 for (; from <= to; ++from)
-                   if (site::squared_distance(sites_[from], c) < squared) found.push_back(from);
-                 if (found.size() > most) reach = -single_precision_slack;  // nothing is that near
-               });
+                                     [&](std::uint32_t from, std::uint32_t to) {
+                                       for (; from <= to; ++from)
+                                         if (site::squared_distance(sites_[from], c) < squared)
+                                           found.push_back(from);
+                                       if (found.size() > most)
+                                         reach = -single_precision_slack;  // nothing is that near
+                                     });
   return found.size() <= most;
 }
 

@@ -278,7 +278,7 @@ class Contacts {
   const Boundary::SiteRange* around_run_ = nullptr;
   double around_reach_ = 0;  ///< how far from that disk `within_` goes
   std::vector<std::uint32_t> within_;
-  std::vector<Neighbor> near_;  ///< of those within clearance(), what is not beside the disk
+  std::vector<Neighbor> near_;      ///< of those within clearance(), what is not beside the disk
   std::vector<std::uint32_t> tie_;  ///< of is_alone()
   std::vector<Vec2> toward_;
   std::array<std::uint32_t, 2> crowded_{Hit::none, Hit::none};  ///< see is_crowded()

@@ -254,8 +254,7 @@ Event EventSearch::first_contact(Event event) {
   // Every round but one that looked beyond comes earlier; rounding could make rounds repeat.
   for (int round = 0; round < most_rounds; ++round) {
     if (is_in_point(event)) event = short_of_point(event);
-    Event asked =
-        event.kind == Event::Kind::contact && look_beyond ? beyond(event) : event;
+    Event asked = event.kind == Event::Kind::contact && look_beyond ? beyond(event) : event;
     const Hit hit = contacts_.nearest(asked.disk, span_);
     if (!hit) {
       if (event.kind == Event::Kind::contact)

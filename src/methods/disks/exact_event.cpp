@@ -363,7 +363,8 @@ class ExactEvents::Search {
   static int clearance(const exact::ExactSite& site, const KnownDisk& disk,
                        std::span<const Vec2> touched) {
     if constexpr (std::is_same_v<Real, Precise>)
-      if (const int sign = exact::clearance(site, twofold_of(disk), touched); sign != 0) return sign;
+      if (const int sign = exact::clearance(site, twofold_of(disk), touched); sign != 0)
+        return sign;
     return exact::clearance(site, disk, touched);
   }
 

@@ -475,7 +475,7 @@ class Merger {
     }
     return true;
   }
-  /// Whether the disks of two nodes are so near to each other, if double tells.
+  /// Whether the disks of two nodes are so near to each other, if double is certain.
   std::optional<bool> are_near_in_double(std::uint32_t a, std::uint32_t b, double length) const {
     constexpr double surely = 16;  // tolerances
     const double way = distance(graph_.nodes[a].disk.center, graph_.nodes[b].disk.center);

@@ -5,7 +5,7 @@
 namespace medial::disks {
 namespace {
 
-/// The sites that a run passes are tested with each of its disks.
+/// The sites that a run passes are tested with each of its disks: so they stay few.
 constexpr std::size_t longest_run = 16;
 
 }  // namespace
@@ -76,17 +76,18 @@ void RunAhead::run(const Span& first, const Disk& start, std::size_t most) {
   }
 }
 
-bool RunAhead::are_empty(std::size_t count) {
+bool RunAhead::are_empty(std::size_t count) const {
   const Span& last = found_[count - 1].span;
   if (contacts_.nearest(found_[count - 1].asked, last)) return false;
   for (std::size_t i = 0; i + 1 < count; ++i) {
-    const Found& one = found_[i];
-    Span passed = one.span;
-    passed.left = last.right + 1;
-    if (contacts_.nearest(one.asked, passed)) return false;
-    passed = one.span;
-    passed.right = last.left - 1;
-    if (contacts_.nearest(one.asked, passed)) return false;
+    const Span& span = found_[i].span;
+    const Disk& disk = found_[i].asked;
+    const auto reaches_over = [&](std::uint32_t first, std::uint32_t end) {
+      return first < end &&
+             context_.tree.nearest(disk.center, disk.radius - context_.tolerance, first, end - 1);
+    };
+    if (reaches_over(span.right + 1, last.right + 1) || reaches_over(last.left, span.left))
+      return false;
   }
   return true;
 }

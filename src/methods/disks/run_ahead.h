@@ -20,8 +20,17 @@ struct Division {
 };
 
 /// Events of a polygon's walk that follow each other, found ahead by the sites next to the feet
-/// alone. Whether their disks are empty is asked once for all: of disks along the axis, what lies
-/// ahead of the last one and is not in that is in none before it (docs/disks.md, step 4).
+/// alone. Whether their disks are empty is asked once for all: what lies ahead of the last one and
+/// is not in that is in none before it, where no holes are connected.
+///
+/// Proof. Let D come before the last disk L, and s be what is nearest to D's centre of all that
+/// lies ahead of L, inside D. The way to s crosses a spoke of L, as the two divide the shape, and
+/// leaves L between its feet, ahead. D holds neither foot of L, so what it holds of L's circle is
+/// one piece between them: that one, ahead. Then D's own spokes lead out of L there; but its feet
+/// are behind.
+///
+/// What is taken for certain does not depend on this: a walk that gets around is right
+/// (docs/exact.md).
 class RunAhead {
  public:
   RunAhead(const WalkContext& context, Contacts& contacts, Statistics& statistics);
@@ -29,7 +38,7 @@ class RunAhead {
   struct Found {
     Span span;
     Disk from;
-    Event event;              ///< if it is not certain, what the neighbours tell
+    Event event;  ///< if it is not certain, what the neighbours tell
     bool is_certain = false;
     double error = 0;
     Disk asked{};  ///< the disk that has to be empty
@@ -44,15 +53,15 @@ class RunAhead {
   void note(bool by_neighbors) { streak_ = by_neighbors && is_possible_ ? streak_ + 1 : 0; }
 
  private:
-  /// So many events that their neighbours told let one more be found ahead: where the axis branches
-  /// often, most of what is found ahead is in vain.
+  /// So many events in turn that neighbours decide let one more be found ahead: where the axis
+  /// branches often, most of what is found ahead is in vain.
   static constexpr std::size_t patience = 8;
 
   const Found* find_or_run(const Span& span, const Disk& from);
   /// Events in turn that could be the next ones.
   void run(const Span& span, const Disk& from, std::size_t most);
   /// Whether the disks of the first `count` are empty.
-  bool are_empty(std::size_t count);
+  bool are_empty(std::size_t count) const;
 
   const WalkContext& context_;
   Contacts& contacts_;
@@ -60,7 +69,7 @@ class RunAhead {
   const bool is_possible_;
   std::vector<Found> found_;
   std::size_t next_ = 0;
-  std::size_t streak_ = 0;  ///< of events that their neighbours told
+  std::size_t streak_ = 0;  ///< of events that neighbours decide
 };
 
 }  // namespace medial::disks

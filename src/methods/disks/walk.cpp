@@ -436,8 +436,8 @@ class Walker {
     return true;
   }
 
-  /// Whether a walk is needed; where the two sites are neighbours, ends the axis there. What is known of a
-  /// proposed step is not asked again.
+  /// Whether a walk is needed; where the two sites are neighbours, ends the axis there. What is
+  /// known of a proposed step is not asked again.
   bool is_open(const Span& span, bool is_proposed = false) {
     const std::uint32_t between = span.left - span.right;
     const bool at_bridge = contacts_.is_at_bridge(span);
