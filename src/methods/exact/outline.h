@@ -45,7 +45,7 @@ struct SiteLoops {
   std::vector<std::uint32_t> loop_begin;  ///< first site of each loop, and the number of all sites
   std::vector<std::uint32_t> component;   ///< of each loop
   bool parted = false;                    ///< see part_joints()
-  /// Of a site that ends in a joint smooth only to rounding, whether the next one's normal counts
+  /// Of an edge that ends in a joint smooth only to rounding, whether the next one's normal counts
   /// for both, and not its own; empty: never.
   std::vector<bool> by_next;
   /// Of the vertices that it has added behind all other sites: the flatter of the edges that join
@@ -81,6 +81,9 @@ struct SiteLoops {
     return spoke_of<Number>(sites[site], true, roots);
   }
 };
+
+/// Of two edges that join smoothly, whether the normal of the second one counts for both.
+bool by_second(const ExactSite& first, const ExactSite& second);
 
 /// `numbers`: the problem's, or those of parted_numbers(). With `stores_sites` the sites and `next`
 /// are stored; otherwise the problem and the numbers must outlive them.
