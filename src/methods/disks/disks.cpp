@@ -71,7 +71,8 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   for (const auto& chunk : chunks) find_lost(*chunk, lost);
   Graph graph = collect(chunks, bridges, spare_nodes, boundary.has_arcs);
   graph.lost = std::move(lost);
-  merge_ties(boundary, tree, sites, problem.local_tolerance(), graph, names);
+  if (in_precise.empty() || !problem.options.exact)
+    merge_ties(boundary, tree, sites, problem.local_tolerance(), graph, names);
   statistics.seconds_collect = watch.lap();
   return graph;
 }
@@ -276,6 +277,16 @@ Result<MedialAxis> run(const Problem& problem) {
   if (!has_arcs(problem.shape)) return run_in_place(problem, problem.numbers());
   const Posed posed(problem);
   auto axis = run_in_place(posed.problem, posed.numbers);
+  if (!axis) return posed.pose.to_input(axis.error());
+  posed.pose.to_input(problem, posed.numbers, *axis, axis->edges);
+  return axis;
+}
+
+Result<MedialAxis> run_in_precise(const Problem& problem) {
+  const Posed posed(problem);
+  std::vector<std::uint32_t> lost;
+  auto axis = axis_by(posed.problem, posed.numbers,
+                      std::vector<bool>(problem.shape.component_count(), true), lost);
   if (!axis) return posed.pose.to_input(axis.error());
   posed.pose.to_input(problem, posed.numbers, *axis, axis->edges);
   return axis;

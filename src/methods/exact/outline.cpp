@@ -84,28 +84,6 @@ SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers, b
   return outline;
 }
 
-void part_joints(SiteLoops& outline) {
-  const auto count = static_cast<std::uint32_t>(outline.sites.size());
-  outline.parted = true;
-  outline.by_next.clear();  // what still is smooth has one normal
-  for (std::uint32_t edge = 0; edge < count; ++edge) {
-    const std::uint32_t after = outline.next_of(edge);
-    if (!outline.joined(edge, after) || outline.sites[edge].is_vertex() ||
-        outline.sites[after].is_vertex())
-      continue;
-    const int turn = turn_between(outline.sites[edge], outline.sites[after]);
-    if (turn > 0) outline.blunt[edge] = true;
-    if (turn >= 0) continue;
-    outline.next[edge] = static_cast<std::uint32_t>(outline.sites.size());
-    outline.sites.push_back({outline.sites[edge].end, outline.sites[edge].end, 0});
-    outline.next.push_back(after);
-    outline.passes.push_back(true);
-    outline.blunt.push_back(false);
-    outline.flatter.push_back(
-        curvature_of(outline.sites[after]) < curvature_of(outline.sites[edge]) ? after : edge);
-  }
-}
-
 PartedNumbers parted_numbers(const Problem& problem, const site::SiteNumbers& whole,
                              const std::vector<bool>& points) {
   using site::Joint;
