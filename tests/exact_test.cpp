@@ -501,9 +501,10 @@ TEST(ExactAxis, OfGearsAroundTheirHub) {
 /// in a mirror image; and next to a half circle a run of sites that bends away is met in one place.
 TEST(ExactAxis, IsThatOfAMirrorImage) {
   constexpr double size = 2.6528094596219013e+35, off = 0x1p-50 * size;
-  const Ring spiral{{{size, 0}, {-size, 0}, {1.5 * size, off}, {1.501 * size, 0}, {-1.001 * size, 0}},
-                    RingRole::any,
-                    {1, 1, 0, -1, -1}};
+  const Ring spiral{
+      {{size, 0}, {-size, 0}, {1.5 * size, off}, {1.501 * size, 0}, {-1.001 * size, 0}},
+      RingRole::any,
+      {1, 1, 0, -1, -1}};
   constexpr double up = 9.150608435826071e-31, end = 1.006566927940868e-30;
   const Ring teeth{{{1.8301216871652142e-30, 0},
                     {1.830121687165205e-30, up},

@@ -73,7 +73,8 @@ std::optional<Error> make_certain(const Problem& problem, MedialAxis& axis) {
   if (!measures) return error;
   if (!error) error = error_if_refused(problem, axis);
   if (!error) return error;
-  auto precise = on_threads(problem.options.threads, [&] { return disks::run_in_precise(problem); });
+  auto precise =
+      on_threads(problem.options.threads, [&] { return disks::run_in_precise(problem); });
   if (!precise) return std::move(precise).error();
   precise->method = axis.method;
   axis = std::move(*precise);

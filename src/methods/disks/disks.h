@@ -18,8 +18,7 @@ constexpr double fine_share = 0.125;
 /// sites by far more than rounding explains; unsupported, with the place, where no way to decide
 /// finds an axis that verify() passes.
 Result<MedialAxis> run(const Problem& problem);
-/// The same with all decided in 256 bits, joints as the doubles have them, and, with
-/// Options::exact, ties as they are found: nothing is merged.
+/// The same with all decided in 256 bits, joints as the doubles have them, and no ties merged.
 Result<MedialAxis> run_in_precise(const Problem& problem);
 
 /// run() in parts of about so many nodes, see compute_in_parts(), of straight edges. Returns the

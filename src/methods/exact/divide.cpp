@@ -39,8 +39,8 @@ std::vector<std::vector<std::uint32_t>> divide(const SiteLoops& outline,
     const auto [low, high] = sides.back();
     sides.pop_back();
     if (high < low + 2) continue;
-    // Those met first, all by one disk; and of a run of sites that all bend away from the disk, each
-    // joined to the next, which it can touch in one place only.
+    // Those met first, all by one disk; and of a run of sites that all bend away from the disk,
+    // each joined to the next, which it can touch in one place only.
     std::vector<std::uint32_t> first, run;
     const auto offer = [&](std::vector<std::uint32_t>& best,
                            const std::vector<std::uint32_t>& next) {
