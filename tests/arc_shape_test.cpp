@@ -6,13 +6,16 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "base/arc.h"
+#include "base/compat.h"
 #include "medial/medial.h"
 #include "site/smooth_place.h"
 #include "support/generate_arcs.h"
+#include "support/nasty.h"
 #include "support/wkt.h"
 
 namespace medial {
@@ -840,6 +843,45 @@ TEST(ArcShape, SideBesideItsOwnChordByLessThanAnApexRounds) {
       ASSERT_TRUE(axis.ok()) << to_string(axis.error());
       EXPECT_TRUE(verify(shape, *axis).passed) << exterior;
     }
+  }
+}
+
+/// Where edges all but touch, what is merged does not depend on how the rings lie.
+TEST(ArcShape, OfEdgesThatAllButTouchIsThatOfItsImages) {
+  constexpr double x = 5.941298916885756e+70, y = 5.941298916885756e+57;
+  const std::array<Ring, 3> rings{
+      Ring{{{2, 1.7}, {8.5e-15, 1.7}, {0, 1.6999999999999915}, {0, 8.5e-15}},
+           RingRole::any,
+           {0, 1, 0, 0}},
+      Ring{{{5.94129891688575e+70, -y}, {x, -y}, {x, y}, {-x, y}}, RingRole::any, {-1, 1, 0, 0}},
+      Ring{{{0.3, 0.7000000000000016},
+            {0.6740856904394494, 1.6273941428586014},
+            {0.2999999999999926, 0.7000000000000094},
+            {-0.6901897322561685, 0.5602706396835043}},
+           RingRole::any,
+           {-0.2, 0, 1, 0}}};
+  for (const Ring& ring : rings) {
+    const Shape shape = built({ring});
+    for (const test::Symmetry& symmetry :
+         {test::Symmetry{.name = "mirrored", .xx = -1},
+          test::Symmetry{.name = "turned by a quarter", .xx = 0, .xy = -1, .yx = 1, .yy = 0}}) {
+      const Shape image = built(test::transformed({ring}, symmetry));
+      EXPECT_EQ(image.points.size(), shape.points.size()) << symmetry.name;
+      EXPECT_EQ(image.loop_begin, shape.loop_begin) << symmetry.name;
+    }
+  }
+}
+
+/// Arcs that have become one may continue the next one, in a loop made of rings that touch, too.
+TEST(ArcShape, BuiltAgainMergesNothingMore) {
+  const auto class_of = [](std::string_view name) {
+    return *ranges::find(test::nasty_classes(), name, &test::NastyClass::name);
+  };
+  for (const Rings& rings : {test::nasty_shape(class_of("circles"), 20261130200000021, false),
+                             test::nasty_shape(class_of("bars"), 20261130200000018, false),
+                             test::random_arc_shape(117).rings}) {
+    const Shape shape = built(rings);
+    EXPECT_EQ(built(rings_of(shape)).points.size(), shape.points.size());
   }
 }
 

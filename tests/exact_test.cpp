@@ -19,6 +19,7 @@
 #include "methods/exact/in_disk.h"
 #include "methods/exact/numbers.h"
 #include "methods/exact/touch.h"
+#include "support/nasty_check.h"
 #include "support/random_shapes.h"
 #include "support/same_graph.h"
 
@@ -493,6 +494,30 @@ TEST(ExactAxis, OfGearsAroundTheirHub) {
     EXPECT_EQ(difference(*shape, *plain, *axis, plain->tolerance), "") << seed;
     const Certificate certificate = verify(*shape, *axis);
     EXPECT_TRUE(certificate.passed) << seed << ": " << certificate.failures[0];
+  }
+}
+
+/// A disk touches a spiral of half circles on the normal of one of the two at a joint, the same one
+/// in a mirror image; and next to a half circle a run of sites that bends away is met in one place.
+TEST(ExactAxis, IsThatOfAMirrorImage) {
+  constexpr double size = 2.6528094596219013e+35, off = 0x1p-50 * size;
+  const Ring spiral{
+      {{size, 0}, {-size, 0}, {1.5 * size, off}, {1.501 * size, 0}, {-1.001 * size, 0}},
+      RingRole::any,
+      {1, 1, 0, -1, -1}};
+  constexpr double up = 9.150608435826071e-31, end = 1.006566927940868e-30;
+  const Ring teeth{{{1.8301216871652142e-30, 0},
+                    {1.830121687165205e-30, up},
+                    {1.830121687165205e-30, end},
+                    {9.150608435826162e-31, end},
+                    {9.150608435826162e-31, up},
+                    {9.15060843582598e-31, end},
+                    {9.143294557304965e-45, up}},
+                   RingRole::any,
+                   {0, 0, 1, 0, 0, 0, 0}};
+  for (const Ring& ring : {spiral, teeth}) {
+    const Finding finding = examine_nasty(Rings{ring}, {.exact = true});
+    EXPECT_EQ(finding.fault, Fault::none) << finding.words;
   }
 }
 

@@ -1,7 +1,8 @@
 // The classes of shapes on which rounding decides, by the thousand: a table of what goes wrong.
 //
 //   medial_nasty [--class NAME] [--count N] [--from SEED] [--seconds N] [--oracle K]
-//                [--planar edges|points|joints] [--threads N] [--method NAME] [--save FOLDER]
+//                [--planar edges|points|joints] [--threads N] [--method NAME] [--exact 1]
+//                [--save FOLDER]
 //
 // Each shape is computed and verified, and so are its mirror image, its image under a quarter turn,
 // under a power of two, and from another start, and with two threads: all must have one graph.
@@ -39,7 +40,7 @@ using Clock = std::chrono::steady_clock;
 struct Switches {
   std::string_view only, method, save, planar;
   std::uint64_t from = 0, count = 1000, seconds = 1U << 30U, oracle = 0;
-  std::uint64_t threads = 1;
+  std::uint64_t threads = 1, exact = 0;
 };
 
 std::string fixed_width(std::string_view text, std::size_t width) {
@@ -105,7 +106,9 @@ Faults count_faults(const Switches& switches, Examine&& examine, Keep&& keep) {
 }
 
 Faults run(const Switches& switches, const NastyClass& one) {
-  NastyOptions options{.planar = !switches.planar.empty(), .points = switches.planar == "points"};
+  NastyOptions options{.exact = switches.exact != 0,
+                       .planar = !switches.planar.empty(),
+                       .points = switches.planar == "points"};
   if (!switches.method.empty()) options.method = *method_from(switches.method);
   std::map<Fault, int> saved;
   const auto is_small = [&](std::uint64_t i) {
@@ -171,6 +174,7 @@ bool parse(int count, char** arguments, Switches& switches) {
                            : name == "--seconds" ? &switches.seconds
                            : name == "--threads" ? &switches.threads
                            : name == "--oracle"  ? &switches.oracle
+                           : name == "--exact"   ? &switches.exact
                                                  : nullptr;
     if (word != nullptr) {
       *word = text;
@@ -212,7 +216,7 @@ int main(int count, char** arguments) {
     std::fprintf(stderr,
                  "usage: medial_nasty [--class NAME] [--count N] [--from SEED] [--seconds N]\n"
                  "                    [--oracle K] [--planar edges|points|joints] [--threads N]\n"
-                 "                    [--method NAME] [--save FOLDER]\n");
+                 "                    [--method NAME] [--exact 1] [--save FOLDER]\n");
     return 2;
   }
   return medial::test::run_all(switches);

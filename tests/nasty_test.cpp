@@ -579,6 +579,25 @@ TEST(Circles, AreDecidedInTheirCentre) {
   EXPECT_EQ(faults.count(Fault::none), 2U);
 }
 
+/// Near ties, each within the tolerance, may add up to a disk that misses a site by more: such an
+/// axis is measured, and walked in 256 bits.
+TEST(Circles, AreMeasuredWhereTiesAddUp) {
+  Faults faults;
+  faults.add(examine_nasty(class_of("circles"), 20261129900023022, false, {}));
+  EXPECT_EQ(faults.count(Fault::none), 1U);
+}
+
+/// What no joint that counts as smooth allows is decided by joints as the doubles have them.
+TEST(NearCircles, AreCertainWithExact) {
+  constexpr std::uint64_t from = 20261130200000000;
+  Faults faults;
+  for (const std::uint64_t seed : {9U, 702U})
+    faults.add(examine_nasty(class_of("bars"), from + seed, false, {.exact = true}));
+  for (const std::uint64_t seed : {340U, 468U, 680U})
+    faults.add(examine_nasty(class_of("circles"), from + seed, false, {.exact = true}));
+  EXPECT_EQ(faults.count(Fault::none) + faults.count(Fault::loose), 5U);
+}
+
 /// The conic of an edge next to an arc's centre leads another way around it, and strays no less
 /// than the chord, up to rounding.
 TEST(Bars, HaveEdgesThatLeadForward) {

@@ -64,22 +64,21 @@ Result<MedialAxis> compute_exterior(const Problem& problem) {
   return axis;
 }
 
-/// Makes the combinatorics of an axis certain. Next to arcs the result is measured, and joints that
-/// count as smooth are taken as they stand if it fails so.
+/// Makes the combinatorics of an axis certain. Next to arcs the result is measured, and if that
+/// refuses it, all is decided in 256 bits, with joints as the doubles have them.
 std::optional<Error> make_certain(const Problem& problem, MedialAxis& axis) {
   const bool measures = has_arcs(problem.shape);
-  const auto attempt = [&](bool part_joints) -> std::optional<Error> {
-    Status certain = on_threads(problem.options.threads,
-                                [&] { return exact::certify(problem, part_joints, axis); });
-    if (!certain) return std::move(certain).error();
-    return measures ? error_if_refused(problem, axis) : std::nullopt;
-  };
-  if (!measures) return attempt(false);
-  MedialAxis copy = axis;
-  auto error = attempt(false);
+  auto certain = on_threads(problem.options.threads, [&] { return exact::certify(problem, axis); });
+  auto error = certain ? std::nullopt : std::optional(std::move(certain).error());
+  if (!measures) return error;
+  if (!error) error = error_if_refused(problem, axis);
   if (!error) return error;
-  axis = std::move(copy);
-  return attempt(true);
+  auto precise =
+      on_threads(problem.options.threads, [&] { return disks::run_in_precise(problem); });
+  if (!precise) return std::move(precise).error();
+  precise->method = axis.method;
+  axis = std::move(*precise);
+  return error_if_refused(problem, axis);
 }
 
 }  // namespace

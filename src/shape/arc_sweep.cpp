@@ -386,7 +386,7 @@ class ArcSweeper {
   }
 
   struct Stop {
-    Vec2 point;  ///< on the lower piece
+    Vec2 point;  ///< on the first piece
     double along;
   };
   /// The circles' meetings cut the common range of two pieces, from `begin` to `end`, into
@@ -422,8 +422,13 @@ class ArcSweeper {
     touches = touch(upper, lower.right_vertex) || touches;
     if (touches) return std::nullopt;  // noded first, then compared
 
-    const MonotoneArc& a = lower.arc;
-    const MonotoneArc& b = upper.arc;
+    // Places on the longer one, which may be above or below: upside down it is the same.
+    const auto squared_length = [](const MonotoneArc& arc) {
+      return squared_norm(arc.right - arc.left);
+    };
+    const bool by_upper = squared_length(upper.arc) > squared_length(lower.arc);
+    const MonotoneArc& a = by_upper ? upper.arc : lower.arc;
+    const MonotoneArc& b = by_upper ? lower.arc : upper.arc;
     const Vec2 begin = lexicographic_less(a.left, b.left) ? b.left : a.left;
     const Vec2 end = lexicographic_less(a.right, b.right) ? a.right : b.right;
     if (!lexicographic_less(begin, end)) return std::nullopt;
@@ -432,7 +437,7 @@ class ArcSweeper {
     const std::size_t count = stops_between(a, b, begin, end, stops);
     const Vec2 last = stops[count - 1].point;
 
-    const auto gap = [&](Vec2 on_lower) { return -b.above(on_lower); };
+    const auto gap = [&](Vec2 on_a) { return by_upper ? b.above(on_a) : -b.above(on_a); };
     const double at_begin = a.left == b.left ? 0 : gap(stops[0].point);
     const double at_end = a.right == b.right ? 0 : gap(last);
     std::array<int, 3> signs{};
@@ -455,7 +460,7 @@ class ArcSweeper {
       }
       return std::nullopt;
     }
-    note_tangency(lower, upper, std::span(stops.data(), count), signs, gap);
+    note_tangency(lower, upper, a, std::span(stops.data(), count), signs, gap);
     return std::nullopt;
   }
 
@@ -489,10 +494,10 @@ class ArcSweeper {
     return any;
   }
 
-  /// Notes a contact in the inside of both pieces.
+  /// Notes a contact in the inside of both pieces. The stops are `on` one of them.
   template <class Stops, class Gap>
-  void note_tangency(const ActivePiece& lower, const ActivePiece& upper, const Stops& stops,
-                     const std::array<int, 3>& signs, const Gap& gap) {
+  void note_tangency(const ActivePiece& lower, const ActivePiece& upper, const MonotoneArc& on,
+                     const Stops& stops, const std::array<int, 3>& signs, const Gap& gap) {
     for (std::size_t i = 1; i + 1 < stops.size(); ++i) {
       if (!(std::abs(gap(stops[i].point)) <= tolerance_)) continue;
       std::size_t j = i;
@@ -501,7 +506,7 @@ class ArcSweeper {
       const bool reaches_end =
           j + 2 == stops.size() && signs[j] == 0 && lower.arc.right == upper.arc.right;
       if (!reaches_begin && !reaches_end) {
-        const Vec2 point = lower.arc.halfway(stops[i].point, stops[j].point);
+        const Vec2 point = on.halfway(stops[i].point, stops[j].point);
         const Vec2 contact = i == j ? stops[i].point : point;
         for (const ActivePiece* piece : {&lower, &upper}) {
           contacts_.push_back({noded_.edges[piece->piece], no_index, contact});

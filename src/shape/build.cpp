@@ -68,6 +68,20 @@ Result<Shape> build_once(std::span<const Ring> rings, const ShapeOptions& option
   return shape;
 }
 
+/// Where rings touch, arcs of one circle may follow each other in a loop: built again, they become
+/// one.
+Shape with_arcs_merged(Shape shape) {
+  for (;;) {
+    const std::vector<Ring> rings = rings_of(shape);
+    ShapeReport report;
+    Result<Shape> again = build_once(rings, {}, report);
+    if (!again || again->points.size() >= shape.points.size()) return shape;
+    for (VertexSource& source : again->sources)
+      source = shape.sources[shape.loop_begin[source.ring] + source.vertex];
+    shape = *std::move(again);
+  }
+}
+
 /// Whether rings that are cut into a planar graph may still make a shape.
 bool may_be_filled(const Error& error) {
   return error.code != ErrorCode::not_finite && error.code != ErrorCode::too_large &&
@@ -155,6 +169,8 @@ Shape without_flat_vertices(std::span<const Ring> rings, Shape shape) {
 
 Result<Shape> build(std::span<const Ring> rings, const ShapeOptions& options, ShapeReport& report) {
   Result<Shape> shape = build_once(rings, options, report);
+  if (shape && !shape->bulges.empty() && report.touching_vertices > 0)
+    shape = with_arcs_merged(std::move(shape).value());
   if (shape && report.crossings > 0) return without_flat_vertices(rings, std::move(shape).value());
   if (shape || !options.node_crossings || !may_be_filled(shape.error())) return shape;
   report = {};

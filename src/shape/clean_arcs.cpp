@@ -26,7 +26,11 @@ class Cleaner {
  public:
   Cleaner(std::vector<RingEdge>& edges, ShapeReport& report) : edges_(edges), report_(report) {
     Box box{edges[0].point, edges[0].point};
-    for (const RingEdge& edge : edges) box.add(edge.point);
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const Vec2 middle = middle_of(arc(i));  // whatever vertices the arcs have
+      box.add(edges[i].point);
+      if (std::isfinite(middle.x) && std::isfinite(middle.y)) box.add(middle);
+    }
     rounding_ = spacing_in(box);
     play_ = std::max(4 * rounding_, tolerance_for(box, 0));
     middle_ = 0.5 * box.low + 0.5 * box.high;
@@ -37,7 +41,11 @@ class Cleaner {
     // Nothing is merged in a ring of two edges: it would vanish.
     if (edges_.size() > 2) drop_collinear();
     split_long_arcs();
-    merge_cocircular();
+    // Arcs that have become one may continue the next: building a built shape merges nothing more.
+    for (std::size_t before = 0; before != edges_.size();) {
+      before = edges_.size();
+      merge_cocircular();
+    }
   }
 
  private:

@@ -41,6 +41,7 @@ Noding::Noding(const CleanRings& cleaned, double reach)
     : begin_(cleaned.begin), open_(cleaned.open) {
   const Box box = box_of(cleaned);
   frame_ = frame_of(box);
+  map_ = best_maps(cleaned.points).front();
   size_ = frame_.scale * diagonal(box);
   tolerance_ = frame_.scale * std::max(tolerance_for(box, 0), reach);
   rings_.resize(begin_.size() - 1);
@@ -69,12 +70,14 @@ std::optional<Error> Noding::too_small() const {
 Vec2 Noding::to_local(Vec2 input) const {
   static const double cosine = std::cos(turn);
   static const double sine = std::sin(turn);
-  const Vec2 local = turned(frame_.to_local(input), cosine, sine);
-  return {local.x + 0.0, local.y + 0.0};  // makes -0 to 0
+  const Vec2 local = turned(map_.to_image(frame_.to_local(input)), cosine, sine);
+  return {local.x + 0.0, (map_.mirrors() ? -local.y : local.y) + 0.0};  // makes -0 to 0
 }
 
 Vec2 Noding::to_input(Vec2 local) const {
-  const Vec2 point = frame_.to_input(turned(local, std::cos(turn), -std::sin(turn)));
+  const Vec2 upright{local.x, map_.mirrors() ? -local.y : local.y};
+  const Vec2 image = turned(upright, std::cos(turn), -std::sin(turn));
+  const Vec2 point = frame_.to_input(map_.to_input(image));
   return {point.x + 0.0, point.y + 0.0};
 }
 
@@ -135,11 +138,12 @@ NodedRings Noding::monotone() const {
   return result;
 }
 
-Noding::Moves::Moves(const NodedRings& noded, std::span<const Merge> merges) {
+Noding::Moves::Moves(const NodedRings& noded, std::span<const Merge> merges, const QuarterMap& map)
+    : less_{map}, moved_(less_) {
   for (const Merge& merge : merges) {
     const Vec2 from = target(noded.originals[merge.from]);
     const Vec2 to = target(noded.originals[merge.to]);
-    if (from != to) moved_.emplace(std::max(from, to, Less{}), std::min(from, to, Less{}));
+    if (from != to) moved_.emplace(std::max(from, to, less_), std::min(from, to, less_));
   }
 }
 
@@ -203,7 +207,7 @@ void Noding::append_parts(std::uint32_t v, std::uint32_t end, std::span<const Sp
 
 std::optional<Error> Noding::apply(const NodedRings& noded, std::span<const TouchedPoint> contacts,
                                    std::span<const Merge> merges) {
-  const Moves moves(noded, merges);
+  const Moves moves(noded, merges, map_);
   const std::vector<SplitPoint> cuts = split_points_of(noded, contacts, moves);
   std::vector<Node> result;
   std::vector<std::uint32_t> begin;

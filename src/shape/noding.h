@@ -8,6 +8,7 @@
 
 #include "base/local_frame.h"
 #include "base/predicates.h"
+#include "base/quarter_map.h"
 #include "medial/error.h"
 #include "shape/clean.h"
 #include "shape/sweep.h"
@@ -16,7 +17,8 @@ namespace medial {
 
 /// An outline with arcs, ready for splice(): its edges are cut where they touch and where the sweep
 /// line is tangent to them. Coordinates are local and turned by a fixed angle, so that what is
-/// common in drawings (vertical tangents, vertices above each other) is not special here.
+/// common in drawings (vertical tangents, vertices above each other) is not special here. Images of
+/// an outline that are mirrored or turned by quarters have the same ones, or these upside down.
 struct NodedRings {
   CleanRings cleaned;                 ///< edges are monotone; sources name rings only
   std::vector<VertexSource> sources;  ///< of each vertex
@@ -91,13 +93,17 @@ class Noding {
   /// Where points of the input move to. Chains are followed; the lowest of a group stays.
   class Moves {
    public:
-    Moves(const NodedRings& noded, std::span<const Merge> merges);
+    Moves(const NodedRings& noded, std::span<const Merge> merges, const QuarterMap& map);
     Vec2 target(Vec2 point) const;
 
    private:
     struct Less {
-      bool operator()(Vec2 a, Vec2 b) const { return lexicographic_less(a, b); }
+      QuarterMap map;
+      bool operator()(Vec2 a, Vec2 b) const {
+        return lexicographic_less(map.to_image(a), map.to_image(b));
+      }
     };
+    Less less_;
     std::map<Vec2, Vec2, Less> moved_;
   };
 
@@ -118,6 +124,7 @@ class Noding {
   }
 
   LocalFrame frame_;
+  QuarterMap map_;
   double size_ = 0;       ///< the diagonal, in local units
   double tolerance_ = 0;  ///< in local units
   std::uint64_t split_edges_ = 0;

@@ -92,7 +92,7 @@ std::string_view name_of(Fault fault) {
 }
 
 Finding examine_nasty(const Rings& rings, const NastyOptions& nasty) {
-  const Options options{.method = nasty.method, .threads = 1};
+  const Options options{.method = nasty.method, .exact = nasty.exact, .threads = 1};
   const auto shape = build_shape(rings);
   if (!shape) return {Fault::refused, to_string(shape.error())};
   const auto axis = compute(*shape, options);

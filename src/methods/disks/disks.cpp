@@ -39,18 +39,22 @@ void find_lost(const Chunk& chunk, std::vector<std::uint32_t>& lost) {
   for (const auto& child : chunk.children) find_lost(*child, lost);
 }
 
+/// How an axis is found.
+struct Way {
+  std::vector<bool> in_precise = {};  ///< of each component: double is never asked; empty: it is
+  bool merges_ties = true;
+};
+
 /// Connects the holes of the boundary, walks it, and joins what the walk finds. Nothing where the
-/// caller cancels. `names`: those of the axis, if `numbers` are others. `in_precise`: of each
-/// component, whether double is never asked; empty: it always is.
+/// caller cancels. `names`: those of the axis, if `numbers` are others.
 std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers,
-                              std::span<const std::uint32_t> names,
-                              const std::vector<bool>& in_precise, std::size_t spare_nodes,
-                              Boundary& boundary, Statistics& statistics) {
+                              std::span<const std::uint32_t> names, const Way& way,
+                              std::size_t spare_nodes, Boundary& boundary, Statistics& statistics) {
   Stopwatch watch;
   const ExactSites sites(problem, numbers, boundary);
   const double tolerance = fine_share * problem.fine_tolerance;
-  const std::vector<Bridge> bridges =
-      connecting_disks(problem.shape, boundary, tolerance, sites, in_precise, statistics.queries);
+  const std::vector<Bridge> bridges = connecting_disks(problem.shape, boundary, tolerance, sites,
+                                                       way.in_precise, statistics.queries);
   if (!bridges.empty()) boundary = connect(problem.shape, boundary, bridges);
   statistics.bridges = bridges.size();
   statistics.seconds_connect = watch.lap();
@@ -60,7 +64,7 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   statistics.seconds_tree = watch.lap();
 
   std::atomic<std::uint64_t> finished = 0;
-  const ExactEvents events(sites, boundary, tree, in_precise);
+  const ExactEvents events(sites, boundary, tree, way.in_precise);
   auto chunks =
       walk({boundary, bridges, tree, tolerance, problem.fine_tolerance, problem.radius_limit,
             events, problem.options.cancel, reporter(problem.options, boundary, finished)});
@@ -71,7 +75,7 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   for (const auto& chunk : chunks) find_lost(*chunk, lost);
   Graph graph = collect(chunks, bridges, spare_nodes, boundary.has_arcs);
   graph.lost = std::move(lost);
-  merge_ties(boundary, tree, sites, problem.local_tolerance(), graph, names);
+  if (way.merges_ties) merge_ties(boundary, tree, sites, problem.local_tolerance(), graph, names);
   statistics.seconds_collect = watch.lap();
   return graph;
 }
@@ -115,13 +119,13 @@ std::vector<bool> points_of(const Shape& shape, const std::vector<bool>& compone
 /// The engine up to the graph: sites, holes connected, tree, walk. Nothing where the caller
 /// cancels.
 std::optional<Graph> attempt(const Problem& problem, const SiteNumbers& own_numbers, Sides sides,
-                             const std::vector<bool>& in_precise, std::size_t spare_nodes,
-                             Boundary& boundary, Statistics& statistics) {
+                             const Way& way, std::size_t spare_nodes, Boundary& boundary,
+                             Statistics& statistics) {
   Stopwatch watch;
   const SiteNumbers* numbers = &own_numbers;
   std::optional<exact::PartedNumbers> parted;
-  if (!in_precise.empty() && has_arcs(problem.shape)) {
-    parted = exact::parted_numbers(problem, own_numbers, points_of(problem.shape, in_precise));
+  if (!way.in_precise.empty() && has_arcs(problem.shape)) {
+    parted = exact::parted_numbers(problem, own_numbers, points_of(problem.shape, way.in_precise));
     numbers = &parted->numbers;
   }
   boundary = loops_boundary(problem, *numbers, sides);
@@ -129,7 +133,7 @@ std::optional<Graph> attempt(const Problem& problem, const SiteNumbers& own_numb
 
   std::span<const std::uint32_t> names;
   if (parted) names = parted->names;
-  auto graph = graph_of(problem, *numbers, names, in_precise, spare_nodes, boundary, statistics);
+  auto graph = graph_of(problem, *numbers, names, way, spare_nodes, boundary, statistics);
   if (!graph) return graph;
   if (parted) rename(parted->names, boundary);
   for (std::uint32_t& site : graph->lost) site = boundary.originals[site];
@@ -152,16 +156,20 @@ void take_nodes(Graph& graph, MedialAxis& axis, std::vector<std::uint32_t>& lost
 }
 
 /// The axis of a shape by one walk.
-Result<MedialAxis> axis_by(const Problem& problem, const SiteNumbers& numbers,
-                           const std::vector<bool>& in_precise, std::vector<std::uint32_t>& lost) {
+Result<MedialAxis> axis_by(const Problem& problem, const SiteNumbers& numbers, const Way& way,
+                           std::vector<std::uint32_t>& lost) {
   MedialAxis axis = empty_axis(problem);
   Stopwatch all;
   Boundary boundary;
-  auto graph = attempt(problem, numbers, Sides::one, in_precise, 0, boundary, axis.statistics);
+  auto graph = attempt(problem, numbers, Sides::one, way, 0, boundary, axis.statistics);
   if (!graph) return axis;
   Stopwatch watch;
-  constexpr double loose = 0x1p-20;  // of the size: no near tie is that far off
-  const double slack = std::max(loose * diagonal(problem.box), 4 * axis.tolerance);
+  // No near tie is that far off, against the size. Next to arcs several may add up to more than a
+  // tolerance: such an axis is measured.
+  constexpr double loose = 0x1p-20;
+  const bool with_arcs = has_arcs(problem.shape);
+  const double slack =
+      with_arcs ? 2 * axis.tolerance : std::max(loose * diagonal(problem.box), 4 * axis.tolerance);
   const auto loose_edges = complete(boundary, problem.frame, problem.frame.scale * slack, *graph);
   boundary = {};
   take_nodes(*graph, axis, lost);
@@ -172,24 +180,26 @@ Result<MedialAxis> axis_by(const Problem& problem, const SiteNumbers& numbers,
   axis.sites = site::result_sites(problem.shape, numbers);
   axis.statistics.seconds_collect += watch.lap();
   axis.statistics.seconds = all.lap();
-  for (const std::uint32_t edge : loose_edges)
-    if (!touches_its_sites(axis, axis.edges[edge], slack))
+  for (const std::uint32_t edge : loose_edges) {
+    if (touches_its_sites(axis, axis.edges[edge], slack)) continue;
+    if (!with_arcs)
       return error_of_wrong_axis(
           axis, "a disk of the axis misses a site that it should touch: please report this shape");
+    lost.push_back(axis.edges[edge].site[0]);
+  }
   return axis;
 }
 
 /// The same of what lies around a planar graph; the edges are returned apart. A diagram has nodes
 /// for the planar graph's points, and edges that lead there, as well.
 template <class E>
-MedialAxis axis_around_by(const Problem& problem, const SiteNumbers& numbers,
-                          const std::vector<bool>& in_precise, std::vector<E>& edges,
-                          std::vector<std::uint32_t>& lost) {
+MedialAxis axis_around_by(const Problem& problem, const SiteNumbers& numbers, const Way& way,
+                          std::vector<E>& edges, std::vector<std::uint32_t>& lost) {
   MedialAxis axis = empty_axis(problem);
   Stopwatch all;
   Boundary boundary;
-  auto graph = attempt(problem, numbers, Sides::both, in_precise, problem.shape.points.size(),
-                       boundary, axis.statistics);
+  auto graph = attempt(problem, numbers, Sides::both, way, problem.shape.points.size(), boundary,
+                       axis.statistics);
   if (!graph) return axis;
   Stopwatch watch;
   complete(boundary, problem.frame, std::nullopt, *graph);
@@ -225,10 +235,10 @@ std::vector<bool> components_of(const Shape& shape, const SiteNumbers& numbers,
 Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbers) {
   const bool with_arcs = has_arcs(problem.shape);
   std::optional<Error> error;
-  std::vector<bool> in_precise;
+  Way way;
   for (const bool is_last : {false, true}) {
     std::vector<std::uint32_t> lost;
-    auto axis = axis_by(problem, numbers, in_precise, lost);
+    auto axis = axis_by(problem, numbers, way, lost);
     const bool is_certain = lost.empty() && !(with_arcs && is_last);
     if (axis && (is_certain || problem.is_cancelled())) return axis;
     // A polygon in which the walk lost its way is measured only if another walk takes seconds.
@@ -237,7 +247,7 @@ Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbe
       if (!refused) return axis;
       if (!error || axis) error = std::move(refused);
     }
-    in_precise = components_of(problem.shape, numbers, lost);
+    way.in_precise = components_of(problem.shape, numbers, lost);
   }
   return std::move(*error);
 }
@@ -247,14 +257,14 @@ Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbe
 template <class E>
 AxisAround run_around_in_place(const Problem& problem, const SiteNumbers& numbers,
                                std::vector<E>& edges) {
-  std::vector<bool> in_precise;
+  Way way;
   for (bool is_last = false;; is_last = true) {
     edges.clear();
     std::vector<std::uint32_t> lost;
-    MedialAxis axis = axis_around_by(problem, numbers, in_precise, edges, lost);
+    MedialAxis axis = axis_around_by(problem, numbers, way, edges, lost);
     if (lost.empty() || is_last || takes_long(problem.shape))
       return {std::move(axis), lost.empty()};
-    in_precise = components_of(problem.shape, numbers, lost);
+    way.in_precise = components_of(problem.shape, numbers, lost);
   }
 }
 
@@ -276,6 +286,16 @@ Result<MedialAxis> run(const Problem& problem) {
   if (!has_arcs(problem.shape)) return run_in_place(problem, problem.numbers());
   const Posed posed(problem);
   auto axis = run_in_place(posed.problem, posed.numbers);
+  if (!axis) return posed.pose.to_input(axis.error());
+  posed.pose.to_input(problem, posed.numbers, *axis, axis->edges);
+  return axis;
+}
+
+Result<MedialAxis> run_in_precise(const Problem& problem) {
+  const Posed posed(problem);
+  const std::vector<bool> all(problem.shape.component_count(), true);
+  std::vector<std::uint32_t> lost;
+  auto axis = axis_by(posed.problem, posed.numbers, {all, false}, lost);
   if (!axis) return posed.pose.to_input(axis.error());
   posed.pose.to_input(problem, posed.numbers, *axis, axis->edges);
   return axis;

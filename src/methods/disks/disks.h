@@ -18,6 +18,8 @@ constexpr double fine_share = 0.125;
 /// sites by far more than rounding explains; unsupported, with the place, where no way to decide
 /// finds an axis that verify() passes.
 Result<MedialAxis> run(const Problem& problem);
+/// The same with all decided in 256 bits, joints as the doubles have them, and no ties merged.
+Result<MedialAxis> run_in_precise(const Problem& problem);
 
 /// run() in parts of about so many nodes, see compute_in_parts(), of straight edges. Returns the
 /// axis without sites, nodes and edges; nothing where the first way to decide fails, and run() has

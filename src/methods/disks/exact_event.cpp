@@ -20,22 +20,8 @@ const exact::SiteLoops& ExactSites::outline() const {
     outline_ = make_();
     before_.resize(outline_.next.size());
     for (std::uint32_t i = 0; i < before_.size(); ++i) before_[outline_.next[i]] = i;
-    if (boundary_.has_arcs) choose_normals();
   });
   return outline_;
-}
-
-void ExactSites::choose_normals() const {
-  outline_.by_next.resize(outline_.sites.size());
-  for (const Boundary::SiteRange& run : boundary_.runs)
-    for (std::uint32_t i = run.first; i <= run.last; ++i) {
-      const std::uint32_t after = i == run.last ? run.first : i + 1;
-      if (boundary_.elements[i] != Element::edge || boundary_.elements[after] != Element::edge)
-        continue;
-      const std::uint32_t site = boundary_.originals[i];
-      if (outline_.joined(site, boundary_.originals[after]))
-        outline_.by_next[site] = site::by_second(boundary_.sites[i], boundary_.sites[after]);
-    }
 }
 
 std::optional<std::uint32_t> ExactSites::joined_before(std::uint32_t site) const {

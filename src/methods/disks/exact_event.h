@@ -61,7 +61,6 @@ class ExactSites {
   const exact::SiteLoops& outline() const;
   /// The site from which a foot passes on to a site at its start; none where it does not.
   std::optional<std::uint32_t> joined_before(std::uint32_t site) const;
-  void choose_normals() const;
   mutable std::once_flag once_;
   mutable exact::SiteLoops outline_;
   mutable std::vector<std::uint32_t> before_;  ///< of each site on the loop, if `next` is stored

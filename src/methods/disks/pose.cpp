@@ -1,7 +1,6 @@
 #include "methods/disks/pose.h"
 
 #include <algorithm>
-#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -9,50 +8,6 @@
 
 namespace medial::disks {
 namespace {
-
-std::vector<QuarterMap> quarter_maps() {
-  std::vector<QuarterMap> maps;
-  for (unsigned i = 0; i < 8; ++i) maps.push_back({(i & 1) != 0, (i & 2) != 0, (i & 4) != 0});
-  return maps;
-}
-
-/// Keeps the maps with the least key.
-template <class Key>
-void keep_least(std::vector<QuarterMap>& maps, const Key& key) {
-  std::vector<std::pair<double, double>> keys;
-  for (const QuarterMap& map : maps) keys.push_back(key(map));
-  const auto least = *std::min_element(keys.begin(), keys.end());
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < maps.size(); ++i)
-    if (keys[i] == least) maps[kept++] = maps[i];
-  maps.resize(kept);
-}
-
-/// The maps by which the image has the lowest first point, and the lowest one inside its box, as
-/// the box may be a frame around all else: mostly one.
-std::vector<QuarterMap> best_maps(const Shape& shape) {
-  std::vector<QuarterMap> maps = quarter_maps();
-  Box box = Box::nothing();
-  for (const Vec2 p : shape.points) box.add(p);
-  keep_least(maps, [&](const QuarterMap& map) {
-    return std::pair(std::min(map.to_image(box.low).x, map.to_image(box.high).x), 0.0);
-  });
-  const auto keep_lowest = [&](const auto& counts) {
-    keep_least(maps, [&](const QuarterMap& map) {
-      constexpr double none = std::numeric_limits<double>::infinity();
-      Vec2 lowest{none, none};
-      for (const Vec2 p : shape.points)
-        if (const Vec2 q = map.to_image(p); lexicographic_less(q, lowest) && counts(p)) lowest = q;
-      return std::pair(lowest.x, lowest.y);
-    });
-  };
-  keep_lowest([](Vec2) { return true; });
-  if (maps.size() > 1)
-    keep_lowest([&](Vec2 p) {
-      return p.x > box.low.x && p.x < box.high.x && p.y > box.low.y && p.y < box.high.y;
-    });
-  return maps;
-}
 
 /// A loop's image from its lowest vertex on, with the interior on the left.
 class LoopImage {
@@ -158,7 +113,7 @@ Pose::Pose(const Shape& shape, const QuarterMap& map) : map_(map) {
 }
 
 Pose::Pose(const Shape& shape) {
-  for (const QuarterMap& map : best_maps(shape)) {
+  for (const QuarterMap& map : best_maps(shape.points)) {
     Pose next(shape, map);
     if (point_.empty() || is_before(next.image_, image_)) *this = std::move(next);
   }

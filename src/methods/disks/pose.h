@@ -3,29 +3,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/quarter_map.h"
 #include "medial/axis.h"
 #include "medial/error.h"
 #include "medial/shape.h"
 #include "methods/problem.h"
 
 namespace medial::disks {
-
-/// A mirror image, or one turned by quarters: commits no rounding.
-struct QuarterMap {
-  bool swaps = false, negates_x = false, negates_y = false;
-
-  bool mirrors() const { return swaps != (negates_x != negates_y); }
-  Vec2 to_image(Vec2 p) const { return negated(swaps ? Vec2{p.y, p.x} : p); }
-  Vec2 to_input(Vec2 p) const {
-    const Vec2 q = negated(p);
-    return swaps ? Vec2{q.y, q.x} : q;
-  }
-
- private:
-  Vec2 negated(Vec2 p) const {  // never to -0
-    return {negates_x ? 0 - p.x : p.x, negates_y ? 0 - p.y : p.y};
-  }
-};
 
 /// The image of a shape that all its images under quarter maps have in common, whatever the order
 /// of their loops and the points where these begin. Where a walk's order decides about ties, it

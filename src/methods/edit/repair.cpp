@@ -42,6 +42,11 @@ exact::SiteLoops outline_of(const Rings& rings, const Window& window) {
     outline.passes[i] = is_inside && (!is_edge || joint != site::Joint::corner);
     outline.blunt[i] = is_edge && is_inside && joint == site::Joint::blunt;
   }
+  outline.by_next.assign(names.size(), false);
+  for (std::uint32_t i = 0; i < names.size(); ++i)
+    if (const std::uint32_t after = outline.next[i]; outline.joined(i, after))
+      if (!outline.sites[i].is_vertex() && !outline.sites[after].is_vertex())
+        outline.by_next[i] = exact::by_second(outline.sites[i], outline.sites[after]);
   outline.loop_begin = {0, static_cast<std::uint32_t>(names.size())};
   outline.component = {0};
   return outline;

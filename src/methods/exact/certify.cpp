@@ -111,7 +111,7 @@ class Certifier {
     if (count == 3) return std::array{contacts[0].site, contacts[1].site, contacts[2].site};
     std::vector<Vec2> toward(count);
     for (std::size_t i = 0; i < count; ++i) {
-      const Site& site = axis_.sites[outline_.name(contacts[i].site)];
+      const Site& site = axis_.sites[contacts[i].site];
       const Vec2 local_foot = frame_.to_local(medial::foot(site, frame_.to_input(disk.center)));
       toward[i] = local_foot - disk.center;
     }
@@ -361,21 +361,6 @@ class Certifier {
     return before == after;
   }
 
-  /// Whether a link inside a cluster runs backward for certain. Beside joints that only count as
-  /// smooth it may, by as much as they are off.
-  bool runs_backward(const std::vector<std::uint32_t>& nodes) const {
-    return outline_.parted && ranges::any_of(nodes, [&](std::uint32_t node) {
-             return ranges::any_of(graph_.contacts(node), [&](const Contact& contact) {
-               if (contact.half == no_half || !inner_[contact.half / 2]) return false;
-               const std::uint32_t link = contact.half / 2;
-               const auto [from, to] = links_[link].node;
-               auto direction = direction_of(link, states_[from].bounds, states_[to].bounds);
-               if (!direction) direction = direction_in_precise(link);
-               return direction == -1;
-             });
-           });
-  }
-
   bool resolve_cluster(const std::vector<std::uint32_t>& nodes,
                        std::vector<std::uint32_t>& changed) {
     const std::vector<Contact> outer = outer_contacts(nodes);
@@ -384,7 +369,7 @@ class Certifier {
     const bool known = nodes.size() == 1 && states_[nodes[0]].divides;
     const auto divided = known ? std::move(states_[nodes[0]].divided)
                                : divide(outline_, sites_of(outer), decisions_);
-    if (is_divided_so(nodes, outer, divided)) return !runs_backward(nodes);
+    if (is_divided_so(nodes, outer, divided)) return true;
     const std::uint32_t old = nodes.front();
     std::vector<Placed> placed;
     for (const auto& places : divided) {
@@ -482,10 +467,9 @@ class Certifier {
 
 }  // namespace
 
-Status certify(const Problem& problem, bool part_joints, MedialAxis& axis) {
+Status certify(const Problem& problem, MedialAxis& axis) {
   Stopwatch watch;
-  SiteLoops outline = outline_of(problem, problem.numbers());
-  if (part_joints) exact::part_joints(outline);
+  const SiteLoops outline = outline_of(problem, problem.numbers());
   ContactGraph graph;
   // Arcs that join smoothly only to within the tolerance, on one circle but for that, may have no
   // disk that touches all around them (docs/exact.md, Limits). Between segments nothing is rounded.

@@ -10,10 +10,7 @@ namespace medial::exact {
 /// how, is counted in the axis' statistics (docs/exact.md). Errors, with the place: unsupported
 /// where arcs bound the shape, otherwise internal.
 ///
-/// `part_joints`: joints that count as smooth are taken as they stand. That decides next to the
-/// centres of several arcs, which the normals at such a joint may miss by more than disks differ.
-///
 /// O(n) expected; the same result for any number of threads. Call it inside a task arena.
-Status certify(const Problem& problem, bool part_joints, MedialAxis& axis);
+Status certify(const Problem& problem, MedialAxis& axis);
 
 }  // namespace medial::exact

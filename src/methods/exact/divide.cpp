@@ -39,20 +39,35 @@ std::vector<std::vector<std::uint32_t>> divide(const SiteLoops& outline,
     const auto [low, high] = sides.back();
     sides.pop_back();
     if (high < low + 2) continue;
-    std::vector<std::uint32_t> first;  // those met first, all by one disk
+    // Those met first, all by one disk; and of a run of sites that all bend away from the disk,
+    // each joined to the next, which it can touch in one place only.
+    std::vector<std::uint32_t> first, run;
+    const auto offer = [&](std::vector<std::uint32_t>& best,
+                           const std::vector<std::uint32_t>& next) {
+      const Sign sign = best.empty() ? Sign::positive
+                                     : in_disk(outline, sites[low], sites[best.back()],
+                                               sites[next.front()], sites[high], decisions);
+      if (sign == Sign::positive) best.clear();
+      if (sign == Sign::positive || sign == Sign::zero)
+        best.insert(best.end(), next.begin(), next.end());
+      return sign;
+    };
+    bool passed = false;
     for (std::uint32_t i = low + 1; i < high; ++i) {
-      if (some_fit_into_circles && high > low + 2) {
+      if (some_fit_into_circles && high > low + 2)
         if (!may_touch(outline, {sites[low], sites[i], sites[high]})) continue;
-      }
-      if (first.empty()) {
-        first.push_back(i);
+      const auto bends_away = [&](std::uint32_t site) { return !(outline.sites[site].bulge > 0); };
+      if (!run.empty() && (passed || run.back() + 1 == i) &&
+          outline.joined(sites[i - 1], sites[i]) && bends_away(sites[i - 1]) &&
+          bends_away(sites[i])) {
+        passed = passed || offer(run, {i}) == Sign::negative;
         continue;
       }
-      const Sign sign =
-          in_disk(outline, sites[low], sites[first[0]], sites[i], sites[high], decisions);
-      if (sign == Sign::positive) first.clear();
-      if (sign == Sign::positive || sign == Sign::zero) first.push_back(i);
+      if (!run.empty()) offer(first, run);
+      run.assign(1, i);
+      passed = false;
     }
+    if (!run.empty()) offer(first, run);
     if (first.empty()) first.push_back(low + 1);
     std::vector<std::uint32_t> node{low};
     node.insert(node.end(), first.begin(), first.end());

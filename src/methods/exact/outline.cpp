@@ -1,5 +1,8 @@
 #include "methods/exact/outline.h"
 
+#include "methods/checks.h"
+#include "site/smooth_place.h"
+
 namespace medial::exact {
 
 namespace {
@@ -26,6 +29,11 @@ ExactSite site_of(const Problem& problem, const site::SiteNumbers& numbers, std:
 
 }  // namespace
 
+bool by_second(const ExactSite& first, const ExactSite& second) {
+  return site::by_second(site::pieces_of(first.start, first.end, first.bulge).last(),
+                         site::pieces_of(second.start, second.end, second.bulge).first());
+}
+
 SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers, bool stores_sites) {
   SiteLoops outline;
   outline.sites = stores_sites ? SiteList(numbers.count)
@@ -35,6 +43,7 @@ SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers, b
   if (stores_sites) outline.next.resize(numbers.count);
   outline.passes.assign(numbers.count, false);
   outline.blunt.assign(numbers.count, false);
+  if (has_arcs(problem.shape)) outline.by_next.assign(numbers.count, false);
   outline.component = problem.shape.component;
   for (std::size_t l = 0; l < problem.shape.loop_count(); ++l) {
     const site::LoopEdges loop(problem.shape, l, problem.frame);
@@ -43,6 +52,9 @@ SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers, b
       return numbers.edge[point] - (numbers.is_site(point) ? 1 : 0);
     };
     outline.loop_begin.push_back(first_of(0));
+    const auto edge_at = [&](std::uint32_t i) {
+      return ExactSite{loop.local(i), loop.local(loop.next(i)), loop.bulge(i)};
+    };
     for (std::uint32_t i = 0; i < loop.size(); ++i) {
       const std::size_t point = loop.begin() + i, after = loop.begin() + loop.next(i);
       const std::uint32_t edge = numbers.edge[point];
@@ -59,36 +71,17 @@ SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers, b
         outline.next[edge - 1] = edge;
       }
       if (stores_sites) {
-        outline.sites.set(edge, {loop.local(i), loop.local(loop.next(i)), loop.bulge(i)});
+        outline.sites.set(edge, edge_at(i));
         outline.next[edge] = first_of(loop.next(i));
       }
       outline.passes[edge] = numbers.joints[after] != site::Joint::corner;
       outline.blunt[edge] = numbers.joints[after] == site::Joint::blunt;
+      if (numbers.joints[after] == site::Joint::smooth && !outline.by_next.empty())
+        outline.by_next[edge] = by_second(edge_at(i), edge_at(loop.next(i)));
     }
   }
   outline.loop_begin.push_back(numbers.count);
   return outline;
-}
-
-void part_joints(SiteLoops& outline) {
-  const auto count = static_cast<std::uint32_t>(outline.sites.size());
-  outline.parted = true;
-  for (std::uint32_t edge = 0; edge < count; ++edge) {
-    const std::uint32_t after = outline.next_of(edge);
-    if (!outline.joined(edge, after) || outline.sites[edge].is_vertex() ||
-        outline.sites[after].is_vertex())
-      continue;
-    const int turn = turn_between(outline.sites[edge], outline.sites[after]);
-    if (turn > 0) outline.blunt[edge] = true;
-    if (turn >= 0) continue;
-    outline.next[edge] = static_cast<std::uint32_t>(outline.sites.size());
-    outline.sites.push_back({outline.sites[edge].end, outline.sites[edge].end, 0});
-    outline.next.push_back(after);
-    outline.passes.push_back(true);
-    outline.blunt.push_back(false);
-    outline.flatter.push_back(
-        curvature_of(outline.sites[after]) < curvature_of(outline.sites[edge]) ? after : edge);
-  }
 }
 
 PartedNumbers parted_numbers(const Problem& problem, const site::SiteNumbers& whole,

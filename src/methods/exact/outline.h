@@ -44,19 +44,9 @@ struct SiteLoops {
   std::vector<bool> blunt;
   std::vector<std::uint32_t> loop_begin;  ///< first site of each loop, and the number of all sites
   std::vector<std::uint32_t> component;   ///< of each loop
-  bool parted = false;                    ///< see part_joints()
-  /// Of a site that ends in a joint smooth only to rounding, whether the next one's normal counts
+  /// Of an edge that ends in a joint smooth only to rounding, whether the next one's normal counts
   /// for both, and not its own; empty: never.
   std::vector<bool> by_next;
-  /// Of the vertices that it has added behind all other sites: the flatter of the edges that join
-  /// there, whose own centre is further away.
-  std::vector<std::uint32_t> flatter;
-
-  /// What the axis calls a site.
-  std::uint32_t name(std::uint32_t site) const {
-    return has_name(site) ? site : flatter[site + flatter.size() - sites.size()];
-  }
-  bool has_name(std::uint32_t site) const { return site < sites.size() - flatter.size(); }
 
   std::uint32_t next_of(std::uint32_t site) const {
     if (!next.empty()) return next[site];
@@ -82,6 +72,9 @@ struct SiteLoops {
   }
 };
 
+/// Of two edges that join smoothly, whether the normal of the second one counts for both.
+bool by_second(const ExactSite& first, const ExactSite& second);
+
 /// `numbers`: the problem's, or those of parted_numbers(). With `stores_sites` the sites and `next`
 /// are stored; otherwise the problem and the numbers must outlive them.
 SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers,
@@ -98,9 +91,5 @@ struct PartedNumbers {
 /// whose joints are parted.
 PartedNumbers parted_numbers(const Problem& problem, const site::SiteNumbers& whole,
                              const std::vector<bool>& points);
-
-/// Takes joints that count as smooth as they stand: as blunt where the boundary turns to the left;
-/// where it turns to the right their vertex becomes a site, added behind the others.
-void part_joints(SiteLoops& outline);
 
 }  // namespace medial::exact

@@ -1,7 +1,6 @@
 #include "methods/exact/replace_nodes.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "axis/node_kinds.h"
@@ -24,12 +23,10 @@ class Replacer {
 
   /// Drops what is gone, and works out the new edges' curves and the nodes' kinds.
   void run() {
-    std::vector<bool> edge_gone = find_gone_edges();
-    const std::vector<std::uint32_t> same = contract_short_edges(edge_gone);
+    const std::vector<bool> edge_gone = find_gone_edges();
     std::vector<std::uint32_t> number(axis_.nodes.size(), none);
     std::uint32_t kept = 0;
     for (std::uint32_t i = 0; i < axis_.nodes.size(); ++i) {
-      number[i] = number[same[i]];
       if (replaced_.gone[i]) continue;
       number[i] = kept;
       axis_.nodes[kept++] = axis_.nodes[i];
@@ -51,7 +48,6 @@ class Replacer {
         edge.control = {frame_.to_input(control.point.center),
                         frame_.inverse * control.point.radius};
         edge.weight = control.weight;
-        for (std::uint32_t& site : edge.site) site = outline_.name(site);
       }
       axis_.edges[edges++] = edge;
     }
@@ -94,32 +90,6 @@ class Replacer {
       }
     }
     return gone;
-  }
-
-  /// Edges of vertices that the axis does not name and that are no longer than the tolerance go:
-  /// their ends become one. Returns for each node that is gone the one it has become part of.
-  std::vector<std::uint32_t> contract_short_edges(std::vector<bool>& edge_gone) {
-    std::vector<std::uint32_t> same(axis_.nodes.size());
-    std::iota(same.begin(), same.end(), 0u);
-    const auto find = [&](std::uint32_t node) {
-      while (same[node] != node) node = same[node] = same[same[node]];
-      return node;
-    };
-    for (std::size_t i = 0; i < axis_.edges.size(); ++i) {
-      const Edge& edge = axis_.edges[i];
-      if (edge_gone[i] ||
-          ranges::all_of(edge.site, [&](std::uint32_t site) { return outline_.has_name(site); }))
-        continue;
-      const std::uint32_t a = find(edge.node[0]), b = find(edge.node[1]);
-      if (a == b ||
-          distance(axis_.nodes[a].disk.center, axis_.nodes[b].disk.center) > axis_.tolerance)
-        continue;
-      edge_gone[i] = true;
-      same[std::max(a, b)] = std::min(a, b);
-      replaced_.gone[std::max(a, b)] = true;
-    }
-    for (std::uint32_t node = 0; node < same.size(); ++node) same[node] = find(node);
-    return same;
   }
 
   const SiteLoops& outline_;
