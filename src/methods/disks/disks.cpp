@@ -45,8 +45,7 @@ void find_lost(const Chunk& chunk, std::vector<std::uint32_t>& lost) {
 std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers,
                               std::span<const std::uint32_t> names,
                               const std::vector<bool>& in_precise, std::size_t spare_nodes,
-                              Boundary& boundary, Statistics& statistics) {
-  Stopwatch watch;
+                              Boundary& boundary, Stopwatch& watch, Statistics& statistics) {
   const ExactSites sites(problem, numbers, boundary);
   const double tolerance = fine_share * problem.fine_tolerance;
   const std::vector<Bridge> bridges =
@@ -72,7 +71,6 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   Graph graph = collect(chunks, bridges, spare_nodes, boundary.has_arcs);
   graph.lost = std::move(lost);
   merge_ties(boundary, tree, sites, problem.local_tolerance(), graph, names);
-  statistics.seconds_collect = watch.lap();
   return graph;
 }
 
@@ -116,8 +114,7 @@ std::vector<bool> points_of(const Shape& shape, const std::vector<bool>& compone
 /// cancels.
 std::optional<Graph> attempt(const Problem& problem, const SiteNumbers& own_numbers, Sides sides,
                              const std::vector<bool>& in_precise, std::size_t spare_nodes,
-                             Boundary& boundary, Statistics& statistics) {
-  Stopwatch watch;
+                             Boundary& boundary, Stopwatch& watch, Statistics& statistics) {
   const SiteNumbers* numbers = &own_numbers;
   std::optional<exact::PartedNumbers> parted;
   if (!in_precise.empty() && has_arcs(problem.shape)) {
@@ -129,7 +126,8 @@ std::optional<Graph> attempt(const Problem& problem, const SiteNumbers& own_numb
 
   std::span<const std::uint32_t> names;
   if (parted) names = parted->names;
-  auto graph = graph_of(problem, *numbers, names, in_precise, spare_nodes, boundary, statistics);
+  auto graph =
+      graph_of(problem, *numbers, names, in_precise, spare_nodes, boundary, watch, statistics);
   if (!graph) return graph;
   if (parted) rename(parted->names, boundary);
   for (std::uint32_t& site : graph->lost) site = boundary.originals[site];
@@ -144,6 +142,14 @@ MedialAxis empty_axis(const Problem& problem) {
   return axis;
 }
 
+/// The time since the walk has gone to collect.
+void end_times(Stopwatch& watch, Statistics& statistics) {
+  statistics.seconds_collect = watch.lap();
+  statistics.seconds = statistics.seconds_sites + statistics.seconds_connect +
+                       statistics.seconds_tree + statistics.seconds_walk +
+                       statistics.seconds_collect;
+}
+
 /// Moves what a graph has found to an axis, but for its edges.
 void take_nodes(Graph& graph, MedialAxis& axis, std::vector<std::uint32_t>& lost) {
   lost = std::move(graph.lost);
@@ -155,11 +161,11 @@ void take_nodes(Graph& graph, MedialAxis& axis, std::vector<std::uint32_t>& lost
 Result<MedialAxis> axis_by(const Problem& problem, const SiteNumbers& numbers,
                            const std::vector<bool>& in_precise, std::vector<std::uint32_t>& lost) {
   MedialAxis axis = empty_axis(problem);
-  Stopwatch all;
-  Boundary boundary;
-  auto graph = attempt(problem, numbers, Sides::one, in_precise, 0, boundary, axis.statistics);
-  if (!graph) return axis;
   Stopwatch watch;
+  Boundary boundary;
+  auto graph =
+      attempt(problem, numbers, Sides::one, in_precise, 0, boundary, watch, axis.statistics);
+  if (!graph) return axis;
   constexpr double loose = 0x1p-20;  // of the size: no near tie is that far off
   const double slack = std::max(loose * diagonal(problem.box), 4 * axis.tolerance);
   const auto loose_edges = complete(boundary, problem.frame, problem.frame.scale * slack, *graph);
@@ -170,8 +176,7 @@ Result<MedialAxis> axis_by(const Problem& problem, const SiteNumbers& numbers,
     return error_of_wrong_axis(
         axis, "the axis does not have one cycle for each hole: please report this shape");
   axis.sites = site::result_sites(problem.shape, numbers);
-  axis.statistics.seconds_collect += watch.lap();
-  axis.statistics.seconds = all.lap();
+  end_times(watch, axis.statistics);
   for (const std::uint32_t edge : loose_edges)
     if (!touches_its_sites(axis, axis.edges[edge], slack))
       return error_of_wrong_axis(
@@ -186,18 +191,16 @@ MedialAxis axis_around_by(const Problem& problem, const SiteNumbers& numbers,
                           const std::vector<bool>& in_precise, std::vector<E>& edges,
                           std::vector<std::uint32_t>& lost) {
   MedialAxis axis = empty_axis(problem);
-  Stopwatch all;
+  Stopwatch watch;
   Boundary boundary;
   auto graph = attempt(problem, numbers, Sides::both, in_precise, problem.shape.points.size(),
-                       boundary, axis.statistics);
+                       boundary, watch, axis.statistics);
   if (!graph) return axis;
-  Stopwatch watch;
   complete(boundary, problem.frame, std::nullopt, *graph);
   boundary = {};
   take_nodes(*graph, axis, lost);
   take_edges(graph->edges, numbers.count, edges);
-  axis.statistics.seconds_collect += watch.lap();
-  axis.statistics.seconds = all.lap();
+  end_times(watch, axis.statistics);
   return axis;
 }
 
