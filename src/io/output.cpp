@@ -191,7 +191,7 @@ OutputStream OutputStream::to(std::string& text) {
   return out;
 }
 
-OutputStream OutputStream::to(Pieces& text) {
+OutputStream OutputStream::to(TextPieces& text) {
   OutputStream out({}, -1, false);
   out.pieces_ = &text;
   return out;

@@ -62,13 +62,13 @@ class PendingFile {
 bool is_stream(const std::string& path);
 
 /// A long text in pieces, so that it grows without being copied.
-struct Piece {
+struct TextPiece {
   std::unique_ptr<char[]> bytes;
   std::size_t size;
 
   std::string_view text() const { return {bytes.get(), size}; }
 };
-using Pieces = std::vector<Piece>;
+using TextPieces = std::vector<TextPiece>;
 
 /// A buffered stream of bytes to a file. After a failure everything is swallowed and finish()
 /// reports it.
@@ -78,7 +78,7 @@ class OutputStream {
   static Result<OutputStream> open(const std::string& path);
   /// To the end of a text, which must outlive it.
   static OutputStream to(std::string& text);
-  static OutputStream to(Pieces& text);
+  static OutputStream to(TextPieces& text);
   ~OutputStream();
   OutputStream(OutputStream&& other) noexcept;
   OutputStream& operator=(OutputStream&&) = delete;
@@ -134,8 +134,8 @@ class OutputStream {
   void write(const char* data, std::size_t count);
 
   std::string path_;
-  std::string* text_ = nullptr;  ///< in place of a file
-  Pieces* pieces_ = nullptr;     ///< likewise
+  std::string* text_ = nullptr;   ///< in place of a file
+  TextPieces* pieces_ = nullptr;  ///< likewise
   int descriptor_ = -1;
   bool owned_ = false;
   int problem_ = 0;  ///< errno of the first failure
