@@ -5,8 +5,11 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <optional>
+#include <span>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/commands.h"
@@ -22,15 +25,39 @@ int requested_threads(const CLI::App& command) {
   return option != nullptr && option->count() > 0 ? option->as<int>() : 0;
 }
 
+struct Maker {
+  std::string_view name;
+  MakeCommand* make;
+  bool needs_others = false;  ///< the command looks at all that the program has
+};
 /// In the order of the help.
-constexpr MakeCommand* makers[] = {
-    make_axis_command,       make_verify_command,  make_info_command,      make_legal_command,
-    make_draw_command,       make_prune_command,   make_smooth_command,    make_rebuild_command,
-    make_features_command,   make_match_command,   make_nest_command,      make_pack_command,
-    make_unpack_command,     make_voronoi_command, make_distance_command,  make_voxels_command,
-    make_field_command,      make_compare_command, make_methods_command,   make_offset_command,
-    make_centreline_command, make_measure_command, make_carve_command,     make_tiles_command,
-    make_doctor_command,     make_help_command,    make_completion_command};
+constexpr Maker makers[] = {{"axis", make_axis_command},
+                            {"verify", make_verify_command},
+                            {"info", make_info_command},
+                            {"legal", make_legal_command},
+                            {"draw", make_draw_command},
+                            {"prune", make_prune_command},
+                            {"smooth", make_smooth_command},
+                            {"rebuild", make_rebuild_command},
+                            {"features", make_features_command},
+                            {"match", make_match_command},
+                            {"nest", make_nest_command},
+                            {"pack", make_pack_command},
+                            {"unpack", make_unpack_command},
+                            {"voronoi", make_voronoi_command},
+                            {"distance", make_distance_command},
+                            {"voxels", make_voxels_command},
+                            {"field", make_field_command},
+                            {"compare", make_compare_command},
+                            {"methods", make_methods_command},
+                            {"offset", make_offset_command},
+                            {"centreline", make_centreline_command},
+                            {"measure", make_measure_command},
+                            {"carve", make_carve_command},
+                            {"tiles", make_tiles_command},
+                            {"doctor", make_doctor_command},
+                            {"help", make_help_command, true},
+                            {"completion", make_completion_command, true}};
 
 /// Prints the help, the version, or the error of the command line.
 int explain_and_exit(const CLI::App& program, const CLI::ParseError& parse_error, bool json) {
@@ -60,25 +87,26 @@ void give_default_values(CLI::App& program, std::vector<std::string>& words) {
   }
 }
 
-int run(std::vector<std::string> words, bool json) {
+/// What the words ask of a program with these commands; nothing where it is not `whole` and the
+/// words do not parse.
+std::optional<int> run_with(std::span<const Maker> parts, std::vector<std::string> words, bool json,
+                            bool whole) {
   CLI::App program(
       "Exact medial axis transform of shapes with holes: the centres of all maximal\n"
       "disks inside a shape, with their radii.");
   describe_program(program);
   std::vector<Command> commands;
-  for (MakeCommand* make : makers) {
-    commands.push_back(make(program));
+  for (const Maker& maker : parts) {
+    commands.push_back(maker.make(program));
     commands.back().app->group("Commands");
   }
   heed_help_anywhere(program);
-  if (!words.empty() &&
-      (words[0] == "-h" || words[0].starts_with("--help")))  // of the command that follows
-    std::rotate(words.begin(), words.begin() + 1, words.end());
   give_default_values(program, words);
   try {
     std::ranges::reverse(words);  // as CLI11 takes them
     program.parse(std::move(words));
   } catch (const CLI::ParseError& parse_error) {
+    if (!whole) return std::nullopt;
     return explain_and_exit(program, parse_error, json);
   }
   const auto command = std::find_if(commands.begin(), commands.end(), [](const Command& candidate) {
@@ -87,6 +115,17 @@ int run(std::vector<std::string> words, bool json) {
   allow_startable_threads(requested_threads(*command->app));
   const Result<int> status = command->run();
   return status ? *status : report_error(status.error(), json);
+}
+
+int run(std::vector<std::string> words, bool json) {
+  if (!words.empty() &&
+      (words[0] == "-h" || words[0].starts_with("--help")))  // of the command that follows
+    std::rotate(words.begin(), words.begin() + 1, words.end());
+  // The options of all commands take longer to make than most axes, and more memory.
+  for (const Maker& maker : makers)
+    if (!words.empty() && words[0] == maker.name && !maker.needs_others)
+      if (const auto status = run_with({&maker, 1}, words, json, false)) return *status;
+  return *run_with(makers, std::move(words), json, true);
 }
 
 }  // namespace

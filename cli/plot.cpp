@@ -259,4 +259,10 @@ Status write_plots(const std::string& path, const std::vector<Plot>& plots) {
   return io::write_text(path, document);
 }
 
+extern "C" {
+/// What the program asks the module of pictures for.
+extern const decltype(&write_plots) medial_write_plots;
+const decltype(&write_plots) medial_write_plots = write_plots;
+}
+
 }  // namespace medial::cli

@@ -115,5 +115,21 @@ TEST(OutputStream, PutsTheShortestDigitsOfQuartersToo) {
   EXPECT_EQ(text, expected);
 }
 
+TEST(OutputStream, PutsALongTextInPieces) {
+  std::string text, together;
+  TextPieces pieces;
+  OutputStream whole = OutputStream::to(text), parted = OutputStream::to(pieces);
+  const std::string longer(3'000'000, 'x');  // than a piece
+  for (OutputStream* const out : {&whole, &parted}) {
+    for (int i = 0; i < 400'000; ++i) out->put(i / 7.0);
+    out->put(longer);
+    out->put('.');
+    EXPECT_TRUE(out->finish());
+  }
+  for (const TextPiece& piece : pieces) together += piece.text();
+  EXPECT_GT(pieces.size(), 3U);
+  EXPECT_EQ(together, text);
+}
+
 }  // namespace
 }  // namespace medial::io

@@ -175,20 +175,27 @@ Disk Curve::at(double t) const {
   return {end - (basis.b0 * p2 + basis.b1 * (p2 - p1)), radius};
 }
 
+Vec2 Curve::velocity(double t) const {
+  // C = N / D gives C' = (N' - C D') / D.
+  const double s = 1 - t, d = s * s + 2 * s * t * weight + t * t;
+  const double d_first = 2 * (weight - 1) * (s - t);
+  return (1 / d) * (2 * (s - t) * weight * p1 + 2 * t * p2 - d_first * offset(t));
+}
+
 Curve::Derivatives Curve::derivatives(double t) const {
-  // C = N / D gives C' = (N' - C D') / D and C'' = (N'' - 2 C' D' - C D'') / D.
+  // C'' = (N'' - 2 C' D' - C D'') / D.
   const double s = 1 - t;
   const double d = s * s + 2 * s * t * weight + t * t;
   const double d_first = 2 * (weight - 1) * (s - t);
   const double d_second = 4 * (1 - weight);
-  const Vec2 value = offset(t);
   const Basis basis(t, weight);
   // Radii relative to the first one, as the centres are.
   const double q1 = r1 - r0, q2 = r2 - r0;
   const double q = basis.b1 * q1 + basis.b2 * q2;
   Derivatives out;
-  out.first = (1 / d) * (2 * (s - t) * weight * p1 + 2 * t * p2 - d_first * value);
-  out.second = (1 / d) * (-4 * weight * p1 + 2 * p2 - 2 * d_first * out.first - d_second * value);
+  out.first = velocity(t);
+  out.second =
+      (1 / d) * (-4 * weight * p1 + 2 * p2 - 2 * d_first * out.first - d_second * offset(t));
   out.radius_first = (2 * (s - t) * weight * q1 + 2 * t * q2 - d_first * q) / d;
   out.radius_second =
       (-4 * weight * q1 + 2 * q2 - 2 * d_first * out.radius_first - d_second * q) / d;
@@ -233,8 +240,8 @@ double Curve::length(double t) const {
 double Curve::at_length(double s) const {
   if (s <= 0) return 0;
   if (s >= length()) return 1;
-  return bracketed_root(
-      [&](double t) { return std::pair(length(t) - s, norm(derivatives(t).first)); }, 0, 1);
+  return bracketed_root([&](double t) { return std::pair(length(t) - s, norm(velocity(t))); }, 0,
+                        1);
 }
 
 double Curve::nearest(Vec2 p) const {

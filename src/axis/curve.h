@@ -41,6 +41,8 @@ struct Curve {
   /// The control point of that part, and its weight.
   std::pair<Disk, double> control_between(double t0, double t1) const;
 
+  /// The first derivative by t of offset().
+  Vec2 velocity(double t) const;
   /// First and second derivatives by t of offset() and of the radius.
   struct Derivatives {
     Vec2 first, second;

@@ -1,8 +1,7 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <string>
 
 #include "io/attribute_columns.h"
 #include "io/axis_samples.h"
@@ -36,7 +35,7 @@ const std::vector<Column>& node_columns() {
 /// "ring/vertex" (a colon would make readers take it for a time of day); empty for no site.
 std::string site_text(const MedialAxis& axis, std::uint32_t site) {
   if (site == no_site) return {};
-  return fmt::format("{}/{}", axis.sites[site].ring, axis.sites[site].vertex);
+  return std::to_string(axis.sites[site].ring) + '/' + std::to_string(axis.sites[site].vertex);
 }
 
 /// A feature on its way to the tables.

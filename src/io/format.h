@@ -224,7 +224,7 @@ struct Format {
   Growing growing = Growing::none;
   std::unique_ptr<AxisWriter> (*grow)(Target& target, const GrowingFrame& frame) = nullptr;
   unsigned kinds = 0;      ///< of documents that are written, a bit each
-  unsigned announced = 0;  ///< those that the row of this name in formats() writes as well
+  unsigned announced = 0;  ///< those that a row of this name in a later table writes as well
 
   /// Adds writers: functions of (Target&, const SomeOutput&).
   template <class... Outputs>
@@ -249,15 +249,16 @@ struct Format {
   }
 };
 
-/// All rows; and the same as far as their libraries are loaded with the program: what others do is
-/// announced.
-const std::vector<Format>& formats();
+/// The rows as far as their libraries are loaded with the program, what others do is announced; with
+/// pictures and meshes; and those of GIS.
 const std::vector<Format>& formats_at_hand();
+const std::vector<Format>& formats_drawn();
+const std::vector<Format>& formats();
 
 /// The first row that is wanted, one at hand if there is one; null: none.
 template <class Wanted>
 const Format* first_format(const Wanted& wanted) {
-  for (const auto rows : {formats_at_hand, formats})
+  for (const auto rows : {formats_at_hand, formats_drawn, formats})
     for (const Format& format : rows())
       if (std::invoke(wanted, format)) return &format;
   return nullptr;

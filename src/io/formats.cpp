@@ -63,7 +63,8 @@ const std::vector<Format>& formats_at_hand() {
   return rows;
 }
 
-#ifndef MEDIAL_LATE_GIS
+#ifndef MEDIAL_LATE
+const std::vector<Format>& formats_drawn() { return formats_at_hand(); }
 const std::vector<Format>& formats() { return formats_at_hand(); }
 #endif
 

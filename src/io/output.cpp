@@ -26,8 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t buffer = std::size_t{1} << 20;
-
 Error unwritable(const std::string& path, int problem) {
   return Error{ErrorCode::unwritable, fmt::format("cannot write: {}", std::strerror(problem)),
                in_file(path)};
@@ -193,12 +191,22 @@ OutputStream OutputStream::to(std::string& text) {
   return out;
 }
 
+OutputStream OutputStream::to(TextPieces& text) {
+  OutputStream out({}, -1, false);
+  out.pieces_ = &text;
+  return out;
+}
+
 OutputStream::OutputStream(std::string path, int descriptor, bool owned)
-    : path_(std::move(path)), descriptor_(descriptor), owned_(owned), buffer_(buffer) {}
+    : path_(std::move(path)),
+      descriptor_(descriptor),
+      owned_(owned),
+      buffer_(new char[buffer_size]) {}
 
 OutputStream::OutputStream(OutputStream&& other) noexcept
     : path_(std::move(other.path_)),
       text_(other.text_),
+      pieces_(other.pieces_),
       descriptor_(std::exchange(other.descriptor_, -1)),
       owned_(std::exchange(other.owned_, false)),
       problem_(other.problem_),
@@ -211,25 +219,35 @@ OutputStream::~OutputStream() {
 }
 
 void OutputStream::put(std::string_view text) {
-  if (buffer_.size() - used_ < text.size()) {
+  if (buffer_size - used_ < text.size()) {
     flush();
-    if (text.size() > buffer_.size()) {
+    if (text.size() > buffer_size) {
       write(text.data(), text.size());
       return;
     }
   }
-  std::memcpy(buffer_.data() + used_, text.data(), text.size());
+  std::memcpy(buffer_.get() + used_, text.data(), text.size());
   used_ += text.size();
 }
 
 void OutputStream::flush() {
-  write(buffer_.data(), used_);
+  if (pieces_ != nullptr) {
+    pieces_->push_back({std::move(buffer_), used_});
+    buffer_.reset(new char[buffer_size]);
+  } else {
+    write(buffer_.get(), used_);
+  }
   used_ = 0;
 }
 
 void OutputStream::write(const char* data, std::size_t count) {
   if (text_ != nullptr) {
     text_->append(data, count);
+    return;
+  }
+  if (pieces_ != nullptr) {
+    pieces_->push_back({std::unique_ptr<char[]>(new char[count]), count});
+    std::copy(data, data + count, pieces_->back().bytes.get());
     return;
   }
   while (count > 0 && problem_ == 0) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -60,6 +61,15 @@ class PendingFile {
 /// Whether a path names something that cannot be replaced, only written to: a device or a pipe.
 bool is_stream(const std::string& path);
 
+/// A long text in pieces, so that it grows without being copied.
+struct TextPiece {
+  std::unique_ptr<char[]> bytes;
+  std::size_t size;
+
+  std::string_view text() const { return {bytes.get(), size}; }
+};
+using TextPieces = std::vector<TextPiece>;
+
 /// A buffered stream of bytes to a file. After a failure everything is swallowed and finish()
 /// reports it.
 class OutputStream {
@@ -68,12 +78,13 @@ class OutputStream {
   static Result<OutputStream> open(const std::string& path);
   /// To the end of a text, which must outlive it.
   static OutputStream to(std::string& text);
+  static OutputStream to(TextPieces& text);
   ~OutputStream();
   OutputStream(OutputStream&& other) noexcept;
   OutputStream& operator=(OutputStream&&) = delete;
 
   void put(char c) {
-    if (used_ == buffer_.size()) flush();
+    if (used_ == buffer_size) flush();
     buffer_[used_++] = c;
   }
   void put(std::string_view text);
@@ -103,14 +114,14 @@ class OutputStream {
   Status finish();
 
  private:
-  static constexpr std::size_t longest_number = 40;
+  static constexpr std::size_t longest_number = 40, buffer_size = std::size_t{1} << 20;
   OutputStream(std::string path, int descriptor, bool owned);
   template <class Number>
   void put_chars(Number value) {
-    if (buffer_.size() - used_ < longest_number) flush();
-    char* const end = buffer_.data() + buffer_.size();
-    used_ = static_cast<std::size_t>(std::to_chars(buffer_.data() + used_, end, value).ptr -
-                                     buffer_.data());
+    if (buffer_size - used_ < longest_number) flush();
+    char* const begin = buffer_.get();
+    used_ = static_cast<std::size_t>(std::to_chars(begin + used_, begin + buffer_size, value).ptr -
+                                     begin);
   }
   void put_quarters(int quarters) {
     if (quarters < 0) put('-');
@@ -123,12 +134,13 @@ class OutputStream {
   void write(const char* data, std::size_t count);
 
   std::string path_;
-  std::string* text_ = nullptr;  ///< in place of a file
+  std::string* text_ = nullptr;   ///< in place of a file
+  TextPieces* pieces_ = nullptr;  ///< likewise
   int descriptor_ = -1;
   bool owned_ = false;
   int problem_ = 0;  ///< errno of the first failure
   bool finite_ = true;
-  std::vector<char> buffer_;
+  std::unique_ptr<char[]> buffer_;  ///< of buffer_size; of a short text few pages are touched
   std::size_t used_ = 0;
 };
 

@@ -12,7 +12,7 @@ class TextParts final : public PartWriter {
   TextParts(Target& target, const Format& format) : target_(target), format_(format) {}
 
   Result<std::shared_ptr<void>> prepare(const PartOutput& output, const Part& part) override {
-    auto text = std::make_shared<std::string>();
+    auto text = std::make_shared<TextPieces>();
     OutputStream out = OutputStream::to(*text);
     Target own = target_.of_part(part);
     own.out = &out;
@@ -30,12 +30,15 @@ class TextParts final : public PartWriter {
   }
 
   Status add(void* prepared) override {
-    std::string_view text = *static_cast<const std::string*>(prepared);
-    // Each row begins with a comma, where there are any; the very first one must not.
-    if (!any_ && text.starts_with(",\n")) text.remove_prefix(1);
-    any_ = any_ || (begun_ && !text.empty());
+    const TextPieces& pieces = *static_cast<const TextPieces*>(prepared);
+    for (const TextPiece& piece : pieces) {
+      std::string_view text = piece.text();
+      // Each row begins with a comma, where there are any; the very first one must not.
+      if (!any_ && &piece == &pieces.front() && text.starts_with(",\n")) text.remove_prefix(1);
+      any_ = any_ || (begun_ && !text.empty());
+      target_.out->put(text);
+    }
     begun_ = true;
-    target_.out->put(text);
     return success();
   }
 

@@ -41,7 +41,7 @@ class DiskLiner {
     // What is dropped up to a node reaches beyond its disk; it must be known before lines are
     // drawn.
     for (std::size_t i = 0; i < branches_.size(); ++i)
-      kept_.push_back(kept_part(branches_[i], start[i]));
+      kept_.push_back(kept_part(branches_[i], fuses[i].length, start[i]));
     chain();
     const std::vector<std::uint32_t> degree = degrees_of(axis_);
     for (std::size_t node = 0; node < degree.size(); ++node)
@@ -120,12 +120,20 @@ class DiskLiner {
     samples.insert(samples.begin(), cut);
   }
 
-  /// The samples of a branch that stay; empty where all of it is dropped. Notes at its base what
-  /// was.
-  std::vector<Sample> kept_part(const Branch& branch, const std::array<double, 2>& start) {
-    std::vector<Sample> samples = samples_of(branch);
-    const double total = samples.back().along;
+  /// The samples of a branch of this length that stay; empty where all of it is dropped. Notes at
+  /// its base what was.
+  std::vector<Sample> kept_part(const Branch& branch, double total,
+                                const std::array<double, 2>& start) {
     const bool from = start[0] < not_burnt, to = start[1] < not_burnt;
+    const std::uint32_t base = from ? branch.to : branch.from;
+    const double beyond = (from ? start[0] : start[1]) + total - axis_.nodes[base].disk.radius;
+    const auto drop = [&] {
+      beyond_[base] = std::max(beyond_[base], beyond);
+      return std::vector<Sample>();
+    };
+    // Most branches of a rough boundary are dropped: that needs no samples.
+    if (from != to && beyond <= prune_) return drop();
+    std::vector<Sample> samples = samples_of(branch);
     if (!from && !to) return samples;
     const double front = from ? reach(samples, start[0]) : 0;
     double back = 0;
@@ -135,18 +143,13 @@ class DiskLiner {
       mirror(samples);
     }
     if (front + back >= total) {
-      if (from && to) {
-        // One disk represents the whole tree: that in its middle.
-        const double middle = 0.5 * (start[1] + total - start[0]);
-        const double low = std::min(total - back, front), high = std::max(total - back, front);
-        Sample only = sample_at(samples, std::clamp(middle, low, high));
-        only.along = 0;
-        return {only};
-      }
-      const std::uint32_t base = from ? branch.to : branch.from;
-      const double time = (from ? start[0] : start[1]) + total;
-      beyond_[base] = std::max(beyond_[base], time - axis_.nodes[base].disk.radius);
-      return {};
+      if (!from || !to) return drop();
+      // One disk represents the whole tree: that in its middle.
+      const double middle = 0.5 * (start[1] + total - start[0]);
+      const double low = std::min(total - back, front), high = std::max(total - back, front);
+      Sample only = sample_at(samples, std::clamp(middle, low, high));
+      only.along = 0;
+      return {only};
     }
     if (to) {
       mirror(samples);

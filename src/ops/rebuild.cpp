@@ -84,7 +84,7 @@ MedialAxis sampled(const MedialAxis& axis, double step) {
       const double from_start = branch.steps[k].forward ? along : lengths[k] - along;
       // One of Newton's steps: places need not be exact.
       double t = lengths[k] > 0 ? from_start / lengths[k] : 0;
-      const double speed = norm(curve.derivatives(t).first);
+      const double speed = norm(curve.velocity(t));
       if (speed > 0) t = std::clamp(t + (from_start - curve.length(t)) / speed, 0.0, 1.0);
       const std::uint32_t here = out.add(curve.at(t));
       out.connect(last, here);

@@ -22,7 +22,7 @@ double room_cost(const MedialAxis& axis, const PathPiece& piece) {
   double sum = 0;
   for (const auto& [place, weight] : gauss3) {
     const double t = middle + half * place;
-    const double speed = norm(curve.derivatives(t).first);
+    const double speed = norm(curve.velocity(t));
     if (speed > 0) sum += weight * speed / curve.at(t).radius;
   }
   return std::abs(half) * sum;

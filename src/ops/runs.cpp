@@ -133,24 +133,25 @@ Run linear_run(const Disk& from, const Disk& to) {
   return run;
 }
 
-Vec2 tangent_at(const Curve& curve, double t) {
-  const Vec2 velocity = curve.derivatives(t).first;
+/// The direction of a velocity of a curve.
+Vec2 tangent_of(const Curve& curve, Vec2 velocity) {
   const double speed = norm(velocity);
   if (speed > 0) return (1 / speed) * velocity;
   const double chord = norm(curve.p2);
   return chord > 0 ? (1 / chord) * curve.p2 : Vec2{0, 0};
 }
 
-/// A curve as a run, in its own direction, by one application of Gauss's rule.
-Run smooth_run(const Curve& curve, bool straight) {
+/// A curve as a run, in its own direction, by one application of Gauss's rule. `first`, `last`: its
+/// velocities at the ends.
+Run smooth_run(const Curve& curve, bool straight, Vec2 first, Vec2 last) {
   Run run;
   run.length = straight ? norm(curve.p2) : curve.length();
   if (!(run.length > 0)) return run;
-  run.first_tangent = tangent_at(curve, 0);
-  run.last_tangent = tangent_at(curve, 1);
+  run.first_tangent = tangent_of(curve, first);
+  run.last_tangent = tangent_of(curve, last);
   for (std::size_t i = 0; i < abscissa.size(); ++i) {
     const double t = abscissa[i];
-    const Vec2 velocity = curve.derivatives(t).first;
+    const Vec2 velocity = curve.velocity(t);
     const double du = factor[i] * norm(velocity) / run.length;
     const double u = (straight ? norm(curve.offset(t)) : curve.length(t)) / run.length;
     const double radius = curve.at(t).radius;
@@ -173,10 +174,10 @@ Run smooth_run(const Curve& curve, bool straight) {
 Run curved_run(const Curve& curve, bool straight, int depth = 0) {
   constexpr double even = 2;
   constexpr int deepest = 30;
-  const double first = norm(curve.derivatives(0).first), last = norm(curve.derivatives(1).first);
-  const double middle = norm(curve.derivatives(0.5).first);
-  const auto [low, high] = std::minmax({first, middle, last});
-  if (high <= even * low || depth == deepest || !(high > 0)) return smooth_run(curve, straight);
+  const Vec2 first = curve.velocity(0), last = curve.velocity(1);
+  const auto [low, high] = std::minmax({norm(first), norm(curve.velocity(0.5)), norm(last)});
+  if (high <= even * low || depth == deepest || !(high > 0))
+    return smooth_run(curve, straight, first, last);
   const Run a = curved_run(curve.part(0, 0.5), straight, depth + 1);
   const Run b = curved_run(curve.part(0.5, 1), straight, depth + 1);
   if (!(a.length > 0)) return b;

@@ -58,7 +58,7 @@ std::optional<Shape> simple_polygon(std::span<const Ring> rings, CleanRings& cle
   Shape shape;
   shape.points = std::move(cleaned.points);
   shape.sources = std::move(cleaned.sources);
-  shape.loop_begin = {0, static_cast<std::uint32_t>(shape.points.size())};
+  shape.loop_begin = std::move(cleaned.begin);
   shape.component = {0};
   shape.hole = {false};
   if (is_counter_clockwise(shape.points)) return shape;

@@ -49,7 +49,7 @@ void measure_node(const Problem& problem, const DistanceTree& boundary, std::siz
 /// nothing.
 double turned_by(const Problem& problem, const Edge& edge, const Curve& curve, Vec2 center) {
   constexpr double few = 64;
-  const Vec2 tangent = curve.derivatives(0.5).first;
+  const Vec2 tangent = curve.velocity(0.5);
   const Site& left = problem.axis.sites[edge.site[0]];
   const Site& right = problem.axis.sites[edge.site[1]];
   const Vec2 chord = foot(left, center) - foot(right, center);

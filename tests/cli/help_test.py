@@ -112,7 +112,7 @@ class Doctor(CommandLine):
 
 
 class LateLibraries(CommandLine):
-    """GDAL is in a module beside the program, loaded when it is needed."""
+    """GDAL, and Cairo and Assimp, are in modules beside the program, loaded when they are needed."""
 
     MODULE = os.path.join(os.path.dirname(support.PROGRAM), "medial_gis.so")
 
@@ -121,10 +121,10 @@ class LateLibraries(CommandLine):
         if not os.path.exists(self.MODULE):
             self.skipTest("this build links its libraries")
 
-    def loads(self, *arguments):
+    def loads(self, *arguments, library=b"libgdal"):
         done = subprocess.run([support.PROGRAM, *arguments], capture_output=True, check=True,
                               cwd=self.folder.name, env={**os.environ, "LD_DEBUG": "files"})
-        return b"libgdal" in done.stderr
+        return library in done.stderr
 
     def test_loaded_for_what_needs_them(self):
         self.write("a.wkt", RECTANGLE)
@@ -135,6 +135,15 @@ class LateLibraries(CommandLine):
         for output in ("a.shp", "a.gpkg"):
             self.assertTrue(self.loads("axis", "a.wkt", "-o", output), output)
         self.assertTrue(self.loads("axis", "a.geojson", "--project", "-o", "g.json"))
+
+    def test_loaded_to_draw(self):
+        self.write("a.wkt", RECTANGLE)
+        for output in ("a.json", "a.csv", "b.wkt", "a.graphml"):
+            for library in (b"libcairo", b"libassimp", b"libfreetype"):
+                self.assertFalse(self.loads("axis", "a.wkt", "-o", output, library=library), output)
+        for output in ("a.svg", "a.png", "a.pdf"):
+            self.assertTrue(self.loads("axis", "a.wkt", "-o", output, library=b"libcairo"), output)
+        self.assertTrue(self.loads("measure", "a.json", "--plot", "plot.svg", library=b"libcairo"))
 
     def test_without_the_module(self):
         alone = self.path("alone")

@@ -22,6 +22,7 @@ namespace {
 
 /// A number that readers take for a real one, also where it is whole.
 void put_real(OutputStream& out, double value) {
+  if (value != std::trunc(value)) return out.put(value);
   std::array<char, 40> digits{};
   const char* end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
   const std::string_view text(digits.data(), static_cast<std::size_t>(end - digits.data()));

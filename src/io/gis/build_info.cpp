@@ -87,7 +87,7 @@ BuildInfo build_info() {
                  drivers_with(GDAL_DCAP_RASTER), finds_projections()};
   for (const Format& format : formats())
     for (const std::string_view each : {format.extensions, format.also_read})
-      if ((format.read != nullptr || format.read_mesh != nullptr) && !each.empty())
+      if ((format.read != nullptr || format.is_known_to_hold(DocumentKind::mesh)) && !each.empty())
         (info.extensions += info.extensions.empty() ? "" : " ") += each;
   return info;
 }

@@ -1,4 +1,4 @@
-#include "io/gis_module.h"
+#include "io/modules.h"
 
 namespace medial::io {
 

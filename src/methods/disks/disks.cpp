@@ -49,8 +49,8 @@ struct Way {
 /// caller cancels. `names`: those of the axis, if `numbers` are others.
 std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers,
                               std::span<const std::uint32_t> names, const Way& way,
-                              std::size_t spare_nodes, Boundary& boundary, Statistics& statistics) {
-  Stopwatch watch;
+                              std::size_t spare_nodes, Boundary& boundary, Stopwatch& watch,
+                              Statistics& statistics) {
   const ExactSites sites(problem, numbers, boundary);
   const double tolerance = fine_share * problem.fine_tolerance;
   const std::vector<Bridge> bridges = connecting_disks(problem.shape, boundary, tolerance, sites,
@@ -76,7 +76,6 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   Graph graph = collect(chunks, bridges, spare_nodes, boundary.has_arcs);
   graph.lost = std::move(lost);
   if (way.merges_ties) merge_ties(boundary, tree, sites, problem.local_tolerance(), graph, names);
-  statistics.seconds_collect = watch.lap();
   return graph;
 }
 
@@ -120,8 +119,7 @@ std::vector<bool> points_of(const Shape& shape, const std::vector<bool>& compone
 /// cancels.
 std::optional<Graph> attempt(const Problem& problem, const SiteNumbers& own_numbers, Sides sides,
                              const Way& way, std::size_t spare_nodes, Boundary& boundary,
-                             Statistics& statistics) {
-  Stopwatch watch;
+                             Stopwatch& watch, Statistics& statistics) {
   const SiteNumbers* numbers = &own_numbers;
   std::optional<exact::PartedNumbers> parted;
   if (!way.in_precise.empty() && has_arcs(problem.shape)) {
@@ -133,7 +131,7 @@ std::optional<Graph> attempt(const Problem& problem, const SiteNumbers& own_numb
 
   std::span<const std::uint32_t> names;
   if (parted) names = parted->names;
-  auto graph = graph_of(problem, *numbers, names, way, spare_nodes, boundary, statistics);
+  auto graph = graph_of(problem, *numbers, names, way, spare_nodes, boundary, watch, statistics);
   if (!graph) return graph;
   if (parted) rename(parted->names, boundary);
   for (std::uint32_t& site : graph->lost) site = boundary.originals[site];
@@ -148,6 +146,14 @@ MedialAxis empty_axis(const Problem& problem) {
   return axis;
 }
 
+/// The time since the walk has gone to collect.
+void end_times(Stopwatch& watch, Statistics& statistics) {
+  statistics.seconds_collect = watch.lap();
+  statistics.seconds = statistics.seconds_sites + statistics.seconds_connect +
+                       statistics.seconds_tree + statistics.seconds_walk +
+                       statistics.seconds_collect;
+}
+
 /// Moves what a graph has found to an axis, but for its edges.
 void take_nodes(Graph& graph, MedialAxis& axis, std::vector<std::uint32_t>& lost) {
   lost = std::move(graph.lost);
@@ -159,11 +165,10 @@ void take_nodes(Graph& graph, MedialAxis& axis, std::vector<std::uint32_t>& lost
 Result<MedialAxis> axis_by(const Problem& problem, const SiteNumbers& numbers, const Way& way,
                            std::vector<std::uint32_t>& lost) {
   MedialAxis axis = empty_axis(problem);
-  Stopwatch all;
-  Boundary boundary;
-  auto graph = attempt(problem, numbers, Sides::one, way, 0, boundary, axis.statistics);
-  if (!graph) return axis;
   Stopwatch watch;
+  Boundary boundary;
+  auto graph = attempt(problem, numbers, Sides::one, way, 0, boundary, watch, axis.statistics);
+  if (!graph) return axis;
   // No near tie is that far off, against the size. Next to arcs several may add up to more than a
   // tolerance: such an axis is measured.
   constexpr double loose = 0x1p-20;
@@ -178,8 +183,7 @@ Result<MedialAxis> axis_by(const Problem& problem, const SiteNumbers& numbers, c
     return error_of_wrong_axis(
         axis, "the axis does not have one cycle for each hole: please report this shape");
   axis.sites = site::result_sites(problem.shape, numbers);
-  axis.statistics.seconds_collect += watch.lap();
-  axis.statistics.seconds = all.lap();
+  end_times(watch, axis.statistics);
   for (const std::uint32_t edge : loose_edges) {
     if (touches_its_sites(axis, axis.edges[edge], slack)) continue;
     if (!with_arcs)
@@ -196,18 +200,16 @@ template <class E>
 MedialAxis axis_around_by(const Problem& problem, const SiteNumbers& numbers, const Way& way,
                           std::vector<E>& edges, std::vector<std::uint32_t>& lost) {
   MedialAxis axis = empty_axis(problem);
-  Stopwatch all;
+  Stopwatch watch;
   Boundary boundary;
   auto graph = attempt(problem, numbers, Sides::both, way, problem.shape.points.size(), boundary,
-                       axis.statistics);
+                       watch, axis.statistics);
   if (!graph) return axis;
-  Stopwatch watch;
   complete(boundary, problem.frame, std::nullopt, *graph);
   boundary = {};
   take_nodes(*graph, axis, lost);
   take_edges(graph->edges, numbers.count, edges);
-  axis.statistics.seconds_collect += watch.lap();
-  axis.statistics.seconds = all.lap();
+  end_times(watch, axis.statistics);
   return axis;
 }
 

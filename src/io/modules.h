@@ -1,8 +1,8 @@
 #pragma once
 
-// What gis/ does, as one table. GDAL with the libraries that it needs takes longer to load than
-// most axes to compute: the command line has gis/ in a shared module, which late_gis.cpp loads when
-// something first asks for it.
+// What gis/ and pictures/ do, as one table each. GDAL, and Cairo and Assimp, with the libraries that
+// they need take longer to load than most axes to compute, and more memory: the command line has
+// them in shared modules, which late_modules.cpp loads when something first asks for them.
 
 #include "io/format.h"
 #include "io/reference_system.h"
@@ -10,7 +10,13 @@
 
 namespace medial::io {
 
-/// The functions of the same names, and the whole table of formats.
+/// The functions of the same names, and the table of formats with pictures and meshes.
+struct DrawModule {
+  const std::vector<Format>& (*formats)();
+  decltype(&io::read_text) read_text;
+};
+
+/// The same, and the table of formats with those of GIS.
 struct GisModule {
   const std::vector<Format>& (*formats)();
   void (*describe)(Document<Feature>&);
@@ -25,7 +31,8 @@ struct GisModule {
   decltype(&io::build_info) build_info;
 };
 
-/// The one symbol that the module is asked for, of type GisModule.
+/// The symbols that the modules are asked for, of these types.
+constexpr const char* draw_module_name = "medial_draw_module";
 constexpr const char* gis_module_name = "medial_gis_module";
 
 }  // namespace medial::io

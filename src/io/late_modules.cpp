@@ -1,42 +1,51 @@
-// Stands in for gis/ in the command line: loads it from a shared module when something first needs
-// it.
+// Stands in for pictures/ and gis/ in the command line: loads them from shared modules when something
+// first needs them.
 
 #include <dlfcn.h>
 
-#include "io/gis_module.h"
+#include "io/modules.h"
 #include "io/place.h"
 
 namespace medial::io {
 
 namespace {
 
+template <class Module>
 struct Loaded {
-  const GisModule* module = nullptr;
+  const Module* module = nullptr;
   std::string failure;
 };
 
-/// Loaded once, by the first thread that asks, and never unloaded: GDAL keeps threads and handlers.
-const Loaded& loaded() {
-  static const Loaded once = [] {
-    Loaded result;
-    void* const library = dlopen(MEDIAL_GIS_MODULE, RTLD_LAZY | RTLD_LOCAL);
-    if (library != nullptr)
-      result.module = static_cast<const GisModule*>(dlsym(library, gis_module_name));
-    if (result.module == nullptr) {
-      const char* const reason = dlerror();
-      result.failure = reason != nullptr ? reason : MEDIAL_GIS_MODULE;
-    }
-    return result;
-  }();
+/// A module is never unloaded: GDAL keeps threads and handlers.
+template <class Module>
+Loaded<Module> load(const char* file, const char* symbol) {
+  Loaded<Module> result;
+  void* const library = dlopen(file, RTLD_LAZY | RTLD_LOCAL);
+  if (library != nullptr) result.module = static_cast<const Module*>(dlsym(library, symbol));
+  if (result.module == nullptr) {
+    const char* const reason = dlerror();
+    result.failure = reason != nullptr ? reason : file;
+  }
+  return result;
+}
+
+/// Loaded once each, by the first thread that asks.
+const Loaded<GisModule>& loaded() {
+  static const auto once = load<GisModule>(MEDIAL_GIS_MODULE, gis_module_name);
+  return once;
+}
+const Loaded<DrawModule>& loaded_to_draw() {
+  static const auto once = load<DrawModule>(MEDIAL_DRAW_MODULE, draw_module_name);
   return once;
 }
 
-Error missing() {
+Error missing(const char* part, const std::string& failure) {
   return {ErrorCode::unsupported,
-          "the part of medial for GIS formats and images cannot be loaded; install medial again (" +
-              loaded().failure + ")",
+          std::string("the part of medial for ") + part +
+              " cannot be loaded; install medial again (" + failure + ")",
           {}};
 }
+Error missing() { return missing("GIS formats and images", loaded().failure); }
 
 /// What a function of the module returns; an error where there is no module.
 template <class Function, class... Arguments>
@@ -56,6 +65,11 @@ Format table_format(std::string_view extension, Growing growing) {
 
 }  // namespace
 
+const std::vector<Format>& formats_drawn() {
+  const DrawModule* const module = loaded_to_draw().module;
+  return module != nullptr ? module->formats() : formats_at_hand();
+}
+
 const std::vector<Format>& formats() {
   const GisModule* const module = loaded().module;
   return module != nullptr ? module->formats() : formats_at_hand();
@@ -63,6 +77,14 @@ const std::vector<Format>& formats() {
 
 // What formats_of() lists; the rows of the module do it.
 
+Format with_pictures(Format format) {
+  using enum DocumentKind;
+  return format.announces({axes, shapes, voronoi, layers, offsets, carving, features, field});
+}
+Format png_format() {
+  return with_pictures(Format{".png"}).announces({DocumentKind::voxels});
+}
+Format with_meshes(Format format) { return format.announces({DocumentKind::mesh}); }
 Format gpkg_format() { return table_format(".gpkg", Growing::none); }
 Format shp_format() { return table_format(".shp", Growing::branches); }
 Format fgb_format() { return table_format(".fgb", Growing::branches); }
@@ -75,6 +97,12 @@ Format pbm_format() { return Format{".pbm"}.announces({DocumentKind::image}); }
 Format ros_map_format() { return {}; }
 Format image_format() { return {}; }
 Format gdal_format() { return {}; }
+
+Result<Document<Feature>> read_text(const std::string& text, const std::string& font, double size) {
+  const DrawModule* const module = loaded_to_draw().module;
+  if (module == nullptr) return missing("pictures and fonts", loaded_to_draw().failure);
+  return module->read_text(text, font, size);
+}
 
 void describe_crs(Document<Feature>& document) {
   if (document.crs_wkt.empty()) return;
