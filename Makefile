@@ -96,12 +96,13 @@ papers: build   ## the figures and tables of the papers, drawn and measured agai
 	@cd out/papers && for page in */*.md; do cp $$page $(CURDIR)/papers/$$page; done
 	@cd papers && for picture in */img/*; do cp $(CURDIR)/out/papers/$$(dirname $$(dirname $$picture))/$$(basename $$picture) $$picture; done
 
-bench: setup    ## compare with Boost.Polygon and CGAL
+bench: setup    ## compare with Boost.Polygon and CGAL; a model of many cores
 	@tools/setup.sh bench
 	@tools/unpack.sh libboost1.81-dev $(BENCH_BOOST)
 	@cmake --preset release -DMEDIAL_UNITY=$(UNITY) -DMEDIAL_BENCH=ON -DMEDIAL_BENCH_BOOST=$(CURDIR)/$(BENCH_BOOST)/usr/include
-	@cmake --build $(RELEASE) -j $(JOBS) --target medial_bench
+	@cmake --build $(RELEASE) -j $(JOBS) --target medial_bench --target medial_bench_threads
 	@$(RELEASE)/bench/medial_bench
+	@$(RELEASE)/bench/medial_bench_threads
 
 bench-scale: setup      ## time and memory against size, and tiles: make bench-scale TILES="FILE..." [MOST=10000000] [TO=csv]
 	@tools/setup.sh bench

@@ -2,6 +2,7 @@
 
 #include "base/threads.h"
 #include "methods/disks/certainty.h"
+#include "methods/disks/early_starts.h"
 #include "methods/disks/events.h"
 #include "methods/disks/exact_event.h"
 #include "methods/disks/planar_contacts.h"
@@ -19,13 +20,19 @@ std::uint32_t fork_size_of(const Boundary& boundary) {
   return std::clamp(static_cast<std::uint32_t>(boundary.sites.size() / 64), 1024u, 8192u);
 }
 
+/// How a walk is divided into tasks.
+struct Sharing {
+  TaskGroup& tasks;
+  std::uint32_t fork_size;
+  const std::vector<EarlyStart>* starts = nullptr;  ///< if any
+};
+
 class Walker {
  public:
-  Walker(const WalkContext& context, std::uint32_t fork_size, TaskGroup& tasks, Chunk& chunk)
+  Walker(const WalkContext& context, const Sharing& sharing, Chunk& chunk)
       : context_(context),
-        fork_size_(fork_size),
+        sharing_(sharing),
         boundary_(context.boundary),
-        tasks_(tasks),
         chunk_(chunk),
         own_contacts_(contacts_with(context, chunk.statistics)),
         contacts_(*own_contacts_),
@@ -73,6 +80,13 @@ class Walker {
     walk_stack();
   }
 
+  /// Walks what an early start begins.
+  void walk_early(const EarlyStart& start) {
+    own_start_ = &start;
+    chunk_.nodes.push_back(start.disk);  // stands for the parent, which lies on the same edge
+    walk_step({{start.right, start.left, 0, Hit::none, start.error}});
+  }
+
  private:
   void walk_stack() {
     while (!stack_.empty()) {
@@ -101,6 +115,7 @@ class Walker {
     if (!is_open(step.span, step.is_proposed)) return;
     Disk from = chunk_.nodes[step.span.node];
     while (step.is_open) {
+      if (is_walked_early(step.span)) return;
       if (is_exact_ && joins_pieces(step.span) && !is_open(step.span)) return;
       if (!step.is_proposed) propose(step, from);
       const bool in_double = step.is_certain;
@@ -126,6 +141,16 @@ class Walker {
         stack_.insert(stack_.end(), parts_.begin(), parts_.end());
       }
     }
+  }
+
+  /// Whether a span is walked from an early start, which its node then becomes the parent of.
+  bool is_walked_early(const Span& span) {
+    if (sharing_.starts == nullptr || span.left - span.right < sharing_.fork_size) return false;
+    const EarlyStart* const start = early_start_of(span, *sharing_.starts);
+    if (start == nullptr || start == own_start_) return false;
+    chunk_.early.push_back(
+        {static_cast<std::uint32_t>(start - sharing_.starts->data()), span.node});
+    return true;
   }
 
   static bool are_certain(const std::vector<Step>& steps) {
@@ -499,37 +524,43 @@ class Walker {
     return node;
   }
 
-  /// Queues two spans, the larger to be walked later, so that the stack stays as shallow as log n;
-  /// large ones apart, as tasks of their own.
+  /// Queues two spans. The smaller is walked first, so that the stack stays as shallow as log n;
+  /// but while the larger is large, it is, so that others may soon go on with it: once what is left
+  /// behind is a task's work, or the smaller is one.
   void push(const Step& a, const Step& b) {
     const auto size = [](const Step& step) { return step.span.left - step.span.right; };
     const bool a_larger = size(a) > size(b);
     const Step& larger = a_larger ? a : b;
     const Step& smaller = a_larger ? b : a;
-    if (size(smaller) >= fork_size_)
+    const bool large = size(larger) >= sharing_.fork_size && context_.most_nodes == 0;
+    if (large) left_behind_ += size(smaller);
+    if (size(smaller) >= sharing_.fork_size || (large && left_behind_ >= sharing_.fork_size)) {
+      left_behind_ = 0;
       fork(larger);
-    else
-      stack_.push_back(larger);
-    stack_.push_back(smaller);
+      stack_.push_back(smaller);
+    } else {
+      stack_.push_back(large ? smaller : larger);
+      stack_.push_back(large ? larger : smaller);
+    }
   }
 
   void fork(const Step& step) {
     // A deferred task has few nodes of its own.
-    const std::size_t expected = context_.most_nodes > 0 ? 0 : fork_size_;
+    const std::size_t expected = context_.most_nodes > 0 ? 0 : 4 * std::size_t{sharing_.fork_size};
     Chunk& child = *chunk_.children.emplace_back(std::make_unique<Chunk>(expected));
     child.component = chunk_.component;
     child.parent_node = step.span.node;
     child.nodes.push_back(chunk_.nodes[step.span.node]);
     child.span = step.span.left - step.span.right;
-    auto walk = [&context = context_, fork_size = fork_size_, &tasks = tasks_, &child, step] {
+    auto walk = [&context = context_, sharing = sharing_, &child, step] {
       Step first = step;
       first.span.node = 0;
-      Walker(context, fork_size, tasks, child).walk_step(first);
+      Walker(context, sharing, child).walk_step(first);
     };
     if (context_.most_nodes > 0)
       child.walk = std::move(walk);
     else
-      tasks_.run(std::move(walk));
+      sharing_.tasks.run(std::move(walk));
   }
 
   /// The parts of a span whose node touches more sites, in `parts_`.
@@ -558,27 +589,51 @@ class Walker {
   static constexpr double spread = 16;
 
   const WalkContext& context_;
-  std::uint32_t fork_size_;
+  const Sharing sharing_;
+  const EarlyStart* own_start_ = nullptr;  ///< at which this walk begins, if at one
   const Boundary& boundary_;
-  TaskGroup& tasks_;
   Chunk& chunk_;
   const std::unique_ptr<Contacts> own_contacts_;
   Contacts& contacts_;
   const bool is_exact_;        ///< double is never asked
   bool starts_blunt_ = false;  ///< the run begins at a blunt joint, node 0
   std::vector<Step> stack_;
+  std::uint32_t left_behind_ = 0;  ///< sites of spans in the stack, about
   std::vector<Step> parts_;
   std::vector<Span> spans_;
   std::uint64_t finished_ = 0;
 };
 
+/// What was walked from early starts becomes children of the chunks whose walks came there.
+void join_early(Chunk& root, std::vector<std::unique_ptr<Chunk>>& early) {
+  std::vector<Chunk*> stack{&root};
+  while (!stack.empty()) {
+    Chunk& chunk = *stack.back();
+    stack.pop_back();
+    for (const auto& [start, node] : chunk.early) {
+      early[start]->parent_node = node;
+      chunk.children.push_back(std::move(early[start]));
+    }
+    for (const auto& child : chunk.children) stack.push_back(child.get());
+  }
+}
+
 }  // namespace
 
 std::vector<std::unique_ptr<Chunk>> walk(const WalkContext& context) {
-  std::vector<std::unique_ptr<Chunk>> chunks;
+  std::vector<std::unique_ptr<Chunk>> chunks, early;
   TaskGroup tasks;
   // Small components share a task.
   const std::uint32_t fork_size = fork_size_of(context.boundary);
+  const std::vector<EarlyStart> starts = early_starts(context, fork_size);
+  const Sharing sharing{tasks, fork_size, &starts};
+  for (const EarlyStart& start : starts) {
+    Chunk& chunk = *early.emplace_back(std::make_unique<Chunk>(4 * std::size_t{fork_size}));
+    chunk.component = start.component;
+    tasks.run([&context, &sharing, &chunk, &start] {
+      Walker(context, sharing, chunk).walk_early(start);
+    });
+  }
   std::size_t next = 0;
   const auto& runs = context.boundary.runs;
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -592,12 +647,13 @@ std::vector<std::unique_ptr<Chunk>> walk(const WalkContext& context) {
       sites += runs[next].last - runs[next].first + 1;
       ++next;
     }
-    tasks.run([&context, fork_size, &tasks, &chunks, &runs, begin, end = next] {
+    tasks.run([&context, &sharing, &chunks, &runs, begin, end = next] {
       for (std::size_t i = begin; i < end; ++i)
-        Walker(context, fork_size, tasks, *chunks[i]).walk_run(runs[i]);
+        Walker(context, sharing, *chunks[i]).walk_run(runs[i]);
     });
   }
   tasks.wait();
+  for (const auto& chunk : chunks) join_early(*chunk, early);
   return chunks;
 }
 
@@ -608,7 +664,7 @@ std::vector<std::unique_ptr<Chunk>> put_off_walk(const WalkContext& context, Tas
     chunk.component = static_cast<std::uint32_t>(chunks.size() - 1);
     chunk.span = run.last - run.first;
     chunk.walk = [&context, &none, &chunk, &run] {
-      Walker(context, fork_size_of(context.boundary), none, chunk).walk_run(run);
+      Walker(context, {none, fork_size_of(context.boundary)}, chunk).walk_run(run);
     };
   }
   return chunks;
@@ -617,7 +673,7 @@ std::vector<std::unique_ptr<Chunk>> put_off_walk(const WalkContext& context, Tas
 std::unique_ptr<Chunk> walk_part(const WalkContext& context, const Disk& start, double error) {
   auto chunk = std::make_unique<Chunk>();
   TaskGroup tasks;
-  Walker(context, Hit::none, tasks, *chunk).walk_from(context.boundary.runs[0], start, error);
+  Walker(context, {tasks, Hit::none}, *chunk).walk_from(context.boundary.runs[0], start, error);
   tasks.wait();
   return chunk;
 }

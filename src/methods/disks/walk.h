@@ -58,7 +58,7 @@ class BlockList {
   }
 
  private:
-  static constexpr std::size_t least = 16, most = least << 9;  // elements of a block
+  static constexpr std::size_t least = 16, most = least << 8;  // elements of a block
   /// Block k begins at least_ * (2^k - 1), up to the one from which all are the largest.
   std::size_t size_of(std::size_t block) const { return least_ << std::min(block, doublings_); }
 
@@ -95,15 +95,18 @@ struct Chunk {
   std::vector<BridgeEnd> bridge_ends;
   std::vector<std::uint32_t> lost;  ///< sites at which a step before has turned out to be wrong
   std::vector<std::unique_ptr<Chunk>> children;  ///< in the order in which they were forked
-  std::uint32_t span = 0;                        ///< how many sites were to be walked
-  std::function<void()> walk;                    ///< walks it, if tasks are deferred
+  /// Early starts that the walk has come to: their numbers, and the nodes from which it came.
+  std::vector<std::array<std::uint32_t, 2>> early;
+  std::uint32_t span = 0;      ///< how many sites were to be walked
+  std::function<void()> walk;  ///< walks it, if tasks are deferred
   Statistics statistics;
 };
 
 /// Walks the axis of every run of the boundary (docs/disks.md, step 4), from a convex corner, or
 /// from the disk at a smooth place of a component that has no corner: one chunk for each component,
-/// whose children were forked at branching nodes. The chunks, their order and their content depend
-/// on the boundary only, never on the number of threads. O(n log n) expected.
+/// whose children were forked at branching nodes or walked from early starts (early_starts.h). The
+/// chunks, their order and their content depend on the boundary only, never on the number of
+/// threads. O(n log n) expected.
 std::vector<std::unique_ptr<Chunk>> walk(const WalkContext& context);
 
 /// The same deferred, with WalkContext::most_nodes: chunks that Chunk::walk walks, once and on any
