@@ -149,7 +149,9 @@ inline double foot_parameter(const Site& site, Vec2 c) {
   if (!site.is_arc()) return std::clamp(dot(site.direction, c - site.point), 0.0, site.length);
   const double s = carrier_parameter(site, c);
   if (s >= 0 && s <= site.length) return s;
-  return squared_norm(c - site.point) <= squared_norm(c - site.end()) ? 0 : site.length;
+  // The nearer end, by the side of the chord's middle: distances may be equal up to rounding.
+  const Vec2 end = site.end();
+  return dot(end - site.point, (c - site.point) + (c - end)) <= 0 ? 0 : site.length;
 }
 
 inline Vec2 foot(const Site& site, Vec2 c) { return site.at(foot_parameter(site, c)); }
