@@ -249,8 +249,8 @@ struct Format {
   }
 };
 
-/// The rows as far as their libraries are loaded with the program, what others do is announced; with
-/// pictures and meshes; and those of GIS.
+/// The rows as far as their libraries are loaded with the program, what others do is announced;
+/// with pictures and meshes; and those of GIS.
 const std::vector<Format>& formats_at_hand();
 const std::vector<Format>& formats_drawn();
 const std::vector<Format>& formats();

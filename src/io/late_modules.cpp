@@ -1,5 +1,5 @@
-// Stands in for pictures/ and gis/ in the command line: loads them from shared modules when something
-// first needs them.
+// Stands in for pictures/ and gis/ in the command line: loads them from shared modules when
+// something first needs them.
 
 #include <dlfcn.h>
 
@@ -81,9 +81,7 @@ Format with_pictures(Format format) {
   using enum DocumentKind;
   return format.announces({axes, shapes, voronoi, layers, offsets, carving, features, field});
 }
-Format png_format() {
-  return with_pictures(Format{".png"}).announces({DocumentKind::voxels});
-}
+Format png_format() { return with_pictures(Format{".png"}).announces({DocumentKind::voxels}); }
 Format with_meshes(Format format) { return format.announces({DocumentKind::mesh}); }
 Format gpkg_format() { return table_format(".gpkg", Growing::none); }
 Format shp_format() { return table_format(".shp", Growing::branches); }

@@ -1,8 +1,8 @@
 #pragma once
 
-// What gis/ and pictures/ do, as one table each. GDAL, and Cairo and Assimp, with the libraries that
-// they need take longer to load than most axes to compute, and more memory: the command line has
-// them in shared modules, which late_modules.cpp loads when something first asks for them.
+// What gis/ and pictures/ do, as one table each. GDAL, and Cairo and Assimp, with the libraries
+// that they need take longer to load than most axes to compute, and more memory: the command line
+// has them in shared modules, which late_modules.cpp loads when something first asks for them.
 
 #include "io/format.h"
 #include "io/reference_system.h"
