@@ -22,7 +22,7 @@ constexpr std::uint32_t least = 64;
 
 /// The early starts of a shape with holes or without, and the boundary that they are numbered by.
 struct Found {
-  explicit Found(const Shape& shape) : problem(shape, options) {
+  explicit Found(const Shape& shape, std::uint32_t sites = least) : problem(shape, options) {
     std::vector<disks::Bridge> bridges;
     boundary = disks::connected_boundary(problem, bridges);
     const disks::ExactSites sites(problem, problem.numbers(), boundary);
@@ -37,7 +37,7 @@ struct Found {
                                   events,
                                   nullptr,
                                   {}},
-                                 least);
+                                 sites);
   }
   Options options;
   std::vector<bool> never;
@@ -75,6 +75,7 @@ TEST(EarlyStarts, AreMaximalDisksInsideEdges) {
 
 TEST(EarlyStarts, AreFoundByTheirSites) {
   const Found found(shape_of(comb(400)));
+  ASSERT_FALSE(found.starts.empty());
   for (const EarlyStart& start : found.starts) {
     const EarlyStart* const same = early_start_of({start.right, start.left, 0}, found.starts);
     EXPECT_EQ(same, &start);
@@ -90,6 +91,7 @@ TEST(EarlyStarts, AreNoneInRoundShapes) {
 /// The walk of a comb with so many teeth begins at several places, and its axis is one tree.
 TEST(EarlyStarts, AreJoinedToOneAxis) {
   const Shape shape = shape_of(comb(2000));
+  EXPECT_FALSE(Found(shape, 1024).starts.empty());
   const auto axis = compute(shape);
   ASSERT_TRUE(axis);
   EXPECT_EQ(axis->nodes.size(), axis->edges.size() + 1);

@@ -231,6 +231,7 @@ void OutputStream::put(std::string_view text) {
 }
 
 void OutputStream::flush() {
+  if (used_ == 0) return;
   if (pieces_ != nullptr) {
     pieces_->push_back({std::move(buffer_), used_});
     buffer_.reset(new char[buffer_size]);

@@ -76,7 +76,10 @@ std::optional<Error> make_certain(const Problem& problem, MedialAxis& axis) {
   auto precise =
       on_threads(problem.options.threads, [&] { return disks::run_in_precise(problem); });
   if (!precise) return std::move(precise).error();
+  if (problem.is_cancelled()) return Error{ErrorCode::cancelled, "cancelled", {}};
   precise->method = axis.method;
+  precise->statistics += axis.statistics;
+  precise->statistics.threads = axis.statistics.threads;
   axis = std::move(*precise);
   return error_if_refused(problem, axis);
 }

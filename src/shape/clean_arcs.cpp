@@ -27,7 +27,7 @@ class Cleaner {
   Cleaner(std::vector<RingEdge>& edges, ShapeReport& report) : edges_(edges), report_(report) {
     Box box{edges[0].point, edges[0].point};
     for (std::size_t i = 0; i < edges.size(); ++i) {
-      const Vec2 middle = middle_of(arc(i));  // whatever vertices the arcs have
+      const Vec2 middle = middle_of(arc(i));  // arcs may reach further out than their vertices
       box.add(edges[i].point);
       if (std::isfinite(middle.x) && std::isfinite(middle.y)) box.add(middle);
     }

@@ -114,7 +114,8 @@ const std::vector<std::uint32_t>& Contacts::touched_between(const Span& span, co
   const Boundary::SiteRange& run = run_of(span);
   const bool narrow = has_narrow_wedges();
   if (narrow && is_around(run, disk)) {
-    // What is beside the disk is left out below, too.
+    // What is beside the disk is left out below, too, where its owner is asked: that lies in the
+    // same point, and so is near the disk itself.
     touched_.clear();
     for (const Neighbor& near : near_)
       if (near.site > span.right && near.site < span.left && near.away < touching_)

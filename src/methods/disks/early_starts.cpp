@@ -59,7 +59,7 @@ class Finder {
       if (between >= least && beside >= least && is_sure(own, touched, disk))
         return EarlyStart{component_, right, left, disk,
                           4 * context_.tolerance + Certainty::rounding};
-      // Disks have more sites between their two further on, where fewer are needed to get there.
+      // Further on, disks cut off more sites.
       own = between < least ? left + 1 + between / 2 : own + 1;
     }
     return std::nullopt;

@@ -14,13 +14,13 @@ struct EarlyStart {
   std::uint32_t component;
   std::uint32_t right, left;
   Disk disk;
-  double error;  ///< how far the disk of the axis is, at most
+  double error;  ///< at most how far the axis' own disk is from it
 };
 
-/// Some early starts in the runs of a boundary, each with at least `least` sites between its two
-/// and beside them, ordered by `right` and `left`. None beside arcs, around planar graphs, and in
-/// components in which double is never asked. They depend on the boundary only. A dozen searches
-/// for every `least` sites.
+/// Some early starts in the runs of a boundary, each with at least `least` sites on either side of
+/// it, ordered by `right` and `left`. None beside arcs, around planar graphs, and in
+/// components in which double is never asked. They depend on the boundary only. At most a dozen
+/// disks are tried for every 2 `least` sites, each with a few searches.
 std::vector<EarlyStart> early_starts(const WalkContext& context, std::uint32_t least);
 
 /// The one with the sites of a span, if any.

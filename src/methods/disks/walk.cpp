@@ -21,6 +21,9 @@ std::uint32_t fork_size_of(const Boundary& boundary) {
   return std::clamp(static_cast<std::uint32_t>(boundary.sites.size() / 64), 1024u, 8192u);
 }
 
+/// What a task finds at least, about: nodes, and edges.
+constexpr std::size_t in_task = 4096;
+
 /// How a walk is divided into tasks.
 struct Sharing {
   TaskGroup& tasks;
@@ -117,7 +120,7 @@ class Walker {
     if (!is_open(step.span, step.is_proposed)) return;
     Disk from = chunk_.nodes[step.span.node];
     while (step.is_open) {
-      if (is_walked_early(step.span)) return;
+      if (leave_to_early_walk(step.span)) return;
       if (is_exact_ && joins_pieces(step.span) && !is_open(step.span)) return;
       if (!step.is_proposed) propose(step, from);
       const bool in_double = step.is_certain;
@@ -150,8 +153,11 @@ class Walker {
     }
   }
 
-  /// Whether a span is walked from an early start, which its node then becomes the parent of.
-  bool is_walked_early(const Span& span) {
+  /// Leaves a span to the walk from its early start, if it has one, whose parent its node becomes.
+  /// The walk always comes from before the early start's disk: past it, the node's disk would lie
+  /// beyond the two feet but for what is in the early disk, so that what it touches behind would be
+  /// in that, or across sites ahead, over which it does not reach.
+  bool leave_to_early_walk(const Span& span) {
     if (sharing_.starts == nullptr || span.left - span.right < sharing_.fork_size) return false;
     const EarlyStart* const start = early_start_of(span, *sharing_.starts);
     if (start == nullptr || start == own_start_) return false;
@@ -517,9 +523,9 @@ class Walker {
 
   static std::uint32_t size(const Step& step) { return step.span.left - step.span.right; }
 
-  /// Queues two spans. The smaller is walked first, so that the stack stays as shallow as log n;
-  /// but while the larger is large, it is, so that others may soon go on with it: once what is left
-  /// behind is a task's work, or the smaller is one.
+  /// Queues two spans. The smaller is walked first, so that the stack holds at most log n of them.
+  /// But a large one is walked before the smaller, so that other threads can soon share it: it
+  /// becomes a task once the spans left behind add up to one task's work, or the smaller is one.
   void push(const Step& larger, const Step& smaller) {
     const bool large = size(larger) >= sharing_.fork_size && context_.most_nodes == 0;
     if (large) left_behind_ += size(smaller);
@@ -535,7 +541,7 @@ class Walker {
 
   void fork(const Step& step) {
     // A deferred task has few nodes of its own.
-    const std::size_t expected = context_.most_nodes > 0 ? 0 : 4 * std::size_t{sharing_.fork_size};
+    const std::size_t expected = context_.most_nodes > 0 ? 0 : in_task;
     Chunk& child = *chunk_.children.emplace_back(std::make_unique<Chunk>(expected));
     child.component = chunk_.component;
     child.parent_node = step.span.node;
@@ -611,19 +617,18 @@ void join_early(Chunk& root, std::vector<std::unique_ptr<Chunk>>& early) {
 }  // namespace
 
 std::vector<std::unique_ptr<Chunk>> walk(const WalkContext& context) {
-  std::vector<std::unique_ptr<Chunk>> chunks, early;
-  TaskGroup tasks;
-  // Small components share a task.
   const std::uint32_t fork_size = fork_size_of(context.boundary);
   const std::vector<EarlyStart> starts = early_starts(context, fork_size);
+  std::vector<std::unique_ptr<Chunk>> chunks, early;
+  TaskGroup tasks;
   const Sharing sharing{tasks, fork_size, &starts};
   for (const EarlyStart& start : starts) {
-    Chunk& chunk = *early.emplace_back(std::make_unique<Chunk>(4 * std::size_t{fork_size}));
+    Chunk& chunk = *early.emplace_back(std::make_unique<Chunk>(in_task));
     chunk.component = start.component;
-    tasks.run([&context, &sharing, &chunk, &start] {
-      Walker(context, sharing, chunk).walk_early(start);
-    });
+    tasks.run(
+        [&context, sharing, &chunk, &start] { Walker(context, sharing, chunk).walk_early(start); });
   }
+  // Small components share a task.
   std::size_t next = 0;
   const auto& runs = context.boundary.runs;
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -637,7 +642,7 @@ std::vector<std::unique_ptr<Chunk>> walk(const WalkContext& context) {
       sites += runs[next].last - runs[next].first + 1;
       ++next;
     }
-    tasks.run([&context, &sharing, &chunks, &runs, begin, end = next] {
+    tasks.run([&context, sharing, &chunks, &runs, begin, end = next] {
       for (std::size_t i = begin; i < end; ++i)
         Walker(context, sharing, *chunks[i]).walk_run(runs[i]);
     });

@@ -40,7 +40,8 @@ std::vector<std::vector<std::uint32_t>> divide(const SiteLoops& outline,
     sides.pop_back();
     if (high < low + 2) continue;
     // Those met first, all by one disk; and of a run of sites that all bend away from the disk,
-    // each joined to the next, which it can touch in one place only.
+    // each joined to the next, which it can touch in one place only: all of the run touches nearly
+    // one disk, so it turns by less than a full turn, and two places would take more.
     std::vector<std::uint32_t> first, run;
     const auto offer = [&](std::vector<std::uint32_t>& best,
                            const std::vector<std::uint32_t>& next) {
