@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "axis/statistics.h"
 #include "base/in_flight.h"
 #include "base/threads.h"
 #include "methods/checks.h"
