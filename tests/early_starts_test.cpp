@@ -22,7 +22,7 @@ constexpr std::uint32_t least = 64;
 
 /// The early starts of a shape with holes or without, and the boundary that they are numbered by.
 struct Found {
-  explicit Found(const Shape& shape, std::uint32_t sites = least) : problem(shape, options) {
+  explicit Found(const Shape& shape, std::uint32_t apart = least) : problem(shape, options) {
     std::vector<disks::Bridge> bridges;
     boundary = disks::connected_boundary(problem, bridges);
     const disks::ExactSites sites(problem, problem.numbers(), boundary);
@@ -37,7 +37,7 @@ struct Found {
                                   events,
                                   nullptr,
                                   {}},
-                                 sites);
+                                 apart);
   }
   Options options;
   std::vector<bool> never;
