@@ -239,16 +239,17 @@ Command make_compare_command(CLI::App& program) {
                     "A picture of the first feature's axes side by side: .svg .pdf .png .ps");
   add_fit_option(*command, arguments->input);
   add_exterior_options(*command, arguments->options,
-                       "The axes of what lies around the shape and in its holes, within a\n"
-                       "rectangle.");
+                       "The axes of the exterior: around the shape, within a rectangle, and in\n"
+                       "holes.");
   add_common_options(*command, arguments->common);
   command->footer(
       "Each method runs on one thread. Distances are to the axis of the method disks, by\n"
       "samples; Hausdorff is the larger of both directions. A method that does not support\n"
-      "the input says why. Of a sampled axis, only radii and graph can be verified, not its\n"
-      "place: the distance shows that. An axis of pixels is unresolved if its grid is too\n"
-      "coarse for parts or holes of the shape. Exit status 1: an axis is wrong in another\n"
-      "way, a method failed, or a method named by --methods does not support the input.\n"
+      "the input says why. For a sampled axis, verification covers the radii and the graph\n"
+      "but not the position; the distance shows the position. An axis of pixels is\n"
+      "unresolved if its grid is too coarse for parts or holes of the shape. Exit status 1:\n"
+      "an axis is wrong in another way, a method failed, or a method named by --methods does\n"
+      "not support the input.\n"
       "\n"
       "Examples:\n"
       "  medial compare plan.wkt\n"

@@ -668,7 +668,7 @@ Command make_measure_command(CLI::App& program) {
   add_width_options(*command, *arguments);
   add_value(*command, "--disks", arguments->disks, "K", in_range(1, most_measured_disks, true),
             "The K largest disjoint disks inside the shape, one after another: measured,\n"
-            "not only drawn. On its own, this computes no axis and takes a fraction of the time.");
+            "not only drawn. On its own, this needs no axis and is much faster.");
   add_exterior_options(*command, arguments->options,
                        "Measure the exterior, around the shape, within a rectangle, and in its\n"
                        "holes: bays, gaps and holes. The area is that of the axis's disks.")

@@ -150,8 +150,11 @@ Status FeatureChecks::finish(Document<Feature>& document) const {
                                 : fmt::format("{} features are empty and were left out", empty_));
   if (unclosed_ > 0)
     notes.push_back(
-        fmt::format("{} without its first point at the end, closed by a straight edge",
-                    unclosed_ == 1 ? "1 ring is" : fmt::format("{} rings are", unclosed_)));
+        unclosed_ == 1
+            ? "1 ring does not end at its first point and was closed by a straight edge"
+            : fmt::format("{} rings do not end at their first points and were closed by straight "
+                          "edges",
+                          unclosed_));
   return success();
 }
 

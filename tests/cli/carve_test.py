@@ -259,7 +259,7 @@ class Carve(CommandLine):
         self.assertIn("{safe}", self.refuse("invalid_option", *common, "--post", self.path("low.post"), "-o", "t.nc"))
         self.write("bad.post", "[start]\n")
         error = self.refuse("invalid_option", *common, "--post", self.path("bad.post"), "-o", "t.nc")
-        self.assertIn("bad.post: the template of G-code has no part [tool]", error)
+        self.assertIn("bad.post: the G-code template has no section [tool]", error)
         self.refuse("invalid_option", *common, "--post", "nowhere", "-o", "t.nc")
         self.succeed(*common, "--preview", "p.png", "--width", "200", "-o", "s.nc")
         self.assertTrue(self.read("p.png").startswith(b"\x89PNG"))

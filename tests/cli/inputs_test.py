@@ -245,7 +245,7 @@ class Inputs(CommandLine):
 
     def test_unclosed_rings_are_noted(self):
         self.write("open.geojson", '{"type":"Polygon","coordinates":[[[0,0],[4,0],[4,2],[0,2]]]}')
-        self.assertIn(b"1 ring is without its first point", self.succeed("axis", "open.geojson").stderr)
+        self.assertIn(b"1 ring does not end at its first point", self.succeed("axis", "open.geojson").stderr)
 
     def test_reference_systems(self):
         """The numbers count more than what a format says of them."""
