@@ -269,12 +269,15 @@ Result<int> finish_carve(const Document<io::CarveItem>& file, const CarveArgumen
        {"travel_unordered", unordered},
        {"seconds_cutting", report.seconds}},
       phases,
-      fmt::format("{0}: {1}, {2} of {3}, deepest {4:.6g} {5}; cut {6:.6g} {5}, travel {7:.6g} {5}, "
-                  "together {8:.3g} times the paths' {9:.6g} {5}; about {10} min {11} s",
-                  input, counted(file.items.size(), "feature"), counted(paths, "path"),
-                  counted(report.moves, "move"), deepest, unit, report.cut, report.travel,
-                  (report.cut + report.travel) / std::max(report.own, 1e-300), report.own,
-                  seconds / 60, seconds % 60));
+      fmt::format(
+          "{0}: {1}, {2} of {3}, deepest {4:.6g} {5}; cut {6:.6g} {5}, travel {7:.6g} {5}{8}; "
+          "about {9} min {10} s",
+          input, counted(file.items.size(), "feature"), counted(paths, "path"),
+          counted(report.moves, "move"), deepest, unit, report.cut, report.travel,
+          report.own > 0 ? fmt::format(", together {:.3g} times the paths' {:.6g} {}",
+                                       (report.cut + report.travel) / report.own, report.own, unit)
+                         : std::string(),
+          seconds / 60, seconds % 60));
 }
 
 Status write_preview(const CarveArguments& arguments, const Document<io::CarveItem>& file,

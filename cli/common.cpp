@@ -631,7 +631,8 @@ std::string table(const Json& object) {
       } else if (value.is_number_float()) {
         text += fmt::format("{:<22}{:>14.6g}\n", name, value.template get<double>());
       } else {
-        text += fmt::format("{:<22}{:>14}\n", name, value.dump());
+        text += fmt::format("{:<22}{:>14}\n", name,
+                            value.is_string() ? value.template get<std::string>() : value.dump());
       }
     }
   };

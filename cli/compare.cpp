@@ -169,7 +169,11 @@ Result<std::vector<Method>> methods_of(const std::string& names) {
   std::istringstream list(names);
   for (std::string name; std::getline(list, name, ',');) {
     const auto method = method_from(name);
-    if (!method) return invalid_option("unknown method: " + name);
+    if (!method) {
+      std::string known = "all";
+      for (const MethodInfo& info : methods()) known += fmt::format(",{}", info.name);
+      return invalid_option(fmt::format("--methods: {} not in {{{}}}", name, known));
+    }
     chosen.push_back(*method);
   }
   if (chosen.empty()) return invalid_option("--methods needs a name");

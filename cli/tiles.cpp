@@ -40,11 +40,13 @@ void add_to(std::vector<TileLevel>& sum, const std::vector<TileLevel>& rows) {
   }
 }
 
-/// An error of the library about levels, in terms of tiles.
+/// An error of the library about levels or arcs, in terms of tiles and commands.
 std::string in_words_of_the_command(std::string text) {
   constexpr std::string_view levels = "use fewer levels";
   if (const std::size_t at = text.find(levels); at != std::string::npos)
     text.replace(at, levels.size(), "use fewer tiles");
+  if (text.find("straight edges only") != std::string::npos)
+    text += ": medial rebuild INPUT --polygon -o OUTPUT.wkt";
   return text;
 }
 

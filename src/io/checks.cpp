@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "base/counted.h"
+
 namespace medial::io {
 
 namespace {
@@ -95,7 +97,7 @@ Status note_invalid(std::size_t dropped, std::size_t before, std::vector<std::st
   if (dropped == 0) return success();
   if (dropped == before)
     return Error{ErrorCode::empty, "no feature is valid, so nothing is left", {}};
-  notes.push_back(fmt::format("{} of {} features are invalid and were left out", dropped, before));
+  notes.push_back(invalid_left_out(dropped, before));
   return success();
 }
 
