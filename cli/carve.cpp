@@ -269,12 +269,15 @@ Result<int> finish_carve(const Document<io::CarveItem>& file, const CarveArgumen
        {"travel_unordered", unordered},
        {"seconds_cutting", report.seconds}},
       phases,
-      fmt::format("{0}: {1}, {2} of {3}, deepest {4:.6g} {5}; cut {6:.6g} {5}, travel {7:.6g} {5}, "
-                  "together {8:.3g} times the paths' {9:.6g} {5}; about {10} min {11} s",
-                  input, counted(file.items.size(), "feature"), counted(paths, "path"),
-                  counted(report.moves, "move"), deepest, unit, report.cut, report.travel,
-                  (report.cut + report.travel) / std::max(report.own, 1e-300), report.own,
-                  seconds / 60, seconds % 60));
+      fmt::format(
+          "{0}: {1}, {2} of {3}, deepest {4:.6g} {5}; cut {6:.6g} {5}, travel {7:.6g} {5}{8}; "
+          "about {9} min {10} s",
+          input, counted(file.items.size(), "feature"), counted(paths, "path"),
+          counted(report.moves, "move"), deepest, unit, report.cut, report.travel,
+          report.own > 0 ? fmt::format(", together {:.3g} times the paths' {:.6g} {}",
+                                       (report.cut + report.travel) / report.own, report.own, unit)
+                         : std::string(),
+          seconds / 60, seconds % 60));
 }
 
 Status write_preview(const CarveArguments& arguments, const Document<io::CarveItem>& file,
@@ -480,7 +483,7 @@ void add_machine_options(CLI::App& command, CarveArguments& arguments) {
              "Speed of other moves, for the estimated time (default: 3000 mm).");
   add_length(command, "--safe", machine.safe, "Z", "The height of other moves (default: 5 mm).");
   add_length(command, "--spindle", machine.spindle, "S",
-             "Turns per minute (default: not started).");
+             "Revolutions per minute (default: not started).");
   const auto check = [](const std::string& text) {
     const bool known = text == "drawing" || point_of(text) ||
                        std::ranges::find(origins, text, &NamedOrigin::name) != origins.end();
@@ -497,7 +500,7 @@ void add_machine_options(CLI::App& command, CarveArguments& arguments) {
   command
       .add_option("--post", machine.post,
                   "The dialect of the G-code: " + io::post_names() +
-                      " (default:\nplain), or the name of a template: see docs/carve.md.")
+                      " (default:\nplain), or a template file: see docs/carve.md.")
       ->option_text("NAME");
   command
       .add_option("--preview", arguments.preview,
@@ -533,9 +536,9 @@ Command make_carve_command(CLI::App& program) {
       "The tip of the tool follows the axis at the depth where the tool is as wide as the\n"
       "disk, so walls begin at the boundary and corners are sharp. Nothing outside is\n"
       "touched. Flat bottoms are cleared from the inside out, without lifting where that is\n"
-      "safe. Lengths are millimetres, or inches with --output-units in; only --font-size\n"
-      "is in --units, by default millimetres, too. For an SVG, the\n"
-      "physical size applies, or 96 pixels per inch. z is 0 on the surface.\n"
+      "safe. Lengths are millimetres, or inches with --output-units in, except --font-size,\n"
+      "which is in --units (default: millimetres). For an SVG, the physical size applies,\n"
+      "or 96 pixels per inch. z is 0 on the surface.\n"
       "\n"
       "Examples:\n"
       "  medial carve spanner.svg --angle 60 -o spanner.nc\n"

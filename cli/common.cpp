@@ -146,8 +146,7 @@ CLI::Option* add_unit(CLI::App& command, const char* name, Unit& unit, const std
 void add_unit_options(CLI::App& command, UnitOptions& units) {
   const OptionGroup group(command, "Units");
   add_unit(command, "--units", units.given,
-           "The unit of lengths in the input, if the file does not state it or is wrong:\n" +
-               unit_names() + ".");
+           "The unit of lengths in the input; overrides the file's:\n" + unit_names() + ".");
   add_unit(command, "--output-units", units.wanted,
            "Convert to these units after reading; other options use them, too.");
   add_value(command, "--scale", units.scale, "S", in_range(1e-9, 1e9, true),
@@ -161,9 +160,9 @@ void add_outline_options(CLI::App& command, InputOptions& input) {
   input.source.read.smooth_contour = true;
   CLI::Option* smooth =
       command.add_flag("--smooth-contour", input.whole_smooth,
-                       "Images: keep the whole axis of the smooth curve that approximates the\n"
-                       "pixels' boundary within half a pixel (default: `axis` and `prune` keep\n"
-                       "what a person would draw).");
+                       "Images: keep all branches of the axis of the smooth curve within half a\n"
+                       "pixel of the pixels' boundary (default: `axis` and `prune` keep what a\n"
+                       "person would draw).");
   command
       .add_flag("!--pixel-outline", input.source.read.smooth_contour,
                 "Images: use the exact boundary of the pixels, with a branch at each step.")
@@ -302,16 +301,16 @@ void add_common_options(CLI::App& command, CommonOptions& common) {
   add_threads_option(command, common.threads);
   const OptionGroup group(command, common_group);
   add_value(command, "--tolerance", common.tolerance, "T", a_tolerance(),
-            "The largest distance at which a disk touches a site, as a fraction of the\n"
-            "diagonal of the bounding box, at most 1e-3 (default: 4e-15, in verify\n"
+            "The largest distance between a disk and a site that it touches, as a fraction\n"
+            "of the diagonal of the bounding box, at most 1e-3 (default: 4e-15, in verify\n"
             "1e-14, or what the spacing of coordinates allows; by default small\n"
             "components of a polygon have one of their own size).");
   add_value(command, "--corner-angle", common.corner_angle, "A", in_range(0, 10),
             "Convex joints with an arc are smooth, not corners, below this angle, in\n"
             "degrees, at most 10 (default: 4 for fonts, 1 for .svg, else 0.01).");
   add_value(command, "--chord", common.chord, "C", in_range(smallest_chord, 1),
-            "Where curves are written as points: the largest distance of chords, as a\n"
-            "fraction of the diagonal of the bounding box (default: 1e-3).");
+            "Where curves are written as points: the largest distance of chords from the\n"
+            "curve, as a fraction of the diagonal of the bounding box (default: 1e-3).");
   add_report_options(command, common);
 }
 
@@ -632,7 +631,8 @@ std::string table(const Json& object) {
       } else if (value.is_number_float()) {
         text += fmt::format("{:<22}{:>14.6g}\n", name, value.template get<double>());
       } else {
-        text += fmt::format("{:<22}{:>14}\n", name, value.dump());
+        text += fmt::format("{:<22}{:>14}\n", name,
+                            value.is_string() ? value.template get<std::string>() : value.dump());
       }
     }
   };

@@ -169,7 +169,11 @@ Result<std::vector<Method>> methods_of(const std::string& names) {
   std::istringstream list(names);
   for (std::string name; std::getline(list, name, ',');) {
     const auto method = method_from(name);
-    if (!method) return invalid_option("unknown method: " + name);
+    if (!method) {
+      std::string known = "all";
+      for (const MethodInfo& info : methods()) known += fmt::format(",{}", info.name);
+      return invalid_option(fmt::format("--methods: {} not in {{{}}}", name, known));
+    }
     chosen.push_back(*method);
   }
   if (chosen.empty()) return invalid_option("--methods needs a name");
@@ -239,16 +243,17 @@ Command make_compare_command(CLI::App& program) {
                     "A picture of the first feature's axes side by side: .svg .pdf .png .ps");
   add_fit_option(*command, arguments->input);
   add_exterior_options(*command, arguments->options,
-                       "The axes of what lies around the shape and in its holes, within a\n"
-                       "rectangle.");
+                       "The axes of the exterior: around the shape, within a rectangle, and in\n"
+                       "holes.");
   add_common_options(*command, arguments->common);
   command->footer(
       "Each method runs on one thread. Distances are to the axis of the method disks, by\n"
       "samples; Hausdorff is the larger of both directions. A method that does not support\n"
-      "the input says why. Of a sampled axis, only radii and graph can be verified, not its\n"
-      "place: the distance shows that. An axis of pixels is unresolved if its grid is too\n"
-      "coarse for parts or holes of the shape. Exit status 1: an axis is wrong in another\n"
-      "way, a method failed, or a method named by --methods does not support the input.\n"
+      "the input says why. For a sampled axis, verification covers the radii and the graph\n"
+      "but not the position; the distance shows the position. An axis of pixels is\n"
+      "unresolved if its grid is too coarse for parts or holes of the shape. Exit status 1:\n"
+      "an axis is wrong in another way, a method failed, or a method named by --methods does\n"
+      "not support the input.\n"
       "\n"
       "Examples:\n"
       "  medial compare plan.wkt\n"

@@ -114,7 +114,7 @@ void add_thresholds(CLI::App& command, FeatureOptions& options) {
               fmt::format("{} (default: {}).", help, value));
   };
   add("--parallel", options.parallel, "A worm's radius changes by at most this times its length");
-  add("--even", options.even, "and also by at most this times its mean radius");
+  add("--even", options.even, "A worm's radius also changes by at most this times its mean");
   add("--bend", options.bend, "The slope of a cup's or flare's radius changes by more");
   add("--turn", options.turn, "A straight run turns by at most this, in radians");
   add("--spiral", options.spiral, "A spiral's curvature changes by more than this times its mean");

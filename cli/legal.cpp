@@ -227,7 +227,7 @@ Command make_legal_command(CLI::App& program) {
       "sharply, 1 - R'^2 - R R'' >= |K| R sqrt(1 - R'^2) (Shaked and Bruckstein 1996,\n"
       "(9) and (10)). If both hold strictly, it is one locally. No shape is needed.\n"
       "Branches are ordered by their lowest edge in the native format. In an unpacked\n"
-      "axis, only what its error does not explain is illegal.\n"
+      "axis, only violations that its error cannot explain are illegal.\n"
       "\n"
       "Exit status: 0 legal, 1 illegal, 2 an error.\n"
       "\n"

@@ -190,7 +190,7 @@ Command make_match_command(CLI::App& program) {
   command->footer(
       "The numbers are dissimilarities: 0 for the same shape, about 1 for two random shapes.\n"
       "They compare distributions over the axis (thickness, distances, erosion), which do not\n"
-      "change with rotation, scale and reflection, and hardly with noise of the outline.\n"
+      "change with rotation, scale and reflection, and hardly with noise in the outline.\n"
       "\n"
       "Examples:\n"
       "  medial match horse.png silhouettes/\n"

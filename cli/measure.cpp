@@ -223,13 +223,18 @@ Json json_of(const Measured& measured, std::size_t necks_wanted) {
   return object;
 }
 
-std::string place(Vec2 p) { return fmt::format("({:.10g}, {:.10g})", p.x, p.y); }
+/// A coordinate, 0 where it is nothing but the rounding of a centre beside the radius.
+double shown(double x, double radius) { return std::abs(x) < 1e-10 * radius ? 0 : x; }
+std::string place(const Disk& disk) {
+  const auto [c, r] = std::pair(disk.center, disk.radius);
+  return fmt::format("({:.10g}, {:.10g})", shown(c.x, r), shown(c.y, r));
+}
 std::string number(double value) { return fmt::format("{:.10g}", value); }
 
 void add_disks(Rows& rows, const std::vector<Disk>& disks) {
   for (std::size_t i = 0; i < disks.size(); ++i)
     rows.add(i == 0 ? "largest disks" : "",
-             fmt::format("r {:.10g} at {}", disks[i].radius, place(disks[i].center)));
+             fmt::format("r {:.10g} at {}", disks[i].radius, place(disks[i])));
 }
 
 /// One feature as lines of a name and a value.
@@ -252,20 +257,20 @@ std::string summary_of(const Measured& measured, const MeasureArguments& argumen
   }
   rows.add("mean width by area", number(mean.by_area));
   rows.add("widest",
-           fmt::format("{:.10g} at {}", 2 * measured.widest.radius, place(measured.widest.center)));
+           fmt::format("{:.10g} at {}", 2 * measured.widest.radius, place(measured.widest)));
   if (const Neck* neck = narrowest_neck(measured)) {
     rows.add("narrowest neck on line",
              fmt::format("{:.10g} at {}, {:.10g} along", neck->width.width(),
-                         place(neck->width.disk.center), neck->width.along));
+                         place(neck->width.disk), neck->width.along));
   }
   const std::size_t shown = std::min<std::size_t>(
       arguments.necks > 0 ? arguments.necks : default_necks, measured.necks.size());
   for (std::size_t i = 0; i < shown; ++i) {
     const Neck& neck = measured.necks[i];
-    rows.add(i == 0 ? "necks" : "",
-             fmt::format("{:.10g} at {}, opens to {:.10g}{}", neck.width.width(),
-                         place(neck.width.disk.center), 2 * neck.opens_to,
-                         neck.around_hole ? ", around a hole" : ""));
+    rows.add(
+        i == 0 ? "necks" : "",
+        fmt::format("{:.10g} at {}, opens to {:.10g}{}", neck.width.width(), place(neck.width.disk),
+                    2 * neck.opens_to, neck.around_hole ? ", around a hole" : ""));
   }
   add_disks(rows, measured.disks);
   return rows.text();
@@ -296,9 +301,11 @@ std::string table_head(bool labels, bool disks_alone) {
 std::string table_row(const Measured& one, const std::string& name, bool disks_alone) {
   if (disks_alone) {
     std::string rows;
-    for (std::size_t k = 0; k < one.disks.size(); ++k)
-      rows += fmt::format("{:>7} {:>6} {:>12.6g} {:>16.10g} {:>16.10g}\n", name, k,
-                          one.disks[k].radius, one.disks[k].center.x, one.disks[k].center.y);
+    for (std::size_t k = 0; k < one.disks.size(); ++k) {
+      const auto [c, r] = std::pair(one.disks[k].center, one.disks[k].radius);
+      rows += fmt::format("{:>7} {:>6} {:>12.6g} {:>16.10g} {:>16.10g}\n", name, k, r,
+                          shown(c.x, r), shown(c.y, r));
+    }
     return rows;
   }
   const Neck* neck = narrowest_neck(one);
@@ -668,7 +675,7 @@ Command make_measure_command(CLI::App& program) {
   add_width_options(*command, *arguments);
   add_value(*command, "--disks", arguments->disks, "K", in_range(1, most_measured_disks, true),
             "The K largest disjoint disks inside the shape, one after another: measured,\n"
-            "not only drawn. On its own, this computes no axis and takes a fraction of the time.");
+            "not only drawn. On its own, this needs no axis and is much faster.");
   add_exterior_options(*command, arguments->options,
                        "Measure the exterior, around the shape, within a rectangle, and in its\n"
                        "holes: bays, gaps and holes. The area is that of the axis's disks.")

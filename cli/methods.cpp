@@ -44,7 +44,7 @@ Result<int> run_methods(bool json) {
 
 Command make_methods_command(CLI::App& program) {
   auto json = std::make_shared<bool>(false);
-  CLI::App* command = program.add_subcommand("methods", "List the methods and what each takes.");
+  CLI::App* command = program.add_subcommand("methods", "List the methods and what each supports.");
   command->add_flag("--json", *json, "Print a JSON object instead of a table.");
   return {command, [json] { return run_methods(*json); }};
 }

@@ -123,9 +123,9 @@ Command make_nest_command(CLI::App& program) {
   add_common_options(*command, arguments->common);
   command->footer(
       "Bays are branches of the axis around a shape, peninsulas branches of the axis inside.\n"
-      "`saved` is the area of the two convex hulls less that of their common hull. A placement\n"
-      "mirrors (x to -x), rotates about the origin, then moves. The output shows the first\n"
-      "one: INPUT with the axis of its bays, and OTHER in its place.\n"
+      "`saved` is the sum of the areas of the two convex hulls minus that of the common\n"
+      "hull. A placement mirrors (x to -x), rotates about the origin, then moves. The output\n"
+      "shows the first one: INPUT with the axis of its bays, and OTHER in its place.\n"
       "\n"
       "Examples:\n"
       "  medial nest frame.dxf bracket.dxf\n"

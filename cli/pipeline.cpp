@@ -68,7 +68,8 @@ Result<T> naming_file(Result<T> result, const InputOptions& input) {
 
 /// The error of an invalid shape, with a remedy. Whether the file is an image is known by then: a
 /// pipe cannot be asked once it is read.
-Error with_cure(Error error, const InputOptions& input, bool of_image) {
+Error with_cure(Error error, const InputOptions& input, bool of_image,
+                const char* by_repair = "repairs such rings") {
   using enum ErrorCode;
   const io::ReadOptions& read = input.source.read;
   const bool tangled = error.code == crossing || error.code == overlap ||
@@ -78,7 +79,7 @@ Error with_cure(Error error, const InputOptions& input, bool of_image) {
   const bool mends =
       !of_image && !(std::filesystem::is_regular_file(input.path) && io::is_native(input.path));
   if ((tangled || flat) && read.repair == RepairRule::none && mends)
-    error.text += tangled ? "; --repair repairs such rings"
+    error.text += tangled ? fmt::format("; --repair {}", by_repair)
                           : "; --repair drops such rings, and so does --skip-invalid";
   else if (flat && !read.skip_invalid)
     error.text += "; --skip-invalid leaves such features out";
@@ -252,7 +253,9 @@ Status with_planar_graph(const LoosePieces& pieces, const FileArguments& argumen
   const InputOptions& input = arguments.input;
   const bool repair = input.source.read.repair != RepairRule::none;
   auto touching = naming_file(medial::with_planar_graph(pieces, repair, use), input);
-  if (!touching) return with_cure(std::move(touching).error(), input, pieces.features.pixel > 0);
+  if (!touching)
+    return with_cure(std::move(touching).error(), input, pieces.features.pixel > 0,
+                     "splits lines where they cross or overlap");
   if (*touching > 0 && !arguments.common.quiet)
     say("medial: {}: note: points and edges within {:.2g} of each other touch, as rounding "
         "cannot separate them\n",

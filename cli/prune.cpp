@@ -23,7 +23,8 @@ constexpr std::array measure_helps = {
     "Branches by how far the shape reaches beyond the disk where they\n"
     "begin, relative to that disk's radius (Ho and Dyer)",
     "Branches by their longest path to an end, relative to that radius",
-    "Branches by the boundary beyond that disk, relative to its chord",
+    "Branches by the length of the boundary beyond that disk, relative to\n"
+    "the chord between its feet",
     "Points by their radius, relative to R",
     "Points by the angle between the radii to the boundary, in degrees",
     "Points by erosion thickness: how far the shape reaches beyond the\n"
@@ -66,7 +67,8 @@ void add_prune_options(CLI::App& command, PruneArguments& arguments) {
     keep->excludes(option);
   }
   command.add_flag("--tips", arguments.tips,
-                   "Extend what is kept to its tips, along the paths that reach farthest.");
+                   "Extend the ends of what is kept to the tips, along the paths that\n"
+                   "reach farthest.");
   // A flag that carries a value, as --repair is one.
   command
       .add_flag(

@@ -284,7 +284,7 @@ void add_options(CLI::App& command, RebuildArguments& arguments, bool smooths) {
   add_input_options(command, arguments.input);
   add_output_options(command, arguments, io::formats_of(io::DocumentKind::shapes));
   command.add_flag("--polygon", arguments.polygon,
-                   "Make straight edges only: replace arcs by chords within --chord.");
+                   "Write polygons: replace arcs by chords within --chord.");
   add_width_option(command, arguments.write.width);
   add_value(command, "--against", arguments.against, "SHAPES", a_name(),
             "Measure area and Hausdorff distance against these shapes.");

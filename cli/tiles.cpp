@@ -40,11 +40,13 @@ void add_to(std::vector<TileLevel>& sum, const std::vector<TileLevel>& rows) {
   }
 }
 
-/// An error of the library about levels, in terms of tiles.
+/// An error of the library about levels or arcs, in terms of tiles and commands.
 std::string in_words_of_the_command(std::string text) {
   constexpr std::string_view levels = "use fewer levels";
   if (const std::size_t at = text.find(levels); at != std::string::npos)
     text.replace(at, levels.size(), "use fewer tiles");
+  if (text.find("straight edges only") != std::string::npos)
+    text += ": medial rebuild INPUT --polygon -o OUTPUT.wkt";
   return text;
 }
 
@@ -127,8 +129,8 @@ Command make_tiles_command(CLI::App& program) {
       "up to the root. The axis is that of `medial axis`, up to rounding and the order of\n"
       "nodes and edges. For shapes of straight edges.\n"
       "\n"
-      "Without -o, prints one row per level: tiles with edges, edges in all of them and in\n"
-      "the largest one, and edges of the axis that were finished there.\n"
+      "Without -o, prints one row per level: the number of tiles with edges, of boundary\n"
+      "edges in all and in the largest, and of axis edges finished there.\n"
       "\n"
       "Examples:\n"
       "  medial tiles coast.wkt.gz -o coast.json\n"

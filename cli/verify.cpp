@@ -223,9 +223,10 @@ Result<int> verify_voronoi(const VerifyArguments& arguments) {
   auto stored = read_stored(arguments.axis_path, io::read_voronoi);
   if (!stored) return std::move(stored).error();
   if (stored->items.size() != 1 || !stored->items.front().diagram.enclosure)
-    return error_at(ErrorCode::unsupported, arguments.axis_path,
-                    "is of polygons only (--method lee); only diagrams within an enclosure can be "
-                    "verified");
+    return error_at(
+        ErrorCode::unsupported, arguments.axis_path,
+        "this diagram has no enclosure (--method lee); only diagrams within an enclosure "
+        "can be verified");
   auto pieces = load_loose(arguments.input, common);
   if (!pieces) return std::move(pieces).error();
   const VoronoiDiagram& diagram = stored->items.front().diagram;

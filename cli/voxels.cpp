@@ -202,7 +202,7 @@ void add_own_options(CLI::App& command, VoxelArguments& arguments) {
                    "The search for nearest faces: tree (default), or sorted-list, as published,\n"
                    "which is slow for many faces. Both give the same voxels.");
   add_value(command, "--memory", arguments.memory, "G", in_range(0.001, 1e6, true),
-            "Fail rather than use more than about G gibibytes (default: 4).");
+            "Stop with an error above about G gibibytes of memory (default: 4).");
   add_value(command, "--width", arguments.width, "W", in_range(48.0, 8000.0, true),
             "Width of a picture of three views, in pixels (default: 1536).");
 }

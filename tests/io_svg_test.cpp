@@ -127,7 +127,9 @@ TEST_F(CurvedIo, SvgStyleSheets) {
   EXPECT_EQ(data.items[0].contours[0].role, RingRole::any);
   EXPECT_EQ(data.items[5].contours[0].role, RingRole::any);
   ASSERT_EQ(data.notes.size(), 2U);
-  EXPECT_NE(data.notes[1].find("1 selectors"), std::string::npos) << data.notes[1];
+  EXPECT_NE(data.notes[1].find("1 unsupported selector of a style sheet was ignored"),
+            std::string::npos)
+      << data.notes[1];
 }
 
 TEST_F(CurvedIo, SvgStyleSheetsEnd) {
@@ -194,7 +196,7 @@ TEST_F(CurvedIo, SvgOfStrokesAloneIsWhatTheyEnclose) {
   ASSERT_EQ(data.items.size(), 1U);
   EXPECT_EQ(data.items[0].contours.size(), 3U);
   ASSERT_EQ(data.notes.size(), 1U);
-  EXPECT_NE(data.notes[0].find("closed strokes are taken for outlines"), std::string::npos);
+  EXPECT_NE(data.notes[0].find("closed strokes are used as outlines"), std::string::npos);
   const auto rings = approximate_by_arcs(data.items[0].contours);
   ASSERT_TRUE(rings);
   const auto shape = build_shape(*rings);

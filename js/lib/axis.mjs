@@ -304,7 +304,7 @@ export function axis(x, given = {}) {
 export const axis_of = (x) => (x instanceof MedialAxis ? x : axis(x));
 export const shape_of = (x) => (x instanceof MedialAxis ? x.shape : x instanceof Shape ? x : new Shape(x));
 
-/** The methods of axis(): what each takes. */
+/** The methods of axis(): what each supports. */
 export function methods() {
   call("methods");
   return answer_text().trim().split("\n").map((line) => JSON.parse(line));

@@ -148,7 +148,7 @@ export function maximumInscribedCircle(x) {
   return circle(table());
 }
 
-/** The largest circles without overlap, by decreasing radius. */
+/** The largest disjoint circles, by decreasing radius. */
 export function inscribedCircles(x, count, smallest = 0) {
   call("disjoint_disks", shape_of(x).address, count, smallest);
   return rows(table(), 3).map(circle);

@@ -1,4 +1,4 @@
-"""Exact medial axes of planar shapes, and what follows from them.
+"""Exact medial axes of planar shapes, and what you can compute from them.
 
 >>> import medial
 >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])

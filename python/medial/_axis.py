@@ -121,7 +121,7 @@ class MedialAxis:
 
     @property
     def statistics(self) -> dict[str, Any]:
-        """What the method counted, and how long it took."""
+        """Counts and times of the computation."""
         return self._core.statistics()
 
     @property

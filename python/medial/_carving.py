@@ -73,7 +73,7 @@ class Carving:
             The speeds of cutting moves, of moves straight down, and of other moves, in units per
             minute.
         spindle : float
-            Turns per minute; 0: the program does not start the spindle.
+            Revolutions per minute; 0: the program does not start the spindle.
         clear_feed, clear_plunge, clear_spindle : float
             The same for the end mill that cuts first; by default the speeds of the main tool.
         unit : {"mm", "in"}

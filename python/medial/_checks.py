@@ -148,7 +148,7 @@ def distance(a: Any, b: Any, samples: int = 7) -> dict[str, Any]:
 
 
 def legality(x: MedialAxis, samples: int = 8) -> Floats:
-    """How far each branch violates two conditions that every axis meets; 0 or less: it meets them.
+    """For each branch, the violation of two conditions that every axis meets; at most 0 if met.
 
     Parameters
     ----------

@@ -112,7 +112,7 @@ class Line:
         return self._widths(at, across=False)
 
     def transects(self, count: int = 10, *, spacing: float | None = None) -> Widths:
-        """Lines across the course, from boundary to boundary: see `medial.transects`.
+        """Lines across this one, perpendicular to its course: see `medial.transects`.
 
         Parameters
         ----------
@@ -177,7 +177,7 @@ class Widths(NamedTuple):
         return span
 
     def to_pandas(self) -> Any:
-        """A table of the same."""
+        """The widths as a pandas DataFrame."""
         columns = {"along": self.along, "width": self.width, "span": self.span,
                    "x": self.center[:, 0], "y": self.center[:, 1]}  # fmt: skip
         return need("pandas", "all").DataFrame(columns)
@@ -272,7 +272,7 @@ def network(x: Any, *, trim: float = 1) -> MedialAxis:
 def centerline(x: Any, start: Sequence[float] | str | None = None, end: Sequence[float] | str | None = None, *,
                trim: float = 1, route: str = "roomy", extend: bool = False,
                smooth: float = 0) -> Line:  # fmt: skip
-    """The centre line of a shape; of several parts, the longest one.
+    """The centre line of a shape; if the shape has several parts, the longest of their lines.
 
     Parameters
     ----------
@@ -356,7 +356,7 @@ def width_profile(x: Any, samples: int | npt.ArrayLike = 100, **given: Any) -> W
 
 
 def transects(x: Any, count: int = 10, *, spacing: float | None = None, **given: Any) -> Widths:
-    """Lines across the course of a shape, from boundary to boundary.
+    """Lines across a shape, perpendicular to its centre line's course, from boundary to boundary.
 
     Parameters
     ----------
@@ -458,8 +458,8 @@ class Circle(NamedTuple):
 def maximum_inscribed_circle(x: Any) -> Circle:
     """The largest circle inside a shape; any one of several.
 
-    For an axis, its largest disk. For a geometry, found without an axis, which is much faster for
-    large shapes.
+    For an axis, this is its largest disk. For a geometry, no axis is computed, which is much faster
+    for large shapes.
 
     Parameters
     ----------
@@ -477,13 +477,13 @@ def maximum_inscribed_circle(x: Any) -> Circle:
 
 
 def inscribed_circles(x: Any, count: int, smallest: float = 0) -> list[Circle]:
-    """The largest circles without overlap: each is the largest in what the ones before leave.
+    """The largest disjoint circles: each is the largest that overlaps none before it.
 
     Parameters
     ----------
     x : MedialAxis or geometry
     count : int
-        At most.
+        The largest number of circles.
     smallest : float
         The smallest radius, in units of the input.
 

@@ -300,14 +300,14 @@ def width(x: Any, samples: int = 100, method: str | None = None, *, trim: float 
 
 def inscribed_circles(x: Any, count: int = 1, smallest: float = 0, *, on_error: str = "raise",
                       threads: int | None = None, progress: Any = False) -> Table:  # fmt: skip
-    """The largest circles without overlap; see `medial.inscribed_circles`.
+    """The largest disjoint circles; see `medial.inscribed_circles`.
 
     Parameters
     ----------
     x : features
         What `medial.axes` takes.
     count : int
-        At most, of each feature.
+        The largest number of circles of each feature.
     smallest : float
         No radius is below this, in units of the input.
     on_error : {"raise", "ignore"}
@@ -439,7 +439,7 @@ def branches(x: Any, method: str | None = None, *, chord: float | None = None, o
 
 def transects(x: Any, count: int = 10, method: str | None = None, *, trim: float = 1, route: str = "roomy",
               on_error: str = "raise", threads: int | None = None, progress: Any = False) -> Lines:  # fmt: skip
-    """Lines across the courses of shapes, with along, width and span; see `medial.transects`.
+    """Lines across shapes, with along, width and span; see `medial.transects`.
 
     Parameters
     ----------

@@ -165,7 +165,7 @@ class MedialAccessor:
         return found.to_pandas().set_axis(self._series.index)
 
     def transects(self, count: int = 10, **given: Any) -> Any:
-        """A GeoDataFrame of lines across the course, from boundary to boundary, with widths.
+        """A GeoDataFrame of lines across the shapes, from boundary to boundary, with widths.
 
         Parameters
         ----------

@@ -206,7 +206,7 @@ def width(df: DataFrame, column: str = "geometry", into: str = "width", **given:
 
 def inscribed_circles(df: DataFrame, count: int = 1, column: str = "geometry", into: str = "circles",
                       smallest: float = 0) -> DataFrame:  # fmt: skip
-    """The largest circles without overlap: an array `circles` of `x`, `y` and `radius`."""
+    """The largest disjoint circles: an array `circles` of `x`, `y` and `radius`."""
 
     def compute(x: Any) -> Fields:
         found = arrays.inscribed_circles(x, count, smallest, on_error="ignore", threads=1)

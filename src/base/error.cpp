@@ -80,7 +80,8 @@ std::string to_string(const Error& error) {
   std::string where;
   append(where, "line", place.line);
   append(where, "feature", place.feature);
-  append(where, "ring", place.ring);
+  // Errors of planar graphs name chains, which the place counts as rings.
+  append(where, error.text.find(" of chain ") == std::string::npos ? "ring" : "chain", place.ring);
   append(where, "vertex", place.vertex);
   append(where, "face", place.face);
   if (place.point) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "base/counted.h"
+
 namespace medial::io {
 
 namespace {
@@ -95,7 +97,7 @@ Status note_invalid(std::size_t dropped, std::size_t before, std::vector<std::st
   if (dropped == 0) return success();
   if (dropped == before)
     return Error{ErrorCode::empty, "no feature is valid, so nothing is left", {}};
-  notes.push_back(fmt::format("{} of {} features are invalid and were left out", dropped, before));
+  notes.push_back(invalid_left_out(dropped, before));
   return success();
 }
 
@@ -150,8 +152,11 @@ Status FeatureChecks::finish(Document<Feature>& document) const {
                                 : fmt::format("{} features are empty and were left out", empty_));
   if (unclosed_ > 0)
     notes.push_back(
-        fmt::format("{} without its first point at the end, closed by a straight edge",
-                    unclosed_ == 1 ? "1 ring is" : fmt::format("{} rings are", unclosed_)));
+        unclosed_ == 1
+            ? "1 ring does not end at its first point and was closed by a straight edge"
+            : fmt::format("{} rings do not end at their first points and were closed by straight "
+                          "edges",
+                          unclosed_));
   return success();
 }
 

@@ -86,6 +86,8 @@ Result<const Format*> format_of(const std::string& path,
     return Error{ErrorCode::unsupported,
                  "this is a pack, which `medial unpack` reads: medial unpack FILE -o axis.json",
                  in_file(path)};
+  if (const char* text = text_without_shape(beginning))
+    return Error{ErrorCode::unsupported, text, in_file(path)};
   const bool is_nameless = source && ((*source)->is_stream() || format_name(path).empty());
   const Format* format = is_nameless ? format_of_text(beginning) : format_of_name(path);
   // Plain text may hold what another format begins like.

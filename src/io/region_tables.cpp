@@ -58,7 +58,7 @@ Status add_diagram(TableSink& sink, const Document<VoronoiItem>& file, std::size
     const Site& site = diagram.sites[k];
     const Owner owner = owner_of(file, i, site);
     const std::vector<Value> values{whole(owner.feature), whole(k),
-                                    std::string(name_of(site.kind())),
+                                    std::string(name_of(item, site)),
                                     whole(ring_in_feature(item, site)), whole(site.vertex)};
     if (Status added = sink.add(0, values, attributes.values_of(*owner.attributes), parts); !added)
       return added;

@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "axis/statistics.h"
+#include "base/counted.h"
 #include "base/in_flight.h"
 #include "base/pipeline.h"
 #include "io/attribute_columns.h"
@@ -228,8 +229,7 @@ class Stream {
     if (input_error) return *input_error;
     if (output_error_) return *output_error_;
     if (report.load.left_out > 0)
-      report.document.notes.push_back(fmt::format("{} of {} features are invalid and were left out",
-                                                  report.load.left_out, report.load.features));
+      report.document.notes.push_back(invalid_left_out(report.load.left_out, report.load.features));
     if (Status ended = write_frame({false, true}); !ended) return ended;
     return writer_.finish();
   }

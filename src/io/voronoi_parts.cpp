@@ -6,12 +6,13 @@
 
 namespace medial::io {
 
-const char* name_of(SiteKind kind) {
-  return kind == SiteKind::vertex ? "vertex" : kind == SiteKind::arc ? "arc" : "segment";
+const char* name_of(const VoronoiItem& item, const Site& site) {
+  if (site.kind() == SiteKind::vertex) return item.diagram.enclosure ? "point" : "vertex";
+  return site.kind() == SiteKind::arc ? "arc" : "segment";
 }
 
 const char* name_of(const VoronoiEdge& edge) {
-  return edge.on_enclosure ? "frame" : edge.spoke ? "spoke" : "edge";
+  return edge.on_enclosure ? "enclosure" : edge.spoke ? "spoke" : "edge";
 }
 
 std::int64_t number_of(std::uint32_t site) {

@@ -9,7 +9,8 @@
 
 namespace medial::io {
 
-const char* name_of(SiteKind kind);
+/// Without an enclosure, vertices are reflex ones; else points of the input.
+const char* name_of(const VoronoiItem& item, const Site& site);
 const char* name_of(const VoronoiEdge& edge);
 
 /// A site's number, -1 for none.

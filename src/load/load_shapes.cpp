@@ -255,8 +255,7 @@ Status take_valid(std::vector<Attempt> attempts, const Document<Feature>& featur
   }
   shapes.indices = std::move(indices);
   if (options.part) return success();
-  shapes.notes.push_back(std::to_string(dropped) + " of " + std::to_string(attempts.size()) +
-                         " features are invalid and were left out" +
+  shapes.notes.push_back(invalid_left_out(dropped, attempts.size()) +
                          (is_tangled(*first) ? "; --repair repairs such rings" : ""));
   return success();
 }

@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <cstdlib>
+#include <string>
+#include <tuple>
 #include <utility>
 
 #include "load/suited_arcs.h"
@@ -31,13 +34,26 @@ Chain chain_of(Ring ring, const Contour& contour) {
   return chain;
 }
 
-/// An error that names a chain as ring, in terms of features.
+/// A chain's feature in the file, and its number in that feature.
+std::pair<std::uint64_t, std::uint64_t> place_of(const LoosePieces& pieces, std::uint64_t chain) {
+  const std::uint32_t feature = pieces.feature[chain];
+  const auto first = std::lower_bound(pieces.feature.begin(), pieces.feature.end(), feature);
+  return {pieces.features.index_of(feature),
+          chain - static_cast<std::uint64_t>(first - pieces.feature.begin())};
+}
+
+/// An error that names a chain as ring, and perhaps another chain in its text, in terms of
+/// features.
 Error in_terms_of_features(const LoosePieces& pieces, Error error) {
   if (!error.place.ring || *error.place.ring >= pieces.feature.size()) return error;
-  const std::uint32_t feature = pieces.feature[*error.place.ring];
-  const auto first = std::lower_bound(pieces.feature.begin(), pieces.feature.end(), feature);
-  error.place.feature = pieces.features.index_of(feature);
-  *error.place.ring -= static_cast<std::uint64_t>(first - pieces.feature.begin());
+  std::tie(error.place.feature, error.place.ring) = place_of(pieces, *error.place.ring);
+  const std::string marker = " of chain ";
+  const std::size_t at = error.text.rfind(marker);
+  if (at == std::string::npos) return error;
+  const auto other = std::strtoull(error.text.c_str() + at + marker.size(), nullptr, 10);
+  const auto [feature, chain] = place_of(pieces, other);
+  error.text.replace(at, std::string::npos,
+                     marker + std::to_string(chain) + " of feature " + std::to_string(feature));
   return error;
 }
 

@@ -54,7 +54,7 @@ Error refused(const char* text) { return {ErrorCode::invalid_option, text, {}}; 
 /// How long one unit of the features is, in millimetres; 0: unknown. Notes what that rests on.
 double length_of_unit(Document<Feature>& features) {
   if (features.unit == Unit::css_pixel)
-    features.notes.push_back("no physical size is given: 96 pixels are taken for an inch");
+    features.notes.push_back("no physical size is given; assumed: 96 pixels per inch");
   if (features.unit != Unit::pixel || !(features.dots_per_inch > 0))
     return millimetres(features.unit);
   features.notes.push_back("the image says " + std::to_string(std::lround(features.dots_per_inch)) +

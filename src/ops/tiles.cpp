@@ -148,8 +148,9 @@ std::optional<Error> refuse_tiles(const Shape& shape, const TileGrid& grid,
                                   const Options& options) {
   if (auto error = refuse(shape, options)) return error;
   if (has_arcs(shape))
-    return Error{
-        ErrorCode::unsupported, "tiles take straight edges only: sample the arcs first", {}};
+    return Error{ErrorCode::unsupported,
+                 "tiles take straight edges only: replace the arcs by chords first",
+                 {}};
   return refuse_grid(grid, options);
 }
 

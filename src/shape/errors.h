@@ -16,11 +16,12 @@ inline Error error_without_place(ErrorCode code, std::string text) {
   return error;
 }
 
-/// Of an edge that crosses, or overlaps, the edge from a vertex of another ring or chain on.
+/// Of an edge that crosses, or overlaps, the edge that starts at a vertex of another ring or chain.
 inline std::string text_of_edges(ErrorCode code, VertexSource other, const char* line = "ring") {
-  return std::string("the edge from this vertex on ") +
-         (code == ErrorCode::overlap ? "overlaps" : "crosses") + " the edge from vertex " +
-         std::to_string(other.vertex) + " of " + line + " " + std::to_string(other.ring) + " on";
+  return std::string("the edge that starts at this vertex ") +
+         (code == ErrorCode::overlap ? "overlaps" : "crosses") +
+         " the edge that starts at vertex " + std::to_string(other.vertex) + " of " + line + " " +
+         std::to_string(other.ring);
 }
 
 inline Error error_of_ring(ErrorCode code, std::string text, std::uint64_t ring) {

@@ -401,7 +401,7 @@ PlanarGraph assemble(const Input& input, const Faces& faces, const NodedRings* n
 Error in_terms_of_input(Error error, const Input& input) {
   if (!error.place.ring || *error.place.ring >= input.edges.size()) return error;
   const VertexSource source = input.edges[*error.place.ring].source;
-  // "... the edge from vertex 0 of ring N on": N names the other edge.
+  // "... the edge that starts at vertex 0 of ring N": N names the other edge.
   const std::string marker = " of ring ";
   const std::size_t at = error.text.rfind(marker);
   if (at != std::string::npos) {

@@ -179,9 +179,10 @@ class Carve(CommandLine):
     def test_a_tool_that_fits_nowhere(self):
         """The program is valid and cuts nothing; a note says what to do."""
         self.write("slot.wkt", "POLYGON ((0 0, 10 0, 10 1, 0 1, 0 0))")
-        note = self.succeed("carve", "slot.wkt", "--units", "mm", "--angle", "0", "--tool", "5", "--depth", "1",
-                            "-o", "s.nc").stderr
-        self.assertIn(b"the tool fits nowhere in the shape", note)
+        done = self.succeed("carve", "slot.wkt", "--units", "mm", "--angle", "0", "--tool", "5", "--depth", "1",
+                            "-o", "s.nc")
+        self.assertIn(b"the tool fits nowhere in the shape", done.stderr)
+        self.assertNotIn(b"times the paths'", done.stdout)
         program = self.read("s.nc").decode()
         self.assertNotIn("{", program)
         self.assertTrue(program.rstrip().endswith("M2"), program)
@@ -259,7 +260,7 @@ class Carve(CommandLine):
         self.assertIn("{safe}", self.refuse("invalid_option", *common, "--post", self.path("low.post"), "-o", "t.nc"))
         self.write("bad.post", "[start]\n")
         error = self.refuse("invalid_option", *common, "--post", self.path("bad.post"), "-o", "t.nc")
-        self.assertIn("bad.post: the template of G-code has no part [tool]", error)
+        self.assertIn("bad.post: the G-code template has no section [tool]", error)
         self.refuse("invalid_option", *common, "--post", "nowhere", "-o", "t.nc")
         self.succeed(*common, "--preview", "p.png", "--width", "200", "-o", "s.nc")
         self.assertTrue(self.read("p.png").startswith(b"\x89PNG"))

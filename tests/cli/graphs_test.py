@@ -60,6 +60,7 @@ class Graphs(CommandLine):
         self.assertEqual(networkx.read_graphml(self.path("mm.graphml"), force_multigraph=True).graph["unit"], "mm")
         self.succeed("axis", "shapes.wkt", "--units", "mm", "-o", "mm.nodelink")
         self.assertEqual(json.loads(self.read("mm.nodelink"))["graph"], {"unit": "mm"})
+        self.assertNotIn(b"from_node", self.read("graph.graphml"))  # no key without values
         xml = networkx.read_graphml(self.path("graph.graphml"), node_type=int, force_multigraph=True)
         link = networkx.node_link_graph(json.loads(self.read("graph.nodelink")))
         plain = networkx.read_weighted_edgelist(self.path("graph.edgelist"), nodetype=int,

@@ -224,7 +224,7 @@ class Inputs(CommandLine):
         self.assertEqual(json.loads(done.stdout)["features"], 2)
         self.assertIn("left out: feature 1", notes)
         self.assertIn("feature 2, ring 1", notes)
-        self.assertIn("1 of 3 features are invalid", notes)
+        self.assertIn("1 of 3 features is invalid and was left out", notes)
         both = self.succeed("axis", "some.wkt", "--skip-invalid", "--repair", "--json")
         self.assertEqual(json.loads(both.stdout)["features"], 3)
         self.assertNotIn(b"left out: feature 1", both.stderr)
@@ -239,13 +239,13 @@ class Inputs(CommandLine):
         self.write("bad.wkt", BOW_TIE)
         for name in self.supported("bad.json", "bad.geojson", "bad.gpkg", "bad.csv", "bad.svg"):
             notes = self.succeed("axis", "bad.wkt", "--skip-invalid", "-o", name).stderr.decode()
-            self.assertIn("1 of 1 features are invalid and were left out; --repair", notes)
+            self.assertIn("1 of 1 feature is invalid and was left out; --repair", notes)
         for command in (["carve", "--angle", "60"], ["match", "some.wkt"]):
             self.refuse("empty", command[0], "bad.wkt", "--skip-invalid", "--quiet", *command[1:])
 
     def test_unclosed_rings_are_noted(self):
         self.write("open.geojson", '{"type":"Polygon","coordinates":[[[0,0],[4,0],[4,2],[0,2]]]}')
-        self.assertIn(b"1 ring is without its first point", self.succeed("axis", "open.geojson").stderr)
+        self.assertIn(b"1 ring does not end at its first point", self.succeed("axis", "open.geojson").stderr)
 
     def test_reference_systems(self):
         """The numbers count more than what a format says of them."""

@@ -58,6 +58,7 @@ class Prune(CommandLine):
         report = json.loads(self.succeed("smooth", "bumps.wkt", "--significance", "0.5", "-o", "calm.wkt",
                                          "--json").stdout)
         self.assertEqual(report["measure"], "significance")
+        self.assertRegex(self.succeed("smooth", "bumps.wkt").stdout, rb"measure +prominence\n")
         self.assertLess(report["branches"], report["branches_before"])
         text = self.read("calm.wkt").decode()
         self.assertIn("1.6", text)            # the bump in the waist stays

@@ -48,7 +48,9 @@ class Voronoi(CommandLine):
             area += sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(ring, ring[1:])) / 2
         self.assertAlmostEqual(area, 100, delta=0.1)
         crossing = b"LINESTRING(0 0,2 2);LINESTRING(0 2,2 0)"
-        self.assertIn("(1, 1)", self.refuse("crossing", "voronoi", "-", given=crossing))
+        self.assertIn("feature 0, chain 0, vertex 0 at (1, 1): the edge that starts at this vertex crosses the edge that "
+                      "starts at vertex 0 of chain 0 of feature 1; --repair splits lines where they cross",
+                      self.refuse("crossing", "voronoi", "-", given=crossing))
         report = json.loads(self.succeed("voronoi", "-", "--repair", "--json", given=crossing).stdout)
         self.assertEqual((report["segments"], report["points"]), (4, 5))
         points = json.loads(self.succeed("voronoi", "-", "--json", given=b"0 0\n1 0\n0 1\n").stdout)
@@ -70,7 +72,12 @@ class Voronoi(CommandLine):
         self.assertEqual(done.returncode, 1)
         self.assertIn(b"FAILED", done.stdout)
         self.succeed("voronoi", "outline.wkt", "--method", "lee", "-o", "lee.json")
-        self.refuse("unsupported", "verify", "outline.wkt", "lee.json")
+        self.assertIn("this diagram has no enclosure", self.refuse("unsupported", "verify", "outline.wkt", "lee.json"))
+        # Neither they nor offsets hold shapes: what they are, and what reads them.
+        self.succeed("offset", "outline.wkt", "--distance", "0.1", "-o", "offsets.json")
+        for name, command in (("lee.json", "medial verify"), ("v.json", "medial verify"), ("offsets.json", "medial offset")):
+            self.assertIn(command, self.refuse("unsupported", "info", name))
+            self.assertIn(command, self.refuse("unsupported", "draw", name, "-o", "x.svg"))
         self.write("cut.json", json.dumps(stored)[:-9])
         self.refuse("malformed", "verify", "crossing.wkt", "cut.json", "--repair")
 
@@ -80,6 +87,8 @@ class Voronoi(CommandLine):
         rows = [f["properties"] for f in json.loads(self.read("v.geojson"))["features"]]
         faces = sorted((row["feature"], row["name"], row["ring"]) for row in rows if row["part"] == "face")
         self.assertEqual(faces, [(0, "a", 0), (1, "b", 0), (2, "c", 0)])
+        self.assertEqual({row["part"] for row in rows}, {"face", "edge", "enclosure"})
+        self.assertEqual({row["kind"] for row in rows if row["part"] == "face"}, {"point"})
         # Between two features an edge is nobody's.
         self.assertEqual([row["feature"] for row in rows if row["part"] == "edge"], [None] * 3)
         for output in self.supported("v.gpkg"):

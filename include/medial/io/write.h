@@ -107,7 +107,7 @@ struct CarveItem {
 struct CuttingSpeeds {
   double feed = 1000;   ///< of cutting moves, units per minute
   double plunge = 300;  ///< downwards, units per minute
-  double spindle = 0;   ///< turns per minute; 0: the program does not set it
+  double spindle = 0;   ///< revolutions per minute; 0: the program does not set it
 };
 
 /// What a machine needs besides the paths. Lengths in units of the document.

@@ -91,7 +91,7 @@ Result<PostTemplate> PostTemplate::make(const std::string& name_or_text) {
     if (text == post.name) text = post.text;
   if (const std::string_view unknown = unknown_name(text); !unknown.empty())
     return Error{ErrorCode::invalid_option,
-                 fmt::format("a template of G-code has no value {{{}}}; there are {{{}}}", unknown,
+                 fmt::format("a G-code template has no value {{{}}}; there are {{{}}}", unknown,
                              fmt::join(value_names, "}, {")),
                  {}};
   PostTemplate result;
@@ -108,13 +108,14 @@ Result<PostTemplate> PostTemplate::make(const std::string& name_or_text) {
     if (!result.parts_.contains(static_cast<PostPart>(i)))
       return Error{
           ErrorCode::invalid_option,
-          fmt::format("the template of G-code has no part {}; it needs {}, each on its own line",
+          fmt::format("the G-code template has no section {}; it needs {}, each name on its own "
+                      "line",
                       part_names[i], fmt::join(part_names, " ")),
           {}};
   // The first move goes across at the height that this part leaves the tool at.
   if (result.parts_[PostPart::cut].find("{safe}") == std::string::npos)
     return Error{ErrorCode::invalid_option,
-                 "the part [cut] of a template of G-code has to lift the tool: G0 Z{safe}",
+                 "the section [cut] of a G-code template must lift the tool: G0 Z{safe}",
                  {}};
   return result;
 }

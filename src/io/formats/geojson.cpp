@@ -234,7 +234,7 @@ void put_face(Collection& collection, OutputStream& out, const Document<VoronoiI
   collection.member("\"feature\"", owner.feature);
   collection.member("\"part\"", "face");
   collection.member("\"site\"", k);
-  collection.member("\"kind\"", name_of(site.kind()));
+  collection.member("\"kind\"", name_of(file.items[i], site));
   collection.member("\"ring\"", ring_in_feature(file.items[i], site));
   collection.member("\"vertex\"", site.vertex);
   collection.attributes(columns, *owner.attributes);

@@ -38,11 +38,11 @@ class GraphTables : public TableSink {
   /// Calls visit(column, value) for what is known beyond the names of nodes.
   template <class Visit>
   void each_value(std::size_t table, std::span<const Value> values, const Visit& visit) const {
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const bool name =
-          table == branch_table ? i == from_column || i == to_column : i == node_column;
-      if (!name && is_known(values[i])) visit(i, values[i]);
-    }
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (!names_node(table, i) && is_known(values[i])) visit(i, values[i]);
+  }
+  static bool names_node(std::size_t table, std::size_t i) {
+    return table == branch_table ? i == from_column || i == to_column : i == node_column;
   }
 
   OutputStream& out_;
@@ -87,7 +87,7 @@ class GraphmlTables final : public GraphTables {
     tags_.resize(tables_.size());
     for (std::size_t table = 0; table < tables_.size(); ++table)
       for (std::size_t i = 0; i < tables_[table].columns.size(); ++i) {
-        put_key(table, i, tables_[table].columns[i]);
+        if (!names_node(table, i)) put_key(table, i, tables_[table].columns[i]);
         tags_[table].push_back(fmt::format("<data key=\"{}{}\">", letter(table), i));
       }
     for (const char* place : {"x", "y"}) put_key_of(place, "node", place, "double");

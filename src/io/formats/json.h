@@ -16,6 +16,8 @@ inline constexpr int native_version = 2;
 bool begins_like_native(std::string_view text);
 /// Whether it begins like a Voronoi diagram, whose first member is "medial_voronoi".
 bool begins_like_voronoi(std::string_view text);
+/// Of JSON of medial's own without a shape: what it holds, and what reads it; else null.
+const char* text_without_shape(std::string_view text);
 
 /// Reads and checks: every index is in its range, every number finite.
 /// Errors: unreadable, malformed, unsupported (a newer version), too_large (4 GiB or more).

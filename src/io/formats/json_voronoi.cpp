@@ -128,6 +128,17 @@ bool begins_like_voronoi(std::string_view text) {
   return begins_with_member(text, "\"medial_voronoi\"");
 }
 
+const char* text_without_shape(std::string_view text) {
+  if (begins_like_voronoi(text))
+    return "this is a Voronoi diagram, which `medial verify` reads: medial verify INPUT FILE";
+  if (begins_with_member(text, "\"medial_offsets\""))
+    return "this is the .json of `medial offset`, which no command reads; .geojson can be read "
+           "again";
+  if (begins_with_member(text, "\"medial_features\""))
+    return "this is the .json of `medial features`, which no command reads";
+  return nullptr;
+}
+
 Result<Document<VoronoiItem>> read_voronoi(TextSource& source) {
   return read_document(source, newest_version, read_voronoi_file);
 }

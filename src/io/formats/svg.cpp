@@ -354,7 +354,7 @@ Result<Document<Feature>> read_svg(const Input& input, const ReadOptions& option
   dataset.unit = document->unit();
   if (dataset.items.empty() && !drawing.strokes.empty()) {
     dataset.notes.push_back(
-        "no shape is filled: closed strokes are taken for outlines, by the even-odd rule");
+        "no shape is filled: closed strokes are used as outlines, by the even-odd rule");
     drawing.unfilled = 0;
     Feature outlines;
     outlines.contours = std::move(drawing.strokes);
@@ -382,9 +382,10 @@ Result<Document<Feature>> read_svg(const Input& input, const ReadOptions& option
                                             : fmt::format("{} texts or pictures were", count)));
   }
   if (document->selectors_left_out() > 0) {
+    const std::size_t count = document->selectors_left_out();
     dataset.notes.push_back(
-        fmt::format("{} selectors of style sheets were not understood and left out",
-                    document->selectors_left_out()));
+        count == 1 ? std::string("1 unsupported selector of a style sheet was ignored")
+                   : fmt::format("{} unsupported selectors of style sheets were ignored", count));
   }
   return std::move(dataset);
 }
