@@ -565,6 +565,10 @@ Error error_at(ErrorCode code, const std::string& file, std::string text) {
   return error;
 }
 
+Error no_shape(const std::string& file) {
+  return error_at(ErrorCode::empty, file, "contains no shape");
+}
+
 Error invalid_option(std::string text) {
   return Error{ErrorCode::invalid_option, std::move(text), {}};
 }

@@ -240,8 +240,19 @@ class Inputs(CommandLine):
         for name in self.supported("bad.json", "bad.geojson", "bad.gpkg", "bad.csv", "bad.svg"):
             notes = self.succeed("axis", "bad.wkt", "--skip-invalid", "-o", name).stderr.decode()
             self.assertIn("1 of 1 features are invalid and were left out; --repair", notes)
-        for command in (["carve", "--angle", "60"], ["match", "some.wkt"]):
+        # Or an error, where a command needs a shape.
+        places = ["--from", "0,0", "--to", "1,1"]
+        for command in (["carve", "--angle", "60"], ["match", "some.wkt"], ["nest", "some.wkt"],
+                        ["prune", "--preview", "-o", "t.png"], ["compare", "-o", "t.svg"], ["pack", "-o", "t.mpk"],
+                        ["centreline", *places, "-o", "t.json"], ["centreline", "--widest", "0/0", "0/1"],
+                        ["measure", *places], ["measure", "--widest", "0/0", "0/1", "--json"]):
             self.refuse("empty", command[0], "bad.wkt", "--skip-invalid", "--quiet", *command[1:])
+        self.write("one.wkt", "POLYGON((0 0,4 0,4 2,0 2,0 0))")
+        self.refuse("empty", "nest", "one.wkt", "bad.wkt", "--skip-invalid", "--quiet")
+        self.refuse("empty", "prune", "bad.json", "--preview", "-o", "t.svg")
+        report = json.loads(self.succeed("axis", "bad.wkt", "--skip-invalid", "--json").stdout)
+        self.assertIsNone(report["deepest"])
+        self.assertNotIn(b"wide enough", self.succeed("offset", "bad.wkt", "--skip-invalid", "--distance", "1").stderr)
 
     def test_unclosed_rings_are_noted(self):
         self.write("open.geojson", '{"type":"Polygon","coordinates":[[[0,0],[4,0],[4,2],[0,2]]]}')
