@@ -284,6 +284,14 @@ class Inputs(CommandLine):
         self.succeed("axis", "a.geojson.gz")
         self.assertEqual(self.files(), ["a.geojson.gz"])
 
+    def test_drawings_from_a_pipe(self):
+        self.skip_without("DXF")
+        self.write("a.wkt", "POLYGON((0 0,4 0,4 3,0 3,0 0))")
+        self.succeed("rebuild", "a.wkt", "-o", "a.dxf")
+        for drawing in (self.read("a.dxf"), b"999\na comment\n" + self.read("a.dxf")):
+            report = json.loads(self.succeed("info", "-", "--json", given=drawing).stdout)
+            self.assertAlmostEqual(report["area"], 12)
+
     def test_options_of_drawings(self):
         self.skip_without("DXF")
         lines = "0 SECTION 2 ENTITIES 0 LINE 8 A 10 0 20 0 11 4 21 0 0 LINE 8 A 10 4 20 0 11 4 21 3 "
@@ -337,5 +345,14 @@ class Inputs(CommandLine):
             error = self.refuse("unsupported", "axis", lines)
             self.assertIn("no polygons", error)
             self.assertIn("medial voronoi", error)
+        # Geometries in a column, by name and from a pipe.
+        square = '"POLYGON((0 0,4 0,4 3,0 3,0 0))"'
+        for text in (f"id,WKT\n1,{square}\n", f"WKT,i,s\n{square},0,a\n", f"name,WKT\na,{square}\n"):
+            self.write("column.csv", text)
+            for done in (self.succeed("info", "column.csv", "--json"),
+                         self.succeed("info", "-", "--json", given=text.encode())):
+                self.assertEqual(json.loads(done.stdout)["area"], 12)
+        piped = self.succeed("voronoi", "-", "--json", given=self.read("wells.csv"))
+        self.assertEqual(json.loads(piped.stdout)["points"], 3)
         self.write("names.txt", "x y\nwords only\n")
         self.refuse("malformed", "axis", "names.txt")
