@@ -83,6 +83,8 @@ void settle_input(InputOptions& input, const std::string& second_name, std::stri
     input.path = input.font;
   }
   if (second != nullptr && second->empty()) throw CLI::RequiredError(second_name);
+  if (second != nullptr && *second == "-" && input.path == "-")
+    throw CLI::ValidationError("INPUT and " + second_name + " cannot both be standard input");
 }
 
 void add_curve_options(CLI::App& command, InputOptions& input) {
@@ -562,6 +564,10 @@ Error error_at(ErrorCode code, const std::string& file, std::string text) {
   Error error{code, std::move(text), {}};
   error.place.file = file;
   return error;
+}
+
+Error no_shape(const std::string& file) {
+  return error_at(ErrorCode::empty, file, "contains no shape");
 }
 
 Error invalid_option(std::string text) {

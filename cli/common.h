@@ -172,6 +172,8 @@ inline constexpr char image_formats[] = ".png .tif .pbm";
 
 /// The error of a command line that asks for something impossible.
 Error invalid_option(std::string text);
+/// That a file holds no shape, for commands that need one: --skip-invalid may leave none.
+Error no_shape(const std::string& file);
 
 /// {"error": {"code": ..., "text": ..., "place": {...}}}
 Json to_json(const Error& error);

@@ -194,6 +194,7 @@ Result<int> run_compare(const CompareArguments& arguments) {
   auto loaded = load_shapes(input, common);
   if (!loaded) return std::move(loaded).error();
   const Document<ShapeItem>& file = loaded->file;
+  if (file.items.empty()) return no_shape(input.path);
   bool failed = false;
   Json features = Json::array();
   std::string text;

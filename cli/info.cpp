@@ -135,8 +135,10 @@ Result<int> summarize_axes(const FileArguments& arguments) {
   phases.end("read");
   if (file->items.empty())
     return error_at(ErrorCode::empty, arguments.input.path, "contains no axis");
-  // Contours are shapes whose axes are still to be computed.
-  if (std::ranges::any_of(file->items, [](const auto& item) { return !item.contours.empty(); }))
+  // Shapes and contours, whose axes are still to be computed.
+  if (std::ranges::any_of(file->items, [](const auto& item) {
+        return !item.contours.empty() || item.axis.method.empty();
+      }))
     return summarize_polygons(arguments);
   const AxisSummary axes = summarize(*file);
   const ShapeSummary shapes = summarize_shapes(*file);

@@ -124,7 +124,7 @@ Status check_places(const PathOptions& arguments, const InputOptions& input) {
 
 void note_places(const Document<AxisItem>& file, const PathOptions& arguments,
                  const FileArguments& files) {
-  if (files.common.quiet || !arguments.between_places()) return;
+  if (files.common.quiet || !arguments.between_places() || file.items.empty()) return;
   if (file.items.size() > 1) {
     const NamedPlace begin = *named(places_of(arguments)[0]);
     say("medial: {}: note: the line lies in feature {}, where it begins; other features have "
@@ -175,6 +175,8 @@ Result<std::vector<std::vector<AxisPath>>> choose_paths(const Document<AxisItem>
   const std::string& to = widest ? arguments.widest[1] : arguments.to;
   if (from.empty() != to.empty()) return invalid_option("--from and --to must be given together");
   if (!from.empty()) {
+    if (file.items.empty())
+      return Error{ErrorCode::empty, "there is no shape for a line between places", {}};
     const NamedPlace begin = *named(from), end = *named(to);
     const std::size_t chosen = feature_of(file, begin);
     auto path = path_between_named(file.items[chosen], begin, end, arguments);

@@ -136,7 +136,7 @@ Result<Candidates> candidates_of(const MatchArguments& arguments) {
       return std::move(found).error();
     }
   }
-  if (out.shapes.empty()) return error_at(ErrorCode::empty, arguments.other, "contains no shape");
+  if (out.shapes.empty()) return no_shape(arguments.other);
   return out;
 }
 
@@ -146,7 +146,7 @@ Result<int> run_match(const MatchArguments& arguments) {
   auto asked =
       signatures_of(first_input(arguments.input, arguments.other), arguments.common, false);
   if (!asked) return std::move(asked).error();
-  if (asked->empty()) return error_at(ErrorCode::empty, path, "contains no shape");
+  if (asked->empty()) return no_shape(path);
   const auto candidates = candidates_of(arguments);
   if (!candidates) return candidates.error();
   using Ranked = std::pair<double, const NamedSignature*>;

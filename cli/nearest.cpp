@@ -97,6 +97,8 @@ Result<int> run_nearest(const FileArguments& arguments, const NearestArguments& 
   if (writable && !asked.queries.empty())
     writable = check_output(output, format, answer_formats, asked.queries, common.json);
   if (!writable) return std::move(writable).error();
+  if (input.path == "-" && asked.queries == "-")
+    return invalid_option("INPUT and --queries cannot both be standard input");
   Phases phases;
   auto pieces = load_loose(input, common);
   if (!pieces) return std::move(pieces).error();

@@ -25,6 +25,7 @@ struct NestArguments : FileArguments {
 Result<ShapeItem> first_shape(const InputOptions& input, const CommonOptions& common) {
   auto loaded = load_shapes(input, common);
   if (!loaded) return std::move(loaded).error();
+  if (loaded->file.items.empty()) return no_shape(input.path);
   return std::move(loaded->file.items.front());
 }
 

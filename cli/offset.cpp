@@ -73,7 +73,7 @@ struct OffsetSums {
 Result<int> finish_offsets(const OffsetSums& sums, const OffsetArguments& arguments,
                            const Phases& phases) {
   const std::string& input = arguments.input.path;
-  if (sums.regions == 0 && !arguments.common.quiet)
+  if (sums.features > 0 && sums.regions == 0 && !arguments.common.quiet)
     say("medial: {}: note: the result is empty: no shape is wide enough for that distance\n",
         input);
   const Json seconds = {{"axis", sums.seconds_axis},

@@ -137,6 +137,7 @@ Result<int> run_pack(const PackArguments& arguments) {
   if (arguments.squares) return pack_squares(arguments);
   auto axes = load_axes(arguments.input, arguments.common);
   if (!axes) return std::move(axes).error();
+  if (axes->file.items.empty()) return no_shape(input);
   const double bound =
       arguments.absolute ? arguments.error : arguments.error * extent_of(axes->file);
   const auto packed = pack_axes(axes->file, bound);

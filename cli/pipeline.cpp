@@ -418,17 +418,17 @@ AxisSummary PartsSummary::finish(std::size_t shapes, std::uint64_t sites) {
 }
 
 Json to_json(const AxisSummary& summary) {
-  return {{"features", summary.features},
-          {"sites", summary.sites},
-          {"nodes", summary.nodes()},
-          {"edges", summary.edges},
-          {"branches", summary.branches},
-          {"length", summary.length},
-          {"deepest",
-           {{"x", summary.deepest.center.x},
-            {"y", summary.deepest.center.y},
-            {"radius", summary.deepest.radius},
-            {"feature", summary.deepest_feature}}}};
+  const Disk& disk = summary.deepest;
+  Json deepest;  // null where there is no disk
+  if (disk.radius >= 0)
+    deepest = {{"x", disk.center.x},
+               {"y", disk.center.y},
+               {"radius", disk.radius},
+               {"feature", summary.deepest_feature}};
+  return {{"features", summary.features}, {"sites", summary.sites},
+          {"nodes", summary.nodes()},     {"edges", summary.edges},
+          {"branches", summary.branches}, {"length", summary.length},
+          {"deepest", std::move(deepest)}};
 }
 
 Status write_panels(const FileArguments& arguments, const DocumentInfo& info, const Box& box,

@@ -213,6 +213,7 @@ Result<int> run_prune(const PruneCommandArguments& arguments) {
       !options->threshold)
     options->threshold = image_prominence;
   if (arguments.preview) {
+    if (axes->file.items.empty()) return no_shape(arguments.input.path);
     Status written = write_previews(axes->file, *options, arguments);
     if (!written) return std::move(written).error();
     return exit_success;

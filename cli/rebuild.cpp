@@ -209,6 +209,8 @@ Status check(const RebuildArguments& arguments) {
   if (pixels && (arguments.output.empty() || arguments.output == "-"))
     return invalid_option("--pixels needs -o with the name of an image");
   if (pixels && !arguments.against.empty()) return invalid_option("--against is not for --pixels");
+  if (arguments.input.path == "-" && arguments.against == "-")
+    return invalid_option("INPUT and --against cannot both be standard input");
   const std::string formats = pixels ? image_formats : io::formats_of(io::DocumentKind::shapes);
   if (Status possible = arguments.against.empty() ? success()
                                                   : check_output(arguments.output, arguments.format,

@@ -271,8 +271,6 @@ bool are_other_shapes(const Document<AxisItem>& stored, const Document<ShapeItem
 Result<int> run_verify(const VerifyArguments& arguments) {
   const auto& [input, common] = std::tie(arguments.input, arguments.common);
   const std::string& axis_path = arguments.axis_path;
-  if (input.path == "-" && axis_path == "-")
-    return invalid_option("INPUT and AXIS cannot both be standard input");
   if (io::is_voronoi(axis_path)) return verify_voronoi(arguments);
   auto stored =
       read_stored(axis_path, [](const std::string& path) { return io::read_native(path); });

@@ -100,7 +100,7 @@ Result<Shape> build_shape(std::span<const Ring> rings, const ShapeOptions& optio
 
 /// The exterior of a shape: a rectangular enclosure at distance `margin` from the bounding box (0:
 /// half of its longer side) minus the shape. The enclosure's vertices have source ring 0. Errors:
-/// invalid_option (a margin outside [1e-6, 1e6] diagonals), those of build_shape().
+/// invalid_option (a margin outside [1e-6, 1e6] diagonals, or rounding), those of build_shape().
 Result<Shape> surroundings(const Shape& shape, double margin = 0);
 
 }  // namespace medial

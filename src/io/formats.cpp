@@ -29,7 +29,6 @@ const std::vector<Format>& formats_at_hand() {
 #endif
       wkt_format(),
       csv_format(),
-      xy_format(),
       graphml_format(),
       nodelink_format(),
       edgelist_format(),
@@ -38,6 +37,7 @@ const std::vector<Format>& formats_at_hand() {
       dxf_format(),
 #endif
       with_pictures(svg_format()),
+      xy_format(),  // any text that begins with a number, as drawings do
 #ifdef MEDIAL_PICTURES
       with_pictures(Format{".pdf"}),
       with_rasters(png_format()),

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/in_flight.h"
+#include "base/tolerance.h"
 
 namespace medial {
 namespace {
@@ -56,16 +57,23 @@ Result<Exterior> exterior_of(const Shape& shape, double margin) {
   return exterior;
 }
 
+double least_margin_for(const Box& box) {
+  return std::max(1e-6 * diagonal(box), least_room * spacing_in(box));
+}
+
 double margin_for(const Box& box, double margin) {
-  return margin > 0 ? margin : 0.5 * std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+  if (margin > 0) return margin;
+  return std::max(0.5 * std::max(box.high.x - box.low.x, box.high.y - box.low.y),
+                  least_margin_for(box));
 }
 
 Result<double> checked_margin_for(const Box& box, double margin) {
-  constexpr double least = 1e-6, most = 1e6;
-  const double chosen = margin_for(box, margin), size = diagonal(box);
-  if (!(margin >= 0 && chosen >= least * size && chosen <= most * size))
-    return Error{
-        ErrorCode::invalid_option, "the margin must be in [1e-6, 1e6] of the shape's diagonal", {}};
+  const double chosen = margin_for(box, margin), least = least_margin_for(box);
+  if (!(margin >= 0 && chosen >= least && chosen <= std::max(1e6 * diagonal(box), least)))
+    return Error{ErrorCode::invalid_option,
+                 "the margin must be in [1e-6, 1e6] of the shape's diagonal, and far above the "
+                 "rounding of its coordinates",
+                 {}};
   return chosen;
 }
 

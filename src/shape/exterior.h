@@ -21,10 +21,18 @@ struct Exterior {
 /// sides. Requires margin > 0. Errors: those of build_shape().
 Result<Exterior> exterior_of(const Shape& shape, double margin);
 
-/// The margin that options ask for: `margin`, or where that is 0 half of the box's longer side.
+/// In spacings of doubles: with less room, rounding moves an enclosure onto what it encloses, or
+/// its own corners onto each other.
+constexpr double least_room = 1024;
+
+/// The least margin: a share of the box, and no less than that room.
+double least_margin_for(const Box& box);
+
+/// The margin that options ask for: `margin`, or where that is 0 half of the box's longer side, and
+/// not less than the least one.
 double margin_for(const Box& box, double margin);
 
-/// The same. Errors: invalid_option, outside [1e-6, 1e6] of the box's diagonal.
+/// The same. Errors: invalid_option, below the least one or above 1e6 of the box's diagonal.
 Result<double> checked_margin_for(const Box& box, double margin);
 
 }  // namespace medial

@@ -200,7 +200,7 @@ class VoronoiCheck {
           if (face.empty()) return;
           ++found.faces;
           const Vec2 middle = diagram_.sites[site].start;
-          double doubled = 0;
+          double doubled = 0, around = 0;
           bool sound = true;
           for (std::size_t i = 0; i < face.size(); ++i) {
             const VoronoiEdge& edge = diagram_.edges[face[i]];
@@ -213,8 +213,11 @@ class VoronoiCheck {
               ++used[2 * face[i] + (forward ? 1 : 0)];
             // The face is on the right of its walk.
             doubled += (forward ? -1 : 1) * swept(edge, middle);
+            for (const std::uint32_t node : edge.node)
+              around += distance(diagram_.nodes[node].disk.center, edge.control.center);
           }
-          sound = sound && doubled >= -2 * relative * whole;
+          // Points that are off by the tolerance move a face's border by as much.
+          sound = sound && doubled >= -2 * (relative * whole + tolerance_ * around);
           if (!sound) ++found.broken;
           found.area += 0.5 * doubled;
         });

@@ -46,13 +46,22 @@ Result<Box> enclosure_for(const PlanarGraph& planar_graph, const Options& option
                        enclosure->high.x > box.high.x && enclosure->high.y > box.high.y;
     if (!holds || !(diagonal(*enclosure) <= most * std::max(largest, 1.0)))
       return Error{ErrorCode::invalid_option, "the enclosure must contain all of the input", {}};
+    const Vec2 sides = enclosure->high - enclosure->low;
+    if (!(std::min(sides.x, sides.y) >= least_room * spacing_in(*enclosure)))
+      return Error{ErrorCode::invalid_option,
+                   "the enclosure must be wider than what rounding can separate",
+                   {}};
     return *enclosure;
   }
-  double margin = margin_for(box, options.margin);
-  if (margin == 0) margin = largest > 0 ? 0.5 * largest : 1;
-  if (!(options.margin >= 0 && margin >= 1e-6 * size && margin <= most * std::max(largest, 1.0)))
-    return Error{
-        ErrorCode::invalid_option, "the margin must be in [1e-6, 1e6] of the input's diagonal", {}};
+  const bool is_point = options.margin == 0 && size == 0;
+  const double margin =
+      is_point ? (largest > 0 ? 0.5 * largest : 1) : margin_for(box, options.margin);
+  if (!(options.margin >= 0 && margin >= least_margin_for(box) &&
+        margin <= most * std::max(largest, 1.0)))
+    return Error{ErrorCode::invalid_option,
+                 "the margin must be in [1e-6, 1e6] of the input's diagonal, and far above the "
+                 "rounding of its coordinates",
+                 {}};
   return Box{box.low - Vec2{margin, margin}, box.high + Vec2{margin, margin}};
 }
 

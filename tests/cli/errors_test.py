@@ -127,6 +127,11 @@ class Errors(CommandLine):
         done = self.run_medial("axis", "frame.wkt", "--bogus", "--json")
         self.assertEqual(json.loads(done.stdout)["error"]["code"], "invalid_option")
 
+    def test_one_standard_input(self):
+        for command in (["match"], ["nest"], ["verify"], ["rebuild", "--against"], ["voronoi", "--queries"]):
+            self.assertIn("cannot both be standard input", self.refuse("invalid_option", command[0], "-", *command[1:],
+                                                                       "-", given=RECTANGLE.encode()))
+
     def test_names_that_are_no_utf8(self):
         name = b"\xff\xfe.wkt"
         with open(os.path.join(self.folder.name.encode(), name), "w") as file:

@@ -75,6 +75,24 @@ class Files(CommandLine):
         for layer in added:
             self.assertEqual(self.rows(layer), 2000)
 
+    def test_a_layer_with_an_index_of_a_newer_gdal(self):
+        """Since 3.7, the triggers of an index have other names than GDAL before removes."""
+        self.write("a.wkt", RECTANGLE)
+        self.succeed("axis", "a.wkt", "-o", "t.gpkg")
+        with self.open_elsewhere("delete") as data:
+            data.execute("CREATE VIRTUAL TABLE rtree_axis_geom USING rtree(id, minx, maxx, miny, maxy)")
+            for name in ("insert", "update2", "update4", "update5", "update6", "update7", "delete"):
+                data.execute(f"CREATE TRIGGER rtree_axis_geom_{name} AFTER DELETE ON axis "
+                             "BEGIN DELETE FROM rtree_axis_geom; END")
+            data.execute("CREATE TABLE IF NOT EXISTS gpkg_extensions (table_name TEXT, column_name TEXT, "
+                         "extension_name TEXT NOT NULL, definition TEXT NOT NULL, scope TEXT NOT NULL)")
+            data.execute("INSERT INTO gpkg_extensions VALUES ('axis', 'geom', 'gpkg_rtree_index', "
+                         "'http://www.geopackage.org/spec120/#extension_rtree', 'write-only')")
+        self.assertEqual(self.rows("sqlite_master WHERE name LIKE 'rtree_axis_geom%' AND type = 'trigger'"), 7)
+        self.succeed("axis", "a.wkt", "-o", "t.gpkg", "--overwrite")
+        self.assertEqual(self.rows("sqlite_master WHERE name LIKE 'rtree_axis%'"), 0)
+        self.assertEqual(self.rows("gpkg_extensions WHERE table_name = 'axis'"), 0)
+
     def test_layers_of_others_stay(self):
         self.write("a.wkt", RECTANGLE)
         self.succeed("features", "a.wkt", "-o", "t.gpkg")

@@ -57,6 +57,12 @@ class Info(CommandLine):
         report = json.loads(self.succeed("info", "-", "--json", given=stored).stdout)
         self.assertEqual(report["kind"], "axis")
 
+    def test_shapes_in_the_own_format(self):
+        self.write("rectangle.wkt", RECTANGLE)
+        self.succeed("rebuild", "rectangle.wkt", "-o", "s.json")
+        report = json.loads(self.succeed("info", "s.json", "--json").stdout)
+        self.assertEqual((report["kind"], report["area"]), ("polygons", 8))
+
     def test_invalid_polygons(self):
         self.write("bow.wkt", BOW_TIE)
         self.refuse("crossing", "info", "bow.wkt")

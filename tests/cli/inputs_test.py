@@ -240,8 +240,19 @@ class Inputs(CommandLine):
         for name in self.supported("bad.json", "bad.geojson", "bad.gpkg", "bad.csv", "bad.svg"):
             notes = self.succeed("axis", "bad.wkt", "--skip-invalid", "-o", name).stderr.decode()
             self.assertIn("1 of 1 feature is invalid and was left out; --repair", notes)
-        for command in (["carve", "--angle", "60"], ["match", "some.wkt"]):
+        # Or an error, where a command needs a shape.
+        places = ["--from", "0,0", "--to", "1,1"]
+        for command in (["carve", "--angle", "60"], ["match", "some.wkt"], ["nest", "some.wkt"],
+                        ["prune", "--preview", "-o", "t.png"], ["compare", "-o", "t.svg"], ["pack", "-o", "t.mpk"],
+                        ["centreline", *places, "-o", "t.json"], ["centreline", "--widest", "0/0", "0/1"],
+                        ["measure", *places], ["measure", "--widest", "0/0", "0/1", "--json"]):
             self.refuse("empty", command[0], "bad.wkt", "--skip-invalid", "--quiet", *command[1:])
+        self.write("one.wkt", "POLYGON((0 0,4 0,4 2,0 2,0 0))")
+        self.refuse("empty", "nest", "one.wkt", "bad.wkt", "--skip-invalid", "--quiet")
+        self.refuse("empty", "prune", "bad.json", "--preview", "-o", "t.svg")
+        report = json.loads(self.succeed("axis", "bad.wkt", "--skip-invalid", "--json").stdout)
+        self.assertIsNone(report["deepest"])
+        self.assertNotIn(b"wide enough", self.succeed("offset", "bad.wkt", "--skip-invalid", "--distance", "1").stderr)
 
     def test_unclosed_rings_are_noted(self):
         self.write("open.geojson", '{"type":"Polygon","coordinates":[[[0,0],[4,0],[4,2],[0,2]]]}')
@@ -272,6 +283,14 @@ class Inputs(CommandLine):
         self.write("a.geojson.gz", text)
         self.succeed("axis", "a.geojson.gz")
         self.assertEqual(self.files(), ["a.geojson.gz"])
+
+    def test_drawings_from_a_pipe(self):
+        self.skip_without("DXF")
+        self.write("a.wkt", "POLYGON((0 0,4 0,4 3,0 3,0 0))")
+        self.succeed("rebuild", "a.wkt", "-o", "a.dxf")
+        for drawing in (self.read("a.dxf"), b"999\na comment\n" + self.read("a.dxf")):
+            report = json.loads(self.succeed("info", "-", "--json", given=drawing).stdout)
+            self.assertAlmostEqual(report["area"], 12)
 
     def test_options_of_drawings(self):
         self.skip_without("DXF")
@@ -329,5 +348,14 @@ class Inputs(CommandLine):
         self.write("square.wkt", "POLYGON ((0 0, 9000 0, 9000 9000, 0 9000, 0 0))")
         self.succeed("axis", "square.wkt", "-o", "layers.gpkg")
         self.assertIn("--layer chooses among axis, nodes", self.refuse("unsupported", "axis", "layers.gpkg"))
+        # Geometries in a column, by name and from a pipe.
+        square = '"POLYGON((0 0,4 0,4 3,0 3,0 0))"'
+        for text in (f"id,WKT\n1,{square}\n", f"WKT,i,s\n{square},0,a\n", f"name,WKT\na,{square}\n"):
+            self.write("column.csv", text)
+            for done in (self.succeed("info", "column.csv", "--json"),
+                         self.succeed("info", "-", "--json", given=text.encode())):
+                self.assertEqual(json.loads(done.stdout)["area"], 12)
+        piped = self.succeed("voronoi", "-", "--json", given=self.read("wells.csv"))
+        self.assertEqual(json.loads(piped.stdout)["points"], 3)
         self.write("names.txt", "x y\nwords only\n")
         self.refuse("malformed", "axis", "names.txt")

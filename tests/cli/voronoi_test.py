@@ -2,6 +2,7 @@
 
 import contextlib
 import json
+import math
 import sqlite3
 
 from support import FRAME, CommandLine, comb
@@ -31,6 +32,22 @@ class Voronoi(CommandLine):
         self.write("half.svg", '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0H20A10 10 0 0 1 0 0Z"/></svg>')
         self.refuse("unsupported", "voronoi", "half.svg", "--method", "lee", "-o", "x.json")
         self.refuse("[a-z_]+", "voronoi", "teeth.wkt", "--method", "magic")
+
+    def test_voronoi_of_pieces_a_few_roundings_apart(self):
+        """The default enclosure lies outside of them, and narrower ones are refused."""
+        for place in (1, 1e6):
+            step = math.ulp(place)
+            for width in (1, 4):
+                corners = [(place, place), (place + width * step, place), (place, place + width * step)]
+                triangle = ",".join(f"{x!r} {y!r}" for x, y in corners + corners[:1])
+                points = ";".join(f"POINT({x!r} {y!r})" for x, y in corners)
+                for pieces in (f"POLYGON(({triangle}))", points, points[:points.rindex(";")]):
+                    self.write("near.wkt", pieces)
+                    self.succeed("voronoi", "near.wkt", "-o", "near.json")
+                    self.assertIn("passed", self.succeed("verify", "near.wkt", "near.json").stdout.decode(), pieces)
+                box = [place - step, place - step, place + (width + 1) * step, place + (width + 1) * step]
+                self.refuse("invalid_option", "voronoi", "near.wkt", "--enclosure", ",".join(map(repr, box)))
+                self.refuse("invalid_option", "voronoi", "near.wkt", "--margin", repr(2 * step))
 
     def test_voronoi_of_loose_pieces(self):
         loose = b"POINT(1 3);LINESTRING(0 0,2 0,2 2);POLYGON((5 0,7 0,7 2,5 2,5 0));MULTIPOINT((4 4),(5 5))"

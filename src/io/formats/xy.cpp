@@ -77,7 +77,10 @@ Names names_of(std::string_view text) {
   const std::vector<std::string_view> words = words_of(text.substr(0, end));
   const bool named = words.size() == 2 && is_letter(words[0][0]) && is_letter(words[1][0]);
   const std::size_t next = text.find_first_not_of(" \t\r\n", end);
-  if (!named || next == std::string_view::npos || !is_number_begin(text[next])) return {};
+  if (!named || next == std::string_view::npos) return {};
+  const auto values = words_of(text.substr(next, text.find('\n', next) - next));
+  if (values.size() < 2 || !is_number_begin(values[0][0]) || !is_number_begin(values[1][0]))
+    return {};
   return {end + 1, std::string(words[0]), std::string(words[1])};
 }
 

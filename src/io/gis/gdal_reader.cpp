@@ -5,7 +5,9 @@
 #include <ogrsf_frmts.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -279,7 +281,30 @@ class GdalReader final : public FeatureReader {
   bool latitude_first_ = false;
 };
 
-/// Reads a stream, which GDAL gets as a file in memory.
+/// Whether a text begins with names of columns, among them one of geometries or two of coordinates.
+bool begins_like_table(std::string_view text) {
+  const char first = text.empty() ? '\0' : text[0];
+  if (std::isalpha(static_cast<unsigned char>(first)) == 0 && first != '_' && first != '"')
+    return false;
+  constexpr std::string_view between = ",;\t|\" \r";
+  std::string line(text.substr(0, text.find('\n')));
+  line = lower_case(std::move(line));
+  bool x = false, y = false;
+  const auto is_one_of = [](std::string_view word, std::string_view names) {
+    return fmt::format(",{},", names).find(fmt::format(",{},", word)) != std::string::npos;
+  };
+  for (std::size_t at = line.find_first_not_of(between); at != std::string::npos;) {
+    const std::size_t end = std::min(line.find_first_of(between, at), line.size());
+    const std::string_view word = std::string_view(line).substr(at, end - at);
+    if (word == "wkt" || word.starts_with("_wkt")) return true;  // GDAL's names
+    x = x || is_one_of(word, x_names);
+    y = y || is_one_of(word, y_names);
+    at = line.find_first_not_of(between, end);
+  }
+  return x && y;
+}
+
+/// Reads a stream, which GDAL gets as a file in memory. Tables it knows by their names alone.
 Result<Document<Feature>> read_bytes(const Input& input, const ReadOptions& options) {
   constexpr std::size_t longest_stream = std::size_t{1} << 32U;
   std::string bytes;
@@ -291,7 +316,7 @@ Result<Document<Feature>> read_bytes(const Input& input, const ReadOptions& opti
     return error(ErrorCode::too_large, "more than 4 GiB in a stream");
   if (input.source->failure()) return *input.source->failure();
   if (bytes.empty()) return error(ErrorCode::empty, "there is nothing to read");
-  const MemoryFile file(bytes);
+  const MemoryFile file(bytes, begins_like_table(bytes) ? ".csv" : "");
   if (file.name().empty()) return error(ErrorCode::unreadable, "cannot be kept in memory");
   GdalReader reader(input.path, options);
   if (Status opened = reader.open(file.name()); !opened) return std::move(opened).error();

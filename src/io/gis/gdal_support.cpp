@@ -54,8 +54,8 @@ void register_gdal() {
   });
 }
 
-MemoryFile::MemoryFile(std::string& bytes)
-    : name_(fmt::format("/vsimem/medial_{}", static_cast<const void*>(&bytes))) {
+MemoryFile::MemoryFile(std::string& bytes, std::string_view extension)
+    : name_(fmt::format("/vsimem/medial_{}{}", static_cast<const void*>(&bytes), extension)) {
   VSILFILE* file = VSIFileFromMemBuffer(name_.c_str(), reinterpret_cast<GByte*>(bytes.data()),
                                         bytes.size(), FALSE);
   if (file == nullptr)

@@ -3,6 +3,7 @@
 #include <cpl_error.h>
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "medial/io/read.h"
@@ -34,10 +35,10 @@ class GdalMessages {
   std::vector<std::string> warnings_;
 };
 
-/// Bytes as a file in memory, as long as both live.
+/// Bytes as a file in memory, as long as both live, whose name ends with the extension.
 class MemoryFile {
  public:
-  explicit MemoryFile(std::string& bytes);
+  explicit MemoryFile(std::string& bytes, std::string_view extension = {});
   ~MemoryFile();
   MemoryFile(const MemoryFile&) = delete;
   MemoryFile& operator=(const MemoryFile&) = delete;

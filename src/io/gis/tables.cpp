@@ -6,8 +6,10 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <mutex>
 #include <optional>
+#include <sstream>
 
 #include "io/gis/gdal_support.h"
 #include "io/gis/make_file.h"
@@ -75,6 +77,27 @@ bool has_columns_of(OGRLayer& layer, const Table& table) {
   });
 }
 
+/// GDAL before 3.7 removes the triggers of a spatial index by names that newer GDALs no longer give
+/// them: adds those that are missing. With the layer, SQLite removes all.
+void complete_triggers(GDALDataset& dataset, OGRLayer& layer) {
+  if (dataset.GetDriver() == nullptr || !EQUAL(dataset.GetDriver()->GetDescription(), "GPKG") ||
+      layer.TestCapability(OLCFastSpatialFilter) == 0)
+    return;
+  const auto quoted = [](const std::string& name) {
+    std::ostringstream text;
+    text << std::quoted(name, '"', '"');
+    return text.str();
+  };
+  for (const char* trigger : {"insert", "update1", "update2", "update3", "update4", "delete"})
+    dataset.ExecuteSQL(
+        fmt::format("CREATE TRIGGER IF NOT EXISTS {} AFTER DELETE ON {} BEGIN SELECT 1; END",
+                    quoted(fmt::format("rtree_{}_{}_{}", layer.GetName(), layer.GetGeometryColumn(),
+                                       trigger)),
+                    quoted(layer.GetName()))
+            .c_str(),
+        nullptr, nullptr);
+}
+
 /// Removes layers of the same name as a table, if that was asked for: the first one, which the user
 /// named, and of the others those that have our columns.
 Status make_room(GDALDataset& dataset, const Target& target, const TableSource& source) {
@@ -96,6 +119,7 @@ Status make_room(GDALDataset& dataset, const Target& target, const TableSource& 
                                  "leaves alone; --output-layer gives the new one another name",
                                  name),
                      {}};
+      complete_triggers(dataset, layer);
       if (dataset.DeleteLayer(i) != OGRERR_NONE)
         return Error{
             ErrorCode::unwritable, fmt::format("the layer '{}' cannot be replaced", name), {}};
