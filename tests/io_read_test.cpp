@@ -59,7 +59,7 @@ TEST_F(Io, ReadsEveryKindOfWellKnownText) {
   ASSERT_EQ(data->notes.size(), 3U);
   EXPECT_NE(data->notes[0].find("2 geometries are not polygons"), std::string::npos);
   EXPECT_NE(data->notes[1].find("1 feature is empty"), std::string::npos);
-  EXPECT_NE(data->notes[2].find("closed by a straight edge"), std::string::npos);
+  EXPECT_NE(data->notes[2].find("were closed by straight edges"), std::string::npos);
 }
 
 TEST_F(Io, ReadsPlainCoordinates) {
