@@ -69,15 +69,21 @@ Result<Shape> build_once(std::span<const Ring> rings, const ShapeOptions& option
 }
 
 /// Where rings touch, arcs of one circle may follow each other in a loop: built again, they become
-/// one.
-Shape with_arcs_merged(Shape shape) {
+/// one. A loop of which nothing is left then has no inside.
+Result<Shape> with_arcs_merged(Shape shape) {
   for (;;) {
     const std::vector<Ring> rings = rings_of(shape);
     ShapeReport report;
     Result<Shape> again = build_once(rings, {}, report);
+    const auto source_of = [&shape](std::size_t ring, std::size_t vertex) {
+      return shape.sources[shape.loop_begin[ring] + vertex];
+    };
+    if (!again && again.error().code == ErrorCode::no_area) {
+      const VertexSource source = source_of(again.error().place.ring.value_or(0), 0);
+      return error_of_ring(ErrorCode::no_area, "the ring encloses no area", source.ring);
+    }
     if (!again || again->points.size() >= shape.points.size()) return shape;
-    for (VertexSource& source : again->sources)
-      source = shape.sources[shape.loop_begin[source.ring] + source.vertex];
+    for (VertexSource& source : again->sources) source = source_of(source.ring, source.vertex);
     shape = *std::move(again);
   }
 }
