@@ -903,5 +903,19 @@ TEST(ArcShape, TooFineForItsExteriorIsNamedInTheInput) {
   EXPECT_NE(axis.error().text.find("choose a smaller margin"), std::string::npos);
 }
 
+// Built again, one of the loops into which these edges divide merges to nothing.
+TEST(ArcShape, LoopsOfWhichMergingLeavesNothingAreRefused) {
+  const Ring ring{{{6.66133814775094e-16, 1.998401444325282e-15},
+                   {1.0000000000000024, -2.2204460492503133e-16},
+                   {0.9999999999999963, -5.551115123125783e-16},
+                   {0.31221181986362817, -0.9999999999999999}},
+                  RingRole::any,
+                  {-0.13467593254061416, 0, 0, 0}};
+  const auto shape = build_shape({&ring, 1});
+  ASSERT_FALSE(shape.ok());
+  EXPECT_EQ(shape.error().code, ErrorCode::no_area);
+  EXPECT_EQ(shape.error().place.ring, 0U);
+}
+
 }  // namespace
 }  // namespace medial
