@@ -259,10 +259,11 @@ Status write_plots(const std::string& path, const std::vector<Plot>& plots) {
   return io::write_text(path, document);
 }
 
+#ifdef MEDIAL_STAMP
 extern "C" {
-/// What the program asks the module of pictures for.
-extern const decltype(&write_plots) medial_write_plots;
-const decltype(&write_plots) medial_write_plots = write_plots;
+extern const PlotModule medial_plot_table;
+const PlotModule medial_plot_table{MEDIAL_STAMP, write_plots};
 }
+#endif
 
 }  // namespace medial::cli

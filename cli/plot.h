@@ -30,4 +30,11 @@ struct Plot {
 /// unwritable.
 Status write_plots(const std::string& path, const std::vector<Plot>& plots);
 
+/// What the program asks the module of pictures for (late_plot.cpp).
+struct PlotModule {
+  const char* stamp;  ///< see cmake/stamp.cmake
+  decltype(&cli::write_plots) write_plots;
+};
+constexpr const char* plot_module_name = "medial_plot_table";
+
 }  // namespace medial::cli

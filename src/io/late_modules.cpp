@@ -3,6 +3,8 @@
 
 #include <dlfcn.h>
 
+#include <string_view>
+
 #include "io/modules.h"
 #include "io/place.h"
 
@@ -18,41 +20,40 @@ struct Loaded {
 
 /// A module is never unloaded: GDAL keeps threads and handlers.
 template <class Module>
-Loaded<Module> load(const char* file, const char* symbol) {
-  Loaded<Module> result;
+Loaded<Module> load(const char* part, const char* file, const char* symbol) {
+  const std::string name = std::string("the part of medial for ") + part;
   void* const library = dlopen(file, RTLD_LAZY | RTLD_LOCAL);
-  if (library != nullptr) result.module = static_cast<const Module*>(dlsym(library, symbol));
-  if (result.module == nullptr) {
-    const char* const reason = dlerror();
-    result.failure = reason != nullptr ? reason : file;
-  }
-  return result;
+  if (library == nullptr)
+    return {nullptr, name + " cannot be loaded: install medial again (" + dlerror() + ")"};
+  const auto* const module = static_cast<const Module*>(dlsym(library, symbol));
+  if (module == nullptr || std::string_view(module->stamp) != MEDIAL_STAMP)
+    return {nullptr, name + " (" + file + ") is of another build of medial: install medial again"};
+  return {module, {}};
 }
 
 /// Loaded once each, by the first thread that asks.
 const Loaded<GisModule>& loaded() {
-  static const auto once = load<GisModule>(MEDIAL_GIS_MODULE, gis_module_name);
+  static const auto once =
+      load<GisModule>("GIS formats and images", MEDIAL_GIS_MODULE, gis_module_name);
   return once;
 }
 const Loaded<DrawModule>& loaded_to_draw() {
-  static const auto once = load<DrawModule>(MEDIAL_DRAW_MODULE, draw_module_name);
+  static const auto once =
+      load<DrawModule>("pictures, meshes and fonts", MEDIAL_DRAW_MODULE, draw_module_name);
   return once;
 }
 
-Error missing(const char* part, const std::string& failure) {
-  return {ErrorCode::unsupported,
-          std::string("the part of medial for ") + part +
-              " cannot be loaded; install medial again (" + failure + ")",
-          {}};
+template <class Module>
+Error missing(const Loaded<Module>& loaded) {
+  return {ErrorCode::unsupported, loaded.failure, {}};
 }
-Error missing() { return missing("GIS formats and images", loaded().failure); }
 
 /// What a function of the module returns; an error where there is no module.
 template <class Function, class... Arguments>
 auto in_module(Function GisModule::*function, Arguments&&... arguments)
     -> decltype((loaded().module->*function)(arguments...)) {
   const GisModule* const module = loaded().module;
-  if (module == nullptr) return missing();
+  if (module == nullptr) return missing(loaded());
   return (module->*function)(std::forward<Arguments>(arguments)...);
 }
 
@@ -98,7 +99,7 @@ Format gdal_format() { return {}; }
 
 Result<Document<Feature>> read_text(const std::string& text, const std::string& font, double size) {
   const DrawModule* const module = loaded_to_draw().module;
-  if (module == nullptr) return missing("pictures and fonts", loaded_to_draw().failure);
+  if (module == nullptr) return missing(loaded_to_draw());
   return module->read_text(text, font, size);
 }
 
@@ -107,7 +108,7 @@ void describe_crs(Document<Feature>& document) {
   if (const GisModule* const module = loaded().module)
     module->describe(document);
   else
-    document.notes.push_back(missing().text);
+    document.notes.push_back(loaded().failure);
 }
 
 Status describe_crs(const std::string& name, Document<Feature>& document) {
@@ -149,7 +150,7 @@ Result<ImageFile> read_image(const std::string& path, const ImageOptions& option
 BuildInfo build_info() {
   if (loaded().module != nullptr) return loaded().module->build_info();
   BuildInfo info;
-  info.libraries = {{"GDAL", "FAILS: " + missing().text}};
+  info.libraries = {{"GDAL", "FAILS: " + loaded().failure}};
   return info;
 }
 

@@ -2,7 +2,8 @@
 
 // What gis/ and pictures/ do, as one table each. GDAL, and Cairo and Assimp, with the libraries
 // that they need take longer to load than most axes to compute, and more memory: the command line
-// has them in shared modules, which late_modules.cpp loads when something first asks for them.
+// has them in shared modules, which late_modules.cpp loads when something first asks for them, if
+// their MEDIAL_STAMP is the program's (cmake/stamp.cmake).
 
 #include "io/format.h"
 #include "io/reference_system.h"
@@ -12,12 +13,14 @@ namespace medial::io {
 
 /// The functions of the same names, and the table of formats with pictures and meshes.
 struct DrawModule {
+  const char* stamp;
   const std::vector<Format>& (*formats)();
   decltype(&io::read_text) read_text;
 };
 
 /// The same, and the table of formats with those of GIS.
 struct GisModule {
+  const char* stamp;
   const std::vector<Format>& (*formats)();
   void (*describe)(Document<Feature>&);
   Status (*describe_by_name)(const std::string&, Document<Feature>&);
@@ -32,7 +35,7 @@ struct GisModule {
 };
 
 /// The symbols that the modules are asked for, of these types.
-constexpr const char* draw_module_name = "medial_draw_module";
-constexpr const char* gis_module_name = "medial_gis_module";
+constexpr const char* draw_module_name = "medial_draw_table";
+constexpr const char* gis_module_name = "medial_gis_table";
 
 }  // namespace medial::io

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 import subprocess
 
@@ -170,3 +171,27 @@ class LateLibraries(CommandLine):
         doctor = run("doctor")
         self.assertEqual(doctor.returncode, 1)
         self.assertIn(b"install medial again", doctor.stdout)
+
+    def test_modules_of_another_build(self):
+        for name in ("medial", "medial_gis.so", "medial_draw.so"):
+            shutil.copy(os.path.join(os.path.dirname(support.PROGRAM), name), self.folder.name)
+        program = self.path("medial")
+        stamp = re.search(rb"[0-9a-f]{64}(?=\0)", self.read("medial_gis.so")).group()
+        self.write("a.wkt", RECTANGLE)
+        self.succeed("axis", "a.wkt", "-o", "a.json")
+        gis = ["axis", "a.wkt", "--project", "-o", "b.json"]
+        plot = ["measure", "a.json", "--plot", "plot.svg"]
+        for replaced, arguments in (("medial_gis.so", gis), ("medial_draw.so", plot)):
+            module = self.read(replaced)
+            self.assertIn(stamp, module)
+            other = self.read("medial_draw.so" if replaced == "medial_gis.so" else "medial_gis.so")
+            for content, text in ((module.replace(stamp, stamp[:-1] + b"!"), b"is of another build"),
+                                  (other, b"is of another build"),
+                                  (module[:40], b"cannot be loaded")):
+                self.write(replaced, content)
+                done = subprocess.run([program, *arguments], capture_output=True,
+                                      cwd=self.folder.name)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn(text, done.stderr)
+                self.assertIn(b"install medial again", done.stderr)
+            self.write(replaced, module)

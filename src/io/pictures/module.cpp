@@ -3,8 +3,8 @@
 namespace medial::io {
 
 extern "C" {
-extern const DrawModule medial_draw_module;
-const DrawModule medial_draw_module{formats, read_text};
+extern const DrawModule medial_draw_table;
+const DrawModule medial_draw_table{MEDIAL_STAMP, formats, read_text};
 }
 
 }  // namespace medial::io
