@@ -116,15 +116,16 @@ template <class Range, class Less = std::less<> >
 void pop_heap(Range&& range, Less less = {}) {
   std::pop_heap(std::begin(range), std::end(range), less);
 }
-template <class Range, class Value>
-bool binary_search(Range&& range, const Value& value) {
-  return std::binary_search(std::begin(range), std::end(range), value);
-}
 template <class Range, class Value, class Less = std::less<>, class Key = std::identity>
 auto lower_bound(Range&& range, const Value& value, Less less = {}, Key key = {}) {
   return std::lower_bound(
       std::begin(range), std::end(range), value,
       [&](const auto& element, const Value& v) { return less(std::invoke(key, element), v); });
+}
+template <class Range, class Value, class Less = std::less<>, class Key = std::identity>
+bool binary_search(Range&& range, const Value& value, Less less = {}, Key key = {}) {
+  const auto found = ranges::lower_bound(range, value, less, key);
+  return found != std::end(range) && !less(value, std::invoke(key, *found));
 }
 
 }  // namespace ranges

@@ -36,7 +36,7 @@ std::vector<std::vector<std::uint32_t>> divide(const SiteLoops& outline,
   const bool some_fit_into_circles = std::any_of(
       sites.begin(), sites.end(), [&](std::uint32_t i) { return outline.sites[i].bulge > 0; });
   while (!sides.empty()) {
-    const auto [low, high] = sides.back();
+    const std::uint32_t low = sides.back().first, high = sides.back().second;
     sides.pop_back();
     if (high < low + 2) continue;
     // Those met first, all by one disk; and of a run of sites that all bend away from the disk,
