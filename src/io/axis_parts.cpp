@@ -12,6 +12,7 @@
 #include "io/axis_writer.h"
 #include "io/format_name.h"
 #include "io/part_writer.h"
+#include "io/place.h"
 #include "io/tables.h"
 #include "io/whole_branches.h"
 #include "io/write_target.h"
@@ -254,9 +255,11 @@ Result<std::optional<AxesReport>> write_in_parts(const Destination& target,
                                                  const PartVisitor& visit) {
   constexpr DocumentKind axes = DocumentKind::axes;
   const bool silent = target.path.empty();
-  if (!silent &&
-      !can_grow(target, find_format(format_name(target.path, format), axes), shapes, options))
-    return std::optional<AxesReport>();
+  if (!silent) {
+    const auto row = find_format(format_name(target.path, format), axes);
+    if (!row) return Error{row.error().code, row.error().text, in_file(target.path)};
+    if (!can_grow(target, *row, shapes, options)) return std::optional<AxesReport>();
+  }
   if (!(write.chord > 0) || !std::isfinite(write.chord))
     return Error{ErrorCode::invalid_option, "chord is not a positive number", {}};
   PartsOfAxes parts(shapes, options, visit);

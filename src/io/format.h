@@ -3,6 +3,8 @@
 // The table of formats: what each of them reads and writes. A new format is a file in formats/ and
 // a line in formats.cpp.
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <initializer_list>
 #include <memory>
@@ -187,6 +189,9 @@ enum class Growing : std::uint8_t {
   graph      ///< with all nodes and sites, by Format::grow
 };
 
+/// What the command line loads when something needs it (modules.h).
+enum class Module : std::uint8_t { drawing, gis };
+
 struct Format {
   std::string_view extensions;  ///< each with its dot, apart by blanks
 
@@ -223,8 +228,9 @@ struct Format {
   bool in_parts = false;
   Growing growing = Growing::none;
   std::unique_ptr<AxisWriter> (*grow)(Target& target, const GrowingFrame& frame) = nullptr;
-  unsigned kinds = 0;      ///< of documents that are written, a bit each
-  unsigned announced = 0;  ///< those that a row of this name in a later table writes as well
+  unsigned kinds = 0;  ///< of documents that are written, a bit each
+  /// Those that the row of this name in each Module writes.
+  std::array<std::uint16_t, 2> announced{};
 
   /// Adds writers: functions of (Target&, const SomeOutput&).
   template <class... Outputs>
@@ -235,40 +241,37 @@ struct Format {
     return result;
   }
   /// Announces kinds of documents.
-  Format announces(std::initializer_list<DocumentKind> each) const {
+  Format announces(Module module, std::initializer_list<DocumentKind> each) const {
     Format result = *this;
-    for (const DocumentKind kind : each) result.announced |= 1U << static_cast<unsigned>(kind);
+    for (const DocumentKind kind : each)
+      result.announced[static_cast<std::size_t>(module)] |=
+          static_cast<std::uint16_t>(1U << static_cast<unsigned>(kind));
     return result;
   }
   bool holds(DocumentKind kind) const {
     return kind == DocumentKind::mesh ? read_mesh != nullptr
                                       : (kinds >> static_cast<unsigned>(kind) & 1U) != 0;
   }
+  bool is_announced(Module module, DocumentKind kind) const {
+    return (announced[static_cast<std::size_t>(module)] >> static_cast<unsigned>(kind) & 1U) != 0;
+  }
   bool is_known_to_hold(DocumentKind kind) const {
-    return holds(kind) || (announced >> static_cast<unsigned>(kind) & 1U) != 0;
+    return holds(kind) || is_announced(Module::drawing, kind) || is_announced(Module::gis, kind);
   }
 };
 
-/// The rows as far as their libraries are loaded with the program, what others do is announced;
-/// with pictures and meshes; and those of GIS.
+/// The rows as far as their libraries are loaded with the program; what others do is announced.
 const std::vector<Format>& formats_at_hand();
-const std::vector<Format>& formats_drawn();
-const std::vector<Format>& formats();
-
-/// The first row that is wanted, one at hand if there is one; null: none.
-template <class Wanted>
-const Format* first_format(const Wanted& wanted) {
-  for (const auto rows : {formats_at_hand, formats_drawn, formats})
-    for (const Format& format : rows())
-      if (std::invoke(wanted, format)) return &format;
-  return nullptr;
-}
+/// The rows with what a module does; the same in a library that links all. Errors: unsupported, if
+/// the module cannot be loaded.
+Result<const std::vector<Format>*> formats_in(Module module);
 
 /// Whether a list of extensions has one (without its dot).
 bool lists_extension(std::string_view extensions, std::string_view extension);
 
 /// The row that has an extension (without its dot) and holds a kind of document; null: none.
-const Format* find_format(std::string_view extension, DocumentKind kind);
+/// Errors: those of formats_in().
+Result<const Format*> find_format(std::string_view extension, DocumentKind kind);
 
 // The rows of the table, each in its own file.
 Format json_format();

@@ -64,8 +64,7 @@ const std::vector<Format>& formats_at_hand() {
 }
 
 #ifndef MEDIAL_LATE
-const std::vector<Format>& formats_drawn() { return formats_at_hand(); }
-const std::vector<Format>& formats() { return formats_at_hand(); }
+Result<const std::vector<Format>*> formats_in(Module) { return &formats_at_hand(); }
 #endif
 
 bool lists_extension(std::string_view extensions, std::string_view extension) {
@@ -77,10 +76,23 @@ bool lists_extension(std::string_view extensions, std::string_view extension) {
   return false;
 }
 
-const Format* find_format(std::string_view extension, DocumentKind kind) {
-  return first_format([&](const Format& format) {
-    return format.holds(kind) && lists_extension(format.extensions, extension);
-  });
+Result<const Format*> find_format(std::string_view extension, DocumentKind kind) {
+  const auto first = [&](const std::vector<Format>& rows, const auto& does) -> const Format* {
+    const auto found = std::ranges::find_if(rows, [&](const Format& row) {
+      return does(row) && lists_extension(row.extensions, extension);
+    });
+    return found != rows.end() ? &*found : nullptr;
+  };
+  const auto holds = [kind](const Format& row) { return row.holds(kind); };
+  if (const Format* row = first(formats_at_hand(), holds)) return row;
+  for (const Module module : {Module::drawing, Module::gis}) {
+    const auto announces = [&](const Format& row) { return row.is_announced(module, kind); };
+    if (first(formats_at_hand(), announces) == nullptr) continue;
+    const Result<const std::vector<Format>*> rows = formats_in(module);
+    if (!rows) return rows.error();
+    return first(**rows, holds);
+  }
+  return nullptr;
 }
 
 std::string formats_of(DocumentKind kind, bool growing) {

@@ -12,20 +12,20 @@ namespace medial::io {
 
 namespace {
 
-template <class Module>
+template <class Table>
 struct Loaded {
-  const Module* module = nullptr;
+  const Table* module = nullptr;
   std::string failure;
 };
 
 /// A module is never unloaded: GDAL keeps threads and handlers.
-template <class Module>
-Loaded<Module> load(const char* part, const char* file, const char* symbol) {
+template <class Table>
+Loaded<Table> load(const char* part, const char* file, const char* symbol) {
   const std::string name = std::string("the part of medial for ") + part;
   void* const library = dlopen(file, RTLD_LAZY | RTLD_LOCAL);
   if (library == nullptr)
     return {nullptr, name + " cannot be loaded: install medial again (" + dlerror() + ")"};
-  const auto* const module = static_cast<const Module*>(dlsym(library, symbol));
+  const auto* const module = static_cast<const Table*>(dlsym(library, symbol));
   if (module == nullptr || std::string_view(module->stamp) != MEDIAL_STAMP)
     return {nullptr, name + " (" + file + ") is of another build of medial: install medial again"};
   return {module, {}};
@@ -43,8 +43,8 @@ const Loaded<DrawModule>& loaded_to_draw() {
   return once;
 }
 
-template <class Module>
-Error missing(const Loaded<Module>& loaded) {
+template <class Table>
+Error missing(const Loaded<Table>& loaded) {
   return {ErrorCode::unsupported, loaded.failure, {}};
 }
 
@@ -59,40 +59,44 @@ auto in_module(Function GisModule::*function, Arguments&&... arguments)
 
 Format table_format(std::string_view extension, Growing growing) {
   using enum DocumentKind;
-  Format format = Format{extension}.announces({axes, shapes, voronoi, offsets, features, layers});
+  Format format =
+      Format{extension}.announces(Module::gis, {axes, shapes, voronoi, offsets, features, layers});
   format.growing = growing;
   return format;
 }
 
 }  // namespace
 
-const std::vector<Format>& formats_drawn() {
-  const DrawModule* const module = loaded_to_draw().module;
-  return module != nullptr ? module->formats() : formats_at_hand();
-}
-
-const std::vector<Format>& formats() {
-  const GisModule* const module = loaded().module;
-  return module != nullptr ? module->formats() : formats_at_hand();
+Result<const std::vector<Format>*> formats_in(Module module) {
+  const auto rows_of = [](const auto& late) -> Result<const std::vector<Format>*> {
+    if (late.module == nullptr) return missing(late);
+    return &late.module->formats();
+  };
+  return module == Module::gis ? rows_of(loaded()) : rows_of(loaded_to_draw());
 }
 
 // What formats_of() lists; the rows of the module do it.
 
 Format with_pictures(Format format) {
   using enum DocumentKind;
-  return format.announces({axes, shapes, voronoi, layers, offsets, carving, features, field});
+  return format.announces(Module::drawing,
+                          {axes, shapes, voronoi, layers, offsets, carving, features, field});
 }
-Format png_format() { return with_pictures(Format{".png"}).announces({DocumentKind::voxels}); }
-Format with_meshes(Format format) { return format.announces({DocumentKind::mesh}); }
+Format png_format() {
+  return with_pictures(Format{".png"}).announces(Module::drawing, {DocumentKind::voxels});
+}
+Format with_meshes(Format format) {
+  return format.announces(Module::drawing, {DocumentKind::mesh});
+}
 Format gpkg_format() { return table_format(".gpkg", Growing::none); }
 Format shp_format() { return table_format(".shp", Growing::branches); }
 Format fgb_format() { return table_format(".fgb", Growing::branches); }
 Format with_rasters(Format format) {
-  return format.announces({DocumentKind::distances, DocumentKind::image});
+  return format.announces(Module::gis, {DocumentKind::distances, DocumentKind::image});
 }
 Format tif_format() { return with_rasters(Format{".tif .tiff"}); }
-Format pgm_format() { return Format{".pgm"}.announces({DocumentKind::distances}); }
-Format pbm_format() { return Format{".pbm"}.announces({DocumentKind::image}); }
+Format pgm_format() { return Format{".pgm"}.announces(Module::gis, {DocumentKind::distances}); }
+Format pbm_format() { return Format{".pbm"}.announces(Module::gis, {DocumentKind::image}); }
 Format ros_map_format() { return {}; }
 Format image_format() { return {}; }
 Format gdal_format() { return {}; }
@@ -147,10 +151,17 @@ Result<ImageFile> read_image(const std::string& path, const ImageOptions& option
   return in_module(&GisModule::read_image, path, options);
 }
 
+Attributes drawing_libraries() {
+  const DrawModule* const module = loaded_to_draw().module;
+  if (module == nullptr) return {{"Cairo", "FAILS: " + loaded_to_draw().failure}};
+  return module->drawing_libraries();
+}
+
 BuildInfo build_info() {
   if (loaded().module != nullptr) return loaded().module->build_info();
   BuildInfo info;
-  info.libraries = {{"GDAL", "FAILS: " + loaded().failure}};
+  info.libraries = drawing_libraries();
+  info.libraries.emplace_back("GDAL", "FAILS: " + loaded().failure);
   return info;
 }
 

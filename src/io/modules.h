@@ -11,17 +11,21 @@
 
 namespace medial::io {
 
+/// Names and versions of the libraries that pictures/ loads, or why it cannot be loaded.
+Attributes drawing_libraries();
+
 /// The functions of the same names, and the table of formats with pictures and meshes.
 struct DrawModule {
   const char* stamp;
-  const std::vector<Format>& (*formats)();
+  decltype(&io::formats_at_hand) formats;
+  decltype(&io::drawing_libraries) drawing_libraries;
   decltype(&io::read_text) read_text;
 };
 
 /// The same, and the table of formats with those of GIS.
 struct GisModule {
   const char* stamp;
-  const std::vector<Format>& (*formats)();
+  decltype(&io::formats_at_hand) formats;
   void (*describe)(Document<Feature>&);
   Status (*describe_by_name)(const std::string&, Document<Feature>&);
   decltype(&io::degrees_of_unit) degrees_of_unit;

@@ -26,6 +26,18 @@ namespace {
 
 constexpr std::size_t sniffed = 4096;
 
+/// The first row that is wanted, one at hand if there is one; null: none.
+template <class Wanted>
+const Format* first_format(const Wanted& wanted) {
+  const auto first = [&](const std::vector<Format>& rows) -> const Format* {
+    const auto found = std::ranges::find_if(rows, wanted);
+    return found != rows.end() ? &*found : nullptr;
+  };
+  if (const Format* row = first(formats_at_hand())) return row;
+  const Result<const std::vector<Format>*> rows = formats_in(Module::gis);
+  return rows ? first(**rows) : nullptr;
+}
+
 /// The row that reads files of a name; null: GDAL knows better.
 const Format* format_of_name(std::string name) {
   name = lower_case(std::move(name));
@@ -103,13 +115,14 @@ Result<const Format*> format_of(const std::string& path,
   }
   if (format == nullptr && source && beginning.empty() && !(*source)->failure())
     return Error{ErrorCode::empty, "there is nothing to read", in_file(path)};
-  if (format == nullptr || (format->gdal_chooses && refused(*format, options, path)))
+  if (format == nullptr || (format->gdal_chooses && refused(*format, options, path))) {
+    if (const auto rows = formats_in(Module::gis); !rows)
+      return Error{rows.error().code, rows.error().text, in_file(path)};
     if (const Format* others = format_of_others()) format = others;
+  }
   if (format == nullptr)
-    return Error{
-        ErrorCode::unsupported,
-        "GDAL, which may read this, is not in this build or cannot be loaded: see `medial doctor`",
-        in_file(path)};
+    return Error{ErrorCode::unsupported, "GDAL, which may read this, is not in this build",
+                 in_file(path)};
   if (const auto error = refused(*format, options, path)) return *error;
   return format;
 }
@@ -266,7 +279,9 @@ Result<Document<VoronoiItem>> read_voronoi(const std::string& path) {
 
 Result<TriangleMesh> read_mesh(const std::string& path) {
   const std::string extension = format_name(path);
-  const Format* format = find_format(extension, DocumentKind::mesh);
+  const Result<const Format*> found = find_format(extension, DocumentKind::mesh);
+  if (!found) return Error{found.error().code, found.error().text, in_file(path)};
+  const Format* format = *found;
   if (format == nullptr)
     return Error{ErrorCode::unsupported,
                  fmt::format("'{}' is not a mesh format; known are {}", extension,

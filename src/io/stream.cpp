@@ -14,6 +14,7 @@
 #include "io/format_name.h"
 #include "io/open.h"
 #include "io/part_writer.h"
+#include "io/place.h"
 #include "io/reference_system.h"
 #include "io/tables.h"
 #include "io/write_target.h"
@@ -359,7 +360,10 @@ Result<std::optional<StreamReport>> stream(const std::string& path, const Destin
   const bool silent = target.path.empty();
   const DocumentKind kind = std::visit([](const auto& none) { return none.kind; },
                                        output_of(options.none, options.write));
-  const Format* row = silent ? nullptr : find_format(format_name(target.path, format), kind);
+  const Result<const Format*> found =
+      silent ? nullptr : find_format(format_name(target.path, format), kind);
+  if (!found) return Error{found.error().code, found.error().text, in_file(target.path)};
+  const Format* row = *found;
   // What has gone to a pipe cannot be taken back after an error.
   if (!(silent || (row != nullptr && holds_in_parts(*row, options.none))) ||
       (is_stream(target.path) && target.text == nullptr) ||

@@ -67,7 +67,9 @@ Status write_target(const Destination& destination, const std::string& asked,
   Target target;
   if (written.crs_wkt.empty()) target.unit = name_of(written.unit);
   target.format = path == "-" && asked.empty() ? written.format : format_name(path, asked);
-  const Format* format = find_format(target.format, written.kind);
+  const Result<const Format*> found = find_format(target.format, written.kind);
+  if (!found) return Error{found.error().code, found.error().text, in_file(path)};
+  const Format* format = *found;
   if (format == nullptr)
     return Error{ErrorCode::unsupported,
                  fmt::format("'{}' is not a format that can be written here; use one of {}",

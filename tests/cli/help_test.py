@@ -145,6 +145,10 @@ class LateLibraries(CommandLine):
         for output in ("a.svg", "a.png", "a.pdf"):
             self.assertTrue(self.loads("axis", "a.wkt", "-o", output, library=b"libcairo"), output)
         self.assertTrue(self.loads("measure", "a.json", "--plot", "plot.svg", library=b"libcairo"))
+        self.assertFalse(self.loads("axis", "a.wkt", "-o", "a.fgb", library=b"medial_draw.so"))
+        self.succeed("rebuild", "a.json", "-o", "shape.fgb")
+        self.assertFalse(self.loads("axis", "shape.fgb", "-o", "b.json", library=b"medial_draw.so"))
+        self.assertFalse(self.loads("axis", "shape.fgb", "-o", "b.json", library=b"libassimp"))
 
     def test_without_the_module(self):
         alone = self.path("alone")
@@ -166,11 +170,28 @@ class LateLibraries(CommandLine):
             done = run(*arguments)
             self.assertEqual(done.returncode, 2, arguments)
             self.assertIn(b"[unsupported]", done.stderr)
+            self.assertIn(b"install medial again", done.stderr)
             self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
         self.assertEqual(self.files(), before)
         doctor = run("doctor")
         self.assertEqual(doctor.returncode, 1)
         self.assertIn(b"install medial again", doctor.stdout)
+
+    def test_without_the_module_that_draws(self):
+        for name in ("medial", "medial_gis.so"):
+            shutil.copy(os.path.join(os.path.dirname(support.PROGRAM), name), self.folder.name)
+        self.write("a.wkt", RECTANGLE)
+        self.write("x.stl", "solid x\nendsolid x\n")
+        self.succeed("axis", "a.wkt", "-o", "a.json")
+        for arguments, status in ((["axis", "a.wkt", "-o", "a.svg"], 2),
+                                  (["measure", "a.json", "--plot", "p.svg"], 2),
+                                  (["voxels", "x.stl", "-o", "x.ply"], 2), (["doctor"], 1),
+                                  (["axis", "a.wkt", "-o", "a.fgb"], 0)):
+            done = subprocess.run([self.path("medial"), *arguments], capture_output=True,
+                                  cwd=self.folder.name)
+            self.assertEqual(done.returncode, status, done.stderr)
+            self.assertEqual(b"install medial again" in done.stdout + done.stderr, status > 0,
+                             arguments)
 
     def test_modules_of_another_build(self):
         for name in ("medial", "medial_gis.so", "medial_draw.so"):
