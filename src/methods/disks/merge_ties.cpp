@@ -203,8 +203,8 @@ class Merger {
       for (std::size_t e = begin; e < std::min(begin + block, graph_.edges.size()); ++e) {
         const auto [from, to] = graph_.edges[e].node;
         around[size] = static_cast<std::uint32_t>(e);
-        size += std::size_t{is_listed(from)} |
-                std::size_t{is_listed(to)};  // without a branch, as above
+        // Without a branch, as above.
+        size += std::size_t{is_listed(from)} | std::size_t{is_listed(to)};
       }
       for (std::size_t k = 0; k < size; ++k)
         for (const std::uint32_t end : {2 * around[k], 2 * around[k] + 1})
