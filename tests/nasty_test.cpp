@@ -587,6 +587,15 @@ TEST(Circles, AreMeasuredWhereTiesAddUp) {
   EXPECT_EQ(faults.count(Fault::none), 1U);
 }
 
+/// So may those at the tip of a branch, in the centre of arcs: its disk would reach over others.
+TEST(Gears, AreMeasuredWhereTheirTipsReachOverSites) {
+  Faults faults;
+  for (const std::uint64_t seed : {4238U, 60538U, 70439U})
+    faults.add(examine_nasty(class_of("gears"), 20261130900000000 + seed, false, {}));
+  faults.add(examine_nasty(class_of("circles"), 20261130900051777, false, {}));
+  EXPECT_EQ(faults.count(Fault::none), 4U);
+}
+
 /// What no joint that counts as smooth allows is decided by joints as the doubles have them.
 TEST(NearCircles, AreCertainWithExact) {
   constexpr std::uint64_t from = 20261130200000000;

@@ -39,6 +39,24 @@ void find_lost(const Chunk& chunk, std::vector<std::uint32_t>& lost) {
   for (const auto& child : chunk.children) find_lost(*child, lost);
 }
 
+/// Notes what disks at the tips of branches reach over: in the centre of arcs that lie on one
+/// circle but for rounding, of sites that touch a disk within the tolerance each several may add up
+/// to more.
+void find_intruders(const Boundary& boundary, const site::BoundaryTree& tree, double slack,
+                    Graph& graph) {
+  WorkVector<std::uint8_t> degree(graph.nodes.size());
+  for (const Edge& edge : graph.edges)
+    for (const std::uint32_t node : edge.node)
+      if (degree[node] < 2) ++degree[node];
+  for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
+    const auto& [disk, component, kind] = graph.nodes[i];
+    if (degree[i] == 2 || disk.radius <= slack) continue;
+    const Boundary::SiteRange& run = boundary.runs[component];
+    if (const auto hit = tree.nearest(disk.center, disk.radius - slack, run.first, run.last))
+      graph.lost.push_back(hit.site);
+  }
+}
+
 /// How an axis is found.
 struct Way {
   std::vector<bool> in_precise = {};  ///< of each component: double is never asked; empty: it is
@@ -76,6 +94,7 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   Graph graph = collect(chunks, bridges, spare_nodes, boundary.has_arcs);
   graph.lost = std::move(lost);
   if (way.merges_ties) merge_ties(boundary, tree, sites, problem.local_tolerance(), graph, names);
+  if (boundary.has_arcs) find_intruders(boundary, tree, 2 * problem.local_tolerance(), graph);
   return graph;
 }
 
