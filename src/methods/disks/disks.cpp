@@ -40,7 +40,7 @@ void find_lost(const Chunk& chunk, std::vector<std::uint32_t>& lost) {
 }
 
 /// Notes what disks at the tips of branches reach over: in the centre of arcs that lie on one
-/// circle but for rounding, of sites that touch a disk within the tolerance each several may add up
+/// circle up to rounding, of sites that touch a disk within the tolerance each several may add up
 /// to more.
 void find_intruders(const Boundary& boundary, const site::BoundaryTree& tree, double slack,
                     Graph& graph) {
