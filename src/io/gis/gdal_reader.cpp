@@ -288,6 +288,7 @@ bool begins_like_table(std::string_view text) {
     return false;
   constexpr std::string_view between = ",;\t|\" \r";
   std::string line(text.substr(0, text.find('\n')));
+  if (line.find('\0') != std::string::npos) return false;
   line = lower_case(std::move(line));
   bool x = false, y = false;
   const auto is_one_of = [](std::string_view word, std::string_view names) {
