@@ -22,7 +22,9 @@ function read(object) {
   for (const name of Object.getOwnPropertyNames(Object.getPrototypeOf(object))) object[name];
 }
 
-for (const input of [leaf, [drawn], [Float64Array.of(0, 0, 3, 0, 3, 2, 0, 2)], ...texts]) {
+// As the studio draws it, whose y points up.
+const upright = leaf.replace(/(\d+) (\d+)/g, "$1 -$2");
+for (const input of [leaf, upright, [drawn], [Float64Array.of(0, 0, 3, 0, 3, 2, 0, 2)], ...texts]) {
   const given = new medial.Shape(input);
   const axis = medial.axis(given, { method: "disks" });
   const { shape } = axis;
