@@ -127,6 +127,10 @@ TEST(NarrowGap, OfCrescentsOfAlmostFullCircles) {
        {Crescent{
             {2.5023580635925422e-05, 0.000212992315731372}, 674819.6475585127, -674819.6475611577},
         Crescent{{1, 0}, 22025.18275097196, -22025.18275097258},
+        // Other directions: the arcs lie together from a tip to beyond their lowest points.
+        Crescent{{0, 1}, 22025.18275097196, -22025.18275097258},
+        Crescent{{-1, 0}, 22025.18275097196, -22025.18275097258},
+        Crescent{{0, -1}, 22025.18275097196, -22025.18275097258},
         Crescent{{1, 0}, 6278.434989622477, -6278.434989621985}}) {
     const Ring ring{{{0, 0}, crescent.tip}, RingRole::any, {crescent.outer, crescent.inner}};
     EXPECT_EQ(check_axis({ring}), std::vector<std::string>{}) << crescent.outer;

@@ -456,6 +456,8 @@ class ArcSweeper {
       const bool together = std::abs(at_begin) <= tolerance_ && std::abs(at_end) <= tolerance_;
       if (together && distance(stops[0].point, last) > 4 * tolerance_) {
         if (cleaned_.open && note_overlap(lower, upper)) return std::nullopt;
+        if (part_from_common_end(lower.piece, cleaned_.next(lower.piece), upper))
+          return std::nullopt;
         return pending_or(error_of_pieces(ErrorCode::overlap, lower, upper, begin));
       }
       return std::nullopt;
@@ -516,12 +518,44 @@ class ArcSweeper {
     }
   }
 
+  /// Whether a piece's edge ends at this point.
+  bool has_end(std::uint32_t piece, Vec2 p) const {
+    std::uint32_t first = piece, last = cleaned_.next(piece);
+    while (noded_.passing[first]) first = cleaned_.previous(first);
+    while (noded_.passing[last]) last = cleaned_.next(last);
+    return p == cleaned_.points[first] || p == cleaned_.points[last];
+  }
+
+  /// Whether an edge lies together with another one from one of its vertices on to an end of both.
+  bool leads_to_common_end(std::uint32_t v, bool forward, const ActivePiece& other) const {
+    const auto is_near = [&](Vec2 p) { return std::abs(other.arc.above_circle(p)) <= tolerance_; };
+    while (noded_.passing[v]) {
+      const std::uint32_t w = forward ? cleaned_.next(v) : cleaned_.previous(v);
+      const std::uint32_t piece = forward ? v : w;
+      const Vec2 from = cleaned_.points[v], to = cleaned_.points[w];
+      const BulgeArc arc{from, to, forward ? cleaned_.bulges[piece] : -cleaned_.bulges[piece]};
+      if (!is_near(apex(arc)) || (noded_.passing[w] && !is_near(to))) return false;
+      v = w;
+    }
+    return has_end(other.piece, cleaned_.points[v]);
+  }
+
+  /// Whether two edges that lie together between two vertices of the first one, or at one, do so
+  /// from a common end on, and part: then they are nearest in that end, and touch nowhere else.
+  bool part_from_common_end(std::uint32_t first, std::uint32_t last,
+                            const ActivePiece& other) const {
+    return leads_to_common_end(first, false, other) != leads_to_common_end(last, true, other);
+  }
+
   /// Notes that a vertex lies on a piece, if it does and is none of its ends.
   bool touch(const ActivePiece& piece, std::uint32_t vertex) {
     const MonotoneArc& arc = piece.arc;
     const Vec2 p = cleaned_.points[vertex];
     if (!(std::abs(arc.above_circle(p)) <= 2 * tolerance_)) return false;
     if (p == arc.left || p == arc.right) return false;
+    if (noded_.passing[vertex] && noded_.edges[vertex] != noded_.edges[piece.piece] &&
+        part_from_common_end(vertex, vertex, piece))
+      return false;
     for (const std::uint32_t end : {piece.left_vertex, piece.right_vertex}) {
       if (distance(p, cleaned_.points[end]) <= tolerance_) {
         join(vertex, end);
