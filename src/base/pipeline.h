@@ -20,4 +20,11 @@ void run_pipeline(int requested, std::size_t window,
                   const std::function<std::shared_ptr<void>()>& next,
                   std::span<const PipelineStage> stages);
 
+/// The same with one task at a time, on the caller's thread.
+inline void run_in_turn(const std::function<std::shared_ptr<void>()>& next,
+                        std::span<const PipelineStage> stages) {
+  while (const std::shared_ptr<void> task = next())
+    for (const PipelineStage& stage : stages) stage.run(task.get());
+}
+
 }  // namespace medial

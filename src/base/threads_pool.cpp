@@ -283,10 +283,8 @@ void TaskGroup::wait() {
 void run_pipeline(int requested, std::size_t /*window*/,
                   const std::function<std::shared_ptr<void>()>& next,
                   std::span<const PipelineStage> stages) {
-  on_threads(requested, [&] {  // one task at a time, whose stages may use several
-    while (const std::shared_ptr<void> task = next())
-      for (const PipelineStage& stage : stages) stage.run(task.get());
-  });
+  // The stages of a task may use several threads.
+  on_threads(requested, [&] { run_in_turn(next, stages); });
 }
 
 }  // namespace medial

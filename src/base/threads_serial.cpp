@@ -45,8 +45,7 @@ void TaskGroup::wait() {
 void run_pipeline(int /*requested*/, std::size_t /*window*/,
                   const std::function<std::shared_ptr<void>()>& next,
                   std::span<const PipelineStage> stages) {
-  while (const std::shared_ptr<void> task = next())
-    for (const PipelineStage& stage : stages) stage.run(task.get());
+  run_in_turn(next, stages);
 }
 
 }  // namespace medial

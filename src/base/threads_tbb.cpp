@@ -195,8 +195,7 @@ void run_pipeline(int requested, std::size_t window,
   const tbb::filter<Task, void> end(tbb::filter_mode::parallel, [](const Task&) {});
   on_threads(requested, [&] {
     if (shared()) return tbb::parallel_pipeline(window, chain & end);
-    while (const Task task = next())
-      for (const PipelineStage& stage : stages) stage.run(task.get());
+    run_in_turn(next, stages);
   });
 }
 
