@@ -540,8 +540,8 @@ class ArcSweeper {
     return has_end(other.piece, cleaned_.points[v]);
   }
 
-  /// Whether two edges that lie together between two vertices of the first one, or at one, do so
-  /// from a common end on, and part: then they are nearest in that end, and touch nowhere else.
+  /// Two edges lie together between two vertices of the first one, or at one. Whether they do so
+  /// from an end of both, and part on the other side: then they touch in that end only.
   bool part_from_common_end(std::uint32_t first, std::uint32_t last,
                             const ActivePiece& other) const {
     return leads_to_common_end(first, false, other) != leads_to_common_end(last, true, other);

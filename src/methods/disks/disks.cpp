@@ -39,9 +39,9 @@ void find_lost(const Chunk& chunk, std::vector<std::uint32_t>& lost) {
   for (const auto& child : chunk.children) find_lost(*child, lost);
 }
 
-/// Notes what disks at the tips of branches reach over: in the centre of arcs that lie on one
-/// circle up to rounding, of sites that touch a disk within the tolerance each several may add up
-/// to more.
+/// Notes the sites that disks at the tips of branches reach over. Where arcs lie on one circle up
+/// to rounding, a disk in their centre may touch each of them within the tolerance in turn, and
+/// reach over others by more.
 void find_intruders(const Boundary& boundary, const site::BoundaryTree& tree, double slack,
                     Graph& graph) {
   WorkVector<std::uint8_t> degree(graph.nodes.size());

@@ -21,7 +21,7 @@ std::uint32_t fork_size_of(const Boundary& boundary) {
   return std::clamp(static_cast<std::uint32_t>(boundary.sites.size() / 64), 1024u, 8192u);
 }
 
-/// What a task finds at least, about: nodes, and edges.
+/// A task finds about so many nodes and edges, or more.
 constexpr std::size_t in_task = 4096;
 
 /// How a walk is divided into tasks.
