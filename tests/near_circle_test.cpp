@@ -59,6 +59,37 @@ TEST_P(NearCircle, OfManyDigitsIsACircle) {
   EXPECT_TRUE(verify(*shape, *axis).passed);
 }
 
+/// Whichever of its vertices tie, its two half circles meet where they do in every image.
+TEST_P(NearCircle, IsMergedAlikeInImages) {
+  Rings rings(3);
+  for (int i = 0; i < GetParam(); ++i) {
+    const double angle = 2 * std::numbers::pi * i / GetParam();
+    rings[0].points.push_back({4 * std::cos(angle), 4 * std::sin(angle)});
+    rings[0].bulges.push_back(std::tan(std::numbers::pi / (2 * GetParam())));
+  }
+  rings[1].points = {{-2, -1.5}, {-1.5, -1.5}, {-2, -1}};
+  rings[2].points = {{1.5, -1.5}, {2, -1.5}, {1.5, -1}};
+  std::vector<std::size_t> nodes;
+  for (unsigned map = 0; map < 8; ++map) {
+    const bool swaps = (map & 1) != 0, left = (map & 2) != 0, down = (map & 4) != 0;
+    Rings image = rings;
+    for (Ring& ring : image) {
+      for (Vec2& p : ring.points) {
+        if (swaps) p = {p.y, p.x};
+        p = {left ? -p.x : p.x, down ? -p.y : p.y};
+      }
+      if (swaps != (left != down))
+        for (double& bulge : ring.bulges) bulge = -bulge;
+    }
+    const auto shape = build_shape(image);
+    ASSERT_TRUE(shape) << map << ": " << to_string(shape.error());
+    const auto axis = compute(*shape);
+    ASSERT_TRUE(axis) << map << ": " << to_string(axis.error());
+    nodes.push_back(axis->nodes.size());
+  }
+  EXPECT_EQ(nodes, std::vector<std::size_t>(8, nodes.front()));
+}
+
 /// Moves vertices, scales bulges, or both, by some tolerances.
 void disturb(Random& random, double size, int n, Ring& ring) {
   const std::int64_t kind = random.integer(0, 2);
@@ -224,7 +255,7 @@ TEST(BarWithEndsOfArcs, ImagesHaveTheSameAxis) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Arcs, NearCircle, testing::Values(3, 4, 5, 8, 12, 24, 64));
+INSTANTIATE_TEST_SUITE_P(Arcs, NearCircle, testing::Values(3, 4, 5, 6, 7, 8, 12, 24, 64));
 
 #ifndef MEDIAL_SANITIZED
 /// Its sides turn by less than double resolves in three neighbours' disks; 256 bits for each of

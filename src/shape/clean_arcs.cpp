@@ -228,32 +228,50 @@ class Cleaner {
     }
   }
 
-  /// Replaces a ring of one circle by two half circles. Of several places for them, the graph is
-  /// the same.
+  /// Two half circles, and what says where their common diameter lies: all but the last are the
+  /// same in every image.
+  struct Halves {
+    std::vector<RingEdge> edges;
+    double longer = 0, shorter = 0;  ///< the diameter's extents in x and y
+    /// A mirror image that is no quarter turn is this far from the diameter; the sign says which
+    /// of the two it is.
+    double aside = 0;
+  };
+
+  /// Replaces a ring of one circle by two half circles. The graph depends on where they meet, up
+  /// to quarter turns. So of several places the one is taken that is the same in every image; if a
+  /// mirror image would have another, none is.
   bool merge_circle() {
     constexpr double twice_around = 4 * std::numbers::pi;
-    std::vector<RingEdge> best;
-    const auto is_lower = [](const RingEdge& a, const RingEdge& b) {
-      return lexicographic_less(a.point, b.point);
-    };
     if (angle_of({0, edges_.size()}) > 0.75 * twice_around) return false;
-    for (const std::size_t from : furthest_from(middle_)) {
-      for (const std::size_t to : furthest_from(edges_[from].point)) {
-        std::vector<RingEdge> halves = half_circles(from, to);
-        if (!halves.empty() &&
-            (best.empty() || std::lexicographical_compare(halves.begin(), halves.end(),
-                                                          best.begin(), best.end(), is_lower)))
-          best = std::move(halves);
+    std::vector<Halves> places;
+    for (const std::size_t from : furthest_from(middle_))
+      for (const std::size_t to : furthest_from(edges_[from].point))
+        if (Halves halves = half_circles(from, to); !halves.edges.empty())
+          places.push_back(std::move(halves));
+    const auto extents = [](const Halves& h) { return std::pair(h.longer, h.shorter); };
+    const auto is_before = [&](const Halves& a, const Halves& b) {
+      if (extents(a) != extents(b)) return extents(a) > extents(b);
+      const std::size_t k = a.edges[0].point == b.edges[0].point ? 1 : 0;
+      return lexicographic_less(a.edges[k].point, b.edges[k].point);
+    };
+    std::sort(places.begin(), places.end(), is_before);
+    for (auto first = places.begin(), last = first; first != places.end(); first = last) {
+      double left = 0, right = 0;
+      for (; last != places.end() && extents(*last) == extents(*first); ++last) {
+        left = std::max(left, last->aside);
+        right = std::max(right, -last->aside);
       }
+      if (std::min(left, right) > play_) continue;
+      replace_edges(std::move(first->edges));
+      return true;
     }
-    if (best.empty()) return false;
-    replace_edges(std::move(best));
-    return true;
+    return false;
   }
 
   /// Two half circles, from one vertex on, on the circle through it, another one and, within the
   /// play, all others; none where there is no such circle.
-  std::vector<RingEdge> half_circles(std::size_t from, std::size_t to) const {
+  Halves half_circles(std::size_t from, std::size_t to) const {
     RingEdge first = edges_[from], second = edges_[to];
     const double sign = first.bulge > 0 ? 1 : -1;
     const std::size_t count = (to + edges_.size() - from) % edges_.size();
@@ -268,7 +286,10 @@ class Cleaner {
       if (bulge > 1) second.source = edges_[previous(to)].source;
     }
     first.bulge = second.bulge = sign;
-    return {first, second};
+    const Vec2 diameter = second.point - first.point;
+    const double x = std::abs(diameter.x), y = std::abs(diameter.y);
+    const double turned = (x - y) / norm(diameter) * (diameter.x / norm(diameter)) * diameter.y;
+    return {{first, second}, std::max(x, y), std::min(x, y), turned};
   }
 
   /// The bulges of the arcs from one point to another that pass others within a distance, if these
