@@ -22,6 +22,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "io/output.h"
 #include "medial/io/read.h"
 #include "medial/io/write.h"
 #include "medial/query.h"
@@ -619,6 +620,23 @@ TEST_F(Io, PicturesDrawShortEdgesInFewPieces) {
   EXPECT_LE(lines(20000, 3), 20000U);
   EXPECT_EQ(lines(20000, 0), 1U);
   EXPECT_GT(lines(200, 0), 200U * 5);  // five points long: cut, and no line of one shade
+}
+
+/// What another program puts in its place meanwhile stays.
+TEST_F(Io, ANewFileForLayersReplacesNone) {
+  const auto new_file = [this](const char* text) {
+    Result<PendingFile> file = PendingFile::create(path("a.gpkg"));
+    EXPECT_TRUE(file);
+    std::ofstream(file->path()) << text;
+    return file;
+  };
+  Result<PendingFile> first = new_file("one"), second = new_file("two");
+  EXPECT_TRUE(first->commit_new().ok());
+  const Status late = second->commit_new();
+  ASSERT_FALSE(late.ok());
+  EXPECT_EQ(late.error().code, ErrorCode::unwritable);
+  std::ifstream kept(path("a.gpkg"));
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(kept), {}), "one");
 }
 
 TEST_F(Io, PicturesOfAnythingAreDrawn) {

@@ -171,6 +171,22 @@ Status PendingFile::commit() {
   return success();
 }
 
+Status PendingFile::commit_new() {
+  const Uninterrupted uninterrupted;
+  std::error_code code;
+  fs::create_hard_link(path_, target_, code);
+  if (!code) return success();  // the other name goes with the directory
+  if (fs::exists(target_)) return changed_meanwhile();
+  return commit();  // a file system without links
+}
+
+Error changed_meanwhile() {
+  return Error{ErrorCode::unwritable,
+               "another program has changed the file meanwhile, so nothing was added; run this "
+               "again",
+               {}};
+}
+
 bool is_stream(const std::string& path) {
   struct stat status {};
   return path == "-" ||

@@ -31,6 +31,9 @@ class Uninterrupted {
   sigset_t before_{};
 };
 
+/// Of layers for a file that another program has made or changed while they grew.
+Error changed_meanwhile();
+
 /// A new file that appears under its name all at once. It grows in a hidden directory beside the
 /// target, under the target's own file name (which some formats want), with whatever companions the
 /// format has; commit() moves everything to its place. Without commit() nothing remains.
@@ -49,6 +52,8 @@ class PendingFile {
   /// Moves the file and its companions to the target; what they replace passes its permissions and,
   /// where that is allowed, its owner on. Errors: unwritable.
   Status commit();
+  /// Moves the file to the target unless one has come there meanwhile. Errors: unwritable.
+  Status commit_new();
 
  private:
   PendingFile() = default;

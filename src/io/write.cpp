@@ -100,13 +100,15 @@ Status write_target(const Destination& destination, const std::string& asked,
     target.layer = written.layer;
     std::unique_ptr<Addition> addition;
     std::error_code ignored;
-    if (format->begin_addition != nullptr && std::filesystem::exists(path, ignored)) {
+    const bool adds = format->begin_addition != nullptr;
+    if (adds && std::filesystem::exists(path, ignored)) {
       auto begun = format->begin_addition(path, target.path);
       if (!begun) return std::move(begun).error();
       addition = std::move(*begun);
     }
     if (Status filled = fill(); !filled) return filled;
-    return addition ? addition->commit() : commit_whole(*pending);
+    if (addition) return addition->commit();
+    return adds ? pending->commit_new() : commit_whole(*pending);
   });
 }
 

@@ -7,6 +7,7 @@ import json
 import os
 import random
 import resource
+import socket
 import struct
 import subprocess
 
@@ -309,3 +310,37 @@ class ReadingDetails(CommandLine):
         self.write("a.geojson", collection(feature(square(0, 0), name="a]]>b")))
         self.succeed("axis", "a.geojson", "-o", "a.graphml")
         self.assertIn(b"a]]&gt;b", self.read("a.graphml"))
+
+
+class Servers(CommandLine):
+    def test_files_open_no_connections(self):
+        with socket.create_server(("127.0.0.1", 0)) as server:
+            url = "http://127.0.0.1:%d/a" % server.getsockname()[1]
+            link = {"type": "link", "properties": {"href": url, "type": "proj4"}}
+            self.write("link.geojson", json.dumps({"type": "FeatureCollection", "crs": link,
+                                                   "features": [feature(square(0, 0))]}))
+            self.assertIn(url.encode(), self.succeed("info", "link.geojson").stderr)
+            layer = "<OGRVRTDataSource><OGRVRTLayer name='a'><SrcDataSource>{}</SrcDataSource></OGRVRTLayer></OGRVRTDataSource>"
+            self.write("curl.vrt", layer.format("/vsicurl/" + url + ".geojson"))
+            self.write("base.vrt", layer.format("PG:host=127.0.0.1 port=" + url[17:-2]))
+            self.write("wfs.xml", f"<OGRWFSDataSource><URL>{url}</URL></OGRWFSDataSource>")
+            for name in ("curl.vrt", "base.vrt", "wfs.xml"):
+                self.refuse("malformed", "info", name)
+            server.setblocking(False)
+            self.assertRaises(BlockingIOError, server.accept)
+        # A virtual layer of a file beside it is read.
+        self.write("own.geojson", collection(feature(square(0, 0))))
+        self.write("own.vrt", layer.format("own.geojson").replace("'a'", "'own'"))
+        self.succeed("info", "own.vrt")
+
+
+class Beside(CommandLine):
+    def test_nothing_is_written_beside_what_is_read(self):
+        polygon = ("<gml:Polygon><gml:outerBoundaryIs><gml:LinearRing><gml:coordinates>0,0 4,0 4,2 0,2 0,0"
+                   "</gml:coordinates></gml:LinearRing></gml:outerBoundaryIs></gml:Polygon>")
+        self.write("a.gml", "<wfs:FeatureCollection xmlns:wfs='http://www.opengis.net/wfs' xmlns:gml="
+                   "'http://www.opengis.net/gml' xmlns:f='http://f'><gml:featureMember><f:a><f:g>" + polygon +
+                   "</f:g></f:a></gml:featureMember></wfs:FeatureCollection>")
+        before = self.files()
+        self.succeed("info", "a.gml")
+        self.assertEqual(self.files(), before)

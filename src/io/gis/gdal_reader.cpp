@@ -82,6 +82,12 @@ void swap_axes(Line& line) {
   for (double& bulge : line.bulges) bulge = -bulge;
 }
 
+bool is_gml(const std::string& name) {
+  const GdalMessages unheard;
+  GDALDriverH driver = GDALIdentifyDriverEx(name.c_str(), GDAL_OF_VECTOR, nullptr, nullptr);
+  return driver != nullptr && std::string_view(GDALGetDriverShortName(driver)) == "GML";
+}
+
 class GdalReader final : public FeatureReader {
  public:
   GdalReader(std::string shown, const ReadOptions& options)
@@ -101,9 +107,11 @@ class GdalReader final : public FeatureReader {
     const std::string x = fmt::format("X_POSSIBLE_NAMES={}", x_names);
     const std::string y = fmt::format("Y_POSSIBLE_NAMES={}", y_names);
     const std::array<const char*, 3> columns{x.c_str(), y.c_str(), nullptr};
-    const bool table = lower_case(name).ends_with(".csv");
-    source_.reset(
-        GDALDataset::Open(name.c_str(), flags, nullptr, table ? columns.data() : nullptr));
+    const std::array<const char*, 2> schema{"WRITE_GFS=NO", nullptr};  // not beside the file
+    const char* const* choices = lower_case(name).ends_with(".csv") ? columns.data()
+                                 : is_gml(name)                     ? schema.data()
+                                                                    : nullptr;
+    source_.reset(GDALDataset::Open(name.c_str(), flags, nullptr, choices));
     if (!source_) return cannot_open(name, messages.failure());
     Result<OGRLayer*> layer = choose_layer(*source_);
     if (!layer) return layer.error();
@@ -339,10 +347,12 @@ Result<std::unique_ptr<FeatureReader>> open_vectors(const Input& input,
                                                     const ReadOptions& options) {
   struct stat status {};
   const bool special = input.path.starts_with("/vsi") || input.path.find(':') != std::string::npos;
-  if (!special && stat(input.path.c_str(), &status) != 0) {
+  const bool is_there = stat(input.path.c_str(), &status) == 0;
+  if (!special && !is_there) {
     return Error{ErrorCode::unreadable, fmt::format("cannot open: {}", std::strerror(errno)),
                  in_file(input.path)};
   }
+  if (!is_there) allow_network();
   auto reader = std::make_unique<GdalReader>(input.path, options);
   if (Status opened = reader->open(gdal_name(input.path)); !opened)
     return std::move(opened).error();

@@ -1,5 +1,6 @@
 #include "io/gis/gdal_support.h"
 
+#include <cpl_http.h>
 #include <cpl_vsi.h>
 #include <fmt/format.h>
 #include <gdal_priv.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <mutex>
+#include <utility>
 
 #include "io/reference_system.h"
 #include "io/ring_text.h"
@@ -43,6 +45,34 @@ void add_polygon(const OGRCurvePolygon& polygon, std::vector<Ring>& rings) {
   }
 }
 
+/// Names of files that GDAL may fetch by itself; none is called so.
+constexpr const char* fetched_names = "CPL_VSIL_CURL_ALLOWED_FILENAME";
+
+bool network_is_allowed = false;
+
+/// The drivers of servers, and those that pass names on to other programs.
+std::vector<GDALDriver*>& drivers_of_servers() {
+  static std::vector<GDALDriver*> drivers;
+  return drivers;
+}
+
+bool is_of_servers(GDALDriver& driver) {
+  const std::string_view name = driver.GetDescription();
+  return driver.GetMetadataItem(GDAL_DMD_CONNECTION_PREFIX) != nullptr || name == "OGR_OGDI" ||
+         name == "PGeo";
+}
+
+/// Answers requests instead of the network.
+CPLHTTPResult* refuse_request(const char* url, CSLConstList, GDALProgressFunc, void*,
+                              CPLHTTPFetchWriteFunc, void*, void*) {
+  if (network_is_allowed) return nullptr;  // GDAL asks the network
+  auto* result = static_cast<CPLHTTPResult*>(CPLCalloc(1, sizeof(CPLHTTPResult)));
+  result->nStatus = 1;
+  result->pszErrBuf = CPLStrdup(fmt::format("{} is not asked", url).c_str());
+  CPLError(CE_Warning, CPLE_AppDefined, "%s is not asked: files open no connections", url);
+  return result;
+}
+
 }  // namespace
 
 void register_gdal() {
@@ -50,8 +80,24 @@ void register_gdal() {
   std::call_once(once, [] {
     // Nothing is written beside what is read.
     CPLSetConfigOption("CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");
+    CPLSetConfigOption(fetched_names, "none");
+    CPLHTTPSetFetchCallback(refuse_request, nullptr);
     GDALAllRegister();
+    GDALDriverManager& manager = *GetGDALDriverManager();
+    for (int i = manager.GetDriverCount() - 1; i >= 0; --i)
+      if (GDALDriver* driver = manager.GetDriver(i); is_of_servers(*driver)) {
+        manager.DeregisterDriver(driver);
+        drivers_of_servers().push_back(driver);
+      }
   });
+}
+
+void allow_network() {
+  register_gdal();
+  network_is_allowed = true;
+  CPLSetConfigOption(fetched_names, nullptr);
+  for (GDALDriver* driver : std::exchange(drivers_of_servers(), {}))
+    GetGDALDriverManager()->RegisterDriver(driver);
 }
 
 MemoryFile::MemoryFile(std::string& bytes, std::string_view extension)

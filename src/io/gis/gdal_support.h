@@ -13,8 +13,12 @@ class OGRSpatialReference;
 
 namespace medial::io {
 
-/// Registers GDAL's drivers, once.
+/// Registers GDAL's drivers, once. A file that names a server, as a virtual layer or a reference
+/// system may, opens no connection: only what the user names may.
 void register_gdal();
+
+/// From now on, what is read may open connections: the user has named a server.
+void allow_network();
 
 /// Collects what GDAL reports on this thread while the object lives; nothing is printed.
 class GdalMessages {

@@ -77,11 +77,7 @@ class SharedDatabase final : public Addition {
     if (const int code = sqlite3_backup_step(backup.get(), 0); code != SQLITE_OK)
       return unwritable(code);
     const Uninterrupted uninterrupted;
-    if (version_of(database_.get()) != version_)
-      return Error{ErrorCode::unwritable,
-                   "another program has changed the file meanwhile, so nothing was added; run this "
-                   "again",
-                   {}};
+    if (version_of(database_.get()) != version_) return changed_meanwhile();
     if (const int code = sqlite3_backup_step(backup.get(), -1); code != SQLITE_DONE)
       return unwritable(code);
     const int code = sqlite3_backup_finish(backup.release());
