@@ -10,6 +10,7 @@
 #include "axis/sites.h"
 #include "base/arc.h"
 #include "base/local_frame.h"
+#include "base/numbers.h"
 #include "medial/axis.h"
 #include "medial/error.h"
 #include "medial/shape.h"
@@ -17,8 +18,6 @@
 #include "site/site.h"
 
 namespace medial::edit {
-
-constexpr std::uint32_t none = ~std::uint32_t{0};
 
 /// A vertex of a whole loop, and the edge that begins there.
 struct Corner {

@@ -101,8 +101,7 @@ class Ties {
 
   /// Numbers the ends of the edges, and lists the neighbours of each.
   void number_points() {
-    constexpr std::uint32_t unused = ~std::uint32_t{0};
-    std::vector<std::uint32_t> number(graph_.places(), unused);
+    std::vector<std::uint32_t> number(graph_.places(), none);
     const auto for_ends = [&](const auto& work) {
       for (const std::uint32_t edge : edges_) {
         work(edge, graph_.to(edge));
@@ -111,7 +110,7 @@ class Ties {
     };
     first_.assign(2, 0);
     for_ends([&](std::uint32_t node, std::uint32_t) {
-      if (number[node] == unused) {
+      if (number[node] == none) {
         number[node] = static_cast<std::uint32_t>(points_.size());
         points_.push_back(node);
         first_.push_back(0);
