@@ -99,7 +99,6 @@ class Rings {
   /// A vertex of a loop that is not flat.
   std::uint32_t first_of(std::uint32_t loop) const { return corner_to(loops_[loop].first); }
   const LocalFrame& frame() const { return frame_; }
-  void set_frame(const LocalFrame& frame) { frame_ = frame; }
   const Joining& joining() const { return joining_; }
   /// The next vertex, and the one before, that is not flat.
   std::uint32_t corner_after(std::uint32_t v) const {

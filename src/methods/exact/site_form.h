@@ -146,12 +146,6 @@ struct Form {
   Vector<Number> slope;
   Number size;
   Number height;
-
-  /// The form at a disk.
-  Number at(const Vector<Number>& center, const Number& radius) const {
-    return round * (dot(center, center) - radius * radius) + dot(slope, center) - size * radius +
-           height;
-  }
 };
 
 template <class Number, class Roots>
