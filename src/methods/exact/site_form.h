@@ -7,6 +7,7 @@
 
 #include "medial/geometry.h"
 #include "methods/exact/numbers.h"
+#include "site/apollonius.h"
 
 namespace medial::exact {
 
@@ -27,22 +28,8 @@ struct ApproximateRoots {
   Bounded<Real> root(const Bounded<Real>& square) { return root_of(square); }
 };
 
-template <class Number>
-struct Vector {
-  Number x, y;
+using site::apollonius::Vector;
 
-  friend Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y}; }
-  friend Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y}; }
-  friend Vector operator*(const Number& s, const Vector& a) { return {s * a.x, s * a.y}; }
-};
-template <class Number>
-Number dot(const Vector<Number>& a, const Vector<Number>& b) {
-  return a.x * b.x + a.y * b.y;
-}
-template <class Number>
-Number cross(const Vector<Number>& a, const Vector<Number>& b) {
-  return a.x * b.y - a.y * b.x;
-}
 template <class Number>
 Vector<Number> left_of(const Vector<Number>& a) {
   return {-a.y, a.x};
