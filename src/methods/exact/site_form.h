@@ -61,8 +61,8 @@ struct Spoke {
 /// Whether the coordinates of both points differ by the same, exactly: a chord along a diagonal.
 inline bool is_diagonal(Vec2 a, Vec2 b) {
   const double x = b.x - a.x, y = b.y - a.y;
-  return std::abs(x) == std::abs(y) && Rounding<double>::of_sum(b.x, -a.x, x) == 0 &&
-         Rounding<double>::of_sum(b.y, -a.y, y) == 0;
+  return std::abs(x) == std::abs(y) && Rounding::of_sum(b.x, -a.x, x) == 0 &&
+         Rounding::of_sum(b.y, -a.y, y) == 0;
 }
 
 /// The normals of an edge at its start and end, of one length: for a segment that of its chord; for
