@@ -30,7 +30,7 @@ double residual_of(const TieSites& sites, const Touch& i, const DiskOf<double>& 
   const Vec2 center{disk.x, disk.y};
   const site::Site seen =
       i.part == Touch::Part::site ? sites.sites[i.site] : i.seen_from(sites.sites, center);
-  return std::abs(std::sqrt(site::squared_distance(seen, center)) - disk.radius);
+  return std::abs(site::gap(seen, {center, disk.radius}));
 }
 
 using exact::Precise;

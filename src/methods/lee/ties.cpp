@@ -147,8 +147,7 @@ class Ties {
     const auto touched = graph_.touched(node);
     return std::all_of(touched.rbegin(), touched.rend(), [&](std::uint32_t element) {
       const site::Site& site = elements_.sites[element];
-      const double squared = site::squared_distance(site, disk.center);
-      return std::abs(std::sqrt(squared) - disk.radius) <= slack_ &&
+      return std::abs(site::gap(site, disk)) <= slack_ &&
              std::abs(site::carrier_distance(site, disk.center) - disk.radius) <= slack_;
     });
   }
@@ -242,8 +241,7 @@ bool is_right_locally(const Graph& graph, double slack) {
   // By how far a disk misses what a node touches; negative where it reaches over.
   const auto reach = [&](std::uint32_t node, const Disk& disk, double& least, double& most) {
     for (const std::uint32_t i : graph.touched(node)) {
-      const double gap =
-          std::sqrt(site::squared_distance(elements.sites[i], disk.center)) - disk.radius;
+      const double gap = site::gap(elements.sites[i], disk);
       least = std::min(least, gap);
       most = std::isnan(gap) ? std::numeric_limits<double>::infinity() : std::max(most, gap);
     }
