@@ -21,7 +21,7 @@ struct Division {
 };
 
 /// Whether an event of a polygon is certain and nothing within the tolerance may come before it;
-/// none where only a search tells.
+/// none where only a search decides.
 std::optional<bool> is_settled(const Contacts& contacts, const Disk& from, const Event& event,
                                const Certainty& certainty);
 
