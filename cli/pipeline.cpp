@@ -161,10 +161,6 @@ bool has_effect(const UnitOptions& units) {
          units.pixel_size > 0;
 }
 
-}  // namespace
-
-namespace {
-
 /// Options of images have no effect on other files.
 Status check_image_options(const InputOptions& input) {
   const io::ImageOptions& image = input.source.read.image;

@@ -147,7 +147,7 @@ class Halves {
     const std::vector<std::uint32_t> outer = outer_edges();
     for (std::uint32_t i = 0; i < elements_.size(); ++i)
       if (half == 2 || (i < middle) == (half == 0))
-        for (std::uint32_t place = diagram_.top[i][0]; place != lee::none;
+        for (std::uint32_t place = diagram_.top[i][0]; place != none;
              place = diagram_.edges[place].inward[0])
           draw_edge(figure, diagram_.edges[place], outer[place], middle);
   }
@@ -169,12 +169,12 @@ class Halves {
 
   /// Of each edge: the one that begins where it ends, if one does.
   std::vector<std::uint32_t> outer_edges() const {
-    std::vector<std::uint32_t> outer(diagram_.edges.size(), lee::none);
+    std::vector<std::uint32_t> outer(diagram_.edges.size(), none);
     for (std::uint32_t i = 0; i < elements_.size(); ++i)
       for (const std::size_t k : {0u, 1u})
-        for (std::uint32_t place = diagram_.top[i][k]; place != lee::none;
+        for (std::uint32_t place = diagram_.top[i][k]; place != none;
              place = diagram_.edges[place].inward[k])
-          if (const std::uint32_t inner = diagram_.edges[place].inward[k]; inner != lee::none)
+          if (const std::uint32_t inner = diagram_.edges[place].inward[k]; inner != none)
             outer[inner] = place;
     return outer;
   }
@@ -203,25 +203,25 @@ class Halves {
     else
       figure.pen(0.15, 0.45, 0.75, 1.6);
     const Vec2 start = edge.inner.center;
-    const Vec2 end = outer != lee::none ? diagram_.edges[outer].inner.center : start;
+    const Vec2 end = outer != none ? diagram_.edges[outer].inner.center : start;
     if (diagram_.is_spoke(edge)) {
       const Vec2 normal = left.is_vertex() ? right.normal() : left.normal();
-      figure.line({start, outer != lee::none ? end : start + 60 * normal});
+      figure.line({start, outer != none ? end : start + 60 * normal});
       return;
     }
     const site::Bisector bisector(right, left);
     const double from = bisector.position(start);
     const bool last = i == 0 && j + 1 == elements_.size();
     double to = from + 60;
-    if (outer != lee::none) to = bisector.position(end);
-    if (outer == lee::none && last) to = bisector.position(elements_.sites[0].point);
-    const int pieces = outer == lee::none && !last ? 256 : 48;
+    if (outer != none) to = bisector.position(end);
+    if (outer == none && last) to = bisector.position(elements_.sites[0].point);
+    const int pieces = outer == none && !last ? 256 : 48;
     std::vector<Vec2> line;
     for (int k = 0; k <= pieces; ++k) {
       const double t = static_cast<double>(k) / pieces;
       const Vec2 p = bisector.disk_at(from + t * (to - from), edge.inner).center;
       if (!std::isfinite(p.x) || !std::isfinite(p.y)) break;
-      if (outer == lee::none && !last && !(is_beside(i, p) && is_beside(j, p))) break;
+      if (outer == none && !last && !(is_beside(i, p) && is_beside(j, p))) break;
       line.push_back(p);
     }
     figure.line(line);

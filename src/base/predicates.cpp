@@ -5,6 +5,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstdint>
 
+#include "base/bounded.h"
 #include "base/whole.h"
 
 // g++ 12 warns, wrongly, of limbs inside cpp_int where its moves are inlined here.
@@ -32,9 +33,7 @@ struct Expansion2 {
 
 Expansion2 exact_sum(double a, double b) {
   const double sum = a + b;
-  const double b_part = sum - a;
-  const double a_part = sum - b_part;
-  return {sum, (a - a_part) + (b - b_part)};
+  return {sum, Rounding::rest_of_sum(a, b, sum)};
 }
 
 /// Requires moderate factors.

@@ -33,7 +33,7 @@ struct Twofold {
 
   static Twofold sum(const Twofold& a, const Twofold& b, double& lost) {
     const double whole = a.high + b.high, lows = a.low + b.low;
-    const double of_whole = rest_of_sum(a.high, b.high, whole), rest = of_whole + lows;
+    const double of_whole = Rounding::rest_of_sum(a.high, b.high, whole), rest = of_whole + lows;
     lost = a.low != 0 && b.low != 0 ? unit * std::abs(lows) : 0;
     if (of_whole != 0 && lows != 0) lost += unit * std::abs(rest);
     return split(whole, rest);
@@ -41,13 +41,13 @@ struct Twofold {
   static Twofold product(const Twofold& a, const Twofold& b, double& lost) {
     const double whole = a.high * b.high;
     double rest = std::fma(a.high, b.high, -whole);
-    const bool is_tiny = std::abs(whole) < Rounding<double>::tiny && a.high != 0 && b.high != 0;
-    lost = is_tiny ? Rounding<double>::lost : 0;
+    const bool is_tiny = std::abs(whole) < Rounding::tiny && a.high != 0 && b.high != 0;
+    lost = is_tiny ? Rounding::lost : 0;
     if (a.low != 0 || b.low != 0) {
       const double first = a.high * b.low, second = a.low * b.high, cross = first + second;
       rest += cross;
       lost += unit * (std::abs(first) + std::abs(second) + std::abs(rest)) +
-              std::abs(a.low * b.low) + Rounding<double>::lost;
+              std::abs(a.low * b.low) + Rounding::lost;
     }
     return split(whole, rest);
   }
@@ -81,13 +81,9 @@ struct Twofold {
   /// Two roundings to nearest.
   static constexpr double unit = 0x1p-52;
 
-  static double rest_of_sum(double a, double b, double whole) {
-    const double b_part = whole - a, a_part = whole - b_part;
-    return (a - a_part) + (b - b_part);
-  }
   static Twofold split(double whole, double rest) {
     const double high = whole + rest;
-    return {high, rest_of_sum(whole, rest, high)};
+    return {high, Rounding::rest_of_sum(whole, rest, high)};
   }
 };
 
@@ -95,7 +91,6 @@ struct Twofold {
 /// (a - q b) / b, and the root of a differs from w by (a - w w) / (root + w).
 template <>
 struct Bounded<Twofold> {
-  using Size = double;
   Twofold value;
   double error = 0;
 
@@ -152,7 +147,7 @@ struct Bounded<Twofold> {
  private:
   /// Bounds are sums and products of positive numbers with less than sixteen roundings each, of
   /// numbers that differ from their high part by 2^-53 of it.
-  static constexpr double widen = Rounding<double>::widen;
+  static constexpr double widen = Rounding::widen;
 };
 
 }  // namespace medial

@@ -3,12 +3,11 @@
 #include <utility>
 
 #include "base/disjoint_sets.h"
+#include "base/numbers.h"
 
 namespace medial::io {
 
 namespace {
-
-constexpr std::uint32_t none = ~std::uint32_t{0};
 
 bool is_inside(const Node& node) { return node.kind == NodeKind::site_change; }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "axis/statistics.h"
+#include "base/numbers.h"
 #include "base/threads.h"
 #include "base/tolerance.h"
 #include "methods/checks.h"
@@ -162,7 +163,6 @@ std::optional<LoopsBySize> small_components(const Problem& problem) {
   if (shape.component_count() < 2 || options.tolerance > 0 || has_arcs(shape) ||
       info_of(options.method).sampling != Sampling::curves)
     return std::nullopt;
-  constexpr std::uint32_t none = ~std::uint32_t{0};
   const double least = small_share * longer_side(problem.box);
   LoopsBySize loops;
   std::vector<std::uint32_t> place(shape.component_count(), none);  // of each, in loops.small

@@ -39,12 +39,8 @@ Result<Exterior> exterior_of(const Shape& shape, double margin) {
   const Vec2 low = box.low - Vec2{margin, margin}, high = box.high + Vec2{margin, margin};
   std::vector<Ring> rings{{{low, {high.x, low.y}, high, {low.x, high.y}}}};
   for (std::size_t i = 0; i < shape.loop_count(); ++i) {
-    const auto loop = shape.loop(i);
-    Ring& ring = rings.emplace_back();
-    ring.points.assign(loop.begin(), loop.end());
-    if (shape.bulges.empty()) continue;
-    const auto first = shape.bulges.begin() + shape.loop_begin[i];
-    ring.bulges.assign(first, first + static_cast<std::ptrdiff_t>(loop.size()));
+    rings.push_back(ring_of(shape, i));
+    rings.back().role = RingRole::any;
   }
   auto built = build_shape(rings);
   if (!built) return error_of_exterior(shape, built.error());

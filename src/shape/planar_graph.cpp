@@ -291,7 +291,6 @@ class Faces {
     std::vector<Outer> outer;
     // The first left end of a part, from left to right, is its leftmost place.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> points;  // place, piece below
-    order_.clear();
     for (const LeftEnd& end : sweep_.left_ends) {
       const std::uint32_t at = place[end.vertex], part = parts.find(at);
       if (placed[part]) continue;
@@ -319,7 +318,6 @@ class Faces {
 
   std::vector<std::uint32_t> begin_;    ///< of each place: where its rays are in `leaving_`
   std::vector<std::uint32_t> leaving_;  ///< half-edges
-  std::vector<std::uint32_t> order_;
 };
 
 /// Of a link the result's edge, and whether it is the edge's first and last piece.

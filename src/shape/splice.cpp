@@ -36,10 +36,6 @@ void renumber_touches(Arrangement& result, const std::vector<std::uint32_t>& new
                    [](const Touch& a, const Touch& b) { return a.place < b.place; });
 }
 
-}  // namespace
-
-namespace {
-
 /// The splits of each edge one after another, from left to right.
 std::vector<std::uint32_t> in_order_of_edges(const std::vector<Split>& splits) {
   std::vector<std::uint32_t> order(splits.size());

@@ -167,6 +167,11 @@ inline double squared_distance(const Site& site, Vec2 c) {
   return squared_norm(d - s * site.direction);
 }
 
+/// How far a disk is from the closed site: negative where it reaches over it.
+inline double gap(const Site& site, const Disk& disk) {
+  return std::sqrt(squared_distance(site, disk.center)) - disk.radius;
+}
+
 /// Distance to the site's carrier: the whole line or circle, positive on its left, or the vertex.
 inline double carrier_distance(const Site& site, Vec2 c) {
   if (site.is_vertex()) return norm(c - site.point);

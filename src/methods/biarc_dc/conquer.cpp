@@ -184,13 +184,9 @@ struct TieContact {
 /// by outward.x x + outward.y y - z. None if that misses one.
 std::optional<Disk> disk_touching(const Context& context, std::span<const TieContact> touches,
                                   const Disk& near, double tolerance) {
-  const auto gap_of = [&](std::uint32_t site, const Disk& disk) {
-    return std::sqrt(site::squared_distance(context.outline.sites[site], disk.center)) -
-           disk.radius;
-  };
   const auto touches_all = [&](const Disk& disk) {
     return std::all_of(touches.begin(), touches.end(), [&](const TieContact& touch) {
-      return std::abs(gap_of(touch.site, disk)) <= tolerance;
+      return std::abs(site::gap(context.outline.sites[touch.site], disk)) <= tolerance;
     });
   };
   if (touches_all(near)) return near;
@@ -199,7 +195,7 @@ std::optional<Disk> disk_touching(const Context& context, std::span<const TieCon
     const Site& site = context.outline.sites[touch.site];
     if (std::abs(site.curvature * near.radius - 1) <= same_circle) return std::nullopt;
     const Vec2 outward = site::outward(site, near.center);
-    const std::array<double, 4> term{outward.x, outward.y, -1, -gap_of(touch.site, near)};
+    const std::array<double, 4> term{outward.x, outward.y, -1, -site::gap(site, near)};
     for (std::size_t row = 0; row < 3; ++row)
       for (std::size_t column = 0; column < 4; ++column)
         sum[row][column] += term[row] * term[column];

@@ -42,7 +42,7 @@ bool overlaps(const Disk& disk, const Site& site, double slack) {
          site::squared_distance(site, disk.center) < reach * reach;
 }
 bool touches(const Disk& disk, const Site& site, double slack) {
-  return std::abs(std::sqrt(site::squared_distance(site, disk.center)) - disk.radius) <= slack;
+  return std::abs(site::gap(site, disk)) <= slack;
 }
 
 Disk polished(Context& context, Disk disk, const Site& a, const Site& b, const Site& c) {

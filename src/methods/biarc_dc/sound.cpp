@@ -112,8 +112,7 @@ class Checker {
     return disks::in_wedge(first, last, disk.center - part.point);
   }
   bool touches(const Disk& disk, std::uint32_t site) const {
-    const double away = std::sqrt(site::squared_distance(outline_.sites[site], disk.center));
-    return std::abs(away - disk.radius) <= 2 * slack_;
+    return std::abs(site::gap(outline_.sites[site], disk)) <= 2 * slack_;
   }
   /// Whether a node's disk touches all from a site that it touches to the next such site, or is a
   /// point in a convex corner.

@@ -165,7 +165,6 @@ std::optional<BaseShape> base_shape_of(const Subshape& subshape, const SiteOutli
                                            [&](const Spelling& s) { return word == s.word; });
     if (found == spellings.end()) continue;
     base.base_case = found->base_case;
-    base.size = static_cast<std::uint8_t>(subshape.size());
     for (std::size_t step = 0, i = begin; step < subshape.size(); ++step, i = subshape.next(i))
       base.element[step] = subshape.elements[i];
     // Only an arc of locally maximal curvature has a centre where the axis ends.

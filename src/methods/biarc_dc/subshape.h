@@ -127,7 +127,6 @@ const char* name_of(BaseCase base_case);
 /// A base case with its elements in the order in which BaseCase spells them.
 struct BaseShape {
   BaseCase base_case = BaseCase::cap;
-  std::uint8_t size = 0;
   std::uint32_t component = 0;
   std::array<Element, 3> element;
 };

@@ -87,7 +87,7 @@ Certainty::Contact Certainty::contact_of(const site::Site& s, const Disk& disk) 
 }
 
 bool Certainty::is_near(std::uint32_t i, double slack) const {
-  return std::abs(std::sqrt(site::squared_distance(site(i), to_.center)) - to_.radius) <= slack;
+  return std::abs(site::gap(site(i), to_)) <= slack;
 }
 
 bool Certainty::fits(std::uint32_t i, double tolerance) const {

@@ -56,8 +56,7 @@ Vec2 Contacts::bridge_direction(std::uint32_t vertex, std::uint32_t bridge) cons
 }
 
 bool Contacts::touches(std::uint32_t i, const Disk& disk, double slack) const {
-  if (std::abs(std::sqrt(site::squared_distance(site(i), disk.center)) - disk.radius) > slack)
-    return false;
+  if (std::abs(away(i, disk)) > slack) return false;
   if (site(i).is_vertex() || touches_all(i, disk)) return true;
   const double s = site::foot_parameter(site(i), disk.center);
   if (s > 0 && s < site(i).length) return true;

@@ -99,8 +99,7 @@ class Contacts {
   /// Whether a disk touches both the site and its carrier: as touches(), but where the foot is next
   /// to an end, on either side, as far as the disk can tell.
   bool touches_carrier(std::uint32_t i, const Disk& disk, double slack) const {
-    return std::abs(std::sqrt(site::squared_distance(site(i), disk.center)) - disk.radius) <=
-               slack &&
+    return std::abs(away(i, disk)) <= slack &&
            std::abs(site::carrier_distance(site(i), disk.center) - disk.radius) <= slack;
   }
 
@@ -213,9 +212,7 @@ class Contacts {
   }
   double beyond_end(std::uint32_t i, bool at_end, Vec2 center) const;
   /// How far a site is from a disk: negative where the disk reaches over it.
-  double away(std::uint32_t i, const Disk& disk) const {
-    return std::sqrt(site::squared_distance(site(i), disk.center)) - disk.radius;
-  }
+  double away(std::uint32_t i, const Disk& disk) const { return site::gap(site(i), disk); }
   const Boundary::SiteRange& run_of(const Span& span) const {
     return *ranges::lower_bound(boundary_.runs, span.left, {}, &Boundary::SiteRange::last);
   }

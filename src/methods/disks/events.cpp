@@ -25,9 +25,8 @@ constexpr double as_good_as_point = 8;
 }  // namespace
 
 Event EventSearch::local_event(bool on_right) {
-  const std::uint32_t own = on_right ? span_.right : span_.left;
-  const std::uint32_t next = on_right ? own + 1 : own - 1;
-  if (boundary_.is_smooth(on_right ? own : next)) return event_at_smooth_joint(on_right);
+  const auto [own, next, other] = side(on_right);
+  if (boundary_.is_smooth(std::min(own, next))) return event_at_smooth_joint(on_right);
   return element(next) == Element::bridge ? event_across_bridge(on_right)
                                           : event_at_corner(on_right);
 }
@@ -49,8 +48,7 @@ Event EventSearch::event_at_smooth_joint(bool on_right) {
 }
 
 Event EventSearch::event_across_bridge(bool on_right) {
-  const std::uint32_t own = on_right ? span_.right : span_.left;
-  const std::uint32_t other = on_right ? span_.left : span_.right;
+  const auto [own, next, other] = side(on_right);
   Event event;
   const std::uint32_t across = on_right ? own + 2 : own - 2;
   const bool continues_other =
@@ -66,9 +64,7 @@ Event EventSearch::event_across_bridge(bool on_right) {
 }
 
 Event EventSearch::event_at_corner(bool on_right) {
-  const std::uint32_t own = on_right ? span_.right : span_.left;
-  const std::uint32_t next = on_right ? own + 1 : own - 1;
-  const std::uint32_t other = on_right ? span_.left : span_.right;
+  const auto [own, next, other] = side(on_right);
   Event event;
   // At a convex corner too, before the foot gets to the corner: the disk there is not empty,
   // unless the corner is so flat that it touches both sides within the tolerance. Their carriers
@@ -99,12 +95,10 @@ Event EventSearch::event_at_corner(bool on_right) {
 }
 
 Event EventSearch::end_of_range(bool on_right) const {
-  const std::uint32_t own = on_right ? span_.right : span_.left;
-  const std::uint32_t next = on_right ? own + 1 : own - 1;
+  const auto [own, next, other] = side(on_right);
   const Bridge& bridge = context_.bridges[boundary_.originals[next]];
   const Vec2 foot = site::foot(site(own), bridge.disk.center), to = bridge.disk.center - foot;
-  const double radius =
-      site::tangent_radius(foot, (1 / norm(to)) * to, site(on_right ? span_.left : span_.right));
+  const double radius = site::tangent_radius(foot, (1 / norm(to)) * to, site(other));
   if (!(radius <= context_.radius_limit)) return {};
   Event event{Event::Kind::far, on_right ? own + 2 : own - 2,
               Disk{foot + (radius / norm(to)) * to, radius}, 0};
@@ -113,8 +107,7 @@ Event EventSearch::end_of_range(bool on_right) const {
 }
 
 bool EventSearch::comes_later(bool on_right, const Event& event) const {
-  const std::uint32_t own = on_right ? span_.right : span_.left;
-  const std::uint32_t next = on_right ? own + 1 : own - 1;
+  const auto [own, next, other] = side(on_right);
   if (event.kind == Event::Kind::none || !boundary_.is_corner(std::min(own, next))) return false;
   const Vec2 center = event.disk.center;
   const double s = site::carrier_parameter(site(own), center);
@@ -123,9 +116,7 @@ bool EventSearch::comes_later(bool on_right, const Event& event) const {
 }
 
 std::optional<EventSearch::JointDisk> EventSearch::disk_at_joint(bool on_right) const {
-  const std::uint32_t own = on_right ? span_.right : span_.left;
-  const std::uint32_t next = on_right ? own + 1 : own - 1;
-  const std::uint32_t other = on_right ? span_.left : span_.right;
+  const auto [own, next, other] = side(on_right);
   if (boundary_.has_arcs)
     if (const auto circle = circle_of_apex(next, other)) return JointDisk{*circle};
   const auto [foot, normal] = boundary_.smooth_place(std::min(own, next), std::max(own, next));
@@ -149,9 +140,8 @@ std::optional<Disk> EventSearch::circle_of_apex(std::uint32_t next, std::uint32_
 
 std::optional<Event> EventSearch::contact_at_joint(std::uint32_t third) const {
   for (const bool on_right : {true, false}) {
-    if (third != (on_right ? span_.right + 1 : span_.left - 1) ||
-        !boundary_.is_smooth(on_right ? span_.right : third))
-      continue;
+    const auto [own, next, other] = side(on_right);
+    if (third != next || !boundary_.is_smooth(std::min(own, next))) continue;
     const auto joint = disk_at_joint(on_right);
     if (!joint || !joint->fits) continue;
     const Disk& disk = joint->disk;
@@ -371,8 +361,7 @@ std::uint32_t EventSearch::obstacle(const Disk& disk) {
 std::optional<Event> EventSearch::pass_at_node() const {
   if (!(from_.radius > 0)) return std::nullopt;
   for (const bool on_right : {true, false}) {
-    const std::uint32_t own = on_right ? span_.right : span_.left;
-    const std::uint32_t next = on_right ? own + 1 : own - 1;
+    const auto [own, next, other] = side(on_right);
     if (boundary_.is_smooth(std::min(own, next)) &&
         contacts_.touches_carrier(next, from_, context_.tolerance))
       return Event{on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, from_,

@@ -58,6 +58,15 @@ class EventSearch {
     bool fits = true;
   };
 
+  /// One of the two sites, its neighbour to which its foot passes on, and the other one.
+  struct Side {
+    std::uint32_t own, next, other;
+  };
+  Side side(bool on_right) const {
+    return on_right ? Side{span_.right, span_.right + 1, span_.left}
+                    : Side{span_.left, span_.left - 1, span_.right};
+  }
+
   const site::Site& site(std::uint32_t i) const { return boundary_.sites[i]; }
   Element element(std::uint32_t i) const { return boundary_.elements[i]; }
   /// Whether a contact lies on the site itself, not only on its carrier, and on its inner side.

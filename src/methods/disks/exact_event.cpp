@@ -329,7 +329,7 @@ class ExactEvents::Search {
     const std::vector<Vec2> vertices = touched_vertices();
     std::erase_if(near, [&](std::uint32_t site) {
       if (is_bridge(site) || (best_ && site == site_)) return true;
-      const double gap = gap_of(site, disk);
+      const double gap = site::gap(events_.boundary_.sites[site], disk);
       if (gap >= -events_.sites_.fine_tolerance_ && continues_touched(site)) return true;
       if (gap < -rounding) return false;
       return clearance(exact_site(site), exact_disk, vertices) >= 0;
@@ -362,11 +362,6 @@ class ExactEvents::Search {
     for (const std::uint32_t i : {span_.right, site_, span_.left})
       if (exact_site(i).is_vertex()) found.push_back(exact_site(i).start);
     return found;
-  }
-
-  double gap_of(std::uint32_t site, const Disk& disk) const {
-    return std::sqrt(site::squared_distance(events_.boundary_.sites[site], disk.center)) -
-           disk.radius;
   }
 
   /// Whether a site continues one that the disk touches, at a joint that is smooth up to

@@ -115,9 +115,7 @@ class Merger {
       Disk& disk = graph_.nodes[node].disk;
       sort_unique(touched);
       if (ranges::all_of(touched, [&](const Touch& one) {
-            const double away =
-                std::sqrt(site::squared_distance(boundary_.sites[one.site], disk.center));
-            return std::abs(away - disk.radius) <= tolerance_;
+            return std::abs(site::gap(boundary_.sites[one.site], disk)) <= tolerance_;
           }))
         continue;
       TieFit fit(tie_sites_, disk);

@@ -22,6 +22,15 @@ Division::Division(const Span& span, const Event& event, double error, bool move
   }
 }
 
+std::optional<bool> is_settled(const Contacts& contacts, const Disk& from, const Event& event,
+                               const Certainty& certainty) {
+  if (!certainty.is_certain() || (event.kind == Event::Kind::contact &&
+                                  contacts.is_past_vertex(event.site, event.disk.center)))
+    return false;
+  if (certainty.is_tie() || contacts.is_short_way(from, event.disk)) return std::nullopt;
+  return true;
+}
+
 RunAhead::RunAhead(const WalkContext& context, Contacts& contacts, Statistics& statistics)
     : context_(context),
       contacts_(contacts),
@@ -58,14 +67,10 @@ void RunAhead::run(const Span& first, const Disk& start, std::size_t most) {
   while (found_.size() < most) {
     EventSearch search(context_, contacts_, statistics_, span, from);
     Found& found = found_.emplace_back(Found{span, from, search.by_neighbors(), false, 0, {}});
-    // Nothing else within the tolerance may come before the event.
-    if (contacts_.is_short_way(from, found.event.disk)) return;
     const auto event = search.plain(found.event);
-    if (!event || (event->kind == Event::Kind::contact &&
-                   contacts_.is_past_vertex(event->site, event->disk.center)))
-      return;
+    if (!event) return;
     const Certainty certainty(context_.boundary, context_.tolerance, span, from, *event);
-    if (!certainty.is_certain() || certainty.is_tie()) return;
+    if (!is_settled(contacts_, from, *event, certainty).value_or(false)) return;
     found = {span, from, *event, true, certainty.error(), search.asked_disk(*event)};
     const Division parts(span, *event, certainty.error(), true);
     const bool first_open = parts.count > 0 && contacts_.needs_walk(parts.part[0]),

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "methods/disks/certainty.h"
@@ -18,6 +19,11 @@ struct Division {
   std::array<Span, 2> part;
   std::size_t count = 0;
 };
+
+/// Whether an event of a polygon is certain and nothing within the tolerance may come before it;
+/// none where only a search decides.
+std::optional<bool> is_settled(const Contacts& contacts, const Disk& from, const Event& event,
+                               const Certainty& certainty);
 
 /// Events of a polygon's walk that follow each other, found ahead by the sites next to the feet
 /// alone. Whether their disks are empty is asked once for all: what lies ahead of the last one and

@@ -30,7 +30,7 @@ double residual_of(const TieSites& sites, const Touch& i, const DiskOf<double>& 
   const Vec2 center{disk.x, disk.y};
   const site::Site seen =
       i.part == Touch::Part::site ? sites.sites[i.site] : i.seen_from(sites.sites, center);
-  return std::abs(std::sqrt(site::squared_distance(seen, center)) - disk.radius);
+  return std::abs(site::gap(seen, {center, disk.radius}));
 }
 
 using exact::Precise;
@@ -281,56 +281,49 @@ bool has_arcs(const TieSites& sites, std::span<const Touch> contacts) {
   return ranges::any_of(contacts, [&](const Touch& i) { return sites.sites[i.site].is_arc(); });
 }
 
-/// Asks for the verdict in numbers of more digits, from a disk on, and moves the disk.
-template <class Real>
-Verdict judge_again(const TieSites& sites, std::span<const Touch> contacts, const Bound& bound,
-                    Disk& disk, double& worst) {
-  Exchange<Real> exchange(sites, {Real(disk.center.x), Real(disk.center.y), Real(disk.radius)});
-  const Verdict verdict = exchange.judge(contacts, bound);
-  const DiskOf<Real>& found = exchange.disk;
-  disk = {{static_cast<double>(found.x), static_cast<double>(found.y)},
-          static_cast<double>(found.radius)};
-  worst = static_cast<double>(exchange.worst);
-  return verdict;
-}
-
-template <class Real>
-void settle_in(const TieSites& sites, std::span<const Touch> contacts, double noise, TieFit& fit) {
+/// Asks in these numbers, from a fit's disk on, which moves.
+template <class Real, class Ask>
+Verdict ask_in(const TieSites& sites, TieFit& fit, const Ask& ask) {
   Exchange<Real> exchange(
       sites, {Real(fit.disk.center.x), Real(fit.disk.center.y), Real(fit.disk.radius)});
-  exchange.settle(contacts, noise);
+  const Verdict verdict = ask(exchange);
   const DiskOf<Real>& found = exchange.disk;
   fit.disk = {{static_cast<double>(found.x), static_cast<double>(found.y)},
               static_cast<double>(found.radius)};
   fit.worst = static_cast<double>(exchange.worst);
+  return verdict;
 }
 
 }  // namespace
 
 bool TieFit::fits(std::span<const Touch> contacts, double bound) {
-  Verdict verdict = Verdict::open;
-  {
-    Exchange<double> exchange(*sites_, {disk.center.x, disk.center.y, disk.radius});
-    verdict = exchange.judge(contacts, {bound, noise_of_double});
-    disk = {{exchange.disk.x, exchange.disk.y}, exchange.disk.radius};
-    worst = exchange.worst;
-  }
+  const auto judge = [&](double noise) {
+    return [=](auto& exchange) { return exchange.judge(contacts, {bound, noise}); };
+  };
+  Verdict verdict = ask_in<double>(*sites_, *this, judge(noise_of_double));
   if (verdict == Verdict::open && sites_->exact != nullptr) {
     const Disk start = disk;
     if (!has_arcs(*sites_, contacts))
-      verdict = judge_again<Twofold>(*sites_, contacts, {bound, noise_of_twofold}, disk, worst);
+      verdict = ask_in<Twofold>(*sites_, *this, judge(noise_of_twofold));
     if (verdict == Verdict::open) {
       disk = start;
-      verdict = judge_again<Precise>(*sites_, contacts, {bound, 0x1p-200}, disk, worst);
+      verdict = ask_in<Precise>(*sites_, *this, judge(0x1p-200));
     }
   }
   return verdict == Verdict::yes || (verdict == Verdict::open && worst <= bound);
 }
 
 void TieFit::settle(std::span<const Touch> contacts) {
+  const auto settle = [&](double noise) {
+    return [=](auto& exchange) {
+      exchange.settle(contacts, noise);
+      return Verdict::yes;
+    };
+  };
   if (sites_->exact != nullptr)
-    return settle_in<Twofold>(*sites_, contacts, noise_of_twofold, *this);
-  settle_in<double>(*sites_, contacts, noise_of_double, *this);
+    ask_in<Twofold>(*sites_, *this, settle(noise_of_twofold));
+  else
+    ask_in<double>(*sites_, *this, settle(noise_of_double));
 }
 
 }  // namespace medial::disks

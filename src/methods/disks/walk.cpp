@@ -200,17 +200,14 @@ class Walker {
     }
   }
 
-  /// Whether nothing within the tolerance may come before an event on a polygon.
-  bool is_settled(const Step& step, const Disk& from, const Certainty& certainty) {
-    const Span& span = step.span;
-    if (step.event.kind == Event::Kind::contact &&
-        contacts_.is_past_vertex(step.event.site, step.event.disk.center))
-      return false;
-    if (certainty.is_tie())
-      return contacts_.passes_at(span, from, certainty.fourth()) ||
-             contacts_.is_clean_tie(span, from, certainty.fourth());
-    return !contacts_.is_short_way(from, step.event.disk) ||
-           !contacts_.may_touch_more(span, from, certainty.fourth());
+  /// Whether a step's event is taken as double has it.
+  bool is_taken(const Step& step, const Disk& from, const Certainty& certainty) {
+    if (boundary_.has_arcs) return certainty.is_certain();
+    if (const auto settled = is_settled(contacts_, from, step.event, certainty)) return *settled;
+    const std::uint32_t fourth = certainty.fourth();
+    if (!certainty.is_tie()) return !contacts_.may_touch_more(step.span, from, fourth);
+    return contacts_.passes_at(step.span, from, fourth) ||
+           contacts_.is_clean_tie(step.span, from, fourth);
   }
 
   /// What ends the edge of a step's span where that is not certain in double: a tie, or what 256
@@ -332,8 +329,7 @@ class Walker {
     ahead_.note(chunk_.statistics.queries - queries <= 1);
     const Certainty certainty(boundary_, context_.tolerance, span, from, step.event);
     step.error = certainty.error();
-    step.is_certain =
-        certainty.is_certain() && (boundary_.has_arcs || is_settled(step, from, certainty));
+    step.is_certain = is_taken(step, from, certainty);
     step.joins_node = step.is_certain && certainty.is_tie();
     if (step.is_certain) ++chunk_.statistics.exact_filtered;
   }

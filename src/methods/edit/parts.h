@@ -37,7 +37,6 @@ Result<MedialAxis> local_axis(const Shape& shape, const Options& options, double
 namespace medial {
 
 using edit::AxisGraph;
-using edit::none;
 using edit::Rings;
 using edit::Step;
 

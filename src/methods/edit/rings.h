@@ -10,6 +10,7 @@
 #include "axis/sites.h"
 #include "base/arc.h"
 #include "base/local_frame.h"
+#include "base/numbers.h"
 #include "medial/axis.h"
 #include "medial/error.h"
 #include "medial/shape.h"
@@ -17,8 +18,6 @@
 #include "site/site.h"
 
 namespace medial::edit {
-
-constexpr std::uint32_t none = ~std::uint32_t{0};
 
 /// A vertex of a whole loop, and the edge that begins there.
 struct Corner {
@@ -100,7 +99,6 @@ class Rings {
   /// A vertex of a loop that is not flat.
   std::uint32_t first_of(std::uint32_t loop) const { return corner_to(loops_[loop].first); }
   const LocalFrame& frame() const { return frame_; }
-  void set_frame(const LocalFrame& frame) { frame_ = frame; }
   const Joining& joining() const { return joining_; }
   /// The next vertex, and the one before, that is not flat.
   std::uint32_t corner_after(std::uint32_t v) const {

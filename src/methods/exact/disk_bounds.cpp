@@ -151,18 +151,6 @@ std::optional<int> further_along(const ExactSite& site, const DiskBounds<Real>& 
   return (left > 0 ? turn : -turn).sign();
 }
 
-bool may_reach(const ExactSite& site, const DiskBounds<Precise>& disk) {
-  if (!(site.bulge > 0)) return true;
-  using Number = Bounded<Precise>;
-  ApproximateRoots<Precise> roots;
-  const auto first = spoke_of<Number>(site, false, roots).normal;
-  const auto last = spoke_of<Number>(site, true, roots).normal;
-  const auto toward =
-      first + Number(-4 * site.bulge) * (disk.center - exact_vector<Number>(site.start));
-  const auto before = cross(first, toward).sign(), after = cross(toward, last).sign();
-  return !(before && *before < 0) && !(after && *after < 0);
-}
-
 template std::optional<DiskBounds<double>> disk_bounds(const SiteLoops&,
                                                        const std::array<std::uint32_t, 3>&,
                                                        const Disk&);

@@ -31,8 +31,4 @@ template <class Real>
 std::optional<int> further_along(const ExactSite& site, const DiskBounds<Real>& from,
                                  const DiskBounds<Real>& to);
 
-/// Whether the foot of a disk on a convex arc may lie between the arc's ends: false only where it
-/// surely lies beyond. Disks near an arc's own centre may touch its circle anywhere.
-bool may_reach(const ExactSite& site, const DiskBounds<Precise>& disk);
-
 }  // namespace medial::exact

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "methods/exact/disk_bounds.h"
+#include "methods/exact/touch.h"
 
 namespace medial::exact {
 namespace {
@@ -18,7 +19,8 @@ bool may_touch(const SiteLoops& outline, const std::array<std::uint32_t, 3>& sit
     const std::uint32_t site = sites[k];
     if (outline.joined(site, sites[(k + 1) % 3]) || outline.joined(sites[(k + 2) % 3], site))
       continue;
-    if (!may_reach(outline.sites[site], *disk)) return false;
+    const ExactSite own = outline.sites[site];
+    if (own.bulge > 0 && !may_have_foot(own, *disk)) return false;
   }
   return true;
 }

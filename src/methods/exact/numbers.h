@@ -124,7 +124,7 @@ inline Bounded<Twofold> twofold_of(const Bounded<Precise>& number) {
   const auto high = static_cast<double>(number.value);
   const auto low = static_cast<double>(Precise(number.value - high));
   const auto error = static_cast<double>(number.error) + 0x1p-104 * std::abs(high);
-  return {Twofold(high) + Twofold(low), (1 + 0x1p-48) * error + Rounding<double>::lost};
+  return {Twofold(high) + Twofold(low), (1 + 0x1p-48) * error + Rounding::lost};
 }
 
 class RootField;

@@ -7,6 +7,7 @@
 
 #include "medial/geometry.h"
 #include "methods/exact/numbers.h"
+#include "site/apollonius.h"
 
 namespace medial::exact {
 
@@ -27,22 +28,8 @@ struct ApproximateRoots {
   Bounded<Real> root(const Bounded<Real>& square) { return root_of(square); }
 };
 
-template <class Number>
-struct Vector {
-  Number x, y;
+using site::apollonius::Vector;
 
-  friend Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y}; }
-  friend Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y}; }
-  friend Vector operator*(const Number& s, const Vector& a) { return {s * a.x, s * a.y}; }
-};
-template <class Number>
-Number dot(const Vector<Number>& a, const Vector<Number>& b) {
-  return a.x * b.x + a.y * b.y;
-}
-template <class Number>
-Number cross(const Vector<Number>& a, const Vector<Number>& b) {
-  return a.x * b.y - a.y * b.x;
-}
 template <class Number>
 Vector<Number> left_of(const Vector<Number>& a) {
   return {-a.y, a.x};
@@ -74,8 +61,8 @@ struct Spoke {
 /// Whether the coordinates of both points differ by the same, exactly: a chord along a diagonal.
 inline bool is_diagonal(Vec2 a, Vec2 b) {
   const double x = b.x - a.x, y = b.y - a.y;
-  return std::abs(x) == std::abs(y) && Rounding<double>::of_sum(b.x, -a.x, x) == 0 &&
-         Rounding<double>::of_sum(b.y, -a.y, y) == 0;
+  return std::abs(x) == std::abs(y) && Rounding::of_sum(b.x, -a.x, x) == 0 &&
+         Rounding::of_sum(b.y, -a.y, y) == 0;
 }
 
 /// The normals of an edge at its start and end, of one length: for a segment that of its chord; for
@@ -146,12 +133,6 @@ struct Form {
   Vector<Number> slope;
   Number size;
   Number height;
-
-  /// The form at a disk.
-  Number at(const Vector<Number>& center, const Number& radius) const {
-    return round * (dot(center, center) - radius * radius) + dot(slope, center) - size * radius +
-           height;
-  }
 };
 
 template <class Number, class Roots>

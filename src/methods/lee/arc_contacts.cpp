@@ -46,22 +46,19 @@ bool ArcContacts::touches(std::uint32_t i, const Disk& disk) const {
     const Vec2 d = disk.center - s.point;
     if (dot(left_of(site(before).end_normal()), d) <= 0 && dot(site(after).direction, d) <= 0)
       return true;
-    return gap(before, disk) >= -limits_.tolerance && gap(after, disk) >= -limits_.tolerance;
+    return site::gap(site(before), disk) >= -limits_.tolerance &&
+           site::gap(site(after), disk) >= -limits_.tolerance;
   }
   if (disk.radius * s.curvature <= 1) {
     const double foot = site::carrier_parameter(s, disk.center);
     if (foot >= 0 && foot <= s.length) return true;
   }
-  return std::abs(gap(i, disk)) <= limits_.tolerance;
+  return std::abs(site::gap(site(i), disk)) <= limits_.tolerance;
 }
 
 bool ArcContacts::is_tied(std::uint32_t i, const Disk& disk) const {
-  return std::abs(gap(i, disk)) <= tie() &&
+  return std::abs(site::gap(site(i), disk)) <= tie() &&
          std::abs(site::carrier_distance(site(i), disk.center) - disk.radius) <= limits_.tolerance;
-}
-
-double ArcContacts::gap(std::uint32_t i, const Disk& disk) const {
-  return std::sqrt(site::squared_distance(site(i), disk.center)) - disk.radius;
 }
 
 bool ArcContacts::are_joined(std::uint32_t a, std::uint32_t b) const {

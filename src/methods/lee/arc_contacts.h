@@ -48,7 +48,6 @@ class ArcContacts {
 
  private:
   const site::Site& site(std::uint32_t i) const { return elements_.sites[i]; }
-  double gap(std::uint32_t i, const Disk& disk) const;
   bool are_joined(std::uint32_t a, std::uint32_t b) const;
   site::SmoothPlace joint_of(std::uint32_t a, std::uint32_t b) const;
   std::optional<site::SmoothPlace> flat_corner(std::uint32_t a, std::uint32_t b) const;

@@ -5,12 +5,11 @@
 #include <optional>
 #include <vector>
 
+#include "base/numbers.h"
 #include "methods/problem.h"
 #include "site/site.h"
 
 namespace medial::lee {
-
-constexpr std::uint32_t none = ~std::uint32_t{0};
 
 /// How an element joins another one beside it, where disks can touch both in one point only.
 enum class Beside : std::uint8_t {

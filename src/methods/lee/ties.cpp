@@ -101,8 +101,7 @@ class Ties {
 
   /// Numbers the ends of the edges, and lists the neighbours of each.
   void number_points() {
-    constexpr std::uint32_t unused = ~std::uint32_t{0};
-    std::vector<std::uint32_t> number(graph_.places(), unused);
+    std::vector<std::uint32_t> number(graph_.places(), none);
     const auto for_ends = [&](const auto& work) {
       for (const std::uint32_t edge : edges_) {
         work(edge, graph_.to(edge));
@@ -111,7 +110,7 @@ class Ties {
     };
     first_.assign(2, 0);
     for_ends([&](std::uint32_t node, std::uint32_t) {
-      if (number[node] == unused) {
+      if (number[node] == none) {
         number[node] = static_cast<std::uint32_t>(points_.size());
         points_.push_back(node);
         first_.push_back(0);
@@ -148,8 +147,7 @@ class Ties {
     const auto touched = graph_.touched(node);
     return std::all_of(touched.rbegin(), touched.rend(), [&](std::uint32_t element) {
       const site::Site& site = elements_.sites[element];
-      const double squared = site::squared_distance(site, disk.center);
-      return std::abs(std::sqrt(squared) - disk.radius) <= slack_ &&
+      return std::abs(site::gap(site, disk)) <= slack_ &&
              std::abs(site::carrier_distance(site, disk.center) - disk.radius) <= slack_;
     });
   }
@@ -243,8 +241,7 @@ bool is_right_locally(const Graph& graph, double slack) {
   // By how far a disk misses what a node touches; negative where it reaches over.
   const auto reach = [&](std::uint32_t node, const Disk& disk, double& least, double& most) {
     for (const std::uint32_t i : graph.touched(node)) {
-      const double gap =
-          std::sqrt(site::squared_distance(elements.sites[i], disk.center)) - disk.radius;
+      const double gap = site::gap(elements.sites[i], disk);
       least = std::min(least, gap);
       most = std::isnan(gap) ? std::numeric_limits<double>::infinity() : std::max(most, gap);
     }

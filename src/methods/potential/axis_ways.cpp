@@ -4,10 +4,10 @@
 #include <limits>
 #include <utility>
 
+#include "base/numbers.h"
+
 namespace medial::potential {
 namespace {
-
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 /// The point of the axis whose disk holds p, with p as near to its centre as may be.
 std::uint32_t seen_from(const Skeleton& axis, Vec2 p) {

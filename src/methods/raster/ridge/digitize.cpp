@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/disjoint_sets.h"
+#include "base/numbers.h"
 #include "base/runs.h"
 #include "base/tolerance.h"
 
@@ -158,7 +159,6 @@ InteriorSets interior_sets(const EdgeOutline& outline, const LocalGrid& local,
 }
 
 std::vector<Vec2> inner_points(const EdgeOutline& outline) {
-  constexpr std::uint32_t none = ~std::uint32_t{0};
   std::vector<std::uint32_t> highest, concave, before(outline.edges.size());
   const auto height = [&](std::uint32_t e) { return outline.edges[e].point.y; };
   const auto raise = [&](std::vector<std::uint32_t>& top, std::uint32_t e) {

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "base/disjoint_sets.h"
+#include "base/numbers.h"
 #include "base/runs.h"
 #include "methods/raster/ridge/thin.h"
 
@@ -113,7 +114,6 @@ void open_gaps(const InteriorSets& sets, const BitMap& boundary, MedialMap& map)
   for (std::uint32_t i = 0; i < outside; ++i)
     if (rest.touches[i]) joined.join(i, outside);
   // A pixel taken away belongs to the set that it opened; by its place in `found`.
-  constexpr std::uint32_t none = ~std::uint32_t{0};
   std::vector<std::uint32_t> opened(map.found.size(), none);
   const auto set_at = [&](Pixel q) {
     if (gaps.at(q)) return rest.set_of(q);

@@ -9,6 +9,7 @@
 #include <queue>
 #include <span>
 
+#include "base/numbers.h"
 #include "base/runs.h"
 
 namespace medial::ridge {
@@ -16,8 +17,6 @@ namespace {
 
 using raster::BitMap;
 using raster::Pixel;
-
-constexpr std::uint32_t none = ~std::uint32_t{0};
 
 /// Where the boundary crosses a row or column of pixel centres.
 struct Crossing {
