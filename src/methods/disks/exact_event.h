@@ -48,8 +48,7 @@ class ExactSites {
   template <class Real>
   std::optional<exact::DiskBounds<Real>> disk_of(const std::array<std::uint32_t, 3>& sites) const {
     const auto name = [&](std::uint32_t i) { return boundary_.originals[i]; };
-    return exact::disk_bounds<Real>(outline(), {name(sites[0]), name(sites[1]), name(sites[2])},
-                                    Disk{});
+    return exact::disk_bounds<Real>(outline(), {name(sites[0]), name(sites[1]), name(sites[2])});
   }
 
  private:

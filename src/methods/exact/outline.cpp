@@ -9,11 +9,16 @@ namespace {
 
 double curvature_of(const ExactSite& edge) { return curvature({edge.start, edge.end, edge.bulge}); }
 
+/// In place of the roots of numbers: normals have one in their lengths only.
+struct NoRoots {
+  Rational root(const Rational&) { return 0; }
+};
+
 /// By which way the boundary turns from one edge to the next: 1 to the left, 0 not at all.
 int turn_between(const ExactSite& before, const ExactSite& after) {
-  RootField field;
-  const auto arriving = spoke_of<RootNumber>(before, true, field);
-  const auto leaving = spoke_of<RootNumber>(after, false, field);
+  NoRoots lengths;
+  const auto arriving = spoke_of<Rational>(before, true, lengths);
+  const auto leaving = spoke_of<Rational>(after, false, lengths);
   return cross(arriving.normal, leaving.normal).sign();
 }
 
