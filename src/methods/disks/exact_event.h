@@ -23,7 +23,7 @@ class ExactSites {
       : fine_tolerance_(problem.fine_tolerance),
         radius_limit_(problem.radius_limit),
         boundary_(boundary) {
-    make_ = [&problem, &numbers] { return exact::outline_of(problem, numbers, false); };
+    make_ = [&problem, &numbers] { return exact::outline_of(problem, numbers); };
   }
   /// Those of a part of a boundary, whose bridges are any disks.
   ExactSites(std::function<exact::SiteLoops()> make, double fine_tolerance, double radius_limit,
