@@ -3,6 +3,7 @@
 // Numbers of twice the digits of double, and the bounds of their errors: what decides most of what
 // double leaves open, at a tenth of the time of 256 bits.
 
+#include <algorithm>
 #include <cmath>
 #include <compare>
 #include <cstdint>
@@ -87,7 +88,7 @@ struct Twofold {
   }
 };
 
-/// As for double. What a quotient and a root lose follows from what is left over: a / b - q is
+/// What a quotient and a root lose follows from what is left over: a / b - q is
 /// (a - q b) / b, and the root of a differs from w by (a - w w) / (root + w).
 template <>
 struct Bounded<Twofold> {

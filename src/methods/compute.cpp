@@ -11,7 +11,6 @@
 #include "methods/checks.h"
 #include "methods/disks/disks.h"
 #include "methods/drop_enclosure.h"
-#include "methods/exact/certify.h"
 #include "methods/problem.h"
 #include "methods/refusal.h"
 #include "methods/small_components.h"
@@ -65,26 +64,6 @@ Result<MedialAxis> compute_exterior(const Problem& problem) {
   return axis;
 }
 
-/// Makes the combinatorics of an axis certain. Next to arcs the result is measured, and if that
-/// refuses it, all is decided in 256 bits, with joints as the doubles have them.
-std::optional<Error> make_certain(const Problem& problem, MedialAxis& axis) {
-  const bool measures = has_arcs(problem.shape);
-  auto certain = on_threads(problem.options.threads, [&] { return exact::certify(problem, axis); });
-  auto error = certain ? std::nullopt : std::optional(std::move(certain).error());
-  if (!measures) return error;
-  if (!error) error = error_if_refused(problem, axis);
-  if (!error) return error;
-  auto precise =
-      on_threads(problem.options.threads, [&] { return disks::run_in_precise(problem); });
-  if (!precise) return std::move(precise).error();
-  if (problem.is_cancelled()) return Error{ErrorCode::cancelled, "cancelled", {}};
-  precise->method = axis.method;
-  precise->statistics += axis.statistics;
-  precise->statistics.threads = axis.statistics.threads;
-  axis = std::move(*precise);
-  return error_if_refused(problem, axis);
-}
-
 }  // namespace
 
 Result<MedialAxis> compute(const Shape& shape, const Options& options,
@@ -97,7 +76,7 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options,
     if (options.exterior) return compute_exterior(problem);
     const auto divided = small_components(problem);
     auto outcome = on_threads(options.threads, [&] {
-      return divided ? run_divided(problem, *divided) : method.run(problem);
+      return divided ? run_divided(problem, *divided) : solver_of(options).run(problem);
     });
     if (!outcome) return std::move(outcome).error();
     MedialAxis& axis = outcome->axis;
@@ -108,8 +87,8 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options,
           axis,
           "the axis does not have one part for each component and one cycle for each hole: please "
           "report this shape");
-    if (options.exact)
-      if (auto error = make_certain(problem, axis)) return std::move(*error);
+    if (options.exact && !std::holds_alternative<method::Auto>(options.method))
+      axis.method = method.info.name;
     if (options.progress) options.progress(1);
     return std::move(axis);
   } catch (...) {

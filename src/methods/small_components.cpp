@@ -101,7 +101,7 @@ std::size_t points_of(const Shape& shape, const Loops& loops) {
 
 /// Computes each small component, and uses their axes in order.
 Status run_small(const Problem& problem, const LoopsBySize& loops, const Use& use) {
-  const MethodRow& method = row_of(problem.options.method);
+  const MethodRow& method = solver_of(problem.options);
   constexpr std::size_t block = 1 << 18;  // points whose axes are in memory at the same time
   std::size_t done = points_of(problem.shape, loops.large);
   for (std::size_t begin = 0, count = 0; begin < loops.small.size(); begin += count) {
@@ -192,7 +192,7 @@ Result<Outcome> run_divided(const Problem& problem, const LoopsBySize& loops) {
   Outcome sum;
   if (!loops.large.empty()) {
     const Piece piece(problem, loops.large, progress_of_large(problem, loops));
-    auto outcome = row_of(problem.options.method).run(piece.problem());
+    auto outcome = solver_of(problem.options).run(piece.problem());
     if (!outcome || problem.is_cancelled()) return outcome;
     append(piece, std::move(outcome->axis), sum.axis);
   }

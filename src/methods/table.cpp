@@ -94,6 +94,9 @@ const MethodRow* find_row(std::string_view name) {
 }  // namespace
 
 const MethodRow& row_of(const Method& method) { return rows[method.index()]; }
+const MethodRow& solver_of(const Options& options) {
+  return row_of(options.exact ? Method(method::Disks{}) : options.method);
+}
 const MethodInfo& info_of(const Method& method) { return row_of(method).info; }
 std::span<const MethodInfo> methods() { return infos; }
 

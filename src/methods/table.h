@@ -17,5 +17,7 @@ struct MethodRow {
 };
 
 const MethodRow& row_of(const Method& method);
+/// The row of the method that computes: with Options::exact that of `disks`, for all that take it.
+const MethodRow& solver_of(const Options& options);
 
 }  // namespace medial

@@ -117,7 +117,10 @@ bool Certainty::has_place(std::uint32_t third) const {
   return error_of_three(third) < unknown;
 }
 
-/// Newton and Kantorovich, as in exact/disk_bounds.h.
+/// With C = 2 (|b - a| + |c - a|) / A, of the unit vectors from the feet and twice the area A of
+/// their triangle, and residuals below f of distances whose curvature is below q: Newton's map with
+/// the slopes at the disk takes the ball of radius 2 (C + 1) f around it into itself, and contracts
+/// it if 4 q (C + 1)^2 f < 1 (Newton and Kantorovich).
 double Certainty::error_of_three(const Boundary& boundary,
                                  const std::array<std::uint32_t, 3>& sites, const Disk& disk) {
   const Contact a = contact_of(boundary.sites[sites[0]], disk),

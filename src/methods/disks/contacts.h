@@ -31,6 +31,7 @@ struct WalkContext {
   std::function<void(std::uint64_t)> finished_sites;  ///< gets the number of further finished sites
   /// Above 0, tasks are deferred, and so is the rest of one that has found this many nodes.
   std::uint32_t most_nodes = 0;
+  bool joins_ties = true;  ///< whether what one disk touches within the tolerance is one node
 };
 
 /// A part of the boundary still to be walked: the sites between `right`, whose foot moves forward,

@@ -83,9 +83,9 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
 
   std::atomic<std::uint64_t> finished = 0;
   const ExactEvents events(sites, boundary, tree, way.in_precise);
-  auto chunks =
-      walk({boundary, bridges, tree, tolerance, problem.fine_tolerance, problem.radius_limit,
-            events, problem.options.cancel, reporter(problem.options, boundary, finished)});
+  auto chunks = walk({boundary, bridges, tree, tolerance, problem.fine_tolerance,
+                      problem.radius_limit, events, problem.options.cancel,
+                      reporter(problem.options, boundary, finished), 0, way.merges_ties});
   statistics.seconds_walk = watch.lap();
   if (problem.is_cancelled()) return std::nullopt;
 
@@ -255,12 +255,14 @@ std::vector<bool> components_of(const Shape& shape, const SiteNumbers& numbers,
 /// shape whose axis is refused, are walked again in 256 bits.
 Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbers) {
   const bool with_arcs = has_arcs(problem.shape);
+  // Next to arcs, a walk that merges nothing is measured, too.
+  const bool is_measured = with_arcs && problem.options.exact;
   std::optional<Error> error;
-  Way way;
+  Way way{{}, !problem.options.exact};
   for (const bool is_last : {false, true}) {
     std::vector<std::uint32_t> lost;
     auto axis = axis_by(problem, numbers, way, lost);
-    const bool is_certain = lost.empty() && !(with_arcs && is_last);
+    const bool is_certain = lost.empty() && !(with_arcs && is_last) && !is_measured;
     if (axis && (is_certain || problem.is_cancelled())) return axis;
     // A polygon in which the walk lost its way is measured only if another walk takes seconds.
     if (with_arcs || is_last || takes_long(problem.shape)) {
@@ -307,16 +309,6 @@ Result<MedialAxis> run(const Problem& problem) {
   if (!has_arcs(problem.shape)) return run_in_place(problem, problem.numbers());
   const Posed posed(problem);
   auto axis = run_in_place(posed.problem, posed.numbers);
-  if (!axis) return posed.pose.to_input(axis.error());
-  posed.pose.to_input(problem, posed.numbers, *axis, axis->edges);
-  return axis;
-}
-
-Result<MedialAxis> run_in_precise(const Problem& problem) {
-  const Posed posed(problem);
-  const std::vector<bool> all(problem.shape.component_count(), true);
-  std::vector<std::uint32_t> lost;
-  auto axis = axis_by(posed.problem, posed.numbers, {all, false}, lost);
   if (!axis) return posed.pose.to_input(axis.error());
   posed.pose.to_input(problem, posed.numbers, *axis, axis->edges);
   return axis;

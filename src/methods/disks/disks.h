@@ -16,10 +16,9 @@ constexpr double fine_share = 0.125;
 /// for each component and one cycle for each hole. Cut short, with any content, where the caller
 /// cancels. Errors: error_of_wrong_axis() where a disk misses one of its
 /// sites by far more than rounding explains; unsupported, with the place, where no way to decide
-/// finds an axis that verify() passes.
+/// finds an axis that verify() passes. With Options::exact nodes that are not the same are kept
+/// apart, however near; next to arcs such an axis is one that verify() passes.
 Result<MedialAxis> run(const Problem& problem);
-/// The same with all decided in 256 bits, joints as the doubles have them, and no ties merged.
-Result<MedialAxis> run_in_precise(const Problem& problem);
 
 /// run() in parts of about so many nodes, see compute_in_parts(), of straight edges. Returns the
 /// axis without sites, nodes and edges; nothing where the first way to decide fails, and run() has

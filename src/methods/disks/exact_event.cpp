@@ -245,7 +245,7 @@ class ExactEvents::Search {
     const std::uint32_t right = name(span_.right), left = name(span_.left),
                         third = name(span_.third);
     if (third == right || third == left || right == left) return std::nullopt;
-    return exact::disk_bounds<Real>(outline_, {right, left, third}, Disk{});
+    return exact::disk_bounds<Real>(outline_, {right, left, third});
   }
 
   /// Whether a disk lies behind that of the node, by more than that is off.
@@ -274,7 +274,7 @@ class ExactEvents::Search {
     seen_.insert(site);
     const std::uint32_t right = name(span_.right), left = name(span_.left), third = name(site);
     if (third == right || third == left) return;
-    const auto disk = exact::disk_bounds<Real>(outline_, {right, third, left}, Disk{});
+    const auto disk = exact::disk_bounds<Real>(outline_, {right, third, left});
     if (!disk) return;
     if (is_too_large(*disk)) return;
     if (is_behind(*disk) || (best_ && !comes_before(*disk, *best_))) return;
@@ -299,7 +299,7 @@ class ExactEvents::Search {
     if (is_seen(site)) return;
     seen_.insert(site);
     const std::uint32_t before = name(span_.left), after = name(span_.right), third = name(site);
-    const auto disk = exact::disk_bounds<Real>(outline_, {before, after, third}, Disk{});
+    const auto disk = exact::disk_bounds<Real>(outline_, {before, after, third});
     if (!disk || (best_ && !(best_->radius - disk->radius).positive())) return;
     if (!is_touched(site, *disk, false)) return;
     best_ = disk;

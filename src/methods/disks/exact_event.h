@@ -23,7 +23,7 @@ class ExactSites {
       : fine_tolerance_(problem.fine_tolerance),
         radius_limit_(problem.radius_limit),
         boundary_(boundary) {
-    make_ = [&problem, &numbers] { return exact::outline_of(problem, numbers, false); };
+    make_ = [&problem, &numbers] { return exact::outline_of(problem, numbers); };
   }
   /// Those of a part of a boundary, whose bridges are any disks.
   ExactSites(std::function<exact::SiteLoops()> make, double fine_tolerance, double radius_limit,
@@ -48,8 +48,7 @@ class ExactSites {
   template <class Real>
   std::optional<exact::DiskBounds<Real>> disk_of(const std::array<std::uint32_t, 3>& sites) const {
     const auto name = [&](std::uint32_t i) { return boundary_.originals[i]; };
-    return exact::disk_bounds<Real>(outline(), {name(sites[0]), name(sites[1]), name(sites[2])},
-                                    Disk{});
+    return exact::disk_bounds<Real>(outline(), {name(sites[0]), name(sites[1]), name(sites[2])});
   }
 
  private:

@@ -202,6 +202,7 @@ class Walker {
 
   /// Whether a step's event is taken as double has it.
   bool is_taken(const Step& step, const Disk& from, const Certainty& certainty) {
+    if (certainty.is_tie() && !context_.joins_ties) return false;
     if (boundary_.has_arcs) return certainty.is_certain();
     if (const auto settled = is_settled(contacts_, from, step.event, certainty)) return *settled;
     const std::uint32_t fourth = certainty.fourth();
@@ -215,7 +216,8 @@ class Walker {
   bool decide(Step& step, const Disk& from) {
     using Kind = Event::Kind;
     Event& event = step.event;
-    if (contacts_.is_polygon() && !is_exact_ && event.kind == Kind::contact) {
+    if (contacts_.is_polygon() && context_.joins_ties && !is_exact_ &&
+        event.kind == Kind::contact) {
       // Contacts that are near to each other leave open where they meet: in a tie of the node's
       // own disk, there; but where one only passes on to the next, that may be anywhere.
       const bool passes =
@@ -360,7 +362,8 @@ class Walker {
       return is_exact_;
     }
     // Between sites that are all but parallel, double's disk is as good as any.
-    if (!found->is_well_known() && event.site == found->site) return false;
+    const bool is_tie = event.kind == Event::Kind::at_node && !context_.joins_ties;
+    if (!found->is_well_known() && event.site == found->site && !is_tie) return false;
     Span ahead = span;
     stay_on_pieces(asked, found->disk.center, ahead);
     const bool passes = ahead.right != span.right || ahead.left != span.left;
@@ -487,7 +490,8 @@ class Walker {
   bool coincide(const Disk& a, const Disk& b) const {
     // Where a shape is hardly wider than the tolerance, that is no tie.
     constexpr double of_radius = 0x1p-10;
-    if (contacts_.is_polygon()) return a.center == b.center && a.radius == b.radius;
+    if (contacts_.is_polygon() || !context_.joins_ties)
+      return a.center == b.center && a.radius == b.radius;
     const double slack = std::min(context_.tolerance, of_radius * std::max(a.radius, b.radius));
     return squared_norm(a.center - b.center) <= slack * slack &&
            std::abs(a.radius - b.radius) <= slack;

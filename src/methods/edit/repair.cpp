@@ -48,7 +48,6 @@ exact::SiteLoops outline_of(const Rings& rings, const Window& window) {
       if (!outline.sites[i].is_vertex() && !outline.sites[after].is_vertex())
         outline.by_next[i] = exact::by_second(outline.sites[i], outline.sites[after]);
   outline.loop_begin = {0, static_cast<std::uint32_t>(names.size())};
-  outline.component = {0};
   return outline;
 }
 

@@ -1,9 +1,6 @@
 #include "methods/exact/disk_bounds.h"
 
-#include <algorithm>
-#include <type_traits>
-
-#include "methods/exact/in_disk.h"
+#include "methods/exact/disk_of_three.h"
 
 namespace medial::exact {
 namespace {
@@ -16,63 +13,11 @@ std::optional<DiskBounds<Real>> disk_on(const Spoke<Bounded<Real>>& spoke,
   return DiskBounds<Real>{spoke.foot + times * spoke.normal, times * spoke.size};
 }
 
-/// How often Newton's method is asked for a better start.
-constexpr int most_steps = 3;
-
-double size_of(const Vector<Bounded<double>>& v) { return v.x.most() + v.y.most(); }
-
-std::optional<DiskBounds<double>> three_apart(const SiteLoops& outline,
-                                              const std::array<std::uint32_t, 3>& sites,
-                                              const Disk& start) {
-  using Number = Bounded<double>;
-  ApproximateRoots<double> roots;
-  double x = start.center.x, y = start.center.y, r = start.radius;
-  for (int step = 0;; ++step) {
-    const Vector<Number> center{Number(x), Number(y)};
-    const Number radius(r);
-    std::array<Vector<Number>, 3> u;
-    std::array<Number, 3> f;
-    double residual = 0, noise = 0, bend = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto form = form_of<Number>(outline.sites[sites[i]], center, roots);
-      const Number turn = form.round * radius;
-      const Number slope = form.size + turn + turn;  // against the radius
-      if (!slope.positive()) return std::nullopt;
-      const Number inverse = Number(1.0) / slope;
-      u[i] = inverse * form.slope;
-      f[i] = inverse * (form.height - radius * (form.size + turn));
-      residual = std::max(residual, f[i].most());
-      noise = std::max(noise, f[i].error);
-      bend = std::max(bend, (inverse * form.round).most());
-    }
-    const Vector<Number> b = u[1] - u[0], c = u[2] - u[0];
-    const Number area = cross(b, c);
-    if (!area.positive()) return std::nullopt;
-    if (residual > 4 * noise && step < most_steps) {
-      const double fb = f[0].value - f[1].value, fc = f[0].value - f[2].value;
-      const double dx = (fb * c.y.value - fc * b.y.value) / area.value;
-      const double dy = (b.x.value * fc - c.x.value * fb) / area.value;
-      x += dx;
-      y += dy;
-      r += u[0].x.value * dx + u[0].y.value * dy + f[0].value;
-      continue;
-    }
-    const double spread = 2 * (size_of(b) + size_of(c)) / area.least() + 1;
-    // The factor beyond 2 is for the rounding of the bounds.
-    const double within = 2.001 * spread * residual;
-    if (!(4 * bend * spread * within < 1)) return std::nullopt;
-    const DiskBounds<double> result{{{x, within}, {y, within}}, {r, within}};
-    if (!result.radius.positive()) return std::nullopt;
-    return result;
-  }
-}
-
 }  // namespace
 
 template <class Real>
 std::optional<DiskBounds<Real>> disk_bounds(const SiteLoops& outline,
-                                            const std::array<std::uint32_t, 3>& sites,
-                                            const Disk& start) {
+                                            const std::array<std::uint32_t, 3>& sites) {
   using Number = Bounded<Real>;
   ApproximateRoots<Real> roots;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -117,10 +62,7 @@ std::optional<DiskBounds<Real>> disk_bounds(const SiteLoops& outline,
     }
     return disk;
   }
-  if constexpr (std::is_same_v<Real, double>)
-    return three_apart(outline, sites, start);
-  else
-    return disk_of_three<Real>(outline, sites);
+  return disk_of_three<Real>(outline, sites);
 }
 
 template <class Real>
@@ -151,17 +93,10 @@ std::optional<int> further_along(const ExactSite& site, const DiskBounds<Real>& 
   return (left > 0 ? turn : -turn).sign();
 }
 
-template std::optional<DiskBounds<double>> disk_bounds(const SiteLoops&,
-                                                       const std::array<std::uint32_t, 3>&,
-                                                       const Disk&);
 template std::optional<DiskBounds<Twofold>> disk_bounds(const SiteLoops&,
-                                                        const std::array<std::uint32_t, 3>&,
-                                                        const Disk&);
+                                                        const std::array<std::uint32_t, 3>&);
 template std::optional<DiskBounds<Precise>> disk_bounds(const SiteLoops&,
-                                                        const std::array<std::uint32_t, 3>&,
-                                                        const Disk&);
-template std::optional<int> further_along(const ExactSite&, const DiskBounds<double>&,
-                                          const DiskBounds<double>&);
+                                                        const std::array<std::uint32_t, 3>&);
 template std::optional<int> further_along(const ExactSite&, const DiskBounds<Twofold>&,
                                           const DiskBounds<Twofold>&);
 template std::optional<int> further_along(const ExactSite&, const DiskBounds<Precise>&,

@@ -1,7 +1,7 @@
 #pragma once
 
-// The numbers of exact decisions: Bounded<double>, Bounded<Twofold>, Bounded<Precise>, and numbers
-// from a field of square roots, whose signs are decided by rational arithmetic.
+// The numbers of exact decisions: Bounded<Twofold>, Bounded<Precise> and rational
+// ones.
 
 #ifdef MEDIAL_WITHOUT_GMP
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -10,12 +10,12 @@
 #include <boost/multiprecision/gmp.hpp>
 #include <boost/multiprecision/mpfr.hpp>
 #endif
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "base/twofold.h"
 
@@ -26,12 +26,10 @@ namespace exact {
 // Of GMP and MPFR where there are these libraries, which are faster; otherwise of Boost's headers.
 // Both compute the same. `Precise` has at least 256 bits, on the stack.
 #ifdef MEDIAL_WITHOUT_GMP
-using Integer = boost::multiprecision::cpp_int;
 using Rational = boost::multiprecision::cpp_rational;
 using PreciseBackend =
     boost::multiprecision::cpp_bin_float<264, boost::multiprecision::digit_base_2>;
 #else
-using Integer = boost::multiprecision::mpz_int;
 using Rational = boost::multiprecision::mpq_rational;
 using PreciseBackend =
     boost::multiprecision::mpfr_float_backend<78, boost::multiprecision::allocate_stack>;
@@ -40,7 +38,7 @@ using Precise = boost::multiprecision::number<PreciseBackend, boost::multiprecis
 
 }  // namespace exact
 
-/// As for double, but the bounds are rough and quick: with 256 bits there is room.
+/// As for Twofold, but the bounds are rough and quick: with 256 bits there is room.
 template <>
 struct Bounded<exact::Precise> {
   using Real = exact::Precise;
@@ -126,61 +124,6 @@ inline Bounded<Twofold> twofold_of(const Bounded<Precise>& number) {
   const auto error = static_cast<double>(number.error) + 0x1p-104 * std::abs(high);
   return {Twofold(high) + Twofold(low), (1 + 0x1p-48) * error + Rounding::lost};
 }
-
-class RootField;
-
-/// A number of a RootField: a sum of rational multiples of products of its roots.
-///
-/// Stands as 2^k factors: the i-th belongs to the product of the roots whose bits i has. No
-/// operation rounds.
-class RootNumber {
- public:
-  RootNumber() = default;
-  explicit RootNumber(double exact) : RootNumber(Rational(exact)) {}
-  explicit RootNumber(Rational value) {
-    if (value != 0) factors_.push_back(std::move(value));
-  }
-
-  friend RootNumber operator+(const RootNumber& a, const RootNumber& b);
-  friend RootNumber operator-(const RootNumber& a, const RootNumber& b);
-  friend RootNumber operator*(const RootNumber& a, const RootNumber& b);
-  friend RootNumber operator-(const RootNumber& a);
-
-  /// Exact: a + b sqrt(A) has the sign of the larger of a^2 and b^2 A where the signs of a and b
-  /// differ, which are numbers of a field with one root less. Asked only where 256 bits do not
-  /// tell.
-  int sign() const;
-  /// The number in 256 bits.
-  Bounded<Precise> bounded() const;
-
- private:
-  friend class RootField;
-  RootNumber(const RootField* field, std::vector<Rational> factors);
-
-  const RootField* field_ = nullptr;  ///< none needed for a rational number
-  std::vector<Rational> factors_;     ///< 2^j of them, or none: zero
-};
-
-/// The rational numbers with the square roots of some positive ones.
-class RootField {
- public:
-  RootField() = default;
-  RootField(const RootField&) = delete;  // numbers refer to it
-  RootField& operator=(const RootField&) = delete;
-
-  /// The square root of a positive rational number: rational where that is a square, a multiple of
-  /// a root that is there already where the product of the two is one, and a new root otherwise.
-  RootNumber root(const RootNumber& rational);
-  const Rational& radicand(std::size_t i) const { return radicands_[i]; }
-  const Bounded<Precise>& approximate_root(std::size_t i) const { return roots_[i]; }
-
- private:
-  std::vector<Rational> radicands_;
-  std::vector<Bounded<Precise>> roots_;
-};
-
-/// The sign of a + b sqrt(square) for square >= 0.
-int sign_with_root(const RootNumber& a, const RootNumber& b, const RootNumber& square);
 
 }  // namespace exact
 }  // namespace medial

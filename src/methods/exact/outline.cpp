@@ -9,11 +9,16 @@ namespace {
 
 double curvature_of(const ExactSite& edge) { return curvature({edge.start, edge.end, edge.bulge}); }
 
+/// In place of the roots of numbers: normals have one in their lengths only.
+struct NoRoots {
+  Rational root(const Rational&) { return 0; }
+};
+
 /// By which way the boundary turns from one edge to the next: 1 to the left, 0 not at all.
 int turn_between(const ExactSite& before, const ExactSite& after) {
-  RootField field;
-  const auto arriving = spoke_of<RootNumber>(before, true, field);
-  const auto leaving = spoke_of<RootNumber>(after, false, field);
+  NoRoots lengths;
+  const auto arriving = spoke_of<Rational>(before, true, lengths);
+  const auto leaving = spoke_of<Rational>(after, false, lengths);
   return cross(arriving.normal, leaving.normal).sign();
 }
 
@@ -34,46 +39,26 @@ bool by_second(const ExactSite& first, const ExactSite& second) {
                          site::pieces_of(second.start, second.end, second.bulge).first());
 }
 
-SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers, bool stores_sites) {
+SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers) {
   SiteLoops outline;
-  outline.sites = stores_sites ? SiteList(numbers.count)
-                               : SiteList(numbers.count, [&problem, &numbers](std::uint32_t site) {
-                                   return site_of(problem, numbers, site);
-                                 });
-  if (stores_sites) outline.next.resize(numbers.count);
+  outline.sites = SiteList(numbers.count, [&problem, &numbers](std::uint32_t site) {
+    return site_of(problem, numbers, site);
+  });
   outline.passes.assign(numbers.count, false);
   outline.blunt.assign(numbers.count, false);
   if (has_arcs(problem.shape)) outline.by_next.assign(numbers.count, false);
-  outline.component = problem.shape.component;
   for (std::size_t l = 0; l < problem.shape.loop_count(); ++l) {
     const site::LoopEdges loop(problem.shape, l, problem.frame);
-    const auto first_of = [&](std::uint32_t i) {
-      const std::size_t point = loop.begin() + i;
-      return numbers.edge[point] - (numbers.is_site(point) ? 1 : 0);
-    };
-    outline.loop_begin.push_back(first_of(0));
+    outline.loop_begin.push_back(numbers.edge[loop.begin()] -
+                                 (numbers.is_site(loop.begin()) ? 1 : 0));
     const auto edge_at = [&](std::uint32_t i) {
       return ExactSite{loop.local(i), loop.local(loop.next(i)), loop.bulge(i)};
     };
     for (std::uint32_t i = 0; i < loop.size(); ++i) {
       const std::size_t point = loop.begin() + i, after = loop.begin() + loop.next(i);
       const std::uint32_t edge = numbers.edge[point];
-      if (loop.size() == 1) {  // a lone point has no edge
-        if (stores_sites) {
-          outline.sites.set(edge - 1, {loop.local(i), loop.local(i), 0});
-          outline.next[edge - 1] = edge - 1;
-        }
-        continue;
-      }
+      if (loop.size() == 1) continue;  // a lone point has no edge
       if (numbers.is_site(point)) outline.passes[edge - 1] = true;
-      if (stores_sites && numbers.is_site(point)) {
-        outline.sites.set(edge - 1, {loop.local(i), loop.local(i), 0});
-        outline.next[edge - 1] = edge;
-      }
-      if (stores_sites) {
-        outline.sites.set(edge, edge_at(i));
-        outline.next[edge] = first_of(loop.next(i));
-      }
       outline.passes[edge] = numbers.joints[after] != site::Joint::corner;
       outline.blunt[edge] = numbers.joints[after] == site::Joint::blunt;
       if (numbers.joints[after] == site::Joint::smooth && !outline.by_next.empty())

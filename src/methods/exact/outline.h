@@ -15,14 +15,13 @@ namespace medial::exact {
 /// them are ever asked for.
 class SiteList {
  public:
-  explicit SiteList(std::uint32_t count = 0) : stored_(count) {}
+  SiteList() = default;
   SiteList(std::uint32_t count, std::function<ExactSite(std::uint32_t)> work_out)
       : count_(count), work_out_(std::move(work_out)) {}
 
   ExactSite operator[](std::uint32_t i) const { return work_out_ ? work_out_(i) : stored_[i]; }
   std::size_t size() const { return work_out_ ? count_ : stored_.size(); }
   /// Of stored ones only.
-  void set(std::uint32_t i, const ExactSite& site) { stored_[i] = site; }
   void push_back(const ExactSite& site) { stored_.push_back(site); }
 
  private:
@@ -43,7 +42,6 @@ struct SiteLoops {
   /// at a corner, only that no edge of the axis leads there.
   std::vector<bool> blunt;
   std::vector<std::uint32_t> loop_begin;  ///< first site of each loop, and the number of all sites
-  std::vector<std::uint32_t> component;   ///< of each loop
   /// Of an edge that ends in a joint smooth only to rounding, whether the next one's normal counts
   /// for both, and not its own; empty: never.
   std::vector<bool> by_next;
@@ -75,10 +73,8 @@ struct SiteLoops {
 /// Of two edges that join smoothly, whether the normal of the second one counts for both.
 bool by_second(const ExactSite& first, const ExactSite& second);
 
-/// `numbers`: the problem's, or those of parted_numbers(). With `stores_sites` the sites and `next`
-/// are stored; otherwise the problem and the numbers must outlive them.
-SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers,
-                     bool stores_sites = true);
+/// `numbers`: the problem's, or those of parted_numbers(). Both must outlive it.
+SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers);
 
 /// Sites that are numbered by joints as they stand: what counts as smooth is blunt where the
 /// boundary turns to the left, and where it turns to the right the vertex is a site.
