@@ -490,8 +490,7 @@ class Walker {
   bool coincide(const Disk& a, const Disk& b) const {
     // Where a shape is hardly wider than the tolerance, that is no tie.
     constexpr double of_radius = 0x1p-10;
-    if (contacts_.is_polygon() || !context_.joins_ties)
-      return a.center == b.center && a.radius == b.radius;
+    if (contacts_.is_polygon()) return a.center == b.center && a.radius == b.radius;
     const double slack = std::min(context_.tolerance, of_radius * std::max(a.radius, b.radius));
     return squared_norm(a.center - b.center) <= slack * slack &&
            std::abs(a.radius - b.radius) <= slack;
