@@ -487,11 +487,19 @@ class Walker {
     chunk_.bridge_ends.push_back({bridge, node, added && !is_node ? edge : BridgeEnd::no_edge});
   }
 
+  /// How far an arc's own circle may be off in double.
+  static double rounding_of_arcs(const Disk& circle) {
+    constexpr double slack = 4 * std::numeric_limits<double>::epsilon();
+    return slack * std::max({circle.radius, std::abs(circle.center.x), std::abs(circle.center.y)});
+  }
+
   bool coincide(const Disk& a, const Disk& b) const {
     // Where a shape is hardly wider than the tolerance, that is no tie.
     constexpr double of_radius = 0x1p-10;
     if (contacts_.is_polygon()) return a.center == b.center && a.radius == b.radius;
-    const double slack = std::min(context_.tolerance, of_radius * std::max(a.radius, b.radius));
+    const double radius = std::max(a.radius, b.radius);
+    const double slack = std::min(context_.tolerance,
+                                  context_.joins_ties ? of_radius * radius : rounding_of_arcs(a));
     return squared_norm(a.center - b.center) <= slack * slack &&
            std::abs(a.radius - b.radius) <= slack;
   }
