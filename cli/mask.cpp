@@ -104,7 +104,8 @@ Status check_mask(const FileArguments& arguments) {
   const io::WriteOptions& write = arguments.write;
   if (!io::is_image(arguments.input.path)) return invalid_option("--mask is for images");
   // The image is read again at the end.
-  if (!std::filesystem::is_regular_file(arguments.input.path))
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(arguments.input.path, ignored))
     return invalid_option("--mask is for images in files, not in pipes");
   if (arguments.output.empty()) return invalid_option("--mask needs -o with the name of an image");
   if (write.disks > 0 || write.contacts || write.nodes || !write.shape ||

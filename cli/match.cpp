@@ -118,7 +118,8 @@ struct Candidates {
 };
 
 Result<Candidates> candidates_of(const MatchArguments& arguments) {
-  const bool folder = fs::is_directory(arguments.other);
+  std::error_code ignored;
+  const bool folder = fs::is_directory(arguments.other, ignored);
   Result<std::vector<std::string>> paths = std::vector{arguments.other};
   if (folder) paths = files_of(arguments.other);
   if (!paths) return std::move(paths).error();

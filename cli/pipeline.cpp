@@ -76,8 +76,10 @@ Error with_cure(Error error, const InputOptions& input, bool of_image,
                        error.code == hole_outside || error.code == nested_outer;
   const bool flat = error.code == no_area || error.code == too_few_points;
   // medial's own format is not repaired.
-  const bool mends =
-      !of_image && !(std::filesystem::is_regular_file(input.path) && io::is_native(input.path));
+  std::error_code ignored;
+  const bool native =
+      std::filesystem::is_regular_file(input.path, ignored) && io::is_native(input.path);
+  const bool mends = !of_image && !native;
   if ((tangled || flat) && read.repair == RepairRule::none && mends)
     error.text += tangled ? fmt::format("; --repair {}", by_repair)
                           : "; --repair drops such rings, and so does --skip-invalid";
@@ -96,8 +98,7 @@ Json statistics_of(const LoadedAxes& axes, const AxisSummary& summary) {
                    {"tree", counted.seconds_tree},
                    {"connect", counted.seconds_connect},
                    {"walk", counted.seconds_walk},
-                   {"collect", counted.seconds_collect},
-                   {"exact", counted.seconds_exact}}},
+                   {"collect", counted.seconds_collect}}},
                  {"features", summary.features},
                  {"sites", summary.sites},
                  {"nodes", summary.nodes()},
@@ -114,9 +115,10 @@ Json statistics_of(const LoadedAxes& axes, const AxisSummary& summary) {
                  {"input_points", cleaned.input_points},
                  {"cleaned", to_json(cleaned)}};
   if (counted.exact_filtered + counted.exact_twofold + counted.exact_precise > 0)
-    object["exact"] = {{"filtered", counted.exact_filtered}, {"twofold", counted.exact_twofold},
-                       {"precise", counted.exact_precise},   {"rational", counted.exact_rational},
-                       {"ties", counted.exact_ties},         {"changes", counted.exact_changes}};
+    object["exact"] = {{"filtered", counted.exact_filtered},
+                       {"twofold", counted.exact_twofold},
+                       {"precise", counted.exact_precise},
+                       {"changes", counted.exact_changes}};
   if (axes.report.arcs.pieces > 0) object["arcs"] = to_json(axes.report.arcs);
   return object;
 }
@@ -168,8 +170,9 @@ Status check_image_options(const InputOptions& input) {
   if (image.labels && (image.threshold || image.invert))
     return invalid_option(
         "--labels uses each value except 0: --threshold and --invert have no effect");
-  const bool other =
-      input.path != "-" && std::filesystem::exists(input.path) && !io::is_image(input.path);
+  std::error_code ignored;
+  const bool is_there = input.path != "-" && std::filesystem::exists(input.path, ignored);
+  const bool other = is_there && !io::is_image(input.path);
   return other ? invalid_option("--threshold, --invert and --labels are for images, which " +
                                 input.path + " is not")
                : success();
@@ -207,7 +210,8 @@ Result<LoadedShapes> shapes_of(Document<Feature> features, LoadedShapes out,
 
 InputOptions first_input(InputOptions input, const std::string& second) {
   if (!input.source.text.empty()) return input;
-  const bool folder = std::filesystem::is_directory(second);
+  std::error_code ignored;
+  const bool folder = std::filesystem::is_directory(second, ignored);
   const bool choices = io::is_native(input.path) && !io::is_native(second);
   const bool pixels = !io::is_image(input.path) && (folder || io::is_image(second));
   leave_out(input.source.read, choices, pixels);

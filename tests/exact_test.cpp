@@ -235,13 +235,8 @@ std::vector<std::string> compare_exact(const Rings& rings) {
   std::vector<std::string> failures;
   const std::string differs = difference(*shape, *plain, *certain, plain->tolerance);
   if (!differs.empty()) failures.push_back(differs);
-  // Of arcs whose own circles are all but one, docs/exact.md: curves of edges as short as rounding
-  // are right in their ends only.
-  const bool has_short_arcs = certain->statistics.exact_changes > 0 && !shape->bulges.empty();
-  if (!has_short_arcs && verify(*shape, *plain).passed) {
-    const Certificate certificate = verify(*shape, *certain);
-    failures.insert(failures.end(), certificate.failures.begin(), certificate.failures.end());
-  }
+  const Certificate certificate = verify(*shape, *certain);
+  failures.insert(failures.end(), certificate.failures.begin(), certificate.failures.end());
   return failures;
 }
 
@@ -254,17 +249,14 @@ TEST(ExactAxis, OfLeeIsThatOfDisks) {
   for (std::uint64_t i = 0; i < count; ++i) {
     const auto shape = build_shape(random_shape(first_seed() + i).rings);
     if (!shape) continue;
-    for (const bool exact : {false, true}) {
-      Options options;
-      options.threads = 1;
-      options.exact = exact;
-      const auto disks = compute(*shape, options);
-      options.method = method::Lee{};
-      const auto lee = compute(*shape, options);
-      ASSERT_TRUE(lee.ok() && disks.ok()) << first_seed() + i;
-      EXPECT_EQ(difference(*shape, *lee, *disks, lee->tolerance), "")
+    const auto disks = compute(*shape, {.threads = 1});
+    const auto exact = compute(*shape, {.method = method::Lee{}, .exact = true, .threads = 1});
+    const auto lee = compute(*shape, {.method = method::Lee{}, .threads = 1});
+    ASSERT_TRUE(lee.ok() && exact.ok() && disks.ok()) << first_seed() + i;
+    EXPECT_EQ(exact->method, "disks");
+    for (const auto* other : {&disks, &exact})
+      EXPECT_EQ(difference(*shape, *lee, **other, lee->tolerance), "")
           << "random_shape(" << first_seed() + i << ")";
-    }
   }
 }
 

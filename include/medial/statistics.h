@@ -13,13 +13,12 @@ struct Statistics {
   std::uint64_t brackets = 0;           ///< nodes found by bracketing, where the closed form failed
   std::uint64_t precision_retries = 0;  ///< nodes recomputed in higher precision
   std::uint64_t bridges = 0;            ///< disks that connected a hole
-  /// Options::exact: decided in double, twice its digits and 256 bits (by bounds), in rationals.
-  std::uint64_t exact_filtered = 0, exact_twofold = 0, exact_precise = 0, exact_rational = 0;
-  std::uint64_t exact_ties = 0;     ///< sites beyond three that a node's disk touches exactly
-  std::uint64_t exact_changes = 0;  ///< decisions in double precision that were wrong
+  /// Decisions that are certain in double, in twice its digits and in 256 bits, by their bounds.
+  std::uint64_t exact_filtered = 0, exact_twofold = 0, exact_precise = 0;
+  std::uint64_t exact_changes = 0;  ///< decisions in double that later ones contradict
   double largest_residual = 0;      ///< largest |distance - radius| over the nodes' contacts
   double seconds_sites = 0, seconds_tree = 0, seconds_connect = 0;
-  double seconds_walk = 0, seconds_collect = 0, seconds_exact = 0, seconds = 0;  ///< last: total
+  double seconds_walk = 0, seconds_collect = 0, seconds = 0;  ///< last: total
   int threads = 1;
 };
 

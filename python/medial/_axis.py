@@ -669,8 +669,8 @@ def axis(
     corner_angle : float
         A convex joint with an arc is a corner if it turns by more than this, in degrees.
     exact : bool
-        Keeps apart nodes closer than the tolerance, and makes ``lee`` and ``biarc-dc`` decide
-        exactly, too, if the build supports it.
+        Keeps apart nodes closer than the tolerance. ``disks`` then computes the axis, whatever the
+        method.
     exterior : bool
         Compute the axis of the exterior: what lies around the shape and in its holes.
     margin : float

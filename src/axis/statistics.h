@@ -24,8 +24,6 @@ inline constexpr StatisticsField<std::uint64_t> statistics_counts[] = {
     {"exact_filtered", &Statistics::exact_filtered},
     {"exact_twofold", &Statistics::exact_twofold},
     {"exact_precise", &Statistics::exact_precise},
-    {"exact_rational", &Statistics::exact_rational},
-    {"exact_ties", &Statistics::exact_ties},
     {"exact_changes", &Statistics::exact_changes},
 };
 inline constexpr StatisticsField<double> statistics_times[] = {
@@ -34,7 +32,6 @@ inline constexpr StatisticsField<double> statistics_times[] = {
     {"seconds_connect", &Statistics::seconds_connect},
     {"seconds_walk", &Statistics::seconds_walk},
     {"seconds_collect", &Statistics::seconds_collect},
-    {"seconds_exact", &Statistics::seconds_exact},
     {"seconds", &Statistics::seconds},
 };
 

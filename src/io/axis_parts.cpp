@@ -219,7 +219,8 @@ Status write_once(PartsOfAxes& parts, Target& to, const Format& format, const Gr
 /// Where what waits to be written has room.
 std::string folder_of(const Destination& target) {
   namespace fs = std::filesystem;
-  if (target.text != nullptr) return fs::temp_directory_path().string();
+  std::error_code ignored;
+  if (target.text != nullptr) return fs::temp_directory_path(ignored).string();
   return fs::weakly_canonical(target.path).parent_path().string();
 }
 

@@ -176,7 +176,7 @@ Status PendingFile::commit_new() {
   std::error_code code;
   fs::create_hard_link(path_, target_, code);
   if (!code) return success();  // the other name goes with the directory
-  if (fs::exists(target_)) return changed_meanwhile();
+  if (fs::exists(target_, code)) return changed_meanwhile();
   return commit();  // a file system without links
 }
 

@@ -51,8 +51,7 @@ std::uint32_t pixels_for(const AxisItem& item) {
 void forget_times(Statistics& statistics) {
   statistics.threads = 1;
   statistics.seconds_sites = statistics.seconds_tree = statistics.seconds_connect = 0;
-  statistics.seconds_walk = statistics.seconds_collect = statistics.seconds_exact = 0;
-  statistics.seconds = 0;
+  statistics.seconds_walk = statistics.seconds_collect = statistics.seconds = 0;
 }
 
 }  // namespace

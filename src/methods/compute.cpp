@@ -87,8 +87,6 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options,
           axis,
           "the axis does not have one part for each component and one cycle for each hole: please "
           "report this shape");
-    if (options.exact && !std::holds_alternative<method::Auto>(options.method))
-      axis.method = method.info.name;
     if (options.progress) options.progress(1);
     return std::move(axis);
   } catch (...) {

@@ -21,7 +21,7 @@ class Statistics(CommandLine):
         self.assertGreaterEqual(stats["precision_retries"], 0)
         self.assertGreater(stats["peak_bytes"], 1_000_000)
         self.assertEqual(stats["cleaned"]["closing_points"], 2)
-        self.assertEqual(set(stats["phases"]), {"sites", "tree", "connect", "walk", "collect", "exact"})
+        self.assertEqual(set(stats["phases"]), {"sites", "tree", "connect", "walk", "collect"})
 
     def test_stats_as_a_table(self):
         self.write("frame.wkt", FRAME)

@@ -233,7 +233,8 @@ Status GdalFile::open(const std::string& path, const Target& target, const Table
     return Error{
         ErrorCode::unsupported, fmt::format("this GDAL cannot write {}", target.format), {}};
   const GdalMessages messages;
-  const bool adds = std::filesystem::exists(path);  // a copy of what is there
+  std::error_code ignored;
+  const bool adds = std::filesystem::exists(path, ignored);  // a copy of what is there
   dataset_.reset(adds ? GDALDataset::Open(path.c_str(),
                                           GDAL_OF_VECTOR | GDAL_OF_UPDATE | GDAL_OF_VERBOSE_ERROR)
                       : driver->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
@@ -305,7 +306,8 @@ Status copy_to(OutputStream& out, const std::string& path) {
 }
 
 Result<PendingFile> temporary_file(const Target& target) {
-  const auto folder = std::filesystem::temp_directory_path();
+  std::error_code ignored;
+  const auto folder = std::filesystem::temp_directory_path(ignored);
   return PendingFile::create((folder / (target.name + "." + target.format)).string());
 }
 
