@@ -41,11 +41,7 @@ class Cleaner {
     // Nothing is merged in a ring of two edges: it would vanish.
     if (edges_.size() > 2) drop_collinear();
     split_long_arcs();
-    // Arcs that have become one may continue the next: building a built shape merges nothing more.
-    for (std::size_t before = 0; before != edges_.size();) {
-      before = edges_.size();
-      merge_cocircular();
-    }
+    merge_cocircular();
   }
 
  private:
@@ -333,6 +329,13 @@ class Cleaner {
 
 }  // namespace
 
-void clean_arcs(std::vector<RingEdge>& edges, ShapeReport& report) { Cleaner(edges, report).run(); }
+void clean_arcs(std::vector<RingEdge>& edges, ShapeReport& report) {
+  // Arcs that have become one may continue the next, within the play of another box.
+  for (;;) {
+    const std::uint64_t dropped = report.collinear_points;
+    Cleaner(edges, report).run();
+    if (report.collinear_points == dropped) return;
+  }
+}
 
 }  // namespace medial

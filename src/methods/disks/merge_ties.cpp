@@ -299,8 +299,8 @@ class Merger {
     return site;
   }
 
-  /// Whether something holds for all sites that are touched in a node: those of its edges, and those
-  /// on the way around it from each edge to the next.
+  /// Whether something holds for all sites that are touched in a node: those of its edges, and
+  /// those on the way around it from each edge to the next.
   template <class Holds>
   bool all_contacts(std::uint32_t node, const Holds& holds) const {
     const std::span<const std::uint32_t> ends = ends_at(node);
