@@ -873,6 +873,46 @@ TEST(ArcShape, OfEdgesThatAllButTouchIsThatOfItsImages) {
   }
 }
 
+/// A circle of arcs between vertices at random.
+Ring random_circle(test::Random& random, Vec2 center, double radius) {
+  std::vector<double> angles(static_cast<std::size_t>(random.integer(2, 5)));
+  for (double& angle : angles) angle = random.between(0, 2 * pi);
+  std::sort(angles.begin(), angles.end());
+  Ring ring;
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    ring.points.push_back(center + radius * Vec2{std::cos(angles[i]), std::sin(angles[i])});
+    const double next = i + 1 < angles.size() ? angles[i + 1] : angles[0] + 2 * pi;
+    ring.bulges.push_back(std::tan((next - angles[i]) / 4));
+  }
+  return ring;
+}
+
+/// Three circular holes that touch each other, up to rounding: their arcs merge alike, whichever
+/// way their rings run.
+TEST(ArcShape, OfCirclesThatTouchIsThatOfItsImages) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    test::Random random(seed);
+    const double a = random.between(0.1, 0.4), b = random.between(0.1, 0.4),
+                 c = random.between(0.1, 0.4), base = a + b;
+    const double x = ((a + c) * (a + c) - (b + c) * (b + c) + base * base) / (2 * base);
+    const Rings rings{
+        test::rectangle(2, 2)[0], random_circle(random, {0.5, 0.5}, a),
+        random_circle(random, {0.5 + base, 0.5}, b),
+        random_circle(random, {0.5 + x, 0.5 + std::sqrt((a + c) * (a + c) - x * x)}, c)};
+    const auto shape = build_shape(rings);
+    for (const test::Symmetry& symmetry :
+         {test::Symmetry{.name = "mirrored", .xx = -1},
+          test::Symmetry{.name = "turned by a quarter", .xx = 0, .xy = -1, .yx = 1, .yy = 0},
+          test::Symmetry{.name = "reversed", .reverse = true}}) {
+      const auto image = build_shape(test::transformed(rings, symmetry));
+      ASSERT_EQ(image.ok(), shape.ok()) << seed << ", " << symmetry.name;
+      if (!shape) continue;
+      EXPECT_EQ(image->points.size(), shape->points.size()) << seed << ", " << symmetry.name;
+      EXPECT_EQ(image->loop_count(), shape->loop_count()) << seed << ", " << symmetry.name;
+    }
+  }
+}
+
 /// Arcs that have become one may continue the next one, in a loop made of rings that touch, too.
 TEST(ArcShape, BuiltAgainMergesNothingMore) {
   const auto class_of = [](std::string_view name) {

@@ -24,7 +24,8 @@ Vec2 middle_of(const BulgeArc& arc) {
 /// The edges of one ring with arcs.
 class Cleaner {
  public:
-  Cleaner(std::vector<RingEdge>& edges, ShapeReport& report) : edges_(edges), report_(report) {
+  Cleaner(std::vector<RingEdge>& edges, const std::function<QuarterMap()>& map, ShapeReport& report)
+      : edges_(edges), map_(map), report_(report) {
     Box box{edges[0].point, edges[0].point};
     for (std::size_t i = 0; i < edges.size(); ++i) {
       const Vec2 middle = middle_of(arc(i));  // arcs may reach further out than their vertices
@@ -229,17 +230,18 @@ class Cleaner {
   bool merge_circle() {
     constexpr double twice_around = 4 * std::numbers::pi;
     std::vector<RingEdge> best;
-    const auto is_lower = [](const RingEdge& a, const RingEdge& b) {
-      return lexicographic_less(a.point, b.point);
+    const auto is_before = [&](const std::vector<RingEdge>& a, const std::vector<RingEdge>& b) {
+      const QuarterMap map = map_();
+      const auto is_lower = [&](const RingEdge& c, const RingEdge& d) {
+        return lexicographic_less(map.to_image(c.point), map.to_image(d.point));
+      };
+      return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), is_lower);
     };
     if (angle_of({0, edges_.size()}) > 0.75 * twice_around) return false;
     for (const std::size_t from : furthest_from(middle_)) {
       for (const std::size_t to : furthest_from(edges_[from].point)) {
         std::vector<RingEdge> halves = half_circles(from, to);
-        if (!halves.empty() &&
-            (best.empty() || std::lexicographical_compare(halves.begin(), halves.end(),
-                                                          best.begin(), best.end(), is_lower)))
-          best = std::move(halves);
+        if (!halves.empty() && (best.empty() || is_before(halves, best))) best = std::move(halves);
       }
     }
     if (best.empty()) return false;
@@ -253,15 +255,18 @@ class Cleaner {
     RingEdge first = edges_[from], second = edges_[to];
     const double sign = first.bulge > 0 ? 1 : -1;
     const std::size_t count = (to + edges_.size() - from) % edges_.size();
-    Bulges bulges(first.point, second.point, play_);
-    add_run({from, count}, sign, false, bulges);
-    add_run({to, edges_.size() - count}, sign, true, bulges);
+    // The arc on one side of the chord, whichever way the ring runs.
+    const bool is_second = (sign > 0) == map_().mirrors();
+    Bulges bulges = is_second ? Bulges(second.point, first.point, play_)
+                              : Bulges(first.point, second.point, play_);
+    add_run({from, count}, sign, is_second, bulges);
+    add_run({to, edges_.size() - count}, sign, !is_second, bulges);
     const double bulge = bulges.middle();
     if (!bulges.allows(bulge)) return {};
     if (bulge != 1) {
-      const Vec2 chord = second.point - first.point;
-      second.point = second.point + (sign * (1 - bulge * bulge) / (2 * bulge)) * left_of(chord);
-      if (bulge > 1) second.source = edges_[previous(to)].source;
+      const double share = (is_second ? -1 : 1) * (1 - bulge * bulge) / (2 * bulge);
+      second.point = second.point + (sign * share) * left_of(second.point - first.point);
+      if (share < 0) second.source = edges_[previous(to)].source;
     }
     first.bulge = second.bulge = sign;
     return {first, second};
@@ -318,6 +323,7 @@ class Cleaner {
   }
 
   std::vector<RingEdge>& edges_;
+  const std::function<QuarterMap()>& map_;
   ShapeReport& report_;
   std::vector<bool>
       straightened_;     ///< of each edge: whether it was an arc, as straight as rounding
@@ -329,11 +335,12 @@ class Cleaner {
 
 }  // namespace
 
-void clean_arcs(std::vector<RingEdge>& edges, ShapeReport& report) {
+void clean_arcs(std::vector<RingEdge>& edges, const std::function<QuarterMap()>& map,
+                ShapeReport& report) {
   // Arcs that have become one may continue the next, within the play of another box.
   for (;;) {
     const std::uint64_t dropped = report.collinear_points;
-    Cleaner(edges, report).run();
+    Cleaner(edges, map, report).run();
     if (report.collinear_points == dropped) return;
   }
 }
