@@ -194,7 +194,7 @@ const std::vector<Contacts::Neighbor>& Contacts::around(const Span& span, const 
   around_run_ = &run;
   around_ = disk;
   // So much further that is_alone() mostly finds there what it asks for.
-  constexpr double further = 1 << 12;
+  constexpr double further = 1 << 16;
   around_reach_ = std::min(further * clearance(), std::max(clearance(), short_way * disk.radius));
   context_.tree.within(disk.center, disk.radius + around_reach_, run.first, run.last, within_);
   near_.clear();
