@@ -27,10 +27,9 @@ class BlockList {
 
   void push_back(const T& value) {
     if (size_ == capacity_) {
-      std::unique_ptr<T[]>& block = first_ ? others_.emplace_back() : first_;
-      const std::size_t count = size_of(others_.size());
-      block = uninitialized<T[]>(count);
-      next_ = block.get();
+      const std::size_t count = size_of(blocks_.size());
+      blocks_.push_back(uninitialized<T[]>(count));
+      next_ = blocks_.back().get();
       capacity_ += count;
     }
     *next_++ = value;
@@ -40,21 +39,20 @@ class BlockList {
   const T& operator[](std::size_t i) const {
     const std::size_t doubling_end = most - least_;
     if (i >= doubling_end)
-      return block(doublings_ + (i - doubling_end) / most)[(i - doubling_end) % most];
-    const std::size_t number = static_cast<std::size_t>(std::bit_width(i / least_ + 1)) - 1;
-    return block(number)[i - ((least_ << number) - least_)];
+      return blocks_[doublings_ + (i - doubling_end) / most][(i - doubling_end) % most];
+    const std::size_t block = static_cast<std::size_t>(std::bit_width(i / least_ + 1)) - 1;
+    return blocks_[block][i - ((least_ << block) - least_)];
   }
   /// Calls take(i, element) for all elements in order and frees each block once it is done.
   template <class Take>
   void drain(Take&& take) {
     std::size_t i = 0;
-    for (std::size_t number = 0; i < size_; ++number) {
-      std::unique_ptr<T[]>& block = this->block(number);
-      const T* element = block.get();
-      const std::size_t end = std::min(size_, i + size_of(number));
+    for (std::size_t block = 0; i < size_; ++block) {
+      const T* element = blocks_[block].get();
+      const std::size_t end = std::min(size_, i + size_of(block));
       for (; i < end; ++i) take(i, *element++);
-      give_back_pages(block.get(), size_of(number) * sizeof(T));
-      block.reset();
+      give_back_pages(blocks_[block].get(), size_of(block) * sizeof(T));
+      blocks_[block].reset();
     }
     *this = BlockList(least_);
   }
@@ -63,16 +61,9 @@ class BlockList {
   static constexpr std::size_t least = 16, most = least << 8;  // elements of a block
   /// Block k begins at least_ * (2^k - 1), up to the one from which all are the largest.
   std::size_t size_of(std::size_t block) const { return least_ << std::min(block, doublings_); }
-  const std::unique_ptr<T[]>& block(std::size_t number) const {
-    return number == 0 ? first_ : others_[number - 1];
-  }
-  std::unique_ptr<T[]>& block(std::size_t number) {
-    return number == 0 ? first_ : others_[number - 1];
-  }
 
   std::size_t least_, doublings_;
-  std::unique_ptr<T[]> first_;  ///< most lists of small components have no more
-  std::vector<std::unique_ptr<T[]>> others_;
+  std::vector<std::unique_ptr<T[]>> blocks_;
   T* next_ = nullptr;  ///< where the next element goes, unless the last block is full
   std::size_t size_ = 0;
   std::size_t capacity_ = 0;
