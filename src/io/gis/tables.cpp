@@ -39,36 +39,44 @@ OGRwkbGeometryType type_of(GeometryKind kind) {
   return kind == GeometryKind::line ? wkbLineString : wkbPolygon;
 }
 
-/// A row of a table, after others: where its values, rings and points end.
-struct RowEnd {
-  std::size_t table, values, rings;
-};
-
-/// Rows of tables, one behind the other: they are made on any thread and added to a file on one.
+/// Some rows of tables, one behind the other in little memory: they are made on any thread and
+/// added to a file on one.
 class Rows {
  public:
+  enum class Kind : std::uint8_t { nothing, whole, real, text };
+  struct Field {
+    Kind kind = Kind::nothing;
+    union {
+      std::int64_t whole = 0;
+      double real;
+      std::size_t text;  ///< where it begins
+    };
+  };
+
   void put(std::size_t table, std::span<const Value> first, std::span<const Value> rest,
            std::span<const std::vector<Vec2>> parts) {
-    values_.insert(values_.end(), first.begin(), first.end());
-    values_.insert(values_.end(), rest.begin(), rest.end());
+    for (const auto values : {first, rest})
+      for (const Value& value : values) put(value);
     for (const std::vector<Vec2>& part : parts) {
       for (const Vec2 p : part) points_.emplace_back(p.x, p.y);
       ring_ends_.push_back(points_.size());
     }
-    ends_.push_back({table, values_.size(), ring_ends_.size()});
+    ends_.push_back({table, fields_.size(), ring_ends_.size()});
   }
   void clear() {
-    values_.clear();
+    fields_.clear();
+    texts_.clear();
     points_.clear();
     ring_ends_.clear();
     ends_.clear();
   }
   std::size_t size() const { return ends_.size(); }
   std::size_t table(std::size_t row) const { return ends_[row].table; }
-  std::span<const Value> values(std::size_t row) const {
-    const std::size_t begin = row == 0 ? 0 : ends_[row - 1].values;
-    return std::span(values_).subspan(begin, ends_[row].values - begin);
+  std::span<const Field> fields(std::size_t row) const {
+    const std::size_t begin = row == 0 ? 0 : ends_[row - 1].fields;
+    return std::span(fields_).subspan(begin, ends_[row].fields - begin);
   }
+  const char* text(const Field& field) const { return texts_.c_str() + field.text; }
   std::size_t ring_count(std::size_t row) const { return ends_[row].rings - first_ring(row); }
   std::span<const OGRRawPoint> ring(std::size_t row, std::size_t i) const {
     const std::size_t ring = first_ring(row) + i;
@@ -77,13 +85,34 @@ class Rows {
   }
 
  private:
+  struct End {
+    std::size_t table, fields, rings;
+  };
+
+  void put(const Value& value) {
+    Field& field = fields_.emplace_back();
+    if (const auto* number = std::get_if<std::int64_t>(&value)) {
+      field.kind = Kind::whole;
+      field.whole = *number;
+    } else if (const auto* decimal = std::get_if<double>(&value)) {
+      field.kind = Kind::real;
+      field.real = *decimal;
+    } else if (const auto* words = std::get_if<std::string>(&value)) {
+      field.kind = Kind::text;
+      field.text = texts_.size();
+      texts_.append(words->c_str());  // as far as GDAL reads it
+      texts_.push_back('\0');
+    }
+  }
   std::size_t first_ring(std::size_t row) const { return row == 0 ? 0 : ends_[row - 1].rings; }
 
-  std::vector<Value> values_;
+  std::vector<Field> fields_;
+  std::string texts_;
   std::vector<OGRRawPoint> points_;
   std::vector<std::size_t> ring_ends_;
-  std::vector<RowEnd> ends_;
+  std::vector<End> ends_;
 };
+constexpr std::size_t rows_together = 256;
 
 void set_points(OGRSimpleCurve& curve, std::span<const OGRRawPoint> points) {
   curve.setPoints(static_cast<int>(points.size()), points.data());
@@ -218,15 +247,16 @@ Status create_layers(GDALDataset& dataset, const Target& target, const TableSour
   return success();
 }
 
-void set_field(OGRFeature& feature, int field, const Value& value) {
-  if (const auto* number = std::get_if<std::int64_t>(&value)) {
-    feature.SetField(field, static_cast<GIntBig>(*number));
-  } else if (const auto* decimal = std::get_if<double>(&value)) {
-    feature.SetField(field, *decimal);
-  } else if (const auto* words = std::get_if<std::string>(&value)) {
-    feature.SetField(field, words->c_str());
-  } else {
-    feature.SetFieldNull(field);
+void set_field(OGRFeature& feature, int number, const Rows& rows, const Rows::Field& field) {
+  switch (field.kind) {
+    case Rows::Kind::nothing:
+      return feature.SetFieldNull(number);
+    case Rows::Kind::whole:
+      return feature.SetField(number, static_cast<GIntBig>(field.whole));
+    case Rows::Kind::real:
+      return feature.SetField(number, field.real);
+    case Rows::Kind::text:
+      return feature.SetField(number, rows.text(field));
   }
 }
 
@@ -250,8 +280,8 @@ class GdalFile {
       const Layer& layer = layers_[rows.table(row)];
       OGRFeature& feature = *layer.feature;
       feature.SetFID(OGRNullFID);
-      int field = 0;
-      for (const Value& value : rows.values(row)) set_field(feature, field++, value);
+      int number = 0;
+      for (const Rows::Field& field : rows.fields(row)) set_field(feature, number++, rows, field);
       set_geometry(feature, layer.kind, rows, row);
       if (layer.layer->CreateFeature(&feature) != OGRERR_NONE)
         return Error{ErrorCode::unwritable, "cannot write", {}};
@@ -309,20 +339,22 @@ Status GdalFile::close() {
 /// Takes rows, which go into a file if there is one.
 class GdalTables final : public TableSink {
  public:
-  GdalTables(Target& target, Rows& rows, GdalFile* file = nullptr)
+  GdalTables(Target& target, std::vector<Rows>& rows, GdalFile* file = nullptr)
       : TableSink(target), rows_(rows), file_(file) {}
 
  private:
   Status put(std::size_t table, std::span<const Value> first, std::span<const Value> rest,
              std::span<std::vector<Vec2>> parts) override {
-    rows_.put(table, first, rest, parts);
+    if (rows_.empty() || rows_.back().size() == rows_together) rows_.emplace_back();
+    Rows& last = rows_.back();
+    last.put(table, first, rest, parts);
     if (file_ == nullptr) return success();
-    Status added = file_->add(rows_);
-    rows_.clear();
+    Status added = file_->add(last);
+    last.clear();
     return added;
   }
 
-  Rows& rows_;
+  std::vector<Rows>& rows_;
   GdalFile* file_;
 };
 
@@ -339,7 +371,7 @@ Status heard(const Work& work) {
 Status make_dataset(const std::string& path, Target& target, const TableSource& source) {
   GdalFile file;
   if (Status opened = file.open(path, target, source); !opened) return opened;
-  Rows rows;
+  std::vector<Rows> rows;
   GdalTables tables(target, rows, &file);
   if (Status filled = heard([&] { return source.fill(tables); }); !filled) return filled;
   return file.close();
@@ -394,7 +426,7 @@ class GdalParts final : public PartWriter {
   }
 
   Result<std::shared_ptr<void>> prepare(const PartOutput& output, const Part& part) override {
-    auto rows = std::make_shared<Rows>();
+    auto rows = std::make_shared<std::vector<Rows>>();
     Target own = target_.of_part(part);
     std::unique_lock<std::mutex> alone(projecting_, std::defer_lock);
     if (own.crs.changes_points()) alone.lock();
@@ -405,7 +437,11 @@ class GdalParts final : public PartWriter {
   }
 
   Status add(void* prepared) override {
-    return heard([&] { return file_.add(*static_cast<const Rows*>(prepared)); });
+    return heard([&]() -> Status {
+      for (const Rows& rows : *static_cast<const std::vector<Rows>*>(prepared))
+        if (Status added = file_.add(rows); !added) return added;
+      return success();
+    });
   }
 
   Status finish() override {
