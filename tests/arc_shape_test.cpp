@@ -15,6 +15,7 @@
 #include "medial/medial.h"
 #include "site/smooth_place.h"
 #include "support/generate_arcs.h"
+#include "support/generate_parts.h"
 #include "support/nasty.h"
 #include "support/wkt.h"
 
@@ -872,6 +873,46 @@ TEST(ArcShape, OfEdgesThatAllButTouchIsThatOfItsImages) {
   }
 }
 
+/// A circle of arcs between vertices at random.
+Ring random_circle(test::Random& random, Vec2 center, double radius) {
+  std::vector<double> angles(static_cast<std::size_t>(random.integer(2, 5)));
+  for (double& angle : angles) angle = random.between(0, 2 * pi);
+  std::sort(angles.begin(), angles.end());
+  Ring ring;
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    ring.points.push_back(center + radius * Vec2{std::cos(angles[i]), std::sin(angles[i])});
+    const double next = i + 1 < angles.size() ? angles[i + 1] : angles[0] + 2 * pi;
+    ring.bulges.push_back(std::tan((next - angles[i]) / 4));
+  }
+  return ring;
+}
+
+/// Three circular holes that touch each other, up to rounding: their arcs merge alike, whichever
+/// way their rings run.
+TEST(ArcShape, OfCirclesThatTouchIsThatOfItsImages) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    test::Random random(seed);
+    const double a = random.between(0.1, 0.4), b = random.between(0.1, 0.4),
+                 c = random.between(0.1, 0.4), base = a + b;
+    const double x = ((a + c) * (a + c) - (b + c) * (b + c) + base * base) / (2 * base);
+    const Rings rings{
+        test::rectangle(2, 2)[0], random_circle(random, {0.5, 0.5}, a),
+        random_circle(random, {0.5 + base, 0.5}, b),
+        random_circle(random, {0.5 + x, 0.5 + std::sqrt((a + c) * (a + c) - x * x)}, c)};
+    const auto shape = build_shape(rings);
+    for (const test::Symmetry& symmetry :
+         {test::Symmetry{.name = "mirrored", .xx = -1},
+          test::Symmetry{.name = "turned by a quarter", .xx = 0, .xy = -1, .yx = 1, .yy = 0},
+          test::Symmetry{.name = "reversed", .reverse = true}}) {
+      const auto image = build_shape(test::transformed(rings, symmetry));
+      ASSERT_EQ(image.ok(), shape.ok()) << seed << ", " << symmetry.name;
+      if (!shape) continue;
+      EXPECT_EQ(image->points.size(), shape->points.size()) << seed << ", " << symmetry.name;
+      EXPECT_EQ(image->loop_count(), shape->loop_count()) << seed << ", " << symmetry.name;
+    }
+  }
+}
+
 /// Arcs that have become one may continue the next one, in a loop made of rings that touch, too.
 TEST(ArcShape, BuiltAgainMergesNothingMore) {
   const auto class_of = [](std::string_view name) {
@@ -903,18 +944,51 @@ TEST(ArcShape, TooFineForItsExteriorIsNamedInTheInput) {
   EXPECT_NE(axis.error().text.find("choose a smaller margin"), std::string::npos);
 }
 
-// Built again, one of the loops into which these edges divide merges to nothing.
-TEST(ArcShape, LoopsOfWhichMergingLeavesNothingAreRefused) {
+// The arc passes through the end of the needle, so that a part of it leads back along the needle.
+TEST(ArcShape, NeedlesOfNoWidthAreDropped) {
   const Ring ring{{{6.66133814775094e-16, 1.998401444325282e-15},
                    {1.0000000000000024, -2.2204460492503133e-16},
                    {0.9999999999999963, -5.551115123125783e-16},
                    {0.31221181986362817, -0.9999999999999999}},
                   RingRole::any,
                   {-0.13467593254061416, 0, 0, 0}};
-  const auto shape = build_shape({&ring, 1});
-  ASSERT_FALSE(shape.ok());
-  EXPECT_EQ(shape.error().code, ErrorCode::no_area);
-  EXPECT_EQ(shape.error().place.ring, 0U);
+  const Shape shape = built({ring});
+  EXPECT_EQ(shape.points.size(), 3);
+  EXPECT_EQ(shape.loop_count(), 1);
+  const auto axis = compute(shape);
+  ASSERT_TRUE(axis.ok()) << to_string(axis.error());
+  EXPECT_TRUE(verify(shape, *axis).passed);
+}
+
+/// A circle of few arcs, with an edge of up to 200 spacings of its coordinates at a vertex.
+Ring circle_with_needle(test::Random& random) {
+  Ring ring = test::arcs_of_circle(random.chance(0.5) ? 3 : 5);
+  const auto at = static_cast<std::size_t>(random.integer(0, 2));
+  const auto off = [&] { return random.power_of_ten(-16, -13.3) * random.between(-1, 1); };
+  ring.points.insert(ring.points.begin() + static_cast<std::ptrdiff_t>(at),
+                     ring.points[at] + Vec2{off(), off()});
+  const double bulge = 0.5 * static_cast<double>(random.integer(-2, 2));
+  ring.bulges.insert(ring.bulges.begin() + static_cast<std::ptrdiff_t>(at), bulge);
+  const Vec2 away = random.chance(0.5) ? Vec2{0, 0} : random.power_of_ten(0, 6) * Vec2{1, 0.3};
+  const double angle = random.between(0, 6);
+  for (Vec2& p : ring.points) p = test::turned(p, angle) + away;
+  return ring;
+}
+
+/// Where an edge between arcs of one circle vanishes, they become one arc: at once, so that what is
+/// built stays as it is.
+TEST(ArcShape, OfACircleWithANeedleIsBuiltAgainTheSame) {
+  int refused = 0;
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+    test::Random random(seed);
+    const auto shape = build_shape(Rings{circle_with_needle(random)});
+    refused += shape ? 0 : 1;
+    if (!shape) continue;
+    const Shape again = built(rings_of(*shape));
+    ASSERT_EQ(again.points, shape->points) << seed;
+    ASSERT_EQ(again.bulges, shape->bulges) << seed;
+  }
+  EXPECT_LT(refused, 20);  // whose needles cross their neighbours by more than the tolerance
 }
 
 }  // namespace

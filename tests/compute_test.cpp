@@ -17,13 +17,16 @@
 namespace medial::test {
 namespace {
 
-// Along a smooth boundary one search answers for the disks of many events.
+// Along a smooth boundary one search answers for the disks of many events, also where the way from
+// each to the next is so short that they touch the same within the tolerance.
 TEST(Compute, AsksForRunsOfEventsAtOnce) {
   const Shape shape = *build_shape(blob(20000));
-  const auto axis = compute(shape);
-  ASSERT_TRUE(axis.ok());
-  EXPECT_LT(axis->statistics.queries, 15000U);
-  EXPECT_TRUE(verify(shape, *axis).passed);
+  for (const double tolerance : {0.0, 1e-11}) {
+    const auto axis = compute(shape, {.tolerance = tolerance});
+    ASSERT_TRUE(axis.ok());
+    EXPECT_LT(axis->statistics.queries, 15000U) << tolerance;
+    EXPECT_TRUE(verify(shape, *axis).passed);
+  }
 }
 
 TEST(Compute, IsCancelledBeforeItBegins) {

@@ -596,6 +596,14 @@ TEST(Gears, AreMeasuredWhereTheirTipsReachOverSites) {
   EXPECT_EQ(faults.count(Fault::none), 4U);
 }
 
+/// A branching node may touch all of an arc from which no branch leads: it is no tie with the
+/// centre of another arc, from which its own arc is too far.
+TEST(Circles, KeepTheDiskThatTouchesAllOfAnArc) {
+  Faults faults;
+  faults.add(examine_nasty(class_of("circles"), 20261130900077254, false, {}));
+  EXPECT_EQ(faults.count(Fault::none), 1U);
+}
+
 /// What no joint that counts as smooth allows is decided by joints as the doubles have them.
 TEST(NearCircles, AreCertainWithExact) {
   constexpr std::uint64_t from = 20261130200000000;

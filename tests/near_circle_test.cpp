@@ -223,6 +223,25 @@ TEST(BarWithEndsOfArcs, WhereALeafTouchesBothEndsOfAnArcIsVerified) {
   expect_verified(ring, 20261127001780);
 }
 
+/// A bump of two tolerances has corners as its tangents say: it is no cusp, whose edges lie next to
+/// each other.
+TEST(CircleOfArcs, WithABumpIsVerified) {
+  expect_verified({{{0.9722596531310993, 0.23390418314649244},
+                    {0.97225965313108109, 0.23390418314652842},
+                    {-0.88625470178744858, 0.46319823354547496},
+                    {0.36301720658775555, -0.93178243582997144}},
+                   RingRole::any,
+                   {1, 0.69294477207019034, 0.69294477207019034, 0.37508583931414247}},
+                  0);
+  expect_verified({{{0.57793090201394803, 0.81608570168662076},
+                    {-0.68115172183368922, 0.73214228934203796},
+                    {0.57110027622027071, -0.82088030461273975},
+                    {0.5711002762203089, -0.82088030461272909}},
+                   RingRole::any,
+                   {0.35529188901319231, 0.93164487430211262, 1, 0.51983450297614342}},
+                  1);
+}
+
 /// The axis of an image is the image of the axis, to the last digit. One vertex is moved, as a bar
 /// that is its own image has several axes within the tolerance.
 TEST(BarWithEndsOfArcs, ImagesHaveTheSameAxis) {

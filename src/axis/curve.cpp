@@ -229,11 +229,15 @@ double Curve::length(double t) const {
   const double s = 1 - t, q = s + t * weight;
   const Conic piece{(t * weight / q) * p1, offset(t),
                     q / std::sqrt(s * s + 2 * s * t * weight + t * t)};
-  // No conic is shorter than its chord or longer than its control polygon.
-  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
-  const auto size = [](Vec2 v) { return std::hypot(v.x, v.y); };  // of the tiniest shapes, too
-  const double chord = size(piece.p2);
-  if (size(piece.p1) + size(piece.p2 - piece.p1) <= (1 + rounding) * chord) return chord;
+  // No conic is shorter than its chord or longer than its control polygon, which is longer by 2 h^2
+  // chords if its height is a small share h of the chord.
+  constexpr double high = 1e-7;
+  if (!(std::abs(cross(piece.p1, piece.p2)) > high * squared_norm(piece.p2))) {
+    constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+    const auto size = [](Vec2 v) { return std::hypot(v.x, v.y); };  // of the tiniest shapes, too
+    const double chord = size(piece.p2);
+    if (size(piece.p1) + size(piece.p2 - piece.p1) <= (1 + rounding) * chord) return chord;
+  }
   return weight == 1 ? arc_length(t * p1, (t * t) * (p2 - 2 * p1)) : conic_length(piece);
 }
 

@@ -30,45 +30,19 @@ Incidence::Incidence(const MedialAxis& axis)
       edges_[--begin_[node]] = static_cast<std::uint32_t>(i);
 }
 
-namespace {
-
-/// The step that continues a chain through a node of degree two.
-Step next_step(const MedialAxis& axis, const Incidence& incidence, Step step) {
-  const std::uint32_t node = head_of(axis, step);
-  const auto around = incidence.edges(node);
-  const std::uint32_t edge = around[0] == step.edge ? around[1] : around[0];
-  if (edge == step.edge) return step;  // an edge from the node to itself
-  return {edge, axis.edges[edge].node[0] == node};
-}
-
-}  // namespace
-
 std::vector<Branch> branches(const MedialAxis& axis) {
-  const Incidence incidence(axis);
-  std::vector<bool> used(axis.edges.size(), false);
   std::vector<Branch> out;
-  for (std::size_t i = 0; i < axis.edges.size(); ++i) {
-    if (used[i]) continue;
-    const Step lowest{static_cast<std::uint32_t>(i), true};
-    used[i] = true;
-    Branch branch;
-    // Backward from the lowest edge, then reversed; then forward from it.
-    const auto extend = [&](Step step) {
-      while (incidence.degree(head_of(axis, step)) == 2) {
-        step = next_step(axis, incidence, step);
-        if (used[step.edge]) break;  // once around
-        used[step.edge] = true;
-        branch.steps.push_back(step);
-      }
-    };
-    extend({lowest.edge, false});
-    reverse(branch.steps);
-    branch.steps.push_back(lowest);
-    extend(lowest);
-    branch.from = tail_of(axis, branch.steps.front());
-    branch.to = head_of(axis, branch.steps.back());
-    out.push_back(std::move(branch));
-  }
+  std::vector<Step> steps;  // of one branch
+  const auto finish = [&] {
+    if (!steps.empty())
+      out.push_back({steps, tail_of(axis, steps.front()), head_of(axis, steps.back())});
+    steps.clear();
+  };
+  walk_branches(axis, [&](Step step, bool starts) {
+    if (starts) finish();
+    steps.push_back(step);
+  });
+  finish();
   return out;
 }
 

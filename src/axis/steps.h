@@ -36,6 +36,38 @@ inline std::uint32_t head_of(const MedialAxis& axis, Step step) {
   return axis.edges[step.edge].node[step.forward ? 1 : 0];
 }
 
+/// The step that continues a chain through a node of degree two.
+inline Step next_step(const MedialAxis& axis, const Incidence& incidence, Step step) {
+  const std::uint32_t node = head_of(axis, step);
+  const auto around = incidence.edges(node);
+  const std::uint32_t edge = around[0] == step.edge ? around[1] : around[0];
+  if (edge == step.edge) return step;  // an edge from the node to itself
+  return {edge, axis.edges[edge].node[0] == node};
+}
+
+/// Calls take(step, starts) for the steps of branches(axis), in order. O(edges).
+template <class Take>
+void walk_branches(const MedialAxis& axis, Take take) {
+  const Incidence incidence(axis);
+  std::vector<bool> used(axis.edges.size(), false);
+  for (std::uint32_t lowest = 0; lowest < axis.edges.size(); ++lowest) {
+    if (used[lowest]) continue;
+    // Back to where the branch starts, or once around.
+    Step step{lowest, false};
+    while (incidence.degree(head_of(axis, step)) == 2) {
+      const Step next = next_step(axis, incidence, step);
+      if (next.edge == lowest) break;
+      step = next;
+    }
+    step.forward = !step.forward;
+    for (bool starts = true; !used[step.edge]; starts = false) {
+      used[step.edge] = true;
+      take(step, starts);
+      if (incidence.degree(head_of(axis, step)) == 2) step = next_step(axis, incidence, step);
+    }
+  }
+}
+
 /// Turns a chain of steps around.
 inline void reverse(std::vector<Step>& steps) {
   std::reverse(steps.begin(), steps.end());

@@ -28,7 +28,8 @@ void free_memory(std::vector<T, Allocator>& elements) {
   std::vector<T, Allocator>().swap(elements);
 }
 
-/// Asks for large pages, and gives pages back as they are freed.
+/// Asks for large pages, and gives those of large arrays back as they are freed: smaller ones are
+/// used again sooner than the system could clear others.
 template <class T>
 struct WorkAllocator : std::allocator<T> {
   using std::allocator<T>::allocator;
@@ -42,7 +43,8 @@ struct WorkAllocator : std::allocator<T> {
     return begin;
   }
   void deallocate(T* begin, std::size_t count) {
-    give_back_pages(begin, count * sizeof(T));
+    constexpr std::size_t large = std::size_t{1} << 20;
+    if (count * sizeof(T) >= large) give_back_pages(begin, count * sizeof(T));
     std::allocator<T>::deallocate(begin, count);
   }
 };

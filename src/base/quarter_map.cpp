@@ -1,6 +1,7 @@
 #include "base/quarter_map.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
 
@@ -51,6 +52,29 @@ std::vector<QuarterMap> best_maps(std::span<const Vec2> points) {
       return p.x > box.low.x && p.x < box.high.x && p.y > box.low.y && p.y < box.high.y;
     });
   return maps;
+}
+
+QuarterMap best_map(std::span<const BulgeArc> edges) {
+  std::vector<Vec2> points;
+  points.reserve(edges.size());
+  for (const BulgeArc& edge : edges) points.push_back(edge.start);
+  const std::vector<QuarterMap> maps = best_maps(points);
+  if (maps.size() == 1) return maps.front();
+  const auto image_of = [&](const QuarterMap& map) {
+    std::vector<std::array<double, 5>> image;
+    image.reserve(edges.size());
+    for (const BulgeArc& edge : edges) {
+      Vec2 p = map.to_image(edge.start), q = map.to_image(edge.end);
+      double bulge = map.mirrors() ? -edge.bulge : edge.bulge;
+      if (lexicographic_less(q, p)) std::swap(p, q), bulge = -bulge;
+      image.push_back({p.x, p.y, q.x, q.y, bulge});
+    }
+    std::sort(image.begin(), image.end());
+    return image;
+  };
+  return *std::min_element(maps.begin(), maps.end(), [&](const QuarterMap& a, const QuarterMap& b) {
+    return image_of(a) < image_of(b);
+  });
 }
 
 }  // namespace medial

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "base/arc.h"
 #include "medial/geometry.h"
 
 namespace medial {
@@ -28,5 +29,9 @@ struct QuarterMap {
 /// the box may be a frame around all else: mostly one. All images of the points under such maps
 /// have the same images under their own best ones.
 std::vector<QuarterMap> best_maps(std::span<const Vec2> points);
+
+/// Of the best maps of an outline's vertices, the one by which the image's edges, sorted, come
+/// first, whichever way they run: where there is another such map, the outline is its own image.
+QuarterMap best_map(std::span<const BulgeArc> edges);
 
 }  // namespace medial

@@ -260,18 +260,20 @@ struct TaskGroup::Tasks {
   std::vector<std::function<void()>> waiting{};  ///< where it is not shared
 };
 
-TaskGroup::TaskGroup() : tasks_(std::make_unique<Tasks>()) {}
+TaskGroup::TaskGroup() = default;
 TaskGroup::~TaskGroup() {  // after an exception there may be tasks
-  if (tasks_->is_shared)
+  if (tasks_ && tasks_->is_shared)
     pool().end(tasks_->arena, tasks_->batch, std::make_exception_ptr(std::exception()));
 }
 
 void TaskGroup::run(std::function<void()> task) {
+  if (!tasks_) tasks_ = std::make_unique<Tasks>();
   if (tasks_->is_shared) return pool().put(tasks_->arena, tasks_->batch, std::move(task));
   tasks_->waiting.push_back(std::move(task));
 }
 
 void TaskGroup::wait() {
+  if (!tasks_) return;
   if (tasks_->is_shared) return pool().finish(tasks_->arena, tasks_->batch, [] {});
   while (!tasks_->waiting.empty()) {
     const std::function<void()> next = std::move(tasks_->waiting.back());

@@ -29,13 +29,16 @@ struct TaskGroup::Tasks {
   std::vector<std::function<void()>> waiting;
 };
 
-TaskGroup::TaskGroup() : tasks_(std::make_unique<Tasks>()) {}
+TaskGroup::TaskGroup() = default;
 TaskGroup::~TaskGroup() = default;
 
-void TaskGroup::run(std::function<void()> task) { tasks_->waiting.push_back(std::move(task)); }
+void TaskGroup::run(std::function<void()> task) {
+  if (!tasks_) tasks_ = std::make_unique<Tasks>();
+  tasks_->waiting.push_back(std::move(task));
+}
 
 void TaskGroup::wait() {
-  while (!tasks_->waiting.empty()) {
+  while (tasks_ && !tasks_->waiting.empty()) {
     const std::function<void()> next = std::move(tasks_->waiting.back());
     tasks_->waiting.pop_back();
     next();

@@ -157,17 +157,20 @@ struct TaskGroup::Tasks {
   std::vector<std::function<void()>> waiting;  ///< without a group
 };
 
-TaskGroup::TaskGroup() : tasks_(std::make_unique<Tasks>()) {
-  if (shared()) tasks_->group.emplace();
-}
+TaskGroup::TaskGroup() = default;
 TaskGroup::~TaskGroup() = default;
 
 void TaskGroup::run(std::function<void()> task) {
+  if (!tasks_) {
+    tasks_ = std::make_unique<Tasks>();
+    if (shared()) tasks_->group.emplace();
+  }
   if (tasks_->group) return tasks_->group->run(std::move(task));
   tasks_->waiting.push_back(std::move(task));
 }
 
 void TaskGroup::wait() {
+  if (!tasks_) return;
   if (tasks_->group) tasks_->group->wait();
   while (!tasks_->waiting.empty()) {
     const std::function<void()> next = std::move(tasks_->waiting.back());

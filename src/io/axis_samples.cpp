@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "axis/steps.h"
 #include "ops/disk_lines.h"
 
 namespace medial::io {
@@ -45,27 +46,35 @@ void sample(const MedialAxis& axis, const Edge& edge, double chord, std::vector<
 std::vector<Disk> sample(const MedialAxis& axis, const Branch& branch, double chord) {
   std::vector<Disk> result;
   std::vector<Disk> samples;
+  result.reserve(branch.steps.size() + 1);
   for (const Step& step : branch.steps) {
-    sample(axis, axis.edges[step.edge], chord, samples);
+    const Edge& edge = axis.edges[step.edge];
+    if (is_nearly_straight(axis, edge, chord)) {
+      if (result.empty()) result.push_back(axis.nodes[tail_of(axis, step)].disk);
+      result.push_back(axis.nodes[head_of(axis, step)].disk);
+      continue;
+    }
+    samples = sample_by_chord(axis, edge, chord);
     if (!step.forward) std::ranges::reverse(samples);
     result.insert(result.end(), samples.begin() + (result.empty() ? 0 : 1), samples.end());
   }
   return result;
 }
 
-std::vector<Vec2> line_of(const MedialAxis& axis, const Branch& branch, double chord,
-                          double simplify) {
+void line_of(const MedialAxis& axis, const Branch& branch, double chord, double simplify,
+             std::vector<Vec2>& points) {
   if (simplify > 0) chord = std::min(chord, 0.5 * simplify);
-  std::vector<Vec2> points, kept;
+  points.clear();
   for (const Disk& disk : sample(axis, branch, chord)) points.push_back(disk.center);
-  if (!(simplify > 0)) return points;
+  if (!(simplify > 0)) return;
+  std::vector<Vec2> kept;
   const auto excess = [&](std::uint32_t i, std::uint32_t first, std::uint32_t last) {
     return distance_to_segment(points[i], points[first], points[last]) - simplify + chord;
   };
   for (const std::uint32_t i : ops::simplified(static_cast<std::uint32_t>(points.size()), excess))
     kept.push_back(points[i]);
   // A cycle stays one, however small.
-  return branch.from == branch.to && kept.size() < 4 ? points : kept;
+  if (branch.from != branch.to || kept.size() >= 4) points.swap(kept);
 }
 
 }  // namespace medial::io

@@ -15,9 +15,9 @@ double chord_of(const AxisItem& item, const WriteOptions& options);
 void sample(const MedialAxis& axis, const Edge& edge, double chord, std::vector<Disk>& samples);
 
 /// The line of a branch as tables have it, its chords within `chord`; simplified within `simplify`
-/// of the curve if that is positive (WriteOptions).
-std::vector<Vec2> line_of(const MedialAxis& axis, const Branch& branch, double chord,
-                          double simplify);
+/// of the curve if that is positive (WriteOptions). Into `points`, to spare allocations.
+void line_of(const MedialAxis& axis, const Branch& branch, double chord, double simplify,
+             std::vector<Vec2>& points);
 
 /// The samples of a branch, each node of it once.
 std::vector<Disk> sample(const MedialAxis& axis, const Branch& branch, double chord);

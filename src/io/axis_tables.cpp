@@ -56,7 +56,7 @@ Status add_branches(TableSink& sink, const Row& row, const WriteOptions& options
   const double chord = chord_of(row.item, options);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Branch& branch = all[i];
-    parts[0] = line_of(axis, branch, chord, options.simplify);
+    line_of(axis, branch, chord, options.simplify, parts[0]);
     double total = 0;
     double smallest = std::numeric_limits<double>::infinity();
     double largest = 0;
@@ -70,17 +70,17 @@ Status add_branches(TableSink& sink, const Row& row, const WriteOptions& options
     }
     const Step& first = branch.steps.front();
     const auto& site = axis.edges[first.edge].site;
-    values = {whole(row.feature),
-              whole(row.part.branch + i),
-              whole(row.part.number_of_node(row.first_node, branch.from)),
-              whole(row.part.number_of_node(row.first_node, branch.to)),
-              axis.nodes[branch.from].disk.radius,
-              axis.nodes[branch.to].disk.radius,
-              total,
-              smallest,
-              largest,
-              site_text(axis, site[first.forward ? 0 : 1]),
-              site_text(axis, site[first.forward ? 1 : 0])};
+    values[0] = whole(row.feature);
+    values[1] = whole(row.part.branch + i);
+    values[2] = whole(row.part.number_of_node(row.first_node, branch.from));
+    values[3] = whole(row.part.number_of_node(row.first_node, branch.to));
+    values[4] = axis.nodes[branch.from].disk.radius;
+    values[5] = axis.nodes[branch.to].disk.radius;
+    values[6] = total;
+    values[7] = smallest;
+    values[8] = largest;
+    values[9] = site_text(axis, site[first.forward ? 0 : 1]);
+    values[10] = site_text(axis, site[first.forward ? 1 : 0]);
     if (Status added = sink.add(branch_table, values, row.attributes, parts); !added) return added;
   }
   return success();

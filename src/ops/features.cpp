@@ -80,6 +80,7 @@ class Describer {
     find_points();
     const std::vector<Branch> all = branches(axis_);
     features_.branches.reserve(all.size());
+    features_.runs.reserve(axis_.edges.size());  // hardly ever more
     for (std::uint32_t i = 0; i < all.size(); ++i) add_branch(i, all[i]);
     add_significance(all);
     add_whole();

@@ -423,10 +423,10 @@ class ArcSweeper {
     if (touches) return std::nullopt;  // noded first, then compared
 
     // Places on the longer one, which may be above or below: upside down it is the same.
-    const auto squared_length = [](const MonotoneArc& arc) {
-      return squared_norm(arc.right - arc.left);
+    const auto length = [](const MonotoneArc& arc) {
+      return std::pair(squared_norm(arc.right - arc.left), std::abs(arc.bulge));
     };
-    const bool by_upper = squared_length(upper.arc) > squared_length(lower.arc);
+    const bool by_upper = length(upper.arc) > length(lower.arc);
     const MonotoneArc& a = by_upper ? upper.arc : lower.arc;
     const MonotoneArc& b = by_upper ? lower.arc : upper.arc;
     const Vec2 begin = lexicographic_less(a.left, b.left) ? b.left : a.left;
@@ -645,8 +645,8 @@ Result<SweptArcs> sweep_arcs(const CleanRings& cleaned, bool node_crossings, dou
       }
       if (error) return std::move(*error);
       Sweep found = std::move(sweeper.found());
-      return SweptArcs{std::move(noded), std::move(found), noding.split_edges(), crossings,
-                       repeated};
+      return SweptArcs{std::move(noded),     std::move(found), noding.tolerance_in_input(),
+                       noding.split_edges(), crossings,        repeated};
     }
     error = noding.apply(noded, sweeper.contacts(), sweeper.merges());
     if (error) return std::move(*error);

@@ -11,7 +11,8 @@ namespace medial {
 
 struct SweptArcs {
   NodedRings noded;
-  Sweep sweep;  ///< without splits: where a vertex touched an edge there are two now
+  Sweep sweep;           ///< without splits: where a vertex touched an edge there are two now
+  double tolerance = 0;  ///< in units of the input
   std::uint64_t split_edges = 0;
   std::uint64_t crossings = 0;
   std::uint64_t repeated_edges = 0;  ///< of chains

@@ -68,23 +68,41 @@ Result<Shape> build_once(std::span<const Ring> rings, const ShapeOptions& option
   return shape;
 }
 
-/// Where rings touch, arcs of one circle may follow each other in a loop: built again, they become
-/// one. A loop of which nothing is left then has no inside.
-Result<Shape> with_arcs_merged(Shape shape) {
+/// Whether nothing can be dropped from rings.
+bool is_clean(std::span<const Ring> rings) {
+  ShapeReport report;
+  const Result<CleanRings> cleaned = clean(rings, report);
+  return cleaned && cleaned->points.size() == report.input_points;
+}
+
+/// Where rings touch, or an edge between them is no longer than the tolerance, arcs of one circle
+/// may follow each other in a loop: built again, they become one. Errors: no_area, of a loop of
+/// which nothing is left then; crossing, where edges cross by little more than the tolerance, so
+/// that what is built is no shape.
+Result<Shape> with_arcs_merged(Shape shape, bool touches) {
   for (;;) {
     const std::vector<Ring> rings = rings_of(shape);
+    if (!touches && is_clean(rings)) return shape;
     ShapeReport report;
     Result<Shape> again = build_once(rings, {}, report);
+    touches = report.touching_vertices > 0;
     const auto source_of = [&shape](std::size_t ring, std::size_t vertex) {
       return shape.sources[shape.loop_begin[ring] + vertex];
     };
-    if (!again && again.error().code == ErrorCode::no_area) {
-      const VertexSource source = source_of(again.error().place.ring.value_or(0), 0);
-      return error_of_ring(ErrorCode::no_area, "the ring encloses no area", source.ring);
+    if (!again) {
+      const Place& place = again.error().place;
+      const std::size_t ring = place.ring.value_or(0), vertex = place.vertex.value_or(0);
+      const VertexSource source = source_of(ring, vertex);
+      if (again.error().code == ErrorCode::no_area)
+        return error_of_ring(ErrorCode::no_area, "the ring encloses no area", source.ring);
+      return error_at(ErrorCode::crossing, "edges cross next to this vertex", source,
+                      rings[ring].points[vertex]);
     }
-    if (!again || again->points.size() >= shape.points.size()) return shape;
+    if (again->points.size() > shape.points.size()) return shape;
+    const bool is_last = again->points.size() == shape.points.size();
     for (VertexSource& source : again->sources) source = source_of(source.ring, source.vertex);
     shape = *std::move(again);
+    if (is_last) return shape;
   }
 }
 
@@ -175,8 +193,8 @@ Shape without_flat_vertices(std::span<const Ring> rings, Shape shape) {
 
 Result<Shape> build(std::span<const Ring> rings, const ShapeOptions& options, ShapeReport& report) {
   Result<Shape> shape = build_once(rings, options, report);
-  if (shape && !shape->bulges.empty() && report.touching_vertices > 0)
-    shape = with_arcs_merged(std::move(shape).value());
+  if (shape && !shape->bulges.empty())
+    shape = with_arcs_merged(std::move(shape).value(), report.touching_vertices > 0);
   if (shape && report.crossings > 0) return without_flat_vertices(rings, std::move(shape).value());
   if (shape || !options.node_crossings || !may_be_filled(shape.error())) return shape;
   report = {};

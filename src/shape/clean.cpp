@@ -79,7 +79,8 @@ std::optional<Error> drop_collinear(std::uint32_t first, CleanRings& cleaned, Sh
 }
 
 /// Appends a ring that has a bulge.
-std::optional<Error> append_with_arcs(const Ring& ring, std::uint32_t index, CleanRings& cleaned,
+std::optional<Error> append_with_arcs(const Ring& ring, std::uint32_t index,
+                                      const std::function<QuarterMap()>& map, CleanRings& cleaned,
                                       ShapeReport& report) {
   std::vector<RingEdge> edges;
   edges.reserve(ring.points.size());
@@ -111,7 +112,7 @@ std::optional<Error> append_with_arcs(const Ring& ring, std::uint32_t index, Cle
   if (edges.size() < 2) {
     return place(ErrorCode::too_few_points, "the ring has fewer than two distinct points");
   }
-  clean_arcs(edges, report);
+  clean_arcs(edges, map, report);
   for (const RingEdge& edge : edges) {
     if (!std::isfinite(edge.point.x) || !std::isfinite(edge.point.y)) {
       return error_at(ErrorCode::not_finite, "an arc is too large", edge.source, edge.point);
@@ -150,6 +151,20 @@ bool has_three_distinct(std::span<const Vec2> points) {
          });
 }
 
+/// The edges whose numbers are finite: what others are is judged later.
+std::vector<BulgeArc> edges_of(std::span<const Ring> rings) {
+  std::vector<BulgeArc> edges;
+  for (const Ring& ring : rings) {
+    const std::vector<Vec2>& points = ring.points;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Vec2 p = points[i], q = points[i + 1 < points.size() ? i + 1 : 0];
+      const double bulge = i < ring.bulges.size() ? ring.bulges[i] : 0;
+      if (std::isfinite(p.x + p.y + q.x + q.y + bulge)) edges.push_back({p, q, bulge});
+    }
+  }
+  return edges;
+}
+
 }  // namespace
 
 Result<CleanRings> clean(std::span<const Ring> rings, ShapeReport& report) {
@@ -160,6 +175,11 @@ Result<CleanRings> clean(std::span<const Ring> rings, ShapeReport& report) {
     return error_without_place(ErrorCode::too_large, "there are too many points");
   }
 
+  std::optional<QuarterMap> map;  // once asked for
+  const auto map_of_all = [&] {
+    if (!map) map = best_map(edges_of(rings));
+    return *map;
+  };
   CleanRings cleaned;
   cleaned.points.reserve(report.input_points);
   cleaned.sources.reserve(report.input_points);
@@ -168,7 +188,7 @@ Result<CleanRings> clean(std::span<const Ring> rings, ShapeReport& report) {
     const auto first = static_cast<std::uint32_t>(cleaned.points.size());
     cleaned.begin.push_back(first);
     if (has_arcs(rings[i])) {
-      if (auto error = append_with_arcs(rings[i], i, cleaned, report)) return *error;
+      if (auto error = append_with_arcs(rings[i], i, map_of_all, cleaned, report)) return *error;
       continue;
     }
     if (auto error = append_distinct(rings[i], i, cleaned, report)) return *error;

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
 
+#include "base/quarter_map.h"
 #include "medial/shape.h"
 
 namespace medial {
@@ -61,6 +63,8 @@ struct RingEdge {
 /// The same for the edges of one ring with arcs, each longer than zero. A bulge whose arc is
 /// straight to rounding becomes 0. A full circle becomes two half circles, from one of the vertices
 /// on that are furthest from the middle of their box.
-void clean_arcs(std::vector<RingEdge>& edges, ShapeReport& report);
+/// `map` is asked for the best map of all rings where several places for them differ.
+void clean_arcs(std::vector<RingEdge>& edges, const std::function<QuarterMap()>& map,
+                ShapeReport& report);
 
 }  // namespace medial

@@ -24,7 +24,8 @@ Vec2 middle_of(const BulgeArc& arc) {
 /// The edges of one ring with arcs.
 class Cleaner {
  public:
-  Cleaner(std::vector<RingEdge>& edges, ShapeReport& report) : edges_(edges), report_(report) {
+  Cleaner(std::vector<RingEdge>& edges, const std::function<QuarterMap()>& map, ShapeReport& report)
+      : edges_(edges), map_(map), report_(report) {
     Box box{edges[0].point, edges[0].point};
     for (std::size_t i = 0; i < edges.size(); ++i) {
       const Vec2 middle = middle_of(arc(i));  // arcs may reach further out than their vertices
@@ -41,11 +42,7 @@ class Cleaner {
     // Nothing is merged in a ring of two edges: it would vanish.
     if (edges_.size() > 2) drop_collinear();
     split_long_arcs();
-    // Arcs that have become one may continue the next: building a built shape merges nothing more.
-    for (std::size_t before = 0; before != edges_.size();) {
-      before = edges_.size();
-      merge_cocircular();
-    }
+    merge_cocircular();
   }
 
  private:
@@ -253,7 +250,8 @@ class Cleaner {
     const auto is_before = [&](const Halves& a, const Halves& b) {
       if (extents(a) != extents(b)) return extents(a) > extents(b);
       const std::size_t k = a.edges[0].point == b.edges[0].point ? 1 : 0;
-      return lexicographic_less(a.edges[k].point, b.edges[k].point);
+      const QuarterMap map = map_();
+      return lexicographic_less(map.to_image(a.edges[k].point), map.to_image(b.edges[k].point));
     };
     std::sort(places.begin(), places.end(), is_before);
     for (auto first = places.begin(), last = first; first != places.end(); first = last) {
@@ -275,15 +273,18 @@ class Cleaner {
     RingEdge first = edges_[from], second = edges_[to];
     const double sign = first.bulge > 0 ? 1 : -1;
     const std::size_t count = (to + edges_.size() - from) % edges_.size();
-    Bulges bulges(first.point, second.point, play_);
-    add_run({from, count}, sign, false, bulges);
-    add_run({to, edges_.size() - count}, sign, true, bulges);
+    // The arc on one side of the chord, whichever way the ring runs.
+    const bool is_second = (sign > 0) == map_().mirrors();
+    Bulges bulges = is_second ? Bulges(second.point, first.point, play_)
+                              : Bulges(first.point, second.point, play_);
+    add_run({from, count}, sign, is_second, bulges);
+    add_run({to, edges_.size() - count}, sign, !is_second, bulges);
     const double bulge = bulges.middle();
     if (!bulges.allows(bulge)) return {};
     if (bulge != 1) {
-      const Vec2 chord = second.point - first.point;
-      second.point = second.point + (sign * (1 - bulge * bulge) / (2 * bulge)) * left_of(chord);
-      if (bulge > 1) second.source = edges_[previous(to)].source;
+      const double share = (is_second ? -1 : 1) * (1 - bulge * bulge) / (2 * bulge);
+      second.point = second.point + (sign * share) * left_of(second.point - first.point);
+      if (share < 0) second.source = edges_[previous(to)].source;
     }
     first.bulge = second.bulge = sign;
     const Vec2 diameter = second.point - first.point;
@@ -343,6 +344,7 @@ class Cleaner {
   }
 
   std::vector<RingEdge>& edges_;
+  const std::function<QuarterMap()>& map_;
   ShapeReport& report_;
   std::vector<bool>
       straightened_;     ///< of each edge: whether it was an arc, as straight as rounding
@@ -354,6 +356,14 @@ class Cleaner {
 
 }  // namespace
 
-void clean_arcs(std::vector<RingEdge>& edges, ShapeReport& report) { Cleaner(edges, report).run(); }
+void clean_arcs(std::vector<RingEdge>& edges, const std::function<QuarterMap()>& map,
+                ShapeReport& report) {
+  // Arcs that have become one may continue the next, within the play of another box.
+  for (;;) {
+    const std::uint64_t dropped = report.collinear_points;
+    Cleaner(edges, map, report).run();
+    if (report.collinear_points == dropped) return;
+  }
+}
 
 }  // namespace medial

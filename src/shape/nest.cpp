@@ -210,23 +210,40 @@ LoopArea area_from(const Shape& shape, std::size_t first) {
   return area;
 }
 
-/// Whether the loop of two edges that a shape ends with is no wider than the spacing of its
-/// coordinates: two arcs that count as straight.
-bool has_no_width(const Shape& shape, std::size_t first) {
-  const Vec2 a = shape.points[first], b = shape.points[first + 1];
-  const double spacing = std::numeric_limits<double>::epsilon() *
-                         std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
-  const double width = std::abs(shape.bulges[first] + shape.bulges[first + 1]) / 2 * distance(a, b);
-  return width <= spacing;
-}
-
-/// Takes the last loop of a shape out again.
-void remove_last_loop(Shape& shape) {
-  const std::size_t first = shape.loop_begin.back();
-  shape.points.resize(first);
-  shape.sources.resize(first);
-  shape.bulges.resize(first);
-  shape.loop_begin.pop_back();
+/// Takes pairs of edges of which the second leads back along the first, within the tolerance, out
+/// of the loop that a shape ends with: they have nothing between them. (Where they are longer than
+/// some tolerances, they overlap.)
+void drop_needles(Shape& shape, double tolerance) {
+  const std::size_t first = shape.loop_begin.back(), end = shape.points.size();
+  const auto is_needle = [&](std::size_t before, std::size_t tip, std::size_t after) {
+    const Vec2 p = shape.points[before];
+    const double width =
+        std::abs(shape.bulges[before] + shape.bulges[tip]) / 2 * distance(p, shape.points[tip]);
+    return p == shape.points[after] && width <= tolerance;
+  };
+  const auto move = [&](std::size_t from, std::size_t to) {
+    shape.points[to] = shape.points[from];
+    shape.sources[to] = shape.sources[from];
+    shape.bulges[to] = shape.bulges[from];
+  };
+  std::size_t low = first, high = first;  // what is kept, so far
+  for (std::size_t v = first; v < end; ++v) {
+    while (high - low >= 2 && is_needle(high - 2, high - 1, v)) high -= 2;
+    move(v, high++);
+  }
+  while (high - low >= 2) {
+    if (is_needle(high - 2, high - 1, low))
+      high -= 2;
+    else if (is_needle(high - 1, low, low + 1))
+      ++low, --high;
+    else
+      break;
+  }
+  if (high - low == end - first) return;
+  for (std::size_t v = low; low > first && v < high; ++v) move(v, v - (low - first));
+  shape.points.resize(first + (high - low));
+  shape.sources.resize(shape.points.size());
+  shape.bulges.resize(shape.points.size());
 }
 
 }  // namespace
@@ -267,8 +284,9 @@ Result<Shape> assemble(const Arrangement& arrangement, const SplicedLoops& loops
     } while (edge != loop.first_edge);
     if (with_arcs) {
       const std::size_t first = shape.loop_begin.back();
-      if (shape.points.size() - first == 2 && has_no_width(shape, first)) {
-        remove_last_loop(shape);
+      drop_needles(shape, arrangement.tolerance);
+      if (shape.points.size() == first) {
+        shape.loop_begin.pop_back();
         continue;
       }
       // Edges that cross within the tolerance may enclose more between them than the loop does.

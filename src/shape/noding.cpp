@@ -35,13 +35,35 @@ Box box_of(const CleanRings& cleaned) {
   return box;
 }
 
+/// An arc, or it reversed: what is computed of it does not depend on its direction.
+BulgeArc in_order(const BulgeArc& arc) {
+  return lexicographic_less(arc.end, arc.start) ? arc.reversed() : arc;
+}
+
+/// The bulge of a part of an arc, from that end of the arc on which is the part's, if one is.
+double bulge_of_part(const BulgeArc& arc, Vec2 from, Vec2 to) {
+  const bool forward = from == arc.start || (to != arc.end && lexicographic_less(from, to));
+  return forward ? partial_bulge(arc, from, to) : 0 - partial_bulge(arc.reversed(), to, from);
+}
+
+std::vector<BulgeArc> edges_of(const CleanRings& cleaned) {
+  std::vector<BulgeArc> edges;
+  edges.reserve(cleaned.points.size());
+  for (std::uint32_t v = 0; v < cleaned.points.size(); ++v) {
+    const std::uint32_t next = cleaned.next(v);
+    const Vec2 end = cleaned.points[next == no_index ? v : next];
+    edges.push_back({cleaned.points[v], end, cleaned.bulges[v]});
+  }
+  return edges;
+}
+
 }  // namespace
 
 Noding::Noding(const CleanRings& cleaned, double reach)
     : begin_(cleaned.begin), open_(cleaned.open) {
   const Box box = box_of(cleaned);
   frame_ = frame_of(box);
-  map_ = best_maps(cleaned.points).front();
+  map_ = best_map(edges_of(cleaned));
   size_ = frame_.scale * diagonal(box);
   tolerance_ = frame_.scale * std::max(tolerance_for(box, 0), reach);
   rings_.resize(begin_.size() - 1);
@@ -113,7 +135,7 @@ NodedRings Noding::monotone() const {
         continue;
       }
       const BulgeArc arc{node.local, nodes_[next(ring, v)].local, node.bulge};
-      auto upright = parallel_point(arc, {0, 1});
+      auto upright = parallel_point(in_order(arc), {0, 1});
       // An arc that hangs over by less than the tolerance stays whole.
       if (upright && std::min(std::abs(upright->x - arc.start.x),
                               std::abs(upright->x - arc.end.x)) <= 2 * tolerance_) {
@@ -193,7 +215,7 @@ void Noding::append_parts(std::uint32_t v, std::uint32_t end, std::span<const Sp
   bool whole = true;
   for (const SplitPoint& cut : cuts) {
     if (cut.node.original == node.original || cut.node.original == last) continue;
-    node.bulge = partial_bulge(arc, from, cut.node.local);
+    node.bulge = bulge_of_part(arc, from, cut.node.local);
     result.push_back(node);
     node = cut.node;
     from = node.local;
@@ -201,7 +223,7 @@ void Noding::append_parts(std::uint32_t v, std::uint32_t end, std::span<const Sp
     ++split_edges_;
   }
   if (node.original == last) return;
-  if (!whole) node.bulge = 0 - partial_bulge(arc.reversed(), arc.end, from);
+  if (!whole) node.bulge = bulge_of_part(arc, from, arc.end);
   result.push_back(node);
 }
 

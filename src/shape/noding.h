@@ -56,6 +56,7 @@ class Noding {
 
   /// In local units.
   double tolerance() const { return tolerance_; }
+  double tolerance_in_input() const { return tolerance_ / frame_.scale; }
   std::uint64_t split_edges() const { return split_edges_; }
   /// The vertex of the input that the edge begins at, or that the edge it is a part of begins at.
   VertexSource edge_source(std::uint32_t edge) const { return nodes_[edge].edge_source; }

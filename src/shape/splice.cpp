@@ -135,6 +135,7 @@ Arrangement arrange_arcs(SweptArcs swept) {
   result.edge_bulges = std::move(noded.edge_bulges);
   result.originals = std::move(noded.originals);
   result.passing = std::move(noded.passing);
+  result.tolerance = swept.tolerance;
   return result;
 }
 

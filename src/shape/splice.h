@@ -26,6 +26,7 @@ struct Arrangement {
   std::vector<double> edge_bulges;
   std::vector<Vec2> originals;
   std::vector<bool> passing;
+  double tolerance = 0;  ///< in units of the input
   // Only where the winding rule dropped edges (see winding.h); else empty.
   std::vector<bool> dropped;
   std::vector<std::uint32_t> stands_for;  ///< of a dropped edge: one that borders the same face

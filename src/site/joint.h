@@ -26,7 +26,8 @@ enum class Joint : std::uint8_t {
 /// other where they are further apart, at the end of the shorter one or halfway: as build_shape()
 /// does for their pieces. It is a cusp as well where they cross again before they are `tolerance`
 /// apart: s from it, they are (sine - (sum of the curvatures) s / 2) s apart, which is at most
-/// sine^2 / (2 (sum of the curvatures)). `corner_angle` in radians.
+/// sine^2 / (2 (sum of the curvatures)), and nothing at the end of the chord 2 sine / (sum of the
+/// curvatures). `corner_angle` in radians.
 inline Joint joint_of(const BulgeArc& before, const BulgeArc& after, double tolerance,
                       double corner_angle) {
   constexpr double least = 1e-12, most = 1e-7;
@@ -43,8 +44,10 @@ inline Joint joint_of(const BulgeArc& before, const BulgeArc& after, double tole
   if (cosine > 0 && std::abs(sine) <= std::min(least + rounding, most) && keeps_clear())
     return Joint::smooth;
   const double both = curvature(before) + curvature(after);
-  const bool crosses_again = sine * sine <= 2 * tolerance * std::abs(both);
-  if (cosine < 0 && (std::abs(sine) <= least + rounding || crosses_again)) {
+  const bool crosses_again =
+      sine * both > 0 && sine * sine <= 2 * tolerance * std::abs(both) &&
+      2 * std::abs(sine) <= std::abs(both) * std::min(chord_before, chord_after);
+  if (cosine < 0 && (std::abs(sine) <= least || crosses_again)) {
     const MonotoneArc back = monotone_arc(before.end, before.start, -before.bulge);
     const MonotoneArc on = monotone_arc(after.start, after.end, after.bulge);
     const bool corner =

@@ -384,15 +384,18 @@ inline bool DistanceTree::find_near(const EdgeHull& hull, const Wanted& wanted,
     if (visits == most_visits || near.size == near.most) return false;
     const Set set = stack[--size];
     const Bounds& bounds = levels_[set.level][set.index];
-    const std::array<Pairwise, 2> reached{hull.reaches(bounds, 0, origin_),
-                                          hull.reaches(bounds, 2, origin_)};
-    for (std::uint32_t j = 0; j < fan_out; ++j) {
-      if (reached[j / 2][j % 2] == 0 || !wanted(bounds, j)) continue;
-      const auto child = static_cast<std::uint32_t>(set.index * fan_out) + j;
-      if (set.level > 0)
-        stack[size++] = {set.level - 1, child};
-      else
-        add_near(hull, child, near);
+    for (std::uint32_t i = 0; i < fan_out; i += 2) {
+      const std::array<bool, 2> is_wanted{wanted(bounds, i), wanted(bounds, i + 1)};
+      if (!is_wanted[0] && !is_wanted[1]) continue;
+      const Pairwise reached = hull.reaches(bounds, i, origin_);
+      for (std::uint32_t k = 0; k < 2; ++k) {
+        if (reached[k] == 0 || !is_wanted[k]) continue;
+        const auto child = static_cast<std::uint32_t>(set.index * fan_out) + i + k;
+        if (set.level > 0)
+          stack[size++] = {set.level - 1, child};
+        else
+          add_near(hull, child, near);
+      }
     }
   }
   return near.size < near.most;

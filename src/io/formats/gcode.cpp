@@ -69,6 +69,8 @@ class Moves {
   }
 
   void use(const CuttingSpeeds& speeds) { speeds_ = speeds; }
+  /// Makes room for the lines of so many points, so that they are hardly ever copied.
+  void expect(std::size_t points) { text_.reserve(text_.size() + usual_line * points); }
   /// Goes to a place, down to its depth, and on; stays down where it is there already.
   void path(const std::vector<ToolPoint>& points) {
     const ToolPoint& first = points.front();
@@ -148,6 +150,8 @@ class Moves {
       if (const auto point = parallel_point(arc, side)) report_.box.add(*point);
   }
 
+  static constexpr std::size_t usual_line = 40;  // of "G1 X141.424932 Y-5.6404 Z-2.647182"
+
   const MachineOptions& machine_;
   CuttingSpeeds speeds_;
   std::string text_;
@@ -191,6 +195,10 @@ Program program_of(const Document<CarveItem>& file, const MachineOptions& machin
   const auto add = [&](Carving CarveItem::*carving, const CuttingSpeeds& speeds) {
     Section section{{}, {}, 0, 0, speeds};
     moves.use(speeds);
+    std::size_t points = 0;
+    for (const CarveItem& item : file.items)
+      for (const ToolPath& path : (item.*carving).paths) points += path.points.size();
+    moves.expect(points);
     for (const CarveItem& item : file.items) {
       const Carving& one = item.*carving;
       if (one.paths.empty()) continue;

@@ -433,8 +433,10 @@ Status write_wkt(Target& target, const AxesOutput& output) {
     target.out->put(all.empty() ? "MULTILINESTRING EMPTY\n" : "MULTILINESTRING ");
     if (all.empty()) continue;
     const double chord = chord_of(item, output.options);
+    std::vector<Vec2> line;
     put_bracketed(*target.out, all, [&](const Branch& branch) {
-      put_placed(target, line_of(item.axis, branch, chord, output.options.simplify));
+      line_of(item.axis, branch, chord, output.options.simplify, line);
+      put_placed(target, line);
     });
     target.out->put('\n');
   }

@@ -39,28 +39,107 @@ OGRwkbGeometryType type_of(GeometryKind kind) {
   return kind == GeometryKind::line ? wkbLineString : wkbPolygon;
 }
 
-void set_points(OGRSimpleCurve& curve, const std::vector<Vec2>& points) {
-  curve.setNumPoints(static_cast<int>(points.size()), FALSE);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    curve.setPoint(static_cast<int>(i), points[i].x, points[i].y);
+/// Some rows of tables, one behind the other in little memory: they are made on any thread and
+/// added to a file on one.
+class Rows {
+ public:
+  enum class Kind : std::uint8_t { nothing, whole, real, text };
+  struct Field {
+    Kind kind = Kind::nothing;
+    union {
+      std::int64_t whole = 0;
+      double real;
+      std::size_t text;  ///< where it begins
+    };
+  };
+
+  void put(std::size_t table, std::span<const Value> first, std::span<const Value> rest,
+           std::span<const std::vector<Vec2>> parts) {
+    for (const auto values : {first, rest})
+      for (const Value& value : values) put(value);
+    for (const std::vector<Vec2>& part : parts) {
+      for (const Vec2 p : part) points_.emplace_back(p.x, p.y);
+      ring_ends_.push_back(points_.size());
+    }
+    ends_.push_back({table, fields_.size(), ring_ends_.size()});
+  }
+  void clear() {
+    fields_.clear();
+    texts_.clear();
+    points_.clear();
+    ring_ends_.clear();
+    ends_.clear();
+  }
+  std::size_t size() const { return ends_.size(); }
+  std::size_t table(std::size_t row) const { return ends_[row].table; }
+  std::span<const Field> fields(std::size_t row) const {
+    const std::size_t begin = row == 0 ? 0 : ends_[row - 1].fields;
+    return std::span(fields_).subspan(begin, ends_[row].fields - begin);
+  }
+  const char* text(const Field& field) const { return texts_.c_str() + field.text; }
+  std::size_t ring_count(std::size_t row) const { return ends_[row].rings - first_ring(row); }
+  std::span<const OGRRawPoint> ring(std::size_t row, std::size_t i) const {
+    const std::size_t ring = first_ring(row) + i;
+    const std::size_t begin = ring == 0 ? 0 : ring_ends_[ring - 1];
+    return std::span(points_).subspan(begin, ring_ends_[ring] - begin);
+  }
+
+ private:
+  struct End {
+    std::size_t table, fields, rings;
+  };
+
+  void put(const Value& value) {
+    Field& field = fields_.emplace_back();
+    if (const auto* number = std::get_if<std::int64_t>(&value)) {
+      field.kind = Kind::whole;
+      field.whole = *number;
+    } else if (const auto* decimal = std::get_if<double>(&value)) {
+      field.kind = Kind::real;
+      field.real = *decimal;
+    } else if (const auto* words = std::get_if<std::string>(&value)) {
+      field.kind = Kind::text;
+      field.text = texts_.size();
+      texts_.append(words->c_str());  // as far as GDAL reads it
+      texts_.push_back('\0');
+    }
+  }
+  std::size_t first_ring(std::size_t row) const { return row == 0 ? 0 : ends_[row - 1].rings; }
+
+  std::vector<Field> fields_;
+  std::string texts_;
+  std::vector<OGRRawPoint> points_;
+  std::vector<std::size_t> ring_ends_;
+  std::vector<End> ends_;
+};
+constexpr std::size_t rows_together = 256;
+
+void set_points(OGRSimpleCurve& curve, std::span<const OGRRawPoint> points) {
+  curve.setPoints(static_cast<int>(points.size()), points.data());
 }
 
-std::unique_ptr<OGRGeometry> geometry_of(GeometryKind kind,
-                                         std::span<const std::vector<Vec2>> parts) {
-  if (kind == GeometryKind::point) return std::make_unique<OGRPoint>(parts[0][0].x, parts[0][0].y);
-  if (kind == GeometryKind::line) {
-    auto line = std::make_unique<OGRLineString>();
-    set_points(*line, parts[0]);
-    return line;
+/// Gives a feature the geometry of a row. Points and lines stay the same objects, row after row.
+void set_geometry(OGRFeature& feature, GeometryKind kind, const Rows& rows, std::size_t row) {
+  if (kind == GeometryKind::polygon) {
+    auto polygon = std::make_unique<OGRPolygon>();
+    for (std::size_t i = 0; i < rows.ring_count(row); ++i) {
+      auto ring = std::make_unique<OGRLinearRing>();
+      set_points(*ring, rows.ring(row, i));
+      ring->closeRings();
+      polygon->addRingDirectly(ring.release());
+    }
+    feature.SetGeometryDirectly(polygon.release());
+    return;
   }
-  auto polygon = std::make_unique<OGRPolygon>();
-  for (const auto& part : parts) {
-    auto ring = std::make_unique<OGRLinearRing>();
-    set_points(*ring, part);
-    ring->closeRings();
-    polygon->addRingDirectly(ring.release());
+  if (feature.GetGeometryRef() == nullptr) {
+    if (kind == GeometryKind::point) feature.SetGeometryDirectly(new OGRPoint);
+    if (kind == GeometryKind::line) feature.SetGeometryDirectly(new OGRLineString);
   }
-  return polygon;
+  const std::span<const OGRRawPoint> points = rows.ring(row, 0);
+  if (kind == GeometryKind::line)
+    return set_points(*feature.GetGeometryRef()->toLineString(), points);
+  feature.GetGeometryRef()->toPoint()->setX(points[0].x);
+  feature.GetGeometryRef()->toPoint()->setY(points[0].y);
 }
 
 /// What a layer is called: of formats with one layer like the file.
@@ -168,23 +247,18 @@ Status create_layers(GDALDataset& dataset, const Target& target, const TableSour
   return success();
 }
 
-void set_field(OGRFeature& feature, int field, const Value& value) {
-  if (const auto* number = std::get_if<std::int64_t>(&value)) {
-    feature.SetField(field, static_cast<GIntBig>(*number));
-  } else if (const auto* decimal = std::get_if<double>(&value)) {
-    feature.SetField(field, *decimal);
-  } else if (const auto* words = std::get_if<std::string>(&value)) {
-    feature.SetField(field, words->c_str());
-  } else {
-    feature.SetFieldNull(field);
+void set_field(OGRFeature& feature, int number, const Rows& rows, const Rows::Field& field) {
+  switch (field.kind) {
+    case Rows::Kind::nothing:
+      return feature.SetFieldNull(number);
+    case Rows::Kind::whole:
+      return feature.SetField(number, static_cast<GIntBig>(field.whole));
+    case Rows::Kind::real:
+      return feature.SetField(number, field.real);
+    case Rows::Kind::text:
+      return feature.SetField(number, rows.text(field));
   }
 }
-
-/// A row of a table as a feature of its layer.
-struct GdalRow {
-  std::size_t table;
-  OGRFeatureUniquePtr feature;
-};
 
 /// A file with a layer for each table. GDAL reports to the thread that calls, so every function
 /// listens by itself.
@@ -195,35 +269,38 @@ class GdalFile {
   GdalFile& operator=(const GdalFile&) = delete;
   ~GdalFile() {
     const GdalMessages unheard;
+    layers_.clear();
     dataset_.reset();
   }
 
   Status open(const std::string& path, const Target& target, const TableSource& source);
 
-  /// On any thread.
-  GdalRow row(std::size_t table, std::span<const Value> first, std::span<const Value> rest,
-              std::span<const std::vector<Vec2>> parts) const {
-    OGRFeatureUniquePtr feature(new OGRFeature(definitions_[table]));
-    int field = 0;
-    for (const auto values : {first, rest})
-      for (const Value& value : values) set_field(*feature, field++, value);
-    feature->SetGeometryDirectly(geometry_of(kinds_[table], parts).release());
-    return {table, std::move(feature)};
-  }
-  Status add(const GdalRow& row) {
-    return layers_[row.table]->CreateFeature(row.feature.get()) == OGRERR_NONE
-               ? success()
-               : Status(Error{ErrorCode::unwritable, "cannot write", {}});
+  Status add(const Rows& rows) {
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      const Layer& layer = layers_[rows.table(row)];
+      OGRFeature& feature = *layer.feature;
+      feature.SetFID(OGRNullFID);
+      int number = 0;
+      for (const Rows::Field& field : rows.fields(row)) set_field(feature, number++, rows, field);
+      set_geometry(feature, layer.kind, rows, row);
+      if (layer.layer->CreateFeature(&feature) != OGRERR_NONE)
+        return Error{ErrorCode::unwritable, "cannot write", {}};
+    }
+    return success();
   }
   /// Closing writes, too.
   Status close();
 
  private:
+  struct Layer {
+    OGRLayer* layer;
+    GeometryKind kind;
+    OGRFeatureUniquePtr feature;  ///< each row in turn
+  };
+
   GDALDatasetUniquePtr dataset_;
   bool transactions_ = false;
-  std::vector<OGRLayer*> layers_;
-  std::vector<OGRFeatureDefn*> definitions_;
-  std::vector<GeometryKind> kinds_;
+  std::vector<Layer> layers_;
 };
 
 Status GdalFile::open(const std::string& path, const Target& target, const TableSource& source) {
@@ -242,11 +319,11 @@ Status GdalFile::open(const std::string& path, const Target& target, const Table
   if (Status room = adds ? make_room(*dataset_, target, source) : success(); !room) return room;
   if (Status created = create_layers(*dataset_, target, source, messages); !created) return created;
   const int count = dataset_->GetLayerCount(), own = static_cast<int>(source.tables.size());
-  for (int i = count - own; i < count; ++i) {
-    layers_.push_back(dataset_->GetLayer(i));
-    definitions_.push_back(layers_.back()->GetLayerDefn());
+  for (int i = 0; i < own; ++i) {
+    OGRLayer* layer = dataset_->GetLayer(count - own + i);
+    layers_.push_back({layer, source.tables[static_cast<std::size_t>(i)].kind,
+                       OGRFeatureUniquePtr(new OGRFeature(layer->GetLayerDefn()))});
   }
-  for (const Table& table : source.tables) kinds_.push_back(table.kind);
   transactions_ = dataset_->TestCapability(ODsCTransactions) != 0;
   if (transactions_) dataset_->StartTransaction();
   return messages.failure().empty() ? success() : cannot_write(messages);
@@ -255,27 +332,31 @@ Status GdalFile::open(const std::string& path, const Target& target, const Table
 Status GdalFile::close() {
   const GdalMessages messages;
   if (transactions_) dataset_->CommitTransaction();
+  layers_.clear();
   dataset_.reset();
   return messages.failure().empty() ? success() : cannot_write(messages);
 }
 
-/// The rows go into the file, or into a list.
+/// Takes rows, which go into a file if there is one.
 class GdalTables final : public TableSink {
  public:
-  GdalTables(Target& target, GdalFile& file, std::vector<GdalRow>* list = nullptr)
-      : TableSink(target), file_(file), list_(list) {}
+  GdalTables(Target& target, std::vector<Rows>& rows, GdalFile* file = nullptr)
+      : TableSink(target), rows_(rows), file_(file) {}
 
  private:
   Status put(std::size_t table, std::span<const Value> first, std::span<const Value> rest,
              std::span<std::vector<Vec2>> parts) override {
-    GdalRow row = file_.row(table, first, rest, parts);
-    if (list_ == nullptr) return file_.add(row);
-    list_->push_back(std::move(row));
-    return success();
+    if (rows_.empty() || rows_.back().size() == rows_together) rows_.emplace_back();
+    Rows& last = rows_.back();
+    last.put(table, first, rest, parts);
+    if (file_ == nullptr) return success();
+    Status added = file_->add(last);
+    last.clear();
+    return added;
   }
 
-  GdalFile& file_;
-  std::vector<GdalRow>* list_;
+  std::vector<Rows>& rows_;
+  GdalFile* file_;
 };
 
 /// Runs work(), with GDAL's words for what it could not write.
@@ -291,7 +372,8 @@ Status heard(const Work& work) {
 Status make_dataset(const std::string& path, Target& target, const TableSource& source) {
   GdalFile file;
   if (Status opened = file.open(path, target, source); !opened) return opened;
-  GdalTables tables(target, file);
+  std::vector<Rows> rows;
+  GdalTables tables(target, rows, &file);
   if (Status filled = heard([&] { return source.fill(tables); }); !filled) return filled;
   return file.close();
 }
@@ -325,7 +407,7 @@ Status check_tables(const Target& target, const TableSource& source) {
   return success();
 }
 
-/// A document in parts, whose rows become features of GDAL on all threads.
+/// A document in parts, whose rows are made on all threads.
 class GdalParts final : public PartWriter {
  public:
   static Result<std::unique_ptr<PartWriter>> make(Target& target, const PartOutput& none) {
@@ -346,11 +428,11 @@ class GdalParts final : public PartWriter {
   }
 
   Result<std::shared_ptr<void>> prepare(const PartOutput& output, const Part& part) override {
-    auto rows = std::make_shared<std::vector<GdalRow>>();
+    auto rows = std::make_shared<std::vector<Rows>>();
     Target own = target_.of_part(part);
     std::unique_lock<std::mutex> alone(projecting_, std::defer_lock);
     if (own.crs.changes_points()) alone.lock();
-    GdalTables tables(own, file_, rows.get());
+    GdalTables tables(own, *rows);
     Status filled = heard([&] { return source_of(output, own).fill(tables); });
     if (!filled) return std::move(filled).error();
     return std::shared_ptr<void>(std::move(rows));
@@ -358,8 +440,8 @@ class GdalParts final : public PartWriter {
 
   Status add(void* prepared) override {
     return heard([&]() -> Status {
-      for (const GdalRow& row : *static_cast<const std::vector<GdalRow>*>(prepared))
-        if (Status added = file_.add(row); !added) return added;
+      for (const Rows& rows : *static_cast<const std::vector<Rows>*>(prepared))
+        if (Status added = file_.add(rows); !added) return added;
       return success();
     });
   }

@@ -1,6 +1,7 @@
 #include <array>
 #include <cmath>
 
+#include "axis/steps.h"
 #include "io/pictures/pictures.h"
 #include "medial/query.h"
 
@@ -51,29 +52,53 @@ bool runs_straight(const MedialAxis& axis, const Edge& edge) {
   return kind == axis.sites[edge.site[1]].kind() && kind != SiteKind::arc;
 }
 
-/// By how much nobody sees that a line is off.
-double slack_of(double cell) { return 0.1 * cell; }
-
-/// Whether a piece is nowhere further than `slack` from its chord.
-bool is_flat(const Piece& piece, double slack) {
+/// Whether nobody can tell a piece from its chord.
+bool is_flat(const Piece& piece, double detail) {
   const Vec2 chord = piece.to - piece.from, to = piece.control - piece.from;
   const double across = cross(chord, to), along = dot(chord, to), square = squared_norm(chord);
+  const double slack = Thinning::slack(square, detail);
   return across * across <= slack * slack * square && along >= 0 && along <= square;
 }
 
+/// What is drawn in one shade.
+class Shade {
+ public:
+  explicit Shade(const Canvas& canvas) : detail_(canvas.detail()), cells_(canvas.cell()) {}
+
+  void add(const Piece& piece) {
+    if (piece.straight && !pieces_.empty() && pieces_.back().straight &&
+        pieces_.back().to == piece.from && line_.take(piece.to)) {
+      pieces_.back().to = piece.to;
+      return;
+    }
+    if (!cells_.add(piece)) return;
+    pieces_.push_back(piece);
+    line_.start(piece.from, detail_);
+    line_.take(piece.to);
+  }
+  const std::vector<Piece>& pieces() const { return pieces_; }
+
+ private:
+  double detail_;
+  Cells cells_;
+  std::vector<Piece> pieces_;
+  Thinning line_;  ///< the last piece
+};
+
 /// Cuts an edge where its radius passes from shade to shade, about, into pieces not shorter than
-/// `cell`: take(shade, piece).
+/// a cell: take(shade, piece).
 template <class Take>
-void cut(const MedialAxis& axis, const Step& step, const Viewport& viewport, double cell,
-         double largest, Take take) {
+void cut(const MedialAxis& axis, Step step, const Canvas& canvas, double largest, Take take) {
+  const Viewport& viewport = canvas.viewport();
   const Edge& edge = axis.edges[step.edge];
-  const Disk& from = axis.nodes[edge.node[step.forward ? 0 : 1]].disk;
-  const Disk& to = axis.nodes[edge.node[step.forward ? 1 : 0]].disk;
+  const Disk& from = axis.nodes[tail_of(axis, step)].disk;
+  const Disk& to = axis.nodes[head_of(axis, step)].disk;
   const Curve curve(from, edge, to);
   const bool straight = runs_straight(axis, edge);
   const Vec2 control = straight ? to.center : edge.control.center;
-  const double cells =
-      viewport.scale * (distance(from.center, control) + distance(control, to.center)) / cell;
+  const double cells = viewport.scale *
+                       (distance(from.center, control) + distance(control, to.center)) /
+                       canvas.cell();
   int pieces = 1;
   if (cells > 1 && largest > 0) {
     const double ends = std::fabs(curve.radius(0) - curve.radius(1));
@@ -82,6 +107,17 @@ void cut(const MedialAxis& axis, const Step& step, const Viewport& viewport, dou
     pieces =
         static_cast<int>(std::clamp(std::min(std::ceil(shades), cells), 1.0, 1.0 * most_pieces));
   }
+  const auto put = [&](double radius, Piece piece) {
+    if (!straight && is_flat(piece, canvas.detail())) {
+      piece.control = piece.to;
+      piece.straight = true;
+    }
+    const double index = largest > 0 ? radius / largest * (shade_count - 1) + 0.5 : 0;
+    take(static_cast<int>(std::clamp(index, 0.0, shade_count - 1.0)), piece);
+  };
+  if (pieces == 1)
+    return put(curve.radius(0.5), {viewport(from.center), viewport(control), viewport(to.center),
+                                   edge.weight, straight});
   for (int i = 0; i < pieces; ++i) {
     const double t0 = static_cast<double>(i) / pieces;
     const double t1 = static_cast<double>(i + 1) / pieces;
@@ -91,61 +127,37 @@ void cut(const MedialAxis& axis, const Step& step, const Viewport& viewport, dou
     const auto place = [&viewport](const Homogeneous& p) {
       return viewport({p.x / p.w, p.y / p.w});
     };
-    const double radius = std::max(curve.radius(0.5 * (t0 + t1)), 0.0);
-    const int index =
-        largest > 0 ? static_cast<int>(std::lround(radius / largest * (shade_count - 1))) : 0;
-    Piece piece{place(a), place(straight ? c : b), place(c), b.w / std::sqrt(a.w * c.w), straight};
-    if (!straight && is_flat(piece, slack_of(cell))) {
-      piece.control = piece.to;
-      piece.straight = true;
-    }
-    take(std::clamp(index, 0, shade_count - 1), piece);
+    put(curve.radius(0.5 * (t0 + t1)),
+        {place(a), place(straight ? c : b), place(c), b.w / std::sqrt(a.w * c.w), straight});
   }
-}
-
-/// Lengthens a straight piece by one that goes on from its end; whether that is nowhere further
-/// than `slack` from the line on which the first part of it, up to its control point, lies.
-bool lengthen(Piece& piece, const Piece& next, double slack) {
-  if (!piece.straight || !next.straight || !(piece.to == next.from)) return false;
-  const Vec2 along = piece.control - piece.from;
-  if (!(std::fabs(cross(along, next.to - piece.from)) <= slack * norm(along))) return false;
-  if (!(dot(along, next.to - next.from) > 0)) return false;
-  piece.to = next.to;
-  return true;
 }
 
 }  // namespace
 
 void draw_axes(Canvas& canvas, const Document<AxisItem>& file, double largest) {
+  canvas.line_width(1.6);
   // Few changes of colour: pieces are counted, then sorted by shade, then stroked in batches.
-  std::array<std::vector<Piece>, shade_count> pieces;
-  std::vector<Cells> cells(shade_count, Cells(canvas.cell()));
-  // Nobody sees on which tenth of a pixel a shade ends: it stays for some cells, so that lines are
-  // few and long.
+  std::vector<Shade> shades(shade_count, Shade(canvas));
+  // Nobody sees where exactly a shade ends: it stays for some cells, so that lines are few and
+  // long.
   std::size_t chosen = 0;
   double left = 0;
   Vec2 end;
   const auto add = [&](int index, const Piece& piece) {
     if (left <= 0 || !(piece.from == end)) {
       chosen = static_cast<std::size_t>(index);
-      left = 4 * canvas.cell();
+      left = canvas.detail();
     }
     left -= distance(piece.from, piece.to);
     end = piece.to;
-    std::vector<Piece>& line = pieces[chosen];
-    if (!line.empty() && lengthen(line.back(), piece, slack_of(canvas.cell()))) return;
-    if (cells[chosen].add(piece)) line.push_back(piece);
+    shades[chosen].add(piece);
   };
-  for (const AxisItem& item : file.items) {
-    for (const Branch& branch : branches(item.axis))
-      for (const Step& step : branch.steps)
-        cut(item.axis, step, canvas.viewport(), canvas.cell(), largest, add);
-  }
-  canvas.line_width(1.6);
+  for (const AxisItem& item : file.items)
+    walk_branches(item.axis, [&](Step step, bool) { cut(item.axis, step, canvas, largest, add); });
   for (int i = 0; i < shade_count; ++i) {
     canvas.color(shade(i));
     const Piece* last = nullptr;
-    for (const Piece& piece : pieces[static_cast<std::size_t>(i)]) {
+    for (const Piece& piece : shades[static_cast<std::size_t>(i)].pieces()) {
       if (last == nullptr || !(piece.from == last->to)) canvas.move_to(piece.from);
       canvas.piece_to(piece);
       last = canvas.count_piece(false) ? nullptr : &piece;

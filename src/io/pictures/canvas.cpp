@@ -55,46 +55,56 @@ void Canvas::fill_even_odd(bool keep_path) {
   cairo_set_fill_rule(context_, CAIRO_FILL_RULE_WINDING);
 }
 
-/// Goes along all edges of a loop, as one path; calls each(end) for every edge drawn.
-template <class Each>
-void Canvas::trace_coarsely(const Shape& shape, std::size_t loop, Each each) {
+/// Goes along all edges of a loop as nearly as can be seen, as one path or in strokes.
+void Canvas::trace_nearly(const Shape& shape, std::size_t loop, bool in_strokes) {
   const std::size_t begin = shape.loop_begin[loop];
   const std::size_t end = shape.loop_begin[loop + 1];
-  const double smallest = cell();
-  Vec2 last = viewport_(shape.points[begin]);
-  move_to(last);
+  Thinning line;
+  const auto draw_line = [&] {
+    line_to(line.last());
+    if (in_strokes && count_piece(false)) move_to(line.last());
+    line.start(line.last(), detail());
+  };
+  move_to(viewport_(shape.points[begin]));
+  line.start(viewport_(shape.points[begin]), detail());
   for (std::size_t k = begin; k < end; ++k) {
+    const Vec2 from = viewport_(shape.points[k]);
     const Vec2 p = viewport_(shape.points[k + 1 == end ? begin : k + 1]);
     const double bulge = shape.bulge(k);
-    if (distance(p, last) < smallest) continue;
-    if (bulge == 0) {
-      line_to(p);
+    if (std::fabs(bulge) * distance(from, p) < 0.25 * detail()) {  // twice its height
+      if (line.take(p)) continue;
+      draw_line();
+      line.take(p);
     } else {
-      arc_to({viewport_(shape.points[k]), p, viewport_.bulge(bulge)});
+      if (line.holds()) draw_line();
+      arc_to({from, p, viewport_.bulge(bulge)});
+      line.start(p, detail());
     }
-    last = p;
-    each(p);
   }
+  if (line.holds()) draw_line();
 }
 
-void Canvas::fill_shape(const Shape& shape, const Color& inside) {
-  color(inside);
-  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
-    trace_coarsely(shape, i, [](Vec2) {});
-    close();
-  }
-  fill_even_odd();
+void Canvas::stroke_shapes(std::span<const Shape* const> shapes, const Color& outline) {
+  color(outline);
+  for (const Shape* shape : shapes)
+    for (std::size_t i = 0; i < shape->loop_count(); ++i) trace_nearly(*shape, i, true);
+  stroke();
 }
 
-void Canvas::stroke_shape(const Shape& shape) {
-  int batch = 0;
-  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
-    trace_coarsely(shape, i, [&](Vec2 p) {
-      if (++batch % pieces_per_stroke != 0) return;
-      stroke();
-      move_to(p);
-    });
+void Canvas::draw_shapes(std::span<const Shape* const> shapes, const Color& inside,
+                         const Color& outline) {
+  // A file is smaller if one path serves to fill and to stroke. Other shapes may hide outlines.
+  const bool at_once = !pixels_ && shapes.size() == 1;
+  for (const Shape* shape : shapes) {
+    for (std::size_t i = 0; i < shape->loop_count(); ++i) {
+      trace_nearly(*shape, i, false);
+      close();
+    }
+    color(inside);
+    fill_even_odd(at_once);
   }
+  if (!at_once) return stroke_shapes(shapes, outline);
+  color(outline);
   stroke();
 }
 

@@ -18,7 +18,7 @@ namespace medial::io {
 
 inline constexpr Color outline_color{0.25, 0.25, 0.27};
 
-inline constexpr int pieces_per_stroke = 2000;  ///< of a path: long ones are slow to stroke
+inline constexpr int pieces_per_stroke = 500;  ///< of a path: long ones are slow to stroke
 
 /// A piece of an edge, in units of the picture: a rational quadratic curve with weights 1, w, 1.
 struct Piece {
@@ -50,6 +50,58 @@ class Cells {
   std::unordered_set<std::uint64_t> drawn_;
 };
 
+/// Which points of a line may be left out, so that the line passes all of them within a slack: as
+/// long as the directions to them have one in common.
+class Thinning {
+ public:
+  /// Starts a line, without which nothing is held. `detail`: nobody sees what is smaller.
+  void start(Vec2 at, double detail) {
+    from_ = last_ = at;
+    detail_ = detail;
+    open_ = true;
+    farthest_ = 0;
+  }
+  /// The end of what was taken.
+  Vec2 last() const { return last_; }
+  /// Whether anything was taken since from where the line was drawn.
+  bool holds() const { return !(last_ == from_); }
+  /// Takes a point; false if the line has to be drawn to last() before.
+  bool take(Vec2 p) {
+    const Vec2 way = p - from_;
+    const double square = squared_norm(way);
+    if (square < farthest_ || !(open_ || (cross(low_, way) >= 0 && cross(way, high_) >= 0)))
+      return false;
+    farthest_ = square;
+    last_ = p;
+    narrow(way, square);
+    return true;
+  }
+
+  /// By how much nobody sees that a line to there is off; less if it is so long that a smooth curve
+  /// would have facets.
+  static double slack(double square, double detail) {
+    return detail / (square <= detail * detail ? 8 : 80);
+  }
+
+ private:
+  /// Leaves the directions that pass a point within its slack.
+  void narrow(Vec2 way, double square) {
+    const double allowed = slack(square, detail_);
+    const double beyond = square - allowed * allowed;
+    if (!(beyond > 0)) return;
+    const Vec2 along = std::sqrt(beyond) * way, aside = allowed * left_of(way);
+    if (open_ || cross(low_, along - aside) > 0) low_ = along - aside;
+    if (open_ || cross(along + aside, high_) > 0) high_ = along + aside;
+    open_ = false;
+  }
+
+  double detail_ = 0;
+  Vec2 from_, last_;
+  bool open_ = true;  ///< all directions are left
+  Vec2 low_, high_;   ///< else those between, with less than half a turn
+  double farthest_ = 0;
+};
+
 /// A picture of curves in the plane, drawn through Cairo: aspect kept. Line widths are in
 /// thousandths of the picture's longer side.
 class Canvas {
@@ -63,9 +115,11 @@ class Canvas {
 
   cairo_t* context() { return context_; }
   const Viewport& viewport() const { return viewport_; }
-  /// How far apart places are that differ to the eye: a fraction of a pixel, or in pictures that
-  /// can be enlarged, of the thinnest line, which hides what is smaller at any size.
-  double cell() const { return pixels_ ? 0.25 : thickness(0.1); }
+  /// How far apart places are that differ to the eye: a pixel, or in pictures that can be enlarged,
+  /// the line's width, which hides what is smaller at any size.
+  double detail() const { return pixels_ ? 1 : cairo_get_line_width(context_); }
+  /// How small a piece is that adds nothing to one nearby.
+  double cell() const { return detail() / (pixels_ ? 2 : 3); }
   /// The thickness of a line that is given in thousandths of the longer side.
   double thickness(double thousandths) const {
     return thousandths * 1e-3 * fineness_ * longer_side();
@@ -107,9 +161,10 @@ class Canvas {
     filled ? fill() : stroke();
     return true;
   }
-  /// The same for shapes, without edges shorter than a cell.
-  void fill_shape(const Shape& shape, const Color& inside);
-  void stroke_shape(const Shape& shape);
+  /// Draws outlines that nobody can tell from those of shapes.
+  void stroke_shapes(std::span<const Shape* const> shapes, const Color& outline);
+  /// Fills the shapes before.
+  void draw_shapes(std::span<const Shape* const> shapes, const Color& inside, const Color& outline);
 
   /// Covers all of the picture with pixels 0xRRGGBB, as many in a row as it is wide.
   void image(std::vector<std::uint32_t> pixels);
@@ -121,8 +176,7 @@ class Canvas {
   void use_font(double size);
 
  private:
-  template <class Each>
-  void trace_coarsely(const Shape& shape, std::size_t loop, Each each);
+  void trace_nearly(const Shape& shape, std::size_t loop, bool in_strokes);
 
   cairo_t* context_;
   Viewport viewport_;

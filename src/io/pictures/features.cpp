@@ -53,10 +53,14 @@ class FeaturesPicture {
         drawn_(primitive_count, Cells(cell())) {}
 
   void draw() {
+    if (output_.options.shape) {
+      std::vector<const Shape*> shapes;
+      for (const AxisItem& item : items()) shapes.push_back(&item.shape);
+      cairo_set_line_width(context_, 0.8 * line_);
+      canvas_.draw_shapes(shapes, shape_color, edge_color);
+      cairo_set_fill_rule(context_, CAIRO_FILL_RULE_EVEN_ODD);
+    }
     cairo_set_line_cap(context_, CAIRO_LINE_CAP_BUTT);
-    if (output_.options.shape)
-      for (const AxisItem& item : items()) draw_shape(item.shape);
-    if (output_.options.shape) cairo_set_fill_rule(context_, CAIRO_FILL_RULE_EVEN_ODD);
     for (std::size_t i = 0; i < features().size(); ++i)
       collect_runs(items()[i].axis, features()[i]);
     draw_runs();
@@ -78,28 +82,6 @@ class FeaturesPicture {
 
   const std::vector<AxisItem>& items() const { return output_.document.items; }
   std::span<const AxisFeatures> features() const { return output_.features; }
-
-  void draw_shape(const Shape& shape) {
-    for (std::size_t i = 0; i < shape.loop_count(); ++i) {
-      const std::size_t begin = shape.loop_begin[i], end = shape.loop_begin[i + 1];
-      const Vec2 first = viewport_(shape.points[begin]);
-      canvas_.move_to(first);
-      Vec2 last = first;
-      for (std::size_t k = begin; k < end; ++k) {
-        // Nobody sees less than an eighth of the outline's width, however near.
-        const Vec2 to = shape.points[k + 1 == end ? begin : k + 1];
-        if (distance(viewport_(to), last) < 0.1 * line_) continue;
-        canvas_.edge_to(shape.points[k], to, shape.bulge(k));
-        last = viewport_(to);
-      }
-      canvas_.close();
-    }
-    canvas_.color(shape_color);
-    canvas_.fill_even_odd(true);
-    canvas_.color(edge_color);
-    cairo_set_line_width(context_, 0.8 * line_);
-    canvas_.stroke();
-  }
 
   /// What runs look like, and where their labels and cuts are.
   void collect_runs(const MedialAxis& axis, const AxisFeatures& features) {

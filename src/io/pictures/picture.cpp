@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "io/pictures/pictures.h"
 
@@ -21,19 +22,17 @@ Status draw_picture(Target& target, const Document<AxisItem>& file, const WriteO
       std::clamp(std::pow(many_edges / std::max(edges, 1.0), 0.2), 1.0 / 3, 1.0);
   const auto draw = [&](Canvas& canvas) {
     constexpr Color inside{0.945, 0.945, 0.925};
-    const auto outlines = [&] {
-      if (!options.shape) return;
-      canvas.color(outline_color);
-      canvas.line_width(0.8);
-      for (const AxisItem& item : file.items) canvas.stroke_shape(item.shape);
-    };
+    constexpr double outline_width = 0.8;
+    std::vector<const Shape*> shapes;
     if (options.shape)
-      for (const AxisItem& item : file.items) canvas.fill_shape(item.shape, inside);
-    outlines();
+      for (const AxisItem& item : file.items) shapes.push_back(&item.shape);
+    canvas.line_width(outline_width);
+    canvas.draw_shapes(shapes, inside, outline_color);
     if (layers != nullptr) draw_polygons(canvas, *layers);
     if (diagrams != nullptr) {
       draw_faces(canvas, *diagrams);
-      outlines();
+      canvas.line_width(outline_width);
+      canvas.stroke_shapes(shapes, outline_color);
       if (options.shape) draw_sites(canvas, *diagrams);
     }
     if (options.disks > 0) draw_disks(canvas, file, options.disks);

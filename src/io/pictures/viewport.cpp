@@ -110,8 +110,7 @@ Status write_surface(OutputStream& out, const std::string& format, double width,
   cairo_paint(context.get());
   draw(context.get());
   cairo_status_t status = cairo_status(context.get());
-  if (status == CAIRO_STATUS_SUCCESS && format == "png")
-    status = cairo_surface_write_to_png_stream(surface.get(), write_bytes, &out);
+  if (status == CAIRO_STATUS_SUCCESS && format == "png") return write_png(out, surface.get());
   cairo_surface_finish(surface.get());
   if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface.get());
   if (status != CAIRO_STATUS_SUCCESS && !out.failed())

@@ -61,6 +61,9 @@ void add_circle(cairo_t* context, Vec2 center, double radius);
 /// Takes what Cairo writes; `out` is an OutputStream.
 cairo_status_t write_bytes(void* out, const unsigned char* bytes, unsigned count);
 
+/// Writes an image of Cairo in RGB24. Errors: unwritable.
+Status write_png(OutputStream& out, cairo_surface_t* surface);
+
 /// Lets `draw` draw an svg, pdf, ps or png on white paper. Errors: unwritable.
 Status write_surface(OutputStream& out, const std::string& format, double width, double height,
                      const std::function<void(cairo_t*)>& draw);

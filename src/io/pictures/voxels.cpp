@@ -247,7 +247,7 @@ Status write_voxel_picture(Target& target, const VoxelsOutput& output) {
   using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
   const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, 3 * side, side),
                         &cairo_surface_destroy);
-  cairo_status_t status = cairo_surface_status(surface.get());
+  const cairo_status_t status = cairo_surface_status(surface.get());
   if (status == CAIRO_STATUS_SUCCESS) {
     cairo_surface_flush(surface.get());
     unsigned char* pixels = cairo_image_surface_get_data(surface.get());
@@ -269,13 +269,10 @@ Status write_voxel_picture(Target& target, const VoxelsOutput& output) {
       }
     }
     cairo_surface_mark_dirty(surface.get());
-    status = cairo_surface_write_to_png_stream(surface.get(), write_bytes, &out);
+    return write_png(out, surface.get());
   }
-  if (status != CAIRO_STATUS_SUCCESS && !out.failed()) {
-    return Error{
-        ErrorCode::unwritable, fmt::format("cannot draw: {}", cairo_status_to_string(status)), {}};
-  }
-  return success();
+  return Error{
+      ErrorCode::unwritable, fmt::format("cannot draw: {}", cairo_status_to_string(status)), {}};
 }
 
 }  // namespace

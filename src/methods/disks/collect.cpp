@@ -34,19 +34,18 @@ struct Placed {
 std::vector<Placed> place(const std::vector<std::unique_ptr<Chunk>>& chunks, std::uint32_t& nodes,
                           std::uint32_t& edges) {
   std::vector<Placed> placed;
-  for (const auto& root : chunks) {
-    std::vector<std::pair<Chunk*, std::uint32_t>> stack{{root.get(), none}};
-    while (!stack.empty()) {
-      const auto [chunk, parent] = stack.back();
-      stack.pop_back();
-      placed.push_back({chunk, parent, nodes, edges});
-      nodes += static_cast<std::uint32_t>(chunk->nodes.size() - 1);
-      edges += static_cast<std::uint32_t>(chunk->links.size());
-      const Placed self = placed.back();
-      for (std::size_t i = chunk->children.size(); i-- > 0;) {
-        Chunk* child = chunk->children[i].get();
-        stack.emplace_back(child, self.node(child->parent_node));
-      }
+  std::vector<std::pair<Chunk*, std::uint32_t>> stack;
+  for (std::size_t i = chunks.size(); i-- > 0;) stack.emplace_back(chunks[i].get(), none);
+  while (!stack.empty()) {
+    const auto [chunk, parent] = stack.back();
+    stack.pop_back();
+    placed.push_back({chunk, parent, nodes, edges});
+    nodes += static_cast<std::uint32_t>(chunk->nodes.size() - 1);
+    edges += static_cast<std::uint32_t>(chunk->links.size());
+    const Placed self = placed.back();
+    for (std::size_t i = chunk->children.size(); i-- > 0;) {
+      Chunk* child = chunk->children[i].get();
+      stack.emplace_back(child, self.node(child->parent_node));
     }
   }
   return placed;

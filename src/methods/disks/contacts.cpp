@@ -193,7 +193,7 @@ const std::vector<Contacts::Neighbor>& Contacts::around(const Span& span, const 
   around_run_ = &run;
   around_ = disk;
   // So much further that is_alone() mostly finds there what it asks for.
-  constexpr double further = 1 << 12;
+  constexpr double further = 1 << 16;
   around_reach_ = std::min(further * clearance(), std::max(clearance(), short_way * disk.radius));
   context_.tree.within(disk.center, disk.radius + around_reach_, run.first, run.last, within_);
   near_.clear();
@@ -231,14 +231,18 @@ double Contacts::spread_of(const std::vector<Neighbor>& sites, const Span& span,
   return 1 + 2 * (norm(ab) + norm(ac)) / std::abs(cross(ab, ac));
 }
 
-bool Contacts::may_touch_more(const Span& span, const Disk& disk, std::uint32_t next) {
+bool Contacts::may_touch(std::uint32_t i, const Span& span, const Disk& disk, double times) const {
+  return away(i, disk) <= times * touching_ && !is_beside(i, disk.center, run_of(span)) &&
+         faces(i, disk.center);
+}
+
+bool Contacts::may_touch_more(const Span& span, const Disk& disk, std::uint32_t next,
+                              double times) {
   ++statistics_.queries;
-  context_.tree.within(disk.center, disk.radius + 2 * touching_, span.right + 1, span.left - 1,
-                       touched_);
-  return ranges::any_of(touched_, [&](std::uint32_t i) {
-    return i != next && away(i, disk) <= touching_ && !is_beside(i, disk.center, run_of(span)) &&
-           faces(i, disk.center);
-  });
+  context_.tree.within(disk.center, disk.radius + 2 * times * touching_, span.right + 1,
+                       span.left - 1, touched_);
+  return ranges::any_of(
+      touched_, [&](std::uint32_t i) { return i != next && may_touch(i, span, disk, times); });
 }
 
 bool Contacts::passes_at(const Span& span, const Disk& disk, std::uint32_t next) const {
@@ -334,25 +338,35 @@ bool Contacts::is_alone(const std::vector<Neighbor>& tie, const Span& span, cons
     ++statistics_.queries;
     context_.tree.within(disk.center, disk.radius + furthest, run.first, run.last, touched_);
   }
-  // By how many times the residuals of three contacts a disk may be off in another direction.
-  const auto factor = [&](Vec2 to, std::size_t first) {
-    double sum = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 own = toward[(first + k) % count], a = toward[(first + (k + 1) % 3) % count],
-                 b = toward[(first + (k + 2) % 3) % count];
-      sum += std::sqrt(squared_norm(to - a) * squared_norm(to - b) /
-                       (squared_norm(own - a) * squared_norm(own - b)));
-    }
-    return sum;
+  // By how many times the residuals of three contacts, from `first` on, a disk may be off in
+  // another direction: that is so far from each of these.
+  const auto apart = [&](std::size_t i, std::size_t j) {
+    return distance(toward[i % count], toward[j % count]);
   };
+  std::vector<std::array<double, 3>>& shares = shares_;
+  shares.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    const double a = apart(i, i + 1), b = apart(i + 1, i + 2), c = apart(i, i + 2);
+    shares.push_back({1 / (a * c), 1 / (a * b), 1 / (b * c)});
+  }
   return ranges::all_of(known ? within_ : touched_, [&](std::uint32_t i) {
-    if (!(away(i, disk) < furthest) || ranges::binary_search(tie, i, {}, &Neighbor::site) ||
+    const double gap = away(i, disk);
+    if (!(gap < furthest) || ranges::binary_search(tie, i, {}, &Neighbor::site) ||
         is_beside(i, disk.center, run, furthest) || !faces(i, disk.center))
       return true;
     const Vec2 to = site::outward(site(i), disk.center);
     const auto next = static_cast<std::size_t>(ranges::lower_bound(sites, i) - sites.begin());
-    for (std::size_t first = next + count - 3; first <= next + count; ++first)
-      if (away(i, disk) <= 2 * touching_ * factor(to, first)) return false;
+    const std::size_t begin = next + count - 3;
+    std::array<double, 6> away_from;
+    for (std::size_t k = 0; k < away_from.size(); ++k)
+      away_from[k] = distance(to, toward[(begin + k) % count]);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto& [first, second, third] = shares[(begin + k) % count];
+      const double factor = first * away_from[k + 1] * away_from[k + 2] +
+                            second * away_from[k] * away_from[k + 2] +
+                            third * away_from[k] * away_from[k + 1];
+      if (gap <= 2 * touching_ * factor) return false;
+    }
     return true;
   });
 }

@@ -148,8 +148,11 @@ class Contacts {
   /// beside which nothing else is: no other site is near, and no foot is near to a joint without
   /// being in it. Such contacts become one node in whichever order they are found.
   bool is_clean_tie(const Span& span, const Disk& disk, std::uint32_t sure);
-  /// Whether a disk may touch a site inside the span beside `next`.
-  bool may_touch_more(const Span& span, const Disk& disk, std::uint32_t next);
+  /// Whether a disk may touch a site of the span's boundary in a place of its own, give or take
+  /// so many times what double leaves open.
+  bool may_touch(std::uint32_t i, const Span& span, const Disk& disk, double times = 1) const;
+  /// Whether it may touch one inside the span beside `next`.
+  bool may_touch_more(const Span& span, const Disk& disk, std::uint32_t next, double times = 1);
   /// Whether a foot of a disk, which is known well, is where it passes on to the next site.
   bool passes_at(const Span& span, const Disk& disk, std::uint32_t next) const;
   /// The disk of such a tie near to a given one.
@@ -279,6 +282,7 @@ class Contacts {
   std::vector<Neighbor> near_;      ///< of those within clearance(), what is not beside the disk
   std::vector<std::uint32_t> tie_;  ///< of is_alone()
   std::vector<Vec2> toward_;
+  std::vector<std::array<double, 3>> shares_;
   std::array<std::uint32_t, 2> crowded_{Hit::none, Hit::none};  ///< see is_crowded()
 };
 

@@ -73,9 +73,11 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   const double tolerance = fine_share * problem.fine_tolerance;
   const std::vector<Bridge> bridges = connecting_disks(problem.shape, boundary, tolerance, sites,
                                                        way.in_precise, statistics.queries);
-  if (!bridges.empty()) boundary = connect(problem.shape, boundary, bridges);
   statistics.bridges = bridges.size();
-  statistics.seconds_connect = watch.lap();
+  if (!bridges.empty()) {
+    boundary = connect(problem.shape, boundary, bridges);
+    statistics.seconds_connect = watch.lap();
+  }
   if (problem.is_cancelled()) return std::nullopt;
 
   const site::BoundaryTree tree(boundary.sites);

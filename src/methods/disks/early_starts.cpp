@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "methods/disks/certainty.h"
@@ -23,6 +24,8 @@ constexpr double clear_tolerances = 256;
 /// In a disk that touches many sites a search takes time in proportion to them: a run that has such
 /// a disk gets no more early starts.
 constexpr std::size_t crowd = 16;
+/// The cosine of the least angle between the two normals where a disk touches.
+constexpr double turned = 0.5;
 
 std::pair<std::uint32_t, std::uint32_t> sites_of(const EarlyStart& start) {
   return {start.right, start.left};
@@ -51,8 +54,11 @@ class Finder {
     for (int i = 0; i < most_tries && !is_crowded_; ++i) {
       while (own < run_.last && !is_edge(own)) ++own;
       if (own + least > run_.last) break;
-      const auto [disk, touched] = grown_at(own);
-      is_crowded_ = !context_.tree.few_within(disk.center, disk.radius + clear(), crowd, near_);
+      auto [disk, touched] = grown_to_next(own);
+      if (touched == Hit::none) {
+        std::tie(disk, touched) = grown_at(own);
+        is_crowded_ = !context_.tree.few_within(disk.center, disk.radius + clear(), crowd, near_);
+      }
       if (touched == Hit::none || is_crowded_) break;
       const auto [right, left] = std::minmax(own, touched);
       const std::uint32_t between = left - right, beside = run_.last - run_.first - between;
@@ -63,6 +69,24 @@ class Finder {
       own = between < least ? left + 1 + between / 2 : own + 1;
     }
     return std::nullopt;
+  }
+
+  /// The same as grown_at() where that surely touches the next edge: of a star, whose teeth a large
+  /// disk reaches over by the thousand. Nothing else is near then.
+  std::pair<Disk, std::uint32_t> grown_to_next(std::uint32_t own) {
+    const Vec2 foot = site(own).at(0.5 * site(own).length), normal = site(own).normal();
+    for (const std::uint32_t next : {own - 1, own + 1}) {
+      if (next < run_.first || next > run_.last || !is_edge(next) ||
+          dot(normal, site(next).normal()) > turned)
+        continue;
+      const double radius = site::touching_radius(foot, normal, site(next));
+      if (!(radius <= context_.radius_limit)) continue;
+      const Disk disk{foot + radius * normal, radius};
+      if (context_.tree.few_within(disk.center, radius + clear(), 2, near_) && near_.size() == 2 &&
+          (near_[0] == next || near_[1] == next))
+        return {disk, next};
+    }
+    return {Disk{}, Hit::none};
   }
 
   /// The disk that grows in the middle of an edge until it touches something, and what that is.
@@ -87,7 +111,6 @@ class Finder {
     if (near_.size() != 2 || !is_edge(touched)) return false;
     const Site &edge = site(own), &other = site(touched);
     const double along = dot(disk.center - other.point, other.direction);
-    constexpr double turned = 0.5;  // by 60 degrees or more
     return dot(edge.normal(), other.normal()) <= turned && 0.5 * edge.length > clear() &&
            along > clear() && along < other.length - clear() &&
            std::abs(site::carrier_distance(other, disk.center) - disk.radius) <= context_.tolerance;

@@ -87,7 +87,7 @@ class ExactEvents::Search {
       }
       if (!candidates.empty()) continue;
       if (!all_around) {
-        candidates = reached_before();
+        if (!are_all_seen()) candidates = reached_before();
         if (candidates.empty()) return std::nullopt;
         continue;
       }
@@ -117,6 +117,13 @@ class ExactEvents::Search {
   bool is_inside(std::uint32_t i) const { return i > span_.right && i < span_.left; }
   bool is_seen(std::uint32_t i) const {
     return !is_inside(i) || is_bridge(i) || seen_.count(i) > 0;
+  }
+
+  /// Whether the span has no site that has not been considered.
+  bool are_all_seen() const {
+    for (std::uint32_t i = span_.right + 1; i < span_.left; ++i)
+      if (!is_seen(i)) return false;
+    return true;
   }
 
   void erase_seen(std::vector<std::uint32_t>& sites) const {
@@ -463,7 +470,7 @@ std::optional<ExactEvents::Found> ExactEvents::search(const Span& span, const Di
   const std::uint64_t before = Bounded<Twofold>::open_signs;
   auto found = Search<Twofold>(*this, span, from, is_exact).run(hint, all_around);
   if (found && found->is_well_known() && Bounded<Twofold>::open_signs == before) return found;
-  found = Search<Precise>(*this, span, from, is_exact).run(hint, all_around);
+  found = Search<Precise>(*this, span, from, is_exact).run(found ? found->site : hint, all_around);
   if (found) found->in_precise = true;
   return found;
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -104,16 +103,15 @@ class Merger {
     for (const Edge& edge : graph_.edges)
       for (const std::uint32_t node : edge.node)
         if (degree[node] < several) ++degree[node];
-    std::map<std::uint32_t, std::vector<Touch>> contacts;
-    for (const Edge& edge : graph_.edges)
-      for (const std::uint32_t node : edge.node)
-        if (degree[node] == several)
-          for (const std::uint32_t site : edge.site)
-            add_contact(nearest_piece(site, graph_.nodes[node].disk), graph_.nodes[node].disk,
-                        contacts[node]);
-    for (auto& [node, touched] : contacts) {
+    const auto is_hub = [&](std::uint32_t node) { return degree[node] == several; };
+    link_ends(filter(graph_.edges.size(), [&](std::size_t e) {
+      const auto [from, to] = graph_.edges[e].node;
+      return is_hub(from) || is_hub(to);
+    }));
+    for (std::uint32_t node = 0; node < graph_.nodes.size(); ++node) {
+      if (!is_hub(node)) continue;
       Disk& disk = graph_.nodes[node].disk;
-      sort_unique(touched);
+      const std::vector<Touch> touched = contacts_of(node);
       if (ranges::all_of(touched, [&](const Touch& one) {
             return std::abs(site::gap(boundary_.sites[one.site], disk)) <= tolerance_;
           }))
@@ -175,6 +173,8 @@ class Merger {
   /// Lists the ends of all edges at the nodes of these ones, the last edge first.
   void link_ends(const WorkVector<std::uint32_t>& edges) {
     places_.assign(graph_.nodes.size(), not_listed);
+    first_places_.clear();
+    ends_begin_.clear();
     for (const std::uint32_t e : edges)
       for (const std::uint32_t node : graph_.edges[e].node) places_[node] = 0;
     std::uint32_t count = 0;
@@ -297,23 +297,32 @@ class Merger {
     return site;
   }
 
-  /// Whether something holds for all sites that are touched in a node: those of its edges and, at a
-  /// leaf, those on the way around it from one side of its edge to the other.
+  /// Whether something holds for all sites that are touched in a node: those of its edges, and
+  /// those on the way around it from each edge to the next.
   template <class Holds>
   bool all_contacts(std::uint32_t node, const Holds& holds) const {
-    for (const std::uint32_t end : ends_at(node))
-      for (const std::uint32_t site : graph_.edges[end / 2].site)
-        if (!holds(nearest_piece(site, graph_.nodes[node].disk))) return false;
-    if (ends_at(node).size() > 1) return true;
-    const std::uint32_t end = ends_at(node)[0];
-    auto [left, right] = graph_.edges[end / 2].site;
-    if (end % 2 == 0) std::swap(left, right);
+    const std::span<const std::uint32_t> ends = ends_at(node);
     const Boundary::SiteRange& run = boundary_.runs[graph_.nodes[node].component];
-    for (std::uint32_t site = right;;) {
-      site = site == run.last ? run.first : site + 1;
-      if (site == left) return true;
-      if (!holds(site)) return false;
+    for (const std::uint32_t end : ends) {
+      const auto& sites = graph_.edges[end / 2].site;
+      for (const std::uint32_t site : sites)
+        if (!holds(nearest_piece(site, graph_.nodes[node].disk))) return false;
+      // Seen from the node, the boundary comes in to it on site[end % 2].
+      std::uint32_t site = sites[end % 2], steps = run.last - run.first;
+      const auto is_of_edge = [&](std::uint32_t other) {
+        return boundary_.is_same(site, graph_.edges[other / 2].site[1 - other % 2]);
+      };
+      while (ranges::none_of(ends, is_of_edge) && steps-- > 0) {
+        if (site != sites[end % 2] && !holds(site)) return false;
+        site = next_on_loop(site, run);
+      }
     }
+    return true;
+  }
+  /// What follows a site on its loop, if holes are connected there, too.
+  std::uint32_t next_on_loop(std::uint32_t site, const Boundary::SiteRange& run) const {
+    const std::uint32_t next = site == run.last ? run.first : site + 1;
+    return boundary_.elements[next] == Element::bridge ? boundary_.across(next, site) : next;
   }
 
   /// A contact's equation where the residual is small against the radius, without roots.
@@ -344,14 +353,16 @@ class Merger {
     std::sort(nodes_.begin(), nodes_.end());
     nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
     group_.assign(nodes_.size(), none);
-    for (const std::uint32_t node : nodes_) {
-      std::vector<Touch>& contacts = contacts_.emplace_back();
-      all_contacts(node, [&](std::uint32_t site) {
-        add_contact(site, graph_.nodes[node].disk, contacts);
-        return true;
-      });
-      sort_unique(contacts);
-    }
+    for (const std::uint32_t node : nodes_) contacts_.push_back(contacts_of(node));
+  }
+  std::vector<Touch> contacts_of(std::uint32_t node) const {
+    std::vector<Touch> contacts;
+    all_contacts(node, [&](std::uint32_t site) {
+      add_contact(site, graph_.nodes[node].disk, contacts);
+      return true;
+    });
+    sort_unique(contacts);
+    return contacts;
   }
   /// Contacts of several nodes as those of one disk.
   void join(const Disk& disk, std::vector<Touch>& contacts) const {

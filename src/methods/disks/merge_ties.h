@@ -21,7 +21,8 @@ namespace medial::disks {
 /// end does within half, but for what the nodes themselves are off. It is asked apart because a
 /// foot that only passes on has no fourth contact, and because such edges, left alone, run backward
 /// once their ends are rounded. What near edges connect becomes one node if one disk touches all
-/// its sites within half of the tolerance, no site reaches into it, and all edges that leave keep
+/// its sites (those of its edges, and those between one edge and the next, from which no edge
+/// leads) within half of the tolerance, no site reaches into it, and all edges that leave keep
 /// their directions. Where that is not so, the same is tried with edges that are nearer. Half,
 /// because coordinates rounded to doubles move a tie's contacts by at most the square root of 1/2
 /// of a spacing, and the tolerance is at least two spacings.

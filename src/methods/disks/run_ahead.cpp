@@ -66,12 +66,14 @@ void RunAhead::run(const Span& first, const Disk& start, std::size_t most) {
   Disk from = start;
   while (found_.size() < most) {
     EventSearch search(context_, contacts_, statistics_, span, from);
-    Found& found = found_.emplace_back(Found{span, from, search.by_neighbors(), false, 0, {}});
+    Found& found = found_.emplace_back(Found{span, from, search.by_neighbors()});
     const auto event = search.plain(found.event);
     if (!event) return;
     const Certainty certainty(context_.boundary, context_.tolerance, span, from, *event);
-    if (!is_settled(contacts_, from, *event, certainty).value_or(false)) return;
-    found = {span, from, *event, true, certainty.error(), search.asked_disk(*event)};
+    // Of short ways, are_empty() asks for all.
+    if (certainty.is_tie() || is_settled(contacts_, from, *event, certainty) == false) return;
+    found = {
+        span, from, *event, true, certainty.error(), certainty.fourth(), search.asked_disk(*event)};
     const Division parts(span, *event, certainty.error(), true);
     const bool first_open = parts.count > 0 && contacts_.needs_walk(parts.part[0]),
                second_open = parts.count > 1 && contacts_.needs_walk(parts.part[1]);
@@ -82,8 +84,14 @@ void RunAhead::run(const Span& first, const Disk& start, std::size_t most) {
 }
 
 bool RunAhead::are_empty(std::size_t count) const {
-  const Span& last = found_[count - 1].span;
-  if (contacts_.nearest(found_[count - 1].asked, last)) return false;
+  const Found& last = found_[count - 1];
+  if (contacts_.nearest(last.asked, last.span)) return false;
+  const auto is_short = [&](const Found& found) {
+    return contacts_.is_short_way(found.from, found.event.disk);
+  };
+  if (std::any_of(found_.begin(), found_.begin() + static_cast<std::ptrdiff_t>(count), is_short) &&
+      contacts_.may_touch_more(last.span, last.event.disk, last.fourth, 2))
+    return false;
   for (std::size_t i = 0; i + 1 < count; ++i) {
     const Span& span = found_[i].span;
     const Disk& disk = found_[i].asked;
@@ -91,8 +99,18 @@ bool RunAhead::are_empty(std::size_t count) const {
       return first < end &&
              context_.tree.nearest(disk.center, disk.radius - context_.tolerance, first, end - 1);
     };
-    if (reaches_over(span.right + 1, last.right + 1) || reaches_over(last.left, span.left))
+    if (reaches_over(span.right + 1, last.span.right + 1) ||
+        reaches_over(last.span.left, span.left))
       return false;
+    if (!is_short(found_[i])) continue;
+    const auto may_touch = [&](std::uint32_t site) {
+      return site != found_[i].fourth && contacts_.may_touch(site, span, found_[i].from);
+    };
+    if (may_touch(last.fourth)) return false;
+    for (std::uint32_t site = span.right + 1; site <= last.span.right; ++site)
+      if (may_touch(site)) return false;
+    for (std::uint32_t site = last.span.left; site < span.left; ++site)
+      if (may_touch(site)) return false;
   }
   return true;
 }

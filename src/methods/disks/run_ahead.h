@@ -35,6 +35,10 @@ std::optional<bool> is_settled(const Contacts& contacts, const Disk& from, const
 /// one piece between them: that one, ahead. Then D's own spokes lead out of L there; but its feet
 /// are behind.
 ///
+/// The same is true of the shape and its disks grown by some tolerances: what D may touch ahead of
+/// L, L may touch. So of short ways, on which a disk may reach over a site all along by less than
+/// double sees, nothing more is asked for than what the last disk may touch.
+///
 /// What is taken for certain does not depend on this: a walk that gets around is right
 /// (docs/exact.md).
 class RunAhead {
@@ -47,7 +51,8 @@ class RunAhead {
     Event event;  ///< if it is not certain, what the neighbours tell
     bool is_certain = false;
     double error = 0;
-    Disk asked{};  ///< the disk that has to be empty
+    std::uint32_t fourth = 0;  ///< what the event's disk touches beside the span's two
+    Disk asked{};              ///< the disk that has to be empty
   };
 
   /// What ends the edge that leads from a disk into a span, if it was found ahead; until the next

@@ -41,7 +41,9 @@ class Walker {
         own_contacts_(contacts_with(context, chunk.statistics)),
         contacts_(*own_contacts_),
         ahead_(context, contacts_, chunk.statistics),
-        is_exact_(context.exact.always(chunk.component)) {}
+        is_exact_(context.exact.always(chunk.component)) {
+    parts_.reserve(2);
+  }
 
   /// Walks all of a run: from the convex corner between its last and first site, or from a disk
   /// that touches the boundary where the two join smoothly.
@@ -649,10 +651,14 @@ std::vector<std::unique_ptr<Chunk>> walk(const WalkContext& context) {
       sites += runs[next].last - runs[next].first + 1;
       ++next;
     }
-    tasks.run([&context, sharing, &chunks, &runs, begin, end = next] {
+    const auto walk_some = [&context, sharing, &chunks, &runs, begin, end = next] {
       for (std::size_t i = begin; i < end; ++i)
         Walker(context, sharing, *chunks[i]).walk_run(runs[i]);
-    });
+    };
+    if (next < runs.size())
+      tasks.run(walk_some);
+    else
+      walk_some();
   }
   tasks.wait();
   for (const auto& chunk : chunks) join_early(*chunk, early);
