@@ -300,9 +300,8 @@ Command make_axis_command(CLI::App& program) {
   add_potential_options(*command, arguments->methods.of<method::Potential>());
   add_curve_options(*command, *arguments);
   command->add_flag("--exact", arguments->options.exact,
-                    "Keep apart nodes that are closer than the tolerance, and make lee and\n"
-                    "biarc-dc decide exactly, too, which sites a disk touches and which nodes an\n"
-                    "edge joins. --stats counts the decisions.");
+                    "Keep apart nodes that are closer than the tolerance. disks then computes the\n"
+                    "axis, also for lee and biarc-dc. --stats counts the decisions.");
   add_simplify_option(*command, arguments->write);
   add_picture_options(*command, arguments->write);
   add_common_options(*command, arguments->common);

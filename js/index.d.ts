@@ -42,7 +42,7 @@ export interface AxisOptions extends ShapeOptions {
   tolerance?: number;
   /** A convex joint with an arc is a corner if it turns by more than this, in degrees. */
   cornerAngle?: number;
-  /** Keeps apart nodes closer than the tolerance, and makes `lee` and `biarc-dc` decide exactly, too. */
+  /** Keeps apart nodes closer than the tolerance; `disks` then computes the axis for `lee` and `biarc-dc`, too. */
   exact?: boolean;
   /** Computes the axis of the exterior: around the shape and in its holes. */
   exterior?: boolean;
