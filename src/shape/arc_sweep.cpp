@@ -645,8 +645,9 @@ Result<SweptArcs> sweep_arcs(const CleanRings& cleaned, bool node_crossings, dou
       }
       if (error) return std::move(*error);
       Sweep found = std::move(sweeper.found());
-      return SweptArcs{std::move(noded),     std::move(found), noding.tolerance_in_input(),
-                       noding.split_edges(), crossings,        repeated};
+      return SweptArcs{std::move(noded), std::move(found),     noding.tolerance_in_input(),
+                       round > 0,        noding.split_edges(), crossings,
+                       repeated};
     }
     error = noding.apply(noded, sweeper.contacts(), sweeper.merges());
     if (error) return std::move(*error);

@@ -11,8 +11,9 @@ namespace medial {
 
 struct SweptArcs {
   NodedRings noded;
-  Sweep sweep;           ///< without splits: where a vertex touched an edge there are two now
-  double tolerance = 0;  ///< in units of the input
+  Sweep sweep;              ///< without splits: where a vertex touched an edge there are two now
+  double tolerance = 0;     ///< in units of the input
+  bool is_changed = false;  ///< edges were divided or vanished, or vertices moved
   std::uint64_t split_edges = 0;
   std::uint64_t crossings = 0;
   std::uint64_t repeated_edges = 0;  ///< of chains

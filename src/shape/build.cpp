@@ -28,7 +28,11 @@ std::uint64_t count_reversed(const Arrangement& arrangement) {
 }
 
 /// Polygons take the exact path, shapes with arcs or crossings the one with a tolerance.
-Result<Arrangement> arrange(CleanRings cleaned, const ShapeOptions& options, ShapeReport& report) {
+/// `may_merge`: whether arcs of one circle may follow each other now, because rings touch or edges
+/// were divided or vanished.
+Result<Arrangement> arrange(CleanRings cleaned, const ShapeOptions& options, ShapeReport& report,
+                            bool& may_merge) {
+  may_merge = false;
   if (options.node_crossings) cleaned.bulges.resize(cleaned.points.size());
   if (!cleaned.bulges.empty()) {
     Result<SweptArcs> swept = sweep_arcs(cleaned, options.node_crossings);
@@ -36,6 +40,7 @@ Result<Arrangement> arrange(CleanRings cleaned, const ShapeOptions& options, Sha
     report.crossings = swept->crossings;
     report.touching_vertices = swept->sweep.place_count;
     report.split_edges = swept->split_edges;
+    may_merge = swept->is_changed || swept->sweep.place_count > 0;
     return arrange_arcs(std::move(swept).value());
   }
   Result<Sweep> swept = sweep(cleaned);
@@ -46,13 +51,14 @@ Result<Arrangement> arrange(CleanRings cleaned, const ShapeOptions& options, Sha
 }
 
 Result<Shape> build_once(std::span<const Ring> rings, const ShapeOptions& options,
-                         ShapeReport& report) {
+                         ShapeReport& report, bool& may_merge) {
+  may_merge = false;
   Result<CleanRings> cleaned = clean(rings, report);
   if (!cleaned) return std::move(cleaned).error();
   if (!options.node_crossings)
     if (auto shape = simple_polygon(rings, *cleaned, report)) return *std::move(shape);
 
-  Result<Arrangement> arranged = arrange(std::move(cleaned).value(), options, report);
+  Result<Arrangement> arranged = arrange(std::move(cleaned).value(), options, report, may_merge);
   if (!arranged) return std::move(arranged).error();
   Arrangement& arrangement = *arranged;
   report.dropped_rings = apply_winding(rings, arrangement);
@@ -68,24 +74,16 @@ Result<Shape> build_once(std::span<const Ring> rings, const ShapeOptions& option
   return shape;
 }
 
-/// Whether nothing can be dropped from rings.
-bool is_clean(std::span<const Ring> rings) {
-  ShapeReport report;
-  const Result<CleanRings> cleaned = clean(rings, report);
-  return cleaned && cleaned->points.size() == report.input_points;
-}
-
-/// Where rings touch, or an edge between them is no longer than the tolerance, arcs of one circle
-/// may follow each other in a loop: built again, they become one. Errors: no_area, of a loop of
-/// which nothing is left then; crossing, where edges cross by little more than the tolerance, so
-/// that what is built is no shape.
-Result<Shape> with_arcs_merged(Shape shape, bool touches) {
-  for (;;) {
+/// Built again, arcs of one circle that follow each other in a loop become one, which may touch
+/// more: until nothing changes. Errors: no_area, of a loop of which nothing is left then; crossing,
+/// where edges cross by little more than the tolerance, so that what is built is no shape.
+Result<Shape> with_arcs_merged(Shape shape) {
+  constexpr int most_rounds = 16;
+  bool may_merge = true;
+  for (int round = 0; may_merge && round < most_rounds; ++round) {
     const std::vector<Ring> rings = rings_of(shape);
-    if (!touches && is_clean(rings)) return shape;
     ShapeReport report;
-    Result<Shape> again = build_once(rings, {}, report);
-    touches = report.touching_vertices > 0;
+    Result<Shape> again = build_once(rings, {}, report, may_merge);
     const auto source_of = [&shape](std::size_t ring, std::size_t vertex) {
       return shape.sources[shape.loop_begin[ring] + vertex];
     };
@@ -98,12 +96,11 @@ Result<Shape> with_arcs_merged(Shape shape, bool touches) {
       return error_at(ErrorCode::crossing, "edges cross next to this vertex", source,
                       rings[ring].points[vertex]);
     }
-    if (again->points.size() > shape.points.size()) return shape;
-    const bool is_last = again->points.size() == shape.points.size();
+    if (again->points == shape.points && again->bulges == shape.bulges) return shape;
     for (VertexSource& source : again->sources) source = source_of(source.ring, source.vertex);
     shape = *std::move(again);
-    if (is_last) return shape;
   }
+  return shape;
 }
 
 /// Whether rings that are cut into a planar graph may still make a shape.
@@ -192,16 +189,17 @@ Shape without_flat_vertices(std::span<const Ring> rings, Shape shape) {
 }
 
 Result<Shape> build(std::span<const Ring> rings, const ShapeOptions& options, ShapeReport& report) {
-  Result<Shape> shape = build_once(rings, options, report);
-  if (shape && !shape->bulges.empty())
-    shape = with_arcs_merged(std::move(shape).value(), report.touching_vertices > 0);
+  bool may_merge = false;
+  Result<Shape> shape = build_once(rings, options, report, may_merge);
+  if (shape && may_merge && !shape->bulges.empty())
+    shape = with_arcs_merged(std::move(shape).value());
   if (shape && report.crossings > 0) return without_flat_vertices(rings, std::move(shape).value());
   if (shape || !options.node_crossings || !may_be_filled(shape.error())) return shape;
   report = {};
   const Result<FilledRings> filled = fill(rings, report);
   if (!filled) return filled.error();
   ShapeReport of_filled;
-  shape = build_once(filled->rings, options, of_filled);
+  shape = build_once(filled->rings, options, of_filled, may_merge);
   if (!shape) return shape;
   for (VertexSource& source : shape->sources) source = filled->sources[source.ring][source.vertex];
   return without_flat_vertices(rings, std::move(shape).value());

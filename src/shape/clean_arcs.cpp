@@ -26,15 +26,7 @@ class Cleaner {
  public:
   Cleaner(std::vector<RingEdge>& edges, const std::function<QuarterMap()>& map, ShapeReport& report)
       : edges_(edges), map_(map), report_(report) {
-    Box box{edges[0].point, edges[0].point};
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-      const Vec2 middle = middle_of(arc(i));  // arcs may reach further out than their vertices
-      box.add(edges[i].point);
-      if (std::isfinite(middle.x) && std::isfinite(middle.y)) box.add(middle);
-    }
-    rounding_ = spacing_in(box);
-    play_ = std::max(4 * rounding_, tolerance_for(box, 0));
-    middle_ = 0.5 * box.low + 0.5 * box.high;
+    measure();
   }
 
   void run() {
@@ -42,10 +34,23 @@ class Cleaner {
     // Nothing is merged in a ring of two edges: it would vanish.
     if (edges_.size() > 2) drop_collinear();
     split_long_arcs();
+    measure();  // as they are divided now, since that is how they are measured if cleaned again
     merge_cocircular();
   }
 
  private:
+  void measure() {
+    Box box{edges_[0].point, edges_[0].point};
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      const Vec2 middle = middle_of(arc(i));  // arcs may reach further out than their vertices
+      box.add(edges_[i].point);
+      if (std::isfinite(middle.x) && std::isfinite(middle.y)) box.add(middle);
+    }
+    rounding_ = spacing_in(box);
+    play_ = std::max(4 * rounding_, tolerance_for(box, 0));
+    middle_ = 0.5 * box.low + 0.5 * box.high;
+  }
+
   BulgeArc arc(std::size_t i) const {
     return {edges_[i].point, edges_[next(i)].point, edges_[i].bulge};
   }
