@@ -35,6 +35,8 @@ std::vector<Placed> place(const std::vector<std::unique_ptr<Chunk>>& chunks, std
                           std::uint32_t& edges) {
   std::vector<Placed> placed;
   std::vector<std::pair<Chunk*, std::uint32_t>> stack;
+  placed.reserve(chunks.size());
+  stack.reserve(chunks.size());
   for (std::size_t i = chunks.size(); i-- > 0;) stack.emplace_back(chunks[i].get(), none);
   while (!stack.empty()) {
     const auto [chunk, parent] = stack.back();

@@ -640,6 +640,7 @@ std::vector<std::unique_ptr<Chunk>> walk(const WalkContext& context) {
   // Small components share a task.
   std::size_t next = 0;
   const auto& runs = context.boundary.runs;
+  chunks.reserve(runs.size());
   for (std::size_t i = 0; i < runs.size(); ++i) {
     chunks.push_back(std::make_unique<Chunk>());
     chunks.back()->component = static_cast<std::uint32_t>(i);
