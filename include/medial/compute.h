@@ -11,8 +11,8 @@ struct Options {
   double tolerance = 0;
   /// A convex joint with an arc is a corner if it turns by more than this; degrees in [0, 10].
   double corner_angle = 0.01;
-  /// Keeps nodes apart that are closer than the tolerance (docs/exact.md). `disks` then computes the
-  /// axis for `lee` and `biarc-dc`, too. Slower; not for sampled axes.
+  /// Keeps nodes apart that are closer than the tolerance (docs/exact.md); for `lee` and `biarc-dc`
+  /// `disks` then computes the axis. Slower; not for sampled axes.
   bool exact = false;
   /// Number of threads, at most 1024; 0: all of the machine. Does not change the result's bytes.
   int threads = 0;

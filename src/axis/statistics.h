@@ -27,12 +27,9 @@ inline constexpr StatisticsField<std::uint64_t> statistics_counts[] = {
     {"exact_changes", &Statistics::exact_changes},
 };
 inline constexpr StatisticsField<double> statistics_times[] = {
-    {"seconds_sites", &Statistics::seconds_sites},
-    {"seconds_tree", &Statistics::seconds_tree},
-    {"seconds_connect", &Statistics::seconds_connect},
-    {"seconds_walk", &Statistics::seconds_walk},
-    {"seconds_collect", &Statistics::seconds_collect},
-    {"seconds", &Statistics::seconds},
+    {"seconds_sites", &Statistics::seconds_sites},     {"seconds_tree", &Statistics::seconds_tree},
+    {"seconds_connect", &Statistics::seconds_connect}, {"seconds_walk", &Statistics::seconds_walk},
+    {"seconds_collect", &Statistics::seconds_collect}, {"seconds", &Statistics::seconds},
 };
 
 }  // namespace medial
