@@ -27,13 +27,23 @@ constexpr std::size_t largest_turned = 4096;
 constexpr double machine_epsilon = std::numeric_limits<double>::epsilon();
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-/// Longer arcs are bounded piece by piece: the boxes of concentric half circles would lie in each
-/// other, and all of them in the way of every query. Shorter pieces are more, in the way as well.
-constexpr double longest_piece = std::numbers::pi / 4;
+/// The angle of the longest pieces. Longer arcs are bounded piece by piece: the boxes of concentric
+/// half circles would lie in each other, and all of them in the way of every query. Shorter pieces
+/// are more, in the way as well: as 1 / angle, where boxes that lie in each other are as its
+/// square.
+double longest_piece_of(const std::vector<BoundaryEdge>& edges, const Box& box) {
+  constexpr double longest = std::numbers::pi / 4, usual = 200;  // boxes around a place
+  double area = 0;
+  for (const BoundaryEdge& edge : edges)
+    if (4 * std::atan(std::abs(edge.bulge)) > longest)
+      area += 0.5 * std::abs(edge.bulge) * squared_norm(edge.end - edge.start);
+  const double whole = (box.high.x - box.low.x) * (box.high.y - box.low.y);
+  return area > usual * whole ? longest * std::cbrt(usual * whole / area) : longest;
+}
 
-/// Calls `visit` with the edge, cut into pieces of at most longest_piece.
+/// Calls `visit` with the edge, cut into pieces of at most `longest_piece`.
 template <class Visitor>
-void for_each_piece(const BoundaryEdge& edge, const Visitor& visit) {
+void for_each_piece(const BoundaryEdge& edge, double longest_piece, const Visitor& visit) {
   const double angle = 4 * std::atan(edge.bulge);
   const double count = std::ceil(std::abs(angle) / longest_piece);
   if (count <= 1) {
@@ -122,7 +132,7 @@ void DistanceTree::build(std::vector<BoundaryEdge> edges, const Box& box) {
     for (const double c : {box.low.x, box.low.y, box.high.x, box.high.y})
       slack_ = std::max(slack_, 16 * machine_epsilon * std::abs(c));
   if (edges.size() > brute_force) {
-    const std::vector<BoundaryEdge> pieces = fill_runs(std::move(edges));  // frees the edges
+    const std::vector<BoundaryEdge> pieces = fill_runs(std::move(edges), box);  // frees the edges
     build_levels(pieces, diagonal(box));
     return;
   }
@@ -132,7 +142,7 @@ void DistanceTree::build(std::vector<BoundaryEdge> edges, const Box& box) {
 }
 
 /// Makes runs of many edges in spatial order, and returns the pieces that they are bounded by.
-std::vector<BoundaryEdge> DistanceTree::fill_runs(std::vector<BoundaryEdge> edges) {
+std::vector<BoundaryEdge> DistanceTree::fill_runs(std::vector<BoundaryEdge> edges, const Box& box) {
   if (arcs_->empty()) {
     const std::vector<std::uint32_t> order = order_of(edges);
     edges = in_order(edges, order);
@@ -142,8 +152,9 @@ std::vector<BoundaryEdge> DistanceTree::fill_runs(std::vector<BoundaryEdge> edge
   std::vector<BoundaryEdge> pieces;
   std::vector<std::uint32_t> whole;              // the edge of each piece
   pieces.reserve(edges.size() + arcs_->size());  // a quarter of a circle is two
+  const double longest_piece = longest_piece_of(edges, box);
   for (std::uint32_t i = 0; i < edges.size(); ++i) {
-    for_each_piece(edges[i], [&](const BoundaryEdge& piece) {
+    for_each_piece(edges[i], longest_piece, [&](const BoundaryEdge& piece) {
       pieces.push_back(piece);
       whole.push_back(i);
     });

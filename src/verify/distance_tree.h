@@ -103,7 +103,7 @@ class DistanceTree {
     return distance_to_segment(p, {run.start_x[i], run.start_y[i]}, {run.end_x[i], run.end_y[i]});
   }
   void build(std::vector<BoundaryEdge> edges, const Box& box);
-  std::vector<BoundaryEdge> fill_runs(std::vector<BoundaryEdge> edges);
+  std::vector<BoundaryEdge> fill_runs(std::vector<BoundaryEdge> edges, const Box& box);
   void build_levels(const std::vector<BoundaryEdge>& pieces, double size);
 
   /// An arc as often as the tree has pieces of it; the last edge again where fewer are left.
