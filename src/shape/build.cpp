@@ -75,8 +75,9 @@ Result<Shape> build_once(std::span<const Ring> rings, const ShapeOptions& option
 }
 
 /// Built again, arcs of one circle that follow each other in a loop become one, which may touch
-/// more: until nothing changes. Errors: no_area, of a loop of which nothing is left then; crossing,
-/// where edges cross by little more than the tolerance, so that what is built is no shape.
+/// more: until nothing changes but for rounding. Errors: no_area, of a loop of which nothing is
+/// left then; crossing, where edges cross by little more than the tolerance, so that what is built
+/// is no shape.
 Result<Shape> with_arcs_merged(Shape shape) {
   constexpr int most_rounds = 16;
   bool may_merge = true;
@@ -96,7 +97,9 @@ Result<Shape> with_arcs_merged(Shape shape) {
       return error_at(ErrorCode::crossing, "edges cross next to this vertex", source,
                       rings[ring].points[vertex]);
     }
-    if (again->points == shape.points && again->bulges == shape.bulges) return shape;
+    const bool is_last = again->loop_begin == shape.loop_begin;
+    if (is_last && again->points != shape.points) return shape;  // which rounding would move on
+    may_merge = may_merge && !is_last;
     for (VertexSource& source : again->sources) source = source_of(source.ring, source.vertex);
     shape = *std::move(again);
   }
