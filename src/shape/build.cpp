@@ -75,7 +75,7 @@ Result<Shape> build_once(std::span<const Ring> rings, const ShapeOptions& option
 }
 
 /// Built again, arcs of one circle that follow each other in a loop become one, which may touch
-/// more: until nothing changes but for rounding. Errors: no_area, of a loop of which nothing is
+/// more: until nothing changes, up to rounding. Errors: no_area, of a loop of which nothing is
 /// left then; crossing, where edges cross by little more than the tolerance, so that what is built
 /// is no shape.
 Result<Shape> with_arcs_merged(Shape shape) {
