@@ -177,7 +177,7 @@ Status PendingFile::commit_new() {
   fs::create_hard_link(path_, target_, code);
   if (!code) return success();  // the other name goes with the directory
   if (fs::exists(target_, code)) return changed_meanwhile();
-  return commit();  // a file system without links
+  return commit();  // a file system without links: one that comes now is replaced
 }
 
 Error changed_meanwhile() {

@@ -74,10 +74,16 @@ Result<Shape> build_once(std::span<const Ring> rings, const ShapeOptions& option
   return shape;
 }
 
+/// Whether rings that are cut into a planar graph may still make a shape.
+bool may_be_filled(const Error& error) {
+  return error.code != ErrorCode::not_finite && error.code != ErrorCode::too_large &&
+         error.code != ErrorCode::empty && error.code != ErrorCode::out_of_memory;
+}
+
 /// Built again, arcs of one circle that follow each other in a loop become one, which may touch
-/// more: until nothing changes, up to rounding. Errors: no_area, of a loop of which nothing is
-/// left then; crossing, where edges cross by little more than the tolerance, so that what is built
-/// is no shape.
+/// more: until nothing changes, up to rounding, or after so many rounds. Errors: no_area, of a loop
+/// of which nothing is left then; crossing, where edges cross by little more than the tolerance, so
+/// that what is built is no shape; those of build_once().
 Result<Shape> with_arcs_merged(Shape shape) {
   constexpr int most_rounds = 16;
   bool may_merge = true;
@@ -94,8 +100,10 @@ Result<Shape> with_arcs_merged(Shape shape) {
       const VertexSource source = source_of(ring, vertex);
       if (again.error().code == ErrorCode::no_area)
         return error_of_ring(ErrorCode::no_area, "the ring encloses no area", source.ring);
-      return error_at(ErrorCode::crossing, "edges cross next to this vertex", source,
-                      rings[ring].points[vertex]);
+      if (may_be_filled(again.error()))
+        return error_at(ErrorCode::crossing, "edges cross next to this vertex", source,
+                        rings[ring].points[vertex]);
+      return std::move(again).error();
     }
     const bool is_last = again->loop_begin == shape.loop_begin;
     if (is_last && again->points != shape.points) return shape;  // which rounding would move on
@@ -104,12 +112,6 @@ Result<Shape> with_arcs_merged(Shape shape) {
     shape = *std::move(again);
   }
   return shape;
-}
-
-/// Whether rings that are cut into a planar graph may still make a shape.
-bool may_be_filled(const Error& error) {
-  return error.code != ErrorCode::not_finite && error.code != ErrorCode::too_large &&
-         error.code != ErrorCode::empty && error.code != ErrorCode::out_of_memory;
 }
 
 /// Finds the vertices on straight lines that are corners only because noding rounded them, or the

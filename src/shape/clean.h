@@ -63,7 +63,7 @@ struct RingEdge {
 /// The same for the edges of one ring with arcs, each longer than zero. A bulge whose arc is
 /// straight to rounding becomes 0. A full circle becomes two half circles, from one of the vertices
 /// on that are furthest from the middle of their box.
-/// `map` is asked for the best map of all rings where several places for them differ.
+/// `map` is asked for the best map of all rings if a circle may be cut in several places.
 void clean_arcs(std::vector<RingEdge>& edges, const std::function<QuarterMap()>& map,
                 ShapeReport& report);
 

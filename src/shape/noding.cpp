@@ -40,7 +40,7 @@ BulgeArc in_order(const BulgeArc& arc) {
   return lexicographic_less(arc.end, arc.start) ? arc.reversed() : arc;
 }
 
-/// The bulge of a part of an arc, from that end of the arc on which is the part's, if one is.
+/// The bulge of a part of an arc, measured from the end that the two share, if they share one.
 double bulge_of_part(const BulgeArc& arc, Vec2 from, Vec2 to) {
   const bool forward = from == arc.start || (to != arc.end && lexicographic_less(from, to));
   return forward ? partial_bulge(arc, from, to) : 0 - partial_bulge(arc.reversed(), to, from);

@@ -19,15 +19,15 @@ enum class Joint : std::uint8_t {
 
 /// The joint where `before` ends and `after` begins; at least one is an arc.
 ///
-/// Directions count as one below the angle that rounding of the coordinates leaves open: 1e-12, and
-/// four times `tolerance` (that of the coordinates, in their units) against the chords; but no more
-/// than 1e-7, where a disk as large as the shape that touches one edge reaches over the other by
-/// 1e-14 of its size. At a cusp the interior is inside or around it as the edges lie next to each
-/// other where they are further apart, at the end of the shorter one or halfway: as build_shape()
-/// does for their pieces. It is a cusp as well where they cross again before they are `tolerance`
-/// apart: s from it, they are (sine - (sum of the curvatures) s / 2) s apart, which is at most
-/// sine^2 / (2 (sum of the curvatures)), and nothing at the end of the chord 2 sine / (sum of the
-/// curvatures). `corner_angle` in radians.
+/// Directions count as one below the angle that rounding of the coordinates leaves open: 1e-12
+/// (alone at a cusp), and four times `tolerance` (that of the coordinates, in their units) against
+/// the chords; but no more than 1e-7, where a disk as large as the shape that touches one edge
+/// reaches over the other by 1e-14 of its size. At a cusp the interior is inside or around it as
+/// the edges lie next to each other where they are further apart, at the end of the shorter one or
+/// halfway: as build_shape() does for their pieces. It is a cusp as well where they cross again
+/// before they are `tolerance` apart: s from it, they are (sine - (sum of the curvatures) s / 2) s
+/// apart, which is at most sine^2 / (2 (sum of the curvatures)), and nothing at the end of the
+/// chord 2 sine / (sum of the curvatures). `corner_angle` in radians.
 inline Joint joint_of(const BulgeArc& before, const BulgeArc& after, double tolerance,
                       double corner_angle) {
   constexpr double least = 1e-12, most = 1e-7;

@@ -32,13 +32,15 @@ constexpr double endless = std::numeric_limits<double>::infinity();
 /// are more, in the way as well: as 1 / angle, where boxes that lie in each other are as its
 /// square.
 double longest_piece_of(const std::vector<BoundaryEdge>& edges, const Box& box) {
-  constexpr double longest = std::numbers::pi / 4, usual = 200;  // boxes around a place
+  constexpr double longest = std::numbers::pi / 4, shortest = std::numbers::pi / 32;
+  constexpr double usual = 200;  // boxes around a place
   double area = 0;
   for (const BoundaryEdge& edge : edges)
     if (4 * std::atan(std::abs(edge.bulge)) > longest)
       area += 0.5 * std::abs(edge.bulge) * squared_norm(edge.end - edge.start);
   const double whole = (box.high.x - box.low.x) * (box.high.y - box.low.y);
-  return area > usual * whole ? longest * std::cbrt(usual * whole / area) : longest;
+  if (!(area > usual * whole)) return longest;
+  return std::max(shortest, longest * std::cbrt(usual * whole / area));
 }
 
 /// Calls `visit` with the edge, cut into pieces of at most `longest_piece`.

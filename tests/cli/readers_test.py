@@ -10,6 +10,7 @@ import resource
 import socket
 import struct
 import subprocess
+import zipfile
 
 from support import BOW_TIE, FRAME, GEOGRAPHIC, PROGRAM, RECTANGLE, CommandLine
 
@@ -322,9 +323,12 @@ class Servers(CommandLine):
             self.assertIn(url.encode(), self.succeed("info", "link.geojson").stderr)
             layer = "<OGRVRTDataSource><OGRVRTLayer name='a'><SrcDataSource>{}</SrcDataSource></OGRVRTLayer></OGRVRTDataSource>"
             self.write("curl.vrt", layer.format("/vsicurl/" + url + ".geojson"))
+            self.write("stream.vrt", layer.format("/vsigzip//vsicurl_streaming/" + url + ".geojson"))
+            with zipfile.ZipFile(self.path("a.zip"), "w") as archive:
+                archive.write(self.path("curl.vrt"), "curl.vrt")
             self.write("base.vrt", layer.format("PG:host=127.0.0.1 port=" + url[17:-2]))
             self.write("wfs.xml", f"<OGRWFSDataSource><URL>{url}</URL></OGRWFSDataSource>")
-            for name in ("curl.vrt", "base.vrt", "wfs.xml"):
+            for name in ("curl.vrt", "stream.vrt", "/vsizip/a.zip/curl.vrt", "base.vrt", "wfs.xml"):
                 self.refuse("malformed", "info", name)
             server.setblocking(False)
             self.assertRaises(BlockingIOError, server.accept)

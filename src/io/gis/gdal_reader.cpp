@@ -352,7 +352,7 @@ Result<std::unique_ptr<FeatureReader>> open_vectors(const Input& input,
     return Error{ErrorCode::unreadable, fmt::format("cannot open: {}", std::strerror(errno)),
                  in_file(input.path)};
   }
-  if (!is_there) allow_network();
+  if (!is_there) allow_network_for(input.path);
   auto reader = std::make_unique<GdalReader>(input.path, options);
   if (Status opened = reader->open(gdal_name(input.path)); !opened)
     return std::move(opened).error();

@@ -1,16 +1,20 @@
 #include "io/gis/gdal_support.h"
 
 #include <cpl_http.h>
-#include <cpl_vsi.h>
+#include <cpl_string.h>
+#include <cpl_vsi_virtual.h>
 #include <fmt/format.h>
 #include <gdal_priv.h>
 #include <ogr_geometry.h>
 #include <ogr_spatialref.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cstdlib>
 #include <mutex>
 #include <utility>
+#include <vector>
 
 #include "io/reference_system.h"
 #include "io/ring_text.h"
@@ -45,33 +49,56 @@ void add_polygon(const OGRCurvePolygon& polygon, std::vector<Ring>& rings) {
   }
 }
 
-/// Names of files that GDAL may fetch by itself; none is called so.
-constexpr const char* fetched_names = "CPL_VSIL_CURL_ALLOWED_FILENAME";
-
-bool network_is_allowed = false;
-
-/// The drivers of servers, and those that pass names on to other programs.
-std::vector<GDALDriver*>& drivers_of_servers() {
-  static std::vector<GDALDriver*> drivers;
-  return drivers;
+/// What GDAL has for the network, while files may open no connections.
+struct Network {
+  std::mutex mutex;
+  std::atomic<bool> is_allowed = false;
+  std::vector<GDALDriver*> drivers;
+  std::vector<std::pair<std::string, VSIFilesystemHandler*>> handlers;  ///< by their prefixes
+};
+Network& network() {
+  static Network network;
+  return network;
 }
 
+/// The drivers of servers, and those that pass names on to other programs or fetch schemas.
 bool is_of_servers(GDALDriver& driver) {
   const std::string_view name = driver.GetDescription();
   return driver.GetMetadataItem(GDAL_DMD_CONNECTION_PREFIX) != nullptr || name == "OGR_OGDI" ||
          name == "PGeo";
 }
 
+bool is_of_network(std::string_view prefix) {
+  constexpr std::array<std::string_view, 9> begins{"/vsicurl",  "/vsis3",      "/vsigs",
+                                                   "/vsiaz",    "/vsiadls",    "/vsioss",
+                                                   "/vsiswift", "/vsiwebhdfs", "/vsihdfs"};
+  return std::ranges::any_of(begins, [&](auto begin) { return prefix.starts_with(begin); });
+}
+
+void report_refusal(const char* name, CPLErr level) {
+  CPLError(level, CPLE_AppDefined, "%s is not asked: files open no connections", name);
+}
+
 /// Answers requests instead of the network.
 CPLHTTPResult* refuse_request(const char* url, CSLConstList, GDALProgressFunc, void*,
                               CPLHTTPFetchWriteFunc, void*, void*) {
-  if (network_is_allowed) return nullptr;  // GDAL asks the network
+  if (network().is_allowed) return nullptr;  // GDAL asks the network
   auto* result = static_cast<CPLHTTPResult*>(CPLCalloc(1, sizeof(CPLHTTPResult)));
   result->nStatus = 1;
   result->pszErrBuf = CPLStrdup(fmt::format("{} is not asked", url).c_str());
-  CPLError(CE_Warning, CPLE_AppDefined, "%s is not asked: files open no connections", url);
+  report_refusal(url, CE_Warning);
   return result;
 }
+
+/// Files of the network, of which there are none.
+class NoFiles final : public VSIFilesystemHandler {
+ public:
+  VSIVirtualHandle* Open(const char* name, const char*, bool, CSLConstList) override {
+    report_refusal(name, CE_Failure);
+    return nullptr;
+  }
+  int Stat(const char*, VSIStatBufL*, int) override { return -1; }
+};
 
 }  // namespace
 
@@ -80,24 +107,43 @@ void register_gdal() {
   std::call_once(once, [] {
     // Nothing is written beside what is read.
     CPLSetConfigOption("CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");
-    CPLSetConfigOption(fetched_names, "none");
     CPLHTTPSetFetchCallback(refuse_request, nullptr);
     GDALAllRegister();
+    Network& own = network();
+    const std::lock_guard lock(own.mutex);
     GDALDriverManager& manager = *GetGDALDriverManager();
     for (int i = manager.GetDriverCount() - 1; i >= 0; --i)
       if (GDALDriver* driver = manager.GetDriver(i); is_of_servers(*driver)) {
         manager.DeregisterDriver(driver);
-        drivers_of_servers().push_back(driver);
+        own.drivers.push_back(driver);
       }
+    const CPLStringList prefixes(VSIFileManager::GetPrefixes());
+    for (int i = 0; i < prefixes.Count(); ++i) {
+      const std::string prefix = prefixes[i];
+      if (!is_of_network(prefix)) continue;
+      own.handlers.emplace_back(prefix, VSIFileManager::GetHandler(prefix.c_str()));
+      VSIFileManager::InstallHandler(prefix, new NoFiles);
+    }
   });
 }
 
-void allow_network() {
+void allow_network_for(const std::string& name) {
   register_gdal();
-  network_is_allowed = true;
-  CPLSetConfigOption(fetched_names, nullptr);
-  for (GDALDriver* driver : std::exchange(drivers_of_servers(), {}))
+  Network& own = network();
+  const std::lock_guard lock(own.mutex);
+  const auto is_named = [&name](GDALDriver* driver) {
+    const char* prefix = driver->GetMetadataItem(GDAL_DMD_CONNECTION_PREFIX);
+    return STARTS_WITH_CI(name.c_str(), prefix != nullptr ? prefix : "PGEO:");
+  };
+  if (name.find("://") == std::string::npos &&
+      std::ranges::none_of(own.handlers, [&](const auto& h) { return name.find(h.first) == 0; }) &&
+      std::ranges::none_of(own.drivers, is_named))
+    return;
+  own.is_allowed = true;
+  for (GDALDriver* driver : std::exchange(own.drivers, {}))
     GetGDALDriverManager()->RegisterDriver(driver);
+  for (const auto& [prefix, handler] : std::exchange(own.handlers, {}))
+    VSIFileManager::InstallHandler(prefix, handler);
 }
 
 MemoryFile::MemoryFile(std::string& bytes, std::string_view extension)

@@ -13,12 +13,12 @@ class OGRSpatialReference;
 
 namespace medial::io {
 
-/// Registers GDAL's drivers, once. A file that names a server, as a virtual layer or a reference
-/// system may, opens no connection: only what the user names may.
+/// Registers GDAL's drivers, once. From then on, in the whole process, files that name a server, as
+/// virtual layers or reference systems may, make GDAL open no connection.
 void register_gdal();
 
-/// From now on, what is read may open connections: the user has named a server.
-void allow_network();
+/// If the user's name of a source is that of a server, GDAL may open connections from now on.
+void allow_network_for(const std::string& name);
 
 /// Collects what GDAL reports on this thread while the object lives; nothing is printed.
 class GdalMessages {

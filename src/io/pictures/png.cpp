@@ -18,6 +18,10 @@ void put(png_structp png, png_bytep bytes, std::size_t count) {
   if (out->failed()) png_error(png, "no room");
 }
 
+/// libpng would print otherwise.
+[[noreturn]] void fail(png_structp png, png_const_charp) { png_longjmp(png, 1); }
+void be_silent(png_structp, png_const_charp) {}
+
 /// Whether the rows of an image could be written.
 bool put_rows(png_structp png, png_infop info, cairo_surface_t* surface, png_bytep row) {
   // libpng jumps back here from an error: nothing that has to be destroyed is made below.
@@ -46,7 +50,7 @@ bool put_rows(png_structp png, png_infop info, cairo_surface_t* surface, png_byt
 Status write_png(OutputStream& out, cairo_surface_t* surface) {
   cairo_surface_flush(surface);
   std::vector<png_byte> row(3 * static_cast<std::size_t>(cairo_image_surface_get_width(surface)));
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, fail, be_silent);
   png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
   if (png != nullptr) png_set_write_fn(png, &out, put, nullptr);
   const bool done = info != nullptr && put_rows(png, info, surface, row.data());

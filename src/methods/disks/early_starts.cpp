@@ -71,8 +71,8 @@ class Finder {
     return std::nullopt;
   }
 
-  /// The same as grown_at() where that surely touches the next edge: of a star, whose teeth a large
-  /// disk reaches over by the thousand. Nothing else is near then.
+  /// The same as grown_at() where that surely touches the next edge. Nothing else is near then. (In
+  /// a star, a large disk reaches over thousands of teeth.)
   std::pair<Disk, std::uint32_t> grown_to_next(std::uint32_t own) {
     const Vec2 foot = site(own).at(0.5 * site(own).length), normal = site(own).normal();
     for (const std::uint32_t next : {own - 1, own + 1}) {

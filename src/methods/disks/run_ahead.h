@@ -37,7 +37,8 @@ std::optional<bool> is_settled(const Contacts& contacts, const Disk& from, const
 ///
 /// The same is true of the shape and its disks grown by some tolerances: what D may touch ahead of
 /// L, L may touch. So of short ways, on which a disk may reach over a site all along by less than
-/// double sees, nothing more is asked for than what the last disk may touch.
+/// double sees, two things are asked: what the last disk may touch, twice as far, and whether a
+/// disk may touch what its feet pass after it.
 ///
 /// What is taken for certain does not depend on this: a walk that gets around is right
 /// (docs/exact.md).

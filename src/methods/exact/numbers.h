@@ -1,7 +1,6 @@
 #pragma once
 
-// The numbers of exact decisions: Bounded<Twofold>, Bounded<Precise> and rational
-// ones.
+// The numbers of exact decisions: Bounded<Twofold>, Bounded<Precise> and rational ones.
 
 #ifdef MEDIAL_WITHOUT_GMP
 #include <boost/multiprecision/cpp_bin_float.hpp>
