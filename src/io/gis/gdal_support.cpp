@@ -57,8 +57,8 @@ struct Network {
   std::vector<std::pair<std::string, VSIFilesystemHandler*>> handlers;  ///< by their prefixes
 };
 Network& network() {
-  static Network network;
-  return network;
+  static auto* const network = new Network;  // never destroyed, like GDAL's own drivers
+  return *network;
 }
 
 /// The drivers of servers, and those that pass names on to other programs or fetch schemas.
