@@ -217,11 +217,9 @@ Status write_once(PartsOfAxes& parts, Target& to, const Format& format, const Gr
 }
 
 /// Where what waits to be written has room.
-std::string folder_of(const Destination& target) {
-  namespace fs = std::filesystem;
-  std::error_code ignored;
-  if (target.text != nullptr) return fs::temp_directory_path(ignored).string();
-  return fs::weakly_canonical(target.path).parent_path().string();
+Result<std::string> folder_of(const Destination& target) {
+  if (target.text != nullptr) return temporary_folder();
+  return std::filesystem::weakly_canonical(target.path).parent_path().string();
 }
 
 /// Whether a format is written while axes grow. What has gone to a pipe cannot be taken back where
@@ -267,7 +265,9 @@ Result<std::optional<AxesReport>> write_in_parts(const Destination& target,
   NoAxes none;
   const auto write_file = [&]() -> Status {
     if (silent) return parts.write_all(none);
-    const GrowingFrame frame{shapes, options, folder_of(target)};
+    Result<std::string> folder = folder_of(target);
+    if (!folder) return std::move(folder).error();
+    const GrowingFrame frame{shapes, options, *std::move(folder)};
     return write_target(
         target, format,
         {axes, "json", "medial", shapes.crs_wkt, shapes.unit, write.overwrite, write.layer},

@@ -180,6 +180,16 @@ Status PendingFile::commit_new() {
   return commit();  // a file system without links: one that comes now is replaced
 }
 
+Result<std::string> temporary_folder() {
+  std::error_code code;
+  const fs::path folder = fs::temp_directory_path(code);
+  if (!code) return folder.string();
+  return Error{
+      ErrorCode::unwritable,
+      fmt::format("there is no folder for temporary files ({}); set TMPDIR to one", code.message()),
+      {}};
+}
+
 Error changed_meanwhile() {
   return Error{ErrorCode::unwritable,
                "another program has changed the file meanwhile, so nothing was added; run this "

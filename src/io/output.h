@@ -31,6 +31,9 @@ class Uninterrupted {
   sigset_t before_{};
 };
 
+/// Where temporary files go. Errors: unwritable.
+Result<std::string> temporary_folder();
+
 /// Of layers for a file that another program has made or changed while they grew.
 Error changed_meanwhile();
 

@@ -388,9 +388,9 @@ Status copy_to(OutputStream& out, const std::string& path) {
 }
 
 Result<PendingFile> temporary_file(const Target& target) {
-  std::error_code ignored;
-  const auto folder = std::filesystem::temp_directory_path(ignored);
-  return PendingFile::create((folder / (target.name + "." + target.format)).string());
+  Result<std::string> folder = temporary_folder();
+  if (!folder) return std::move(folder).error();
+  return PendingFile::create(fmt::format("{}/{}.{}", *folder, target.name, target.format));
 }
 
 /// Whether the format can hold the content.
