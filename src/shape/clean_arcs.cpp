@@ -230,8 +230,8 @@ class Cleaner {
     }
   }
 
-  /// Two half circles, and what says where their common diameter lies: all but the last are the
-  /// same in every image.
+  /// Two half circles, and where their common diameter lies. Its extents are the same in every
+  /// image.
   struct Halves {
     std::vector<RingEdge> edges;
     double longer = 0, shorter = 0;  ///< the diameter's extents in x and y

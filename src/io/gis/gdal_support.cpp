@@ -49,7 +49,7 @@ void add_polygon(const OGRCurvePolygon& polygon, std::vector<Ring>& rings) {
   }
 }
 
-/// What GDAL has for the network, while files may open no connections.
+/// GDAL's access to the network, taken from it until the user names a server.
 struct Network {
   std::mutex mutex;
   std::atomic<bool> is_allowed = false;
@@ -76,7 +76,7 @@ bool is_of_network(std::string_view prefix) {
 }
 
 void report_refusal(const char* name, CPLErr level) {
-  CPLError(level, CPLE_AppDefined, "%s is not asked: files open no connections", name);
+  CPLError(level, CPLE_AppDefined, "%s was not fetched: files open no connections", name);
 }
 
 /// Answers requests instead of the network.
@@ -85,12 +85,12 @@ CPLHTTPResult* refuse_request(const char* url, CSLConstList, GDALProgressFunc, v
   if (network().is_allowed) return nullptr;  // GDAL asks the network
   auto* result = static_cast<CPLHTTPResult*>(CPLCalloc(1, sizeof(CPLHTTPResult)));
   result->nStatus = 1;
-  result->pszErrBuf = CPLStrdup(fmt::format("{} is not asked", url).c_str());
+  result->pszErrBuf = CPLStrdup(fmt::format("{} was not fetched", url).c_str());
   report_refusal(url, CE_Warning);
   return result;
 }
 
-/// Files of the network, of which there are none.
+/// A file system without files, in place of those of the network.
 class NoFiles final : public VSIFilesystemHandler {
  public:
   VSIVirtualHandle* Open(const char* name, const char*, bool, CSLConstList) override {

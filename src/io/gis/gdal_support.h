@@ -17,7 +17,7 @@ namespace medial::io {
 /// virtual layers or reference systems may, make GDAL open no connection.
 void register_gdal();
 
-/// If the user's name of a source is that of a server, GDAL may open connections from now on.
+/// `name`: of a source, from the user. If it names a server, GDAL may open connections from now on.
 void allow_network_for(const std::string& name);
 
 /// Collects what GDAL reports on this thread while the object lives; nothing is printed.
