@@ -28,8 +28,8 @@ Status project_to_local(Document<Feature>& document);
 void note_stretch(DocumentInfo& document, const Extremes& extremes);
 
 /// The reference system of an output: that of the document, or what its coordinates were before
-/// where that is a local projection of project_to_local(). Errors: unsupported (a local projection
-/// that cannot be undone).
+/// where that is a local projection of project_to_local(). Errors: malformed (not understood),
+/// unsupported (a local projection that cannot be undone).
 Result<OutputCrs> output_crs_of(const std::string& crs_wkt, Unit unit);
 
 /// The name of a reference system as a uniform resource name of the OGC; empty where it has no

@@ -269,7 +269,16 @@ class Inputs(CommandLine):
         done = self.succeed("axis", "metres.geojson", "--crs", "EPSG:32632", "-o", "a.json")
         self.assertNotIn(b"not degrees", done.stderr)
         self.assertIn(b"UTM zone 32N", self.read("a.json"))
-        self.refuse("invalid_option", "axis", "metres.geojson", "--crs", "EPSG:99999999")
+        for name in ("EPSG:99999999", "EPSG:32632x", "EPSG:5773", "EPSG:4978"):  # the last: heights, geocentric
+            self.refuse("invalid_option", "axis", "metres.geojson", "--crs", name)
+
+    def test_a_code_in_a_file_of_medial_is_a_reference_system(self):
+        axis = json.loads(self.succeed("axis", self.write("a.wkt", "POLYGON((0 0,4 0,4 2,0 2,0 0))"), "-o", "-").stdout)
+        self.write("coded.json", json.dumps({**axis, "crs": "EPSG:25832"}))
+        self.succeed("prune", "coded.json", "-o", "a.geojson")
+        self.assertIn(b"EPSG::25832", self.read("a.geojson"))
+        self.write("bad.json", json.dumps({**axis, "crs": "nowhere"}))
+        self.assertIn("nowhere", self.refuse("malformed", "prune", "bad.json", "-o", "b.geojson"))
 
     def test_what_is_no_shape_is_named(self):
         self.assertIn("directory", self.refuse("unsupported", "axis", "."))

@@ -282,13 +282,28 @@ void set_crs(const OGRSpatialReference& reference, Document<Feature>& dataset) {
   CPLFree(text);
 }
 
+bool read_crs(const std::string& name, OGRSpatialReference& reference) {
+  // GDAL ignores what follows the digits of a code.
+  if (STARTS_WITH_CI(name.c_str(), "EPSG:") &&
+      name.find_first_not_of("0123456789+", 5) != std::string::npos)
+    return false;
+  return reference.SetFromUserInput(
+             name.c_str(), OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) ==
+         OGRERR_NONE;
+}
+
 Status describe_crs(const std::string& name, Document<Feature>& dataset) {
   const GdalMessages messages;
   OGRSpatialReference reference;
-  if (reference.SetFromUserInput(
-          name.c_str(), OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) != OGRERR_NONE)
+  if (!read_crs(name, reference))
     return Error{ErrorCode::invalid_option,
                  fmt::format("'{}' does not name a reference system; use EPSG:n or WKT", name),
+                 {}};
+  if (!reference.IsProjected() && !reference.IsGeographic() && !reference.IsLocal())
+    return Error{ErrorCode::invalid_option,
+                 fmt::format("'{}' has neither plane coordinates nor longitudes and latitudes; "
+                             "name the reference system of x and y",
+                             name),
                  {}};
   set_crs(reference, dataset);
   return success();
@@ -300,13 +315,14 @@ void describe_crs(Document<Feature>& dataset) {
   const GdalMessages messages;
   OGRSpatialReference reference;
   const bool coded = name.starts_with("EPSG:");
-  if (coded && reference.importFromEPSG(std::atoi(name.c_str() + 5)) == OGRERR_NONE) {
-    set_crs(reference, dataset);
+  if (read_crs(name, reference)) {
+    if (coded)
+      set_crs(reference, dataset);
+    else
+      describe_units(reference, dataset);
   } else if (coded) {
     dataset.notes.push_back(fmt::format("the reference system {} is not known", name));
     dataset.crs_wkt.clear();
-  } else if (reference.importFromWkt(name.c_str()) == OGRERR_NONE) {
-    describe_units(reference, dataset);
   } else {
     dataset.notes.push_back("the reference system is not understood");
   }

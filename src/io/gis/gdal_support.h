@@ -65,6 +65,9 @@ void add_rings(const OGRGeometry& geometry, std::vector<Ring>& rings, GeometryCo
 /// Appends all of it for a planar graph: also lines, open or closed, and points, as chains.
 void add_loose(const OGRGeometry& geometry, Feature& feature, GeometryCounts& counts);
 
+/// A reference system by its code, as "EPSG:n", or as text; false if it is not known.
+bool read_crs(const std::string& name, OGRSpatialReference& reference);
+
 /// Sets crs_wkt, geographic and the unit; a reference system that is not understood becomes a note.
 void set_crs(const OGRSpatialReference& reference, Document<Feature>& dataset);
 

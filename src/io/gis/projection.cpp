@@ -404,7 +404,21 @@ Status BackToInput::transform(std::vector<Vec2>& points) const {
 }
 
 Result<OutputCrs> output_crs_of(const std::string& crs_wkt, Unit unit) {
-  if (!is_local_projection(crs_wkt)) return OutputCrs{crs_wkt, unit, nullptr};
+  if (!is_local_projection(crs_wkt)) {
+    const GdalMessages messages;
+    OGRSpatialReference reference;
+    if (reference.importFromWkt(crs_wkt.c_str()) == OGRERR_NONE)
+      return OutputCrs{crs_wkt, unit, nullptr};
+    if (!read_crs(crs_wkt, reference))
+      return Error{ErrorCode::malformed,
+                   fmt::format("the input's reference system, '{}', is not understood; use EPSG:n "
+                               "or WKT",
+                               crs_wkt.substr(0, 40)),
+                   {}};
+    Document<Feature> named;
+    set_crs(reference, named);
+    return OutputCrs{std::move(named.crs_wkt), unit, nullptr};
+  }
   Result<BackToInput> back = BackToInput::make(crs_wkt);
   if (!back) return std::move(back).error();
   const bool within_half_turn = back->within_half_turn();
