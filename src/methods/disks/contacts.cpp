@@ -192,9 +192,7 @@ const std::vector<Contacts::Neighbor>& Contacts::around(const Span& span, const 
   ++statistics_.queries;
   around_run_ = &run;
   around_ = disk;
-  // So much further that is_alone() mostly finds there what it asks for.
-  constexpr double further = 1 << 16;
-  around_reach_ = std::min(further * clearance(), std::max(clearance(), short_way * disk.radius));
+  around_reach_ = std::min(further_ * clearance(), std::max(clearance(), short_way * disk.radius));
   context_.tree.within(disk.center, disk.radius + around_reach_, run.first, run.last, within_);
   near_.clear();
   for (const std::uint32_t i : within_) {
@@ -205,6 +203,8 @@ const std::vector<Contacts::Neighbor>& Contacts::around(const Span& span, const 
     near_.push_back({i, distance - disk.radius, std::max(beyond[0], beyond[1]),
                      site::foot(site(i), disk.center)});
   }
+  constexpr std::size_t many = 32;
+  if (within_.size() > many + 2 * near_.size()) further_ = std::max(1.0, further_ / 2);
   return near_;
 }
 
