@@ -197,8 +197,8 @@ Result<CarvedItem> carve_one(Shape shape, const CarveArguments& arguments,
   return item;
 }
 
-/// Notes on what the tools do not reach.
-void note_uncut(const std::vector<CarvedItem>& items, const CarveArguments& arguments) {
+/// Notes on what the tools do not reach. Errors: empty (the tool fits nowhere).
+Status check_uncut(const std::vector<CarvedItem>& items, const CarveArguments& arguments) {
   const std::string& input = arguments.input.path;
   const CarveOptions& tool = arguments.carve;
   std::uint64_t parts = 0, narrow = 0, paths = 0, clearing = 0;
@@ -206,16 +206,19 @@ void note_uncut(const std::vector<CarvedItem>& items, const CarveArguments& argu
     parts += item.parts, narrow += item.narrow;
     paths += item.carving.paths.size(), clearing += item.clearing.paths.size();
   }
+  const double margin = arguments.options.margin, diameter = tool.angle == 0 ? tool.tool : tool.tip;
+  const bool is_beside = arguments.options.exterior && margin > 0 && margin < diameter;
   if (paths == 0)
-    say("medial: {}: note: nothing is cut: the tool fits nowhere in the shape; use a smaller {}, "
-        "or "
-        "another --units or --scale\n",
-        input, tool.angle == 0 ? "--tool" : "--tip");
-  else if (narrow > 0)
+    return error_at(ErrorCode::empty, input,
+                    fmt::format("nothing is cut: the tool fits nowhere in the shape; use a smaller "
+                                "{}, {}or another --units or --scale",
+                                tool.angle == 0 ? "--tool" : "--tip",
+                                is_beside ? "a larger --margin, " : ""));
+  if (arguments.common.quiet) return success();
+  if (narrow > 0)
     say("medial: {}: note: {} of {} parts {} narrower than the tool and not cut\n", input, narrow,
         parts, narrow == 1 ? "is" : "are");
-  const double margin = arguments.options.margin, diameter = tool.angle == 0 ? tool.tool : tool.tip;
-  if (arguments.options.exterior && margin > 0 && margin < diameter)
+  if (is_beside)
     say("medial: {}: note: --margin is narrower than the tool, which does not fit between the "
         "shape and the rectangle around it\n",
         input);
@@ -226,6 +229,7 @@ void note_uncut(const std::vector<CarvedItem>& items, const CarveArguments& argu
   if (arguments.clear_tool > 0 && clearing == 0)
     say("medial: {}: note: the mill of --clear-tool fits nowhere: the V clears everything\n",
         input);
+  return success();
 }
 
 Result<int> finish_carve(const Document<io::CarveItem>& file, const CarveArguments& arguments,
@@ -370,7 +374,7 @@ Result<int> run_carve(const CarveArguments& given) {
                          engine_options(common, threads, shapes->file.corner_angle), file.unit);
       });
   if (!items) return in_feature_of(shapes->file, std::move(items).error());
-  if (!common.quiet) note_uncut(*items, arguments);
+  if (Status cut = check_uncut(*items, arguments); !cut) return std::move(cut).error();
   std::ranges::move(*items, std::back_inserter(file.items));
   io::place(file, zero);
   shapes->phases.end("carve");

@@ -65,6 +65,10 @@ class Units(CommandLine):
         if self.supported("s.gpkg"):
             self.succeed("axis", "s.wkt", "--units", "in", "-o", "s.gpkg")
             self.assertIn(b'UNIT["in",0.0254]', self.read("s.gpkg"))
+            # Without a unit nor a reference system, no degrees either.
+            self.succeed("rebuild", "s.wkt", "-o", "none.gpkg")
+            read = self.succeed("info", "none.gpkg", "--json")
+            self.assertEqual((json.loads(read.stdout)["unit"], read.stderr), ("", b""))
 
     def test_svg_and_dxf_round_trip(self):
         self.write("s.wkt", "POLYGON ((0 0, 10 0, 10 8, 0 8, 0 0))")

@@ -94,7 +94,7 @@ class Filter {
         variable_ = *value;
       } else if (*code == 70 && section_ == "HEADER" && variable_ == "$INSUNITS") {
         result_.units = whole_number<int>(*value).value_or(0);
-      } else if (*code == 2 && name_ == "SECTION") {
+      } else if (*code == 2 && name_ == "SECTION" && section_.empty()) {
         section_ = *value;
         if (lists(sections, section_)) put(0, "SECTION");
       }

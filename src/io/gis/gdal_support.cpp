@@ -273,6 +273,7 @@ void describe_units(const OGRSpatialReference& reference, Document<Feature>& dat
 }  // namespace
 
 void set_crs(const OGRSpatialReference& reference, Document<Feature>& dataset) {
+  if (const char* name = reference.GetName(); name != nullptr && EQUAL(name, no_reference)) return;
   char* text = nullptr;
   const char* const options[] = {"FORMAT=WKT2_2019", "MULTILINE=NO", nullptr};
   if (reference.exportToWkt(&text, options) == OGRERR_NONE && text != nullptr) {

@@ -68,6 +68,9 @@ void add_loose(const OGRGeometry& geometry, Feature& feature, GeometryCounts& co
 /// A reference system by its code, as "EPSG:n", or as text; false if it is not known.
 bool read_crs(const std::string& name, OGRSpatialReference& reference);
 
+/// The name of no reference system in a GeoPackage, which otherwise holds longitudes and latitudes.
+inline constexpr const char* no_reference = "Undefined Cartesian SRS";
+
 /// Sets crs_wkt, geographic and the unit; a reference system that is not understood becomes a note.
 void set_crs(const OGRSpatialReference& reference, Document<Feature>& dataset);
 

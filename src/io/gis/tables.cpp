@@ -208,14 +208,19 @@ Status make_room(GDALDataset& dataset, const Target& target, const TableSource& 
 }
 
 /// Null where there is none.
-std::unique_ptr<OGRSpatialReference> reference_of(const OutputCrs& crs) {
+std::unique_ptr<OGRSpatialReference> reference_of(const OutputCrs& crs, bool is_geopackage) {
   auto reference = std::make_unique<OGRSpatialReference>();
   if (!crs.wkt.empty()) {
     if (reference->importFromWkt(crs.wkt.c_str()) != OGRERR_NONE) return nullptr;
     reference->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     return reference;
   }
-  if (!(millimetres(crs.unit) > 0)) return nullptr;
+  if (!(millimetres(crs.unit) > 0)) {
+    // A GeoPackage without this name for "none" is taken to hold longitudes and latitudes.
+    if (!is_geopackage || crs.unit != Unit::unknown) return nullptr;
+    reference->SetLocalCS(no_reference);
+    return reference;
+  }
   reference->SetLocalCS("plane");
   reference->SetLinearUnits(name_of(crs.unit), 1e-3 * millimetres(crs.unit));
   return reference;
@@ -233,7 +238,7 @@ Status create_layers(GDALDataset& dataset, const Target& target, const TableSour
                                : target.format == "shp" ? letters.data()
                                                         : nullptr,
                                nullptr};
-  const auto reference = reference_of(target.crs);
+  const auto reference = reference_of(target.crs, target.format == "gpkg");
   for (const Table& table : source.tables) {
     const std::string name = layer_name(target, table, &table == source.tables.data());
     OGRLayer* layer =
