@@ -85,7 +85,8 @@ std::string to_string(const Error& error) {
   append(where, "vertex", place.vertex);
   append(where, "face", place.face);
   if (place.point) {
-    if (!where.empty()) where += ' ';
+    // Of edges that cross, it is where they do.
+    if (!where.empty()) where += error.code == ErrorCode::crossing ? ", crossing " : " ";
     where += "at (" + shortest_text(place.point->x) + ", " + shortest_text(place.point->y);
     if (place.z) where += ", " + shortest_text(*place.z);
     where += ")";

@@ -65,7 +65,7 @@ class Voronoi(CommandLine):
             area += sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(ring, ring[1:])) / 2
         self.assertAlmostEqual(area, 100, delta=0.1)
         crossing = b"LINESTRING(0 0,2 2);LINESTRING(0 2,2 0)"
-        self.assertIn("feature 0, chain 0, vertex 0 at (1, 1): the edge that starts at this vertex crosses the edge that "
+        self.assertIn("feature 0, chain 0, vertex 0, crossing at (1, 1): the edge that starts at this vertex crosses the edge that "
                       "starts at vertex 0 of chain 0 of feature 1; --repair splits lines where they cross",
                       self.refuse("crossing", "voronoi", "-", given=crossing))
         report = json.loads(self.succeed("voronoi", "-", "--repair", "--json", given=crossing).stdout)
