@@ -246,7 +246,7 @@ Json json_of(const std::vector<AxisPath>& lines, std::uint64_t feature,
 
 Result<int> finish_lines(const Paths& lines, const LineSums& sums, const LoadedAxes& axes,
                          const CentrelineArguments& arguments) {
-  Json object = {{"input", arguments.input.path}};
+  Json object = {{"input", arguments.input.path}, {"unit", name_of(axes.file.unit)}};
   if (!arguments.output.empty()) object["output"] = arguments.output;
   object["features"] = Json::array();
   for (std::size_t i = 0; i < lines.size(); ++i)
@@ -368,6 +368,7 @@ Result<int> run_collapse(LoadedAxes axes, const CentrelineArguments& arguments) 
                   counted(lines, "line"), sum_length);
   return finish(arguments,
                 {{"input", arguments.input.path},
+                 {"unit", name_of(axes.file.unit)},
                  {"features", features},
                  {"polygons", polygons},
                  {"area", sum_area},

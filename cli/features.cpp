@@ -62,6 +62,7 @@ Result<int> finish_features(const LoadedAxes& axes, std::span<const AxisFeatures
   if (!is_talkative(arguments)) return exit_success;
   const FeatureSummary sum = sum_of(features);
   Json object = {{"input", arguments.input.path},
+                 {"unit", name_of(axes.file.unit)},
                  {"features", features.size()},
                  {"ends", sum.ends},
                  {"branchings", sum.branchings},

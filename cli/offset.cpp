@@ -54,8 +54,10 @@ Result<Offsets> offset_one(const Shape& shape, const OffsetArguments& arguments,
 struct OffsetSums {
   std::uint64_t features = 0, regions = 0, rings = 0, edges = 0;
   double length = 0, seconds_axis = 0, seconds_curves = 0;
+  Unit unit = Unit::unknown;
 
   void add(const Document<io::OffsetItem>& file) {
+    unit = file.unit;
     features += file.items.size();
     for (const io::OffsetItem& item : file.items) {
       seconds_axis += item.offsets.seconds_axis;
@@ -82,6 +84,7 @@ Result<int> finish_offsets(const OffsetSums& sums, const OffsetArguments& argume
                         {"write", phases.seconds("write")}};
   return finish(arguments,
                 {{"input", input},
+                 {"unit", name_of(sums.unit)},
                  {"features", sums.features},
                  {"regions", sums.regions},
                  {"rings", sums.rings},

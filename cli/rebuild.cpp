@@ -231,7 +231,7 @@ Result<int> run(const RebuildArguments& arguments, bool smooths) {
                                          : load_axes(input, common, arguments.prune.specks);
   if (!axes) return std::move(axes).error();
   Document<AxisItem>& file = axes->file;
-  Json object = {{"input", input.path}};
+  Json object = {{"input", input.path}, {"unit", name_of(file.unit)}};
   if (!arguments.output.empty()) object["output"] = arguments.output;
   if (smooths) {
     if (!arguments.options.exterior)

@@ -103,6 +103,7 @@ Result<int> run_tiles(const TilesArguments& arguments) {
   auto [list, text] = report_of(levels);
   Json object = to_json(summarize(axes.file));
   object["input"] = arguments.input.path;
+  object["unit"] = name_of(axes.file.unit);
   object["levels"] = std::move(list);
   const bool silent = common.quiet || !arguments.output.empty();
   return finish(common, std::move(object), axes.phases, silent ? std::string() : text);

@@ -96,6 +96,7 @@ Result<int> finish_voronoi(const Diagrams& diagrams, const VoronoiArguments& arg
   return finish(
       arguments,
       {{"input", input},
+       {"unit", name_of(file.unit)},
        {"features", file.items.size()},
        {"segments", segments},
        {lee ? "reflex_vertices" : "points", vertices},

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/arc.h"
@@ -248,6 +249,17 @@ std::vector<double> interesting(const MedialAxis& axis, double size, test::Rando
   return out;
 }
 
+/// The least distance between neighbours on any of the rings.
+double shortest_step(const Offsets& offsets) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const OffsetRegion& region : offsets.regions)
+    for (const Ring& ring : region.rings)
+      for (std::size_t i = 0; i < ring.points.size(); ++i)
+        shortest = std::min(
+            shortest, distance(ring.points[i], ring.points[(i + 1) % ring.points.size()]));
+  return shortest;
+}
+
 TEST(Offset, EveryPointHasItsDistance) {
   std::size_t points = 0, regions = 0;
   for (std::uint64_t seed = 0; seed < offset_count; ++seed) {
@@ -264,6 +276,7 @@ TEST(Offset, EveryPointHasItsDistance) {
     const test::OffsetCheck check = test::check_offsets(shape, *offsets);
     EXPECT_LE(check.largest_error, 1e-9 * size) << check.worst.x << " " << check.worst.y;
     EXPECT_EQ(check.fault, "");
+    EXPECT_GT(shortest_step(*offsets), 0.5 * axis->tolerance);  // no steps of rounding
     points += check.points;
     regions += offsets->regions.size();
     if (HasFailure()) return;

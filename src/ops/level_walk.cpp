@@ -124,9 +124,9 @@ class LevelWalk::RingBuilder {
     first_ = middle;
     add(point, std::tan(angle / 8));
   }
-  /// The piece from first_ to `to`; the ring holds its start.
+  /// The piece from first_ to `to`, unless it is but a step of rounding; the ring holds its start.
   void add(Vec2 to, double bulge) {
-    if (first_ == to) return;
+    if (!(distance(first_, to) > axis_.tolerance)) return;
     ring_.points.push_back(first_);
     ring_.bulges.push_back(bulge);
   }
