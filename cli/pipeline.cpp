@@ -166,16 +166,17 @@ bool has_effect(const UnitOptions& units) {
 /// Options of images have no effect on other files.
 Status check_image_options(const InputOptions& input) {
   const io::ImageOptions& image = input.source.read.image;
-  if (!image.threshold && !image.invert && !image.labels) return success();
+  if (!image.threshold && !image.invert && !image.labels && !input.whole_smooth) return success();
   if (image.labels && (image.threshold || image.invert))
     return invalid_option(
         "--labels uses each value except 0: --threshold and --invert have no effect");
   std::error_code ignored;
   const bool is_there = input.path != "-" && std::filesystem::exists(input.path, ignored);
-  const bool other = is_there && !io::is_image(input.path);
-  return other ? invalid_option("--threshold, --invert and --labels are for images, which " +
-                                input.path + " is not")
-               : success();
+  if (!is_there || io::is_image(input.path)) return success();
+  if (input.whole_smooth && io::is_native(input.path)) return success();  // may be of an image
+  return invalid_option(
+      "--threshold, --invert, --labels and --smooth-contour are for images, which " + input.path +
+      " is not");
 }
 
 /// medial's own format has no layers and no rings to repair, and other files than images no pixels.

@@ -173,6 +173,11 @@ class Axis(CommandLine):
         self.succeed("axis", "a.wkt", "-o", "b.dxf", "--radius-as-z")
         self.assertNotIn("LWPOLYLINE", self.read("b.dxf").decode())
 
+    def test_options_that_would_have_no_effect(self):
+        self.write("a.wkt", RECTANGLE)
+        self.refuse("invalid_option", "axis", "a.wkt", "-o", "a.json", "--radius-as-z")
+        self.refuse("invalid_option", "axis", "a.wkt", "--smooth-contour")
+
     def test_touching_rings(self):
         self.write("touch.wkt",
                    "POLYGON ((0 0, 8 0, 8 8, 0 8, 0 0), (0 4, 2 3, 2 5, 0 4))\n"
