@@ -114,9 +114,9 @@ Result<int> run_axis(const AxisArguments& arguments) {
   if (!writable) return std::move(writable).error();
   if (Status possible = arguments.mask ? check_mask(arguments) : success(); !possible)
     return std::move(possible).error();
-  if (arguments.write.radius_as_z &&
-      !has_extension(arguments.format.empty() ? arguments.output : "." + arguments.format, ".dxf"))
-    return invalid_option("--radius-as-z is for .dxf; other formats have a column or a number for r");
+  if (arguments.write.radius_as_z && !writes_one_of(arguments, ".dxf"))
+    return invalid_option(
+        "--radius-as-z is for .dxf; other formats have a column or a number for r");
   Options options = arguments.options;
   options.method = arguments.methods.method();
   if (Status suited = check_method_options(*arguments.command, name_of(options.method)); !suited)

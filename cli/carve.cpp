@@ -209,11 +209,11 @@ Status check_uncut(const std::vector<CarvedItem>& items, const CarveArguments& a
   const double margin = arguments.options.margin, diameter = tool.angle == 0 ? tool.tool : tool.tip;
   const bool is_beside = arguments.options.exterior && margin > 0 && margin < diameter;
   if (paths == 0)
-    return error_at(ErrorCode::empty, input,
-                    fmt::format("nothing is cut: the tool fits nowhere in the shape; use a smaller "
-                                "{}, {}or another --units or --scale",
-                                tool.angle == 0 ? "--tool" : "--tip",
-                                is_beside ? "a larger --margin, " : ""));
+    return error_at(
+        ErrorCode::empty, input,
+        fmt::format("nothing is cut: the tool fits nowhere in the shape; use a smaller "
+                    "{}, {}or another --units or --scale",
+                    tool.angle == 0 ? "--tool" : "--tip", is_beside ? "a larger --margin, " : ""));
   if (arguments.common.quiet) return success();
   if (narrow > 0)
     say("medial: {}: note: {} of {} parts {} narrower than the tool and not cut\n", input, narrow,

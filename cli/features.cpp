@@ -61,14 +61,10 @@ Result<int> finish_features(const LoadedAxes& axes, std::span<const AxisFeatures
                             const FeatureArguments& arguments) {
   if (!is_talkative(arguments)) return exit_success;
   const FeatureSummary sum = sum_of(features);
-  Json object = {{"input", arguments.input.path},
-                 {"unit", name_of(axes.file.unit)},
-                 {"features", features.size()},
-                 {"ends", sum.ends},
-                 {"branchings", sum.branchings},
-                 {"branches", sum.branches},
-                 {"closed_branches", sum.closed},
-                 {"runs", sum.runs},
+  Json object = {{"input", arguments.input.path}, {"unit", name_of(axes.file.unit)},
+                 {"features", features.size()},   {"ends", sum.ends},
+                 {"branchings", sum.branchings},  {"branches", sum.branches},
+                 {"closed_branches", sum.closed}, {"runs", sum.runs},
                  {"length", sum.length}};
   object["primitives"] = shares<Primitive>(sum.primitive, sum.length);
   object["variations"] = shares<Variation>(sum.variation, sum.length);

@@ -255,8 +255,8 @@ double shortest_step(const Offsets& offsets) {
   for (const OffsetRegion& region : offsets.regions)
     for (const Ring& ring : region.rings)
       for (std::size_t i = 0; i < ring.points.size(); ++i)
-        shortest = std::min(
-            shortest, distance(ring.points[i], ring.points[(i + 1) % ring.points.size()]));
+        shortest =
+            std::min(shortest, distance(ring.points[i], ring.points[(i + 1) % ring.points.size()]));
   return shortest;
 }
 

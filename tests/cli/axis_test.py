@@ -172,6 +172,8 @@ class Axis(CommandLine):
         self.assertIn("LWPOLYLINE", self.read("a.dxf").decode())
         self.succeed("axis", "a.wkt", "-o", "b.dxf", "--radius-as-z")
         self.assertNotIn("LWPOLYLINE", self.read("b.dxf").decode())
+        self.assertEqual(self.succeed("axis", "a.wkt", "-o", "-", "--format", "dxf", "--radius-as-z").stdout,
+                         self.read("b.dxf"))
 
     def test_options_that_would_have_no_effect(self):
         self.write("a.wkt", RECTANGLE)
