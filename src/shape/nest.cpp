@@ -265,8 +265,10 @@ Result<Shape> assemble(const Arrangement& arrangement, const SplicedLoops& loops
   shape.sources.reserve(arrangement.points.size());
   const bool with_arcs = !arrangement.bulges.empty();
   std::uint32_t components = 0;
+  std::uint32_t gone = ~std::uint32_t{0};  // the component whose outer loop was nothing but needles
   for (const std::uint32_t i : order) {
     const SplicedLoop& loop = loops.loops[i];
+    if (loop.hole && loop.component == gone) continue;
     shape.loop_begin.push_back(static_cast<std::uint32_t>(shape.points.size()));
     std::uint32_t edge = loop.first_edge;
     do {
@@ -287,6 +289,7 @@ Result<Shape> assemble(const Arrangement& arrangement, const SplicedLoops& loops
       drop_needles(shape, arrangement.tolerance);
       if (shape.points.size() == first) {
         shape.loop_begin.pop_back();
+        if (!loop.hole) gone = loop.component;
         continue;
       }
       // Edges that cross within the tolerance may enclose more between them than the loop does.

@@ -288,8 +288,8 @@ bool read_crs(const std::string& name, OGRSpatialReference& reference) {
   if (STARTS_WITH_CI(name.c_str(), "EPSG:") &&
       name.find_first_not_of("0123456789+", 5) != std::string::npos)
     return false;
-  return reference.SetFromUserInput(
-             name.c_str(), OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) ==
+  return reference.SetFromUserInput(name.c_str(),
+                                    OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) ==
          OGRERR_NONE;
 }
 
