@@ -364,6 +364,11 @@ class Inputs(CommandLine):
             for done in (self.succeed("info", "column.csv", "--json"),
                          self.succeed("info", "-", "--json", given=text.encode())):
                 self.assertEqual(json.loads(done.stdout)["area"], 12)
+        # What names no encoding; the geometry is no attribute.
+        self.write("latin.csv", f"name,wkt\nZürich €,{square}\n".encode("cp1252"))
+        done = self.succeed("rebuild", "latin.csv", "-o", "latin.geojson")
+        self.assertIn(b"Windows-1252", done.stderr)
+        self.assertEqual(json.loads(self.read("latin.geojson"))["features"][0]["properties"], {"name": "Zürich €"})
         piped = self.succeed("voronoi", "-", "--json", given=self.read("wells.csv"))
         self.assertEqual(json.loads(piped.stdout)["points"], 3)
         self.write("names.txt", "x y\nwords only\n")

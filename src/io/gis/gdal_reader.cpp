@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <iterator>
 #include <set>
+#include <utility>
 
 #include "io/coordinate_names.h"
 #include "io/format.h"
@@ -41,18 +42,23 @@ bool known_extension(const std::string& name) {
   return false;
 }
 
+/// Text in UTF-8. Other bytes, of formats that name no encoding, are taken for the most common one.
 std::string utf8(const char* text) {
   if (text == nullptr) return {};
   if (CPLIsUTF8(text, -1)) return text;
-  char* ascii = CPLForceToASCII(text, -1, '?');
-  std::string result = ascii;
-  CPLFree(ascii);
+  char* recoded = CPLRecode(text, "CP1252", CPL_ENC_UTF8);
+  std::string result = recoded;
+  CPLFree(recoded);
   return result;
 }
 
-std::string field_text(const OGRFeature& feature, int field) {
+std::string field_text(const OGRFeature& feature, int field, bool& recoded) {
   const OGRFieldDefn* definition = feature.GetFieldDefnRef(field);
-  if (definition->GetType() != OFTReal) return utf8(feature.GetFieldAsString(field));
+  if (definition->GetType() != OFTReal) {
+    const char* text = feature.GetFieldAsString(field);
+    recoded = recoded || !CPLIsUTF8(text, -1);
+    return utf8(text);
+  }
   std::array<char, 32> text{};
   const auto end =
       std::to_chars(text.data(), text.data() + text.size(), feature.GetFieldAsDouble(field));
@@ -106,7 +112,7 @@ class GdalReader final : public FeatureReader {
     // Tables: points by columns of these names, where there is no column of geometries.
     const std::string x = fmt::format("X_POSSIBLE_NAMES={}", x_names);
     const std::string y = fmt::format("Y_POSSIBLE_NAMES={}", y_names);
-    const std::array<const char*, 3> columns{x.c_str(), y.c_str(), nullptr};
+    const std::array<const char*, 4> columns{x.c_str(), y.c_str(), "KEEP_GEOM_COLUMNS=NO", nullptr};
     const std::array<const char*, 2> schema{"WRITE_GFS=NO", nullptr};  // not beside the file
     const char* const* choices = lower_case(name).ends_with(".csv") ? columns.data()
                                  : is_gml(name)                     ? schema.data()
@@ -136,6 +142,10 @@ class GdalReader final : public FeatureReader {
     document.text_attributes = common_.text_attributes;
     const bool more = read_features(points, document);
     if (Status fine = heard(messages); !fine) return std::move(fine).error();
+    if (recoded_ && !std::exchange(recoded_noted_, true))
+      common_.notes.push_back(
+          "text that is not in UTF-8 is taken for Windows-1252 (Western Europe); the environment "
+          "variable SHAPE_ENCODING names another encoding of shapefiles");
     if (!more)
       if (Status complete = finish(); !complete) return std::move(complete).error();
     std::ranges::move(common_.notes, std::back_inserter(document.notes));
@@ -227,7 +237,7 @@ class GdalReader final : public FeatureReader {
       for (int i = 0; i < source->GetFieldCount(); ++i) {
         if (!source->IsFieldSetAndNotNull(i)) continue;
         feature.attributes.emplace_back(utf8(source->GetFieldDefnRef(i)->GetNameRef()),
-                                        field_text(*source, i));
+                                        field_text(*source, i, recoded_));
       }
       count += point_count(feature);
       any_ = true;
@@ -287,6 +297,7 @@ class GdalReader final : public FeatureReader {
   bool any_ = false;  ///< whether a feature has been read
   std::uint64_t without_geometry_ = 0;
   bool latitude_first_ = false;
+  bool recoded_ = false, recoded_noted_ = false;  ///< attributes that are not in UTF-8
 };
 
 /// Whether a text begins with names of columns, among them one of geometries or two of coordinates.
