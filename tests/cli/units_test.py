@@ -62,6 +62,9 @@ class Units(CommandLine):
             arguments = ["--distance", "1"] if kind == "offset" else []
             self.succeed(kind, "s.wkt", "--units", "in", *arguments, "-o", "o.json")
             self.assertEqual(json.loads(self.read("o.json"))["unit"], "in")
+        self.succeed("rebuild", "s.wkt", "--units", "in", "-o", "u.geojson")
+        read = self.succeed("info", "u.geojson", "--json")  # no degrees
+        self.assertEqual((json.loads(read.stdout)["unit"], read.stderr), ("in", b""))
         if self.supported("s.gpkg"):
             self.succeed("axis", "s.wkt", "--units", "in", "-o", "s.gpkg")
             self.assertIn(b'UNIT["in",0.0254]', self.read("s.gpkg"))

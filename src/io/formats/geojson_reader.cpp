@@ -363,12 +363,14 @@ simdjson::dom::element only(simdjson::dom::object object, std::string_view key) 
   return found;
 }
 
+using Members = std::map<std::string, std::string>;
+
+bool has_crs(const Members& members) { return members.find("\"crs\"") != members.end(); }
+
 /// The reference system as well-known text, or as "EPSG:n".
-std::string crs_of(const std::map<std::string, std::string>& members,
-                   simdjson::dom::parser& parser) {
-  const auto found = members.find("\"crs\"");
-  if (found == members.end()) return geographic;
-  const simdjson::dom::object crs = parser.parse(found->second);
+std::string crs_of(const Members& members, simdjson::dom::parser& parser) {
+  if (!has_crs(members)) return geographic;
+  const simdjson::dom::object crs = parser.parse(members.at("\"crs\""));
   usual(std::string_view(only(crs, "type")) == "name");
   std::string_view name = only(only(crs, "properties"), "name");
   for (const std::string_view begin : {"urn:ogc:def:crs:EPSG::", "EPSG:"}) {
@@ -416,7 +418,7 @@ class GeojsonReader final : public FeatureReader {
     for (std::size_t count = 0; count < points;) {
       if (!collection_->next(text_)) {
         if (!is_known_) finish_first();
-        document.crs_wkt = crs_;
+        describe(document);
         document.text_attributes = columns_.text_attributes();
         return false;
       }
@@ -429,8 +431,13 @@ class GeojsonReader final : public FeatureReader {
       feature.attributes = columns_.attributes_of(std::move(parsed.properties));
       count += point_count(feature);
     }
-    if (is_known_) document.crs_wkt = crs_;
+    if (is_known_) describe(document);
     return true;
+  }
+
+  void describe(Document<Feature>& document) const {
+    document.crs_wkt = crs_;
+    document.unit = unit_;
   }
 
   /// A whole "id" is the feature's number. GDAL changes those that come twice.
@@ -456,10 +463,18 @@ class GeojsonReader final : public FeatureReader {
     const auto type = members.find("\"type\"");
     usual(type != members.end() && type->second == "\"FeatureCollection\"");
     crs_ = crs_of(members, strict);
+    // As medial writes it, of plane coordinates without a reference system.
+    if (const auto unit = members.find("\"unit\""); unit != members.end() && !has_crs(members)) {
+      const auto known = unit_of(std::string_view(strict.parse(unit->second)));
+      usual(known.has_value());
+      unit_ = *known;
+      crs_.clear();
+    }
     usual(count_ > 0);
   }
 
   std::string path_, text_, crs_;
+  Unit unit_ = Unit::unknown;
   std::optional<CollectionText> collection_;
   json::parser parser_;
   Columns columns_;
