@@ -693,7 +693,8 @@ Result<int> finish(const FileArguments& arguments, Json object, const Phases& ph
                    const std::string& line, const Json& more) {
   const auto& [input, common, output, format, write] = arguments;
   std::string text;
-  if (!common.json && !line.empty()) text = fmt::format("{}; done in {:.3g} s", line, phases.seconds());
+  if (!common.json && !line.empty())
+    text = fmt::format("{}; done in {:.3g} s", line, phases.seconds());
   if (output.empty()) {
     if (!text.empty()) text += '\n';
     return finish(common, std::move(object), phases, text, more);

@@ -95,7 +95,8 @@ Result<int> summarize_polygons(const FileArguments& arguments) {
   table.add("as read", fmt::format("{}, {}", counted(cleaned.input_rings, "ring"),
                                    counted(cleaned.input_points, "point")));
   ShapeReport worth_saying = cleaned;
-  if (arcs.pieces > 0) worth_saying.unclosed_rings = worth_saying.reversed_rings = 0;  // of contours
+  if (arcs.pieces > 0)
+    worth_saying.unclosed_rings = worth_saying.reversed_rings = 0;  // of contours
   const std::string cleaned_text = describe(worth_saying);
   table.add("cleaned", cleaned_text.empty() ? "nothing" : cleaned_text);
   if (arcs.pieces > 0) {
