@@ -234,7 +234,7 @@ void add_potential_options(CLI::App& command, method::Potential& options) {
         if (count > 0) options.base_order = exact_start_order;
       },
       "Start on the exact axis instead of following force lines (default: above 2,000\n"
-      "edges, at orders above 24).");
+      "edges, at the default order and at orders above 24).");
   add_list_option(
       command, "--from", 2,
       [&options](const std::vector<double>& xy) {

@@ -275,10 +275,10 @@ Result<int> finish_carve(const Document<io::CarveItem>& file, const CarveArgumen
       phases,
       fmt::format(
           "{0}: {1}, {2} of {3}, deepest {4:.6g} {5}; cut {6:.6g} {5}, travel {7:.6g} {5}{8}; "
-          "about {9} min {10} s",
+          "about {9} min {10} s on the machine",
           input, counted(file.items.size(), "feature"), counted(paths, "path"),
           counted(report.moves, "move"), deepest, unit, report.cut, report.travel,
-          report.own > 0 ? fmt::format(", together {:.3g} times the paths' {:.6g} {}",
+          report.own > 0 ? fmt::format(", together {:.3g} times as long as the paths ({:.6g} {})",
                                        (report.cut + report.travel) / report.own, report.own, unit)
                          : std::string(),
           seconds / 60, seconds % 60));
@@ -551,6 +551,7 @@ Command make_carve_command(CLI::App& program) {
       "  medial carve part.svg --angle 0 --tool 3 --depth 6 --exterior --margin 4 --tabs 4 \\\n"
       "    -o part.nc\n"
       "  medial carve spanner.svg --angle 60 --output-units in -o spanner.nc\n"
+      "  medial carve sign.svg --angle 60 --post grbl --spindle 12000 -o sign.gcode\n"
       "  medial carve --text Axis --font serif.ttf --font-size 40 --angle 60 -o axis.nc");
   return command_of(command, arguments, run_carve);
 }

@@ -198,8 +198,9 @@ void add_input_options(CLI::App& command, InputOptions& input) {
   command
       .add_option("INPUT", input.path,
                   "Shapes: any vector file that GDAL reads, .svg, .dxf, .wkt, plain `x y`\n"
-                  "text, medial's own .json, all also with .gz; a binary image (PNG, TIFF,\n"
-                  "GeoTIFF, PGM, PBM); or - for standard input.")
+                  "text, medial's own .json and .safetensors, all also with .gz; an image\n"
+                  "(PNG, JPEG, BMP, WebP, GIF, TIFF, GeoTIFF, PGM, PBM) or the .yaml of a\n"
+                  "ROS map; or - for standard input.")
       ->option_text(" ");
   const OptionGroup group(command, input_group);
   command.add_option("--layer", read.layer, "Read this layer (default: the first).")
@@ -233,7 +234,7 @@ void add_input_options(CLI::App& command, InputOptions& input) {
                    "the coordinates of the input again; radii and lengths stay in metres.");
   add_image_options(command, read.image);
   command.add_flag("--labels", read.image.labels,
-                   "Images: make one feature of the pixels of each value except 0.");
+                   "Images: make one feature of the pixels of each value above 0.");
   add_outline_options(command, input);
   add_curve_options(command, input);
   add_unit_options(command, input.source.units);
@@ -343,8 +344,9 @@ void add_fit_option(CLI::App& command, InputOptions& input) {
 
 void add_simplify_option(CLI::App& command, io::WriteOptions& write) {
   add_value(command, "--simplify", write.simplify, "E", a_positive_number(),
-            "Simplify lines in GIS formats, .wkt and graphs within E, in units of the input,\n"
-            "of the axis (default: see --chord). Keeps their ends.");
+            "Lines in GIS formats, .wkt and graphs: leave out points as long as the line\n"
+            "stays within E of the axis, in units of the input (default: see --chord). Their\n"
+            "ends stay.");
 }
 
 CLI::Option* add_exterior_options(CLI::App& command, Options& options, const std::string& help) {
@@ -691,7 +693,8 @@ Result<int> finish(const FileArguments& arguments, Json object, const Phases& ph
                    const std::string& line, const Json& more) {
   const auto& [input, common, output, format, write] = arguments;
   std::string text;
-  if (!common.json && !line.empty()) text = fmt::format("{}; {:.3g} s", line, phases.seconds());
+  if (!common.json && !line.empty())
+    text = fmt::format("{}; done in {:.3g} s", line, phases.seconds());
   if (output.empty()) {
     if (!text.empty()) text += '\n';
     return finish(common, std::move(object), phases, text, more);

@@ -44,9 +44,8 @@ Command make_draw_command(CLI::App& program) {
   add_picture_options(*command, arguments->write);
   add_common_options(*command, arguments->common);
   command->footer(
-      "INPUT may be shapes, whose axes are then computed, or medial's own .json, whose\n"
-      "axes are drawn. The axis is coloured by radius. Vector pictures hold exact\n"
-      "curves.\n"
+      "INPUT may be shapes, whose axes are then computed, or stored axes. The axis is\n"
+      "coloured by radius. Vector pictures hold exact curves.\n"
       "\n"
       "Examples:\n"
       "  medial draw plan.json -o plan.pdf --disks 100 --nodes\n"

@@ -144,11 +144,11 @@ Command make_features_command(CLI::App& program) {
   add_picture_options(*command, arguments->write);
   add_common_options(*command, arguments->common);
   command->footer(
-      "INPUT may be shapes, whose axes are then computed, or medial's own .json. A branch\n"
-      "runs from its deeper end. Its radius divides it into primitives: worm (constant),\n"
-      "wedge (linear), cup (bulging sides), flare (hollow sides), opening or closing; its\n"
-      "curvature into seven variations: straight, circular, spiral in, spiral out, left or\n"
-      "right (Blum and Nagel). Prune noisy outlines first.\n"
+      "INPUT may be shapes, whose axes are then computed, or stored axes. A branch runs from\n"
+      "its deeper end. Its radius divides it into primitives: worm (constant), wedge (linear),\n"
+      "cup (bulging sides), flare (hollow sides), opening or closing; its curvature into seven\n"
+      "variations: straight, circular, spiral in, spiral out, left or right (Blum and Nagel).\n"
+      "Prune noisy outlines first.\n"
       "\n"
       "Examples:\n"
       "  medial features leaf.svg -o leaf-features.svg\n"

@@ -94,7 +94,10 @@ Result<int> summarize_polygons(const FileArguments& arguments) {
   add_rows(table, summary);
   table.add("as read", fmt::format("{}, {}", counted(cleaned.input_rings, "ring"),
                                    counted(cleaned.input_points, "point")));
-  const std::string cleaned_text = describe(cleaned);
+  ShapeReport worth_saying = cleaned;
+  if (arcs.pieces > 0)
+    worth_saying.unclosed_rings = worth_saying.reversed_rings = 0;  // of contours
+  const std::string cleaned_text = describe(worth_saying);
   table.add("cleaned", cleaned_text.empty() ? "nothing" : cleaned_text);
   if (arcs.pieces > 0) {
     table.add("curves", fmt::format("{} as {} and {}, within {:.3g}", counted(arcs.pieces, "piece"),

@@ -209,7 +209,7 @@ Command make_legal_command(CLI::App& program) {
       "legal", "Check whether curves with radii can be medial axes, branch by branch.");
   command
       ->add_option("AXIS", arguments->path,
-                   "Axes in medial's own .json format; - is standard input.")
+                   "Axes in medial's own .json or .safetensors; - is standard input.")
       ->required()
       ->option_text("REQUIRED");
   add_value(*command, "--slack", arguments->slack, "S", in_range(0, largest_slack),

@@ -164,7 +164,8 @@ Result<int> run_match(const MatchArguments& arguments) {
     text += fmt::format("{:8.4f}  {}\n", value, named->name);
   }
   if (candidates->refused > 0 && !arguments.common.json && !arguments.common.quiet)
-    say("medial: {}: {} without a shape\n", arguments.other, counted(candidates->refused, "file"));
+    say("medial: {}: note: {} without a shape, left out\n", arguments.other,
+        counted(candidates->refused, "file"));
   return finish(arguments.common,
                 {{"input", path},
                  {"candidates", candidates->shapes.size()},

@@ -253,14 +253,14 @@ std::string summary_of(const Measured& measured, const MeasureArguments& argumen
                                   : fmt::format("{:.10g} ({} lines)", mean.length, lines));
   if (mean.length > 0) {
     rows.add("mean width by length", number(mean.by_length));
-    rows.add("area by length", number(mean.area_by_length));
+    rows.add("area / length", number(mean.area_by_length));
   }
   rows.add("mean width by area", number(mean.by_area));
   rows.add("widest",
            fmt::format("{:.10g} at {}", 2 * measured.widest.radius, place(measured.widest)));
   if (const Neck* neck = narrowest_neck(measured)) {
     rows.add("narrowest neck on line",
-             fmt::format("{:.10g} at {}, {:.10g} along", neck->width.width(),
+             fmt::format("{:.10g} at {}, {:.10g} from the start of the line", neck->width.width(),
                          place(neck->width.disk), neck->width.along));
   }
   const std::size_t shown = std::min<std::size_t>(

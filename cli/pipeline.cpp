@@ -169,7 +169,7 @@ Status check_image_options(const InputOptions& input) {
   if (!image.threshold && !image.invert && !image.labels && !input.whole_smooth) return success();
   if (image.labels && (image.threshold || image.invert))
     return invalid_option(
-        "--labels uses each value except 0: --threshold and --invert have no effect");
+        "--labels uses each value above 0: --threshold and --invert have no effect");
   std::error_code ignored;
   const bool is_there = input.path != "-" && std::filesystem::exists(input.path, ignored);
   if (!is_there || io::is_image(input.path)) return success();

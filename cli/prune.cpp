@@ -61,7 +61,9 @@ void add_prune_options(CLI::App& command, PruneArguments& arguments) {
                         ->option_text("MEASURE");
   CLI::Option* keep = add_value(command, "--keep", arguments.keep, "N", a_whole_number(),
                                 "Instead of a threshold: keep at most N branches of each\n"
-                                "feature, the most important ones.");
+                                "feature, the most important ones, besides those that\n"
+                                "always stay (cycles and the paths between them; see\n"
+                                "--specks).");
   for (CLI::Option* option : options) {
     by->excludes(option);
     keep->excludes(option);
@@ -252,8 +254,9 @@ Command make_prune_command(CLI::App& program) {
   add_picture_options(*command, arguments->write);
   add_common_options(*command, arguments->common);
   command->footer(
-      "INPUT is medial's own .json with axes, or shapes, whose axes are then computed. R\n"
-      "is the radius of the deepest disk of each connected part. Measures are dimensionless.\n"
+      "INPUT is medial's own .json or .safetensors with axes, or shapes, whose\n"
+      "axes are then computed. R is the radius of the deepest disk of each connected part.\n"
+      "Measures are dimensionless.\n"
       "Parts and cycles stay at any threshold; a larger threshold keeps a subset of the axis.\n"
       "Edges of exact axes are cut exactly. Only one measure can be used at a time.\n"
       "\n"
@@ -261,7 +264,7 @@ Command make_prune_command(CLI::App& program) {
       "  medial prune plan.json -o spine.json\n"
       "  medial prune coast.wkt.gz --erosion 0.2 -o coast.svg\n"
       "  medial axis gear.svg -o - | medial prune - --angle 60 -o gear.pdf\n"
-      "  medial prune leaf.png --keep 20 --tips -o veins.svg\n"
+      "  medial prune leaf.png --keep 20 --specks --tips -o veins.svg\n"
       "  medial prune coast.wkt.gz --preview -o thresholds.png");
   return command_of(command, arguments, run_prune);
 }

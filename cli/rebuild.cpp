@@ -196,11 +196,23 @@ Status write_rebuilt(Rebuilt& rebuilt, Document<AxisItem>& axes,
   return io::write_shapes(arguments.output, arguments.format, file, write);
 }
 
+/// What is printed, with the place of the Hausdorff distance in its row.
+std::string rows_of(Json object) {
+  if (const auto against = object.find("against"); against != object.end()) {
+    Json& rows = *against;
+    rows["hausdorff"] = fmt::format("{:.6g} at ({:.6g}, {:.6g})", rows["hausdorff"].get<double>(),
+                                    rows["x"].get<double>(), rows["y"].get<double>());
+    rows.erase("x");
+    rows.erase("y");
+  }
+  return table(object);
+}
+
 Result<int> finish_rebuild(const RebuildArguments& arguments, Json object, const Phases& phases,
                            bool compared) {
   const bool to_screen = arguments.output.empty() || compared;
   const bool printed = arguments.output != "-" && !arguments.common.quiet && to_screen;
-  const std::string text = printed ? table(object) : std::string();
+  const std::string text = printed ? rows_of(object) : std::string();
   return finish(arguments.common, std::move(object), phases, text);
 }
 
@@ -276,8 +288,8 @@ void add_rebuild_options(CLI::App& command, RebuildArguments& arguments) {
             "With --tangents: the approximate number of points on the axis (default:\n"
             "the samples, or 1000 on an exact axis).");
   add_value(command, "--pixels", arguments.pixels, "N", in_range(1, 32768),
-            fmt::format("The union of the disks as an image with a longer side of N\n"
-                        "pixels: {}",
+            fmt::format("The union of the disks as an image with N pixels along the\n"
+                        "shape's longer side and a margin of one pixel: {}",
                         image_formats))
       ->excludes(tangents);
 }
@@ -310,7 +322,7 @@ Command make_rebuild_command(CLI::App& program) {
   command->footer(
       "An exact axis gives back its boundary exactly, as segments and arcs; where it was\n"
       "pruned, arcs of the last disks close it. Sampled axes give polygons. INPUT is medial's\n"
-      "own .json with axes, or shapes, whose axes are computed first.\n"
+      "own .json or .safetensors with axes, or shapes, whose axes are computed first.\n"
       "\n"
       "Examples:\n"
       "  medial rebuild plan.json -o again.svg --against plan.geojson\n"

@@ -330,7 +330,8 @@ Command make_verify_command(CLI::App& program) {
   auto arguments = std::make_shared<VerifyArguments>();
   CLI::App* command = program.add_subcommand("verify", "Check a stored axis against its shapes.");
   add_input_options(*command, arguments->input, "AXIS",
-                    "Axes, or a Voronoi diagram of loose pieces, in medial's own .json format.",
+                    "Axes in medial's own .json or .safetensors, or a Voronoi diagram of loose\n"
+                    "pieces in .json.",
                     arguments->axis_path);
   add_fit_option(*command, arguments->input);
   add_value(*command, "--samples", arguments->samples, "N", in_range(0, most_samples),

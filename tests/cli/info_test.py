@@ -21,6 +21,13 @@ class Info(CommandLine):
         for word in ("features", "holes", "vertices", "extent", "1 repeated point", "valid"):
             self.assertIn(word, text)
 
+    def test_contours_state_no_direction_and_no_closing_point(self):
+        self.write("s.svg", '<svg xmlns="http://www.w3.org/2000/svg">'
+                            '<path fill-rule="evenodd" d="M0 0V4H4V0z M1 1V3H3V1z"/></svg>')
+        self.assertRegex(self.succeed("info", "s.svg").stdout, rb"cleaned +nothing\n")
+        cleaned = json.loads(self.succeed("info", "s.svg", "--json").stdout)["cleaned"]
+        self.assertEqual(cleaned["unclosed_rings"], 2)
+
     def test_coordinate_system(self):
         self.write("places.geojson", GEOGRAPHIC)
         report = json.loads(self.succeed("info", "places.geojson", "--json").stdout)

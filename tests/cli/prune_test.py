@@ -34,6 +34,8 @@ class Prune(CommandLine):
                                          "--against", "frame.wkt").stdout)
         self.assertLess(report["against"]["hausdorff"], 0.1)
         self.assertGreater(report["medial_points"], 400)
+        self.assertRegex(self.succeed("rebuild", "frame.wkt", "--against", "b.wkt").stdout,
+                         rb"hausdorff +0\.\d+ at \(\d\S*, \d\S*\)\n")
         self.succeed("rebuild", "frame.wkt", "--pixels", "100", "-o", "disks.png")
         self.assertEqual(self.read("disks.png")[1:4], b"PNG")
         self.refuse("invalid_option", "rebuild", "frame.wkt", "--pixels", "100")

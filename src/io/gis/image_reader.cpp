@@ -43,7 +43,7 @@ class Values {
     return {
         fmt::format("the image has more than two values: pixels of at least {:g} are its "
                     "foreground; --threshold chooses another, --labels makes a feature of each "
-                    "value",
+                    "value above 0",
                     threshold)};
   }
 
@@ -520,7 +520,7 @@ Result<ImageFile> read_foreground(const Input& input, const ImageOptions& option
                    options.invert ? "no pixel is below the threshold, so there is no foreground"
                                   : "no pixel reaches the threshold, so there is no foreground; "
                                     "--threshold chooses another, --invert takes dark pixels, "
-                                    "--labels makes a feature of each value",
+                                    "--labels makes a feature of each value above 0",
                    {}};
     const bool chosen = options.threshold || options.invert || options.labels;
     if (file && !chosen && surrounds(file->image))
