@@ -59,9 +59,10 @@ def mend_links(pages):
     for page in pages.rglob("*.md"):
         def mended(link, page=page):
             picture, text, target = link.groups()
+            target = target.replace("python/docs/", "python/")  # where copy_pages() puts it
             file = target.split("#")[0]
             if re.match(r"[a-z]+:", target) or not file or (page.parent / file).is_file():
-                return link[0]
+                return f"{picture}[{text}]({target})"
             if target in MADE:
                 return f"[{text}]({MADE[target]})"
             return "" if picture else text
