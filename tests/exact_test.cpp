@@ -321,6 +321,33 @@ TEST(ExactAxis, KeepsTrueTiesAndDividesOthers) {
   EXPECT_EQ(nodes_of(rectangle(8, std::nextafter(8.0, 9.0))), 6u);
   // The vertices of a regular polygon, rounded, lie on no circle.
   EXPECT_GT(nodes_of(regular_polygon(24)), 25u);
+  // A disk that touches four edges, whose centre is not the same in doubles for each three of them.
+  const Ring box{{{0, -4},
+                  {10, -1},
+                  {24, -4},
+                  {24, 4},
+                  {10, 1},
+                  {0, 4},
+                  {0, 0.4},
+                  {-0.6, 0.4},
+                  {-0.6, -0.4},
+                  {0, -0.4}}};
+  EXPECT_EQ(nodes_of({box}), 14u);
+}
+
+/// Triangles that touch each other in a square: two nodes whose disks round to the same doubles in
+/// one of both images only.
+TEST(ExactAxis, JoinsNoNodesByHowTheyAreRounded) {
+  const Rings rings{
+      {{{0, 0},
+        {0.6000000000000001, 0},
+        {0.6000000000000001, 0.6000000000000001},
+        {0, 0.6000000000000001}}},
+      {{{0.30000000000000004, 0.2}, {0.4, 0.2}, {0.30000000000000004, 0.30000000000000004}}},
+      {{{0.4, 0.1}, {0.5, 0.2}, {0.4, 0.2}}}};
+  const Finding finding = examine_nasty(rings, {.exact = true});
+  EXPECT_EQ(finding.fault, Fault::none) << finding.words;
+  EXPECT_EQ(compute(*build_shape(rings), {.exact = true})->nodes.size(), 20u);
 }
 
 template <class Generate>
