@@ -404,6 +404,32 @@ TEST(ExactAxis, IsThatOfAMirrorImage) {
   }
 }
 
+/// A foot that passes the middle of a half circle is a node, unless the edges end there: of all
+/// edges that are longer than ties, both axes have as many. Discs that touch an outer circle.
+TEST(ExactAxis, DividesEdgesInTheMiddleOfHalfCircles) {
+  struct Disc {
+    double left, right, y;
+  };
+  Rings rings;
+  for (const Disc disc : {Disc{-0.3333333333333333, 0.3333333333333333, 0},
+                          Disc{-0.22222222222222215, -0.11111111111111116, -0.2222222222222222},
+                          Disc{-0.14285714285714282, -0.09523809523809526, -0.2857142857142857},
+                          Disc{-0.10256410256410253, -0.07692307692307693, -0.3076923076923077},
+                          Disc{0.2222222222222222, 0.2444444444444444, -0.2222222222222222},
+                          Disc{0.07692307692307693, 0.10256410256410253, -0.3076923076923077}})
+    rings.push_back({{{disc.right, disc.y}, {disc.left, disc.y}}, RingRole::any, {1, 1}});
+  const auto shape = build_shape(rings);
+  ASSERT_TRUE(shape);
+  const auto long_edges = [&](bool exact) {
+    const auto axis = compute(*shape, {.exact = exact, .threads = 1});
+    return std::count_if(axis->edges.begin(), axis->edges.end(), [&](const Edge& edge) {
+      const Disk &a = axis->nodes[edge.node[0]].disk, &b = axis->nodes[edge.node[1]].disk;
+      return distance(a.center, b.center) > 8 * axis->tolerance;
+    });
+  };
+  EXPECT_EQ(long_edges(true), long_edges(false));
+}
+
 TEST(ExactAxis, OfTips) {
   for (const auto& tip : {tip_of_tree, tip_of_snowflake}) {
     for (const std::size_t cut : {0U, 1U, 2U}) {

@@ -292,17 +292,25 @@ class Walker {
     return reach > 0 && site::squared_distance(site(i), disk.center) < reach * reach;
   }
 
-  /// Of the sites of two spans that differ by pieces of one arc, those on which the foot lies. Half
-  /// a circle on the parameter is infinite, of either sign: what is more than a quarter turn behind
-  /// a piece is ahead of it.
+  /// Whether the foot lies beyond one end of a piece of an arc. Half a circle on the parameter is
+  /// infinite, of either sign: what is more than a quarter turn behind a piece is ahead of it.
+  bool is_beyond(std::uint32_t i, bool at_end, Vec2 center) const {
+    const double s = site::carrier_parameter(site(i), center), length = site(i).length;
+    const double turn = std::max(length, 2 / std::abs(site(i).curvature));
+    return at_end ? s >= length || s < -turn : s <= 0 || s > length + turn;
+  }
+
+  /// Of the sites of two spans that differ by pieces of one arc, those on which the foot lies.
   void stay_on_pieces(const Span& last, Vec2 center, Span& span) const {
-    const auto is_beyond = [&](std::uint32_t i, bool at_end) {
-      const double s = site::carrier_parameter(site(i), center), length = site(i).length;
-      const double turn = std::max(length, 2 / std::abs(site(i).curvature));
-      return at_end ? s >= length || s < -turn : s <= 0 || s > length + turn;
-    };
-    while (span.right < last.right && is_beyond(span.right, true)) ++span.right;
-    while (span.left > last.left && is_beyond(span.left, false)) --span.left;
+    while (span.right < last.right && is_beyond(span.right, true, center)) ++span.right;
+    while (span.left > last.left && is_beyond(span.left, false, center)) --span.left;
+  }
+
+  /// Of the pieces of one arc inside a span, the one on which the foot lies.
+  std::uint32_t piece_below(Vec2 center, std::uint32_t i, const Span& span) const {
+    while (i - 1 > span.right && boundary_.is_same(i - 1, i) && is_beyond(i, false, center)) --i;
+    while (i + 1 < span.left && boundary_.is_same(i, i + 1) && is_beyond(i, true, center)) ++i;
+    return i;
   }
 
   /// Whether the event is that a foot passes on to the next piece of the same arc.
@@ -384,11 +392,11 @@ class Walker {
     if (keeps_ties_) step.is_node = found->is_node;
     step.error = Certainty::rounding + found->error;
     event.disk = found->disk;
-    event.site = found->site;
+    event.site = piece_below(event.disk.center, found->site, span);
     event.kind =
-        found->site == span.right + 1 && boundary_.is_smooth(span.right)   ? Event::Kind::pass_right
-        : found->site + 1 == span.left && boundary_.is_smooth(found->site) ? Event::Kind::pass_left
-                                                                           : Event::Kind::contact;
+        event.site == span.right + 1 && boundary_.is_smooth(span.right)  ? Event::Kind::pass_right
+        : event.site + 1 == span.left && boundary_.is_smooth(event.site) ? Event::Kind::pass_left
+                                                                         : Event::Kind::contact;
     return true;
   }
 
@@ -443,8 +451,9 @@ class Walker {
       return false;
     }
     const std::uint32_t node = add_node(found->disk);
-    const Step first{{whole.right, found->site, node, whole.left, Certainty::rounding, true}},
-        second{{found->site, whole.left, node, whole.right, Certainty::rounding, true}};
+    const std::uint32_t touched = piece_below(found->disk.center, found->site, whole);
+    const Step first{{whole.right, touched, node, whole.left, Certainty::rounding, true}},
+        second{{touched, whole.left, node, whole.right, Certainty::rounding, true}};
     if (size(first) > size(second))
       push(first, second);
     else
