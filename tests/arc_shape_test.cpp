@@ -944,6 +944,17 @@ TEST(ArcShape, TooFineForItsExteriorIsNamedInTheInput) {
   EXPECT_NE(axis.error().text.find("choose a smaller margin"), std::string::npos);
 }
 
+// A short arc that crosses its neighbour, a long and nearly straight arc, by ten tolerances, so
+// near to its end that rounding decides on which side of the chord that place is.
+TEST(ArcShape, NeedlesWhoseSidesCrossNextToAnEndAreRefused) {
+  EXPECT_EQ(code_of({{{{0, 0},
+                       {0.97291981993296794, -0.23114286487279059},
+                       {-2.2357970391813226e-13, -8.4544800190126767e-14}},
+                      RingRole::any,
+                      {6.7941813669230869e-11, -6.7941813669230869e-11, 0.88943549990654169}}}),
+            ErrorCode::crossing);
+}
+
 // The arc passes through the end of the needle, so that a part of it leads back along the needle.
 TEST(ArcShape, NeedlesOfNoWidthAreDropped) {
   const Ring ring{{{6.66133814775094e-16, 1.998401444325282e-15},
