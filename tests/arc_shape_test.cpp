@@ -944,6 +944,17 @@ TEST(ArcShape, TooFineForItsExteriorIsNamedInTheInput) {
   EXPECT_NE(axis.error().text.find("choose a smaller margin"), std::string::npos);
 }
 
+// A short arc that crosses its neighbour, a long and nearly straight arc, by ten tolerances, so
+// near to its end that rounding decides on which side of the chord that place is.
+TEST(ArcShape, NeedlesWhoseSidesCrossNextToAnEndAreRefused) {
+  EXPECT_EQ(code_of({{{{0, 0},
+                       {0.97291981993296794, -0.23114286487279059},
+                       {-2.2357970391813226e-13, -8.4544800190126767e-14}},
+                      RingRole::any,
+                      {6.7941813669230869e-11, -6.7941813669230869e-11, 0.88943549990654169}}}),
+            ErrorCode::crossing);
+}
+
 // The arc passes through the end of the needle, so that a part of it leads back along the needle.
 TEST(ArcShape, NeedlesOfNoWidthAreDropped) {
   const Ring ring{{{6.66133814775094e-16, 1.998401444325282e-15},
@@ -958,6 +969,48 @@ TEST(ArcShape, NeedlesOfNoWidthAreDropped) {
   const auto axis = compute(shape);
   ASSERT_TRUE(axis.ok()) << to_string(axis.error());
   EXPECT_TRUE(verify(shape, *axis).passed);
+}
+
+/// Discs that touch each other from inside and outside, each of two half circles, whose ends need
+/// not be where they touch.
+Rings touching_discs(test::Random& random) {
+  Rings rings;
+  Vec2 center;
+  double radius = 1;
+  const auto halvings = [&] { return std::ldexp(1, -static_cast<int>(random.integer(0, 2))); };
+  for (std::int64_t left = random.integer(2, 22); left > 0; --left) {
+    const Vec2 side = test::turned({1, 0}, pi / 2 * static_cast<double>(random.integer(0, 3)));
+    const Vec2 toward{std::round(side.x), std::round(side.y)};
+    if (rings.empty() || random.chance(0.2)) {
+      center = {static_cast<double>(random.integer(-6, 6)),
+                static_cast<double>(random.integer(-6, 6))};
+      radius = halvings();
+    } else {
+      const double own = radius * halvings();
+      center = center + (random.chance(0.5) ? radius + own : radius - own) * toward;
+      radius = own;
+    }
+    const Vec2 arm = random.chance(0.5) ? Vec2{radius, 0} : Vec2{0, radius};
+    rings.push_back({{center + arm, center - arm}, RingRole::any, {1, 1}});
+  }
+  return rings;
+}
+
+/// Vertices that rings share stay, and loops come in the order of the rings: so what is built
+/// again is the same, in the same order.
+TEST(ArcShape, OfTouchingDiscsIsBuiltAgainTheSame) {
+  int built_shapes = 0;
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+    test::Random random(seed);
+    const auto shape = build_shape(touching_discs(random));
+    if (!shape) continue;  // of discs that cross
+    ++built_shapes;
+    const Shape again = built(rings_of(*shape));
+    ASSERT_EQ(again.points, shape->points) << seed;
+    ASSERT_EQ(again.bulges, shape->bulges) << seed;
+    ASSERT_EQ(again.loop_begin, shape->loop_begin) << seed;
+  }
+  EXPECT_GT(built_shapes, 200);
 }
 
 /// A circle of few arcs, with an edge of up to 200 spacings of its coordinates at a vertex.

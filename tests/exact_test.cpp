@@ -321,6 +321,33 @@ TEST(ExactAxis, KeepsTrueTiesAndDividesOthers) {
   EXPECT_EQ(nodes_of(rectangle(8, std::nextafter(8.0, 9.0))), 6u);
   // The vertices of a regular polygon, rounded, lie on no circle.
   EXPECT_GT(nodes_of(regular_polygon(24)), 25u);
+  // A disk that touches four edges, whose centre is not the same in doubles for each three of them.
+  const Ring box{{{0, -4},
+                  {10, -1},
+                  {24, -4},
+                  {24, 4},
+                  {10, 1},
+                  {0, 4},
+                  {0, 0.4},
+                  {-0.6, 0.4},
+                  {-0.6, -0.4},
+                  {0, -0.4}}};
+  EXPECT_EQ(nodes_of({box}), 14u);
+}
+
+/// Triangles that touch each other in a square: two nodes whose disks round to the same doubles in
+/// one of both images only.
+TEST(ExactAxis, JoinsNoNodesByHowTheyAreRounded) {
+  const Rings rings{
+      {{{0, 0},
+        {0.6000000000000001, 0},
+        {0.6000000000000001, 0.6000000000000001},
+        {0, 0.6000000000000001}}},
+      {{{0.30000000000000004, 0.2}, {0.4, 0.2}, {0.30000000000000004, 0.30000000000000004}}},
+      {{{0.4, 0.1}, {0.5, 0.2}, {0.4, 0.2}}}};
+  const Finding finding = examine_nasty(rings, {.exact = true});
+  EXPECT_EQ(finding.fault, Fault::none) << finding.words;
+  EXPECT_EQ(compute(*build_shape(rings), {.exact = true})->nodes.size(), 20u);
 }
 
 template <class Generate>
@@ -375,6 +402,32 @@ TEST(ExactAxis, IsThatOfAMirrorImage) {
     const Finding finding = examine_nasty(Rings{ring}, {.exact = true});
     EXPECT_EQ(finding.fault, Fault::none) << finding.words;
   }
+}
+
+/// A foot that passes the middle of a half circle is a node, unless the edges end there: of all
+/// edges that are longer than ties, both axes have as many. Discs that touch an outer circle.
+TEST(ExactAxis, DividesEdgesInTheMiddleOfHalfCircles) {
+  struct Disc {
+    double left, right, y;
+  };
+  Rings rings;
+  for (const Disc disc : {Disc{-0.3333333333333333, 0.3333333333333333, 0},
+                          Disc{-0.22222222222222215, -0.11111111111111116, -0.2222222222222222},
+                          Disc{-0.14285714285714282, -0.09523809523809526, -0.2857142857142857},
+                          Disc{-0.10256410256410253, -0.07692307692307693, -0.3076923076923077},
+                          Disc{0.2222222222222222, 0.2444444444444444, -0.2222222222222222},
+                          Disc{0.07692307692307693, 0.10256410256410253, -0.3076923076923077}})
+    rings.push_back({{{disc.right, disc.y}, {disc.left, disc.y}}, RingRole::any, {1, 1}});
+  const auto shape = build_shape(rings);
+  ASSERT_TRUE(shape);
+  const auto long_edges = [&](bool exact) {
+    const auto axis = compute(*shape, {.exact = exact, .threads = 1});
+    return std::count_if(axis->edges.begin(), axis->edges.end(), [&](const Edge& edge) {
+      const Disk &a = axis->nodes[edge.node[0]].disk, &b = axis->nodes[edge.node[1]].disk;
+      return distance(a.center, b.center) > 8 * axis->tolerance;
+    });
+  };
+  EXPECT_EQ(long_edges(true), long_edges(false));
 }
 
 TEST(ExactAxis, OfTips) {

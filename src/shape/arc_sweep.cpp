@@ -74,14 +74,16 @@ Meetings meetings(const MonotoneArc& a, const MonotoneArc& b) {
 }
 
 /// The point of an arc next to p, if p is on its circle or line up to a small error, or rounding of
-/// local coordinates, and on the same side of the chord. (It may lie beyond the ends of a segment.)
+/// local coordinates, and up to that on the same side of the chord. (It may lie beyond the ends of
+/// a segment.)
 std::optional<Vec2> on_arc(const MonotoneArc& arc, Vec2 p) {
   constexpr double small = 1e-6, rounding = 0x1p-50;
-  const double offset = arc.above_circle(p);
-  if (!(std::abs(offset) <= small * distance(arc.left, arc.right) + rounding)) return std::nullopt;
+  const double offset = arc.above_circle(p), length = distance(arc.left, arc.right);
+  if (!(std::abs(offset) <= small * length + rounding)) return std::nullopt;
   const Vec2 gradient = arc.up - 2 * arc.half_curvature * (p - arc.left);
   const Vec2 result = p - (offset / squared_norm(gradient)) * gradient;
-  if (arc.bulge * cross(arc.right - arc.left, result - arc.left) > 0) return std::nullopt;
+  const double above_chord = cross(arc.right - arc.left, result - arc.left);
+  if (arc.bulge * above_chord > 0 && std::abs(above_chord) > rounding * length) return std::nullopt;
   return result;
 }
 

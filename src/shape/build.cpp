@@ -81,7 +81,7 @@ bool may_be_filled(const Error& error) {
 }
 
 /// Built again, arcs of one circle that follow each other in a loop become one, which may touch
-/// more: until nothing changes, up to rounding, or after so many rounds. Errors: no_area, of a loop
+/// more: until nothing changes, or after so many rounds. Errors: no_area, of a loop
 /// of which nothing is left then; crossing, where edges cross by little more than the tolerance, so
 /// that what is built is no shape; those of build_once().
 Result<Shape> with_arcs_merged(Shape shape) {
@@ -105,9 +105,7 @@ Result<Shape> with_arcs_merged(Shape shape) {
                         rings[ring].points[vertex]);
       return std::move(again).error();
     }
-    const bool is_last = again->loop_begin == shape.loop_begin;
-    if (is_last && again->points != shape.points) return shape;  // which rounding would move on
-    may_merge = may_merge && !is_last;
+    may_merge = may_merge && again->points != shape.points;
     for (VertexSource& source : again->sources) source = source_of(source.ring, source.vertex);
     shape = *std::move(again);
   }

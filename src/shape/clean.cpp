@@ -80,7 +80,7 @@ std::optional<Error> drop_collinear(std::uint32_t first, CleanRings& cleaned, Sh
 
 /// Appends a ring that has a bulge.
 std::optional<Error> append_with_arcs(const Ring& ring, std::uint32_t index,
-                                      const std::function<QuarterMap()>& map, CleanRings& cleaned,
+                                      const RingSurroundings& around, CleanRings& cleaned,
                                       ShapeReport& report) {
   std::vector<RingEdge> edges;
   edges.reserve(ring.points.size());
@@ -112,7 +112,7 @@ std::optional<Error> append_with_arcs(const Ring& ring, std::uint32_t index,
   if (edges.size() < 2) {
     return place(ErrorCode::too_few_points, "the ring has fewer than two distinct points");
   }
-  clean_arcs(edges, map, report);
+  clean_arcs(edges, around, report);
   for (const RingEdge& edge : edges) {
     if (!std::isfinite(edge.point.x) || !std::isfinite(edge.point.y)) {
       return error_at(ErrorCode::not_finite, "an arc is too large", edge.source, edge.point);
@@ -165,6 +165,21 @@ std::vector<BulgeArc> edges_of(std::span<const Ring> rings) {
   return edges;
 }
 
+/// The points at which rings have more than one vertex, but for repeated ones, sorted.
+std::vector<Vec2> shared_points(std::span<const Ring> rings) {
+  std::vector<Vec2> all, shared;
+  for (const Ring& ring : rings)
+    for (std::size_t i = 0; i < ring.points.size(); ++i)
+      if (const Vec2 p = ring.points[i];
+          std::isfinite(p.x + p.y) && p != ring.points[i + 1 < ring.points.size() ? i + 1 : 0])
+        all.push_back(p);
+  std::sort(all.begin(), all.end(), lexicographic_less);
+  for (std::size_t i = 1; i < all.size(); ++i)
+    if (all[i] == all[i - 1] && (shared.empty() || shared.back() != all[i]))
+      shared.push_back(all[i]);
+  return shared;
+}
+
 }  // namespace
 
 Result<CleanRings> clean(std::span<const Ring> rings, ShapeReport& report) {
@@ -176,10 +191,16 @@ Result<CleanRings> clean(std::span<const Ring> rings, ShapeReport& report) {
   }
 
   std::optional<QuarterMap> map;  // once asked for
-  const auto map_of_all = [&] {
-    if (!map) map = best_map(edges_of(rings));
-    return *map;
-  };
+  std::optional<std::vector<Vec2>> shared;
+  const RingSurroundings around{[&] {
+                                  if (!map) map = best_map(edges_of(rings));
+                                  return *map;
+                                },
+                                [&](Vec2 p) {
+                                  if (!shared) shared = shared_points(rings);
+                                  return std::binary_search(shared->begin(), shared->end(), p,
+                                                            lexicographic_less);
+                                }};
   CleanRings cleaned;
   cleaned.points.reserve(report.input_points);
   cleaned.sources.reserve(report.input_points);
@@ -188,7 +209,7 @@ Result<CleanRings> clean(std::span<const Ring> rings, ShapeReport& report) {
     const auto first = static_cast<std::uint32_t>(cleaned.points.size());
     cleaned.begin.push_back(first);
     if (has_arcs(rings[i])) {
-      if (auto error = append_with_arcs(rings[i], i, map_of_all, cleaned, report)) return *error;
+      if (auto error = append_with_arcs(rings[i], i, around, cleaned, report)) return *error;
       continue;
     }
     if (auto error = append_distinct(rings[i], i, cleaned, report)) return *error;

@@ -60,11 +60,15 @@ struct RingEdge {
   VertexSource source;
 };
 
+/// What cleaning a ring asks about all of them.
+struct RingSurroundings {
+  std::function<QuarterMap()> map;  ///< the best one of all rings, if a circle may be cut anywhere
+  std::function<bool(Vec2)> is_shared;  ///< whether rings have more than one vertex there
+};
+
 /// The same for the edges of one ring with arcs, each longer than zero. A bulge whose arc is
 /// straight to rounding becomes 0. A full circle becomes two half circles, from one of the vertices
-/// on that are furthest from the middle of their box.
-/// `map` is asked for the best map of all rings if a circle may be cut in several places.
-void clean_arcs(std::vector<RingEdge>& edges, const std::function<QuarterMap()>& map,
-                ShapeReport& report);
+/// on that are furthest from the middle of their box, or from one that rings share.
+void clean_arcs(std::vector<RingEdge>& edges, const RingSurroundings& around, ShapeReport& report);
 
 }  // namespace medial

@@ -24,8 +24,8 @@ Vec2 middle_of(const BulgeArc& arc) {
 /// The edges of one ring with arcs.
 class Cleaner {
  public:
-  Cleaner(std::vector<RingEdge>& edges, const std::function<QuarterMap()>& map, ShapeReport& report)
-      : edges_(edges), map_(map), report_(report) {
+  Cleaner(std::vector<RingEdge>& edges, const RingSurroundings& around, ShapeReport& report)
+      : edges_(edges), around_(around), report_(report) {
     measure();
   }
 
@@ -144,30 +144,36 @@ class Cleaner {
   }
 
   /// Replaces each run of arcs on one circle by one arc, or by two if it is more than a half
-  /// circle. All that decides is the same from other starts, in both directions, and under mirror
-  /// images, quarter turns and powers of two, rounding included: so is what is kept.
+  /// circle. Where another ring has a vertex, too, one stays: there they touch. All that decides is
+  /// the same from other starts, in both directions, and under mirror images, quarter turns and
+  /// powers of two, rounding included: so is what is kept.
   void merge_cocircular() {
     const std::size_t count = edges_.size();
     std::vector<std::size_t> ends;  // of runs
-    for (std::size_t i = 0; i < count; ++i)
-      if (!continues(i)) ends.push_back(i);
+    bool is_touched = false;        // in one of them, where the ring would go on
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool goes_on = continues(i);
+      if (goes_on && !around_.is_shared(edges_[i].point)) continue;
+      ends.push_back(i);
+      is_touched = is_touched || goes_on;
+    }
     if (count <= 2 || ends.size() == count) return;
-    if (ends.size() <= 1 && merge_circle()) return;
+    if (ends.size() <= 1 && merge_circle(is_touched ? ends : furthest_from(middle_))) return;
     if (ends.empty()) ends = furthest_from(middle_);
     std::vector<RingEdge> result;
     for (std::size_t k = 0; k < ends.size(); ++k) {
       const std::size_t end = k + 1 < ends.size() ? ends[k + 1] : ends[0] + count;
       append_run({ends[k], end - ends[k]}, result);
     }
-    // Back to the old start, where it is still a vertex, so that all else stays in its order.
-    const auto lowest = std::min_element(
-        result.begin(), result.end(),
-        [](const RingEdge& a, const RingEdge& b) { return a.source.vertex < b.source.vertex; });
-    std::rotate(result.begin(), lowest, result.end());
     replace_edges(std::move(result));
   }
 
   void replace_edges(std::vector<RingEdge> edges) {
+    // Back to the old start, where it is still a vertex, so that all else stays in its order.
+    const auto lowest = std::min_element(
+        edges.begin(), edges.end(),
+        [](const RingEdge& a, const RingEdge& b) { return a.source.vertex < b.source.vertex; });
+    std::rotate(edges.begin(), lowest, edges.end());
     report_.collinear_points += edges_.size() - edges.size();
     edges_ = std::move(edges);
   }
@@ -240,14 +246,14 @@ class Cleaner {
     double aside = 0;
   };
 
-  /// Replaces a ring of one circle by two half circles. The graph depends on where they meet, up
-  /// to quarter turns. So of several places the one is taken that is the same in every image; if a
-  /// mirror image would have another, none is.
-  bool merge_circle() {
+  /// Replaces a ring of one circle by two half circles, from one of some vertices on. The graph
+  /// depends on where they meet, up to quarter turns. So of several places the one is taken that is
+  /// the same in every image; if a mirror image would have another, none is.
+  bool merge_circle(const std::vector<std::size_t>& starts) {
     constexpr double twice_around = 4 * std::numbers::pi;
     if (angle_of({0, edges_.size()}) > 0.75 * twice_around) return false;
     std::vector<Halves> places;
-    for (const std::size_t from : furthest_from(middle_))
+    for (const std::size_t from : starts)
       for (const std::size_t to : furthest_from(edges_[from].point))
         if (Halves halves = half_circles(from, to); !halves.edges.empty())
           places.push_back(std::move(halves));
@@ -255,7 +261,7 @@ class Cleaner {
     const auto is_before = [&](const Halves& a, const Halves& b) {
       if (extents(a) != extents(b)) return extents(a) > extents(b);
       const std::size_t k = a.edges[0].point == b.edges[0].point ? 1 : 0;
-      const QuarterMap map = map_();
+      const QuarterMap map = around_.map();
       return lexicographic_less(map.to_image(a.edges[k].point), map.to_image(b.edges[k].point));
     };
     std::sort(places.begin(), places.end(), is_before);
@@ -279,7 +285,7 @@ class Cleaner {
     const double sign = first.bulge > 0 ? 1 : -1;
     const std::size_t count = (to + edges_.size() - from) % edges_.size();
     // The arc on one side of the chord, whichever way the ring runs.
-    const bool is_second = (sign > 0) == map_().mirrors();
+    const bool is_second = (sign > 0) == around_.map().mirrors();
     Bulges bulges = is_second ? Bulges(second.point, first.point, play_)
                               : Bulges(first.point, second.point, play_);
     add_run({from, count}, sign, is_second, bulges);
@@ -349,7 +355,7 @@ class Cleaner {
   }
 
   std::vector<RingEdge>& edges_;
-  const std::function<QuarterMap()>& map_;
+  const RingSurroundings& around_;
   ShapeReport& report_;
   std::vector<bool>
       straightened_;     ///< of each edge: whether it was an arc, as straight as rounding
@@ -361,12 +367,11 @@ class Cleaner {
 
 }  // namespace
 
-void clean_arcs(std::vector<RingEdge>& edges, const std::function<QuarterMap()>& map,
-                ShapeReport& report) {
+void clean_arcs(std::vector<RingEdge>& edges, const RingSurroundings& around, ShapeReport& report) {
   // Arcs that have become one may continue the next, within the play of another box.
   for (;;) {
     const std::uint64_t dropped = report.collinear_points;
-    Cleaner(edges, map, report).run();
+    Cleaner(edges, around, report).run();
     if (report.collinear_points == dropped) return;
   }
 }

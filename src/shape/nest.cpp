@@ -52,10 +52,6 @@ bool is_polygon_in_other_order(const Arrangement& arrangement, const SplicedLoop
   return outer_rings == 1;
 }
 
-VertexSource lowest_source(const Arrangement& arrangement, const SplicedLoop& loop) {
-  return arrangement.sources[tail(arrangement, loop.first_edge)];
-}
-
 }  // namespace
 
 std::optional<Error> check_roles(std::span<const Ring> rings, const Arrangement& arrangement,
@@ -151,9 +147,7 @@ std::optional<Error> nest(const Arrangement& arrangement, SplicedLoops& loops) {
     }
   }
   std::sort(outer.begin(), outer.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const VertexSource sa = lowest_source(arrangement, loops.loops[a]);
-    const VertexSource sb = lowest_source(arrangement, loops.loops[b]);
-    return std::tie(sa.ring, sa.vertex, a) < std::tie(sb.ring, sb.vertex, b);
+    return std::tie(loops.loops[a].first_vertex, a) < std::tie(loops.loops[b].first_vertex, b);
   });
   for (std::uint32_t i = 0; i < outer.size(); ++i) loops.loops[outer[i]].component = i;
   if (!hole_at.empty()) {
@@ -254,10 +248,8 @@ Result<Shape> assemble(const Arrangement& arrangement, const SplicedLoops& loops
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     const SplicedLoop& la = loops.loops[a];
     const SplicedLoop& lb = loops.loops[b];
-    const VertexSource sa = lowest_source(arrangement, la);
-    const VertexSource sb = lowest_source(arrangement, lb);
-    return std::tie(la.component, la.hole, sa.ring, sa.vertex, a) <
-           std::tie(lb.component, lb.hole, sb.ring, sb.vertex, b);
+    return std::tie(la.component, la.hole, la.first_vertex, a) <
+           std::tie(lb.component, lb.hole, lb.first_vertex, b);
   });
 
   Shape shape;

@@ -258,10 +258,6 @@ std::vector<std::uint32_t> successors_in_rings(const Arrangement& arrangement) {
   return successor;
 }
 
-bool lower_source(VertexSource a, VertexSource b) {
-  return a.ring < b.ring || (a.ring == b.ring && a.vertex < b.vertex);
-}
-
 /// The ray of an edge from its end, and from its beginning, when walked with the interior on the
 /// left.
 Ray ray_into(const Arrangement& arrangement, std::uint32_t edge) {
@@ -273,13 +269,23 @@ Ray ray_out_of(const Arrangement& arrangement, std::uint32_t edge) {
                                          : ray_from_end(arrangement, edge);
 }
 
+/// Whether a loop goes straight on from one edge to the next: built again, it has no vertex there
+/// until others touch it.
+bool goes_straight_on(const Arrangement& arrangement, std::uint32_t edge, std::uint32_t next,
+                      std::uint32_t end) {
+  if (!arrangement.bulges.empty() &&
+      (arrangement.bulges[edge] != 0 || arrangement.bulges[next] != 0))
+    return false;
+  const Vec2 from = arrangement.original(tail(arrangement, edge)),
+             here = arrangement.original(tail(arrangement, next)), to = arrangement.original(end);
+  return orientation(from, here, to) == 0 && strictly_between(from, here, to);
+}
+
 /// Walks the loop of an edge and notes what it is.
 SplicedLoop walk(const Arrangement& arrangement, SplicedLoops& result, std::uint32_t start) {
   const std::vector<Vec2>& points = arrangement.points;
-  const std::vector<VertexSource>& sources = arrangement.sources;
   const auto index = static_cast<std::uint32_t>(result.loops.size());
   SplicedLoop loop{.first_edge = start, .size = 0, .leftmost = tail(arrangement, start)};
-  VertexSource lowest = sources[loop.leftmost];
   std::uint32_t edge = start;
   std::uint32_t vertex = tail(arrangement, result.successor[edge]);
   do {
@@ -289,8 +295,8 @@ SplicedLoop walk(const Arrangement& arrangement, SplicedLoops& result, std::uint
     edge = result.successor[edge];
     const std::uint32_t after = tail(arrangement, result.successor[edge]);
     const Vec2 here = points[vertex];
-    if (lower_source(sources[vertex], lowest)) {
-      lowest = sources[vertex];
+    if (vertex < loop.first_vertex && !goes_straight_on(arrangement, edge_before, edge, after)) {
+      loop.first_vertex = vertex;
       loop.first_edge = edge;
     }
     if (!lexicographic_less(points[loop.leftmost], here)) {

@@ -65,7 +65,9 @@ bool turns_left(Vec2 center, const Ray& a, const Ray& b);
 
 /// A closed walk along edges with the interior on the left.
 struct SplicedLoop {
-  std::uint32_t first_edge = 0;  ///< begins at the vertex of the lowest source
+  std::uint32_t first_edge = 0;  ///< begins at `first_vertex`
+  /// The first one in the order of the rings at which the loop does not go straight on.
+  std::uint32_t first_vertex = no_index;
   std::uint32_t size = 0;
   std::uint32_t leftmost = 0;  ///< the leftmost vertex
   bool hole = false;

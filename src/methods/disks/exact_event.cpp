@@ -79,7 +79,8 @@ class ExactEvents::Search {
         else
           consider(site);
       candidates = best_ ? intruders(*best_) : neighbors;
-      if (best_ && candidates.empty()) return Found{site_, rounded(*best_), error_of_best()};
+      if (best_ && candidates.empty())
+        return Found{site_, rounded(*best_), error_of_best(), is_node(*best_)};
       erase_seen(candidates);
       if (candidates.empty() && !std::exchange(node_asked, true)) {
         candidates = touched_by_node();
@@ -262,6 +263,13 @@ class ExactEvents::Search {
     const auto away = disk.center - from.center;
     return (dot(away, away) - Number(slack()) * Number(slack())).positive() &&
            comes_before(disk, from);
+  }
+
+  /// Whether a disk that is not behind the node's is that one, as far as the numbers can tell; none
+  /// where the node's is not known.
+  std::optional<bool> is_node(const KnownDisk& disk) const {
+    if (!node_) return std::nullopt;
+    return !comes_before(*node_, disk);
   }
 
   bool is_too_large(const KnownDisk& disk) const {

@@ -81,8 +81,9 @@ class ExactEvents {
   struct Found {
     std::uint32_t site = 0;
     Disk disk;
-    double error = 0;         ///< of the disk's coordinates together, before they were rounded
-    bool in_precise = false;  ///< by 256 bits
+    double error = 0;             ///< of the disk's coordinates together, before they were rounded
+    std::optional<bool> is_node;  ///< whether it is the node's disk, if that one is known
+    bool in_precise = false;      ///< by 256 bits
 
     /// Whether the disk is known to the digits of a double: not between sites that are all but
     /// parallel.

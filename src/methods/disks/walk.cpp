@@ -41,7 +41,8 @@ class Walker {
         own_contacts_(contacts_with(context, chunk.statistics)),
         contacts_(*own_contacts_),
         ahead_(context, contacts_, chunk.statistics),
-        is_exact_(context.exact.always(chunk.component)) {
+        is_exact_(context.exact.always(chunk.component)),
+        keeps_ties_(contacts_.is_polygon() && !context.joins_ties) {
     parts_.reserve(2);
   }
 
@@ -72,6 +73,8 @@ class Walker {
     bool is_certain = false;
     bool is_tie = false;      ///< the event's disk touches several sites
     bool joins_node = false;  ///< double is certain that it is one tie with the span's node
+    /// Whether the event's disk is the node's: where ties are kept in a polygon, if it is known.
+    std::optional<bool> is_node = {};
   };
 
   /// Walks all of a run from a disk that touches its ends.
@@ -135,7 +138,7 @@ class Walker {
       step.is_open = false;
       if (parts_.empty()) return;
       const bool stays = step.event.kind == Event::Kind::at_node;
-      const std::uint32_t node = stays ? step.span.node : arrive(step.span, from, step.event.disk);
+      const std::uint32_t node = stays ? step.span.node : arrive(step, from);
       for (Step& part : parts_) part.span.node = node;
       if (node != step.span.node) from = step.event.disk;
       const Step* next = parts_.data();
@@ -182,7 +185,7 @@ class Walker {
       return look_ahead(step);
     }
     const bool moves = event.disk.center != from.center || event.disk.radius != from.radius;
-    const Division parts(span, event, step.error, moves);
+    const Division parts(span, event, step.error, moves || step.is_node);
     for (std::size_t i = 0; i < parts.count; ++i) parts_.push_back({parts.part[i]});
     look_ahead(step);
   }
@@ -289,17 +292,25 @@ class Walker {
     return reach > 0 && site::squared_distance(site(i), disk.center) < reach * reach;
   }
 
-  /// Of the sites of two spans that differ by pieces of one arc, those on which the foot lies. Half
-  /// a circle on the parameter is infinite, of either sign: what is more than a quarter turn behind
-  /// a piece is ahead of it.
+  /// Whether the foot lies beyond one end of a piece of an arc. Half a circle on the parameter is
+  /// infinite, of either sign: what is more than a quarter turn behind a piece is ahead of it.
+  bool is_beyond(std::uint32_t i, bool at_end, Vec2 center) const {
+    const double s = site::carrier_parameter(site(i), center), length = site(i).length;
+    const double turn = std::max(length, 2 / std::abs(site(i).curvature));
+    return at_end ? s >= length || s < -turn : s <= 0 || s > length + turn;
+  }
+
+  /// Of the sites of two spans that differ by pieces of one arc, those on which the foot lies.
   void stay_on_pieces(const Span& last, Vec2 center, Span& span) const {
-    const auto is_beyond = [&](std::uint32_t i, bool at_end) {
-      const double s = site::carrier_parameter(site(i), center), length = site(i).length;
-      const double turn = std::max(length, 2 / std::abs(site(i).curvature));
-      return at_end ? s >= length || s < -turn : s <= 0 || s > length + turn;
-    };
-    while (span.right < last.right && is_beyond(span.right, true)) ++span.right;
-    while (span.left > last.left && is_beyond(span.left, false)) --span.left;
+    while (span.right < last.right && is_beyond(span.right, true, center)) ++span.right;
+    while (span.left > last.left && is_beyond(span.left, false, center)) --span.left;
+  }
+
+  /// Of the pieces of one arc inside a span, the one on which the foot lies.
+  std::uint32_t piece_below(Vec2 center, std::uint32_t i, const Span& span) const {
+    while (i - 1 > span.right && boundary_.is_same(i - 1, i) && is_beyond(i, false, center)) --i;
+    while (i + 1 < span.left && boundary_.is_same(i, i + 1) && is_beyond(i, true, center)) ++i;
+    return i;
   }
 
   /// Whether the event is that a foot passes on to the next piece of the same arc.
@@ -323,8 +334,7 @@ class Walker {
     if (found != nullptr && found->is_certain) {
       step.event = found->event;
       step.error = found->error;
-      step.is_certain = true;
-      ++chunk_.statistics.exact_filtered;
+      take(step);
       return;
     }
     const std::uint64_t queries = chunk_.statistics.queries;
@@ -333,9 +343,15 @@ class Walker {
     ahead_.note(chunk_.statistics.queries - queries <= 1);
     const Certainty certainty(boundary_, context_.tolerance, span, from, step.event);
     step.error = certainty.error();
-    step.is_certain = is_taken(step, from, certainty);
+    if (is_taken(step, from, certainty)) take(step);
     step.joins_node = step.is_certain && certainty.is_tie();
-    if (step.is_certain) ++chunk_.statistics.exact_filtered;
+  }
+
+  /// Takes an event as double has it.
+  void take(Step& step) {
+    step.is_certain = true;
+    if (keeps_ties_) step.is_node = false;
+    ++chunk_.statistics.exact_filtered;
   }
 
   void count(const std::optional<ExactEvents::Found>& found) {
@@ -373,13 +389,14 @@ class Walker {
     if (boundary_.has_arcs && is_wrong(span, found->disk)) lose(span, span.third);
     span = ahead;
     step.joins_node = false;
+    if (keeps_ties_) step.is_node = found->is_node;
     step.error = Certainty::rounding + found->error;
     event.disk = found->disk;
-    event.site = found->site;
+    event.site = piece_below(event.disk.center, found->site, span);
     event.kind =
-        found->site == span.right + 1 && boundary_.is_smooth(span.right)   ? Event::Kind::pass_right
-        : found->site + 1 == span.left && boundary_.is_smooth(found->site) ? Event::Kind::pass_left
-                                                                           : Event::Kind::contact;
+        event.site == span.right + 1 && boundary_.is_smooth(span.right)  ? Event::Kind::pass_right
+        : event.site + 1 == span.left && boundary_.is_smooth(event.site) ? Event::Kind::pass_left
+                                                                         : Event::Kind::contact;
     return true;
   }
 
@@ -434,8 +451,9 @@ class Walker {
       return false;
     }
     const std::uint32_t node = add_node(found->disk);
-    const Step first{{whole.right, found->site, node, whole.left, Certainty::rounding, true}},
-        second{{found->site, whole.left, node, whole.right, Certainty::rounding, true}};
+    const std::uint32_t touched = piece_below(found->disk.center, found->site, whole);
+    const Step first{{whole.right, touched, node, whole.left, Certainty::rounding, true}},
+        second{{touched, whole.left, node, whole.right, Certainty::rounding, true}};
     if (size(first) > size(second))
       push(first, second);
     else
@@ -478,7 +496,7 @@ class Walker {
     };
     const bool is_node = !goes_on(span.right) || !goes_on(span.left);
     const Disk& disk = context_.bridges[bridge].disk;
-    if (coincide(chunk_.nodes[span.node], disk)) {
+    if (!keeps_ties_ && coincide(chunk_.nodes[span.node], disk)) {
       chunk_.bridge_ends.push_back({bridge, span.node, BridgeEnd::no_edge});
       return;
     }
@@ -516,11 +534,12 @@ class Walker {
     chunk_.links.push_back({{span.node, to}, {span.left, span.right}});
   }
 
-  /// The node of `disk`, with the edge that leads there; the old node where that edge has no
-  /// length.
-  std::uint32_t arrive(const Span& span, const Disk& from, const Disk& disk) {
+  /// The node of a step's event, with the edge that leads there; the old node where it is that one.
+  std::uint32_t arrive(const Step& step, const Disk& from) {
+    const Span& span = step.span;
+    const Disk& disk = step.event.disk;
     // A corner stays a leaf, however thin the shape is there.
-    if (from.radius > 0 && coincide(from, disk)) return span.node;
+    if (from.radius > 0 && step.is_node.value_or(coincide(from, disk))) return span.node;
     double& largest = chunk_.statistics.largest_residual;
     for (const std::uint32_t i : {span.right, span.left})
       largest =
@@ -601,6 +620,7 @@ class Walker {
   Contacts& contacts_;
   RunAhead ahead_;
   const bool is_exact_;        ///< double is never asked
+  const bool keeps_ties_;      ///< nodes of a polygon are one only if their disks are
   bool starts_blunt_ = false;  ///< the run begins at a blunt joint, node 0
   std::vector<Step> stack_;
   std::uint32_t left_behind_ = 0;  ///< sites of spans in the stack, about
