@@ -32,6 +32,8 @@ constexpr double chord_rounding = 0x1p-48;
 constexpr double flat_enough = 1.0 / 16;
 /// and on the levels of nodes of 8 to 512 sites: larger ones are few,
 constexpr std::size_t chord_levels = 4;
+/// Rows of holes are worth it where they are that short: the disks there are much larger.
+constexpr double longest_with_cuts = 0x1p-8;
 /// where at least one node in so many has one. Boxes of 8 sites take more memory than all others.
 constexpr std::size_t rare_of(std::uint32_t level) { return level == 0 ? 2 : 16; }
 
@@ -128,37 +130,54 @@ std::size_t BoundaryTree::set_chord_boxes(std::size_t node, std::size_t span,
   return fitting;
 }
 
-/// The direction of the line that a boundary with reflex vertices shows to what lies before it, or
-/// else of its chord. Of a staircase no box in another direction separates the corners.
-Vec2 BoundaryTree::chord_of(std::span<const Site> sites) {
-  const auto is_vertex = [](const Site& site) { return site.is_vertex(); };
-  const auto first = std::find_if(sites.begin(), sites.end(), is_vertex);
-  const auto last = std::find_if(sites.rbegin(), sites.rend(), is_vertex);
-  if (first != sites.end() && first->point != last->point) return last->point - first->point;
-  return sites.back().end() - sites.front().point;
+/// The normal of the line that a boundary shows to what lies on its left, through the highest points
+/// of its first and of its last third; that of its chord where these are near to each other. Of a
+/// staircase, or of a row of holes, no box in another direction keeps as clear.
+Vec2 BoundaryTree::facing_normal(std::span<const Site> sites, Vec2 begin, Vec2 chord) {
+  const auto highest = [&](std::span<const Site> some, Vec2 so_far) {
+    double height = 0;
+    for (const Site& site : some) {
+      const double h = cross(chord, site.point - begin);
+      if (!(h > height) || std::abs(site.point.x) > outside) continue;
+      height = h;
+      so_far = site.point;
+    }
+    return so_far;
+  };
+  const std::size_t third = sites.size() / 3;
+  Vec2 along = highest(sites.last(third), begin + chord) - highest(sites.first(third), begin);
+  constexpr double near = 0.25;
+  if (!(dot(along, chord) > near * squared_norm(chord))) along = chord;
+  return left_of((1 / norm(along)) * along);
 }
 
 std::optional<BoundaryTree::ChordBox> BoundaryTree::chord_box(std::span<const Site> sites) {
   constexpr double infinity_d = std::numeric_limits<double>::infinity();
-  const Vec2 chord = chord_of(sites);
+  const auto is_inside = [](const Site& site) { return std::abs(site.point.x) <= outside; };
+  const auto first = std::find_if(sites.begin(), sites.end(), is_inside);
+  if (first == sites.end()) return std::nullopt;
+  const Vec2 begin = first->point,
+             chord = std::find_if(sites.rbegin(), sites.rend(), is_inside)->end() - begin;
   const double length = norm(chord);
-  if (!(length > 0 && length < outside)) return std::nullopt;
+  const bool has_cuts = !std::all_of(first, sites.end(), is_inside);
+  if (!(length > 0) || (has_cuts && length > longest_with_cuts)) return std::nullopt;
   const Vec2 along = (1 / length) * chord;
   // Most that do not fit are recognised by a few of their points.
   for (std::size_t i = 1; i < 4; ++i) {
-    const Vec2 p = sites[i * sites.size() / 4].point - sites.front().point;
-    if (std::abs(cross(along, p)) > flat_enough * length) return std::nullopt;
+    const Site& site = sites[i * sites.size() / 4];
+    if (is_inside(site) && std::abs(cross(along, site.point - begin)) > flat_enough * length)
+      return std::nullopt;
   }
-  ChordBox box{left_of(along), infinity_d, -infinity_d, infinity_d, -infinity_d};
+  ChordBox box{facing_normal(sites, begin, chord), infinity_d, -infinity_d, infinity_d, -infinity_d};
   const auto add = [&](Vec2 p) {
-    const double height = dot(box.normal, p), position = dot(along, p);
+    const double height = dot(box.normal, p), position = cross(p, box.normal);
     box.low = std::min(box.low, height);
     box.high = std::max(box.high, height);
     box.begin = std::min(box.begin, position);
     box.end = std::max(box.end, position);
   };
   for (const Site& site : sites) {
-    if (std::abs(site.point.x) > outside) return std::nullopt;
+    if (!is_inside(site)) continue;
     add(site.point);
     if (!site.is_vertex()) add(site.end());  // a loop may end here
     if (site.is_arc()) add(site.apex());

@@ -70,7 +70,7 @@ class BoundaryTree {
 
   void build_chord_boxes(bool of_8_sites);
   std::size_t set_chord_boxes(std::size_t node, std::size_t span, ChordBoxes& boxes) const;
-  static Vec2 chord_of(std::span<const site::Site> sites);
+  static Vec2 facing_normal(std::span<const site::Site> sites, Vec2 begin, Vec2 chord);
   static std::optional<ChordBox> chord_box(std::span<const site::Site> sites);
   static std::uint32_t beyond(const ChordBoxes& boxes, Vec2 c, double reach);
 
