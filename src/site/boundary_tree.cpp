@@ -35,6 +35,7 @@ constexpr double flat_enough = 1.0 / 16;
 constexpr std::size_t chord_levels = 4;
 /// and where so many sites lie in so small a box, whatever their height: next to disks that are much
 /// larger, all teeth of a comb, and all holes in a row, are all but touched.
+constexpr std::uint32_t level_of_many = 2;
 constexpr std::size_t many = 128;
 constexpr double small = 0x1p-8;
 /// where at least one node in so many has one. Boxes of 8 sites take more memory than all others.
@@ -326,10 +327,18 @@ template <BoundaryTree::Order order, class Visit>
         continue;
       }
     }
+    // What was near may be out of reach since: of many sites, that is worth asking again.
+    const auto is_beyond = [&] {
+      if (reach < small || top.level < level_of_many || top.level >= chord_count ||
+          chords_[top.level].boxes.empty())
+        return false;
+      const ChordBoxes& boxes = chords_[top.level].boxes[top.index / fan];
+      return (beyond(boxes, c, reach) >> top.index % fan & 1U) != 0;
+    };
     do {
       if (size == 0) return;
       top = stack[--size];
-    } while (!(top.squared < limit));
+    } while (!(top.squared < limit) || is_beyond());
   }
 }
 
