@@ -56,7 +56,8 @@ TEST(BoundaryTree, FindsTheNearestOfFewAndOfMany) {
   }
 }
 
-// Boxes along a row of holes lie in double precision at what disks all but touch that are far larger.
+// Boxes along a row of holes lie in double precision at what disks all but touch that are far
+// larger.
 TEST(BoundaryTree, FindsTheNearestInRowsOfHolesFromFarAway) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> size(0.2, 0.7), turn(0, 1.5), place(0, 1);

@@ -13,7 +13,7 @@ namespace {
 
 using site::Site;
 
-/// Beyond this a site belongs to no box.
+/// Beyond this a site belongs to no box: cuts, as bridges leave them, lie there.
 constexpr double outside = 64;
 bool is_inside(const Site& site) { return std::abs(site.point.x) <= outside; }
 
@@ -33,10 +33,10 @@ constexpr double chord_rounding = 0x1p-48;
 constexpr double flat_enough = 1.0 / 16;
 /// and on the levels of nodes of 8 to 512 sites: larger ones are few,
 constexpr std::size_t chord_levels = 4;
-/// and where so many sites lie in so small a box, whatever their height: next to disks that are much
-/// larger, all teeth of a comb, and all holes in a row, are all but touched.
+/// and where so many sites lie in so small a box, whatever their height: next to disks that are
+/// much larger, all teeth of a comb, and all holes in a row, are all but touched.
 constexpr std::uint32_t level_of_many = 2;
-constexpr std::size_t many = 128;
+constexpr std::size_t many = std::size_t{8} << (2 * level_of_many);
 constexpr double small = 0x1p-8;
 /// where at least one node in so many has one. Boxes of 8 sites take more memory than all others.
 constexpr std::size_t rare_of(std::uint32_t level) { return level == 0 ? 2 : 16; }
@@ -138,9 +138,9 @@ void BoundaryTree::set_chord_boxes(std::size_t node, std::size_t span, ChordBoxe
   }
 }
 
-/// The normal of the line that a boundary shows to what lies on its left, through the highest points
-/// of its first and of its last third; that of its chord where these are near to each other. Of a
-/// staircase, or of a row of holes, no box in another direction keeps as clear.
+/// The normal of the line that a boundary shows to what lies on its left, through the highest
+/// points of its first and of its last third; that of its chord where these are near to each other.
+/// Of a staircase, or of a row of holes, no box in another direction keeps as clear.
 Vec2 BoundaryTree::facing_normal(std::span<const Site> sites, Vec2 begin, Vec2 chord) {
   const auto highest = [&](std::span<const Site> some, Vec2 so_far) {
     double height = 0;

@@ -94,8 +94,8 @@ class BoundaryTree {
 
   std::span<const site::Site> sites_;
   bool has_arcs_;
-  std::vector<WorkVector<Boxes>> levels_;       ///< levels_[0]: of blocks; none of few sites
-  std::vector<ChordLevel> chords_;  ///< of the lowest levels
+  std::vector<WorkVector<Boxes>> levels_;  ///< levels_[0]: of blocks; none of few sites
+  std::vector<ChordLevel> chords_;         ///< of the lowest levels
 };
 
 }  // namespace medial::site
