@@ -56,5 +56,40 @@ TEST(BoundaryTree, FindsTheNearestOfFewAndOfMany) {
   }
 }
 
+// Boxes along a row of holes lie in double precision at what disks all but touch that are far
+// larger.
+TEST(BoundaryTree, FindsTheNearestInRowsOfHolesFromFarAway) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> size(0.2, 0.7), turn(0, 1.5), place(0, 1);
+  const Site cut = make_vertex({1e30, 1e30});
+  constexpr std::uint32_t holes = 800;
+  for (const bool are_equal : {true, false}) {
+    const double angle = turn(random), spacing = 1e-5;
+    const Vec2 along{std::cos(angle), std::sin(angle)}, up = left_of(along);
+    std::vector<Site> sites;
+    for (std::uint32_t i = 0; i < holes; ++i) {
+      const double side = spacing * (are_equal ? 0.5 : size(random));
+      const Vec2 a = (i * spacing) * along, b = a + side * along;
+      for (const auto& [from, to] : {std::pair{a - side * up, a}, {a, b}, {b, b - side * up}}) {
+        sites.push_back(make_vertex(from));
+        sites.push_back(make_segment(from, to));
+      }
+      sites.push_back(cut);
+    }
+    const auto last = static_cast<std::uint32_t>(sites.size() - 1);
+    const BoundaryTree tree(sites);
+    for (int query = 0; query < 200; ++query) {
+      const Vec2 foot = (holes * spacing * place(random)) * along;
+      const double height = 0.9 * place(random);
+      const Vec2 c = foot + (query % 3 == 0 ? -height : height) * up;
+      double nearest = 4;
+      for (const Site& site : sites) nearest = std::min(nearest, squared_distance(site, c));
+      for (const double reach : {1.5, std::sqrt(nearest) * (1 + 1e-14), std::sqrt(nearest) + 1e-9})
+        EXPECT_EQ(tree.nearest(c, reach, 0, last).squared_distance, nearest) << are_equal;
+      EXPECT_FALSE(tree.nearest(c, std::sqrt(nearest) * (1 - 1e-14), 0, last));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace medial::site

@@ -13,8 +13,9 @@ namespace {
 
 using site::Site;
 
-/// Beyond this a site belongs to no box.
+/// Beyond this a site belongs to no box: cuts, as bridges leave them, lie there.
 constexpr double outside = 64;
+bool is_inside(const Site& site) { return std::abs(site.point.x) <= outside; }
 
 /// What single precision (u = 2^-24) may add to the distance from a box, for local coordinates
 /// below 2 and distances below 4. Along each axis: the query's centre rounded, 2 u; the difference,
@@ -32,6 +33,11 @@ constexpr double chord_rounding = 0x1p-48;
 constexpr double flat_enough = 1.0 / 16;
 /// and on the levels of nodes of 8 to 512 sites: larger ones are few,
 constexpr std::size_t chord_levels = 4;
+/// and where so many sites lie in so small a box, whatever their height: next to disks that are
+/// much larger, all teeth of a comb, and all holes in a row, are all but touched.
+constexpr std::uint32_t level_of_many = 2;
+constexpr std::size_t many = std::size_t{8} << (2 * level_of_many);
+constexpr double small = 0x1p-8;
 /// where at least one node in so many has one. Boxes of 8 sites take more memory than all others.
 constexpr std::size_t rare_of(std::uint32_t level) { return level == 0 ? 2 : 16; }
 
@@ -59,7 +65,7 @@ BoundaryTree::BoundaryTree(std::span<const Site> sites, Chords chords)
         const std::size_t end = std::min(begin + block_size, sites.size());
         Extent extent;
         for (std::size_t i = begin; i < end; ++i)
-          if (std::abs(sites[i].point.x) <= outside) extent.add(sites[i]);
+          if (is_inside(sites[i])) extent.add(sites[i]);
         levels_[0][node].set(lane, extent);
       }
     }
@@ -76,44 +82,49 @@ BoundaryTree::BoundaryTree(std::span<const Site> sites, Chords chords)
 }
 
 void BoundaryTree::build_chord_boxes(bool of_8_sites) {
-  for (std::uint32_t level = 0; level < std::min<std::size_t>(chord_levels, levels_.size());
-       ++level) {
+  chords_.resize(std::min<std::size_t>(chord_levels, levels_.size()));
+  for (std::uint32_t level = of_8_sites ? 0 : 1; level < chords_.size(); ++level) {
     const std::size_t span = std::size_t{block_size} << (2 * level);
     const std::size_t nodes = levels_[level].size();
-    WorkVector<ChordBoxes>& boxes = chords_.emplace_back();
-    if (level == 0 && !of_8_sites) continue;
-    const std::size_t rare = rare_of(level);
+    const auto is_rare = [&](std::size_t lanes) {
+      return lanes * rare_of(level) * span < sites_.size();
+    };
+    WorkVector<ChordBoxes>& boxes = chords_[level].boxes;
     // Where few of a sample fit, the level takes no memory.
     constexpr std::size_t sampled = 16;
     if (nodes > sampled * sampled) {
-      std::size_t fitting = 0;
+      Fitting fitting;
       ChordBoxes some;
       for (std::size_t node = 0; node < nodes; node += sampled)
-        fitting += set_chord_boxes(node, span, some);
-      if (fitting * sampled * rare * span < sites_.size()) continue;
+        set_chord_boxes(node, span, some, fitting);
+      if (is_rare(sampled * fitting.lanes)) continue;
     }
     boxes.resize(nodes);
-    std::atomic<std::size_t> count = 0;
+    std::atomic<std::size_t> lanes = 0, flat = 0;
     parallel_ranges(nodes, 256, [&](std::size_t node, std::size_t last) {
-      std::size_t fitting = 0;
-      for (; node < last; ++node) fitting += set_chord_boxes(node, span, boxes[node]);
-      count += fitting;
+      Fitting fitting;
+      for (; node < last; ++node) set_chord_boxes(node, span, boxes[node], fitting);
+      lanes += fitting.lanes;
+      flat += fitting.flat;
     });
-    if (count * rare * span < sites_.size()) free_memory(boxes);
+    if (is_rare(lanes))
+      free_memory(boxes);
+    else if (is_rare(flat))
+      chords_[level].least_reach = small;
   }
 }
 
-/// The boxes of a node over lanes of `span` sites each; how many lanes have one.
-std::size_t BoundaryTree::set_chord_boxes(std::size_t node, std::size_t span,
-                                          ChordBoxes& boxes) const {
-  std::size_t fitting = 0;
+/// The boxes of a node over lanes of `span` sites each.
+void BoundaryTree::set_chord_boxes(std::size_t node, std::size_t span, ChordBoxes& boxes,
+                                   Fitting& fitting) const {
   for (std::size_t lane = 0; lane < fan; ++lane) {
     const std::size_t begin = (node * fan + lane) * span;
     const std::size_t end = std::min(begin + span, sites_.size());
     std::optional<ChordBox> box;
     if (begin < end) box = chord_box(sites_.subspan(begin, end - begin));
     if (box) {
-      ++fitting;
+      ++fitting.lanes;
+      if (box->is_flat) ++fitting.flat;
     } else {
       constexpr double all = std::numeric_limits<double>::infinity();
       box = ChordBox{{1, 0}, -all, all, -all, all};
@@ -125,45 +136,65 @@ std::size_t BoundaryTree::set_chord_boxes(std::size_t node, std::size_t span,
     boxes.begin[lane] = box->begin;
     boxes.end[lane] = box->end;
   }
-  return fitting;
 }
 
-/// The direction of the line that a boundary with reflex vertices shows to what lies before it, or
-/// else of its chord. Of a staircase no box in another direction separates the corners.
-Vec2 BoundaryTree::chord_of(std::span<const Site> sites) {
-  const auto is_vertex = [](const Site& site) { return site.is_vertex(); };
-  const auto first = std::find_if(sites.begin(), sites.end(), is_vertex);
-  const auto last = std::find_if(sites.rbegin(), sites.rend(), is_vertex);
-  if (first != sites.end() && first->point != last->point) return last->point - first->point;
-  return sites.back().end() - sites.front().point;
+/// The normal of the line that a boundary shows to what lies on its left, through the highest
+/// points of its first and of its last third; that of its chord where these are near to each other.
+/// Of a staircase, or of a row of holes, no box in another direction keeps as clear.
+Vec2 BoundaryTree::facing_normal(std::span<const Site> sites, Vec2 begin, Vec2 chord) {
+  const auto highest = [&](std::span<const Site> some, Vec2 so_far) {
+    double height = 0;
+    for (const Site& site : some) {
+      const double h = cross(chord, site.point - begin);
+      if (!(h > height) || !is_inside(site)) continue;
+      height = h;
+      so_far = site.point;
+    }
+    return so_far;
+  };
+  const std::size_t third = sites.size() / 3;
+  Vec2 along = highest(sites.last(third), begin + chord) - highest(sites.first(third), begin);
+  constexpr double near = 0.25;
+  if (!(dot(along, chord) > near * squared_norm(chord))) along = chord;
+  return left_of((1 / norm(along)) * along);
 }
 
 std::optional<BoundaryTree::ChordBox> BoundaryTree::chord_box(std::span<const Site> sites) {
-  constexpr double infinity_d = std::numeric_limits<double>::infinity();
-  const Vec2 chord = chord_of(sites);
-  const double length = norm(chord);
-  if (!(length > 0 && length < outside)) return std::nullopt;
-  const Vec2 along = (1 / length) * chord;
+  const auto first = std::find_if(sites.begin(), sites.end(), is_inside);
+  if (first == sites.end()) return std::nullopt;
+  const Vec2 begin = first->point,
+             chord = std::find_if(sites.rbegin(), sites.rend(), is_inside)->end() - begin;
+  const double length = norm(chord), highest = flat_enough * length;
+  if (!(length > 0)) return std::nullopt;
+  const bool may_be_high = sites.size() >= many && length <= small;
   // Most that do not fit are recognised by a few of their points.
-  for (std::size_t i = 1; i < 4; ++i) {
-    const Vec2 p = sites[i * sites.size() / 4].point - sites.front().point;
-    if (std::abs(cross(along, p)) > flat_enough * length) return std::nullopt;
+  for (std::size_t i = 1; i < 4 && !may_be_high; ++i) {
+    const Site& site = sites[i * sites.size() / 4];
+    if (!is_inside(site) || std::abs(cross(chord, site.point - begin)) > highest * length)
+      return std::nullopt;
   }
-  ChordBox box{left_of(along), infinity_d, -infinity_d, infinity_d, -infinity_d};
+  constexpr double all = std::numeric_limits<double>::infinity();
+  ChordBox box{facing_normal(sites, begin, chord), all, -all, all, -all};
   const auto add = [&](Vec2 p) {
-    const double height = dot(box.normal, p), position = dot(along, p);
+    const double height = dot(box.normal, p), position = cross(p, box.normal);
     box.low = std::min(box.low, height);
     box.high = std::max(box.high, height);
     box.begin = std::min(box.begin, position);
     box.end = std::max(box.end, position);
   };
   for (const Site& site : sites) {
-    if (std::abs(site.point.x) > outside) return std::nullopt;
-    add(site.point);
-    if (!site.is_vertex()) add(site.end());  // a loop may end here
-    if (site.is_arc()) add(site.apex());
+    if (is_inside(site)) {
+      const Site* const next = &site == &sites.back() ? nullptr : &site + 1;
+      add(site.point);
+      if (site.is_arc()) add(site.apex());
+      if (!site.is_vertex() && (next == nullptr || !meets(site, *next))) add(site.end());
+    } else if (!may_be_high) {
+      return std::nullopt;
+    }
   }
-  if (box.high - box.low > flat_enough * length) return std::nullopt;
+  box.is_flat = box.high - box.low <= highest;
+  const double size = std::max(box.high - box.low, box.end - box.begin);
+  if (!box.is_flat && !(may_be_high && size <= small)) return std::nullopt;
   box.low -= chord_rounding;
   box.high += chord_rounding;
   box.begin -= chord_rounding;
@@ -286,8 +317,8 @@ template <BoundaryTree::Order order, class Visit>
           children_within(child, first_block >> (2 * below), last_block >> (2 * below));
       Lanes squared;
       mask &= nearer(boxes, x, y, limit, squared);
-      if (below < chord_count && mask != 0 && !chords_[below].empty())
-        mask &= ~beyond(chords_[below][top.index], c, reach);
+      if (below < chord_count && mask != 0 && chords_[below].pay(reach))
+        mask &= ~beyond(chords_[below].boxes[top.index], c, reach);
       if (mask != 0) {
         if constexpr (order == Order::nearest_first)
           top = take_nearest(mask, child, below, squared, stack, size);
@@ -296,10 +327,18 @@ template <BoundaryTree::Order order, class Visit>
         continue;
       }
     }
+    // What was near may be out of reach since: of many sites, that is worth asking again.
+    const auto is_beyond = [&] {
+      if (reach < small || top.level < level_of_many || top.level >= chord_count ||
+          chords_[top.level].boxes.empty())
+        return false;
+      const ChordBoxes& boxes = chords_[top.level].boxes[top.index / fan];
+      return (beyond(boxes, c, reach) >> top.index % fan & 1U) != 0;
+    };
     do {
       if (size == 0) return;
       top = stack[--size];
-    } while (!(top.squared < limit));
+    } while (!(top.squared < limit) || is_beyond());
   }
 }
 

@@ -66,11 +66,23 @@ class BoundaryTree {
   struct ChordBox {
     Vec2 normal;
     double low, high, begin, end;
+    bool is_flat = false;
+  };
+  /// The boxes of a level's nodes, for searches that reach so far; none where few lanes have one.
+  struct ChordLevel {
+    WorkVector<ChordBoxes> boxes;
+    double least_reach = 0;
+    bool pay(double reach) const { return !boxes.empty() && reach >= least_reach; }
+  };
+  struct Fitting {
+    std::size_t lanes = 0;  ///< that have a box
+    std::size_t flat = 0;   ///< of these
   };
 
   void build_chord_boxes(bool of_8_sites);
-  std::size_t set_chord_boxes(std::size_t node, std::size_t span, ChordBoxes& boxes) const;
-  static Vec2 chord_of(std::span<const site::Site> sites);
+  void set_chord_boxes(std::size_t node, std::size_t span, ChordBoxes& boxes,
+                       Fitting& fitting) const;
+  static Vec2 facing_normal(std::span<const site::Site> sites, Vec2 begin, Vec2 chord);
   static std::optional<ChordBox> chord_box(std::span<const site::Site> sites);
   static std::uint32_t beyond(const ChordBoxes& boxes, Vec2 c, double reach);
 
@@ -82,8 +94,8 @@ class BoundaryTree {
 
   std::span<const site::Site> sites_;
   bool has_arcs_;
-  std::vector<WorkVector<Boxes>> levels_;       ///< levels_[0]: of blocks; none of few sites
-  std::vector<WorkVector<ChordBoxes>> chords_;  ///< of the lowest levels; empty where rare
+  std::vector<WorkVector<Boxes>> levels_;  ///< levels_[0]: of blocks; none of few sites
+  std::vector<ChordLevel> chords_;         ///< of the lowest levels
 };
 
 }  // namespace medial::site

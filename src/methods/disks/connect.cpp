@@ -172,13 +172,14 @@ class Connector {
            beyond(before, site::carrier_parameter(before, center) - before.length) &&
            beyond(after, -site::carrier_parameter(after, center));
   }
-  /// The bridge among all sites that a disk from `foot` nearly reaches, which has about this radius
-  /// in double. Where it touches none of them after all, among those that larger ones reach.
+  /// The bridge among all sites that a disk from `foot` reaches, which has about this radius in
+  /// double. Where it touches none of them after all, among those that larger ones reach.
   std::optional<Bridge> exact_bridge(std::uint32_t hole, Vec2 foot, double radius) const {
-    constexpr double rounding = 0x1p-46, growth = 8;
+    constexpr double first_margin = 0x1p-46, growth = 64;
     const Boundary::SiteRange own = loops_.runs[hole];
     const double largest = largest_radius(foot);
-    for (double reach = radius + rounding;; reach = std::min(largest, growth * reach)) {
+    for (double margin = first_margin;; margin *= growth) {
+      const double reach = std::min(largest, radius + margin);
       const std::vector<std::uint32_t> near = sites_in(foot, reach, shape_.component[hole], own);
       const auto touch = exact_.first_touch(foot, loops_, near);
       if (touch && touch->radius <= reach)
@@ -186,7 +187,8 @@ class Connector {
       if (!(reach < largest)) return std::nullopt;
     }
   }
-  /// The sites near to the disk from `foot` with this radius, but for a hole's own.
+  /// The sites that the disk from `foot` with this radius reaches, or all but reaches, but for a
+  /// hole's own.
   std::vector<std::uint32_t> sites_in(Vec2 foot, double radius, std::uint32_t component,
                                       const Boundary::SiteRange& own) const {
     std::vector<std::uint32_t> near;
@@ -197,7 +199,8 @@ class Connector {
       if (loops_.elements[after] == Element::vertex && (after < own.first || after > own.last))
         near.push_back(after);
     };
-    first_touch_.near(foot + radius * outreach, radius, component, [&](std::uint32_t site) {
+    const double reach = radius + site::FirstTouch::distance_rounding;
+    first_touch_.near(foot + radius * outreach, reach, component, [&](std::uint32_t site) {
       const Boundary::SiteRange run = run_of(loops_, site);
       if (run.last - run.first < loose_sites) {  // searches find one of a segment's sides
         for (std::uint32_t i = run.first; i <= run.last; ++i) add(i, run);

@@ -35,6 +35,23 @@ using PreciseBackend =
 #endif
 using Precise = boost::multiprecision::number<PreciseBackend, boost::multiprecision::et_off>;
 
+// Operators copy their results, which takes as long as a sum.
+#ifdef MEDIAL_WITHOUT_GMP
+inline void add(const Precise& a, const Precise& b, Precise& sum) { sum = a + b; }
+inline void subtract(const Precise& a, const Precise& b, Precise& rest) { rest = a - b; }
+inline void multiply(const Precise& a, const Precise& b, Precise& product) { product = a * b; }
+#else
+inline void add(const Precise& a, const Precise& b, Precise& sum) {
+  mpfr_add(sum.backend().data(), a.backend().data(), b.backend().data(), MPFR_RNDN);
+}
+inline void subtract(const Precise& a, const Precise& b, Precise& rest) {
+  mpfr_sub(rest.backend().data(), a.backend().data(), b.backend().data(), MPFR_RNDN);
+}
+inline void multiply(const Precise& a, const Precise& b, Precise& product) {
+  mpfr_mul(product.backend().data(), a.backend().data(), b.backend().data(), MPFR_RNDN);
+}
+#endif
+
 }  // namespace exact
 
 /// As for Twofold, but the bounds are rough and quick: with 256 bits there is room.
@@ -64,14 +81,29 @@ struct Bounded<exact::Precise> {
   /// Bounds are sums and products of positive numbers with a few roundings each.
   static constexpr Size widen = 1 + 0x1p-48L;
 
-  friend Bounded operator-(const Bounded& a) { return {Real(-a.value), a.error}; }
-  friend Bounded operator+(const Bounded& a, const Bounded& b) {
-    return rounded(a.value + b.value, a.error + b.error);
+  friend Bounded operator-(const Bounded& a) {
+    Bounded result = a;
+    result.value.backend().negate();
+    return result;
   }
-  friend Bounded operator-(const Bounded& a, const Bounded& b) { return a + (-b); }
+  friend Bounded operator+(const Bounded& a, const Bounded& b) {
+    Bounded result{Unset{}};
+    exact::add(a.value, b.value, result.value);
+    result.round(a.error + b.error);
+    return result;
+  }
+  friend Bounded operator-(const Bounded& a, const Bounded& b) {
+    Bounded result{Unset{}};
+    exact::subtract(a.value, b.value, result.value);
+    result.round(a.error + b.error);
+    return result;
+  }
   friend Bounded operator*(const Bounded& a, const Bounded& b) {
     const auto of = [](const Bounded& one, Size off) { return off == 0 ? 0 : one.most() * off; };
-    return rounded(a.value * b.value, of(a, b.error) + of(b, a.error));
+    Bounded result{Unset{}};
+    exact::multiply(a.value, b.value, result.value);
+    result.round(of(a, b.error) + of(b, a.error));
+    return result;
   }
   friend Bounded operator/(const Bounded& a, const Bounded& b) {
     const Size divisor = b.least();
@@ -89,10 +121,14 @@ struct Bounded<exact::Precise> {
   }
 
  private:
-  /// A result that is off by `error` before it is rounded.
+  struct Unset {};
+  explicit Bounded(Unset) : value() {}
+
+  /// A result that is off by `before` before it is rounded.
+  void round(Size before) { error = widen * (before + unit * magnitude()); }
   static Bounded rounded(Real value, Size error) {
-    Bounded result(std::move(value), error);
-    result.error = widen * (error + unit * result.magnitude());
+    Bounded result(std::move(value), 0);
+    result.round(error);
     return result;
   }
   /// Off by two roundings at most, for which `widen` has room.
@@ -100,8 +136,9 @@ struct Bounded<exact::Precise> {
 #ifdef MEDIAL_WITHOUT_GMP
     return std::abs(static_cast<Size>(value));
 #else
-    // mpfr_get_ld() takes ten times as long.
+    // mpfr_get_ld() takes ten times as long, for 0, too.
     const mpfr_srcptr number = value.backend().data();
+    if (mpfr_zero_p(number) != 0) return 0;
     if (mpfr_regular_p(number) == 0) return std::abs(static_cast<Size>(value));
     constexpr int bits = std::numeric_limits<mp_limb_t>::digits;
     const auto* limbs = static_cast<const mp_limb_t*>(mpfr_custom_get_significand(number));
