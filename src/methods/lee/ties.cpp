@@ -179,44 +179,10 @@ void join_ties(Graph& graph, double tolerance) {
   ties.straighten(tolerance);
 }
 
-std::optional<Disk> find_overreach(const Graph& graph, double slack) {
-  constexpr double close = 0.1;            // radii from an element to the next
-  constexpr std::uint32_t first_step = 4;  // nearer ones, merges have seen
-  const Elements& elements = graph.elements();
-  std::optional<Disk> backward;
-  for (const Elements::ChainLoop& loop : elements.loops)
-    graph.for_edges(loop, [&](std::uint32_t edge) {
-      if (graph.disk(edge).radius > 0 && graph.disk(graph.to(edge)).radius > 0 &&
-          !graph.begins_at_bridge(edge) && graph.runs_backward(edge, slack))
-        backward = graph.disk(edge);
-    });
-  if (backward) return backward;
-  for (const std::uint32_t node : graph.doubtful_edges()) {
-    const Disk& disk = graph.disk(node);
-    const auto touched = graph.touched(node);
-    const auto is_far = [&](std::uint32_t element) {
-      const double reach = close * disk.radius;
-      return squared_norm(elements.sites[element].point - elements.sites[touched[0]].point) >
-             reach * reach;
-    };
-    if (is_far(touched[1]) || is_far(touched[2])) continue;
-    const auto [begin, end] = graph.loop_around(touched[0]);
-    const std::uint32_t size = end - begin;
-    const double inner = std::max(0.0, disk.radius - slack);
-    for (std::uint32_t step = first_step; step < size; step *= 2)
-      for (const std::uint32_t far : {step, size - step}) {
-        const std::uint32_t other = begin + (touched[0] - begin + far) % size;
-        if (!elements.is_of_bridge(other) &&
-            site::squared_distance(elements.sites[other], disk.center) < inner * inner)
-          return disk;
-      }
-  }
-  return std::nullopt;
-}
-
 namespace {
 
-/// Whether so many neighbouring Voronoi edges are short that their errors add up.
+/// Whether so many neighbouring Voronoi edges are short that their errors add up; those of one disk
+/// have none.
 bool has_large_tie(const Graph& graph, double slack) {
   constexpr std::uint32_t large = 8;
   constexpr double next_to = 16;
@@ -229,8 +195,10 @@ bool has_large_tie(const Graph& graph, double slack) {
   for (const std::uint32_t edge : graph.doubtful_edges())
     if (is_short(edge)) ties.join(edge, graph.to(edge));
   return std::any_of(
-      graph.doubtful_edges().begin(), graph.doubtful_edges().end(),
-      [&](std::uint32_t edge) { return is_short(edge) && ++size[ties.find(edge)] >= large; });
+      graph.doubtful_edges().begin(), graph.doubtful_edges().end(), [&](std::uint32_t edge) {
+        return is_short(edge) && !is_same(graph.disk(edge), graph.disk(graph.to(edge))) &&
+               ++size[ties.find(edge)] >= large;
+      });
 }
 
 }  // namespace
