@@ -8,7 +8,6 @@
 #include <numeric>
 #include <vector>
 
-#include "base/disjoint_sets.h"
 #include "site/bisector.h"
 
 namespace medial::lee {
@@ -179,32 +178,15 @@ void join_ties(Graph& graph, double tolerance) {
   ties.straighten(tolerance);
 }
 
-namespace {
-
-/// Whether so many neighbouring Voronoi edges are short that their errors add up; those of one disk
-/// have none.
-bool has_large_tie(const Graph& graph, double slack) {
-  constexpr std::uint32_t large = 8;
-  constexpr double next_to = 16;
-  if (graph.doubtful_edges().size() < large) return false;
-  DisjointSets ties(graph.places());
-  std::vector<std::uint32_t> size(graph.places());
-  const auto is_short = [&](std::uint32_t edge) {
-    return distance(graph.disk(edge).center, graph.disk(graph.to(edge)).center) <= next_to * slack;
-  };
-  for (const std::uint32_t edge : graph.doubtful_edges())
-    if (is_short(edge)) ties.join(edge, graph.to(edge));
-  return std::any_of(
-      graph.doubtful_edges().begin(), graph.doubtful_edges().end(), [&](std::uint32_t edge) {
-        return is_short(edge) && !is_same(graph.disk(edge), graph.disk(graph.to(edge))) &&
-               ++size[ties.find(edge)] >= large;
-      });
-}
-
-}  // namespace
-
 bool is_right_locally(const Graph& graph, double slack) {
-  if (has_large_tie(graph, 2 * slack)) return false;
+  // Of a tie that is not one disk, the points may be the one or the other in a mirror image.
+  constexpr double near = 32;
+  const auto is_near_tie = [&](std::uint32_t edge) {
+    const Disk &from = graph.disk(edge), &to = graph.disk(graph.to(edge));
+    return !is_same(from, to) && distance(from.center, to.center) <= near * slack;
+  };
+  const auto& doubtful = graph.doubtful_edges();
+  if (std::any_of(doubtful.begin(), doubtful.end(), is_near_tie)) return false;
   const Elements& elements = graph.elements();
   // By how far a disk misses what a node touches; negative where it reaches over.
   const auto reach = [&](std::uint32_t node, const Disk& disk, double& least, double& most) {

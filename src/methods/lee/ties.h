@@ -14,7 +14,8 @@ void join_ties(Graph& graph, double tolerance);
 /// Whether the disk of every node touches its three elements, and reaches over none that the next
 /// nodes' disks touch, nor a foot moves backward, all by `slack` at most. A diagram of which that
 /// holds everywhere is right, as a triangulation is Delaunay's where each two triangles beside each
-/// other are. False, too, where many points are close together. O(N).
+/// other are. False, too, where points are close together that are not one: errors of many may add
+/// up, and a mirror image may join others. O(N).
 bool is_right_locally(const Graph& graph, double slack);
 
 }  // namespace medial::lee
