@@ -29,7 +29,7 @@ class FromAxis {
     diagram_.statistics = axis.statistics;
   }
 
-  /// Nothing where so many disks are one that a face has no edge.
+  /// Nothing where disks round to one until a face has no edge.
   std::optional<VoronoiDiagram> run(const Shape& shape, const site::SiteNumbers& numbers) {
     if (!make_faces() || !add_spokes(shape, numbers) || !make_faces()) return std::nullopt;
     voronoi::set_kinds(diagram_);
@@ -88,7 +88,8 @@ class FromAxis {
       for (std::uint32_t i = shape.loop_begin[loop]; i < shape.loop_begin[loop + 1]; ++i) {
         if (!numbers.is_site(i)) continue;
         const bool is_first = i == shape.loop_begin[loop];
-        const std::uint32_t before = numbers.edge[is_first ? shape.loop_begin[loop + 1] - 1 : i - 1];
+        const std::uint32_t before =
+            numbers.edge[is_first ? shape.loop_begin[loop + 1] - 1 : i - 1];
         const std::uint32_t after = numbers.edge[i], vertex = after - 1;
         const auto point = static_cast<std::uint32_t>(diagram_.nodes.size());
         diagram_.nodes.push_back({{shape.points[i], 0}, shape.component[loop]});

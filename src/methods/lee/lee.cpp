@@ -20,8 +20,8 @@ class Solution {
   Solution(const Solution&) = delete;  // its members refer to each other
   Solution& operator=(const Solution&) = delete;
 
-  /// Lee, Section II: the list of elements, the diagrams of the chains, merges. False where rounding
-  /// may have decided what disks touch, and where the caller cancels.
+  /// Lee, Section II: the list of elements, the diagrams of the chains, merges. False where
+  /// rounding may have decided what disks touch, and where the caller cancels.
   bool solve(std::vector<Level>* levels) {
     Stopwatch watch;
     auto elements = elements_of(problem_);
