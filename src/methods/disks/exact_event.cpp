@@ -201,9 +201,8 @@ class ExactEvents::Search {
   std::optional<KnownDisk> disk_at(const Number& way) const {
     const exact::ExactSite right = exact_site(span_.right), left = exact_site(span_.left);
     const Number half(0.5);
-    exact::ApproximateRoots<Real> roots;
-    if (!right.is_vertex()) return exact::disk_along(exact::spoke_at(right, way, roots), left);
-    if (!left.is_vertex()) return exact::disk_along(exact::spoke_at(left, way, roots), right);
+    if (!right.is_vertex()) return exact::disk_along(exact::spoke_at(right, way), left);
+    if (!left.is_vertex()) return exact::disk_along(exact::spoke_at(left, way), right);
     const auto start = exact::exact_vector<Number>(right.start),
                chord = exact::exact_vector<Number>(left.start) - start;
     const auto center = start + half * chord - way * exact::left_of(chord);
@@ -213,14 +212,13 @@ class ExactEvents::Search {
   /// The spoke on which the feet on a site begin, or end; none at a vertex from which no foot
   /// passes on.
   std::optional<exact::Spoke<Number>> end_of(std::uint32_t own, bool at_end) const {
-    exact::ApproximateRoots<Real> roots;
     const exact::ExactSite& site = outline_.sites[own];
     const auto before = events_.sites_.joined_before(own);
     if (at_end && outline_.joined(own, outline_.next_of(own)))
-      return outline_.template spoke_after<Number>(own, roots);
-    if (!at_end && before) return outline_.template spoke_after<Number>(*before, roots);
+      return outline_.template spoke_after<Number>(own);
+    if (!at_end && before) return outline_.template spoke_after<Number>(*before);
     if (site.is_vertex()) return std::nullopt;
-    return exact::spoke_of<Number>(site, at_end, roots);
+    return exact::spoke_of<Number>(site, at_end);
   }
 
   /// Sites that the node's disk touches, as far as it is known.
