@@ -99,8 +99,6 @@ class ExactEvents::Search {
   }
 
  private:
-  template <class>
-  friend class Search;
   using KnownDisk = exact::DiskBounds<Real>;
   using Number = Bounded<Real>;
 
@@ -138,7 +136,7 @@ class ExactEvents::Search {
     auto& [low, high] = *way_;
     for (; halvings_ < most_halvings; ++halvings_) {
       const Real middle = (low + high) / 2;
-      if (const auto disk = possible_at(middle)) {
+      if (const auto disk = possible_at(Number(middle, 0))) {
         std::vector<std::uint32_t> found = intruders(*disk);
         if (found.empty()) {
           low = middle;
@@ -172,20 +170,7 @@ class ExactEvents::Search {
   }
 
   /// The disk at a place, if it touches the two sites and comes before the best one, as far as the
-  /// numbers can tell: mostly fewer digits tell that it does not.
-  std::optional<KnownDisk> possible_at(const Real& place) {
-    if constexpr (std::is_same_v<Real, Precise>) {
-      if (fewer_digits_tell_) {
-        const std::uint64_t before = Bounded<Twofold>::open_signs;
-        Search<Twofold> coarse(events_, span_, from_, false);
-        if (best_) coarse.best_ = twofold_of(*best_);
-        const bool is_possible(coarse.possible_at(exact::twofold_of(Number(place, 0))));
-        fewer_digits_tell_ = Bounded<Twofold>::open_signs == before;
-        if (fewer_digits_tell_ && !is_possible) return std::nullopt;
-      }
-    }
-    return possible_at(Number(place, 0));
-  }
+  /// numbers can tell.
   std::optional<KnownDisk> possible_at(const Number& place) const {
     auto disk = disk_at(place);
     const bool is_possible =
@@ -458,7 +443,6 @@ class ExactEvents::Search {
   std::optional<std::array<Real, 2>>
       way_;  ///< where the event may be; asked for where none is near
   int halvings_ = 0;
-  bool fewer_digits_tell_ = true;  ///< at the last place
   std::uint32_t site_ = 0;
 };
 
