@@ -551,25 +551,23 @@ INSTANTIATE_TEST_SUITE_P(Classes, NastyShapes, testing::ValuesIn(shapes),
 
 class NastyShapesByLee : public NastyShapes {};
 
-/// Where rounding decides what disks touch next to arcs, the shape is refused.
+/// Where rounding decides what disks touch, `disks` computes the axis.
 TEST_P(NastyShapesByLee, HaveTheTrueGraphUnderAllSymmetries) {
-  const Faults found = faults(false, method::Lee{});
-  expect_at_most(GetParam(), found);
-  EXPECT_EQ(found.count(Fault::wrong), 0U);
+  expect_at_most(GetParam(), faults(false, method::Lee{}));
 }
 
 constexpr std::array<Mended, 12> shapes_by_lee{{{"strips"},
                                                 {"slits"},
-                                                {"stretched", 5},
+                                                {"stretched"},
                                                 {"needles"},
                                                 {"polygons"},
                                                 {"rings"},
                                                 {"grids"},
                                                 {"splinters"},
-                                                {"rounds", 30},
-                                                {"circles", 200},
-                                                {"bars", 120},
-                                                {"tangents", 160}}};
+                                                {"rounds"},
+                                                {"circles"},
+                                                {"bars"},
+                                                {"tangents"}}};
 
 INSTANTIATE_TEST_SUITE_P(Classes, NastyShapesByLee, testing::ValuesIn(shapes_by_lee),
                          [](const auto& tested) { return std::string(tested.param.name); });

@@ -33,11 +33,11 @@ struct BiarcDc {
   bool curves = true;      ///< false: edges stay straight until conic_of() computes them
 };
 
-/// Lee's divide and conquer: merges Voronoi diagrams of lists of segments and reflex vertices.
+/// Lee's divide and conquer: merges Voronoi diagrams. `disks` computes what double leaves open.
 struct Lee {};
 
 /// The method with the least processor time (docs/lee.md): `lee` for nearly convex polygons without
-/// holes and for small smooth ones; `disks` for all others, and if `lee` fails.
+/// holes and for small smooth ones; `disks` for all others.
 struct Auto {};
 
 /// Ridge following on a grid of pixels (Volkmann and St. Clair).

@@ -5,8 +5,8 @@
 
 namespace medial {
 
-/// The Voronoi diagram of a shape of straight edges, by Lee's divide and conquer. O(n log n).
-/// Errors: those of compute() with method::Lee.
+/// The Voronoi diagram of a shape of straight edges, by Lee's divide and conquer, or what double
+/// leaves open from the axis of `disks`. O(n log n). Errors: those of compute().
 Result<VoronoiDiagram> voronoi_diagram(const Shape& shape, const Options& options = {});
 
 /// The Voronoi diagram of a planar graph's points, segments and arcs, by the engine `disks`

@@ -119,6 +119,7 @@ Row measure(const std::string& name, const Ring& ring, int rounds) {
     row.failure = to_string(axis.error());
     return row;
   }
+  if (axis->method != "lee") row.failure = "left to " + axis->method;
   row.elements = axis->sites.size();
   const auto elements = static_cast<double>(row.elements);
   row.bytes = memory.bytes() / elements;

@@ -30,13 +30,7 @@ bool is_lee_faster(const Problem& problem) {
 }  // namespace
 
 Result<Outcome> run_automatic(const Problem& problem) {
-  if (is_lee_faster(problem)) {
-    auto axis = lee::run(problem);
-    if (axis &&
-        (problem.is_cancelled() || has_right_topology(problem.shape, axis->nodes, axis->edges)))
-      return outcome_of(std::move(axis), false);
-  }
-  return outcome_of(disks::run(problem), false);
+  return outcome_of(is_lee_faster(problem) ? lee::run(problem) : disks::run(problem), false);
 }
 
 }  // namespace medial

@@ -39,7 +39,7 @@ const std::array<MethodRow, std::variant_size_v<Method>> rows = {{
       .threads = true},
      method::Lee{},
      takes_all,
-     [](const Problem& problem) { return outcome_of(lee::run(problem)); }},
+     [](const Problem& problem) { return outcome_of(lee::run(problem), false); }},
     {{.name = "auto",
       .summary = "the faster one of disks and lee for each shape",
       .exterior = true,

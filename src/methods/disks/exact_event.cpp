@@ -100,8 +100,6 @@ class ExactEvents::Search {
   }
 
  private:
-  template <class>
-  friend class Search;
   using KnownDisk = exact::DiskBounds<Real>;
   using Number = Bounded<Real>;
 
@@ -139,7 +137,7 @@ class ExactEvents::Search {
     auto& [low, high] = *way_;
     for (; halvings_ < most_halvings; ++halvings_) {
       const Real middle = (low + high) / 2;
-      if (const auto disk = possible_at(middle)) {
+      if (const auto disk = possible_at(Number(middle, 0))) {
         std::vector<std::uint32_t> found = intruders(*disk);
         if (found.empty()) {
           low = middle;
@@ -173,20 +171,7 @@ class ExactEvents::Search {
   }
 
   /// The disk at a place, if it touches the two sites and comes before the best one, as far as the
-  /// numbers can tell: mostly fewer digits tell that it does not.
-  std::optional<KnownDisk> possible_at(const Real& place) {
-    if constexpr (std::is_same_v<Real, Precise>) {
-      if (fewer_digits_tell_) {
-        const std::uint64_t before = Bounded<Twofold>::open_signs;
-        Search<Twofold> coarse(events_, span_, from_, false);
-        if (best_) coarse.best_ = twofold_of(*best_);
-        const bool is_possible(coarse.possible_at(exact::twofold_of(Number(place, 0))));
-        fewer_digits_tell_ = Bounded<Twofold>::open_signs == before;
-        if (fewer_digits_tell_ && !is_possible) return std::nullopt;
-      }
-    }
-    return possible_at(Number(place, 0));
-  }
+  /// numbers can tell.
   std::optional<KnownDisk> possible_at(const Number& place) const {
     auto disk = disk_at(place);
     const bool is_possible =
@@ -202,9 +187,8 @@ class ExactEvents::Search {
   std::optional<KnownDisk> disk_at(const Number& way) const {
     const exact::ExactSite right = exact_site(span_.right), left = exact_site(span_.left);
     const Number half(0.5);
-    exact::ApproximateRoots<Real> roots;
-    if (!right.is_vertex()) return exact::disk_along(exact::spoke_at(right, way, roots), left);
-    if (!left.is_vertex()) return exact::disk_along(exact::spoke_at(left, way, roots), right);
+    if (!right.is_vertex()) return exact::disk_along(exact::spoke_at(right, way), left);
+    if (!left.is_vertex()) return exact::disk_along(exact::spoke_at(left, way), right);
     const auto start = exact::exact_vector<Number>(right.start),
                chord = exact::exact_vector<Number>(left.start) - start;
     const auto center = start + half * chord - way * exact::left_of(chord);
@@ -214,14 +198,13 @@ class ExactEvents::Search {
   /// The spoke on which the feet on a site begin, or end; none at a vertex from which no foot
   /// passes on.
   std::optional<exact::Spoke<Number>> end_of(std::uint32_t own, bool at_end) const {
-    exact::ApproximateRoots<Real> roots;
     const exact::ExactSite& site = outline_.sites[own];
     const auto before = events_.sites_.joined_before(own);
     if (at_end && outline_.joined(own, outline_.next_of(own)))
-      return outline_.template spoke_after<Number>(own, roots);
-    if (!at_end && before) return outline_.template spoke_after<Number>(*before, roots);
+      return outline_.template spoke_after<Number>(own);
+    if (!at_end && before) return outline_.template spoke_after<Number>(*before);
     if (site.is_vertex()) return std::nullopt;
-    return exact::spoke_of<Number>(site, at_end, roots);
+    return exact::spoke_of<Number>(site, at_end);
   }
 
   /// Sites that the node's disk touches, as far as it is known.
@@ -468,7 +451,6 @@ class ExactEvents::Search {
   std::optional<std::array<Real, 2>>
       way_;  ///< where the event may be; asked for where none is near
   int halvings_ = 0;
-  bool fewer_digits_tell_ = true;  ///< at the last place
   std::uint32_t site_ = 0;
 };
 

@@ -19,18 +19,17 @@ template <class Real>
 std::optional<DiskBounds<Real>> disk_bounds(const SiteLoops& outline,
                                             const std::array<std::uint32_t, 3>& sites) {
   using Number = Bounded<Real>;
-  ApproximateRoots<Real> roots;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::uint32_t a = sites[i], b = sites[(i + 1) % 3], c = sites[(i + 2) % 3];
     if (!outline.joined(a, b) || !outline.joined(b, c)) continue;
     const ExactSite& arc = outline.sites[b];
     if (!(arc.bulge > 0)) continue;
-    const auto own = spoke_of<Number>(arc, false, roots);
+    const auto own = spoke_of<Number>(arc, false);
     // Its own circle is clear of the neighbours where these bend no more.
     for (const std::uint32_t neighbor : {a, c}) {
       const ExactSite& site = outline.sites[neighbor];
       if (!(site.bulge > 0)) continue;
-      const auto other = spoke_of<Number>(site, false, roots);
+      const auto other = spoke_of<Number>(site, false);
       if ((Number(site.bulge) * own.size - Number(arc.bulge) * other.size).positive())
         return std::nullopt;
     }
@@ -40,8 +39,8 @@ std::optional<DiskBounds<Real>> disk_bounds(const SiteLoops& outline,
     const std::uint32_t a = sites[i], b = sites[(i + 1) % 3], c = sites[(i + 2) % 3];
     if (!outline.joined(a, b)) continue;
     if (outline.joined(b, c) || outline.joined(c, a)) return std::nullopt;
-    const auto spoke = outline.template spoke_after<Number>(a, roots);
-    const auto form = form_of<Number>(outline.sites[c], spoke.foot, roots);
+    const auto spoke = outline.template spoke_after<Number>(a);
+    const auto form = form_of<Number>(outline.sites[c], spoke.foot);
     const auto closing_on = [&](const Spoke<Number>& at) {
       return form.size * at.size - dot(form.slope, at.normal);
     };
@@ -53,11 +52,11 @@ std::optional<DiskBounds<Real>> disk_bounds(const SiteLoops& outline,
     for (const std::uint32_t site : {a, b}) {
       const Number four_bulges(4 * outline.sites[site].bulge);
       if (!(outline.sites[site].bulge > 0)) continue;
-      const auto own = spoke_of<Number>(outline.sites[site], site == a, roots);
+      const auto own = spoke_of<Number>(outline.sites[site], site == a);
       if (!(closing_on(own) - four_bulges * form.height).positive()) return std::nullopt;
     }
     if (const double bulge = outline.sites[c].bulge; bulge > 0) {
-      const auto own = spoke_of<Number>(outline.sites[c], false, roots);
+      const auto own = spoke_of<Number>(outline.sites[c], false);
       if (!(own.size - Number(4 * bulge) * disk->radius).positive()) return std::nullopt;
     }
     return disk;
@@ -76,8 +75,7 @@ std::optional<int> further_along(const ExactSite& site, const DiskBounds<Real>& 
   }
   if (!site.is_arc())
     return dot(exact_vector<Number>(site.end) - start, to.center - from.center).sign();
-  ApproximateRoots<Real> roots;
-  const auto normal = spoke_of<Number>(site, false, roots).normal;
+  const auto normal = normal_of<Number>(site, false);
   const Number factor(-4 * site.bulge);
   const auto normal_at = [&](const DiskBounds<Real>& disk) {
     return normal + factor * (disk.center - start);

@@ -80,10 +80,9 @@ class Kernel {
         [&](std::uint32_t a, std::uint32_t b) { return roundness(a) < roundness(b); });
     std::rotate(touched.begin(), roundest, touched.end());
     three.origin = exact_vector<Number>(outline_.sites[touched[0]].start);
-    ApproximateRoots<Real> roots;
     std::array<Form<Number>, 3> forms;
     for (std::size_t i = 0; i < 3; ++i)
-      forms[i] = form_of<Number>(outline_.sites[touched[i]], three.origin, roots);
+      forms[i] = form_of<Number>(outline_.sites[touched[i]], three.origin);
     three.round = roundness(touched[0]) > 0;
     return three.round ? solve_round(forms, three) : solve_straight(forms, three);
   }

@@ -9,17 +9,9 @@ namespace {
 
 double curvature_of(const ExactSite& edge) { return curvature({edge.start, edge.end, edge.bulge}); }
 
-/// In place of the roots of numbers: normals have one in their lengths only.
-struct NoRoots {
-  Rational root(const Rational&) { return 0; }
-};
-
 /// By which way the boundary turns from one edge to the next: 1 to the left, 0 not at all.
 int turn_between(const ExactSite& before, const ExactSite& after) {
-  NoRoots lengths;
-  const auto arriving = spoke_of<Rational>(before, true, lengths);
-  const auto leaving = spoke_of<Rational>(after, false, lengths);
-  return cross(arriving.normal, leaving.normal).sign();
+  return cross(normal_of<Rational>(before, true), normal_of<Rational>(after, false)).sign();
 }
 
 /// The site of that number.

@@ -62,11 +62,11 @@ struct SiteLoops {
   /// The disks that touch the boundary where `site` ends and the next one begins: on the normal of
   /// the edge that ends there, or, after a vertex and by `by_next`, of the edge that begins. So
   /// where two edges join smoothly only to rounding, the normal of one counts for both.
-  template <class Number, class Roots>
-  Spoke<Number> spoke_after(std::uint32_t site, Roots& roots) const {
+  template <class Number>
+  Spoke<Number> spoke_after(std::uint32_t site) const {
     if (sites[site].is_vertex() || (!by_next.empty() && by_next[site]))
-      return spoke_of<Number>(sites[next_of(site)], false, roots);
-    return spoke_of<Number>(sites[site], true, roots);
+      return spoke_of<Number>(sites[next_of(site)], false);
+    return spoke_of<Number>(sites[site], true);
   }
 };
 

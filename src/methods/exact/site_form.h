@@ -22,12 +22,6 @@ struct ExactSite {
   bool is_arc() const { return bulge != 0; }
 };
 
-/// Roots of numbers without error bounds of their own: what differs between the kinds of numbers.
-template <class Real>
-struct ApproximateRoots {
-  Bounded<Real> root(const Bounded<Real>& square) { return root_of(square); }
-};
-
 using site::apollonius::Vector;
 
 template <class Number>
@@ -53,50 +47,42 @@ struct Spoke {
   Vector<Number> foot;
   Vector<Number> normal;
   Number size;
-
-  /// Forward along the boundary.
-  Vector<Number> tangent() const { return {normal.y, -normal.x}; }
 };
 
-/// Whether the coordinates of both points differ by the same, exactly: a chord along a diagonal.
-inline bool is_diagonal(Vec2 a, Vec2 b) {
-  const double x = b.x - a.x, y = b.y - a.y;
-  return std::abs(x) == std::abs(y) && Rounding::of_sum(b.x, -a.x, x) == 0 &&
-         Rounding::of_sum(b.y, -a.y, y) == 0;
-}
-
-/// The normals of an edge at its start and end, of one length: for a segment that of its chord; for
-/// an arc of bulge b, whose tangents are the chord turned by half of its angle, 1 + b^2 times it.
-/// Where the chord is parallel to an axis or a diagonal its length is left out, so that no root, or
-/// the same for all, is needed.
-template <class Number, class Roots>
-Spoke<Number> spoke_of(const ExactSite& edge, bool at_end, Roots& roots) {
+/// Along an edge's chord; where that is parallel to an axis a unit, so that no root is needed.
+template <class Number>
+Vector<Number> along_of(const ExactSite& edge) {
   const Vec2 from = edge.start, to = edge.end;
   const auto sign = [](double a, double b) { return Number(b > a ? 1.0 : b < a ? -1.0 : 0.0); };
-  const bool diagonal = is_diagonal(from, to);
-  Vector<Number> along;
-  Number size;
-  if (!edge.is_arc() && (diagonal || from.x == to.x || from.y == to.y)) {
-    along = {sign(from.x, to.x), sign(from.y, to.y)};
-    size = diagonal ? roots.root(Number(2.0)) : Number(1.0);
-  } else {
-    along = exact_vector<Number>(to) - exact_vector<Number>(from);
-    size = roots.root(dot(along, along));
-  }
-  Vector<Number> normal = left_of(along);
-  if (edge.is_arc()) {
-    const Number bulge(edge.bulge), twice(2.0 * edge.bulge);
-    const Number squared = bulge * bulge, cosine = Number(1.0) - squared;
-    normal = at_end ? cosine * normal - twice * along : cosine * normal + twice * along;
-    size = (Number(1.0) + squared) * size;
-  }
-  return {exact_vector<Number>(at_end ? to : from), normal, size};
+  if (!edge.is_arc() && (from.x == to.x || from.y == to.y))
+    return {sign(from.x, to.x), sign(from.y, to.y)};
+  return exact_vector<Number>(to) - exact_vector<Number>(from);
+}
+
+/// The inward normal of an edge at its start or end, of one length at both: for an arc of bulge b,
+/// whose tangents are the chord turned by half of its angle, 1 + b^2 times that along the chord.
+template <class Number>
+Vector<Number> normal_of(const ExactSite& edge, bool at_end) {
+  const Vector<Number> along = along_of<Number>(edge), normal = left_of(along);
+  if (!edge.is_arc()) return normal;
+  const Number bulge(edge.bulge), twice(at_end ? -2.0 * edge.bulge : 2.0 * edge.bulge);
+  return (Number(1.0) - bulge * bulge) * normal + twice * along;
+}
+
+template <class Number>
+Spoke<Number> spoke_of(const ExactSite& edge, bool at_end) {
+  const Vector<Number> along = along_of<Number>(edge);
+  const bool is_unit = !edge.is_arc() && (edge.start.x == edge.end.x || edge.start.y == edge.end.y);
+  Number size = is_unit ? Number(1.0) : root_of(dot(along, along));
+  if (edge.is_arc()) size = (Number(1.0) + Number(edge.bulge) * Number(edge.bulge)) * size;
+  return {exact_vector<Number>(at_end ? edge.end : edge.start), normal_of<Number>(edge, at_end),
+          size};
 }
 
 /// The normal between the ends of an edge, at a `share` of the way from 1 at its start to -1 at its
 /// end: for an arc of bulge b, that of its chord turned by twice the arc tangent of b share.
-template <class Number, class Roots>
-Spoke<Number> spoke_at(const ExactSite& edge, const Number& share, Roots& roots) {
+template <class Number>
+Spoke<Number> spoke_at(const ExactSite& edge, const Number& share) {
   const Number one(1.0), two(2.0), bulge(edge.bulge), turn = bulge * share;
   const Vector<Number> start = exact_vector<Number>(edge.start),
                        along = exact_vector<Number>(edge.end) - start, normal = left_of(along);
@@ -105,7 +91,7 @@ Spoke<Number> spoke_at(const ExactSite& edge, const Number& share, Roots& roots)
   const Vector<Number> foot = start + (rest * (one - bulge * turn) / length) * along -
                               (bulge * rest * (one + share) / length) * normal;
   return {foot, (one - squared) * normal + two * turn * along,
-          (one + squared) * roots.root(dot(along, along))};
+          (one + squared) * root_of(dot(along, along))};
 }
 
 /// The share at which the foot of a place lies on an edge's carrier, as an approximation.
@@ -135,11 +121,11 @@ struct Form {
   Number height;
 };
 
-template <class Number, class Roots>
-Form<Number> form_of(const ExactSite& site, const Vector<Number>& origin, Roots& roots) {
+template <class Number>
+Form<Number> form_of(const ExactSite& site, const Vector<Number>& origin) {
   const Vector<Number> d = origin - exact_vector<Number>(site.start);
   if (site.is_vertex()) return {Number(1.0), Number(2.0) * d, Number(0.0), dot(d, d)};
-  const Spoke<Number> spoke = spoke_of<Number>(site, false, roots);
+  const Spoke<Number> spoke = spoke_of<Number>(site, false);
   Form<Number> form{Number(0.0), spoke.normal, spoke.size, dot(spoke.normal, d)};
   if (site.is_arc()) {
     form.round = Number(-2.0 * site.bulge);

@@ -31,9 +31,8 @@ bool may_have_foot(const ExactSite& site, const DiskBounds<Real>& disk) {
     return !is_negative(dot(along, disk.center - start)) &&
            !is_negative(dot(along, end - disk.center));
   }
-  ApproximateRoots<Real> roots;
-  const auto first = spoke_of<Number>(site, false, roots).normal;
-  const auto last = spoke_of<Number>(site, true, roots).normal;
+  const auto first = normal_of<Number>(site, false);
+  const auto last = normal_of<Number>(site, true);
   const auto toward = first + Number(-4 * site.bulge) * (disk.center - start);
   const auto before = cross(first, toward), after = cross(toward, last);
   return site.bulge > 0 ? !is_negative(before) && !is_negative(after)
@@ -44,8 +43,7 @@ template <class Real>
 int clearance(const ExactSite& site, const DiskBounds<Real>& disk, std::span<const Vec2> touched) {
   using Number = Bounded<Real>;
   if (site.is_vertex()) return clearance_of_point(site.start, disk, touched);
-  ApproximateRoots<Real> roots;
-  const auto form = form_of<Number>(site, disk.center, roots);
+  const auto form = form_of<Number>(site, disk.center);
   const Number bend = form.round * disk.radius * disk.radius, reach = form.size * disk.radius;
   // With the centre as origin, on the left of the carrier and on its right.
   const auto ahead = (form.height - bend - reach).sign();
@@ -61,8 +59,7 @@ template <class Real>
 std::optional<DiskBounds<Real>> disk_along(const Spoke<Bounded<Real>>& spoke,
                                            const ExactSite& site) {
   using Number = Bounded<Real>;
-  ApproximateRoots<Real> roots;
-  const auto form = form_of<Number>(site, spoke.foot, roots);
+  const auto form = form_of<Number>(site, spoke.foot);
   const Number closing = form.size * spoke.size - dot(form.slope, spoke.normal);
   if (!closing.positive() || !form.height.positive()) return std::nullopt;
   const Number times = form.height / closing;
@@ -72,10 +69,8 @@ std::optional<DiskBounds<Real>> disk_along(const Spoke<Bounded<Real>>& spoke,
 template <class Real>
 std::optional<DiskBounds<Real>> disk_from(Vec2 foot, Vec2 direction, const ExactSite& site) {
   using Number = Bounded<Real>;
-  ApproximateRoots<Real> roots;
   const auto normal = exact_vector<Number>(direction);
-  return disk_along<Real>({exact_vector<Number>(foot), normal, roots.root(dot(normal, normal))},
-                          site);
+  return disk_along<Real>({exact_vector<Number>(foot), normal, root_of(dot(normal, normal))}, site);
 }
 
 template bool may_have_foot(const ExactSite&, const DiskBounds<Twofold>&);

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <bit>
 #include <mutex>
-#include <type_traits>
 
 #include "axis/statistics.h"
 #include "base/stopwatch.h"
@@ -50,20 +49,9 @@ struct Lists {
   std::vector<RoundDisks> of_blocks;  ///< of the lists of the last level
 };
 
-/// fan_of() in double; in other numbers ties need no help.
-template <class Kernel>
-std::uint32_t fan_in(DiagramIn<Kernel>& diagram, std::uint32_t first, std::uint32_t end,
-                     double radius_limit, double slack, std::optional<Disk>& known) {
-  if constexpr (std::is_same_v<Kernel, InDouble>)
-    return fan_of(diagram, first, end, radius_limit, slack, known);
-  else
-    return none;
-}
-
-template <class Kernel>
 class Conquest {
  public:
-  Conquest(DiagramIn<Kernel>& diagram, const ConquerContext& context, Statistics& statistics)
+  Conquest(Diagram& diagram, const ConquerContext& context, Statistics& statistics)
       : diagram_(diagram), context_(context), statistics_(statistics) {
     for (const Elements::ChainLoop& loop : diagram.elements.loops) {
       const Halving halving{loop.first_chain, loop.end_chain - loop.first_chain};
@@ -203,7 +191,7 @@ class Conquest {
     constexpr double slack = 0.0625;  // see merge.cpp
     if (halving.boundary(level, i + 1) - halving.boundary(level, i) < 2) return false;
     const auto is_fan_around = [&](std::optional<Disk>& disk) {
-      return fan_in(diagram_, halving.boundary(level, i), halving.boundary(level, i + 1),
+      return fan_of(diagram_, halving.boundary(level, i), halving.boundary(level, i + 1),
                     context_.limits.radius_limit, slack * context_.limits.tolerance, disk) != none;
     };
     if (is_fan_around(known.last)) return true;
@@ -225,7 +213,7 @@ class Conquest {
     const std::scoped_lock lock(mutex_);
     statistics_ += own;
   }
-  DiagramIn<Kernel>& diagram_;
+  Diagram& diagram_;
   const ConquerContext& context_;
   Statistics& statistics_;
   std::mutex mutex_;
@@ -237,18 +225,16 @@ class Conquest {
 
 }  // namespace
 
-template <class Kernel>
-std::optional<std::vector<std::uint32_t>> conquer(DiagramIn<Kernel>& diagram,
-                                                  const ConquerContext& context,
+std::optional<std::vector<std::uint32_t>> conquer(Diagram& diagram, const ConquerContext& context,
                                                   Statistics& statistics,
                                                   std::vector<Level>* levels) {
   std::vector<std::uint32_t> last_edges;
-  Conquest<Kernel> conquest(diagram, context, statistics);
+  Conquest conquest(diagram, context, statistics);
   for (const Elements::ChainLoop& loop : diagram.elements.loops) {
     const Halving halving{loop.first_chain, loop.end_chain - loop.first_chain};
     std::optional<Disk> known;
     const std::uint32_t edge =
-        fan_in(diagram, loop.first_chain, loop.end_chain, context.limits.radius_limit,
+        fan_of(diagram, loop.first_chain, loop.end_chain, context.limits.radius_limit,
                0.5 * context.tie_tolerance, known);
     if (edge != none)
       last_edges.push_back(edge);
@@ -259,11 +245,5 @@ std::optional<std::vector<std::uint32_t>> conquer(DiagramIn<Kernel>& diagram,
   }
   return last_edges;
 }
-
-template std::optional<std::vector<std::uint32_t>> conquer(Diagram&, const ConquerContext&,
-                                                           Statistics&, std::vector<Level>*);
-template std::optional<std::vector<std::uint32_t>> conquer(DiagramIn<InPrecise>&,
-                                                           const ConquerContext&, Statistics&,
-                                                           std::vector<Level>*);
 
 }  // namespace medial::lee

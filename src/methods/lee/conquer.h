@@ -30,9 +30,7 @@ struct ConquerContext {
 /// loop's last merge curve: the terminating bisector's. A loop whose segments all touch one disk
 /// needs no merge. `levels`, if it is given, is filled from the last merge down, which then runs on
 /// one thread. Nothing where a merge finds a diagram broken.
-template <class Kernel>
-std::optional<std::vector<std::uint32_t>> conquer(DiagramIn<Kernel>& diagram,
-                                                  const ConquerContext& context,
+std::optional<std::vector<std::uint32_t>> conquer(Diagram& diagram, const ConquerContext& context,
                                                   Statistics& statistics,
                                                   std::vector<Level>* levels = nullptr);
 

@@ -6,20 +6,14 @@ namespace medial::lee {
 
 /// Begins with the diagrams of the chains: the spokes, and nothing else. A disk that touches a
 /// chain twice would enclose a boundary that turns to the left, which a chain does not.
-template <class Kernel>
-DiagramIn<Kernel>::DiagramIn(const Elements& all, std::span<const Site> all_sites,
-                             std::span<const Disk> all_passages)
-    : elements(all),
-      sites(all_sites),
-      passages(all_passages),
-      top(all.size(), {none, none}),
-      free(all.chains.size() - 1) {
+Diagram::Diagram(const Elements& all)
+    : elements(all), top(all.size(), {none, none}), free(all.chains.size() - 1) {
   reserve_large(edges, 2 * std::size_t{all.size()});
   for (std::size_t chain = 0; chain < free.size(); ++chain) {
     const std::uint32_t begin = all.chains[chain], last = all.chains[chain + 1] - 1;
     for (std::uint32_t i = begin; i <= last; ++i) {
       if (i < last && !all.is_of_bridge(i) && !all.is_of_bridge(i + 1)) {
-        const Disk disk{sites[all.is_vertex(i) ? i : i + 1].point, Real{0}};
+        const Disk disk{all.sites[all.is_vertex(i) ? i : i + 1].point, 0};
         edges.push_back({{i, i + 1}, {none, none}, disk});
         top[i][0] = top[i + 1][1] = 2 * i;
       } else {
@@ -30,8 +24,7 @@ DiagramIn<Kernel>::DiagramIn(const Elements& all, std::span<const Site> all_site
   }
 }
 
-template <class Kernel>
-void DiagramIn<Kernel>::add_free_place(FreePlaces& places) {
+void Diagram::add_free_place(FreePlaces& places) {
   const auto place = static_cast<std::uint32_t>(edges.size());
   edges.push_back({{}, {none, none}, {}});
   if (places.first == none)
@@ -40,8 +33,5 @@ void DiagramIn<Kernel>::add_free_place(FreePlaces& places) {
     edges[places.last].inward[0] = place;
   places.last = place;
 }
-
-template struct DiagramIn<InDouble>;
-template struct DiagramIn<InPrecise>;
 
 }  // namespace medial::lee

@@ -1,31 +1,43 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "medial/axis.h"
-#include "methods/lee/kernel.h"
+#include "methods/lee/elements.h"
+#include "site/site.h"
 
 namespace medial::lee {
 
 /// Bit for bit: a tie that has been joined.
-template <class D>
-bool is_same(const D& a, const D& b) {
-  return a.center.x == b.center.x && a.center.y == b.center.y && a.radius == b.radius;
+inline bool is_same(const Disk& a, const Disk& b) {
+  return a.center == b.center && a.radius == b.radius;
+}
+
+/// How far the foot on a site moves forward from one disk to another: seen from the centres, along
+/// the site's normals, and of an arc from the centre nearer to its own, in which there is no foot.
+inline double advance(const site::Site& site, Vec2 from, Vec2 to) {
+  if (!site.is_arc()) return dot(site.direction, to - from);
+  const Vec2 d = from - site.point, e = to - site.point, normal = site.normal();
+  const double way = dot(site.direction, e - d) + site.curvature * cross(d, e);
+  const double larger = std::max(squared_norm(normal - site.curvature * d),
+                                 squared_norm(normal - site.curvature * e));
+  const double most = distance(from, to);
+  return larger > 0 ? std::clamp(way / std::sqrt(larger), -most, most) : 0;
 }
 
 /// A Voronoi edge B(e_i, e_j), i < j: the disks that touch both. Such a disk cuts off the boundary
 /// between its two feet. Along the edge from its inner to its outer end this part grows: the foot
 /// on e_i moves backward, the one on e_j forward.
-template <class Kernel>
-struct ListEdgeIn {
+struct ListEdge {
   std::array<std::uint32_t, 2> element;  ///< i < j
   /// The next edge inward in the two stacks that hold this one, see Diagram: those that end where
   /// this one begins. Each Voronoi point is the inner end of one edge.
   std::array<std::uint32_t, 2> inward;
-  typename Kernel::Disk inner;
+  Disk inner;
 };
 
 /// Places of a Diagram without an edge, linked by inward[0].
@@ -41,19 +53,10 @@ struct FreePlaces {
 /// with earlier elements, going outward, then those shared with later ones, going inward: two
 /// stacks with the outermost edges on top. A merge takes from their tops and adds to them, and
 /// nothing else.
-template <class Kernel>
-struct DiagramIn {
-  using ListEdge = ListEdgeIn<Kernel>;
-  using Real = typename Kernel::Real;
-  using Disk = typename Kernel::Disk;
-  using Site = typename Kernel::Site;
-  /// Of the elements' sites and the disks of their passages: their own, or those of another kernel.
-  DiagramIn(const Elements& all, std::span<const Site> all_sites,
-            std::span<const Disk> all_passages);
+struct Diagram {
+  explicit Diagram(const Elements& all);
 
   const Elements& elements;
-  std::span<const Site> sites;
-  std::span<const Disk> passages;
   std::vector<ListEdge> edges;  ///< two places for each element; some are free
   /// Of each element: the outermost edge in which it is element[0], and element[1].
   std::vector<std::array<std::uint32_t, 2>> top;
@@ -67,10 +70,10 @@ struct DiagramIn {
     Disk disk;
   };
   Gate gate(std::uint32_t begin) const {
-    if (!elements.is_of_bridge(begin)) return {{begin - 1, begin}, {sites[begin].point, Real{0}}};
-    return {{begin - 2, begin + 1},
-            passages[static_cast<std::size_t>(&elements.passage_from(begin) -
-                                              elements.passages.data())]};
+    if (!elements.is_of_bridge(begin))
+      return {{begin - 1, begin}, {elements.sites[begin].point, 0}};
+    const auto passage = &elements.passage_from(begin) - elements.passages.data();
+    return {{begin - 2, begin + 1}, elements.disks_of_passages[static_cast<std::size_t>(passage)]};
   }
 
   /// Whether the edge separates a reflex vertex from its own edge, or two edges that join smoothly.
@@ -85,8 +88,5 @@ struct DiagramIn {
  private:
   void add_free_place(FreePlaces& places);
 };
-
-using ListEdge = ListEdgeIn<InDouble>;
-using Diagram = DiagramIn<InDouble>;
 
 }  // namespace medial::lee

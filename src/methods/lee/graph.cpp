@@ -247,7 +247,6 @@ bool Graph::close(const Elements::ChainLoop& loop, std::uint32_t last_edge) {
       {begin, end - 1}, {none, none}, {elements().sites[begin].point, 0}};
   std::size_t count = 0;
   for (std::uint32_t i = end; i-- > begin;) {
-    broken_at_ = i;
     std::uint32_t outer = none;
     for (std::uint32_t edge = diagram_.top[i][0]; edge != none;
          edge = diagram_.edges[edge].inward[0]) {
@@ -271,7 +270,6 @@ bool Graph::close(const Elements::ChainLoop& loop, std::uint32_t last_edge) {
       edge = next;
     }
   }
-  broken_at_.reset();
   return count == 2 * std::size_t{loop.size} - 3;
 }
 
@@ -294,14 +292,6 @@ bool Graph::runs_backward(std::uint32_t edge, double slack) const {
     return further > 0 ? cross(b, a) / further : 0;
   };
   return forward(elements().sites[first]) > slack || forward(elements().sites[second]) < -slack;
-}
-
-std::array<std::uint32_t, 2> Graph::loop_around(std::uint32_t element) const {
-  const auto& loops = elements().loops;
-  const auto after = std::upper_bound(
-      loops.begin(), loops.end(), element,
-      [&](std::uint32_t e, const Elements::ChainLoop& loop) { return e < begin_of(loop); });
-  return {begin_of(*(after - 1)), end_of(*(after - 1))};
 }
 
 void complete(const Graph& graph, const LocalFrame& frame, VoronoiDiagram& diagram) {

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "base/local_frame.h"
@@ -24,8 +23,6 @@ class Graph {
   /// (Lemma 3), where only the terminating bisector ends in a corner. Nothing else may be asked
   /// of a graph that is not.
   bool is_whole() const { return is_whole_; }
-  /// Where one that is not is broken: an element, if any is known.
-  std::optional<std::uint32_t> broken_at() const { return broken_at_; }
 
   const Elements& elements() const { return diagram_.elements; }
   const ListEdge& operator[](std::uint32_t edge) const { return diagram_.edges[edge]; }
@@ -52,9 +49,6 @@ class Graph {
     const ListEdge& edge = diagram_.edges[node];
     return {edge.element[0], edge.element[1], diagram_.edges[edge.inward[0]].element[1]};
   }
-
-  /// The first element of the loop that an element is of, and the end.
-  std::array<std::uint32_t, 2> loop_around(std::uint32_t element) const;
 
   /// The edges between Voronoi points that could be one: closer together than `furthest` radii, or
   /// than the tolerance; or with a foot that moves the wrong way by more than the tolerance, as
@@ -88,7 +82,6 @@ class Graph {
   Diagram& diagram_;
   double tolerance_;
   bool is_whole_ = true;
-  std::optional<std::uint32_t> broken_at_;
   std::vector<std::uint32_t> doubtful_edges_;
 };
 

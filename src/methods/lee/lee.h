@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "medial/axis.h"
@@ -8,12 +9,12 @@
 
 namespace medial::lee {
 
-/// The method `lee` (docs/lee.md); a diagram requires straight edges. Empty where the caller
-/// cancels. O(n log n). `levels`: see conquer(). Errors: unsupported, with the place, where
-/// find_overreach() finds a disk, and next to arcs where rounding breaks a diagram or verify()
-/// refuses the axis; of polygons, where 256 bits do not separate the sides; internal where
-/// rounding breaks another polygon's diagram.
+/// The method `lee` (docs/lee.md); where rounding may have decided what disks touch, the axis of
+/// `disks`, as the axis says. O(n log n). `levels`: see conquer().
 Result<MedialAxis> run(const Problem& problem, std::vector<Level>* levels = nullptr);
-Result<VoronoiDiagram> voronoi_diagram(const Problem& problem);
+
+/// The diagram inside a shape of straight edges; none where rounding may have decided what disks
+/// touch, and where the caller cancels. O(n log n).
+std::optional<VoronoiDiagram> voronoi_diagram(const Problem& problem);
 
 }  // namespace medial::lee

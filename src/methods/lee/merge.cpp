@@ -11,22 +11,13 @@
 namespace medial::lee {
 namespace {
 
-using std::abs, std::sqrt;
-
 /// The merge curve's way through two diagrams (Section II): the current bisector B(e_a, e_b), with
 /// a on side 0, the earlier list, and b on side 1. On side s, the edges still to be crossed are in
 /// the stack of the current element in which it is element[1 - s].
-template <class Kernel, bool with_arcs>
+template <bool with_arcs>
 class MergeCurve {
-  using Real = typename Kernel::Real;
-  using Disk = typename Kernel::Disk;
-  using Site = typename Kernel::Site;
-  using Vector = decltype(Disk::center);
-  using ListEdge = ListEdgeIn<Kernel>;
-
  public:
-  MergeCurve(DiagramIn<Kernel>& diagram, FreePlaces& free, const MergeLimits& limits,
-             Statistics& statistics)
+  MergeCurve(Diagram& diagram, FreePlaces& free, const MergeLimits& limits, Statistics& statistics)
       : diagram_(diagram),
         free_(free),
         limits_(limits),
@@ -42,7 +33,7 @@ class MergeCurve {
     std::uint32_t edge = add_edge();
     while (edge != none) {
       const Along bisector = along(current_[0], current_[1]);
-      const Real reached = bisector.position(disk_.center);
+      const double reached = bisector.position(disk_.center);
       State state = drop_covered(0);
       if (state == State::inside) state = drop_covered(1);
       if (state == State::outside) return edge;
@@ -71,8 +62,8 @@ class MergeCurve {
  private:
   /// The order of disks on a bisector.
   struct Straight {
-    Vector direction;
-    Real position(const Vector& center) const { return dot(direction, center); }
+    Vec2 direction;
+    double position(Vec2 center) const { return dot(direction, center); }
   };
   using Along = std::conditional_t<with_arcs, site::Bisector, Straight>;
 
@@ -87,7 +78,7 @@ class MergeCurve {
   /// Where the merge curve leaves a Voronoi polygon.
   struct Crossing {
     Disk disk;
-    Real position{0};      ///< on the current bisector
+    double position = 0;   ///< on the current bisector
     std::size_t side = 0;  ///< of the edge that it crosses
   };
 
@@ -99,7 +90,7 @@ class MergeCurve {
     broken         ///< two Voronoi edges cross
   };
 
-  const Site& site(std::uint32_t i) const { return diagram_.sites[i]; }
+  const site::Site& site(std::uint32_t i) const { return diagram_.elements.sites[i]; }
   std::uint32_t& top(std::size_t side) { return diagram_.top[current_[side]][1 - side]; }
   /// Begins the edge between the current elements; `none` where there is no place for it.
   std::uint32_t add_edge() {
@@ -124,7 +115,7 @@ class MergeCurve {
     std::uint32_t kept = top(side);
     for (; kept != none; kept = diagram_.edges[kept].inward[1 - side]) {
       const ListEdge& edge = diagram_.edges[kept];
-      const Real distance_to_third = gap(edge.element[side], disk_);
+      const double distance_to_third = gap(edge.element[side], disk_);
       if (is_stored_ && may_undo_ > 0 && distance_to_third < -tie() &&
           distance_to_third >= -vagueness())
         return State::tied_wrongly;
@@ -180,21 +171,24 @@ class MergeCurve {
     return true;
   }
 
-  /// How far Voronoi points of three elements that hardly determine one may be off.
-  Real vagueness() const { return limits_.tolerance + Kernel::vagueness * disk_.radius; }
+  /// How far Voronoi points of three elements that hardly determine one may be off: a rounding
+  /// divided by the square of the angle between their feet, for up to 1e6 of them around a disk.
+  double vagueness() const {
+    constexpr double in_radii = 1e-5;
+    return limits_.tolerance + in_radii * disk_.radius;
+  }
 
   /// By how far a disk's foot on its element of one side has passed an edge's inner end, and so all
   /// of the edge; negative where it has not. No edge passes the ends of its elements.
-  Real passed(std::size_t side, const Disk& disk, const ListEdge& edge) const {
-    if (edge.inner.radius == 0) return Real(-disk.radius);
-    const Site& own = site(current_[side]);
-    const Vector way = edge.inner.center - disk.center;
-    const Real ahead = own.is_vertex()
-                           ? Real(cross(way, disk.center - own.point) / edge.inner.radius)
-                           : along_edge(own, disk.center, edge.inner.center);
-    return side == 0 ? ahead : Real(-ahead);
+  double passed(std::size_t side, const Disk& disk, const ListEdge& edge) const {
+    if (edge.inner.radius == 0) return -disk.radius;
+    const site::Site& own = site(current_[side]);
+    const Vec2 way = edge.inner.center - disk.center;
+    const double ahead = own.is_vertex() ? cross(way, disk.center - own.point) / edge.inner.radius
+                                         : along_edge(own, disk.center, edge.inner.center);
+    return side == 0 ? ahead : -ahead;
   }
-  static Real along_edge(const Site& edge, const Vector& from, const Vector& to) {
+  static double along_edge(const site::Site& edge, Vec2 from, Vec2 to) {
     if constexpr (with_arcs)
       return advance(edge, from, to);
     else
@@ -214,21 +208,18 @@ class MergeCurve {
   /// Whether a stored disk touches an element, and not only the end of a segment, maybe from
   /// behind.
   bool is_tied(std::uint32_t i, const Disk& disk) const {
-    return abs(gap(i, disk)) <= tie() &&
-           abs(carrier_distance(site(i), disk.center) - disk.radius) <= limits_.tolerance;
+    return std::abs(gap(i, disk)) <= tie() &&
+           std::abs(carrier_distance(site(i), disk.center) - disk.radius) <= limits_.tolerance;
   }
-  Real gap(std::uint32_t i, const Disk& disk) const {
-    return sqrt(squared_distance(site(i), disk.center)) - disk.radius;
-  }
+  double gap(std::uint32_t i, const Disk& disk) const { return site::gap(site(i), disk); }
 
   /// Where the current bisector crosses the outermost edge on one side, if it does.
-  std::optional<Crossing> crossing_with(std::size_t side, const Along& bisector,
-                                        const Real& reached) {
+  std::optional<Crossing> crossing_with(std::size_t side, const Along& bisector, double reached) {
     const ListEdge& edge = diagram_.edges[top(side)];
     const std::uint32_t third = edge.element[side], other = current_[1 - side];
     // A disk that is behind by rounding only is not: ties.h looks after it.
     const auto not_behind = [&](const Disk& disk) -> std::optional<Crossing> {
-      const Real position = bisector.position(disk.center);
+      const double position = bisector.position(disk.center);
       if (position > reached) return Crossing{disk, position, side};
       if (disk_.radius > 0 && distance(disk.center, disk_.center) <= vagueness())
         return Crossing{is_tied(third, disk_) ? disk_ : disk, reached, side};
@@ -237,10 +228,10 @@ class MergeCurve {
     if constexpr (with_arcs) return crossing_with_arcs(side, edge, not_behind);
     if (diagram_.is_spoke(edge)) {
       const bool own_vertex = site(current_[side]).is_vertex();
-      const Site& vertex = site(own_vertex ? current_[side] : third);
-      const Site& segment = site(own_vertex ? third : current_[side]);
-      const Vector normal = segment.normal();
-      const Real radius = tangent_radius(vertex.point, normal, site(other));
+      const site::Site& vertex = site(own_vertex ? current_[side] : third);
+      const site::Site& segment = site(own_vertex ? third : current_[side]);
+      const Vec2 normal = segment.normal();
+      const double radius = tangent_radius(vertex.point, normal, site(other));
       if (!(radius <= limits_.radius_limit)) return std::nullopt;
       const Disk disk{vertex.point + radius * normal, radius};
       if (!touches(other, disk)) return std::nullopt;
@@ -286,11 +277,11 @@ class MergeCurve {
 
   /// Where the curve leaves a polygon first. Where the positions are not known well, the other
   /// side's element decides: it must not reach into the disk.
-  std::optional<Crossing> first_crossing(const Along& bisector, const Real& reached) {
+  std::optional<Crossing> first_crossing(const Along& bisector, double reached) {
     std::array<std::optional<Crossing>, 2> crossing;
     const auto reach_over = [&](std::size_t side) {
       const std::uint32_t third = diagram_.edges[top(1 - side)].element[1 - side];
-      return Real(-gap(third, crossing[side]->disk));
+      return -gap(third, crossing[side]->disk);
     };
     for (const std::size_t side : {0u, 1u}) {
       if (top(side) == none) continue;
@@ -321,13 +312,13 @@ class MergeCurve {
   /// Whether a disk that touches the carrier of an element touches the element: its foot lies on a
   /// segment, in the wedge of a reflex vertex, or beyond it within the tolerance.
   bool touches(std::uint32_t i, const Disk& disk) const {
-    const Site& s = site(i);
+    const site::Site& s = site(i);
     if (!s.is_vertex()) {
-      const Real foot = dot(s.direction, disk.center - s.point);
+      const double foot = dot(s.direction, disk.center - s.point);
       if (foot >= 0 && foot <= s.length) return true;
-      return abs(gap(i, disk)) <= limits_.tolerance;
+      return std::abs(gap(i, disk)) <= limits_.tolerance;
     }
-    const Vector d = disk.center - s.point;
+    const Vec2 d = disk.center - s.point;
     if (dot(site(i - 1).direction, d) >= 0 && dot(site(i + 1).direction, d) <= 0) return true;
     return gap(i - 1, disk) >= -limits_.tolerance && gap(i + 1, disk) >= -limits_.tolerance;
   }
@@ -337,7 +328,7 @@ class MergeCurve {
            statistics_.precision_retries);
   }
 
-  DiagramIn<Kernel>& diagram_;
+  Diagram& diagram_;
   FreePlaces& free_;
   const MergeLimits& limits_;
   Statistics& statistics_;
@@ -351,9 +342,8 @@ class MergeCurve {
 
 }  // namespace
 
-template <class Kernel>
-std::uint32_t merge(DiagramIn<Kernel>& diagram, std::uint32_t first, std::uint32_t middle,
-                    std::uint32_t end, const MergeLimits& limits, Statistics& statistics) {
+std::uint32_t merge(Diagram& diagram, std::uint32_t first, std::uint32_t middle, std::uint32_t end,
+                    const MergeLimits& limits, Statistics& statistics) {
   auto& free = diagram.free[first];
   const auto& more = diagram.free[middle];
   // A chain of k elements has k - 1 edges and k + 1 free places: there are always some.
@@ -361,15 +351,9 @@ std::uint32_t merge(DiagramIn<Kernel>& diagram, std::uint32_t first, std::uint32
   free.last = more.last;
   const auto& chains = diagram.elements.chains;
   const std::uint32_t begin = chains[first], half = chains[middle], last = chains[end];
-  if constexpr (std::is_same_v<Kernel, InDouble>)
-    if (diagram.elements.have_arcs())
-      return MergeCurve<Kernel, true>(diagram, free, limits, statistics).follow(begin, half, last);
-  return MergeCurve<Kernel, false>(diagram, free, limits, statistics).follow(begin, half, last);
+  if (diagram.elements.have_arcs())
+    return MergeCurve<true>(diagram, free, limits, statistics).follow(begin, half, last);
+  return MergeCurve<false>(diagram, free, limits, statistics).follow(begin, half, last);
 }
-
-template std::uint32_t merge(Diagram&, std::uint32_t, std::uint32_t, std::uint32_t,
-                             const MergeLimits&, Statistics&);
-template std::uint32_t merge(DiagramIn<InPrecise>&, std::uint32_t, std::uint32_t, std::uint32_t,
-                             const MergeLimits&, Statistics&);
 
 }  // namespace medial::lee

@@ -13,8 +13,7 @@ namespace medial::lee {
 /// first < middle < end, chains of one loop. Every step leaves one Voronoi polygon for good, and
 /// every edge is dropped at most once: O(elements of both). Returns the last edge of the merge
 /// curve, or `none` where rounding has broken a diagram: then neither can be used any more.
-template <class Kernel>
-std::uint32_t merge(DiagramIn<Kernel>& diagram, std::uint32_t first, std::uint32_t middle,
-                    std::uint32_t end, const MergeLimits& limits, Statistics& statistics);
+std::uint32_t merge(Diagram& diagram, std::uint32_t first, std::uint32_t middle, std::uint32_t end,
+                    const MergeLimits& limits, Statistics& statistics);
 
 }  // namespace medial::lee

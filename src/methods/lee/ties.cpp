@@ -8,7 +8,6 @@
 #include <numeric>
 #include <vector>
 
-#include "base/disjoint_sets.h"
 #include "site/bisector.h"
 
 namespace medial::lee {
@@ -179,64 +178,15 @@ void join_ties(Graph& graph, double tolerance) {
   ties.straighten(tolerance);
 }
 
-std::optional<Disk> find_overreach(const Graph& graph, double slack) {
-  constexpr double close = 0.1;            // radii from an element to the next
-  constexpr std::uint32_t first_step = 4;  // nearer ones, merges have seen
-  const Elements& elements = graph.elements();
-  std::optional<Disk> backward;
-  for (const Elements::ChainLoop& loop : elements.loops)
-    graph.for_edges(loop, [&](std::uint32_t edge) {
-      if (graph.disk(edge).radius > 0 && graph.disk(graph.to(edge)).radius > 0 &&
-          !graph.begins_at_bridge(edge) && graph.runs_backward(edge, slack))
-        backward = graph.disk(edge);
-    });
-  if (backward) return backward;
-  for (const std::uint32_t node : graph.doubtful_edges()) {
-    const Disk& disk = graph.disk(node);
-    const auto touched = graph.touched(node);
-    const auto is_far = [&](std::uint32_t element) {
-      const double reach = close * disk.radius;
-      return squared_norm(elements.sites[element].point - elements.sites[touched[0]].point) >
-             reach * reach;
-    };
-    if (is_far(touched[1]) || is_far(touched[2])) continue;
-    const auto [begin, end] = graph.loop_around(touched[0]);
-    const std::uint32_t size = end - begin;
-    const double inner = std::max(0.0, disk.radius - slack);
-    for (std::uint32_t step = first_step; step < size; step *= 2)
-      for (const std::uint32_t far : {step, size - step}) {
-        const std::uint32_t other = begin + (touched[0] - begin + far) % size;
-        if (!elements.is_of_bridge(other) &&
-            site::squared_distance(elements.sites[other], disk.center) < inner * inner)
-          return disk;
-      }
-  }
-  return std::nullopt;
-}
-
-namespace {
-
-/// Whether so many neighbouring Voronoi edges are short that their errors add up.
-bool has_large_tie(const Graph& graph, double slack) {
-  constexpr std::uint32_t large = 8;
-  constexpr double next_to = 16;
-  if (graph.doubtful_edges().size() < large) return false;
-  DisjointSets ties(graph.places());
-  std::vector<std::uint32_t> size(graph.places());
-  const auto is_short = [&](std::uint32_t edge) {
-    return distance(graph.disk(edge).center, graph.disk(graph.to(edge)).center) <= next_to * slack;
-  };
-  for (const std::uint32_t edge : graph.doubtful_edges())
-    if (is_short(edge)) ties.join(edge, graph.to(edge));
-  return std::any_of(
-      graph.doubtful_edges().begin(), graph.doubtful_edges().end(),
-      [&](std::uint32_t edge) { return is_short(edge) && ++size[ties.find(edge)] >= large; });
-}
-
-}  // namespace
-
 bool is_right_locally(const Graph& graph, double slack) {
-  if (has_large_tie(graph, 2 * slack)) return false;
+  // Of a tie that is not one disk, the points may be the one or the other in a mirror image.
+  constexpr double near = 32;
+  const auto is_near_tie = [&](std::uint32_t edge) {
+    const Disk &from = graph.disk(edge), &to = graph.disk(graph.to(edge));
+    return !is_same(from, to) && distance(from.center, to.center) <= near * slack;
+  };
+  const auto& doubtful = graph.doubtful_edges();
+  if (std::any_of(doubtful.begin(), doubtful.end(), is_near_tie)) return false;
   const Elements& elements = graph.elements();
   // By how far a disk misses what a node touches; negative where it reaches over.
   const auto reach = [&](std::uint32_t node, const Disk& disk, double& least, double& most) {
