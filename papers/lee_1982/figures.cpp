@@ -112,7 +112,7 @@ class Halves {
   explicit Halves(const Shape& shape) : Halves(Problem(shape, Options{})) {}
   explicit Halves(Problem problem)
       : elements_((problem.frame = {}, lee::elements_of(problem).value())),
-        diagram_(elements_, elements_.sites, elements_.disks_of_passages),
+        diagram_(elements_),
         limits_{problem.tolerance, 4 * diagonal(problem.box)} {
     const auto count = static_cast<std::uint32_t>(elements_.chains.size() - 1);
     int deepest = 0;
