@@ -399,16 +399,16 @@ class ExactEvents::Search {
     const std::uint32_t own = name(site);
     const auto before = events_.sites_.joined_before(own);
     const bool is_joined = before || outline_.joined(own, outline_.next_of(own));
-    if (!is_joined || exact_site(site).is_vertex())
-      return exact::may_have_foot(exact_site(site), disk);
+    const exact::ExactSite own_site = exact_site(site);
+    if (!is_joined || own_site.is_vertex()) return exact::may_have_foot(own_site, disk);
     const auto begin = *end_of(own, false), end = *end_of(own, true);
     return cross(disk.center - begin.foot, begin.normal).sign() != -1 &&
            cross(disk.center - end.foot, end.normal).sign() != 1;
   }
 
   bool stands_between_bridges(std::uint32_t site) const {
-    return exact_site(site).is_vertex() && site > 0 && is_bridge(site - 1) &&
-           site + 1 < events_.boundary_.sites.size() && is_bridge(site + 1);
+    return site > 0 && is_bridge(site - 1) && site + 1 < events_.boundary_.sites.size() &&
+           is_bridge(site + 1) && exact_site(site).is_vertex();
   }
   /// Whether a disk's centre may lie in the part of a vertex that two bridges leave: more than a
   /// half turn at a lone point, all of it where both are one.
