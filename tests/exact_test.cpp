@@ -126,11 +126,13 @@ exact::SiteLoops nearly_touched(Random& random) {
   if (random.chance(0.3)) angles[1] = angles[0] + std::pow(10, random.between(-7, -2));
   std::sort(angles.begin(), angles.end());
   exact::SiteLoops loops;
+  std::vector<exact::ExactSite> sites;
   for (const double angle : angles) {
     const double off = random.between(-1, 1) * std::pow(10, random.between(-19, -9));
-    loops.sites.push_back(touching_site(random, disk, angle, off));
+    sites.push_back(touching_site(random, disk, angle, off));
     loops.next.push_back(static_cast<std::uint32_t>(loops.next.size()));
   }
+  loops.sites.work_out = [sites](std::uint32_t i) { return sites[i]; };
   loops.passes.assign(4, false);
   loops.blunt.assign(4, false);
   loops.loop_begin = {0, 4};

@@ -42,33 +42,6 @@ Expansion2 exact_product(double a, double b) {
   return {product, std::fma(a, b, -product)};
 }
 
-/// The sign of a sum of up to 12 numbers without overflow: Shewchuk's grow-expansion. The
-/// components do not overlap and grow in magnitude, so the last one that is not zero has the sign
-/// of all.
-class Sum {
- public:
-  void add(double term) {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < size_; ++i) {
-      const Expansion2 partial = exact_sum(term, components_[i]);
-      term = partial.value;
-      if (partial.error != 0) components_[kept++] = partial.error;
-    }
-    if (term != 0) components_[kept++] = term;
-    size_ = kept;
-  }
-  void add_product(double a, double b) {
-    const Expansion2 product = exact_product(a, b);
-    add(product.error);
-    add(product.value);
-  }
-  int sign_of_all() const { return size_ == 0 ? 0 : sign(components_[size_ - 1]); }
-
- private:
-  std::array<double, 12> components_;
-  std::size_t size_ = 0;
-};
-
 using Integer = boost::multiprecision::cpp_int;
 
 int orientation_in_integers(Vec2 a, Vec2 b, Vec2 c) {
@@ -157,17 +130,6 @@ int exact_orientation(Vec2 a, Vec2 b, Vec2 c) {
     return sign(left.error - right.error);
   }
 
-  if (is_moderate(a.x) && is_moderate(a.y) && is_moderate(b.x) && is_moderate(b.y) &&
-      is_moderate(c.x) && is_moderate(c.y)) {
-    Sum area;
-    area.add_product(a.x, b.y);
-    area.add_product(-a.y, b.x);
-    area.add_product(b.x, c.y);
-    area.add_product(-b.y, c.x);
-    area.add_product(c.x, a.y);
-    area.add_product(-c.y, a.x);
-    return area.sign_of_all();
-  }
   const int compared = orientation_in_integers(a, b, c);
   return (compared > 0) - (compared < 0);
 }

@@ -233,6 +233,14 @@ void remove_spurs(const Boundary& boundary, Graph& graph) {
     for (std::uint32_t& node : edge.node) node = place[node];
 }
 
+WorkVector<std::uint8_t> degrees_of(const Graph& graph) {
+  WorkVector<std::uint8_t> degree(graph.nodes.size());
+  for (const Edge& edge : graph.edges)
+    for (const std::uint32_t node : edge.node)
+      if (degree[node] < 4) ++degree[node];
+  return degree;
+}
+
 std::vector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& frame,
                                     std::optional<double> slack, Graph& graph) {
   graph.statistics.largest_residual *= frame.inverse;
@@ -249,24 +257,22 @@ std::vector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& 
     edge.weight = control.weight;
   };
   std::vector<std::vector<std::uint32_t>> doubtful;
-  WorkVector<std::uint8_t> degree(graph.nodes.size());
+  WorkVector<std::uint8_t> degree;
   const auto fill_edges = [&] {
     doubtful = in_blocks<std::vector<std::uint32_t>>(graph.edges.size(), 4096, fill_edge);
   };
-  const auto count = [&] {
-    if (!slack) return;
-    for (const Edge& edge : graph.edges)
-      for (const std::uint32_t node : edge.node)
-        if (degree[node] < 3) ++degree[node];
-  };
-  in_parallel(count, fill_edges);
+  in_parallel(
+      [&] {
+        if (slack) degree = degrees_of(graph);
+      },
+      fill_edges);
   parallel_ranges(graph.nodes.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Node& node = graph.nodes[i];
       // Where a vertex all but touches an edge, a radius may be below 0 by rounding.
       node.disk = {frame.to_input(node.disk.center),
                    frame.inverse * std::max(0.0, node.disk.radius)};
-      node.kind = kind_of_degree(degree[i]);
+      if (slack) node.kind = kind_of_degree(degree[i]);
     }
   });
   std::vector<std::uint32_t> all;

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/memory.h"
 #include "medial/axis.h"
 #include "methods/disks/boundary.h"
 #include "methods/disks/walk.h"
@@ -26,6 +27,9 @@ struct Graph {
   std::vector<Passage> passages;    ///< by edge; where there are arcs
   std::vector<std::uint32_t> lost;  ///< sites at which the walk lost its way
 };
+
+/// The number of edges at each node; 4 stands for more, too. O(edges).
+WorkVector<std::uint8_t> degrees_of(const Graph& graph);
 
 /// Joins the walk's chunks into one graph: numbers the nodes and glues the axis at the bridges
 /// (whose disks are no nodes of it). Empties the chunks as it goes, so that nothing is in memory

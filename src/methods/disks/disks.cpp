@@ -44,10 +44,7 @@ void find_lost(const Chunk& chunk, std::vector<std::uint32_t>& lost) {
 /// reach over others by more.
 void find_intruders(const Boundary& boundary, const site::BoundaryTree& tree, double slack,
                     Graph& graph) {
-  WorkVector<std::uint8_t> degree(graph.nodes.size());
-  for (const Edge& edge : graph.edges)
-    for (const std::uint32_t node : edge.node)
-      if (degree[node] < 2) ++degree[node];
+  const WorkVector<std::uint8_t> degree = degrees_of(graph);
   for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
     const auto& [disk, component, kind] = graph.nodes[i];
     if (degree[i] == 2 || disk.radius <= slack) continue;

@@ -98,12 +98,8 @@ class Merger {
   /// from disk to disk: such a node moves to where it touches all its sites, if it does not
   /// yet. (All of an arc that its disk nearly touches it need not touch.)
   void put_right() {
-    constexpr std::uint8_t several = 4;
-    std::vector<std::uint8_t> degree(graph_.nodes.size());
-    for (const Edge& edge : graph_.edges)
-      for (const std::uint32_t node : edge.node)
-        if (degree[node] < several) ++degree[node];
-    const auto is_hub = [&](std::uint32_t node) { return degree[node] == several; };
+    const WorkVector<std::uint8_t> degree = degrees_of(graph_);
+    const auto is_hub = [&](std::uint32_t node) { return degree[node] > 3; };
     link_ends(filter(graph_.edges.size(), [&](std::size_t e) {
       const auto [from, to] = graph_.edges[e].node;
       return is_hub(from) || is_hub(to);
@@ -172,51 +168,25 @@ class Merger {
 
   /// Lists the ends of all edges at the nodes of these ones, the last edge first.
   void link_ends(const WorkVector<std::uint32_t>& edges) {
-    places_.assign(graph_.nodes.size(), not_listed);
-    first_places_.clear();
-    ends_begin_.clear();
+    std::vector<bool> is_listed(graph_.nodes.size());
     for (const std::uint32_t e : edges)
-      for (const std::uint32_t node : graph_.edges[e].node) places_[node] = 0;
-    std::uint32_t count = 0;
-    for (std::size_t node = 0; node < places_.size(); ++node) {
-      if (node % together == 0) first_places_.push_back(count);
-      if (places_[node] == not_listed) continue;
-      places_[node] = static_cast<std::uint8_t>(count++ - first_places_.back());
-    }
-    ends_begin_.resize(count + 1);
-    for_listed_ends([&](std::uint32_t place, std::uint32_t) { ++ends_begin_[place]; });
+      for (const std::uint32_t node : graph_.edges[e].node) is_listed[node] = true;
+    const auto for_listed_ends = [&](const auto& use) {
+      for (std::uint32_t e = 0; e < graph_.edges.size(); ++e)
+        for (const std::uint32_t k : {0u, 1u})
+          if (const std::uint32_t node = graph_.edges[e].node[k]; is_listed[node])
+            use(node, 2 * e + k);
+    };
+    ends_begin_.assign(graph_.nodes.size() + 1, 0);
+    for_listed_ends([&](std::uint32_t node, std::uint32_t) { ++ends_begin_[node]; });
     std::partial_sum(ends_begin_.begin(), ends_begin_.end(), ends_begin_.begin());
     ends_.resize(ends_begin_.back());
     for_listed_ends(
-        [&](std::uint32_t place, std::uint32_t end) { ends_[--ends_begin_[place]] = end; });
-  }
-  /// Calls use(place, end) for all ends of edges at listed nodes, with the places of these.
-  template <class Use>
-  void for_listed_ends(const Use& use) const {
-    constexpr std::size_t block = 1 << 10;
-    std::array<std::uint32_t, block> around;
-    const auto is_listed = [&](std::uint32_t node) { return places_[node] != not_listed; };
-    for (std::size_t begin = 0; begin < graph_.edges.size(); begin += block) {
-      std::size_t size = 0;
-      for (std::size_t e = begin; e < std::min(begin + block, graph_.edges.size()); ++e) {
-        const auto [from, to] = graph_.edges[e].node;
-        around[size] = static_cast<std::uint32_t>(e);
-        // Without a branch, as above.
-        size += std::size_t{is_listed(from)} | std::size_t{is_listed(to)};
-      }
-      for (std::size_t k = 0; k < size; ++k)
-        for (const std::uint32_t end : {2 * around[k], 2 * around[k] + 1})
-          if (const std::uint32_t node = graph_.edges[around[k]].node[end % 2]; is_listed(node))
-            use(place_among_listed(node), end);
-    }
-  }
-  std::uint32_t place_among_listed(std::uint32_t node) const {
-    return first_places_[node / together] + places_[node];
+        [&](std::uint32_t node, std::uint32_t end) { ends_[--ends_begin_[node]] = end; });
   }
   /// The ends of edges at a node of a short one: end 2 e + k is node[k] of edge e.
   std::span<const std::uint32_t> ends_at(std::uint32_t node) const {
-    const std::uint32_t* const begin = &ends_begin_[place_among_listed(node)];
-    return std::span(ends_).subspan(begin[0], begin[1] - begin[0]);
+    return std::span(ends_).subspan(ends_begin_[node], ends_begin_[node + 1] - ends_begin_[node]);
   }
   bool is_branching(std::uint32_t node) const { return ends_at(node).size() > 2; }
   /// The node at the other end of an edge.
@@ -707,13 +677,7 @@ class Merger {
   double tolerance_;
   std::span<const std::uint32_t> names_;
   Graph& graph_;
-  /// Of each node of a short edge, its place among them, counted from that of the first one in its
-  /// group of `together` nodes: a byte is enough, of all nodes, too.
-  static constexpr std::size_t together = 128;
-  static constexpr std::uint8_t not_listed = 255;
-  WorkVector<std::uint8_t> places_;
-  WorkVector<std::uint32_t> first_places_;
-  /// Of each of these nodes, where its ends begin in `ends_`.
+  /// Of each node, where its ends begin in `ends_`, which has those of short edges' nodes only.
   WorkVector<std::uint32_t> ends_begin_, ends_;
   std::vector<std::uint32_t> nodes_;          ///< of candidates, increasing
   std::vector<std::vector<Touch>> contacts_;  ///< of each of nodes_

@@ -23,10 +23,16 @@ constexpr double border_error = 16;
 /// What no disk is off by, in the local frame.
 constexpr double loose = 0x1p-20;
 
-/// The window's sites for exact decisions. A site whose neighbour lies outside has none.
+/// The window's sites for exact decisions, as long as it and the rings are there. A site whose
+/// neighbour lies outside has none.
 exact::SiteLoops outline_of(const Rings& rings, const Window& window) {
   const std::vector<std::uint32_t>& names = window.names;
   exact::SiteLoops outline;
+  outline.sites.work_out = [&rings, &names](std::uint32_t i) -> exact::ExactSite {
+    const std::uint32_t vertex = names[i] / 2;
+    if (!Rings::is_edge(names[i])) return {rings.local(vertex), rings.local(vertex)};
+    return {rings.local(vertex), rings.local(rings.corner_after(vertex)), rings[vertex].bulge};
+  };
   outline.passes.assign(names.size(), false);
   outline.blunt.assign(names.size(), false);
   for (std::uint32_t i = 0; i < names.size(); ++i) {
@@ -34,8 +40,6 @@ exact::SiteLoops outline_of(const Rings& rings, const Window& window) {
     const bool is_edge = Rings::is_edge(names[i]);
     const std::uint32_t end = is_edge ? rings.corner_after(vertex) : vertex;
     const site::Joint joint = rings[end].joint;
-    outline.sites.push_back(
-        {rings.local(vertex), rings.local(end), is_edge ? rings[vertex].bulge : 0});
     const auto place = std::lower_bound(names.begin(), names.end(), after);
     const bool is_inside = place != names.end() && *place == after;
     outline.next.push_back(is_inside ? static_cast<std::uint32_t>(place - names.begin()) : i);

@@ -33,9 +33,9 @@ bool by_second(const ExactSite& first, const ExactSite& second) {
 
 SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers) {
   SiteLoops outline;
-  outline.sites = SiteList(numbers.count, [&problem, &numbers](std::uint32_t site) {
+  outline.sites.work_out = [&problem, &numbers](std::uint32_t site) {
     return site_of(problem, numbers, site);
-  });
+  };
   outline.passes.assign(numbers.count, false);
   outline.blunt.assign(numbers.count, false);
   if (has_arcs(problem.shape)) outline.by_next.assign(numbers.count, false);

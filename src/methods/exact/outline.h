@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <utility>
 #include <vector>
 
 #include "methods/exact/site_form.h"
@@ -11,23 +10,10 @@
 
 namespace medial::exact {
 
-/// Sites by their numbers: stored, or worked out at each question, which takes no memory. Few of
-/// them are ever asked for.
-class SiteList {
- public:
-  SiteList() = default;
-  SiteList(std::uint32_t count, std::function<ExactSite(std::uint32_t)> work_out)
-      : count_(count), work_out_(std::move(work_out)) {}
-
-  ExactSite operator[](std::uint32_t i) const { return work_out_ ? work_out_(i) : stored_[i]; }
-  std::size_t size() const { return work_out_ ? count_ : stored_.size(); }
-  /// Of stored ones only.
-  void push_back(const ExactSite& site) { stored_.push_back(site); }
-
- private:
-  std::vector<ExactSite> stored_;
-  std::size_t count_ = 0;
-  std::function<ExactSite(std::uint32_t)> work_out_;
+/// Sites by their numbers, worked out at each question: few of them are ever asked for.
+struct SiteList {
+  std::function<ExactSite(std::uint32_t)> work_out;
+  ExactSite operator[](std::uint32_t i) const { return work_out(i); }
 };
 
 /// The boundary as loops of sites, numbered as in MedialAxis::sites.
