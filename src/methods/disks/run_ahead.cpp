@@ -10,15 +10,15 @@ constexpr std::size_t longest_run = 16;
 
 }  // namespace
 
-Division::Division(const Span& span, const Event& event, double error, bool moves) {
+Division::Division(const Span& span, const Event& event, double error, bool is_exact) {
   using Kind = Event::Kind;
-  Span next{span.right, span.left, span.node, 0, error, moves};
+  Span next{span.right, span.left, span.node, 0, error, is_exact};
   if (event.kind == Kind::pass_right || event.kind == Kind::pass_left) {
     next.third = event.kind == Kind::pass_right ? next.right++ : next.left--;
     part[count++] = next;
   } else if (event.kind != Kind::none && event.site > span.right && event.site < span.left) {
-    part[count++] = {event.site, span.left, span.node, span.right, error, moves};
-    part[count++] = {span.right, event.site, span.node, span.left, error, moves};
+    part[count++] = {event.site, span.left, span.node, span.right, error, is_exact};
+    part[count++] = {span.right, event.site, span.node, span.left, error, is_exact};
   }
 }
 

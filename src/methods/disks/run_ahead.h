@@ -14,7 +14,7 @@ namespace medial::disks {
 /// The spans into which an event divides its own: one where a foot passes on, two at a contact,
 /// none where nothing is left to touch, as on a shape that crosses itself. Not at a node.
 struct Division {
-  Division(const Span& span, const Event& event, double error, bool moves);
+  Division(const Span& span, const Event& event, double error, bool is_exact);
 
   std::array<Span, 2> part;
   std::size_t count = 0;

@@ -184,8 +184,10 @@ class Walker {
       split(span, step.is_tie ? event.disk : from, event.site, false);
       return look_ahead(step);
     }
-    const bool moves = event.disk.center != from.center || event.disk.radius != from.radius;
-    const Division parts(span, event, step.error, moves || step.is_node);
+    // Also where it is the same: that is known then.
+    const bool is_exact = step.is_node.has_value() || event.disk.center != from.center ||
+                          event.disk.radius != from.radius;
+    const Division parts(span, event, step.error, is_exact);
     for (std::size_t i = 0; i < parts.count; ++i) parts_.push_back({parts.part[i]});
     look_ahead(step);
   }
