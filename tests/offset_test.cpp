@@ -276,13 +276,51 @@ TEST(Offset, EveryPointHasItsDistance) {
     const test::OffsetCheck check = test::check_offsets(shape, *offsets);
     EXPECT_LE(check.largest_error, 1e-9 * size) << check.worst.x << " " << check.worst.y;
     EXPECT_EQ(check.fault, "");
-    EXPECT_GT(shortest_step(*offsets), 0.5 * axis->tolerance);  // no steps of rounding
+    EXPECT_GT(shortest_step(*offsets), 0x1p-53 * size);  // no steps of rounding
     points += check.points;
     regions += offsets->regions.size();
     if (HasFailure()) return;
   }
   EXPECT_GT(points, 20 * offset_count);
   EXPECT_GT(regions, offset_count);
+}
+
+TEST(Offset, OfARoundRoomWithDoors) {
+  // The disk in the middle touches all walls between the doors, along all of them.
+  for (const int doors : {2, 3, 4, 7}) {
+    Ring ring;
+    const double half = 0.1, distance = 0.075, wall = 2 * pi / doors - 2 * half;
+    for (int i = 0; i < doors; ++i) {
+      const auto at = [&](double radius, double angle) {
+        const double turn = 2 * pi * i / doors + angle;
+        return radius * Vec2{std::cos(turn), std::sin(turn)};
+      };
+      for (const Vec2 p : {at(1, -half), at(2, -half), at(2, half)}) {
+        ring.points.push_back(p);
+        ring.bulges.push_back(0);
+      }
+      ring.points.push_back(at(1, half));
+      ring.bulges.push_back(std::tan(wall / 4));
+    }
+    const Shape shape = shape_of({ring});
+    const auto offsets = offset_curves(shape, std::vector{distance});
+    ASSERT_TRUE(offsets.ok());
+    ASSERT_EQ(offsets->regions.size(), 1U) << doors;
+    EXPECT_EQ(offsets->regions[0].rings.size(), 1U) << doors;
+    EXPECT_EQ(test::check_offsets(shape, *offsets).fault, "") << doors;
+    EXPECT_LE(test::check_offsets(shape, *offsets).largest_error, 1e-12) << doors;
+  }
+}
+
+TEST(Offset, OfManyEdgesShorterThanTheTolerance) {
+  constexpr std::size_t sides = 2000;
+  constexpr double left = 1e-5;
+  const double inradius = std::cos(pi / sides);
+  const auto offsets = offset_curves(shape_of(test::regular_polygon(sides, 1)),
+                                     std::vector{inradius - left}, {.tolerance = 1e-7});
+  ASSERT_TRUE(offsets.ok());
+  ASSERT_EQ(offsets->regions.size(), 1U);
+  EXPECT_NEAR(length(offsets->regions[0]), 2 * pi * left, 1e-3 * left);
 }
 
 TEST(Offset, MovesWithTheShape) {

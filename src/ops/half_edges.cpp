@@ -112,14 +112,17 @@ void HalfEdges::link_by_site(std::span<const HalfEdge> leaving) {
     }
     std::sort(ends->begin(), ends->end(), by_key);
   }
-  // The turn of one list against the other that brings the first foot to the nearest one.
-  const auto apart = [&](const End& end) {
-    return std::abs(std::remainder(end.key - in_left[0].key, 2 * std::numbers::pi));
+  // The turn of one list against the other that brings the first foot to the next one
+  // counter-clockwise: an arc that the disk touches all along may lie between the two.
+  const auto ahead = [&](const End& end) {
+    constexpr double hardly = 1e-6;  // a step backwards by rounding
+    const double turn = std::remainder(end.key - in_left[0].key, full_turn);
+    return std::abs(turn < -hardly ? turn + full_turn : turn);
   };
-  const auto nearest =
+  const auto following =
       std::min_element(out_left.begin(), out_left.end(),
-                       [&](const End& a, const End& b) { return apart(a) < apart(b); });
-  const auto shift = static_cast<std::size_t>(nearest - out_left.begin());
+                       [&](const End& a, const End& b) { return ahead(a) < ahead(b); });
+  const auto shift = static_cast<std::size_t>(following - out_left.begin());
   for (std::size_t k = 0; k < in_left.size(); ++k)
     next_[in_left[k].half] = out_left[(k + shift) % out_left.size()].half;
 }

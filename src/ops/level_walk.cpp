@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -62,9 +63,18 @@ std::optional<Vec2> beside_joint(const Site& before, const Site& after, double d
 /// Puts a ring together, piece by piece.
 class LevelWalk::RingBuilder {
  public:
-  RingBuilder(const MedialAxis& axis, double level, Ring& ring)
-      : axis_(axis), level_(level), ring_(ring) {}
+  /// `largest`: of the coordinates, in size.
+  RingBuilder(const MedialAxis& axis, double largest, double level, Ring& ring)
+      : axis_(axis),
+        rounding_(2 * std::numeric_limits<double>::epsilon() * (largest + std::abs(level))),
+        level_(level),
+        ring_(ring) {}
 
+  /// Forgets all pieces.
+  void restart() {
+    ring_ = {};
+    end_.reset();
+  }
   /// Begins a piece at a point: the offset of a site.
   void begin(std::uint32_t site, Vec2 point) {
     site_ = site;
@@ -124,18 +134,23 @@ class LevelWalk::RingBuilder {
     first_ = middle;
     add(point, std::tan(angle / 8));
   }
-  /// The piece from first_ to `to`, unless it is but a step of rounding; the ring holds its start.
+  /// The piece from first_ to `to`, of which the ring holds the start; not while all that follows
+  /// the last one is but a step of rounding.
   void add(Vec2 to, double bulge) {
-    if (!(distance(first_, to) > axis_.tolerance)) return;
-    ring_.points.push_back(first_);
+    if (!end_) end_ = first_;
+    if (!(distance(*end_, to) > rounding_)) return;
+    ring_.points.push_back(*end_);
     ring_.bulges.push_back(bulge);
+    end_ = to;
   }
 
   const MedialAxis& axis_;
-  double level_;
+  const double rounding_;
+  const double level_;
   Ring& ring_;
   std::uint32_t site_ = no_site;
   Vec2 first_, last_;
+  std::optional<Vec2> end_;  ///< of the last piece that the ring holds
   double turn_ = 0;
 };
 
@@ -144,6 +159,9 @@ LevelWalk::LevelWalk(const MedialAxis& axis)
       halves_(axis, Around::sites),
       rise_(2 * axis.edges.size()),
       risen_(2 * axis.edges.size(), false) {
+  for (const Site& site : axis.sites)
+    for (const double x : {site.start.x, site.start.y, site.end.x, site.end.y})
+      largest_ = std::max(largest_, std::abs(x));
   lowest_.reserve(axis.edges.size());
   for (std::uint32_t e = 0; e < axis.edges.size(); ++e)
     lowest_.push_back(narrowest_radius(axis, {e, 0, 1}) - axis.tolerance);
@@ -297,7 +315,7 @@ void LevelWalk::pass_node(HalfEdge half, double level, RingBuilder& builder) con
 /// The loop that begins where a half edge rises above the level.
 OffsetRing LevelWalk::loop_from(HalfEdge first, double level) {
   OffsetRing loop{{}, halves_.to(first), halves_.right_site(first)};
-  RingBuilder builder(axis_, level, loop.ring);
+  RingBuilder builder(axis_, largest_, level, loop.ring);
   builder.begin(loop.site, rise_[first]);
   bool risen = true;  // the walk goes on from where the half edge rises, not from its start
   for (HalfEdge half = first;;) {
@@ -320,14 +338,14 @@ OffsetRing LevelWalk::loop_from(HalfEdge first, double level) {
 OffsetRing LevelWalk::loop_around(HalfEdge last, double level) const {
   const HalfEdge first = halves_.next(last);
   OffsetRing loop{{}, halves_.to(first), halves_.right_site(first)};
-  RingBuilder builder(axis_, level, loop.ring);
+  RingBuilder builder(axis_, largest_, level, loop.ring);
   const bool one_site = halves_.right_site(last) == loop.site;
   const Vec2 start = offset_at(loop.site, halves_.disk(last, true), level, Part::start);
   if (one_site) {
     builder.begin(loop.site, start);
   } else {  // where the first site's offset begins is known behind what comes before it
     pass_node(last, level, builder);
-    loop.ring = {};
+    builder.restart();
   }
   for (HalfEdge half = first;; half = halves_.next(half)) {
     pass_node(half, level, builder);

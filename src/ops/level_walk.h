@@ -83,6 +83,7 @@ class LevelWalk {
 
   const MedialAxis& axis_;
   const HalfEdges halves_;
+  double largest_ = 0;                ///< of the coordinates, in size
   std::vector<double> lowest_;        ///< of each edge
   std::vector<Face> faces_;           ///< one for each loop of the boundary that has edges
   std::vector<std::uint32_t> alone_;  ///< nodes without edges

@@ -407,7 +407,7 @@ Result<OutputCrs> output_crs_of(const std::string& crs_wkt, Unit unit) {
   if (!is_local_projection(crs_wkt)) {
     const GdalMessages messages;
     OGRSpatialReference reference;
-    if (reference.importFromWkt(crs_wkt.c_str()) == OGRERR_NONE)
+    if (crs_wkt.empty() || reference.importFromWkt(crs_wkt.c_str()) == OGRERR_NONE)
       return OutputCrs{crs_wkt, unit, nullptr};
     if (!read_crs(crs_wkt, reference))
       return Error{ErrorCode::malformed,
