@@ -210,9 +210,9 @@ void describe_program(CLI::App& program) {
       "\n"
       "Exit status: 0 for success; 1 if `verify`, `legal` or `compare` rejects an axis, or\n"
       "`doctor` finds a fault; 2 for an error, printed as one line on standard error: `medial:\n"
-      "FILE: feature F, ring R, vertex V at (X, Y): TEXT [CODE]`. Features, rings and vertices\n"
-      "count from 0. After an error or an interruption there is no output, not even a partial\n"
-      "file.");
+      "FILE: feature F, ring R, vertex V at (X, Y): TEXT [CODE]`, with the place where edges\n"
+      "cross instead of the vertex's if they do. Features, rings and vertices count from 0.\n"
+      "After an error or an interruption there is no output, not even a partial file.");
 }
 
 void heed_help_anywhere(CLI::App& program) {

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "io/feature_reader.h"
 
@@ -13,5 +14,9 @@ namespace medial::io {
 std::unique_ptr<FeatureReader> open_geojson(const std::string& path);
 /// Reads it in one pass; nothing: GDAL has to.
 std::optional<Document<Feature>> read_geojson(const std::string& path);
+
+/// The unit that a collection names instead of a reference system, before its features: as medial
+/// writes plane coordinates. Nothing where it names none.
+std::optional<Unit> plane_unit_of(std::string_view beginning);
 
 }  // namespace medial::io

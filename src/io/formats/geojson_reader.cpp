@@ -485,6 +485,21 @@ class GeojsonReader final : public FeatureReader {
 
 }  // namespace
 
+std::optional<Unit> plane_unit_of(std::string_view beginning) {
+  const std::size_t end = beginning.find("\"features\"");
+  const std::string_view head = beginning.substr(0, end);
+  constexpr std::string_view key = "\"unit\"";
+  const std::size_t at = head.find(key);
+  if (end == std::string_view::npos || at == std::string_view::npos ||
+      head.find("\"crs\"") != std::string_view::npos)
+    return std::nullopt;
+  const std::size_t open = head.find_first_not_of(" \t\r\n:", at + key.size());
+  if (open == std::string_view::npos || head[open] != '"') return std::nullopt;
+  const std::size_t close = head.find('"', open + 1);
+  return close == std::string_view::npos ? std::nullopt
+                                         : unit_of(head.substr(open + 1, close - open - 1));
+}
+
 std::unique_ptr<FeatureReader> open_geojson(const std::string& path) {
   try {
     return std::make_unique<GeojsonReader>(path);

@@ -13,18 +13,23 @@
 #include <cstring>
 #include <filesystem>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "io/coordinate_names.h"
 #include "io/format.h"
 #include "io/format_name.h"
+#include "io/formats/geojson.h"
 #include "io/gis/gdal_support.h"
 #include "io/place.h"
 
 namespace medial::io {
 
 namespace {
+
+/// In which a GeoJSON names its unit, if at all.
+constexpr std::size_t beginning_size = 512;
 
 /// Whether one of GDAL's vector drivers claims the extension of a name.
 bool known_extension(const std::string& name) {
@@ -132,6 +137,16 @@ class GdalReader final : public FeatureReader {
     read_text_attributes();
     layer_->ResetReading();
     return heard(messages);
+  }
+
+  /// A GeoJSON may name a unit instead of a reference system, for which GDAL takes WGS 84.
+  void read_unit(std::string_view beginning) {
+    if (std::string_view(source_->GetDriverName()) != "GeoJSON") return;
+    const std::optional<Unit> unit = plane_unit_of(beginning);
+    if (!unit) return;
+    common_.crs_wkt.clear();
+    common_.geographic = false;
+    common_.unit = *unit;
   }
 
   Result<bool> read(std::size_t points, Document<Feature>& document) override {
@@ -340,6 +355,7 @@ Result<Document<Feature>> read_bytes(const Input& input, const ReadOptions& opti
   if (file.name().empty()) return error(ErrorCode::unreadable, "cannot be kept in memory");
   GdalReader reader(input.path, options);
   if (Status opened = reader.open(file.name()); !opened) return std::move(opened).error();
+  reader.read_unit(std::string_view(bytes).substr(0, beginning_size));
   return read_to_end(reader);
 }
 
@@ -367,6 +383,7 @@ Result<std::unique_ptr<FeatureReader>> open_vectors(const Input& input,
   auto reader = std::make_unique<GdalReader>(input.path, options);
   if (Status opened = reader->open(gdal_name(input.path)); !opened)
     return std::move(opened).error();
+  if (input.source) reader->read_unit(input.source->lookahead(beginning_size));
   return std::unique_ptr<FeatureReader>(std::move(reader));
 }
 

@@ -314,6 +314,12 @@ Status project_to_local(Document<Feature>& dataset) {
   const GdalMessages messages;
   OGRSpatialReference given;
   if (dataset.crs_wkt.empty()) {
+    if (dataset.unit != Unit::unknown && dataset.unit != Unit::degree)
+      return Error{ErrorCode::invalid_option,
+                   fmt::format("the coordinates are in {}: --project is for longitudes and "
+                               "latitudes; leave it out",
+                               name_of(dataset.unit)),
+                   {}};
     given.importFromEPSG(4326);
     dataset.notes.push_back(
         "no reference system is given: taken as longitude and latitude, WGS 84");
