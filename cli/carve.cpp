@@ -208,14 +208,18 @@ Status check_uncut(const std::vector<CarvedItem>& items, const CarveArguments& a
   }
   const double margin = arguments.options.margin, diameter = tool.angle == 0 ? tool.tool : tool.tip;
   const bool is_beside = arguments.options.exterior && margin > 0 && margin < diameter;
-  if (paths == 0)
+  if (paths == 0 && clearing == 0)
     return error_at(
         ErrorCode::empty, input,
         fmt::format("nothing is cut: the tool fits nowhere in the shape; use a smaller "
                     "{}, {}or another --units or --scale",
                     tool.angle == 0 ? "--tool" : "--tip", is_beside ? "a larger --margin, " : ""));
   if (arguments.common.quiet) return success();
-  if (narrow > 0)
+  if (paths == 0)
+    say("medial: {}: note: the V fits nowhere: only the mill of --clear-tool cuts; use a smaller "
+        "--tip\n",
+        input);
+  else if (narrow > 0)
     say("medial: {}: note: {} of {} parts {} narrower than the tool and not cut\n", input, narrow,
         parts, narrow == 1 ? "is" : "are");
   if (is_beside)

@@ -110,6 +110,7 @@ Row measure(const ShapeItem& item, const Reference& reference, const Method& met
 Json json_of(const Row& row) {
   if (!row.refused.empty()) return {{"method", row.method}, {"refused", row.refused}};
   return {{"method", row.method},
+          {"computed_by", row.axis.method},
           {"seconds", row.seconds},
           {"nodes", row.nodes},
           {"branches", row.branches},
@@ -134,6 +135,7 @@ std::string verdict_of(const Row& row) {
   const std::string verdict = row.passed       ? fmt::format("yes: {}", checked)
                               : row.unresolved ? "unresolved: " + row.failure
                                                : "NO: " + row.failure;
+  if (row.axis.method != row.method) return verdict + "; computed by " + row.axis.method;
   return exact ? verdict
                : fmt::format("{}; up to {:.3g} away", verdict,
                              std::max(row.distance.largest, row.distance.uncovered));

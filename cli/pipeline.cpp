@@ -50,8 +50,11 @@ void print_notes(const Document<Item>& file, const InputOptions& input,
   }
 }
 
-void note_unresolved(const AxesReport& report, const InputOptions& input,
-                     const CommonOptions& common) {
+void note_report(const AxesReport& report, const InputOptions& input, const CommonOptions& common) {
+  if (report.by_disks > 0 && !common.quiet)
+    say("medial: {}: note: rounding decides, or --exact asks, what is touched in {}, which the "
+        "method disks computed instead\n",
+        input.path, counted(report.by_disks, "feature"));
   if (report.unresolved == 0 || common.quiet) return;
   const bool is_known = report.pixels < std::numeric_limits<std::uint32_t>::max();
   say("medial: {}: note: the grid does not resolve {} of the shape's parts or holes; {}\n",
@@ -275,7 +278,7 @@ Result<LoadedAxes> compute_axes(LoadedShapes shapes, const InputOptions& input,
   if (!axes) return std::move(axes).error();
   out.file = std::move(axes).value();
   out.phases.end("axis");
-  note_unresolved(out.axes, input, common);
+  note_report(out.axes, input, common);
   return out;
 }
 
@@ -501,7 +504,7 @@ Result<std::optional<LoadedAxes>> stream(const FileArguments& arguments, const I
   out.axes.statistics.threads = effective_threads(common.threads);
   static_cast<DocumentInfo&>(out.file) = std::move(done.document);
   print_notes(out.file, input, common);
-  note_unresolved(out.axes, input, common);
+  note_report(out.axes, input, common);
   return std::optional(std::move(out));
 }
 

@@ -209,9 +209,8 @@ TEST(Errors, SentenceNamesThePlace) {
   error.place.ring = 1;
   error.place.vertex = 7;
   error.place.point = Vec2{0.1, -2};
-  EXPECT_EQ(
-      to_string(error),
-      "a.wkt: feature 3, ring 1, vertex 7, crossing at (0.1, -2): two edges cross [crossing]");
+  EXPECT_EQ(to_string(error),
+            "a.wkt: feature 3, ring 1, vertex 7 at (0.1, -2): two edges cross [crossing]");
   EXPECT_STREQ(name_of(ErrorCode::hole_outside), "hole_outside");
 }
 

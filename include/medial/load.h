@@ -90,6 +90,7 @@ struct AxesReport {
   std::uint64_t unresolved = 0;  ///< parts and holes too fine for the grid of an axis of pixels
   std::uint32_t pixels = 0;      ///< PixelGrid::pixels that do for all; the largest: none known
   std::uint64_t sites = 0;       ///< of axes in parts
+  std::uint64_t by_disks = 0;    ///< axes that `disks` computed instead of the method asked for
 };
 
 /// The axis of every shape by compute(); `threads`, `progress` and `cancel` apply to all together.

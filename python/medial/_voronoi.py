@@ -184,8 +184,8 @@ def voronoi(
     x : geometry
         Rows of x and y (points), shapely geometries, GeoJSON, or a list of lines.
     method : {"disks", "lee"}
-        ``"disks"``: of all points and lines, within an enclosure; ``"lee"``: inside a polygon
-        without holes.
+        ``"disks"``: of all points and lines, within an enclosure; ``"lee"``: inside a polygon.
+        Where rounding decides, `disks` computes that, too.
     enclosure : (low x, low y, high x, high y), optional
         The rectangle that bounds the diagram, in units of the input. `frame` is an alias.
     margin : float

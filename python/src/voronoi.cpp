@@ -53,7 +53,7 @@ std::unique_ptr<VoronoiOf> diagram_of(
   return result;
 }
 
-/// The diagram inside a polygon without holes, by the method `lee`.
+/// The diagram inside a polygon, by the method `lee` where double decides.
 std::unique_ptr<VoronoiOf> diagram_inside(const ShapeOf& of, const Options& given) {
   auto diagram = run(of.shape->points.size(), [&](const std::atomic<bool>* cancel) {
     Options options = given;

@@ -85,8 +85,10 @@ std::string to_string(const Error& error) {
   append(where, "vertex", place.vertex);
   append(where, "face", place.face);
   if (place.point) {
-    // Of edges that cross, it is where they do.
-    if (!where.empty()) where += error.code == ErrorCode::crossing ? ", crossing " : " ";
+    // Of an edge that starts at the vertex, it is where that crosses another.
+    const bool is_beside = error.code == ErrorCode::crossing &&
+                           error.text.find("starts at this vertex") != std::string::npos;
+    if (!where.empty()) where += is_beside ? ", crossing " : " ";
     where += "at (" + shortest_text(place.point->x) + ", " + shortest_text(place.point->y);
     if (place.z) where += ", " + shortest_text(*place.z);
     where += ")";

@@ -295,6 +295,7 @@ class Stream {
     report.load += part.load;
     report.axes.statistics += part.report.statistics;
     report.axes.unresolved += part.report.unresolved;
+    report.axes.by_disks += part.report.by_disks;
     report.axes.pixels = std::max(report.axes.pixels, part.report.pixels);
     std::ranges::move(info_of(part.made).notes, std::back_inserter(report.document.notes));
     if (options_.visit) options_.visit(part.made);

@@ -84,8 +84,10 @@ Result<Document<AxisItem>> compute_axes(Document<ShapeItem> shapes, Options opti
   axes.items = std::move(items).value();
 
   AxesReport sum;
+  const std::string_view asked = name_of(options.method);
   for (AxisItem& item : axes.items) {
     sum.statistics += item.axis.statistics;
+    if (asked != "auto" && item.axis.method != asked) ++sum.by_disks;
     const std::uint64_t unresolved = unresolved_in(item);
     sum.unresolved += unresolved;
     if (unresolved > 0 && report != nullptr) sum.pixels = std::max(sum.pixels, pixels_for(item));

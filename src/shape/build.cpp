@@ -105,7 +105,7 @@ Result<Shape> with_arcs_merged(Shape shape) {
                         rings[ring].points[vertex]);
       return std::move(again).error();
     }
-    may_merge = may_merge && again->points != shape.points;
+    may_merge = may_merge && (again->points != shape.points || again->bulges != shape.bulges);
     for (VertexSource& source : again->sources) source = source_of(source.ring, source.vertex);
     shape = *std::move(again);
   }

@@ -26,9 +26,10 @@ constexpr double single_precision_slack = 0x1p-20;
 
 /// What rounding (u = 2^-53) may do to a height above a chord, or to a position along it. A sum of
 /// two products with a local point below 2 in both coordinates: 4 sqrt(2) u < 6 u, once for the
-/// boundary's point and once for the query's centre; the end of a site, 4 roundings below 2: 8 u; a
-/// direction that is a unit vector up to 3 u, times a distance below 4: 12 u. That makes 32 u.
-constexpr double chord_rounding = 0x1p-48;
+/// boundary's point and once for the query's centre; the end of a site, 4 roundings below 2, or the
+/// next one's start instead, up to 8 u away in both coordinates: 12 u; a direction that is a unit
+/// vector up to 3 u, times a distance below 4: 12 u. That makes 36 u; this is 64 u.
+constexpr double chord_rounding = 0x1p-47;
 /// Chord boxes pay where the boundary strays from the chord by no more than this share of it,
 constexpr double flat_enough = 1.0 / 16;
 /// and on the levels of nodes of 8 to 512 sites: larger ones are few,
@@ -165,7 +166,8 @@ std::optional<BoundaryTree::ChordBox> BoundaryTree::chord_box(std::span<const Si
   const Vec2 begin = first->point,
              chord = std::find_if(sites.rbegin(), sites.rend(), is_inside)->end() - begin;
   const double length = norm(chord), highest = flat_enough * length;
-  if (!(length > 0)) return std::nullopt;
+  constexpr double shortest = 0x1p-500;  // a unit vector needs its square
+  if (!(length > shortest)) return std::nullopt;
   const bool may_be_high = sites.size() >= many && length <= small;
   // Most that do not fit are recognised by a few of their points.
   for (std::size_t i = 1; i < 4 && !may_be_high; ++i) {

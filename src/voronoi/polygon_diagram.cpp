@@ -126,7 +126,7 @@ Result<VoronoiDiagram> diagram_by_disks(const Problem& problem) {
   auto diagram = FromAxis(std::move(axis).value()).run(problem.shape, problem.numbers());
   if (diagram) return std::move(*diagram);
   return Error{ErrorCode::unsupported,
-               "the sides are too near to each other to separate: use the method disks",
+               "two sides are nearer to each other than doubles tell: move them apart",
                {}};
 }
 

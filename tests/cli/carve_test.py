@@ -184,6 +184,10 @@ class Carve(CommandLine):
                                "1", "-o", "s.nc", *quiet)
             self.assertIn("the tool fits nowhere in the shape; use a smaller --tool", said)
         self.assertNotIn("s.nc", self.files())
+        self.write("wide.wkt", "POLYGON ((0 0, 30 0, 30 4, 0 4, 0 0))")
+        cleared = self.succeed("carve", "wide.wkt", "--units", "mm", "--angle", "60", "--tip", "5", "--tool", "6", "--depth",
+                               "1", "--clear-tool", "2", "-o", "s.nc")
+        self.assertIn(b"only the mill of --clear-tool cuts", cleared.stderr)
 
     def test_circles_are_cut_by_going_straight_down(self):
         """Beside other shapes and alone; a hole as wide as the mill is drilled."""

@@ -47,23 +47,28 @@ bool known_extension(const std::string& name) {
   return false;
 }
 
-/// Text in UTF-8. Other bytes, of formats that name no encoding, are taken for the most common one.
-std::string utf8(const char* text) {
+/// Text in UTF-8. Other bytes, of formats that name no encoding, are taken for the most common one;
+/// `recoded` says so.
+std::string utf8(const char* text, bool& recoded) {
   if (text == nullptr) return {};
-  if (CPLIsUTF8(text, -1)) return text;
-  char* recoded = CPLRecode(text, "CP1252", CPL_ENC_UTF8);
-  std::string result = recoded;
-  CPLFree(recoded);
+  std::string bytes = text;
+  if (CPLIsUTF8(text, -1)) return bytes;
+  recoded = true;
+  for (char& byte : bytes)  // that stand for no character
+    if (std::string_view("\x81\x8d\x8f\x90\x9d").find(byte) != std::string_view::npos) byte = '?';
+  char* characters = CPLRecode(bytes.c_str(), "CP1252", CPL_ENC_UTF8);
+  std::string result = characters;
+  CPLFree(characters);
   return result;
+}
+std::string utf8(const char* text) {
+  bool ignored = false;
+  return utf8(text, ignored);
 }
 
 std::string field_text(const OGRFeature& feature, int field, bool& recoded) {
   const OGRFieldDefn* definition = feature.GetFieldDefnRef(field);
-  if (definition->GetType() != OFTReal) {
-    const char* text = feature.GetFieldAsString(field);
-    recoded = recoded || !CPLIsUTF8(text, -1);
-    return utf8(text);
-  }
+  if (definition->GetType() != OFTReal) return utf8(feature.GetFieldAsString(field), recoded);
   std::array<char, 32> text{};
   const auto end =
       std::to_chars(text.data(), text.data() + text.size(), feature.GetFieldAsDouble(field));
@@ -251,7 +256,7 @@ class GdalReader final : public FeatureReader {
       }
       for (int i = 0; i < source->GetFieldCount(); ++i) {
         if (!source->IsFieldSetAndNotNull(i)) continue;
-        feature.attributes.emplace_back(utf8(source->GetFieldDefnRef(i)->GetNameRef()),
+        feature.attributes.emplace_back(utf8(source->GetFieldDefnRef(i)->GetNameRef(), recoded_),
                                         field_text(*source, i, recoded_));
       }
       count += point_count(feature);

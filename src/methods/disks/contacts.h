@@ -279,7 +279,7 @@ class Contacts {
   const Boundary::SiteRange* around_run_ = nullptr;
   double around_reach_ = 0;  ///< how far from that disk `within_` goes
   /// How many times as far as clearance() that is, so that is_alone() mostly finds there what it
-  /// asks for, but not among hundreds of sites.
+  /// asks for; less, from then on, where that would be hundreds of sites.
   double further_ = 1 << 16;
   std::vector<std::uint32_t> within_;
   std::vector<Neighbor> near_;      ///< of those within clearance(), what is not beside the disk
