@@ -52,8 +52,8 @@ void print_notes(const Document<Item>& file, const InputOptions& input,
 
 void note_report(const AxesReport& report, const InputOptions& input, const CommonOptions& common) {
   if (report.by_disks > 0 && !common.quiet)
-    say("medial: {}: note: rounding decides, or --exact asks, what is touched in {}, which the "
-        "method disks computed instead\n",
+    say("medial: {}: note: the method disks computed {} instead, with --exact or because rounding "
+        "decides there\n",
         input.path, counted(report.by_disks, "feature"));
   if (report.unresolved == 0 || common.quiet) return;
   const bool is_known = report.pixels < std::numeric_limits<std::uint32_t>::max();

@@ -134,8 +134,8 @@ class LevelWalk::RingBuilder {
     first_ = middle;
     add(point, std::tan(angle / 8));
   }
-  /// The piece from first_ to `to`, of which the ring holds the start; not while all that follows
-  /// the last one is but a step of rounding.
+  /// Adds the piece that ends at `to`, unless it is no more than a step of rounding. The ring holds
+  /// where pieces start.
   void add(Vec2 to, double bulge) {
     if (!end_) end_ = first_;
     if (!(distance(*end_, to) > rounding_)) return;

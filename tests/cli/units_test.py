@@ -66,7 +66,7 @@ class Units(CommandLine):
         for arguments, given in ((["u.geojson"], b""), (["-"], self.read("u.geojson")), (["u.geojson", "--layer", "u"], b"")):
             read = self.succeed("info", *arguments, "--json", given=given)  # no degrees
             self.assertEqual((json.loads(read.stdout)["unit"], read.stderr), ("in", b""), arguments)
-        self.assertIn("the coordinates are in in", self.refuse("invalid_option", "info", "u.geojson", "--project"))
+        self.assertIn("the unit of the coordinates is 'in'", self.refuse("invalid_option", "info", "u.geojson", "--project"))
         if self.supported("s.gpkg"):
             self.succeed("axis", "s.wkt", "--units", "in", "-o", "s.gpkg")
             self.assertIn(b'UNIT["in",0.0254]', self.read("s.gpkg"))

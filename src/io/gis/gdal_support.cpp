@@ -283,7 +283,7 @@ void set_crs(const OGRSpatialReference& reference, Document<Feature>& dataset) {
   CPLFree(text);
 }
 
-bool read_crs(const std::string& name, OGRSpatialReference& reference) {
+bool find_crs(const std::string& name, OGRSpatialReference& reference) {
   // GDAL ignores what follows the digits of a code.
   if (STARTS_WITH_CI(name.c_str(), "EPSG:") &&
       name.find_first_not_of("0123456789+", 5) != std::string::npos)
@@ -296,7 +296,7 @@ bool read_crs(const std::string& name, OGRSpatialReference& reference) {
 Status describe_crs(const std::string& name, Document<Feature>& dataset) {
   const GdalMessages messages;
   OGRSpatialReference reference;
-  if (!read_crs(name, reference))
+  if (!find_crs(name, reference))
     return Error{ErrorCode::invalid_option,
                  fmt::format("'{}' does not name a reference system; use EPSG:n or WKT", name),
                  {}};
@@ -316,7 +316,7 @@ void describe_crs(Document<Feature>& dataset) {
   const GdalMessages messages;
   OGRSpatialReference reference;
   const bool coded = name.starts_with("EPSG:");
-  if (read_crs(name, reference)) {
+  if (find_crs(name, reference)) {
     if (coded)
       set_crs(reference, dataset);
     else

@@ -66,7 +66,7 @@ void add_rings(const OGRGeometry& geometry, std::vector<Ring>& rings, GeometryCo
 void add_loose(const OGRGeometry& geometry, Feature& feature, GeometryCounts& counts);
 
 /// A reference system by its code, as "EPSG:n", or as text; false if it is not known.
-bool read_crs(const std::string& name, OGRSpatialReference& reference);
+bool find_crs(const std::string& name, OGRSpatialReference& reference);
 
 /// The name of no reference system in a GeoPackage, which otherwise holds longitudes and latitudes.
 inline constexpr const char* no_reference = "Undefined Cartesian SRS";

@@ -316,8 +316,8 @@ Status project_to_local(Document<Feature>& dataset) {
   if (dataset.crs_wkt.empty()) {
     if (dataset.unit != Unit::unknown && dataset.unit != Unit::degree)
       return Error{ErrorCode::invalid_option,
-                   fmt::format("the coordinates are in {}: --project is for longitudes and "
-                               "latitudes; leave it out",
+                   fmt::format("the unit of the coordinates is '{}': --project is for longitudes "
+                               "and latitudes; leave it out",
                                name_of(dataset.unit)),
                    {}};
     given.importFromEPSG(4326);
@@ -415,7 +415,7 @@ Result<OutputCrs> output_crs_of(const std::string& crs_wkt, Unit unit) {
     OGRSpatialReference reference;
     if (crs_wkt.empty() || reference.importFromWkt(crs_wkt.c_str()) == OGRERR_NONE)
       return OutputCrs{crs_wkt, unit, nullptr};
-    if (!read_crs(crs_wkt, reference))
+    if (!find_crs(crs_wkt, reference))
       return Error{ErrorCode::malformed,
                    fmt::format("the input's reference system, '{}', is not understood; use EPSG:n "
                                "or WKT",
