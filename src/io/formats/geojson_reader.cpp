@@ -363,14 +363,12 @@ simdjson::dom::element only(simdjson::dom::object object, std::string_view key) 
   return found;
 }
 
-using Members = std::map<std::string, std::string>;
-
-bool has_crs(const Members& members) { return members.find("\"crs\"") != members.end(); }
-
 /// The reference system as well-known text, or as "EPSG:n".
-std::string crs_of(const Members& members, simdjson::dom::parser& parser) {
-  if (!has_crs(members)) return geographic;
-  const simdjson::dom::object crs = parser.parse(members.at("\"crs\""));
+std::string crs_of(const std::map<std::string, std::string>& members,
+                   simdjson::dom::parser& parser) {
+  const auto found = members.find("\"crs\"");
+  if (found == members.end()) return geographic;
+  const simdjson::dom::object crs = parser.parse(found->second);
   usual(std::string_view(only(crs, "type")) == "name");
   std::string_view name = only(only(crs, "properties"), "name");
   for (const std::string_view begin : {"urn:ogc:def:crs:EPSG::", "EPSG:"}) {
@@ -409,6 +407,7 @@ class GeojsonReader final : public FeatureReader {
   void open() {
     auto source = TextSource::open(path_);
     usual(source.ok());
+    unit_ = plane_unit_of((*source)->lookahead(beginning_size));
     collection_.emplace(std::move(*source));
     count_ = 0;
     last_number_ = -1;
@@ -437,7 +436,7 @@ class GeojsonReader final : public FeatureReader {
 
   void describe(Document<Feature>& document) const {
     document.crs_wkt = crs_;
-    document.unit = unit_;
+    document.unit = unit_.value_or(Unit::unknown);
   }
 
   /// A whole "id" is the feature's number. GDAL changes those that come twice.
@@ -463,18 +462,12 @@ class GeojsonReader final : public FeatureReader {
     const auto type = members.find("\"type\"");
     usual(type != members.end() && type->second == "\"FeatureCollection\"");
     crs_ = crs_of(members, strict);
-    // As medial writes it, of plane coordinates without a reference system.
-    if (const auto unit = members.find("\"unit\""); unit != members.end() && !has_crs(members)) {
-      const auto known = unit_of(std::string_view(strict.parse(unit->second)));
-      usual(known.has_value());
-      unit_ = *known;
-      crs_.clear();
-    }
+    if (unit_) crs_.clear();
     usual(count_ > 0);
   }
 
   std::string path_, text_, crs_;
-  Unit unit_ = Unit::unknown;
+  std::optional<Unit> unit_;
   std::optional<CollectionText> collection_;
   json::parser parser_;
   Columns columns_;

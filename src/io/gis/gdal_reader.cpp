@@ -28,9 +28,6 @@ namespace medial::io {
 
 namespace {
 
-/// In which a GeoJSON names its unit, if at all.
-constexpr std::size_t beginning_size = 512;
-
 /// Whether one of GDAL's vector drivers claims the extension of a name.
 bool known_extension(const std::string& name) {
   const std::string extension = CPLGetExtension(name.c_str());
