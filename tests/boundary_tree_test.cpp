@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
+#include <tuple>
 #include <vector>
 
 namespace medial::site {
@@ -87,6 +89,74 @@ TEST(BoundaryTree, FindsTheNearestInRowsOfHolesFromFarAway) {
       for (const double reach : {1.5, std::sqrt(nearest) * (1 + 1e-14), std::sqrt(nearest) + 1e-9})
         EXPECT_EQ(tree.nearest(c, reach, 0, last).squared_distance, nearest) << are_equal;
       EXPECT_FALSE(tree.nearest(c, std::sqrt(nearest) * (1 - 1e-14), 0, last));
+    }
+  }
+}
+
+/// Sites along a spiral with so many corners in a turn, or along slots of this slant, with cuts.
+std::vector<Site> windings(std::size_t corners, double slant, double bulge) {
+  std::vector<Site> sites;
+  constexpr std::size_t count = 900;
+  Vec2 before;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto share = static_cast<double>(i) / count;
+    Vec2 p;
+    if (corners > 0) {
+      const double angle = 0.3 + 2 * std::numbers::pi * static_cast<double>(i % corners) /
+                                     static_cast<double>(corners);
+      p = (0.1 + 0.8 * share) * Vec2{std::cos(angle), std::sin(angle)};
+    } else {
+      const double height = i / 2 % 2 == 0 ? -0.7 : 0.7;
+      p = {0.8 * share - 0.4 + slant * height, height};
+    }
+    if (i % 50 == 49) sites.push_back(make_vertex({1e30, 1e30}));
+    if (i > 0 && i % 3 == 0) sites.push_back(make_vertex(before));
+    if (i > 0) sites.push_back(bulge == 0 ? make_segment(before, p) : make_arc(before, p, bulge));
+    before = p;
+  }
+  return sites;
+}
+
+// Boxes of a boundary that winds around itself lie upon each other: sites are ordered in the plane.
+TEST(BoundaryTree, FindsTheNearestOfWindings) {
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> place(-1, 1);
+  for (const auto& [corners, slant, bulge] :
+       {std::tuple{4, 0.0, 0.0}, {3, 0.0, 0.05}, {60, 0.0, 0.0}, {0, 1.0, 0.0}, {0, 0.5, -0.01}}) {
+    const std::vector<Site> sites = windings(static_cast<std::size_t>(corners), slant, bulge);
+    const BoundaryTree tree(sites);
+    std::uniform_int_distribution<std::size_t> index(0, sites.size() - 1);
+    std::vector<std::uint32_t> near, found;
+    for (int query = 0; query < 300; ++query) {
+      const Vec2 c{place(random), place(random)};
+      const double reach = query % 2 == 0 ? 0.01 : 0.5;
+      const auto [from, to] = std::minmax({index(random), index(random)});
+      const auto first = static_cast<std::uint32_t>(from), last = static_cast<std::uint32_t>(to);
+      double least = reach * reach;
+      near.clear();
+      for (std::uint32_t i = 0; i < sites.size(); ++i) {
+        const double squared = squared_distance(sites[i], c);
+        if (!(squared < reach * reach)) continue;
+        near.push_back(i);
+        if (i >= first && i <= last) least = std::min(least, squared);
+      }
+      EXPECT_EQ(tree.nearest(c, reach, first, last).squared_distance, least);
+      EXPECT_NEAR(tree.nearest_facing(c, reach, first, last).squared_distance, least, 1e-13);
+      EXPECT_FALSE(tree.nearest(c, std::sqrt(least) * (1 - 1e-14), first, last));
+      EXPECT_EQ(tree.few_within(c, reach, near.size(), found), true);
+      std::sort(found.begin(), found.end());
+      EXPECT_EQ(found, near);
+      if (!near.empty()) {
+        EXPECT_FALSE(tree.few_within(c, reach, near.size() - 1, found));
+        const auto nearest = *std::min_element(near.begin(), near.end(), [&](auto a, auto b) {
+          return squared_distance(sites[a], c) < squared_distance(sites[b], c);
+        });
+        EXPECT_EQ(tree.nearest_lowest(c, reach).site, nearest);
+      }
+      tree.within(c, reach, first, last, found);
+      near.erase(std::upper_bound(near.begin(), near.end(), last), near.end());
+      near.erase(near.begin(), std::lower_bound(near.begin(), near.end(), first));
+      EXPECT_EQ(found, near);
     }
   }
 }

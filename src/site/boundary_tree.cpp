@@ -5,17 +5,15 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
+#include "base/spatial_order.h"
 #include "base/threads.h"
 
 namespace medial::site {
 namespace {
 
 using site::Site;
-
-/// Beyond this a site belongs to no box: cuts, as bridges leave them, lie there.
-constexpr double outside = 64;
-bool is_inside(const Site& site) { return std::abs(site.point.x) <= outside; }
 
 /// What single precision (u = 2^-24) may add to the distance from a box, for local coordinates
 /// below 2 and distances below 4. Along each axis: the query's centre rounded, 2 u; the difference,
@@ -24,23 +22,18 @@ bool is_inside(const Site& site) { return std::abs(site.point.x) <= outside; }
 /// distance: 4 u; the limit's square by half of that. In all less than 14.5 u; this is 16 u.
 constexpr double single_precision_slack = 0x1p-20;
 
-/// What rounding (u = 2^-53) may do to a height above a chord, or to a position along it. A sum of
-/// two products with a local point below 2 in both coordinates: 4 sqrt(2) u < 6 u, once for the
-/// boundary's point and once for the query's centre; the end of a site, 4 roundings below 2, or the
-/// next one's start instead, up to 8 u away in both coordinates: 12 u; a direction that is a unit
-/// vector up to 3 u, times a distance below 4: 12 u. That makes 36 u; this is 64 u.
-constexpr double chord_rounding = 0x1p-47;
-/// Chord boxes pay where the boundary strays from the chord by no more than this share of it,
-constexpr double flat_enough = 1.0 / 16;
-/// and on the levels of nodes of 8 to 512 sites: larger ones are few,
+/// Boxes along chords are on the levels of nodes of 8 to 512 sites: larger ones are few.
 constexpr std::size_t chord_levels = 4;
-/// and where so many sites lie in so small a box, whatever their height: next to disks that are
-/// much larger, all teeth of a comb, and all holes in a row, are all but touched.
+/// Those of many sites in little room pay for searches that reach far, whatever their height.
 constexpr std::uint32_t level_of_many = 2;
-constexpr std::size_t many = std::size_t{8} << (2 * level_of_many);
-constexpr double small = 0x1p-8;
-/// where at least one node in so many has one. Boxes of 8 sites take more memory than all others.
+static_assert(many_sites == std::size_t{8} << (2 * level_of_many));
+/// A level has them where at least one node in so many has one. Boxes of 8 sites take more memory
+/// than all others.
 constexpr std::size_t rare_of(std::uint32_t level) { return level == 0 ? 2 : 16; }
+
+/// Sites are ordered in the plane where the boxes of blocks have more than so many times the area
+/// that they cover.
+constexpr double most_overlap = 8;
 
 struct Waiting {
   std::uint32_t index;
@@ -55,18 +48,27 @@ BoundaryTree::BoundaryTree(std::span<const Site> sites, Chords chords)
       has_arcs_(
           std::any_of(sites.begin(), sites.end(), [](const Site& site) { return site.is_arc(); })) {
   if (sites.size() <= short_range) return;
+  build_boxes();
+  if (chords == Chords::none) return;
+  build_chord_boxes(chords == Chords::all);
+  if (boxes_overlap()) order_in_plane();
+}
+
+/// The boxes of all levels, from the blocks up.
+void BoundaryTree::build_boxes() {
   const auto nodes_over = [](std::size_t count) { return (count + fan - 1) / fan; };
   constexpr std::size_t grain = 1024;
-
-  levels_.emplace_back(nodes_over((sites.size() + block_size - 1) / block_size));
+  levels_.clear();
+  levels_.emplace_back(nodes_over((sites_.size() + block_size - 1) / block_size));
   parallel_ranges(levels_[0].size(), grain, [&](std::size_t node, std::size_t last) {
     for (; node < last; ++node) {
       for (std::size_t lane = 0; lane < fan; ++lane) {
-        const std::size_t begin = (node * fan + lane) * block_size;
-        const std::size_t end = std::min(begin + block_size, sites.size());
         Extent extent;
-        for (std::size_t i = begin; i < end; ++i)
-          if (is_inside(sites[i])) extent.add(sites[i]);
+        const Positions at = positions(0, node, lane);
+        for (std::size_t k = at.begin; k < at.begin + at.count; ++k) {
+          const Site& site = sites_[in_plane_.empty() ? k : in_plane_[k]];
+          if (is_inside(site)) extent.add(site);
+        }
         levels_[0][node].set(lane, extent);
       }
     }
@@ -79,16 +81,65 @@ BoundaryTree::BoundaryTree(std::span<const Site> sites, Chords chords)
     });
     levels_.push_back(std::move(upper));
   }
-  if (chords != Chords::none) build_chord_boxes(chords == Chords::all);
+}
+
+/// Whether the boxes of blocks lie upon each other.
+bool BoundaryTree::boxes_overlap() const {
+  const WorkVector<ChordBoxes>* const chords =
+      chords_.front().boxes.empty() ? nullptr : &chords_.front().boxes;
+  double sum = 0;
+  Extent all;
+  for (std::size_t node = 0; node < levels_.front().size(); ++node) {
+    const Boxes& boxes = levels_.front()[node];
+    for (std::size_t lane = 0; lane < fan; ++lane) {
+      if (!(boxes.low_x[lane] <= boxes.high_x[lane])) continue;
+      const Vec2 low{boxes.low_x[lane], boxes.low_y[lane]},
+          high{boxes.high_x[lane], boxes.high_y[lane]};
+      all.add(low);
+      all.add(high);
+      const double area = (high.x - low.x) * (high.y - low.y);
+      sum += chords == nullptr ? area : std::min(area, (*chords)[node].area(lane));
+    }
+  }
+  return sum > most_overlap * (all.high.x - all.low.x) * (all.high.y - all.low.y);
+}
+
+/// Orders the sites in the plane, and builds all boxes again.
+void BoundaryTree::order_in_plane() {
+  in_plane_.resize(sites_.size());
+  std::iota(in_plane_.begin(), in_plane_.end(), 0U);
+  order_overlapping(
+      in_plane_,
+      [&](std::uint32_t i) {
+        return is_inside(sites_[i]) ? midpoint(sites_[i].point, sites_[i].end()) : Vec2{};
+      },
+      [&](std::uint32_t i) {
+        return is_inside(sites_[i]) ? sites_[i].end() - sites_[i].point : Vec2{};
+      },
+      2);
+  build_boxes();
+  chords_.assign(levels_.size(), {});
+  for (std::uint32_t level = 0; level < levels_.size(); ++level) {
+    WorkVector<ChordBoxes>& boxes = chords_[level].boxes;
+    boxes.resize(levels_[level].size());
+    parallel_ranges(boxes.size(), 256, [&](std::size_t node, std::size_t last) {
+      for (; node < last; ++node) {
+        for (std::size_t lane = 0; lane < fan; ++lane) {
+          const Positions at = positions(level, node, lane);
+          const auto some = std::span(in_plane_).subspan(at.begin, at.count);
+          boxes[node].set(lane, box_along(sites_, some));
+        }
+      }
+    });
+  }
 }
 
 void BoundaryTree::build_chord_boxes(bool of_8_sites) {
   chords_.resize(std::min<std::size_t>(chord_levels, levels_.size()));
   for (std::uint32_t level = of_8_sites ? 0 : 1; level < chords_.size(); ++level) {
-    const std::size_t span = std::size_t{block_size} << (2 * level);
     const std::size_t nodes = levels_[level].size();
     const auto is_rare = [&](std::size_t lanes) {
-      return lanes * rare_of(level) * span < sites_.size();
+      return lanes * rare_of(level) * span_of(level) < sites_.size();
     };
     WorkVector<ChordBoxes>& boxes = chords_[level].boxes;
     // Where few of a sample fit, the level takes no memory.
@@ -97,142 +148,35 @@ void BoundaryTree::build_chord_boxes(bool of_8_sites) {
       Fitting fitting;
       ChordBoxes some;
       for (std::size_t node = 0; node < nodes; node += sampled)
-        set_chord_boxes(node, span, some, fitting);
+        set_chord_boxes(level, node, some, fitting);
       if (is_rare(sampled * fitting.lanes)) continue;
     }
     boxes.resize(nodes);
     std::atomic<std::size_t> lanes = 0, flat = 0;
     parallel_ranges(nodes, 256, [&](std::size_t node, std::size_t last) {
       Fitting fitting;
-      for (; node < last; ++node) set_chord_boxes(node, span, boxes[node], fitting);
+      for (; node < last; ++node) set_chord_boxes(level, node, boxes[node], fitting);
       lanes += fitting.lanes;
       flat += fitting.flat;
     });
     if (is_rare(lanes))
       free_memory(boxes);
     else if (is_rare(flat))
-      chords_[level].least_reach = small;
+      chords_[level].least_reach = little_room;
   }
 }
 
-/// The boxes of a node over lanes of `span` sites each.
-void BoundaryTree::set_chord_boxes(std::size_t node, std::size_t span, ChordBoxes& boxes,
+void BoundaryTree::set_chord_boxes(std::size_t level, std::size_t node, ChordBoxes& boxes,
                                    Fitting& fitting) const {
   for (std::size_t lane = 0; lane < fan; ++lane) {
-    const std::size_t begin = (node * fan + lane) * span;
-    const std::size_t end = std::min(begin + span, sites_.size());
-    std::optional<ChordBox> box;
-    if (begin < end) box = chord_box(sites_.subspan(begin, end - begin));
+    const Positions at = positions(level, node, lane);
+    const std::optional<ChordBox> box = chord_box(sites_.subspan(at.begin, at.count));
     if (box) {
       ++fitting.lanes;
       if (box->is_flat) ++fitting.flat;
-    } else {
-      constexpr double all = std::numeric_limits<double>::infinity();
-      box = ChordBox{{1, 0}, -all, all, -all, all};
     }
-    boxes.normal_x[lane] = box->normal.x;
-    boxes.normal_y[lane] = box->normal.y;
-    boxes.low[lane] = box->low;
-    boxes.high[lane] = box->high;
-    boxes.begin[lane] = box->begin;
-    boxes.end[lane] = box->end;
+    boxes.set(lane, box);
   }
-}
-
-/// The normal of the line that a boundary shows to what lies on its left, through the highest
-/// points of its first and of its last third; that of its chord where these are near to each other.
-/// Of a staircase, or of a row of holes, no box in another direction keeps as clear.
-Vec2 BoundaryTree::facing_normal(std::span<const Site> sites, Vec2 begin, Vec2 chord) {
-  const auto highest = [&](std::span<const Site> some, Vec2 so_far) {
-    double height = 0;
-    for (const Site& site : some) {
-      const double h = cross(chord, site.point - begin);
-      if (!(h > height) || !is_inside(site)) continue;
-      height = h;
-      so_far = site.point;
-    }
-    return so_far;
-  };
-  const std::size_t third = sites.size() / 3;
-  Vec2 along = highest(sites.last(third), begin + chord) - highest(sites.first(third), begin);
-  constexpr double near = 0.25;
-  if (!(dot(along, chord) > near * squared_norm(chord))) along = chord;
-  return left_of((1 / norm(along)) * along);
-}
-
-std::optional<BoundaryTree::ChordBox> BoundaryTree::chord_box(std::span<const Site> sites) {
-  const auto first = std::find_if(sites.begin(), sites.end(), is_inside);
-  if (first == sites.end()) return std::nullopt;
-  const Vec2 begin = first->point,
-             chord = std::find_if(sites.rbegin(), sites.rend(), is_inside)->end() - begin;
-  const double length = norm(chord), highest = flat_enough * length;
-  constexpr double shortest = 0x1p-500;  // a unit vector needs its square
-  if (!(length > shortest)) return std::nullopt;
-  const bool may_be_high = sites.size() >= many && length <= small;
-  // Most that do not fit are recognised by a few of their points.
-  for (std::size_t i = 1; i < 4 && !may_be_high; ++i) {
-    const Site& site = sites[i * sites.size() / 4];
-    if (!is_inside(site) || std::abs(cross(chord, site.point - begin)) > highest * length)
-      return std::nullopt;
-  }
-  constexpr double all = std::numeric_limits<double>::infinity();
-  ChordBox box{facing_normal(sites, begin, chord), all, -all, all, -all};
-  const auto add = [&](Vec2 p) {
-    const double height = dot(box.normal, p), position = cross(p, box.normal);
-    box.low = std::min(box.low, height);
-    box.high = std::max(box.high, height);
-    box.begin = std::min(box.begin, position);
-    box.end = std::max(box.end, position);
-  };
-  for (const Site& site : sites) {
-    if (is_inside(site)) {
-      const Site* const next = &site == &sites.back() ? nullptr : &site + 1;
-      add(site.point);
-      if (site.is_arc()) add(site.apex());
-      if (!site.is_vertex() && (next == nullptr || !meets(site, *next))) add(site.end());
-    } else if (!may_be_high) {
-      return std::nullopt;
-    }
-  }
-  box.is_flat = box.high - box.low <= highest;
-  const double size = std::max(box.high - box.low, box.end - box.begin);
-  if (!box.is_flat && !(may_be_high && size <= small)) return std::nullopt;
-  box.low -= chord_rounding;
-  box.high += chord_rounding;
-  box.begin -= chord_rounding;
-  box.end += chord_rounding;
-  return box;
-}
-
-/// The lanes whose chord boxes lie beyond the reach from c.
-std::uint32_t BoundaryTree::beyond(const ChordBoxes& boxes, Vec2 c, double reach) {
-  std::uint32_t lanes = 0;
-#if defined(__SSE2__)
-  const __m128d cx = _mm_set1_pd(c.x), cy = _mm_set1_pd(c.y), zero = _mm_setzero_pd();
-  const __m128d squared_reach = _mm_set1_pd(reach * reach);
-  for (std::uint32_t i = 0; i < fan; i += 2) {
-    const __m128d nx = _mm_load_pd(&boxes.normal_x[i]), ny = _mm_load_pd(&boxes.normal_y[i]);
-    const __m128d height = _mm_add_pd(_mm_mul_pd(nx, cx), _mm_mul_pd(ny, cy));
-    const __m128d position = _mm_sub_pd(_mm_mul_pd(ny, cx), _mm_mul_pd(nx, cy));
-    const __m128d across = _mm_max_pd(_mm_max_pd(_mm_sub_pd(height, _mm_load_pd(&boxes.high[i])),
-                                                 _mm_sub_pd(_mm_load_pd(&boxes.low[i]), height)),
-                                      zero);
-    const __m128d along = _mm_max_pd(_mm_max_pd(_mm_sub_pd(position, _mm_load_pd(&boxes.end[i])),
-                                                _mm_sub_pd(_mm_load_pd(&boxes.begin[i]), position)),
-                                     zero);
-    const __m128d squared = _mm_add_pd(_mm_mul_pd(across, across), _mm_mul_pd(along, along));
-    lanes |= static_cast<std::uint32_t>(_mm_movemask_pd(_mm_cmpge_pd(squared, squared_reach))) << i;
-  }
-#else
-  for (std::uint32_t i = 0; i < fan; ++i) {
-    const double height = boxes.normal_x[i] * c.x + boxes.normal_y[i] * c.y;
-    const double position = boxes.normal_y[i] * c.x - boxes.normal_x[i] * c.y;
-    const double across = std::max({height - boxes.high[i], boxes.low[i] - height, 0.0});
-    const double along = std::max({position - boxes.end[i], boxes.begin[i] - position, 0.0});
-    if (across * across + along * along >= reach * reach) lanes |= 1u << i;
-  }
-#endif
-  return lanes;
 }
 
 namespace {
@@ -299,7 +243,9 @@ template <BoundaryTree::Order order, class Visit>
   float limit = squared_reach();
 
   // Start at the lowest node over the whole range.
-  const std::uint32_t first_block = first / block_size, last_block = last / block_size;
+  const std::uint32_t first_block = in_plane_.empty() ? first / block_size : 0;
+  const std::uint32_t last_block =
+      (in_plane_.empty() ? last : static_cast<std::uint32_t>(sites_.size() - 1)) / block_size;
   const auto common = static_cast<std::uint32_t>(std::bit_width(first_block ^ last_block) + 1) / 2;
   const auto chord_count = static_cast<std::uint32_t>(chords_.size());
 
@@ -308,8 +254,12 @@ template <BoundaryTree::Order order, class Visit>
   Waiting top{first_block >> (2 * common), common, 0};
   for (;;) {
     if (top.level == 0) {
-      visit(std::max(first, top.index * block_size),
-            std::min(last, top.index * block_size + block_size - 1));
+      if (in_plane_.empty())
+        visit(std::max(first, top.index * block_size),
+              std::min(last, top.index * block_size + block_size - 1));
+      else
+        for (const std::uint32_t i : block(top.index))
+          if (i >= first && i <= last) visit(i, i);
       limit = squared_reach();
     } else {
       const std::uint32_t below = top.level - 1;
@@ -320,7 +270,7 @@ template <BoundaryTree::Order order, class Visit>
       Lanes squared;
       mask &= nearer(boxes, x, y, limit, squared);
       if (below < chord_count && mask != 0 && chords_[below].pay(reach))
-        mask &= ~beyond(chords_[below].boxes[top.index], c, reach);
+        mask &= ~chords_[below].boxes[top.index].beyond(c, reach);
       if (mask != 0) {
         if constexpr (order == Order::nearest_first)
           top = take_nearest(mask, child, below, squared, stack, size);
@@ -331,11 +281,11 @@ template <BoundaryTree::Order order, class Visit>
     }
     // What was near may be out of reach since: of many sites, that is worth asking again.
     const auto is_beyond = [&] {
-      if (reach < small || top.level < level_of_many || top.level >= chord_count ||
+      if (reach < little_room || top.level < level_of_many || top.level >= chord_count ||
           chords_[top.level].boxes.empty())
         return false;
       const ChordBoxes& boxes = chords_[top.level].boxes[top.index / fan];
-      return (beyond(boxes, c, reach) >> top.index % fan & 1U) != 0;
+      return (boxes.beyond(c, reach) >> top.index % fan & 1U) != 0;
     };
     do {
       if (size == 0) return;
@@ -463,16 +413,16 @@ void BoundaryTree::within(Vec2 c, double reach, std::uint32_t first, std::uint32
   const auto take_if_near = [&](std::uint32_t i) {
     if (site::squared_distance(sites_[i], c) < squared) found.push_back(i);
   };
-  visit_blocks<Order::along_boundary>(
-      c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
-        if (!has_arcs_)
-          for (; from < to; from += 2) {
-            if (!one_is_nearer(sites_[from], sites_[from + 1], c, squared)) continue;
-            take_if_near(from);
-            take_if_near(from + 1);
-          }
-        for (; from <= to; ++from) take_if_near(from);
-      });
+  visit_blocks<Order::in_turn>(c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
+    if (!has_arcs_)
+      for (; from < to; from += 2) {
+        if (!one_is_nearer(sites_[from], sites_[from + 1], c, squared)) continue;
+        take_if_near(from);
+        take_if_near(from + 1);
+      }
+    for (; from <= to; ++from) take_if_near(from);
+  });
+  if (!in_plane_.empty()) std::sort(found.begin(), found.end());
 }
 
 bool BoundaryTree::few_within(Vec2 c, double reach, std::size_t most,

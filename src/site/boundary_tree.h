@@ -1,12 +1,12 @@
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "base/memory.h"
+#include "site/chord_boxes.h"
 #include "site/lanes.h"
 #include "site/site.h"
 
@@ -16,6 +16,10 @@ namespace medial::site {
 /// holds the boxes of four consecutive blocks or nodes, in single precision rounded outward: one
 /// cache line. Because the order is the boundary's, an index range is a sub-shape, and the tree
 /// over the whole boundary is the tree of every sub-shape as well.
+///
+/// Where the boundary winds around itself, as in spirals and rows of slots, such boxes lie upon
+/// each other. Then blocks and nodes hold sites that lie close together in the plane instead, and
+/// every node has a box along these, too; a range is what is looked at of a block.
 ///
 /// Sites must lie in the local frame (coordinates below 2 in size). Sites far away from it
 /// belong to no box and are never found: cuts are stored so.
@@ -53,21 +57,10 @@ class BoundaryTree {
 
  private:
   static constexpr std::uint32_t block_size = 8;
-  static constexpr std::uint32_t fan = 4;
+  static constexpr std::uint32_t fan = ChordBoxes::fan;
   /// So few sites are tested one by one: boxes cost about as much as a few.
   static constexpr std::uint32_t short_range = 2 * block_size;
 
-  /// Boxes along the chords of a node's four lanes: all points p of a lane's sites have normal . p
-  /// in [low, high] and, with `along` the normal turned to the right, along . p in [begin, end]. A
-  /// lane without such a box has infinite bounds.
-  struct alignas(64) ChordBoxes {
-    std::array<double, fan> normal_x, normal_y, low, high, begin, end;
-  };
-  struct ChordBox {
-    Vec2 normal;
-    double low, high, begin, end;
-    bool is_flat = false;
-  };
   /// The boxes of a level's nodes, for searches that reach so far; none where few lanes have one.
   struct ChordLevel {
     WorkVector<ChordBoxes> boxes;
@@ -79,21 +72,38 @@ class BoundaryTree {
     std::size_t flat = 0;   ///< of these
   };
 
+  void build_boxes();
+  bool boxes_overlap() const;
+  void order_in_plane();
   void build_chord_boxes(bool of_8_sites);
-  void set_chord_boxes(std::size_t node, std::size_t span, ChordBoxes& boxes,
+  void set_chord_boxes(std::size_t level, std::size_t node, ChordBoxes& boxes,
                        Fitting& fitting) const;
-  static Vec2 facing_normal(std::span<const site::Site> sites, Vec2 begin, Vec2 chord);
-  static std::optional<ChordBox> chord_box(std::span<const site::Site> sites);
-  static std::uint32_t beyond(const ChordBoxes& boxes, Vec2 c, double reach);
+
+  /// Where in the order of sites those of a node's lane stand.
+  struct Positions {
+    std::size_t begin, count;
+  };
+  Positions positions(std::size_t level, std::size_t node, std::size_t lane) const {
+    const std::size_t span = span_of(level);
+    const std::size_t begin = std::min((node * fan + lane) * span, sites_.size());
+    return {begin, std::min(span, sites_.size() - begin)};
+  }
+  /// How many sites a lane of a level stands for.
+  static std::size_t span_of(std::size_t level) { return std::size_t{block_size} << (2 * level); }
+  std::span<const std::uint32_t> block(std::uint32_t index) const {
+    const Positions at = positions(0, index / fan, index % fan);
+    return std::span(in_plane_).subspan(at.begin, at.count);
+  }
 
   /// In which order nodes are visited.
-  enum class Order : std::uint8_t { nearest_first, along_boundary };
+  enum class Order : std::uint8_t { nearest_first, in_turn };
   template <Order order, class Visit>
   void visit_blocks(Vec2 c, double& reach, std::uint32_t first, std::uint32_t last,
                     Visit&& visit) const;
 
   std::span<const site::Site> sites_;
   bool has_arcs_;
+  WorkVector<std::uint32_t> in_plane_;     ///< the sites of blocks in turn; empty: boundary order
   std::vector<WorkVector<Boxes>> levels_;  ///< levels_[0]: of blocks; none of few sites
   std::vector<ChordLevel> chords_;         ///< of the lowest levels
 };

@@ -1,10 +1,8 @@
 #include "verify/piece_order.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <span>
-#include <utility>
 
 #include "base/spatial_order.h"
 
@@ -53,46 +51,14 @@ class PieceOrder {
       std::sort(chains.begin(), chains.end());
       const std::size_t from = order_.size();
       add_pieces(chains);
-      return order_overlapping(std::span(order_).subspan(from));
+      return order_overlapping(
+          std::span(order_).subspan(from), [&](std::uint32_t i) { return middle_[i]; },
+          [&](std::uint32_t i) { return pieces_[i].chord(); }, fan_out);
     }
     const std::size_t half = detail::halve_by_place(
         chains, [&](std::uint32_t c) { return place(c); }, fan_out);
     add(chains.first(half));
     add(chains.subspan(half));
-  }
-  /// Halves pieces that lie in each other's way, where that leaves the least of it: across the
-  /// direction in which they are short beside how far they are apart.
-  void order_overlapping(std::span<std::uint32_t> order) const {
-    while (order.size() > fan_out) {
-      const std::pair<Vec2, Vec2> direction = directions_of(order);
-      const std::size_t half = detail::halve_by_place(
-          order,
-          [&](std::uint32_t i) {
-            return Vec2{dot(direction.first, middle_[i]), dot(direction.second, middle_[i])};
-          },
-          fan_out);
-      order_overlapping(order.first(half));
-      order = order.subspan(half);
-    }
-  }
-  /// The direction of the pieces and the one across, each by how long they are along it: their
-  /// tensor's.
-  std::pair<Vec2, Vec2> directions_of(std::span<const std::uint32_t> order) const {
-    constexpr double least = 0x1p-40;
-    double xx = 0, xy = 0, yy = 0;
-    for (const std::uint32_t i : order) {
-      const Vec2 chord = pieces_[i].chord();
-      xx += chord.x * chord.x;
-      xy += chord.x * chord.y;
-      yy += chord.y * chord.y;
-    }
-    const double difference = 0.5 * (xx - yy), half = 0.5 * (xx + yy);
-    const double size = std::hypot(difference, xy);
-    if (!(size > 0)) return {{1, 0}, {0, 1}};
-    Vec2 along = difference > 0 ? Vec2{difference + size, xy} : Vec2{xy, size - difference};
-    along = (1 / norm(along)) * along;
-    const double longer = half + size, shorter = std::max(half - size, least * longer);
-    return {std::sqrt(shorter / longer) * along, left_of(along)};
   }
   Vec2 place(std::uint32_t chain) const { return midpoint(boxes_[chain].low, boxes_[chain].high); }
   void add_pieces(std::span<const std::uint32_t> chains) {

@@ -197,11 +197,16 @@ Event EventSearch::by_neighbors() {
     if (other.position < event.position || (!right_first && other.position == event.position))
       event = other;
   }
-  if (event.kind == Event::Kind::none) {
-    event.kind = Event::Kind::far;
-    event.position = bisector_.last_position(from_, context_.radius_limit);
-    event.disk = bisector_.disk_at(event.position, from_);
-  }
+  if (event.kind == Event::Kind::none) event = far_event(from_.radius);
+  return event;
+}
+
+Event EventSearch::far_event(double radius) const {
+  constexpr double times = 8;
+  const double limit = context_.radius_limit;
+  const double larger = radius > 0 ? std::min(times * radius, limit) : limit;
+  Event event{Event::Kind::far, Hit::none, {}, bisector_.last_position(from_, larger)};
+  event.disk = bisector_.disk_at(event.position, from_);
   return event;
 }
 
@@ -247,6 +252,13 @@ Event EventSearch::first_contact(Event event) {
     Event asked = event.kind == Event::Kind::contact && look_beyond ? beyond(event) : event;
     const Hit hit = contacts_.nearest(asked.disk, span_);
     if (!hit) {
+      if (event.kind == Event::Kind::far && event.site == Hit::none) {
+        const Event further = far_event(event.disk.radius);
+        if (further.position > event.position) {
+          event = further;
+          continue;
+        }
+      }
       if (event.kind == Event::Kind::contact)
         event.site = contacts_.owner(event.site, event.disk.center, span_);
       // Only the carrier was touched, short of the site.

@@ -84,6 +84,10 @@ class EventSearch {
 
   /// The event at which the foot leaves `right` or `left` for its neighbour, by the sites alone.
   Event local_event(bool on_right);
+  /// A disk of the bisector several times as large as that, where the two sites and their
+  /// neighbours end the edge nowhere. Not the largest at once: that reaches over much that was
+  /// touched before.
+  Event far_event(double radius) const;
   Event event_at_smooth_joint(bool on_right);
   /// Across a bridge, the neighbour is touched as a third site.
   Event event_across_bridge(bool on_right);

@@ -1,0 +1,164 @@
+#include "site/chord_boxes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/spatial_order.h"
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+namespace medial::site {
+namespace {
+
+/// What rounding (u = 2^-53) may do to a height above a chord, or to a position along it. A sum of
+/// two products with a local point below 2 in both coordinates: 4 sqrt(2) u < 6 u, once for the
+/// boundary's point and once for the query's centre; the end of a site, 4 roundings below 2, or the
+/// next one's start instead, up to 8 u away in both coordinates: 12 u; a direction that is a unit
+/// vector up to 3 u, times a distance below 4: 12 u. That makes 36 u; this is 64 u.
+constexpr double chord_rounding = 0x1p-47;
+/// Chord boxes pay where the boundary strays from the chord by no more than this share of it,
+constexpr double flat_enough = 1.0 / 16;
+
+/// The normal of the line that a boundary shows to what lies on its left, through the highest
+/// points of its first and of its last third; that of its chord where these are near to each other.
+/// Of a staircase, or of a row of holes, no box in another direction keeps as clear.
+Vec2 facing_normal(std::span<const Site> sites, Vec2 begin, Vec2 chord) {
+  const auto highest = [&](std::span<const Site> some, Vec2 so_far) {
+    double height = 0;
+    for (const Site& site : some) {
+      const double h = cross(chord, site.point - begin);
+      if (!(h > height) || !is_inside(site)) continue;
+      height = h;
+      so_far = site.point;
+    }
+    return so_far;
+  };
+  const std::size_t third = sites.size() / 3;
+  Vec2 along = highest(sites.last(third), begin + chord) - highest(sites.first(third), begin);
+  constexpr double near = 0.25;
+  if (!(dot(along, chord) > near * squared_norm(chord))) along = chord;
+  return left_of((1 / norm(along)) * along);
+}
+
+/// A box of no point yet, which grows.
+struct GrowingBox {
+  ChordBox box;
+
+  explicit GrowingBox(Vec2 normal) : box{normal, all, -all, all, -all} {}
+  void add(Vec2 p) {
+    const double height = dot(box.normal, p), position = cross(p, box.normal);
+    box.low = std::min(box.low, height);
+    box.high = std::max(box.high, height);
+    box.begin = std::min(box.begin, position);
+    box.end = std::max(box.end, position);
+  }
+  ChordBox rounded() const {
+    return {box.normal,
+            box.low - chord_rounding,
+            box.high + chord_rounding,
+            box.begin - chord_rounding,
+            box.end + chord_rounding,
+            false};
+  }
+
+ private:
+  static constexpr double all = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+std::optional<ChordBox> chord_box(std::span<const Site> sites) {
+  const auto first = std::find_if(sites.begin(), sites.end(), is_inside);
+  if (first == sites.end()) return std::nullopt;
+  const Vec2 begin = first->point,
+             chord = std::find_if(sites.rbegin(), sites.rend(), is_inside)->end() - begin;
+  const double length = norm(chord), highest = flat_enough * length;
+  constexpr double shortest = 0x1p-500;  // a unit vector needs its square
+  if (!(length > shortest)) return std::nullopt;
+  const bool may_be_high = sites.size() >= many_sites && length <= little_room;
+  // Most that do not fit are recognised by a few of their points.
+  for (std::size_t i = 1; i < 4 && !may_be_high; ++i) {
+    const Site& site = sites[i * sites.size() / 4];
+    if (!is_inside(site) || std::abs(cross(chord, site.point - begin)) > highest * length)
+      return std::nullopt;
+  }
+  GrowingBox growing(facing_normal(sites, begin, chord));
+  for (const Site& site : sites) {
+    if (is_inside(site)) {
+      const Site* const next = &site == &sites.back() ? nullptr : &site + 1;
+      growing.add(site.point);
+      if (site.is_arc()) growing.add(site.apex());
+      if (!site.is_vertex() && (next == nullptr || !meets(site, *next))) growing.add(site.end());
+    } else if (!may_be_high) {
+      return std::nullopt;
+    }
+  }
+  ChordBox box = growing.rounded();
+  const double height = growing.box.high - growing.box.low,
+               size = std::max(height, growing.box.end - growing.box.begin);
+  box.is_flat = height <= highest;
+  if (!box.is_flat && !(may_be_high && size <= little_room)) return std::nullopt;
+  return box;
+}
+
+std::optional<ChordBox> box_along(std::span<const Site> sites,
+                                  std::span<const std::uint32_t> some) {
+  const Axes axes = axes_of(some, [&](std::uint32_t i) {
+    return is_inside(sites[i]) ? sites[i].end() - sites[i].point : Vec2{};
+  });
+  GrowingBox growing(axes.across);
+  for (const std::uint32_t i : some) {
+    if (!is_inside(sites[i])) continue;
+    growing.add(sites[i].point);
+    growing.add(sites[i].end());
+    if (sites[i].is_arc()) growing.add(sites[i].apex());
+  }
+  if (!(growing.box.low <= growing.box.high)) return std::nullopt;
+  return growing.rounded();
+}
+
+void ChordBoxes::set(std::size_t lane, const std::optional<ChordBox>& box) {
+  constexpr double all = std::numeric_limits<double>::infinity();
+  const ChordBox own = box.value_or(ChordBox{{1, 0}, -all, all, -all, all});
+  normal_x[lane] = own.normal.x;
+  normal_y[lane] = own.normal.y;
+  low[lane] = own.low;
+  high[lane] = own.high;
+  begin[lane] = own.begin;
+  end[lane] = own.end;
+}
+
+std::uint32_t ChordBoxes::beyond(Vec2 c, double reach) const {
+  std::uint32_t lanes = 0;
+#if defined(__SSE2__)
+  const __m128d cx = _mm_set1_pd(c.x), cy = _mm_set1_pd(c.y), zero = _mm_setzero_pd();
+  const __m128d squared_reach = _mm_set1_pd(reach * reach);
+  for (std::uint32_t i = 0; i < fan; i += 2) {
+    const __m128d nx = _mm_load_pd(&normal_x[i]), ny = _mm_load_pd(&normal_y[i]);
+    const __m128d height = _mm_add_pd(_mm_mul_pd(nx, cx), _mm_mul_pd(ny, cy));
+    const __m128d position = _mm_sub_pd(_mm_mul_pd(ny, cx), _mm_mul_pd(nx, cy));
+    const __m128d across = _mm_max_pd(_mm_max_pd(_mm_sub_pd(height, _mm_load_pd(&high[i])),
+                                                 _mm_sub_pd(_mm_load_pd(&low[i]), height)),
+                                      zero);
+    const __m128d along = _mm_max_pd(_mm_max_pd(_mm_sub_pd(position, _mm_load_pd(&end[i])),
+                                                _mm_sub_pd(_mm_load_pd(&begin[i]), position)),
+                                     zero);
+    const __m128d squared = _mm_add_pd(_mm_mul_pd(across, across), _mm_mul_pd(along, along));
+    lanes |= static_cast<std::uint32_t>(_mm_movemask_pd(_mm_cmpge_pd(squared, squared_reach))) << i;
+  }
+#else
+  for (std::uint32_t i = 0; i < fan; ++i) {
+    const double height = normal_x[i] * c.x + normal_y[i] * c.y;
+    const double position = normal_y[i] * c.x - normal_x[i] * c.y;
+    const double across = std::max({height - high[i], low[i] - height, 0.0});
+    const double along = std::max({position - end[i], begin[i] - position, 0.0});
+    if (across * across + along * along >= reach * reach) lanes |= 1u << i;
+  }
+#endif
+  return lanes;
+}
+
+}  // namespace medial::site

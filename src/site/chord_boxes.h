@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "site/site.h"
+
+namespace medial::site {
+
+/// Beyond this a site belongs to no box: cuts, as bridges leave them, lie there.
+constexpr double outside = 64;
+inline bool is_inside(const Site& site) { return std::abs(site.point.x) <= outside; }
+
+/// A box in any direction around some sites: all their points p have normal . p in [low, high] and,
+/// with `along` the normal turned to the right, along . p in [begin, end].
+struct ChordBox {
+  Vec2 normal;
+  double low, high, begin, end;
+  bool is_flat = false;  ///< the sites stray little from their chord
+};
+
+/// Boxes along the chords of a node's four lanes, in double precision: next to large disks the
+/// boundary is all but touched. A lane without such a box has infinite bounds.
+struct alignas(64) ChordBoxes {
+  static constexpr std::uint32_t fan = 4;
+  std::array<double, fan> normal_x, normal_y, low, high, begin, end;
+
+  void set(std::size_t lane, const std::optional<ChordBox>& box);
+  double area(std::size_t lane) const {
+    return (high[lane] - low[lane]) * (end[lane] - begin[lane]);
+  }
+  /// The lanes whose boxes lie beyond the reach from c, as bits.
+  std::uint32_t beyond(Vec2 c, double reach) const;
+};
+
+/// The box along the chord of a piece of a boundary. None where the boundary strays from it, but
+/// for many sites in little room, whatever their height: next to disks that are much larger, all
+/// teeth of a comb, and all holes in a row, are all but touched. O(n).
+std::optional<ChordBox> chord_box(std::span<const Site> sites);
+constexpr std::size_t many_sites = 128;
+constexpr double little_room = 0x1p-8;
+
+/// The box of some sites, which need not follow each other, along the direction in which they are
+/// longest; none of cuts alone. O(n).
+std::optional<ChordBox> box_along(std::span<const Site> sites, std::span<const std::uint32_t> some);
+
+}  // namespace medial::site
