@@ -63,6 +63,26 @@ TEST(Limits, ThinAndNearlyTouchingShapesAreVerifiedOrRefused) {
   }
 }
 
+// Beyond 1e-77 of the size 256 bits do not hold what an edge decides.
+TEST(Limits, ExteriorsOfTinyEdgesAreVerifiedOrRefused) {
+  for (const Method& method : {Method{method::Disks{}}, Method{method::Lee{}}}) {
+    for (int exponent = 3; exponent < 99; exponent += 3) {
+      const Shape shape = *build_shape(std::vector{
+          ring_of({{65, 70}, {13, 70}, {76, 108}, {-6.5 * std::pow(10, exponent), 0}})});
+      Options options{.method = method};
+      options.exterior = true;
+      const auto axis = compute(shape, options);
+      if (exponent < 70) {
+        ASSERT_TRUE(axis.ok()) << exponent << to_string(axis.error());
+        EXPECT_TRUE(verify(shape, *axis).passed) << exponent;
+      } else if (!axis) {
+        EXPECT_EQ(axis.error().code, ErrorCode::unsupported) << exponent;
+        EXPECT_TRUE(axis.error().place.point.has_value());
+      }
+    }
+  }
+}
+
 TEST(Limits, OneUlpWideShapesAreVerified) {
   const double next = std::nextafter(1.0, 2.0);
   for (const Rings& rings : {Rings{ring_of({{0, 1}, {1, 1}, {1, next}, {0, next}})},

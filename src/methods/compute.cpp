@@ -84,7 +84,7 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options,
     if (problem.is_cancelled()) return Error{ErrorCode::cancelled, "cancelled", {}};
     if (outcome->to_check && !has_right_topology(shape, axis.nodes, axis.edges))
       return error_of_wrong_axis(
-          axis,
+          shape, axis,
           "the axis does not have one part for each component and one cycle for each hole: please "
           "report this shape");
     if (options.progress) options.progress(1);

@@ -1,10 +1,20 @@
 #include "methods/refusal.h"
 
 #include <algorithm>
+#include <span>
 
 #include "medial/verify.h"
 
 namespace medial {
+namespace {
+
+Error unsupported_at(const std::optional<Vec2>& point, const char* text) {
+  Error error{ErrorCode::unsupported, text, {}};
+  error.place.point = point;
+  return error;
+}
+
+}  // namespace
 
 std::optional<Error> error_if_refused(const Problem& problem, const MedialAxis& axis) {
   constexpr std::size_t most = 1 << 13;
@@ -15,14 +25,12 @@ std::optional<Error> error_if_refused(const Problem& problem, const MedialAxis& 
   demands.threads = problem.options.threads;
   const Certificate certificate = verify(problem.shape, axis, demands);
   if (certificate.passed) return std::nullopt;
-  Error error{ErrorCode::unsupported,
-              "rounding alone decides what a disk touches here: move the vertices near it apart",
-              {}};
-  error.place.point = certificate.worst;
-  return error;
+  return unsupported_at(
+      certificate.worst,
+      "rounding alone decides what a disk touches here: move the vertices near it apart");
 }
 
-Error error_of_wrong_axis(const MedialAxis& axis, const char* text) {
+Error error_of_wrong_axis(const Shape& shape, const MedialAxis& axis, const char* text) {
   // In tolerances: disks that are smaller cannot always be distinguished from rounding.
   constexpr double narrow = 16;
   const Node* narrowest = nullptr;
@@ -30,13 +38,22 @@ Error error_of_wrong_axis(const MedialAxis& axis, const char* text) {
     if (node.kind != NodeKind::leaf &&
         (narrowest == nullptr || node.disk.radius < narrowest->disk.radius))
       narrowest = &node;
-  if (narrowest == nullptr || narrowest->disk.radius > narrow * axis.tolerance)
-    return {ErrorCode::internal, text, {}};
-  Error error{ErrorCode::unsupported,
-              "the shape is too narrow here for its sides to differ by more than rounding",
-              {}};
-  error.place.point = narrowest->disk.center;
-  return error;
+  if (narrowest != nullptr && narrowest->disk.radius <= narrow * axis.tolerance)
+    return unsupported_at(narrowest->disk.center,
+                          "the shape is too narrow here for its sides to differ by more than "
+                          "rounding");
+  // Of the size; 256 bits hold products of two lengths, one of which is that short.
+  constexpr double shortest = 0x1p-240;
+  const double size = diagonal(bounding_box(shape));
+  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+    const std::span<const Vec2> loop = shape.loop(i);
+    for (std::size_t k = 0; k < loop.size(); ++k)
+      if (distance(loop[k], loop[(k + 1) % loop.size()]) < shortest * size)
+        return unsupported_at(loop[k],
+                              "an edge is too short here beside the size of the shape: merge its "
+                              "ends, or move what is far away nearer");
+  }
+  return {ErrorCode::internal, text, {}};
 }
 
 }  // namespace medial

@@ -199,14 +199,16 @@ Result<MedialAxis> axis_by(const Problem& problem, const SiteNumbers& numbers, c
   axis.edges = std::move(graph->edges);
   if (!has_right_topology(problem.shape, axis.nodes, axis.edges))
     return error_of_wrong_axis(
-        axis, "the axis does not have one cycle for each hole: please report this shape");
+        problem.shape, axis,
+        "the axis does not have one cycle for each hole: please report this shape");
   axis.sites = site::result_sites(problem.shape, numbers);
   end_times(watch, axis.statistics);
   for (const std::uint32_t edge : loose_edges) {
     if (touches_its_sites(axis, axis.edges[edge], slack)) continue;
     if (!with_arcs)
       return error_of_wrong_axis(
-          axis, "a disk of the axis misses a site that it should touch: please report this shape");
+          problem.shape, axis,
+          "a disk of the axis misses a site that it should touch: please report this shape");
     lost.push_back(axis.edges[edge].site[0]);
   }
   return axis;
