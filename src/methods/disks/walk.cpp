@@ -174,9 +174,8 @@ class Walker {
  private:
   void walk_stack() {
     while (!stack_.empty()) {
-      const Step next = stack_.pop_back();
       if (is_set(context_.cancel)) break;
-      follow(next);
+      follow(stack_.pop_back());
       if (is_full()) put_off_rest();
     }
     report_progress(true);
@@ -193,38 +192,61 @@ class Walker {
   const Site& site(std::uint32_t i) const { return boundary_.sites[i]; }
   Element element(std::uint32_t i) const { return boundary_.elements[i]; }
 
-  /// Follows the bisectors from one node until the axis branches or ends.
-  void follow(Step step) {
-    if (!is_open(step.span, step.is_proposed)) return;
-    Disk from = chunk_.nodes[step.span.node];
-    for (;;) {
-      if (leave_to_early_walk(step.span)) return;
-      if (is_exact_ && joins_pieces(step.span) && !is_open(step.span)) return;
-      if (!step.is_proposed) propose(step, from);
-      const bool in_double = step.is_certain;
-      if (!in_double) decide(step, from);
-      find_parts(step, from);
+  /// The steps into which one divides; more than two are in `many_`.
+  struct Parts {
+    std::array<Step, 2> step;
+    std::size_t count = 0;
+  };
+
+  /// Follows the bisectors from one node until the axis ends, and of two branches one. Steps stay
+  /// where they are made: to copy what was just written takes long.
+  void follow(const Step& first) {
+    if (!is_open(first.span, first.is_proposed)) return;
+    std::array<Parts, 2> made;
+    Step* step = &made[0].step[0];
+    *step = first;
+    Disk from = chunk_.nodes[first.span.node];
+    for (Parts* parts = &made[1];; parts = parts == &made[0] ? &made[1] : &made[0]) {
+      if (leave_to_early_walk(step->span)) return;
+      if (is_exact_ && joins_pieces(step->span) && !is_open(step->span)) return;
+      if (!step->is_proposed) propose(*step, from);
+      const bool in_double = step->is_certain;
+      if (!in_double) decide(*step, from);
+      find_parts(*step, from, *parts);
       // What double leaves open next to its disk may have come before it; but not beside arcs where
       // the disk and the node are one tie.
-      if (in_double && looks_ahead(step) && !parts_.are_certain() && decide(step, from))
-        find_parts(step, from);
-      if (parts_.empty()) return;
-      const bool stays = step.event.kind == Event::Kind::at_node;
-      const std::uint32_t node = stays ? step.span.node : arrive(step, from);
-      parts_.set_node(node);
-      if (parts_.size() > 2 || (stays && parts_.size() > 1)) return stack_.append(parts_);
-      if (node != step.span.node) from = step.event.disk;
-      const bool is_known = looks_ahead(step);
-      step = parts_.pop_back();
-      if (!parts_.empty()) {
-        Step smaller = parts_.pop_back();
-        if (size(smaller) > size(step)) std::swap(step, smaller);
-        if (smaller.is_proposed || !is_known) return push(step, smaller);
-        is_open(smaller.span);  // ends there
-      }
-      if (!is_open(step.span, step.is_proposed)) return;
-      if (is_full()) return stack_.push_back(step);
+      if (in_double && looks_ahead(*step) && !are_certain(*parts) && decide(*step, from))
+        find_parts(*step, from, *parts);
+      step = next_after(*step, from, *parts);
+      if (step == nullptr || !is_open(step->span, step->is_proposed)) return;
+      if (is_full()) return stack_.push_back(*step);
     }
+  }
+
+  /// Goes to the end of a step's edge: which part is to be followed there, if any. Others are
+  /// queued.
+  Step* next_after(const Step& step, Disk& from, Parts& parts) {
+    if (parts.count == 0 && many_.empty()) return nullptr;
+    const bool stays = step.event.kind == Event::Kind::at_node;
+    const std::uint32_t node = stays ? step.span.node : arrive(step, from);
+    if (node != step.span.node) from = step.event.disk;
+    if (!many_.empty()) {
+      many_.set_node(node);
+      stack_.append(many_);
+    }
+    auto& [first, second] = parts.step;
+    first.span.node = second.span.node = node;
+    if (parts.count < 2) return parts.count == 0 ? nullptr : &first;
+    if (stays) {
+      stack_.push_back(first);
+      stack_.push_back(second);
+      return nullptr;
+    }
+    const bool first_larger = size(first) > size(second);
+    Step &larger = first_larger ? first : second, &smaller = first_larger ? second : first;
+    if (smaller.is_proposed || !looks_ahead(step)) return is_set(context_.cancel) ? nullptr : queue_one(larger, smaller);
+    is_open(smaller.span);  // ends there
+    return &larger;
   }
 
   /// Leaves a span to the walk from its early start, if it has one, whose parent its node becomes.
@@ -240,36 +262,41 @@ class Walker {
     return true;
   }
 
-  /// The spans into which an event divides its own, in `parts_`; looked ahead at, if asked for.
-  void find_parts(const Step& step, const Disk& from) {
-    const Span& span = step.span;
+  bool are_certain(const Parts& parts) const {
+    for (std::size_t i = 0; i < parts.count; ++i)
+      if (parts.step[i].is_proposed && !parts.step[i].is_certain) return false;
+    return many_.are_certain();
+  }
+
+  /// The steps into which an event divides its own; looked ahead at, if asked for.
+  void find_parts(const Step& step, const Disk& from, Parts& parts) {
     const Event& event = step.event;
-    parts_.clear();
+    const bool looks = looks_ahead(step);
+    // What double takes for the event after their node.
+    const auto look_ahead = [&](Step& part) {
+      if (looks && contacts_.needs_walk(part.span)) propose(part, event.disk);
+      return part.is_proposed;
+    };
+    many_.clear();
+    for (Step& part : parts.step) part = Step{};
     if (step.is_tie || event.kind == Event::Kind::at_node) {
-      split(span, step.is_tie ? event.disk : from, event.site, false);
-      return look_ahead(step);
+      split(step.span, step.is_tie ? event.disk : from, event.site, false);
+      many_.propose(look_ahead);
+      parts.count = many_.size() <= 2 ? many_.size() : 0;
+      for (std::size_t i = parts.count; i-- > 0;) parts.step[i] = many_.pop_back();
+      return;
     }
     // Also where it is the same: that is known then.
     const bool is_exact = step.is_node.has_value() || event.disk.center != from.center ||
                           event.disk.radius != from.radius;
-    const Division parts(span, event, step.error, is_exact);
-    parts_.spans().assign(parts.part.data(), parts.part.data() + parts.count);
-    look_ahead(step);
+    auto& [first, second] = parts.step;
+    parts.count = divide(step.span, event, step.error, is_exact, first.span, second.span);
+    for (std::size_t i = 0; i < parts.count; ++i) look_ahead(parts.step[i]);
   }
 
   /// Whether what a step's disk may have missed is searched for before it is taken.
   bool looks_ahead(const Step& step) const {
     return !is_exact_ && !(boundary_.has_arcs && step.joins_node);
-  }
-
-  /// What double takes for the events after the parts' node.
-  void look_ahead(const Step& step) {
-    if (!looks_ahead(step)) return;
-    const Disk& disk = step.event.disk;
-    parts_.propose([&](Step& part) {
-      if (contacts_.needs_walk(part.span)) propose(part, disk);
-      return part.is_proposed;
-    });
   }
 
   /// Whether a step's event is taken as double has it.
@@ -497,7 +524,7 @@ class Walker {
     const std::uint32_t node = add_node(disk);
     if (touched != Hit::none) touched = contacts_.owner(touched, disk.center, whole);
     split({run.first, run.last, node}, disk, touched, true);
-    stack_.append(parts_);
+    stack_.append(many_);
   }
 
   /// Whether double leaves open what the disk touches that grows where a run begins.
@@ -519,7 +546,7 @@ class Walker {
     }
     const std::uint32_t node = add_node(found->disk);
     const std::uint32_t touched = piece_below(found->disk.center, found->site, whole);
-    const Step first{{whole.right, touched, node, whole.left, Certainty::rounding, true}},
+    Step first{{whole.right, touched, node, whole.left, Certainty::rounding, true}},
         second{{touched, whole.left, node, whole.right, Certainty::rounding, true}};
     if (size(first) > size(second))
       push(first, second);
@@ -618,21 +645,22 @@ class Walker {
 
   static std::uint32_t size(const Step& step) { return step.span.left - step.span.right; }
 
-  /// Queues two spans. The smaller is walked first, so that the stack holds at most log n of them.
-  /// But a large one is walked before the smaller, so that other threads can soon share it: it
-  /// becomes a task once the spans left behind add up to one task's work, or the smaller is one.
-  void push(const Step& larger, const Step& smaller) {
+  /// Queues one of two steps: the larger, so that the stack holds at most log n of them. But a
+  /// large one is walked before the smaller, so that other threads can soon share it: it becomes a
+  /// task once the spans left behind add up to one task's work, or the smaller is one. Returns the
+  /// other.
+  Step* queue_one(Step& larger, Step& smaller) {
     const bool large = size(larger) >= sharing_.fork_size && context_.most_nodes == 0;
     if (large) left_behind_ += size(smaller);
     if (size(smaller) >= sharing_.fork_size || (large && left_behind_ >= sharing_.fork_size)) {
       left_behind_ = 0;
       fork(larger);
-      stack_.push_back(smaller);
-    } else {
-      stack_.push_back(large ? smaller : larger);
-      stack_.push_back(large ? larger : smaller);
+      return &smaller;
     }
+    stack_.push_back(large ? smaller : larger);
+    return large ? &larger : &smaller;
   }
+  void push(Step& larger, Step& smaller) { stack_.push_back(*queue_one(larger, smaller)); }
 
   void fork(const Step& step) {
     // A deferred task has few nodes of its own.
@@ -653,11 +681,11 @@ class Walker {
       sharing_.tasks.run(std::move(walk));
   }
 
-  /// The parts of a span whose node touches more sites, in `parts_`.
+  /// The parts of a span whose node touches more sites, in `many_`.
   void split(const Span& span, const Disk& disk, std::uint32_t sure, bool all_around) {
-    parts_.clear();
-    contacts_.split(span, disk, sure, all_around, parts_.spans());
-    for (Span& part : parts_.spans()) {
+    many_.clear();
+    contacts_.split(span, disk, sure, all_around, many_.spans());
+    for (Span& part : many_.spans()) {
       part.error = span.error + spread * context_.tolerance;
       part.third = part.right != span.right ? span.right : span.left;
     }
@@ -690,7 +718,7 @@ class Walker {
   bool starts_blunt_ = false;  ///< the run begins at a blunt joint, node 0
   Steps stack_;
   std::uint32_t left_behind_ = 0;  ///< sites of spans in the stack, about
-  Steps parts_;
+  Steps many_;  ///< parts of the last step
   std::uint64_t finished_ = 0;
 };
 
