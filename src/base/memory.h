@@ -43,7 +43,7 @@ struct WorkAllocator : std::allocator<T> {
     return begin;
   }
   void deallocate(T* begin, std::size_t count) {
-    constexpr std::size_t large = std::size_t{1} << 20;
+    constexpr std::size_t large = std::size_t{1} << 23;
     if (count * sizeof(T) >= large) give_back_pages(begin, count * sizeof(T));
     std::allocator<T>::deallocate(begin, count);
   }

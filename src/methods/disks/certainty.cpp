@@ -68,19 +68,13 @@ Certainty::Certainty(const Boundary& boundary, double tolerance, const Span& spa
   certain_ = boundary.has_arcs && ties && known && is_one_tie(0.5 * tolerance);
 }
 
-Certainty::Contact Certainty::contact_of(const site::Site& s, const Disk& disk) {
-  const Vec2 d = disk.center - s.point;
-  const double size = taxicab_norm(d), unsure = rounding * size;
-  if (s.is_vertex()) {
-    const double away = norm(d);
-    return {(1 / away) * d, away - disk.radius, unsure, 0, 0};
-  }
-  if (!s.is_arc()) return {s.normal(), cross(s.direction, d) - disk.radius, unsure, 0, 0};
+Certainty::Contact Certainty::contact_of_arc(const site::Site& arc, const Disk& disk) {
+  const double size = taxicab_norm(disk.center - arc.point), unsure = rounding * size;
   // The direction, the curvature and, between two pieces of an arc, the point have been rounded.
-  const site::ArcView view = site::view_of_arc(s, disk.center);
+  const site::ArcView view = site::view_of_arc(arc, disk.center);
   // The height is off by 5/4 of unsure * all, which the root's derivative doubles, |toward| by 3/4,
   // curvature and direction by 1: of these 4.25 the bound is twice.
-  const double bend = std::abs(s.curvature), all = 1 + bend * size;
+  const double bend = std::abs(arc.curvature), all = 1 + bend * size;
   return {(1 / view.size) * view.toward, view.distance - disk.radius,
           9 * unsure * all / (1 + view.size) + 0.5 * rounding, bend / view.size,
           4 * rounding * all / view.size};

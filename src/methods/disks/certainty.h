@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "methods/disks/events.h"
 
@@ -48,7 +49,15 @@ class Certainty {
   };
 
   const site::Site& site(std::uint32_t i) const { return boundary_.sites[i]; }
-  static Contact contact_of(const site::Site& s, const Disk& disk);
+  static Contact contact_of(const site::Site& s, const Disk& disk) {
+    if (s.is_arc()) return contact_of_arc(s, disk);
+    const Vec2 d = disk.center - s.point;
+    const double unsure = rounding * (std::abs(d.x) + std::abs(d.y));
+    if (!s.is_vertex()) return {s.normal(), cross(s.direction, d) - disk.radius, unsure, 0, 0};
+    const double away = norm(d);
+    return {(1 / away) * d, away - disk.radius, unsure, 0, 0};
+  }
+  static Contact contact_of_arc(const site::Site& arc, const Disk& disk);
   Contact contact(std::uint32_t i) const { return contact_of(site(i), to_); }
   bool is_near(std::uint32_t i, double slack) const;
   bool touches(std::uint32_t third, double slack) const;

@@ -343,12 +343,10 @@ bool Contacts::is_alone(const std::vector<Neighbor>& tie, const Span& span, cons
   const auto apart = [&](std::size_t i, std::size_t j) {
     return distance(toward[i % count], toward[j % count]);
   };
-  std::vector<std::array<double, 3>>& shares = shares_;
-  shares.clear();
-  for (std::size_t i = 0; i < count; ++i) {
+  const auto shares = [&](std::size_t i) {
     const double a = apart(i, i + 1), b = apart(i + 1, i + 2), c = apart(i, i + 2);
-    shares.push_back({1 / (a * c), 1 / (a * b), 1 / (b * c)});
-  }
+    return std::array{1 / (a * c), 1 / (a * b), 1 / (b * c)};
+  };
   return ranges::all_of(known ? within_ : touched_, [&](std::uint32_t i) {
     const double gap = away(i, disk);
     if (!(gap < furthest) || ranges::binary_search(tie, i, {}, &Neighbor::site) ||
@@ -361,7 +359,7 @@ bool Contacts::is_alone(const std::vector<Neighbor>& tie, const Span& span, cons
     for (std::size_t k = 0; k < away_from.size(); ++k)
       away_from[k] = distance(to, toward[(begin + k) % count]);
     for (std::size_t k = 0; k < 4; ++k) {
-      const auto& [first, second, third] = shares[(begin + k) % count];
+      const auto& [first, second, third] = shares(begin + k);
       const double factor = first * away_from[k + 1] * away_from[k + 2] +
                             second * away_from[k] * away_from[k + 2] +
                             third * away_from[k] * away_from[k + 1];
@@ -392,7 +390,9 @@ void Contacts::split(const Span& span, const Disk& disk, std::uint32_t sure, boo
                      std::vector<Span>& parts) {
   parts.clear();
   std::uint32_t before = span.right;
-  for (const std::uint32_t i : touched_between(span, disk, all_around)) {
+  const std::vector<std::uint32_t>& touched = touched_between(span, disk, all_around);
+  parts.reserve(touched.size() + 1);
+  for (const std::uint32_t i : touched) {
     parts.push_back({before, i, span.node});
     before = i;
   }

@@ -10,16 +10,18 @@ constexpr std::size_t longest_run = 16;
 
 }  // namespace
 
-Division::Division(const Span& span, const Event& event, double error, bool is_exact) {
+std::size_t divide(const Span& span, const Event& event, double error, bool is_exact, Span& first,
+                   Span& second) {
   using Kind = Event::Kind;
-  Span next{span.right, span.left, span.node, 0, error, is_exact};
   if (event.kind == Kind::pass_right || event.kind == Kind::pass_left) {
-    next.third = event.kind == Kind::pass_right ? next.right++ : next.left--;
-    part[count++] = next;
-  } else if (event.kind != Kind::none && event.site > span.right && event.site < span.left) {
-    part[count++] = {event.site, span.left, span.node, span.right, error, is_exact};
-    part[count++] = {span.right, event.site, span.node, span.left, error, is_exact};
+    first = {span.right, span.left, span.node, 0, error, is_exact};
+    first.third = event.kind == Kind::pass_right ? first.right++ : first.left--;
+    return 1;
   }
+  if (event.kind == Kind::none || event.site <= span.right || event.site >= span.left) return 0;
+  first = {event.site, span.left, span.node, span.right, error, is_exact};
+  second = {span.right, event.site, span.node, span.left, error, is_exact};
+  return 2;
 }
 
 std::optional<bool> is_settled(const Contacts& contacts, const Disk& from, const Event& event,
@@ -61,8 +63,8 @@ const RunAhead::Found* RunAhead::find_or_run(const Span& span, const Disk& from)
   return is_next() ? &found_[next_++] : nullptr;
 }
 
-void RunAhead::run(const Span& first, const Disk& start, std::size_t most) {
-  Span span = first;
+void RunAhead::run(const Span& begin, const Disk& start, std::size_t most) {
+  Span span = begin;
   Disk from = start;
   while (found_.size() < most) {
     EventSearch search(context_, contacts_, statistics_, span, from);
@@ -74,11 +76,12 @@ void RunAhead::run(const Span& first, const Disk& start, std::size_t most) {
     if (certainty.is_tie() || is_settled(contacts_, from, *event, certainty) == false) return;
     found = {
         span, from, *event, true, certainty.error(), certainty.fourth(), search.asked_disk(*event)};
-    const Division parts(span, *event, certainty.error(), true);
-    const bool first_open = parts.count > 0 && contacts_.needs_walk(parts.part[0]),
-               second_open = parts.count > 1 && contacts_.needs_walk(parts.part[1]);
+    Span first, second;
+    const std::size_t count = divide(span, *event, certainty.error(), true, first, second);
+    const bool first_open = count > 0 && contacts_.needs_walk(first),
+               second_open = count > 1 && contacts_.needs_walk(second);
     if (first_open == second_open) return;
-    span = parts.part[first_open ? 0 : 1];
+    span = first_open ? first : second;
     from = event->disk;
   }
 }

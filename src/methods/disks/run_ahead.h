@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -12,13 +11,10 @@
 namespace medial::disks {
 
 /// The spans into which an event divides its own: one where a foot passes on, two at a contact,
-/// none where nothing is left to touch, as on a shape that crosses itself. Not at a node.
-struct Division {
-  Division(const Span& span, const Event& event, double error, bool is_exact);
-
-  std::array<Span, 2> part;
-  std::size_t count = 0;
-};
+/// none where nothing is left to touch, as on a shape that crosses itself. Not at a node. Returns
+/// how many.
+std::size_t divide(const Span& span, const Event& event, double error, bool is_exact, Span& first,
+                   Span& second);
 
 /// Whether an event of a polygon is certain and nothing within the tolerance may come before it;
 /// none where only a search decides.
@@ -71,7 +67,7 @@ class RunAhead {
 
   const Found* find_or_run(const Span& span, const Disk& from);
   /// Events in turn that could be the next ones.
-  void run(const Span& span, const Disk& from, std::size_t most);
+  void run(const Span& begin, const Disk& start, std::size_t most);
   /// Whether the disks of the first `count` are empty.
   bool are_empty(std::size_t count) const;
 

@@ -31,6 +31,96 @@ struct Sharing {
   const std::vector<EarlyStart>* starts = nullptr;  ///< if any
 };
 
+/// A span with what ends its edge, as far as that is known.
+struct Step {
+  Span span;
+  Event event{};
+  double error = 0;  ///< how far the exact disk of the event may be
+  bool is_proposed = false;
+  bool is_certain = false;
+  bool is_tie = false;      ///< the event's disk touches several sites
+  bool joins_node = false;  ///< double is certain that it is one tie with the span's node
+  /// Whether the event's disk is the node's: where ties are kept in a polygon, if it is known.
+  std::optional<bool> is_node = {};
+};
+
+/// Steps in order. One of which only the span is known takes no more than that: a node may have a
+/// hundred thousand of them.
+class Steps {
+ public:
+  bool empty() const { return size() == 0; }
+  std::size_t size() const { return spans_.size() + proposed_.size(); }
+  void push_back(const Step& step) {
+    if (step.is_proposed)
+      proposed_.push_back({step, spans_.size()});
+    else
+      spans_.push_back(step.span);
+  }
+  Step pop_back() {
+    Step last;
+    if (!proposed_.empty() && proposed_.back().before == spans_.size()) {
+      last = proposed_.back().step;
+      proposed_.pop_back();
+    } else {
+      last.span = spans_.back();
+      spans_.pop_back();
+    }
+    return last;
+  }
+  /// Adds steps, which are gone then.
+  void append(Steps& steps) {
+    if (empty()) return std::swap(*this, steps);
+    for (Proposed& one : steps.proposed_) one.before += spans_.size();
+    spans_.insert(spans_.end(), steps.spans_.begin(), steps.spans_.end());
+    proposed_.insert(proposed_.end(), steps.proposed_.begin(), steps.proposed_.end());
+    steps.clear();
+  }
+  void clear() {
+    spans_.clear();
+    proposed_.clear();
+  }
+
+  /// Of which only the spans are known, as long as nothing is proposed.
+  std::vector<Span>& spans() { return spans_; }
+  /// Proposes what ends the edges of some spans: propose(step) tells whether it does.
+  template <class Propose>
+  void propose(const Propose& propose) {
+    std::size_t kept = 0;
+    for (const Span& span : spans_) {
+      Step step{span};
+      if (propose(step))
+        proposed_.push_back({step, kept});
+      else
+        spans_[kept++] = span;
+    }
+    spans_.resize(kept);
+  }
+  bool are_certain() const {
+    return ranges::all_of(proposed_, [](const Proposed& one) { return one.step.is_certain; });
+  }
+  void set_node(std::uint32_t node) {
+    for (Span& span : spans_) span.node = node;
+    for (Proposed& one : proposed_) one.step.span.node = node;
+  }
+  template <class Use>
+  void for_each(const Use& use) const {
+    auto next = proposed_.begin();
+    for (std::size_t i = 0;; ++i) {
+      for (; next != proposed_.end() && next->before == i; ++next) use(next->step);
+      if (i == spans_.size()) return;
+      use(Step{spans_[i]});
+    }
+  }
+
+ private:
+  struct Proposed {
+    Step step;
+    std::size_t before;  ///< how many of the spans come before it
+  };
+  std::vector<Span> spans_;  ///< of the steps of which nothing else is known
+  std::vector<Proposed> proposed_;
+};
+
 class Walker {
  public:
   Walker(const WalkContext& context, const Sharing& sharing, Chunk& chunk)
@@ -42,9 +132,7 @@ class Walker {
         contacts_(*own_contacts_),
         ahead_(context, contacts_, chunk.statistics),
         is_exact_(context.exact.always(chunk.component)),
-        keeps_ties_(contacts_.is_polygon() && !context.joins_ties) {
-    parts_.reserve(2);
-  }
+        keeps_ties_(contacts_.is_polygon() && !context.joins_ties) {}
 
   /// Walks all of a run: from the convex corner between its last and first site, or from a disk
   /// that touches the boundary where the two join smoothly.
@@ -62,20 +150,6 @@ class Walker {
     walk_stack();
     if (starts_blunt_ && chunk_.nodes.size() == 1) add_node(disk_between(run));
   }
-
-  /// A span with what ends its edge, as far as that is known.
-  struct Step {
-    Span span;
-    Event event{};
-    double error = 0;     ///< how far the exact disk of the event may be
-    bool is_open = true;  ///< a walk is needed there
-    bool is_proposed = false;
-    bool is_certain = false;
-    bool is_tie = false;      ///< the event's disk touches several sites
-    bool joins_node = false;  ///< double is certain that it is one tie with the span's node
-    /// Whether the event's disk is the node's: where ties are kept in a polygon, if it is known.
-    std::optional<bool> is_node = {};
-  };
 
   /// Walks all of a run from a disk that touches its ends.
   void walk_from(const Boundary::SiteRange& run, const Disk& start, double error) {
@@ -100,10 +174,8 @@ class Walker {
  private:
   void walk_stack() {
     while (!stack_.empty()) {
-      const Step next = stack_.back();
-      stack_.pop_back();
       if (is_set(context_.cancel)) break;
-      follow(next);
+      follow(stack_.pop_back());
       if (is_full()) put_off_rest();
     }
     report_progress(true);
@@ -113,49 +185,68 @@ class Walker {
     return context_.most_nodes > 0 && chunk_.nodes.size() > context_.most_nodes;
   }
   void put_off_rest() {
-    for (const Step& step : stack_) fork(step);
+    stack_.for_each([&](const Step& step) { fork(step); });
     stack_.clear();
   }
 
   const Site& site(std::uint32_t i) const { return boundary_.sites[i]; }
   Element element(std::uint32_t i) const { return boundary_.elements[i]; }
 
-  /// Follows the bisectors from one node until the axis branches or ends.
-  void follow(Step step) {
-    if (!is_open(step.span, step.is_proposed)) return;
-    Disk from = chunk_.nodes[step.span.node];
-    while (step.is_open) {
-      if (leave_to_early_walk(step.span)) return;
-      if (is_exact_ && joins_pieces(step.span) && !is_open(step.span)) return;
-      if (!step.is_proposed) propose(step, from);
-      const bool in_double = step.is_certain;
-      if (!in_double) decide(step, from);
-      find_parts(step, from);
+  /// The steps into which one divides; more than two are in `many_`.
+  struct Parts {
+    std::array<Step, 2> step;
+    std::size_t count = 0;
+  };
+
+  /// Follows the bisectors from one node until the axis ends, and of two branches one. Steps stay
+  /// where they are made: to copy what was just written takes long.
+  void follow(const Step& first) {
+    if (!is_open(first.span, first.is_proposed)) return;
+    std::array<Parts, 2> made;
+    Step* step = &made[0].step[0];
+    *step = first;
+    Disk from = chunk_.nodes[first.span.node];
+    for (Parts* parts = &made[1];; parts = parts == &made[0] ? &made[1] : &made[0]) {
+      if (leave_to_early_walk(step->span)) return;
+      if (is_exact_ && joins_pieces(step->span) && !is_open(step->span)) return;
+      if (!step->is_proposed) propose(*step, from);
+      const bool in_double = step->is_certain;
+      if (!in_double) decide(*step, from);
+      find_parts(*step, from, *parts);
       // What double leaves open next to its disk may have come before it; but not beside arcs where
       // the disk and the node are one tie.
-      if (in_double && looks_ahead(step) && !are_certain(parts_) && decide(step, from))
-        find_parts(step, from);
-      step.is_open = false;
-      if (parts_.empty()) return;
-      const bool stays = step.event.kind == Event::Kind::at_node;
-      const std::uint32_t node = stays ? step.span.node : arrive(step, from);
-      for (Step& part : parts_) part.span.node = node;
-      if (node != step.span.node) from = step.event.disk;
-      const Step* next = parts_.data();
-      if (parts_.size() == 2 && !stays) {
-        const bool first_larger = size(parts_[0]) > size(parts_[1]);
-        const Step &larger = parts_[first_larger ? 0 : 1], &smaller = parts_[first_larger ? 1 : 0];
-        if (smaller.is_open) return push(larger, smaller);
-        is_open(smaller.span);  // ends there
-        next = &larger;
-      } else if (parts_.size() > 1) {
-        stack_.insert(stack_.end(), parts_.begin(), parts_.end());
-        return;
-      }
-      step = *next;
-      step.is_open = is_open(step.span, step.is_proposed);
-      if (step.is_open && is_full()) return stack_.push_back(step);
+      if (in_double && looks_ahead(*step) && !are_certain(*parts) && decide(*step, from))
+        find_parts(*step, from, *parts);
+      step = next_after(*step, from, *parts);
+      if (step == nullptr || !is_open(step->span, step->is_proposed)) return;
+      if (is_full()) return stack_.push_back(*step);
     }
+  }
+
+  /// Goes to the end of a step's edge: which part is to be followed there, if any. Others are
+  /// queued.
+  Step* next_after(const Step& step, Disk& from, Parts& parts) {
+    if (parts.count == 0 && many_.empty()) return nullptr;
+    const bool stays = step.event.kind == Event::Kind::at_node;
+    const std::uint32_t node = stays ? step.span.node : arrive(step, from);
+    if (node != step.span.node) from = step.event.disk;
+    if (!many_.empty()) {
+      many_.set_node(node);
+      stack_.append(many_);
+    }
+    auto& [first, second] = parts.step;
+    first.span.node = second.span.node = node;
+    if (parts.count < 2) return parts.count == 0 ? nullptr : &first;
+    if (stays) {
+      stack_.push_back(first);
+      stack_.push_back(second);
+      return nullptr;
+    }
+    const bool first_larger = size(first) > size(second);
+    Step &larger = first_larger ? first : second, &smaller = first_larger ? second : first;
+    if (smaller.is_proposed || !looks_ahead(step)) return is_set(context_.cancel) ? nullptr : queue_one(larger, smaller);
+    is_open(smaller.span);  // ends there
+    return &larger;
   }
 
   /// Leaves a span to the walk from its early start, if it has one, whose parent its node becomes.
@@ -171,40 +262,41 @@ class Walker {
     return true;
   }
 
-  static bool are_certain(const std::vector<Step>& steps) {
-    return ranges::all_of(steps, [](const Step& s) { return !s.is_open || s.is_certain; });
+  bool are_certain(const Parts& parts) const {
+    for (std::size_t i = 0; i < parts.count; ++i)
+      if (parts.step[i].is_proposed && !parts.step[i].is_certain) return false;
+    return many_.are_certain();
   }
 
-  /// The spans into which an event divides its own, in `parts_`; looked ahead at, if asked for.
-  void find_parts(const Step& step, const Disk& from) {
-    const Span& span = step.span;
+  /// The steps into which an event divides its own; looked ahead at, if asked for.
+  void find_parts(const Step& step, const Disk& from, Parts& parts) {
     const Event& event = step.event;
-    parts_.clear();
+    const bool looks = looks_ahead(step);
+    // What double takes for the event after their node.
+    const auto look_ahead = [&](Step& part) {
+      if (looks && contacts_.needs_walk(part.span)) propose(part, event.disk);
+      return part.is_proposed;
+    };
+    many_.clear();
+    for (Step& part : parts.step) part = Step{};
     if (step.is_tie || event.kind == Event::Kind::at_node) {
-      split(span, step.is_tie ? event.disk : from, event.site, false);
-      return look_ahead(step);
+      split(step.span, step.is_tie ? event.disk : from, event.site, false);
+      many_.propose(look_ahead);
+      parts.count = many_.size() <= 2 ? many_.size() : 0;
+      for (std::size_t i = parts.count; i-- > 0;) parts.step[i] = many_.pop_back();
+      return;
     }
     // Also where it is the same: that is known then.
     const bool is_exact = step.is_node.has_value() || event.disk.center != from.center ||
                           event.disk.radius != from.radius;
-    const Division parts(span, event, step.error, is_exact);
-    for (std::size_t i = 0; i < parts.count; ++i) parts_.push_back({parts.part[i]});
-    look_ahead(step);
+    auto& [first, second] = parts.step;
+    parts.count = divide(step.span, event, step.error, is_exact, first.span, second.span);
+    for (std::size_t i = 0; i < parts.count; ++i) look_ahead(parts.step[i]);
   }
 
   /// Whether what a step's disk may have missed is searched for before it is taken.
   bool looks_ahead(const Step& step) const {
     return !is_exact_ && !(boundary_.has_arcs && step.joins_node);
-  }
-
-  /// What double takes for the events after the parts' node.
-  void look_ahead(const Step& step) {
-    if (!looks_ahead(step)) return;
-    const Disk& disk = step.event.disk;
-    for (Step& part : parts_) {
-      part.is_open = contacts_.needs_walk(part.span);
-      if (part.is_open) propose(part, disk);
-    }
   }
 
   /// Whether a step's event is taken as double has it.
@@ -432,7 +524,7 @@ class Walker {
     const std::uint32_t node = add_node(disk);
     if (touched != Hit::none) touched = contacts_.owner(touched, disk.center, whole);
     split({run.first, run.last, node}, disk, touched, true);
-    stack_.insert(stack_.end(), parts_.begin(), parts_.end());
+    stack_.append(many_);
   }
 
   /// Whether double leaves open what the disk touches that grows where a run begins.
@@ -454,7 +546,7 @@ class Walker {
     }
     const std::uint32_t node = add_node(found->disk);
     const std::uint32_t touched = piece_below(found->disk.center, found->site, whole);
-    const Step first{{whole.right, touched, node, whole.left, Certainty::rounding, true}},
+    Step first{{whole.right, touched, node, whole.left, Certainty::rounding, true}},
         second{{touched, whole.left, node, whole.right, Certainty::rounding, true}};
     if (size(first) > size(second))
       push(first, second);
@@ -553,21 +645,22 @@ class Walker {
 
   static std::uint32_t size(const Step& step) { return step.span.left - step.span.right; }
 
-  /// Queues two spans. The smaller is walked first, so that the stack holds at most log n of them.
-  /// But a large one is walked before the smaller, so that other threads can soon share it: it
-  /// becomes a task once the spans left behind add up to one task's work, or the smaller is one.
-  void push(const Step& larger, const Step& smaller) {
+  /// Queues one of two steps: the larger, so that the stack holds at most log n of them. But a
+  /// large one is walked before the smaller, so that other threads can soon share it: it becomes a
+  /// task once the spans left behind add up to one task's work, or the smaller is one. Returns the
+  /// other.
+  Step* queue_one(Step& larger, Step& smaller) {
     const bool large = size(larger) >= sharing_.fork_size && context_.most_nodes == 0;
     if (large) left_behind_ += size(smaller);
     if (size(smaller) >= sharing_.fork_size || (large && left_behind_ >= sharing_.fork_size)) {
       left_behind_ = 0;
       fork(larger);
-      stack_.push_back(smaller);
-    } else {
-      stack_.push_back(large ? smaller : larger);
-      stack_.push_back(large ? larger : smaller);
+      return &smaller;
     }
+    stack_.push_back(large ? smaller : larger);
+    return large ? &larger : &smaller;
   }
+  void push(Step& larger, Step& smaller) { stack_.push_back(*queue_one(larger, smaller)); }
 
   void fork(const Step& step) {
     // A deferred task has few nodes of its own.
@@ -588,14 +681,13 @@ class Walker {
       sharing_.tasks.run(std::move(walk));
   }
 
-  /// The parts of a span whose node touches more sites, in `parts_`.
+  /// The parts of a span whose node touches more sites, in `many_`.
   void split(const Span& span, const Disk& disk, std::uint32_t sure, bool all_around) {
-    contacts_.split(span, disk, sure, all_around, spans_);
-    parts_.clear();
-    for (Span& part : spans_) {
+    many_.clear();
+    contacts_.split(span, disk, sure, all_around, many_.spans());
+    for (Span& part : many_.spans()) {
       part.error = span.error + spread * context_.tolerance;
       part.third = part.right != span.right ? span.right : span.left;
-      parts_.push_back({part});
     }
   }
 
@@ -624,10 +716,9 @@ class Walker {
   const bool is_exact_;        ///< double is never asked
   const bool keeps_ties_;      ///< nodes of a polygon are one only if their disks are
   bool starts_blunt_ = false;  ///< the run begins at a blunt joint, node 0
-  std::vector<Step> stack_;
+  Steps stack_;
   std::uint32_t left_behind_ = 0;  ///< sites of spans in the stack, about
-  std::vector<Step> parts_;
-  std::vector<Span> spans_;
+  Steps many_;  ///< parts of the last step
   std::uint64_t finished_ = 0;
 };
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <functional>
 #include <memory>
+#include <new>
 #include <vector>
 
 #include "base/compat.h"
@@ -28,42 +30,45 @@ class BlockList {
   void push_back(const T& value) {
     if (size_ == capacity_) {
       const std::size_t count = size_of(blocks_.size());
-      blocks_.push_back(uninitialized<T[]>(count));
-      next_ = blocks_.back().get();
+      blocks_.push_back(uninitialized<std::byte[]>(count * sizeof(T)));
+      next_ = block(blocks_.size() - 1);
       capacity_ += count;
     }
-    *next_++ = value;
+    new (next_++) T(value);
     ++size_;
   }
   std::size_t size() const { return size_; }
   const T& operator[](std::size_t i) const {
     const std::size_t doubling_end = most - least_;
     if (i >= doubling_end)
-      return blocks_[doublings_ + (i - doubling_end) / most][(i - doubling_end) % most];
-    const std::size_t block = static_cast<std::size_t>(std::bit_width(i / least_ + 1)) - 1;
-    return blocks_[block][i - ((least_ << block) - least_)];
+      return block(doublings_ + (i - doubling_end) / most)[(i - doubling_end) % most];
+    const std::size_t number = static_cast<std::size_t>(std::bit_width(i / least_ + 1)) - 1;
+    return block(number)[i - ((least_ << number) - least_)];
   }
   /// Calls take(i, element) for all elements in order and frees each block once it is done.
   template <class Take>
   void drain(Take&& take) {
     std::size_t i = 0;
-    for (std::size_t block = 0; i < size_; ++block) {
-      const T* element = blocks_[block].get();
-      const std::size_t end = std::min(size_, i + size_of(block));
+    for (std::size_t number = 0; i < size_; ++number) {
+      const T* element = block(number);
+      const std::size_t end = std::min(size_, i + size_of(number));
       for (; i < end; ++i) take(i, *element++);
-      give_back_pages(blocks_[block].get(), size_of(block) * sizeof(T));
-      blocks_[block].reset();
+      give_back_pages(blocks_[number].get(), size_of(number) * sizeof(T));
+      blocks_[number].reset();
     }
     *this = BlockList(least_);
   }
 
  private:
-  static constexpr std::size_t least = 16, most = least << 8;  // elements of a block
+  static constexpr std::size_t least = 8, most = least << 9;  // elements of a block
   /// Block k begins at least_ * (2^k - 1), up to the one from which all are the largest.
-  std::size_t size_of(std::size_t block) const { return least_ << std::min(block, doublings_); }
+  std::size_t size_of(std::size_t number) const { return least_ << std::min(number, doublings_); }
+  T* block(std::size_t number) const { return reinterpret_cast<T*>(blocks_[number].get()); }
 
   std::size_t least_, doublings_;
-  std::vector<std::unique_ptr<T[]>> blocks_;
+  /// Bytes, as elements may be written as soon as there is room for them: in pages that would not
+  /// be needed.
+  std::vector<std::unique_ptr<std::byte[]>> blocks_;
   T* next_ = nullptr;  ///< where the next element goes, unless the last block is full
   std::size_t size_ = 0;
   std::size_t capacity_ = 0;
