@@ -1,6 +1,8 @@
 #include "methods/disks/tie_fit.h"
 
 #include <algorithm>
+#include <type_traits>
+#include <utility>
 
 #include "base/compat.h"
 
@@ -63,11 +65,6 @@ ContactOf<Real> contact_of(const TieSites& sites, const Touch& i, const DiskOf<R
           Real(radius + sense * away - disk.radius)};
 }
 
-template <class Real>
-Real residual_of(const TieSites& sites, const Touch& i, const DiskOf<Real>& disk) {
-  return size_of(contact_of(sites, i, disk).residual);
-}
-
 enum class Verdict : std::uint8_t { yes, no, open };
 
 /// A bound, and what the numbers in use leave open.
@@ -128,13 +125,28 @@ class Exchange {
   /// No disk is that far from the first one, against its radius.
   static constexpr double furthest = 0x1p-7;
 
-  ContactOf<Real> contact(const Touch& i) const { return contact_of(sites_, i, disk); }
+  /// The contact of the disk. Of few, each is worked out once for each disk.
+  ContactOf<Real> contact(const Touch& i) {
+    const auto end = known_.begin() + static_cast<std::ptrdiff_t>(known_count_);
+    for (auto known = known_.begin(); known != end; ++known)
+      if (known->first == i) return known->second;
+    const ContactOf<Real> found = contact_of(sites_, i, disk);
+    if (are_few_) known_[known_count_++] = {i, found};
+    return found;
+  }
+  Real residual(const Touch& i) {
+    if constexpr (std::is_same_v<Real, double>)
+      return residual_of(sites_, i, disk);
+    else
+      return size_of(contact(i).residual);
+  }
 
   void measure(std::span<const Touch> contacts) {
+    are_few_ = contacts.size() <= known_.size();
     worst = 0;
     furthest_ = contacts[0];
     for (const Touch& i : contacts) {
-      const Real residual = residual_of(sites_, i, disk);
+      const Real residual = this->residual(i);
       if (residual <= worst) continue;  // one that is no number is the worst
       worst = residual;
       furthest_ = i;
@@ -200,7 +212,7 @@ class Exchange {
     return move(others, goal);
   }
 
-  std::array<ContactOf<Real>, 4> contacts(const std::array<Touch, 4>& reference) const {
+  std::array<ContactOf<Real>, 4> contacts(const std::array<Touch, 4>& reference) {
     return {contact(reference[0]), contact(reference[1]), contact(reference[2]),
             contact(reference[3])};
   }
@@ -235,6 +247,7 @@ class Exchange {
     const Real area = bx * cy - by * cx;
     if (area == 0) return false;
     const Real dx = (db * cy - dc * by) / area, dy = (bx * dc - cx * db) / area;
+    known_count_ = 0;
     disk.x += dx;
     disk.y += dy;
     disk.radius += contact[0].x * dx + contact[0].y * dy - a_change;
@@ -247,6 +260,9 @@ class Exchange {
   std::size_t count_ = 0;  ///< of the reference
   Real level_{0};
   Touch furthest_;
+  std::array<std::pair<Touch, ContactOf<Real>>, 8> known_;
+  std::size_t known_count_ = 0;
+  bool are_few_ = false;
 };
 
 }  // namespace
