@@ -6,8 +6,11 @@
 #include <cstdint>
 #include <numeric>
 #include <span>
+#include <tuple>
+#include <utility>
 #include <vector>
 
+#include "base/threads.h"
 #include "medial/geometry.h"
 
 namespace medial {
@@ -57,13 +60,14 @@ inline std::vector<std::uint32_t> spatial_order(std::span<const Vec2> points, st
   return order;
 }
 
-/// Two directions, of unit length times how far apart pieces are to be taken along each.
+/// Two perpendicular directions. Their lengths weigh distances along each: pieces are divided where
+/// they are farthest apart by these.
 struct Axes {
   Vec2 along, across;
 };
 
-/// The direction in which pieces are longest, from a point to another, shortened by how many times
-/// as long they are there as across it; and the one across. By their tensor of inertia.
+/// The main direction of the pieces' chords, and the one across. The first has the length root of
+/// (spread across / spread along); the second is of unit length.
 template <class Chord>
 Axes axes_of(std::span<const std::uint32_t> pieces, const Chord& chord) {
   constexpr double least = 0x1p-40;
@@ -77,53 +81,89 @@ Axes axes_of(std::span<const std::uint32_t> pieces, const Chord& chord) {
   const double difference = 0.5 * (xx - yy), half = 0.5 * (xx + yy);
   const double size = std::hypot(difference, xy);
   if (!(size > 0)) return {{1, 0}, {0, 1}};
-  Vec2 along = difference > 0 ? Vec2{difference + size, xy} : Vec2{xy, size - difference};
+  const double c = difference / size, s = xy / size;  // of twice the angle
+  Vec2 along = c > 0 ? Vec2{c + 1, s} : Vec2{s, 1 - c};
   along = (1 / norm(along)) * along;
   const double longer = half + size, shorter = std::max(half - size, least * longer);
   return {std::sqrt(shorter / longer) * along, left_of(along)};
 }
 
+namespace detail {
+/// Orders pieces by halves, which keep their order. `middle` and `chord` give a piece's.
+template <class Middle, class Chord>
+class Halver {
+ public:
+  Halver(const Middle& middle, const Chord& chord, std::size_t fan_out)
+      : middle_(middle), chord_(chord), fan_out_(fan_out) {}
+
+  void order(std::span<std::uint32_t> pieces) {
+    constexpr std::size_t grain = std::size_t{1} << 14;
+    while (pieces.size() > fan_out_) {
+      const std::size_t half = halve(pieces);
+      const std::span<std::uint32_t> first = pieces.first(half), second = pieces.subspan(half);
+      if (pieces.size() > grain) {
+        Halver other(middle_, chord_, fan_out_);
+        return in_parallel([&] { order(first); }, [&] { other.order(second); });
+      }
+      order(first);
+      pieces = second;
+    }
+  }
+
+ private:
+  struct Key {
+    double place, beside;
+    std::uint32_t at;  ///< among the pieces; so no two keys are equal, whatever sorts them
+    friend bool operator<(const Key& a, const Key& b) {
+      return std::tie(a.place, a.beside, a.at) < std::tie(b.place, b.beside, b.at);
+    }
+  };
+
+  std::size_t halve(std::span<std::uint32_t> pieces) {
+    const Axes axes = axes_of(pieces, chord_);
+    keys_.clear();
+    Box box = Box::nothing();
+    for (std::uint32_t at = 0; at < pieces.size(); ++at) {
+      const Vec2 middle = middle_(pieces[at]);
+      const Vec2 place{dot(axes.along, middle), dot(axes.across, middle)};
+      box.add(place);
+      keys_.push_back({place.x, place.y, at});
+    }
+    if (box.high.x - box.low.x < box.high.y - box.low.y)
+      for (Key& key : keys_) std::swap(key.place, key.beside);
+    const std::size_t half = whole_half(pieces.size(), fan_out_);
+    const auto middle = keys_.begin() + static_cast<std::ptrdiff_t>(half);
+    std::nth_element(keys_.begin(), middle, keys_.end());
+    is_first_.assign(pieces.size(), 0);
+    for (auto key = keys_.begin(); key != middle; ++key) is_first_[key->at] = 1;
+    second_.clear();
+    std::size_t kept = 0;
+    for (std::size_t at = 0; at < pieces.size(); ++at) {
+      if (is_first_[at] != 0)
+        pieces[kept++] = pieces[at];
+      else
+        second_.push_back(pieces[at]);
+    }
+    std::copy(second_.begin(), second_.end(), pieces.begin() + static_cast<std::ptrdiff_t>(half));
+    return half;
+  }
+
+  const Middle& middle_;
+  const Chord& chord_;
+  const std::size_t fan_out_;
+  std::vector<Key> keys_;
+  std::vector<std::uint8_t> is_first_;
+  std::vector<std::uint32_t> second_;
+};
+}  // namespace detail
+
 /// Puts pieces that lie in each other's way in an order in which each aligned run of fan_out^k of
-/// them lies close together: halved across the direction in which they are short beside how far
-/// they are apart. `middle` and `chord` give a piece's. O(n log n).
+/// them lies close together: halved across their main direction, unless they are farther apart
+/// along it than they are long. `middle` and `chord` give a piece's. O(n log n).
 template <class Middle, class Chord>
 void order_overlapping(std::span<std::uint32_t> order, const Middle& middle, const Chord& chord,
                        std::size_t fan_out) {
-  struct Key {
-    double along, across;
-    std::uint32_t piece;
-  };
-  std::vector<Key> keys;
-  keys.reserve(order.size());
-  const auto halve = [&](std::span<std::uint32_t> pieces) {
-    const Axes axes = axes_of(pieces, chord);
-    keys.clear();
-    Box box = Box::nothing();
-    for (const std::uint32_t i : pieces) {
-      const Vec2 place{dot(axes.along, middle(i)), dot(axes.across, middle(i))};
-      box.add(place);
-      keys.push_back({place.x, place.y, i});
-    }
-    const std::size_t half = detail::whole_half(pieces.size(), fan_out);
-    const auto at = keys.begin() + static_cast<std::ptrdiff_t>(half);
-    if (box.high.x - box.low.x >= box.high.y - box.low.y)
-      std::nth_element(keys.begin(), at, keys.end(),
-                       [](const Key& a, const Key& b) { return a.along < b.along; });
-    else
-      std::nth_element(keys.begin(), at, keys.end(),
-                       [](const Key& a, const Key& b) { return a.across < b.across; });
-    for (std::size_t i = 0; i < keys.size(); ++i) pieces[i] = keys[i].piece;
-    return half;
-  };
-  std::vector<std::span<std::uint32_t>> stack{order};
-  while (!stack.empty()) {
-    const std::span<std::uint32_t> pieces = stack.back();
-    stack.pop_back();
-    if (pieces.size() <= fan_out) continue;
-    const std::size_t half = halve(pieces);
-    stack.push_back(pieces.first(half));
-    stack.push_back(pieces.subspan(half));
-  }
+  detail::Halver<Middle, Chord>(middle, chord, fan_out).order(order);
 }
 
 /// The indices of points along a Z-curve through their bounding box (Morton 1966), 2^32 cells wide

@@ -31,9 +31,15 @@ static_assert(many_sites == std::size_t{8} << (2 * level_of_many));
 /// than all others.
 constexpr std::size_t rare_of(std::uint32_t level) { return level == 0 ? 2 : 16; }
 
-/// Sites are ordered in the plane where the boxes of blocks have more than so many times the area
-/// that they cover.
-constexpr double most_overlap = 8;
+/// Sites are ordered in the plane where boxes of blocks have together more than so many times the
+/// area of the box of all of them.
+constexpr double least_overlap_in_plane = 8;
+
+double area(const Boxes& boxes, std::size_t lane) {
+  const double width = boxes.high_x[lane] - boxes.low_x[lane],
+               height = boxes.high_y[lane] - boxes.low_y[lane];
+  return width > 0 && height > 0 ? width * height : 0;  // of nothing, too
+}
 
 struct Waiting {
   std::uint32_t index;
@@ -51,7 +57,7 @@ BoundaryTree::BoundaryTree(std::span<const Site> sites, Chords chords)
   build_boxes();
   if (chords == Chords::none) return;
   build_chord_boxes(chords == Chords::all);
-  if (boxes_overlap()) order_in_plane();
+  if (boxes_overlap()) order_in_plane(chords == Chords::all);
 }
 
 /// The boxes of all levels, from the blocks up.
@@ -83,29 +89,39 @@ void BoundaryTree::build_boxes() {
   }
 }
 
-/// Whether the boxes of blocks lie upon each other.
+/// Whether the boxes of blocks lie upon each other, among so many sites as one lane of this level
+/// stands for, and there in a good part of the boundary.
 bool BoundaryTree::boxes_overlap() const {
-  const WorkVector<ChordBoxes>* const chords =
-      chords_.front().boxes.empty() ? nullptr : &chords_.front().boxes;
-  double sum = 0;
-  Extent all;
-  for (std::size_t node = 0; node < levels_.front().size(); ++node) {
-    const Boxes& boxes = levels_.front()[node];
+  constexpr std::size_t level = 3, good_part = 16;
+  const std::size_t top = std::min(level, levels_.size() - 1);
+  const std::size_t below = std::size_t{1} << (2 * top);  // nodes of blocks in a node on top
+  std::size_t overlapping = 0;
+  for (std::size_t node = 0; node < levels_[top].size(); ++node) {
     for (std::size_t lane = 0; lane < fan; ++lane) {
-      if (!(boxes.low_x[lane] <= boxes.high_x[lane])) continue;
-      const Vec2 low{boxes.low_x[lane], boxes.low_y[lane]},
-          high{boxes.high_x[lane], boxes.high_y[lane]};
-      all.add(low);
-      all.add(high);
-      const double area = (high.x - low.x) * (high.y - low.y);
-      sum += chords == nullptr ? area : std::min(area, (*chords)[node].area(lane));
+      double sum = 0;
+      const std::size_t begin = node * below + lane * (below / fan);
+      const std::size_t end = std::min(begin + below / fan, levels_[0].size());
+      for (std::size_t block = begin; block < end; ++block) sum += areas_of(block);
+      if (sum > least_overlap_in_plane * area(levels_[top][node], lane)) ++overlapping;
     }
   }
-  return sum > most_overlap * (all.high.x - all.low.x) * (all.high.y - all.low.y);
+  return overlapping * good_part * span_of(top) > sites_.size();
+}
+
+/// The areas of a node's four blocks together: the smaller one of each one's boxes.
+double BoundaryTree::areas_of(std::size_t node) const {
+  const WorkVector<ChordBoxes>& chords = chords_.front().boxes;
+  double sum = 0;
+  for (std::size_t lane = 0; lane < fan; ++lane) {
+    const double own = area(levels_[0][node], lane);
+    sum += chords.empty() ? own : std::min(own, chords[node].area(lane));
+  }
+  return sum;
 }
 
 /// Orders the sites in the plane, and builds all boxes again.
-void BoundaryTree::order_in_plane() {
+void BoundaryTree::order_in_plane(bool of_8_sites) {
+  chords_.clear();
   in_plane_.resize(sites_.size());
   std::iota(in_plane_.begin(), in_plane_.end(), 0U);
   order_overlapping(
@@ -118,8 +134,8 @@ void BoundaryTree::order_in_plane() {
       },
       2);
   build_boxes();
-  chords_.assign(levels_.size(), {});
-  for (std::uint32_t level = 0; level < levels_.size(); ++level) {
+  chords_.resize(levels_.size());
+  for (std::uint32_t level = of_8_sites ? 0 : 1; level < levels_.size(); ++level) {
     WorkVector<ChordBoxes>& boxes = chords_[level].boxes;
     boxes.resize(levels_[level].size());
     parallel_ranges(boxes.size(), 256, [&](std::size_t node, std::size_t last) {

@@ -18,15 +18,17 @@ namespace medial::site {
 /// over the whole boundary is the tree of every sub-shape as well.
 ///
 /// Where the boundary winds around itself, as in spirals and rows of slots, such boxes lie upon
-/// each other. Then blocks and nodes hold sites that lie close together in the plane instead, and
-/// every node has a box along these, too; a range is what is looked at of a block.
+/// each other. Then blocks and nodes hold sites that lie close together in the plane, and each node
+/// has a box along its sites, too. A search looks at the sites of its range only, of any block that
+/// it visits.
 ///
 /// Sites must lie in the local frame (coordinates below 2 in size). Sites far away from it
 /// belong to no box and are never found: cuts are stored so.
 class BoundaryTree {
  public:
   /// Which nodes of a smooth boundary get boxes along its chords. Searches take less time with more
-  /// of them; those of 8 sites take 6 bytes a site, and few searches do not repay any.
+  /// of them; those of 8 sites take 6 bytes a site, and few searches do not repay any, nor an order
+  /// in the plane.
   enum class Chords : std::uint8_t { all, beyond_8_sites, none };
   explicit BoundaryTree(std::span<const site::Site> sites, Chords chords = Chords::all);
 
@@ -74,12 +76,13 @@ class BoundaryTree {
 
   void build_boxes();
   bool boxes_overlap() const;
-  void order_in_plane();
+  double areas_of(std::size_t node) const;
+  void order_in_plane(bool of_8_sites);
   void build_chord_boxes(bool of_8_sites);
   void set_chord_boxes(std::size_t level, std::size_t node, ChordBoxes& boxes,
                        Fitting& fitting) const;
 
-  /// Where in the order of sites those of a node's lane stand.
+  /// The places, in the tree's order, of the sites below a node's lane.
   struct Positions {
     std::size_t begin, count;
   };

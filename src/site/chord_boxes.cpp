@@ -28,7 +28,7 @@ constexpr double flat_enough = 1.0 / 16;
 Vec2 facing_normal(std::span<const Site> sites, Vec2 begin, Vec2 chord) {
   const auto highest = [&](std::span<const Site> some, Vec2 so_far) {
     double height = 0;
-    for (const Site& site : some) {
+    for (const Site& site : indices) {
       const double h = cross(chord, site.point - begin);
       if (!(h > height) || !is_inside(site)) continue;
       height = h;
@@ -105,12 +105,12 @@ std::optional<ChordBox> chord_box(std::span<const Site> sites) {
 }
 
 std::optional<ChordBox> box_along(std::span<const Site> sites,
-                                  std::span<const std::uint32_t> some) {
-  const Axes axes = axes_of(some, [&](std::uint32_t i) {
+                                  std::span<const std::uint32_t> indices) {
+  const Axes axes = axes_of(indices, [&](std::uint32_t i) {
     return is_inside(sites[i]) ? sites[i].end() - sites[i].point : Vec2{};
   });
   GrowingBox growing(axes.across);
-  for (const std::uint32_t i : some) {
+  for (const std::uint32_t i : indices) {
     if (!is_inside(sites[i])) continue;
     growing.add(sites[i].point);
     growing.add(sites[i].end());
@@ -147,7 +147,7 @@ std::uint32_t ChordBoxes::beyond(Vec2 c, double reach) const {
                                                 _mm_sub_pd(_mm_load_pd(&begin[i]), position)),
                                      zero);
     const __m128d squared = _mm_add_pd(_mm_mul_pd(across, across), _mm_mul_pd(along, along));
-    lanes |= static_cast<std::uint32_t>(_mm_movemask_pd(_mm_cmpge_pd(squared, squared_reach))) << i;
+    lanes |= static_cast<std::uint32_t>(_mm_movemask_pd(_mm_cmpgt_pd(squared, squared_reach))) << i;
   }
 #else
   for (std::uint32_t i = 0; i < fan; ++i) {
@@ -155,7 +155,7 @@ std::uint32_t ChordBoxes::beyond(Vec2 c, double reach) const {
     const double position = normal_y[i] * c.x - normal_x[i] * c.y;
     const double across = std::max({height - high[i], low[i] - height, 0.0});
     const double along = std::max({position - end[i], begin[i] - position, 0.0});
-    if (across * across + along * along >= reach * reach) lanes |= 1u << i;
+    if (across * across + along * along > reach * reach) lanes |= 1u << i;
   }
 #endif
   return lanes;

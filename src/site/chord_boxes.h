@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -21,7 +23,7 @@ struct ChordBox {
   bool is_flat = false;  ///< the sites stray little from their chord
 };
 
-/// Boxes along the chords of a node's four lanes, in double precision: next to large disks the
+/// Boxes in any direction of a node's four lanes, in double precision: next to large disks the
 /// boundary is all but touched. A lane without such a box has infinite bounds.
 struct alignas(64) ChordBoxes {
   static constexpr std::uint32_t fan = 4;
@@ -44,6 +46,7 @@ constexpr double little_room = 0x1p-8;
 
 /// The box of some sites, which need not follow each other, along the direction in which they are
 /// longest; none of cuts alone. O(n).
-std::optional<ChordBox> box_along(std::span<const Site> sites, std::span<const std::uint32_t> some);
+std::optional<ChordBox> box_along(std::span<const Site> sites,
+                                  std::span<const std::uint32_t> indices);
 
 }  // namespace medial::site

@@ -15,7 +15,8 @@ constexpr double nowhere = std::numeric_limits<double>::infinity();
 
 /// Halving an interval of doubles more often than this cannot change it.
 constexpr int bracket_steps = 128;
-/// Of shrinking a disk by closed forms before the bracket takes over; some three are usual.
+/// Of growing or shrinking a disk by closed forms before the bracket takes over; some three are
+/// usual.
 constexpr int most_rounds = 200;
 /// How far beyond() may look, against the radius: there the bisector is still straight.
 constexpr double widest_window = 1e-7;
@@ -203,9 +204,9 @@ Event EventSearch::by_neighbors() {
 
 Event EventSearch::far_event(double radius) const {
   constexpr double times = 8;
-  const double limit = context_.radius_limit;
-  const double larger = radius > 0 ? std::min(times * radius, limit) : limit;
-  Event event{Event::Kind::far, Hit::none, {}, bisector_.last_position(from_, larger)};
+  const double least = as_good_as_point * context_.tolerance, limit = context_.radius_limit;
+  const double larger = radius > 0 ? std::min(times * std::max(radius, least), limit) : limit;
+  Event event{Event::Kind::far, Hit::none, {}, bisector_.last_position(from_, larger), true};
   event.disk = bisector_.disk_at(event.position, from_);
   return event;
 }
@@ -246,16 +247,18 @@ Event EventSearch::at_node(std::uint32_t touched) const {
 Event EventSearch::first_contact(Event event) {
   Event intruded = event;
   bool look_beyond = true;
-  // Every round but one that looked beyond comes earlier; rounding could make rounds repeat.
+  // Every round comes earlier, but one that looked beyond and those that grow; rounding could make
+  // rounds repeat.
   for (int round = 0; round < most_rounds; ++round) {
     if (is_in_point(event)) event = short_of_point(event);
     Event asked = event.kind == Event::Kind::contact && look_beyond ? beyond(event) : event;
     const Hit hit = contacts_.nearest(asked.disk, span_);
     if (!hit) {
-      if (event.kind == Event::Kind::far && event.site == Hit::none) {
-        const Event further = far_event(event.disk.radius);
+      if (event.may_grow) {
+        Event further = far_event(event.disk.radius);
+        if (!(further.position > event.position)) further = far_event(0);
         if (further.position > event.position) {
-          event = further;
+          event = intruded = further;
           continue;
         }
       }

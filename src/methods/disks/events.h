@@ -22,6 +22,7 @@ struct Event {
   std::uint32_t site = Contacts::Hit::none;
   Disk disk;
   double position = std::numeric_limits<double>::infinity();
+  bool may_grow = false;  ///< of `far`: no neighbour ends the edge
 };
 
 /// Finds what ends an edge of the axis: the first event on the bisector of a span's two sites after
@@ -84,9 +85,9 @@ class EventSearch {
 
   /// The event at which the foot leaves `right` or `left` for its neighbour, by the sites alone.
   Event local_event(bool on_right);
-  /// A disk of the bisector several times as large as that, where the two sites and their
-  /// neighbours end the edge nowhere. Not the largest at once: that reaches over much that was
-  /// touched before.
+  /// A disk of the bisector several times as large as that, where no neighbour ends the edge; the
+  /// largest, if the radius is 0. That one at once would reach across walls, over many sites past
+  /// which it would have to be shrunk.
   Event far_event(double radius) const;
   Event event_at_smooth_joint(bool on_right);
   /// Across a bridge, the neighbour is touched as a third site.
