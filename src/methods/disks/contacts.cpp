@@ -343,10 +343,14 @@ bool Contacts::is_alone(const std::vector<Neighbor>& tie, const Span& span, cons
   const auto apart = [&](std::size_t i, std::size_t j) {
     return distance(toward[i % count], toward[j % count]);
   };
-  const auto shares = [&](std::size_t i) {
+  const auto shares_of = [&](std::size_t i) {
     const double a = apart(i, i + 1), b = apart(i + 1, i + 2), c = apart(i, i + 2);
     return std::array{1 / (a * c), 1 / (a * b), 1 / (b * c)};
   };
+  // Of a few sites all are asked for again and again, of thousands hardly any.
+  std::array<std::array<double, 3>, 32> shares_of_few;
+  const bool are_few = count <= shares_of_few.size();
+  for (std::size_t i = 0; are_few && i < count; ++i) shares_of_few[i] = shares_of(i);
   return ranges::all_of(known ? within_ : touched_, [&](std::uint32_t i) {
     const double gap = away(i, disk);
     if (!(gap < furthest) || ranges::binary_search(tie, i, {}, &Neighbor::site) ||
@@ -359,7 +363,8 @@ bool Contacts::is_alone(const std::vector<Neighbor>& tie, const Span& span, cons
     for (std::size_t k = 0; k < away_from.size(); ++k)
       away_from[k] = distance(to, toward[(begin + k) % count]);
     for (std::size_t k = 0; k < 4; ++k) {
-      const auto& [first, second, third] = shares(begin + k);
+      const std::size_t place = (begin + k) % count;
+      const auto [first, second, third] = are_few ? shares_of_few[place] : shares_of(place);
       const double factor = first * away_from[k + 1] * away_from[k + 2] +
                             second * away_from[k] * away_from[k + 2] +
                             third * away_from[k] * away_from[k + 1];

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <vector>
@@ -171,18 +170,18 @@ class Merger {
     std::vector<bool> is_listed(graph_.nodes.size());
     for (const std::uint32_t e : edges)
       for (const std::uint32_t node : graph_.edges[e].node) is_listed[node] = true;
-    const auto for_listed_ends = [&](const auto& use) {
-      for (std::uint32_t e = 0; e < graph_.edges.size(); ++e)
-        for (const std::uint32_t k : {0u, 1u})
-          if (const std::uint32_t node = graph_.edges[e].node[k]; is_listed[node])
-            use(node, 2 * e + k);
-    };
     ends_begin_.assign(graph_.nodes.size() + 1, 0);
-    for_listed_ends([&](std::uint32_t node, std::uint32_t) { ++ends_begin_[node]; });
-    std::partial_sum(ends_begin_.begin(), ends_begin_.end(), ends_begin_.begin());
-    ends_.resize(ends_begin_.back());
-    for_listed_ends(
-        [&](std::uint32_t node, std::uint32_t end) { ends_[--ends_begin_[node]] = end; });
+    for (const Edge& edge : graph_.edges)
+      for (const std::uint32_t node : edge.node) ++ends_begin_[node];
+    std::uint32_t count = 0;
+    for (std::size_t node = 0; node < graph_.nodes.size(); ++node)
+      ends_begin_[node] = count += is_listed[node] ? ends_begin_[node] : 0;
+    ends_begin_.back() = count;
+    ends_.resize(count);
+    for (std::uint32_t e = 0; e < graph_.edges.size(); ++e)
+      for (const std::uint32_t k : {0u, 1u})
+        if (const std::uint32_t node = graph_.edges[e].node[k]; is_listed[node])
+          ends_[--ends_begin_[node]] = 2 * e + k;
   }
   /// The ends of edges at a node of a short one: end 2 e + k is node[k] of edge e.
   std::span<const std::uint32_t> ends_at(std::uint32_t node) const {
