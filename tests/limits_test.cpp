@@ -63,7 +63,7 @@ TEST(Limits, ThinAndNearlyTouchingShapesAreVerifiedOrRefused) {
   }
 }
 
-// Beyond 1e-77 of the size 256 bits do not hold what an edge decides.
+// Beyond 1e-72 of the size 256 bits do not hold what an edge decides.
 TEST(Limits, ExteriorsOfTinyEdgesAreVerifiedOrRefused) {
   for (const Method& method : {Method{method::Disks{}}, Method{method::Lee{}}}) {
     for (int exponent = 3; exponent < 99; exponent += 3) {

@@ -31,9 +31,11 @@ static_assert(many_sites == std::size_t{8} << (2 * level_of_many));
 /// than all others.
 constexpr std::size_t rare_of(std::uint32_t level) { return level == 0 ? 2 : 16; }
 
-/// Sites are ordered in the plane where boxes of blocks have together more than so many times the
-/// area of the box of all of them.
+/// Sites are ordered in the plane where boxes have together more than so many times the area of the
+/// box of all of them.
 constexpr double least_overlap_in_plane = 8;
+/// That many levels above them: of 64 boxes.
+constexpr std::size_t levels_above = 3;
 
 double area(const Boxes& boxes, std::size_t lane) {
   const double width = boxes.high_x[lane] - boxes.low_x[lane],
@@ -89,32 +91,35 @@ void BoundaryTree::build_boxes() {
   }
 }
 
-/// Whether the boxes of blocks lie upon each other, among so many sites as one lane of this level
-/// stands for, and there in a good part of the boundary.
+/// Whether boxes lie upon each other, on any level, in a good part of the boundary.
 bool BoundaryTree::boxes_overlap() const {
-  constexpr std::size_t level = 3, good_part = 16;
-  const std::size_t top = std::min(level, levels_.size() - 1);
-  const std::size_t below = std::size_t{1} << (2 * top);  // nodes of blocks in a node on top
-  std::size_t overlapping = 0;
-  for (std::size_t node = 0; node < levels_[top].size(); ++node) {
-    for (std::size_t lane = 0; lane < fan; ++lane) {
-      double sum = 0;
-      const std::size_t begin = node * below + lane * (below / fan);
-      const std::size_t end = std::min(begin + below / fan, levels_[0].size());
-      for (std::size_t block = begin; block < end; ++block) sum += areas_of(block);
-      if (sum > least_overlap_in_plane * area(levels_[top][node], lane)) ++overlapping;
-    }
-  }
-  return overlapping * good_part * span_of(top) > sites_.size();
+  for (std::size_t level = 0; level + levels_above < levels_.size(); ++level)
+    if (boxes_overlap(level)) return true;
+  return false;
 }
 
-/// The areas of a node's four blocks together: the smaller one of each one's boxes.
-double BoundaryTree::areas_of(std::size_t node) const {
-  const WorkVector<ChordBoxes>& chords = chords_.front().boxes;
+bool BoundaryTree::boxes_overlap(std::size_t level) const {
+  constexpr std::size_t good_part = 16;
+  constexpr std::size_t in_lane = std::size_t{1} << (2 * levels_above - 2);  // nodes
+  const std::size_t above = level + levels_above;
+  std::size_t overlapping = 0;
+  for (std::size_t begin = 0; begin < levels_[level].size(); begin += in_lane) {
+    const std::size_t end = std::min(begin + in_lane, levels_[level].size());
+    double sum = 0;
+    for (std::size_t node = begin; node < end; ++node) sum += areas_of(level, node);
+    const std::size_t lane = begin / in_lane;
+    if (sum > least_overlap_in_plane * area(levels_[above][lane / fan], lane % fan)) ++overlapping;
+  }
+  return overlapping * good_part * span_of(above) > sites_.size();
+}
+
+/// The areas of a node's four lanes together: the smaller one of each one's boxes.
+double BoundaryTree::areas_of(std::size_t level, std::size_t node) const {
+  const bool has_chords = level < chords_.size() && !chords_[level].boxes.empty();
   double sum = 0;
   for (std::size_t lane = 0; lane < fan; ++lane) {
-    const double own = area(levels_[0][node], lane);
-    sum += chords.empty() ? own : std::min(own, chords[node].area(lane));
+    const double own = area(levels_[level][node], lane);
+    sum += has_chords ? std::min(own, chords_[level].boxes[node].area(lane)) : own;
   }
   return sum;
 }

@@ -76,7 +76,8 @@ class BoundaryTree {
 
   void build_boxes();
   bool boxes_overlap() const;
-  double areas_of(std::size_t node) const;
+  bool boxes_overlap(std::size_t level) const;
+  double areas_of(std::size_t level, std::size_t node) const;
   void order_in_plane(bool of_8_sites);
   void build_chord_boxes(bool of_8_sites);
   void set_chord_boxes(std::size_t level, std::size_t node, ChordBoxes& boxes,

@@ -28,7 +28,7 @@ constexpr double flat_enough = 1.0 / 16;
 Vec2 facing_normal(std::span<const Site> sites, Vec2 begin, Vec2 chord) {
   const auto highest = [&](std::span<const Site> some, Vec2 so_far) {
     double height = 0;
-    for (const Site& site : indices) {
+    for (const Site& site : some) {
       const double h = cross(chord, site.point - begin);
       if (!(h > height) || !is_inside(site)) continue;
       height = h;

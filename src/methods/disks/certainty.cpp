@@ -14,8 +14,6 @@ constexpr double small_tolerance = 0x1p-16;
 /// How far a disk may be off, against its radius, for the next step to begin at it.
 constexpr double well_known = 0x1p-10;
 
-double taxicab_norm(Vec2 v) { return std::abs(v.x) + std::abs(v.y); }
-
 }  // namespace
 
 Certainty::Certainty(const Boundary& boundary, const Span& span, const Disk& from,

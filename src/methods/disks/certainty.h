@@ -7,6 +7,8 @@
 
 namespace medial::disks {
 
+inline double taxicab_norm(Vec2 v) { return std::abs(v.x) + std::abs(v.y); }
+
 /// Whether an event that was found in double is certain (docs/exact.md, How disks decides).
 class Certainty {
  public:
@@ -52,7 +54,7 @@ class Certainty {
   static Contact contact_of(const site::Site& s, const Disk& disk) {
     if (s.is_arc()) return contact_of_arc(s, disk);
     const Vec2 d = disk.center - s.point;
-    const double unsure = rounding * (std::abs(d.x) + std::abs(d.y));
+    const double unsure = rounding * taxicab_norm(d);
     if (!s.is_vertex()) return {s.normal(), cross(s.direction, d) - disk.radius, unsure, 0, 0};
     const double away = norm(d);
     return {(1 / away) * d, away - disk.radius, unsure, 0, 0};

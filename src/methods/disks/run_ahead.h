@@ -12,7 +12,7 @@ namespace medial::disks {
 
 /// The spans into which an event divides its own: one where a foot passes on, two at a contact,
 /// none where nothing is left to touch, as on a shape that crosses itself. Not at a node. Returns
-/// how many.
+/// how many; `second` is set only if there are two.
 std::size_t divide(const Span& span, const Event& event, double error, bool is_exact, Span& first,
                    Span& second);
 

@@ -46,7 +46,7 @@ class Steps {
     }
     return last;
   }
-  /// Adds steps, which are gone then.
+  /// Adds steps; `steps` is empty then.
   void append(Steps& steps) {
     if (empty()) return std::swap(*this, steps);
     for (Proposed& one : steps.proposed_) one.before += spans_.size();
@@ -59,7 +59,7 @@ class Steps {
     proposed_.clear();
   }
 
-  /// Of which only the spans are known, as long as nothing is proposed.
+  /// The spans of all steps. Only while none is proposed.
   std::vector<Span>& spans() { return spans_; }
   /// Proposes what ends the edges of some spans: propose(step) says whether it does.
   template <class Propose>

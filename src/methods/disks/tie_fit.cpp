@@ -131,7 +131,7 @@ class Exchange {
     for (auto known = known_.begin(); known != end; ++known)
       if (known->first == i) return known->second;
     const ContactOf<Real> found = contact_of(sites_, i, disk);
-    if (are_few_) known_[known_count_++] = {i, found};
+    if (are_few_ && known_count_ < known_.size()) known_[known_count_++] = {i, found};
     return found;
   }
   Real residual(const Touch& i) {
@@ -143,6 +143,7 @@ class Exchange {
 
   void measure(std::span<const Touch> contacts) {
     are_few_ = contacts.size() <= known_.size();
+    known_count_ = 0;
     worst = 0;
     furthest_ = contacts[0];
     for (const Touch& i : contacts) {

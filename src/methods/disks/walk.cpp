@@ -137,8 +137,8 @@ class Walker {
     }
   }
 
-  /// Goes to the end of a step's edge: which part is to be followed there, if any. Others are
-  /// queued.
+  /// Ends a step's edge in its node. Returns the part to be followed from there, if any, and queues
+  /// the others.
   Step* next_after(const Step& step, Disk& from, Parts& parts) {
     if (parts.count == 0 && many_.empty()) return nullptr;
     const bool stays = step.event.kind == Event::Kind::at_node;

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <new>
+#include <type_traits>
 #include <vector>
 
 #include "base/compat.h"
@@ -22,6 +23,8 @@ namespace medial::disks {
 /// A list of at least `expected` elements has fewer small blocks, which an allocator would keep.
 template <class T>
 class BlockList {
+  static_assert(std::is_trivially_copyable_v<T>);
+
  public:
   explicit BlockList(std::size_t expected = 0)
       : least_(std::clamp(std::bit_floor(expected), least, most)),
@@ -66,8 +69,7 @@ class BlockList {
   T* block(std::size_t number) const { return reinterpret_cast<T*>(blocks_[number].get()); }
 
   std::size_t least_, doublings_;
-  /// Bytes, as elements may be written as soon as there is room for them: in pages that would not
-  /// be needed.
+  /// Bytes: an array of T would write its default values, and so touch pages that stay unused.
   std::vector<std::unique_ptr<std::byte[]>> blocks_;
   T* next_ = nullptr;  ///< where the next element goes, unless the last block is full
   std::size_t size_ = 0;
