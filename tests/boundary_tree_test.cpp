@@ -118,7 +118,7 @@ std::vector<Site> windings(std::size_t corners, double slant, double bulge) {
 }
 
 // Boxes of a boundary that winds around itself lie upon each other: sites are ordered in the plane.
-// With 60 corners in a turn, boxes along chords do not.
+// Around slots, only those along the axes do.
 TEST(BoundaryTree, FindsTheNearestOfWindings) {
   std::mt19937 random(13);
   std::uniform_real_distribution<double> place(-1, 1);
@@ -145,7 +145,9 @@ TEST(BoundaryTree, FindsTheNearestOfWindings) {
       }
       EXPECT_EQ(tree.nearest(c, reach, first, last).squared_distance, least);
       EXPECT_NEAR(tree.nearest_facing(c, reach, first, last).squared_distance, least, 1e-13);
-      if (least > 0) EXPECT_FALSE(tree.nearest(c, std::sqrt(least) * (1 - 1e-14), first, last));
+      if (least > 0) {
+        EXPECT_FALSE(tree.nearest(c, std::sqrt(least) * (1 - 1e-14), first, last));
+      }
       EXPECT_TRUE(tree.few_within(c, reach, near.size(), found));
       std::sort(found.begin(), found.end());
       EXPECT_EQ(found, near);

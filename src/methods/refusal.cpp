@@ -42,8 +42,8 @@ Error error_of_wrong_axis(const Shape& shape, const MedialAxis& axis, const char
     return unsupported_at(narrowest->disk.center,
                           "the shape is too narrow here for its sides to differ by more than "
                           "rounding");
-  // Of the size: 256 bits hold, beside a length of 1, another of 2^-240 with 16 bits of it.
-  constexpr double shortest = 0x1p-240;
+  // Of the size: 256 bits hold, beside a length of 1, another of 2^-200 with 56 bits of it.
+  constexpr double shortest = 0x1p-200;
   const double size = diagonal(bounding_box(shape));
   for (std::size_t i = 0; i < shape.loop_count(); ++i) {
     const std::span<const Vec2> loop = shape.loop(i);

@@ -58,8 +58,9 @@ BoundaryTree::BoundaryTree(std::span<const Site> sites, Chords chords)
   if (sites.size() <= short_range) return;
   build_boxes();
   if (chords == Chords::none) return;
-  build_chord_boxes(chords == Chords::all);
-  if (boxes_overlap()) order_in_plane(chords == Chords::all);
+  const std::uint32_t lowest = chords == Chords::all ? 0 : 1;
+  build_chord_boxes(lowest);
+  if (boxes_overlap(lowest)) build_boxes_along(lowest);
 }
 
 /// The boxes of all levels, from the blocks up.
@@ -92,13 +93,13 @@ void BoundaryTree::build_boxes() {
 }
 
 /// Whether boxes lie upon each other, on any level, in a good part of the boundary.
-bool BoundaryTree::boxes_overlap() const {
-  for (std::size_t level = 0; level + levels_above < levels_.size(); ++level)
-    if (boxes_overlap(level)) return true;
+bool BoundaryTree::boxes_overlap(std::uint32_t lowest) const {
+  for (std::size_t level = lowest; level + levels_above < levels_.size(); ++level)
+    if (boxes_overlap_on(level)) return true;
   return false;
 }
 
-bool BoundaryTree::boxes_overlap(std::size_t level) const {
+bool BoundaryTree::boxes_overlap_on(std::size_t level) const {
   constexpr std::size_t good_part = 16;
   constexpr std::size_t in_lane = std::size_t{1} << (2 * levels_above - 2);  // nodes
   const std::size_t above = level + levels_above;
@@ -124,11 +125,15 @@ double BoundaryTree::areas_of(std::size_t level, std::size_t node) const {
   return sum;
 }
 
-/// Orders the sites in the plane, and builds all boxes again.
-void BoundaryTree::order_in_plane(bool of_8_sites) {
+/// Where boxes along chords lie upon each other, those along the sites of a node may not, as around
+/// needles; if these do, too, sites are ordered in the plane.
+void BoundaryTree::build_boxes_along(std::uint32_t lowest) {
   chords_.clear();
   in_plane_.resize(sites_.size());
   std::iota(in_plane_.begin(), in_plane_.end(), 0U);
+  set_boxes_along(lowest);
+  if (!boxes_overlap(lowest)) return free_memory(in_plane_);
+  chords_.clear();
   order_overlapping(
       in_plane_,
       [&](std::uint32_t i) {
@@ -139,8 +144,12 @@ void BoundaryTree::order_in_plane(bool of_8_sites) {
       },
       2);
   build_boxes();
+  set_boxes_along(lowest);
+}
+
+void BoundaryTree::set_boxes_along(std::uint32_t lowest) {
   chords_.resize(levels_.size());
-  for (std::uint32_t level = of_8_sites ? 0 : 1; level < levels_.size(); ++level) {
+  for (std::uint32_t level = lowest; level < levels_.size(); ++level) {
     WorkVector<ChordBoxes>& boxes = chords_[level].boxes;
     boxes.resize(levels_[level].size());
     parallel_ranges(boxes.size(), 256, [&](std::size_t node, std::size_t last) {
@@ -155,9 +164,9 @@ void BoundaryTree::order_in_plane(bool of_8_sites) {
   }
 }
 
-void BoundaryTree::build_chord_boxes(bool of_8_sites) {
+void BoundaryTree::build_chord_boxes(std::uint32_t lowest) {
   chords_.resize(std::min<std::size_t>(chord_levels, levels_.size()));
-  for (std::uint32_t level = of_8_sites ? 0 : 1; level < chords_.size(); ++level) {
+  for (std::uint32_t level = lowest; level < chords_.size(); ++level) {
     const std::size_t nodes = levels_[level].size();
     const auto is_rare = [&](std::size_t lanes) {
       return lanes * rare_of(level) * span_of(level) < sites_.size();

@@ -17,10 +17,10 @@ namespace medial::site {
 /// cache line. Because the order is the boundary's, an index range is a sub-shape, and the tree
 /// over the whole boundary is the tree of every sub-shape as well.
 ///
-/// Where the boundary winds around itself, as in spirals and rows of slots, such boxes lie upon
-/// each other. Then blocks and nodes hold sites that lie close together in the plane, and each node
-/// has a box along its sites, too. A search looks at the sites of its range only, of any block that
-/// it visits.
+/// Where such boxes lie upon each other, as around slots and needles, each node has a box along its
+/// sites, too. Where these do as well, as in spirals, blocks and nodes hold sites that lie close
+/// together in the plane; a search then looks at the sites of its range only, of any block that it
+/// visits.
 ///
 /// Sites must lie in the local frame (coordinates below 2 in size). Sites far away from it
 /// belong to no box and are never found: cuts are stored so.
@@ -75,11 +75,12 @@ class BoundaryTree {
   };
 
   void build_boxes();
-  bool boxes_overlap() const;
-  bool boxes_overlap(std::size_t level) const;
+  bool boxes_overlap(std::uint32_t lowest) const;
+  bool boxes_overlap_on(std::size_t level) const;
   double areas_of(std::size_t level, std::size_t node) const;
-  void order_in_plane(bool of_8_sites);
-  void build_chord_boxes(bool of_8_sites);
+  void build_boxes_along(std::uint32_t lowest);
+  void set_boxes_along(std::uint32_t lowest);
+  void build_chord_boxes(std::uint32_t lowest);  ///< from this level on
   void set_chord_boxes(std::size_t level, std::size_t node, ChordBoxes& boxes,
                        Fitting& fitting) const;
 
