@@ -83,6 +83,19 @@ TEST(Limits, ExteriorsOfTinyEdgesAreVerifiedOrRefused) {
   }
 }
 
+// An edge between two vertices so near to each other has a weight of 1e60.
+TEST(Limits, TheAreaBesideAWaistIsANumber) {
+  for (const double half : {1e-10, 1e-60, 1e-90}) {
+    const Shape shape = *build_shape(std::vector{ring_of(
+        {{0, -1}, {1.7, -half}, {1.7, -1}, {3, -1}, {3, 1}, {1.7, 1}, {1.7, half}, {0, 1}})});
+    const auto axis = compute(shape);
+    ASSERT_TRUE(axis.ok()) << half << to_string(axis.error());
+    const Certificate certificate = verify(shape, *axis);
+    EXPECT_TRUE(certificate.passed) << half << certificate.failures[0];
+    EXPECT_NEAR(certificate.disks_area, area(shape), 1e-12);
+  }
+}
+
 TEST(Limits, OneUlpWideShapesAreVerified) {
   const double next = std::nextafter(1.0, 2.0);
   for (const Rings& rings : {Rings{ring_of({{0, 1}, {1, 1}, {1, next}, {0, next}})},

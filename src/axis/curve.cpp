@@ -308,6 +308,7 @@ double Curve::area_beside_chord() const {
   // 3)).
   constexpr double small = 0.0625;
   const double z = (weight - 1) / (weight + 1);
+  const double rest = 2 / (weight + 1);  // 1 - z, also where z rounds to 1
   double first = 1, second = 2.0 / 3;
   if (std::abs(z) < small) {
     double power = 1;
@@ -318,10 +319,10 @@ double Curve::area_beside_chord() const {
     }
   } else {
     const double root = std::sqrt(std::abs(z));
-    first = (z > 0 ? std::atanh(root) : std::atan(root)) / root;
-    second = (1 - (1 - z) * first) / z;
+    first = (z > 0 ? std::log((1 + root) / std::sqrt(rest)) : std::atan(root)) / root;
+    second = (1 - rest * first) / z;
   }
-  return cross(p1, p2) * (0.125 * (1 + z) * (1 + (1 - z) * first + second));
+  return cross(p1, p2) * (0.125 * (1 + z) * (1 + rest * first + second));
 }
 
 void add_roots(double a, double b, double c, std::vector<double>& out) {

@@ -256,6 +256,19 @@ using Stack = std::array<Waiting, 4 * 16 + 4>;
 
 }  // namespace
 
+template <class Visit>
+[[gnu::always_inline]] inline void BoundaryTree::visit_block(std::uint32_t index,
+                                                             std::uint32_t first,
+                                                             std::uint32_t last,
+                                                             Visit&& visit) const {
+  if (in_plane_.empty())
+    return visit(std::max(first, index * block_size),
+                 std::min(last, index * block_size + block_size - 1));
+  const Positions at = positions(0, index / fan, index % fan);
+  for (const std::uint32_t i : std::span(in_plane_).subspan(at.begin, at.count))
+    if (i >= first && i <= last) visit(i, i);
+}
+
 template <BoundaryTree::Order order, class Visit>
 [[gnu::always_inline]] inline void BoundaryTree::visit_blocks(Vec2 c, double& reach,
                                                               std::uint32_t first,
@@ -272,10 +285,9 @@ template <BoundaryTree::Order order, class Visit>
   };
   float limit = squared_reach();
 
-  // Start at the lowest node over the whole range.
+  // Start at the lowest node over the whole range; in the plane, at the root.
   const std::uint32_t first_block = in_plane_.empty() ? first / block_size : 0;
-  const std::uint32_t last_block =
-      (in_plane_.empty() ? last : static_cast<std::uint32_t>(sites_.size() - 1)) / block_size;
+  const std::uint32_t last_block = in_plane_.empty() ? last / block_size : last_of_all();
   const auto common = static_cast<std::uint32_t>(std::bit_width(first_block ^ last_block) + 1) / 2;
   const auto chord_count = static_cast<std::uint32_t>(chords_.size());
 
@@ -284,12 +296,7 @@ template <BoundaryTree::Order order, class Visit>
   Waiting top{first_block >> (2 * common), common, 0};
   for (;;) {
     if (top.level == 0) {
-      if (in_plane_.empty())
-        visit(std::max(first, top.index * block_size),
-              std::min(last, top.index * block_size + block_size - 1));
-      else
-        for (const std::uint32_t i : block(top.index))
-          if (i >= first && i <= last) visit(i, i);
+      visit_block(top.index, first, last, visit);
       limit = squared_reach();
     } else {
       const std::uint32_t below = top.level - 1;

@@ -95,13 +95,16 @@ class BoundaryTree {
   }
   /// How many sites a lane of a level stands for.
   static std::size_t span_of(std::size_t level) { return std::size_t{block_size} << (2 * level); }
-  std::span<const std::uint32_t> block(std::uint32_t index) const {
-    const Positions at = positions(0, index / fan, index % fan);
-    return std::span(in_plane_).subspan(at.begin, at.count);
+  std::uint32_t last_of_all() const {  ///< blocks
+    return static_cast<std::uint32_t>(sites_.size() - 1) / block_size;
   }
 
   /// In which order nodes are visited.
   enum class Order : std::uint8_t { nearest_first, in_turn };
+  /// The sites first..last of a block.
+  template <class Visit>
+  void visit_block(std::uint32_t index, std::uint32_t first, std::uint32_t last,
+                   Visit&& visit) const;
   template <Order order, class Visit>
   void visit_blocks(Vec2 c, double& reach, std::uint32_t first, std::uint32_t last,
                     Visit&& visit) const;
