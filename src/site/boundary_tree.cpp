@@ -51,8 +51,9 @@ struct Waiting {
 
 }  // namespace
 
-BoundaryTree::BoundaryTree(std::span<const Site> sites, Chords chords)
+BoundaryTree::BoundaryTree(std::span<const Site> sites, Chords chords, std::size_t longest_range)
     : sites_(sites),
+      longest_range_(longest_range),
       has_arcs_(
           std::any_of(sites.begin(), sites.end(), [](const Site& site) { return site.is_arc(); })) {
   if (sites.size() <= short_range) return;
@@ -92,9 +93,12 @@ void BoundaryTree::build_boxes() {
   }
 }
 
-/// Whether boxes lie upon each other, on any level, in a good part of the boundary.
+/// Whether boxes lie upon each other, on any level that searches go through, in a good part of the
+/// boundary.
 bool BoundaryTree::boxes_overlap(std::uint32_t lowest) const {
-  for (std::size_t level = lowest; level + levels_above < levels_.size(); ++level)
+  for (std::size_t level = lowest;
+       level + levels_above < levels_.size() && span_of(level + levels_above) <= longest_range_;
+       ++level)
     if (boxes_overlap_on(level)) return true;
   return false;
 }

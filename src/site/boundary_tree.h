@@ -30,7 +30,9 @@ class BoundaryTree {
   /// of them; those of 8 sites take 6 bytes a site, and few searches do not repay any, nor an order
   /// in the plane.
   enum class Chords : std::uint8_t { all, beyond_8_sites, none };
-  explicit BoundaryTree(std::span<const site::Site> sites, Chords chords = Chords::all);
+  /// Searches among more than `longest_range` sites may take longer.
+  explicit BoundaryTree(std::span<const site::Site> sites, Chords chords = Chords::all,
+                        std::size_t longest_range = ~std::size_t{0});
 
   struct Hit {
     static constexpr std::uint32_t none = ~std::uint32_t{0};
@@ -110,6 +112,7 @@ class BoundaryTree {
                     Visit&& visit) const;
 
   std::span<const site::Site> sites_;
+  std::size_t longest_range_;
   bool has_arcs_;
   WorkVector<std::uint32_t> in_plane_;     ///< the sites of blocks in turn; empty: boundary order
   std::vector<WorkVector<Boxes>> levels_;  ///< levels_[0]: of blocks; none of few sites

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -84,6 +86,12 @@ struct Boundary {
     elements.push_back(element);
     originals.push_back(original);
     if (has_arcs) joints.push_back(joint);
+  }
+  std::size_t longest_run() const {  ///< in sites
+    std::size_t longest = 0;
+    for (const SiteRange& run : runs)
+      longest = std::max(longest, std::size_t{run.last} - run.first + 1);
+    return longest;
   }
   site::Joint joint(std::uint32_t i) const {  ///< between the edges i and i + 1
     return joints.empty() ? site::Joint::corner : joints[i];

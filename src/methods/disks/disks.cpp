@@ -77,7 +77,8 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   }
   if (problem.is_cancelled()) return std::nullopt;
 
-  const site::BoundaryTree tree(boundary.sites);
+  const site::BoundaryTree tree(boundary.sites, site::BoundaryTree::Chords::all,
+                                boundary.longest_run());
   statistics.seconds_tree = watch.lap();
 
   std::atomic<std::uint64_t> finished = 0;

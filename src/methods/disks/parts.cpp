@@ -62,7 +62,8 @@ Result<std::optional<MedialAxis>> run_in_parts(const Problem& problem, const Axi
   statistics.bridges = bridges.size();
   statistics.seconds_connect = watch.lap();
   if (problem.is_cancelled()) return std::optional(std::move(axis));
-  const site::BoundaryTree tree(boundary.sites, site::BoundaryTree::Chords::beyond_8_sites);
+  const site::BoundaryTree tree(boundary.sites, site::BoundaryTree::Chords::beyond_8_sites,
+                                boundary.longest_run());
   statistics.seconds_tree = watch.lap();
 
   const ExactEvents exact(sites, boundary, tree, never_in_precise);
