@@ -157,7 +157,7 @@ class Halver {
 };
 }  // namespace detail
 
-/// Puts pieces that lie in each other's way in an order in which each aligned run of fan_out^k of
+/// Puts overlapping pieces in an order in which each aligned run of fan_out^k of
 /// them lies close together: halved across their main direction, unless they are farther apart
 /// along it than they are long. `middle` and `chord` give a piece's. O(n log n).
 template <class Middle, class Chord>

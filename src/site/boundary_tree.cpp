@@ -34,7 +34,7 @@ constexpr std::size_t rare_of(std::uint32_t level) { return level == 0 ? 2 : 16;
 /// Sites are ordered in the plane where boxes have together more than so many times the area of the
 /// box of all of them.
 constexpr double least_overlap_in_plane = 8;
-/// That many levels above them: of 64 boxes.
+/// So many levels up, a lane stands for 64 boxes.
 constexpr std::size_t levels_above = 3;
 
 double area(const Boxes& boxes, std::size_t lane) {
@@ -93,7 +93,7 @@ void BoundaryTree::build_boxes() {
   }
 }
 
-/// Whether boxes lie upon each other, on any level that searches go through, in a good part of the
+/// Whether boxes overlap, on any level that searches go through, in a good part of the
 /// boundary.
 bool BoundaryTree::boxes_overlap(std::uint32_t lowest) const {
   for (std::size_t level = lowest;
@@ -129,8 +129,8 @@ double BoundaryTree::areas_of(std::size_t level, std::size_t node) const {
   return sum;
 }
 
-/// Where boxes along chords lie upon each other, those along the sites of a node may not, as around
-/// needles; if these do, too, sites are ordered in the plane.
+/// Where boxes along chords overlap, those along the sites of a node may not, as around needles; if
+/// these do, too, orders sites in the plane.
 void BoundaryTree::build_boxes_along(std::uint32_t lowest) {
   chords_.clear();
   in_plane_.resize(sites_.size());
@@ -143,10 +143,7 @@ void BoundaryTree::build_boxes_along(std::uint32_t lowest) {
       [&](std::uint32_t i) {
         return is_inside(sites_[i]) ? midpoint(sites_[i].point, sites_[i].end()) : Vec2{};
       },
-      [&](std::uint32_t i) {
-        return is_inside(sites_[i]) ? sites_[i].end() - sites_[i].point : Vec2{};
-      },
-      2);
+      [&](std::uint32_t i) { return chord_of(sites_[i]); }, 2);
   build_boxes();
   set_boxes_along(lowest);
 }
@@ -291,7 +288,7 @@ template <BoundaryTree::Order order, class Visit>
 
   // Start at the lowest node over the whole range; in the plane, at the root.
   const std::uint32_t first_block = in_plane_.empty() ? first / block_size : 0;
-  const std::uint32_t last_block = in_plane_.empty() ? last / block_size : last_of_all();
+  const std::uint32_t last_block = in_plane_.empty() ? last / block_size : last_block_of_all();
   const auto common = static_cast<std::uint32_t>(std::bit_width(first_block ^ last_block) + 1) / 2;
   const auto chord_count = static_cast<std::uint32_t>(chords_.size());
 

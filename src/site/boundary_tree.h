@@ -17,8 +17,8 @@ namespace medial::site {
 /// cache line. Because the order is the boundary's, an index range is a sub-shape, and the tree
 /// over the whole boundary is the tree of every sub-shape as well.
 ///
-/// Where such boxes lie upon each other, as around slots and needles, each node has a box along its
-/// sites, too. Where these do as well, as in spirals, blocks and nodes hold sites that lie close
+/// Where such boxes overlap, as around slots and needles, each node has a box along its sites, too.
+/// Where these overlap as well, as in spirals, blocks and nodes hold sites that lie close
 /// together in the plane; a search then looks at the sites of its range only, of any block that it
 /// visits.
 ///
@@ -97,7 +97,7 @@ class BoundaryTree {
   }
   /// How many sites a lane of a level stands for.
   static std::size_t span_of(std::size_t level) { return std::size_t{block_size} << (2 * level); }
-  std::uint32_t last_of_all() const {  ///< blocks
+  std::uint32_t last_block_of_all() const {
     return static_cast<std::uint32_t>(sites_.size() - 1) / block_size;
   }
 
@@ -116,7 +116,7 @@ class BoundaryTree {
   bool has_arcs_;
   WorkVector<std::uint32_t> in_plane_;     ///< the sites of blocks in turn; empty: boundary order
   std::vector<WorkVector<Boxes>> levels_;  ///< levels_[0]: of blocks; none of few sites
-  std::vector<ChordLevel> chords_;         ///< of the lowest levels
+  std::vector<ChordLevel> chords_;         ///< of the lowest levels, or of all
 };
 
 }  // namespace medial::site

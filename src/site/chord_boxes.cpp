@@ -19,7 +19,7 @@ namespace {
 /// next one's start instead, up to 8 u away in both coordinates: 12 u; a direction that is a unit
 /// vector up to 3 u, times a distance below 4: 12 u. That makes 36 u; this is 64 u.
 constexpr double chord_rounding = 0x1p-47;
-/// Chord boxes pay where the boundary strays from the chord by no more than this share of it,
+/// Chord boxes pay where the boundary strays from the chord by no more than this share of it.
 constexpr double flat_enough = 1.0 / 16;
 
 /// The normal of the line that a boundary shows to what lies on its left, through the highest
@@ -106,9 +106,7 @@ std::optional<ChordBox> chord_box(std::span<const Site> sites) {
 
 std::optional<ChordBox> box_along(std::span<const Site> sites,
                                   std::span<const std::uint32_t> indices) {
-  const Axes axes = axes_of(indices, [&](std::uint32_t i) {
-    return is_inside(sites[i]) ? sites[i].end() - sites[i].point : Vec2{};
-  });
+  const Axes axes = axes_of(indices, [&](std::uint32_t i) { return chord_of(sites[i]); });
   GrowingBox growing(axes.across);
   for (const std::uint32_t i : indices) {
     if (!is_inside(sites[i])) continue;

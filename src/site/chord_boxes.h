@@ -44,8 +44,13 @@ std::optional<ChordBox> chord_box(std::span<const Site> sites);
 constexpr std::size_t many_sites = 128;
 constexpr double little_room = 0x1p-8;
 
-/// The box of some sites, which need not follow each other, along the direction in which they are
-/// longest; none of cuts alone. O(n).
+/// From a site's start to its end; nothing of a cut.
+inline Vec2 chord_of(const Site& site) {
+  return is_inside(site) ? site.end() - site.point : Vec2{};
+}
+
+/// The box of some sites, which need not follow each other, along the main direction of their
+/// chords; none of cuts alone. O(n).
 std::optional<ChordBox> box_along(std::span<const Site> sites,
                                   std::span<const std::uint32_t> indices);
 
