@@ -582,6 +582,25 @@ TEST(LeeProgress, GrowsToOneOnOneThread) {
   EXPECT_EQ(told.back(), 1);
 }
 
+/// Of a shape that lee leaves to `disks`, and of one that this walks again in 256 bits.
+TEST(LeeProgress, GrowsToOneOnceWhereDisksTakesOver) {
+  Rings round{{}};
+  for (int i = 0; i < 2000; ++i) {
+    const double angle = std::numbers::pi * i / 1000;
+    round[0].points.push_back({std::cos(angle), (1 - 1e-11) * std::sin(angle)});
+  }
+  for (const Rings& rings : {round, random_arc_shape(27).rings}) {
+    std::vector<double> told;
+    Options options = by_lee();
+    options.progress = [&](double share) { told.push_back(share); };
+    const auto axis = compute(built(rings), options);
+    ASSERT_TRUE(axis.ok());
+    EXPECT_EQ(axis->method, "disks");
+    EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+    EXPECT_EQ(std::count(told.begin(), told.end(), 1), 1);
+  }
+}
+
 TEST(LeeThreads, GiveTheSameBytes) {
   for (const Rings& rings :
        {maze(20000), blob(20000), jagged_star(10000), spiral(10000, 20), hole_grid(40)}) {

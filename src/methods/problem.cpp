@@ -28,4 +28,12 @@ site::SiteNumbers Problem::numbers() && {
   return std::move(*numbers_);
 }
 
+std::function<void(double)> Problem::progress_of_attempt() const {
+  if (!options.progress) return {};
+  constexpr double most = 0.9;  // the rest is for what comes after it, as for another attempt
+  const double begin = attempted, length = most * (1 - begin);
+  attempted += length;
+  return [&tell = options.progress, begin, length](double share) { tell(begin + length * share); };
+}
+
 }  // namespace medial

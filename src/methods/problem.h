@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
@@ -45,6 +46,11 @@ struct Problem {
     return std::get<Own>(options.method);
   }
   bool is_cancelled() const { return options.cancel != nullptr && options.cancel->load(); }
+  /// Takes the share done of one attempt at the problem: its progress goes from where those before
+  /// end, over most of what is left. Empty where the caller wants none.
+  std::function<void(double)> progress_of_attempt() const;
+
+  mutable double attempted = 0;  ///< the share of the progress where the attempts so far end
 
  private:
   mutable std::optional<site::SiteNumbers> numbers_;

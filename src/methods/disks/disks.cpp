@@ -25,11 +25,12 @@ namespace medial::disks {
 namespace {
 
 /// Reports the share of the walk that is done, if the caller wants it.
-std::function<void(std::uint64_t)> reporter(const Options& options, const Boundary& boundary,
+std::function<void(std::uint64_t)> reporter(const Problem& problem, const Boundary& boundary,
                                             std::atomic<std::uint64_t>& finished) {
-  if (!options.progress) return {};
-  return [&, all = static_cast<double>(boundary.sites.size())](std::uint64_t sites) {
-    options.progress(std::min(1.0, static_cast<double>(finished += sites) / all));
+  const auto tell = problem.progress_of_attempt();
+  if (!tell) return {};
+  return [&finished, tell, all = static_cast<double>(boundary.sites.size())](std::uint64_t sites) {
+    tell(std::min(1.0, static_cast<double>(finished += sites) / all));
   };
 }
 
@@ -85,7 +86,7 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   const ExactEvents events(sites, boundary, tree, way.in_precise);
   auto chunks = walk({boundary, bridges, tree, tolerance, problem.fine_tolerance,
                       problem.radius_limit, events, problem.options.cancel,
-                      reporter(problem.options, boundary, finished), 0, way.merges_ties});
+                      reporter(problem, boundary, finished), 0, way.merges_ties});
   statistics.seconds_walk = watch.lap();
   if (problem.is_cancelled()) return std::nullopt;
 
@@ -302,6 +303,7 @@ struct Posed {
   explicit Posed(const Problem& own)
       : pose(own.shape), problem(pose.shape(), own.options), numbers(pose.to_image(own.numbers())) {
     problem.joint_tolerance = own.joint_tolerance;
+    problem.attempted = own.attempted;
   }
 };
 

@@ -54,7 +54,7 @@ class Solution {
     const ConquerContext context{{problem_.fine_tolerance, problem_.radius_limit},
                                  problem_.local_tolerance(),
                                  problem_.options.cancel,
-                                 problem_.options.progress};
+                                 problem_.progress_of_attempt()};
     const auto last_edges = conquer(*diagram_, context, statistics, levels);
     if (!last_edges || problem_.is_cancelled()) return false;
     graph.emplace(*diagram_, *last_edges, problem_.local_tolerance());
