@@ -211,6 +211,9 @@ Result<int> run_offset(const OffsetArguments& arguments) {
     return invalid_option("outward passes never end: give --until a distance");
   if (arguments.loose && (arguments.step > 0 || arguments.exterior))
     return invalid_option("--loose needs --distance, not --step");
+  if (arguments.write.chords && !writes_one_of(arguments, "wkt"))
+    return invalid_option(
+        "--chords is for well-known text: other formats have arcs, or chords only");
   Status writable = check_output(arguments, io::formats_of(io::DocumentKind::offsets));
   if (!writable) return std::move(writable).error();
   const auto streamed = stream_offsets(arguments);

@@ -23,6 +23,10 @@ class Offset(CommandLine):
         features = json.loads(self.read("o.geojson"))["features"]
         self.assertAlmostEqual(features[0]["properties"]["area"], 80 + 36 + math.pi)
         self.assertIn(b"CIRCULARSTRING", self.read("o.wkt"))
+        self.succeed("offset", "s.wkt", "--distance=1,-1", "--chords", "-o", "o.wkt")
+        self.assertNotIn(b"CIRCULARSTRING", self.read("o.wkt"))
+        for output in (["-o", "p.svg"], ["-o", "p.dxf"], ["-o", "p.geojson"], []):
+            self.assertIn("--chords", self.refuse("invalid_option", "offset", "s.wkt", "--distance=-1", "--chords", *output))
         self.assertEqual(self.read("o.wkt").count(b"\n"), 2)
 
     def test_tables(self):
