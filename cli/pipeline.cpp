@@ -174,12 +174,12 @@ Status check_image_options(const InputOptions& input) {
     return invalid_option(
         "--labels uses each value above 0: --threshold and --invert have no effect");
   std::error_code ignored;
-  const bool is_there = input.path != "-" && std::filesystem::exists(input.path, ignored);
+  const bool is_there = input.path == "-" || std::filesystem::exists(input.path, ignored);
   if (!is_there || io::is_image(input.path)) return success();
   if (input.whole_smooth && io::is_native(input.path)) return success();  // may be of an image
   return invalid_option(
-      "--threshold, --invert, --labels and --smooth-contour are for images, which " + input.path +
-      " is not");
+      "--threshold, --invert, --labels and --smooth-contour are for images, which " +
+      (input.path == "-" ? "standard input" : input.path) + " is not");
 }
 
 /// medial's own format has no layers and no rings to repair, and other files than images no pixels.

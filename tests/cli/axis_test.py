@@ -179,6 +179,8 @@ class Axis(CommandLine):
         self.write("a.wkt", RECTANGLE)
         self.refuse("invalid_option", "axis", "a.wkt", "-o", "a.json", "--radius-as-z")
         self.refuse("invalid_option", "axis", "a.wkt", "--smooth-contour")
+        for option in (["--smooth-contour"], ["--threshold", "4"], ["--invert"], ["--labels"]):
+            self.assertIn("standard input", self.refuse("invalid_option", "axis", "-", *option, given=self.read("a.wkt")))
 
     def test_touching_rings(self):
         self.write("touch.wkt",

@@ -62,6 +62,8 @@ class Images(CommandLine):
             self.succeed("axis", "key.pbm", "--json", *options).stdout)["branches"]
         self.assertEqual(count(), 1)
         self.assertGreater(count("--smooth-contour"), 20)
+        piped = self.succeed("axis", "-", "--smooth-contour", "--json", given=self.read("key.pbm"))
+        self.assertEqual(json.loads(piped.stdout)["branches"], count("--smooth-contour"))
         self.assertGreater(count("--pixel-outline"), 20)
         self.assertIn(b"--pixel-outline", self.succeed("axis", "key.pbm").stderr)
         self.succeed("axis", "key.pbm", "--mask", "-o", "skeleton.png")
