@@ -249,6 +249,9 @@ class Carve(CommandLine):
         self.assertIn(note, self.succeed(*common, *mill, "--step", "3").stderr)
         self.assertEqual(self.succeed(*common, *mill, "--step", "2").stderr, b"")
         self.assertEqual(self.succeed(*common, *cone, "--step", "3").stderr, b"")
+        # Without a step it follows from the depth.
+        error = self.refuse("too_large", *common, "--angle", "90", "--depth", "1e-9")
+        self.assertIn("more than 1e6 passes: a larger step, tool or depth", error)
 
     def test_templates_and_preview(self):
         self.write("s.wkt", self.SQUARE)
