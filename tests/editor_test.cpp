@@ -605,6 +605,14 @@ TEST(Editor, RefusesEdgesThatCrossWithThePlace) {
   EXPECT_EQ(fault_of(editor), "");
 }
 
+// The axes of the editor and of compute() name another of two sites whose common end the disks
+// touch: where a fillet of 1e-9 meets its segment, or at a reflex vertex; or the editor's
+// tolerance, that of a smaller shape before, makes a joint a site.
+TEST(Editor, MayNameEitherSiteOfTheirCommonEnd) {
+  for (const std::uint64_t seed : {20280134, 20283356, 20317004, 21060758, 21255404})
+    EXPECT_EQ(fault_of_edits(seed, 4, EditKinds::arcs).value_or(""), "") << seed;
+}
+
 TEST(Editor, RefusesWhatIsNoEdit) {
   Editor editor = editor_of(triangle({0, 0}, {4, 0}, {0, 3}));
   EXPECT_EQ(editor.remove(0).error().code, ErrorCode::too_few_points);
