@@ -371,5 +371,20 @@ class Inputs(CommandLine):
         self.assertEqual(json.loads(self.read("latin.geojson"))["features"][0]["properties"], {"name": "Zürich €"})
         piped = self.succeed("voronoi", "-", "--json", given=self.read("wells.csv"))
         self.assertEqual(json.loads(piped.stdout)["points"], 3)
+        # Filters name fields and values as outputs have them.
+        self.write("f.geojson", json.dumps({"type": "FeatureCollection", "features": [
+            {"type": "Feature", "properties": {"gr__e": size, "name": name}, "geometry": {
+                "type": "Polygon", "coordinates": [[[x, 0], [x + 4, 0], [x + 4, 2], [x, 0]]]}}
+            for x, size, name in ((0, 1, "Bonn"), (10, 5, "K_ln"))]}))
+        self.succeed("rebuild", "f.geojson", "-o", "f.shp")
+        os.remove(self.path("f.cpg"))
+        plain = self.read("f.dbf").replace(b"K_ln", "Köln".encode("cp1252"))
+        for table in (plain, plain.replace(b"gr__e", "größe".encode("cp1252"))):
+            self.write("f.dbf", table)
+            named = "größe" if table != plain else "gr__e"
+            for condition in (named + " > 3", "name = 'Köln'"):
+                self.succeed("rebuild", "f.shp", "--where", condition, "-o", "g.geojson")
+                features = json.loads(self.read("g.geojson"))["features"]
+                self.assertEqual([(f["properties"][named], f["properties"]["name"]) for f in features], [(5, "Köln")])
         self.write("names.txt", "x y\nwords only\n")
         self.refuse("malformed", "axis", "names.txt")

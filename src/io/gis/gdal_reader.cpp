@@ -72,6 +72,35 @@ std::string field_text(const OGRFeature& feature, int field, bool& recoded) {
   return {text.data(), end.ptr};
 }
 
+bool is_ascii(std::string_view text) {
+  return std::ranges::all_of(text, [](char c) { return static_cast<signed char>(c) >= 0; });
+}
+
+/// Whether the first text of a layer that is not ASCII, of its fields' names and then of their
+/// values, is not UTF-8 either.
+bool names_no_encoding(OGRLayer& layer) {
+  const OGRFeatureDefn& fields = *layer.GetLayerDefn();
+  for (int i = 0; i < fields.GetFieldCount(); ++i)
+    if (const char* name = fields.GetFieldDefn(i)->GetNameRef(); !is_ascii(name))
+      return !CPLIsUTF8(name, -1);
+  if (layer.TestCapability(OLCStringsAsUTF8)) return false;
+  for (const OGRFeatureUniquePtr& feature : layer)
+    for (int i = 0; i < fields.GetFieldCount(); ++i)
+      if (fields.GetFieldDefn(i)->GetType() == OFTString)
+        if (const char* value = feature->GetFieldAsString(i); !is_ascii(value))
+          return !CPLIsUTF8(value, -1);
+  return false;
+}
+
+/// A filter as the layer's text is encoded, which GDAL compares byte by byte.
+std::string filter_for(OGRLayer& layer, const std::string& filter) {
+  if (is_ascii(filter) || !names_no_encoding(layer)) return filter;
+  char* bytes = CPLRecode(filter.c_str(), CPL_ENC_UTF8, "CP1252");
+  std::string result = bytes;
+  CPLFree(bytes);
+  return result;
+}
+
 /// " name rank": what filters can ask for.
 std::string fields_of(OGRLayer& layer) {
   std::string names;
@@ -130,7 +159,7 @@ class GdalReader final : public FeatureReader {
     if (!layer) return layer.error();
     layer_ = *layer;
     if (!options_.where.empty() &&
-        layer_->SetAttributeFilter(options_.where.c_str()) != OGRERR_NONE) {
+        layer_->SetAttributeFilter(filter_for(*layer_, options_.where).c_str()) != OGRERR_NONE) {
       return error(ErrorCode::invalid_option,
                    fmt::format("the filter '{}' does not work: {}; the fields are{}",
                                options_.where, messages.failure(), fields_of(*layer_)));
