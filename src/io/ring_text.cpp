@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/arc.h"
+#include "base/twofold.h"
 
 namespace medial::io {
 
@@ -15,14 +15,16 @@ Vec2 next_point(const Ring& ring, std::size_t i) {
 }
 
 /// The bulge of the arc from a through m to b: tangent of half the angle by which its chords turn
-/// at m, which is half of the arc's angle. Not a number where a coordinate is not one, or
-/// overflows.
+/// at m, which is half of the arc's angle; sine / (1 + cosine), or (1 - cosine) / sine where the
+/// first would cancel. With twice the digits of double, as all of an arc that is nearly a full
+/// circle is in the gap between a and b. Not a number where a coordinate is not one, or overflows.
 double bulge_of(Vec2 a, Vec2 m, Vec2 b) {
-  const Vec2 u = m - a;
-  const Vec2 v = b - m;
-  const double scale = norm(u) * norm(v) + dot(u, v);
-  if (!std::isfinite(scale)) return std::numeric_limits<double>::quiet_NaN();
-  return scale > 0 ? cross(u, v) / scale : 0;
+  const Twofold ux = Twofold(m.x) - a.x, uy = Twofold(m.y) - a.y;
+  const Twofold vx = Twofold(b.x) - m.x, vy = Twofold(b.y) - m.y;
+  const Twofold sine = ux * vy - uy * vx, cosine = ux * vx + uy * vy;  // times both lengths
+  if (sine.high == 0) return 0;
+  const Twofold lengths = sqrt(ux * ux + uy * uy) * sqrt(vx * vx + vy * vy);
+  return cosine.high < 0 ? ((lengths - cosine) / sine).high : (sine / (lengths + cosine)).high;
 }
 
 }  // namespace

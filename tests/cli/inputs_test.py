@@ -272,6 +272,20 @@ class Inputs(CommandLine):
         for name in ("EPSG:99999999", "EPSG:32632x", "EPSG:5773", "EPSG:4978"):  # the last: heights, geocentric
             self.refuse("invalid_option", "axis", "metres.geojson", "--crs", name)
 
+    def test_arcs_that_are_nearly_full_circles(self):
+        """All that three points say of such an arc is in the gap between two of them."""
+        for gap in (1e-3, 1e-6, 1e-8, 1e-12):
+            half = gap / 2
+            for x, y in ((-1, 0), (0.6, 0.8), (0.28, -0.96)):
+                for ring in (f"CIRCULARSTRING(1 {half},{x} {y},1 {-half}),(1 {-half},1 {half})",
+                             f"CIRCULARSTRING(1 {-half},{x} {y},1 {half}),(1 {half},1 {-half})"):
+                    self.write("disc.wkt", f"CURVEPOLYGON(COMPOUNDCURVE({ring}))")
+                    area = json.loads(self.succeed("info", "disc.wkt", "--json").stdout)["area"]
+                    # The circle's centre is off by less than the square of the gap.
+                    self.assertAlmostEqual(area, math.pi, delta=1e-13 + 9 * gap ** 2)
+                    radius = json.loads(self.succeed("axis", "disc.wkt", "--json").stdout)["deepest"]["radius"]
+                    self.assertAlmostEqual(radius, 1, delta=1e-13 + gap ** 2)
+
     def test_a_code_in_a_file_of_medial_is_a_reference_system(self):
         axis = json.loads(self.succeed("axis", self.write("a.wkt", "POLYGON((0 0,4 0,4 2,0 2,0 0))"), "-o", "-").stdout)
         self.write("coded.json", json.dumps({**axis, "crs": "EPSG:25832"}))
