@@ -107,7 +107,7 @@ Result<Document<Feature>> read_text(const std::string& text, const std::string& 
   return module->read_text(text, font, size);
 }
 
-void describe_crs(Document<Feature>& document) {
+void describe_crs(DocumentInfo& document) {
   if (document.crs_wkt.empty()) return;
   if (const GisModule* const module = loaded().module)
     module->describe(document);
@@ -115,7 +115,7 @@ void describe_crs(Document<Feature>& document) {
     document.notes.push_back(loaded().failure);
 }
 
-Status describe_crs(const std::string& name, Document<Feature>& document) {
+Status describe_crs(const std::string& name, DocumentInfo& document) {
   return in_module(&GisModule::describe_by_name, name, document);
 }
 

@@ -26,8 +26,8 @@ struct DrawModule {
 struct GisModule {
   const char* stamp;
   decltype(&io::formats_at_hand) formats;
-  void (*describe)(Document<Feature>&);
-  Status (*describe_by_name)(const std::string&, Document<Feature>&);
+  void (*describe)(DocumentInfo&);
+  Status (*describe_by_name)(const std::string&, DocumentInfo&);
   decltype(&io::degrees_of_unit) degrees_of_unit;
   decltype(&io::output_crs_of) output_crs_of;
   decltype(&io::urn_of_crs) urn_of_crs;

@@ -152,6 +152,21 @@ bool has_curves(const Feature& feature) {
          std::ranges::any_of(feature.rings, [](const Ring& ring) { return !ring.bulges.empty(); });
 }
 
+/// Refuses heights and geocentric coordinates, by the WKT of their reference system.
+Status check_plane(const DocumentInfo& document, ErrorCode code) {
+  const std::string& wkt = document.crs_wkt;
+  // In WKT of 2015, longitudes and latitudes are GEODCRS, too.
+  const bool is_geocentric = wkt.starts_with("GEOCCS[") ||
+                             (wkt.starts_with("GEOD") && wkt.find("CS[Cartesian,") != wkt.npos);
+  if (!is_geocentric && !wkt.starts_with("VERT")) return success();
+  const std::size_t begin = wkt.find('"') + 1;  // of its name
+  return Error{code,
+               fmt::format("the reference system '{}' has neither plane coordinates nor longitudes "
+                           "and latitudes: name that of x and y",
+                           wkt.substr(begin, wkt.find('"', begin) - begin)),
+               {}};
+}
+
 Result<Document<Feature>> finish(Document<Feature> document, const ReadOptions& options) {
   FeatureChecks checks(options);
   if (Status checked = checks.check(document); !checked) return std::move(checked).error();
@@ -177,8 +192,12 @@ Result<Document<Feature>> finish(Document<Feature> document, const ReadOptions& 
 }  // namespace
 
 Status settle_crs(Document<Feature>& dataset, const std::string& crs, Vec2 reach) {
-  if (!crs.empty()) return describe_crs(crs, dataset);
+  if (!crs.empty()) {
+    Status named = describe_crs(crs, dataset);
+    return named ? check_plane(dataset, ErrorCode::invalid_option) : named;
+  }
   describe_crs(dataset);
+  if (Status plane = check_plane(dataset, ErrorCode::unsupported); !plane) return plane;
   if (!dataset.geographic || can_be_angles(reach, degrees_of_unit(dataset.crs_wkt)))
     return success();
   dataset.crs_wkt.clear();
@@ -244,7 +263,10 @@ bool begins_like_axes(std::string_view text) {
 Result<Document<AxisItem>> read_axes(TextSource& source) {
   auto axes = begins_like_safetensors(source.lookahead(sniffed)) ? read_safetensors(source)
                                                                  : read_native(source);
-  if (axes) axes->geographic = axes->crs_wkt.starts_with("GEOG");  // GEOGCRS, in WKT 1 GEOGCS
+  if (!axes) return axes;
+  if (axes->crs_wkt.starts_with("EPSG:")) describe_crs(*axes);
+  if (Status plane = check_plane(*axes, ErrorCode::unsupported); !plane) return plane.error();
+  axes->geographic = axes->crs_wkt.starts_with("GEOG");  // GEOGCRS, in WKT 1 GEOGCS
   return axes;
 }
 

@@ -13,9 +13,9 @@ namespace medial::io {
 
 /// A document's reference system may be named "EPSG:n" or WKT: makes it WKT, and sets the unit and
 /// whether it is geographic. One that is not understood becomes a note.
-void describe_crs(Document<Feature>& document);
+void describe_crs(DocumentInfo& document);
 /// Gives the document the named system instead. Errors: invalid_option (it names none).
-Status describe_crs(const std::string& name, Document<Feature>& document);
+Status describe_crs(const std::string& name, DocumentInfo& document);
 /// How many degrees the unit of longitudes and latitudes is, such as 0.9 for grads; by default 1.
 double degrees_of_unit(const std::string& crs_wkt);
 

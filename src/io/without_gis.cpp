@@ -16,9 +16,9 @@ Error missing(const char* libraries, const char* work) {
 
 }  // namespace
 
-void describe_crs(Document<Feature>&) {}
+void describe_crs(DocumentInfo&) {}
 
-Status describe_crs(const std::string& name, Document<Feature>& document) {
+Status describe_crs(const std::string& name, DocumentInfo& document) {
   document.crs_wkt = name;
   return success();
 }

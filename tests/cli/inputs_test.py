@@ -286,6 +286,27 @@ class Inputs(CommandLine):
                     radius = json.loads(self.succeed("axis", "disc.wkt", "--json").stdout)["deepest"]["radius"]
                     self.assertAlmostEqual(radius, 1, delta=1e-13 + gap ** 2)
 
+    def test_what_is_no_plane_is_no_reference_system(self):
+        """Geocentric coordinates and heights: the same from an option and from every file."""
+        axis = json.loads(self.succeed("axis", self.write("a.wkt", "POLYGON((0 0,4 0,4 2,0 2,0 0))"), "-o", "-").stdout)
+        cartesian = ('GEODCRS["spinning",DATUM["d",ELLIPSOID["e",6378137,298]],CS[Cartesian,3],AXIS["(X)",geocentricX],'
+                     'AXIS["(Y)",geocentricY],AXIS["(Z)",geocentricZ],LENGTHUNIT["metre",1]]')
+        for crs in ("EPSG:4978", "EPSG:4936", "EPSG:5773", cartesian):
+            said = "has neither plane coordinates nor longitudes and latitudes"
+            self.assertIn(said, self.refuse("invalid_option", "axis", "a.wkt", "--crs", crs))
+            self.write("own.json", json.dumps({**axis, "crs": crs}))
+            self.assertIn(said, self.refuse("unsupported", "axis", "own.json"))
+            self.assertIn(said, self.refuse("unsupported", "prune", "own.json", "-o", "b.json"))
+            self.write("shape.json", json.dumps({"medial": axis["medial"], "crs": crs, "items": [
+                {"shape": axis["items"][0]["shape"]}]}))
+            self.assertIn(said, self.refuse("unsupported", "axis", "shape.json"))
+        self.write("a.geojson", '{"type":"Polygon","coordinates":[[[0,0],[4,0],[4,2],[0,0]]],'
+                   '"crs":{"type":"name","properties":{"name":"EPSG:4978"}}}')
+        self.assertIn(said, self.refuse("unsupported", "axis", "a.geojson"))
+        self.succeed("axis", "a.geojson", "--crs", "EPSG:25832")
+        self.write("degrees.json", json.dumps({**axis, "crs": "EPSG:4326"}))
+        self.succeed("prune", "degrees.json", "-o", "c.json")
+
     def test_a_code_in_a_file_of_medial_is_a_reference_system(self):
         axis = json.loads(self.succeed("axis", self.write("a.wkt", "POLYGON((0 0,4 0,4 2,0 2,0 0))"), "-o", "-").stdout)
         self.write("coded.json", json.dumps({**axis, "crs": "EPSG:25832"}))

@@ -262,7 +262,7 @@ void add_rings(const OGRGeometry& geometry, std::vector<Ring>& rings, GeometryCo
 
 namespace {
 
-void describe_units(const OGRSpatialReference& reference, Document<Feature>& dataset) {
+void describe_units(const OGRSpatialReference& reference, DocumentInfo& dataset) {
   dataset.geographic = reference.IsGeographic() != 0;
   if (dataset.geographic)
     dataset.unit = Unit::degree;
@@ -272,7 +272,7 @@ void describe_units(const OGRSpatialReference& reference, Document<Feature>& dat
 
 }  // namespace
 
-void set_crs(const OGRSpatialReference& reference, Document<Feature>& dataset) {
+void set_crs(const OGRSpatialReference& reference, DocumentInfo& dataset) {
   if (const char* name = reference.GetName(); name != nullptr && EQUAL(name, no_reference)) return;
   char* text = nullptr;
   const char* const options[] = {"FORMAT=WKT2_2019", "MULTILINE=NO", nullptr};
@@ -293,29 +293,24 @@ bool find_crs(const std::string& name, OGRSpatialReference& reference) {
          OGRERR_NONE;
 }
 
-Status describe_crs(const std::string& name, Document<Feature>& dataset) {
+Status describe_crs(const std::string& name, DocumentInfo& dataset) {
   const GdalMessages messages;
   OGRSpatialReference reference;
   if (!find_crs(name, reference))
     return Error{ErrorCode::invalid_option,
                  fmt::format("'{}' does not name a reference system; use EPSG:n or WKT", name),
                  {}};
-  if (!reference.IsProjected() && !reference.IsGeographic() && !reference.IsLocal())
-    return Error{ErrorCode::invalid_option,
-                 fmt::format("'{}' has neither plane coordinates nor longitudes and latitudes; "
-                             "name the reference system of x and y",
-                             name),
-                 {}};
   set_crs(reference, dataset);
   return success();
 }
 
-void describe_crs(Document<Feature>& dataset) {
+void describe_crs(DocumentInfo& dataset) {
   const std::string& name = dataset.crs_wkt;
-  if (name.empty() || dataset.geographic || dataset.unit != Unit::unknown) return;
+  const bool coded = name.starts_with("EPSG:");
+  const bool described = name.empty() || dataset.geographic || dataset.unit != Unit::unknown;
+  if (described && !coded) return;
   const GdalMessages messages;
   OGRSpatialReference reference;
-  const bool coded = name.starts_with("EPSG:");
   if (find_crs(name, reference)) {
     if (coded)
       set_crs(reference, dataset);

@@ -72,6 +72,6 @@ bool find_crs(const std::string& name, OGRSpatialReference& reference);
 inline constexpr const char* no_reference = "Undefined Cartesian SRS";
 
 /// Sets crs_wkt, geographic and the unit; a reference system that is not understood becomes a note.
-void set_crs(const OGRSpatialReference& reference, Document<Feature>& dataset);
+void set_crs(const OGRSpatialReference& reference, DocumentInfo& dataset);
 
 }  // namespace medial::io
