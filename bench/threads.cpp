@@ -82,6 +82,7 @@ void allow_startable_threads(int /*requested*/) {}
 namespace threads {
 
 void run_ranges(std::size_t count, std::size_t grain, FunctionRef<std::size_t, std::size_t> work) {
+  if (count <= grain) return count > 0 ? work(0, count) : void();
   const std::size_t length = std::max(grain, count / most_ranges + 1);
   Fork fork;
   for (std::size_t begin = 0; begin < count; begin += length)

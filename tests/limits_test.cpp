@@ -83,6 +83,23 @@ TEST(Limits, ExteriorsOfTinyEdgesAreVerifiedOrRefused) {
   }
 }
 
+// Found by fuzzing: 256 bits do not hold an x of 1e-97 beside a size of 85.
+TEST(Limits, VerticesThatDifferByLessThan256BitsHoldHaveAPlace) {
+  const Shape shape = *build_shape(std::vector{ring_of(
+      {{0, -85}, {0, -85.000000000002728}, {6.675e-05, -84.99999}, {-2.1213845982199024e-97, 0}})});
+  for (const bool exterior : {false, true}) {
+    Options options;
+    options.exterior = exterior;
+    const auto axis = compute(shape, options);
+    if (axis) {
+      EXPECT_TRUE(verify(shape, *axis).passed) << exterior;
+    } else {
+      EXPECT_EQ(axis.error().code, ErrorCode::unsupported) << exterior;
+      EXPECT_TRUE(axis.error().place.point.has_value());
+    }
+  }
+}
+
 // An edge between two vertices so near to each other has a weight of 1e60.
 TEST(Limits, TheAreaBesideAWaistIsANumber) {
   for (const double half : {1e-10, 1e-60, 1e-90}) {

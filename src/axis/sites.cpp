@@ -113,20 +113,27 @@ medial::Site result_site(const Shape& shape, const SiteNumbers& numbers, std::ui
 
 std::vector<medial::Site> result_sites(const Shape& shape, const SiteNumbers& numbers,
                                        std::size_t first, std::size_t last) {
-  std::vector<medial::Site> sites;
-  reserve_large(sites, last - first == numbers.edge.size() ? numbers.count : 2 * (last - first));
+  const auto first_number = [&](std::size_t point) {
+    return point < numbers.edge.size() ? numbers.edge[point] - (numbers.is_site(point) ? 1 : 0)
+                                       : numbers.count;
+  };
+  const std::uint32_t base = first_number(first);
+  auto sites = large_vector<medial::Site>(first_number(last) - base);
   const auto& begins = shape.loop_begin;
-  auto next = std::upper_bound(begins.begin(), begins.end(), first);  // loop
-  for (std::size_t i = first; i < last; ++i) {
-    while (*next <= i) ++next;
-    const std::size_t begin = *(next - 1), end = *next;
-    const Vec2 p = shape.points[i], q = shape.points[i + 1 == end ? begin : i + 1];
-    const auto [ring, vertex] = shape.sources[i];
-    const double bulge = shape.bulge(i);
-    if (numbers.is_site(i)) sites.push_back({p, p, ring, vertex});
-    if (end - begin == 1) continue;
-    sites.push_back({p, q, ring, vertex, bulge});
-  }
+  constexpr std::size_t grain = 4096;
+  parallel_ranges(last - first, grain, [&](std::size_t i, std::size_t stop) {
+    i += first;
+    stop += first;
+    auto next = std::upper_bound(begins.begin(), begins.end(), i);  // loop
+    for (medial::Site* site = sites.data() + (first_number(i) - base); i < stop; ++i) {
+      while (*next <= i) ++next;
+      const std::size_t begin = *(next - 1), end = *next;
+      const Vec2 p = shape.points[i], q = shape.points[i + 1 == end ? begin : i + 1];
+      const auto [ring, vertex] = shape.sources[i];
+      if (numbers.is_site(i)) *site++ = {p, p, ring, vertex};
+      if (end - begin > 1) *site++ = {p, q, ring, vertex, shape.bulge(i)};
+    }
+  });
   return sites;
 }
 

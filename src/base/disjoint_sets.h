@@ -27,11 +27,16 @@ class DisjointSets {
   }
   /// Whether the two were in different sets until now.
   bool join(std::uint32_t i, std::uint32_t j) {
+    if (!join_uncounted(i, j)) return false;
+    --count_;
+    return true;
+  }
+  /// The same without a change of count(): threads may join numbers that no other one joins.
+  bool join_uncounted(std::uint32_t i, std::uint32_t j) {
     i = find(i);
     j = find(j);
     if (i == j) return false;
     parent_[std::max(i, j)] = std::min(i, j);
-    --count_;
     return true;
   }
 

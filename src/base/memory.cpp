@@ -44,4 +44,10 @@ void give_back_pages(void*, std::size_t) {}
 
 #endif
 
+void touch_pages(void* begin, std::size_t bytes) {
+  constexpr std::size_t page = 4096;
+  auto* const byte = static_cast<volatile char*>(begin);
+  for (std::size_t i = 0; i < bytes; i += page) byte[i] = 0;
+}
+
 }  // namespace medial

@@ -4,6 +4,8 @@
 #include <memory>
 #include <vector>
 
+#include "base/threads.h"
+
 namespace medial {
 
 /// Asks the system to back an array that nobody has touched yet with large pages, if it is large:
@@ -14,6 +16,19 @@ void prefer_large_pages(const void* begin, std::size_t bytes);
 /// for other arrays before it is freed, and where the allocator would keep it. Advice only; the
 /// content is lost.
 void give_back_pages(void* begin, std::size_t bytes);
+
+/// Touches each page of memory in which nothing is yet, so that the system provides it now.
+void touch_pages(void* begin, std::size_t bytes);
+
+/// The same on all threads, of reserved elements: the system clears memory on the thread that
+/// touches it first.
+template <class T, class Allocator>
+void touch_in_parallel(std::vector<T, Allocator>& elements, std::size_t begin, std::size_t end) {
+  constexpr std::size_t grain = (std::size_t{1} << 18) / sizeof(T);
+  parallel_ranges(end - begin, grain, [&](std::size_t from, std::size_t to) {
+    touch_pages(elements.data() + begin + from, (to - from) * sizeof(T));
+  });
+}
 
 /// reserve(), with large pages.
 template <class T>

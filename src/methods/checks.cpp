@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/arc.h"
@@ -119,16 +120,43 @@ bool has_right_topology(const Shape& shape, std::span<const Node> nodes, std::sp
     if (node.component >= counts.size()) return false;
     ++counts[node.component].nodes;
   }
+  // Most edges lead from node to node of about their own number: threads join these, each in a
+  // block of nodes of its own.
+  struct Findings {
+    std::uint64_t joined = 0;
+    bool stays = true;  ///< no edge leaves its component
+    std::vector<std::uint32_t> others;
+    std::vector<std::pair<std::uint32_t, std::uint64_t>> edges;  ///< of components, in runs
+  };
+  constexpr std::size_t block = 1 << 14;
   DisjointSets parts(nodes.size());
-  for (const E& edge : edges) {
-    const auto [from, to] = edge.node;
-    if (nodes[from].component != nodes[to].component) return false;
-    ++counts[nodes[from].component].edges;
-    parts.join(from, to);
+  const auto findings =
+      in_blocks<Findings>(edges.size(), block, [&](std::size_t e, Findings& found) {
+        const auto [from, to] = edges[e].node;
+        const std::uint32_t component = nodes[from].component;
+        if (component != nodes[to].component) found.stays = false;
+        if (counts.size() > 1) {
+          if (found.edges.empty() || found.edges.back().first != component)
+            found.edges.emplace_back(component, 0);
+          ++found.edges.back().second;
+        }
+        if (from / block == e / block && to / block == e / block)
+          found.joined += parts.join_uncounted(from, to) ? 1 : 0;
+        else
+          found.others.push_back(static_cast<std::uint32_t>(e));
+      });
+  if (counts.size() == 1) counts[0].edges = edges.size();
+  std::uint64_t joined = 0;
+  for (const Findings& found : findings) {
+    if (!found.stays) return false;
+    joined += found.joined;
+    for (const auto& [component, count] : found.edges) counts[component].edges += count;
+    for (const std::uint32_t e : found.others)
+      joined += parts.join_uncounted(edges[e].node[0], edges[e].node[1]) ? 1 : 0;
   }
   // As no edge leaves its component and each component has a node, each is one part then;
   // a connected graph has edges - nodes + 1 independent cycles.
-  return parts.count() == counts.size() &&
+  return nodes.size() - joined == counts.size() &&
          std::all_of(counts.begin(), counts.end(), [](const Count& count) {
            return count.nodes > 0 && count.edges + 1 == count.nodes + count.holes;
          });

@@ -1,6 +1,7 @@
 #include "methods/refusal.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "medial/verify.h"
@@ -45,13 +46,17 @@ Error error_of_wrong_axis(const Shape& shape, const MedialAxis& axis, const char
   // Of the size: 256 bits hold, beside a length of 1, another of 2^-200 with 56 bits of it.
   constexpr double shortest = 0x1p-200;
   const double size = diagonal(bounding_box(shape));
+  const auto is_lost = [&](double way) { return way != 0 && std::abs(way) < shortest * size; };
   for (std::size_t i = 0; i < shape.loop_count(); ++i) {
     const std::span<const Vec2> loop = shape.loop(i);
-    for (std::size_t k = 0; k < loop.size(); ++k)
-      if (distance(loop[k], loop[(k + 1) % loop.size()]) < shortest * size)
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const Vec2 way = loop[(k + 1) % loop.size()] - loop[k];
+      if (is_lost(way.x) || is_lost(way.y))
         return unsupported_at(loop[k],
-                              "an edge is too short here beside the size of the shape: merge its "
-                              "ends, or move what is far away nearer");
+                              "two neighbouring vertices differ by too little here beside the size "
+                              "of the shape: make their x or y equal, or bring what is far away "
+                              "nearer");
+    }
   }
   return {ErrorCode::internal, text, {}};
 }

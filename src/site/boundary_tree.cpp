@@ -52,10 +52,14 @@ struct Waiting {
 }  // namespace
 
 BoundaryTree::BoundaryTree(std::span<const Site> sites, Chords chords, std::size_t longest_range)
-    : sites_(sites),
-      longest_range_(longest_range),
-      has_arcs_(
-          std::any_of(sites.begin(), sites.end(), [](const Site& site) { return site.is_arc(); })) {
+    : sites_(sites), longest_range_(longest_range) {
+  std::atomic<bool> has_arcs = false;
+  parallel_ranges(sites.size(), std::size_t{1} << 14, [&](std::size_t begin, std::size_t end) {
+    const auto some = sites.subspan(begin, end - begin);
+    if (std::any_of(some.begin(), some.end(), [](const Site& site) { return site.is_arc(); }))
+      has_arcs = true;
+  });
+  has_arcs_ = has_arcs;
   if (sites.size() <= short_range) return;
   build_boxes();
   if (chords == Chords::none) return;
@@ -107,14 +111,17 @@ bool BoundaryTree::boxes_overlap_on(std::size_t level) const {
   constexpr std::size_t good_part = 16;
   constexpr std::size_t in_lane = std::size_t{1} << (2 * levels_above - 2);  // nodes
   const std::size_t above = level + levels_above;
-  std::size_t overlapping = 0;
-  for (std::size_t begin = 0; begin < levels_[level].size(); begin += in_lane) {
-    const std::size_t end = std::min(begin + in_lane, levels_[level].size());
-    double sum = 0;
-    for (std::size_t node = begin; node < end; ++node) sum += areas_of(level, node);
-    const std::size_t lane = begin / in_lane;
-    if (sum > least_overlap_in_plane * area(levels_[above][lane / fan], lane % fan)) ++overlapping;
-  }
+  std::atomic<std::size_t> overlapping = 0;
+  const std::size_t lanes = (levels_[level].size() + in_lane - 1) / in_lane;
+  parallel_ranges(lanes, 16, [&](std::size_t lane, std::size_t last) {
+    for (; lane < last; ++lane) {
+      const std::size_t end = std::min((lane + 1) * in_lane, levels_[level].size());
+      double sum = 0;
+      for (std::size_t node = lane * in_lane; node < end; ++node) sum += areas_of(level, node);
+      if (sum > least_overlap_in_plane * area(levels_[above][lane / fan], lane % fan))
+        ++overlapping;
+    }
+  });
   return overlapping * good_part * span_of(above) > sites_.size();
 }
 
@@ -176,11 +183,14 @@ void BoundaryTree::build_chord_boxes(std::uint32_t lowest) {
     // Where few of a sample fit, the level takes no memory.
     constexpr std::size_t sampled = 16;
     if (nodes > sampled * sampled) {
-      Fitting fitting;
-      ChordBoxes some;
-      for (std::size_t node = 0; node < nodes; node += sampled)
-        set_chord_boxes(level, node, some, fitting);
-      if (is_rare(sampled * fitting.lanes)) continue;
+      std::atomic<std::size_t> lanes = 0;
+      parallel_ranges((nodes + sampled - 1) / sampled, 64, [&](std::size_t i, std::size_t last) {
+        Fitting fitting;
+        ChordBoxes some;
+        for (; i < last; ++i) set_chord_boxes(level, sampled * i, some, fitting);
+        lanes += fitting.lanes;
+      });
+      if (is_rare(sampled * lanes)) continue;
     }
     boxes.resize(nodes);
     std::atomic<std::size_t> lanes = 0, flat = 0;

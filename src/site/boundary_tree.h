@@ -113,7 +113,7 @@ class BoundaryTree {
 
   std::span<const site::Site> sites_;
   std::size_t longest_range_;
-  bool has_arcs_;
+  bool has_arcs_ = false;
   WorkVector<std::uint32_t> in_plane_;     ///< the sites of blocks in turn; empty: boundary order
   std::vector<WorkVector<Boxes>> levels_;  ///< levels_[0]: of blocks; none of few sites
   std::vector<ChordLevel> chords_;         ///< of the lowest levels, or of all

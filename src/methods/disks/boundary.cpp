@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/arc.h"
+#include "base/threads.h"
 #include "base/twofold.h"
 #include "methods/checks.h"
 
@@ -175,6 +176,36 @@ void add_loop(const LoopEdges& loop, const SiteNumbers& numbers, const Start& st
   }
 }
 
+/// add_loop() of a shape without arcs: a loop's sites have the numbers in turn, so that each has
+/// its place.
+void add_polygon(const LoopEdges& loop, const SiteNumbers& numbers, const Start& start,
+                 Boundary& boundary) {
+  const auto first_number = [&](std::uint32_t i) {
+    return numbers.edge[loop.begin() + i] - (numbers.is_site(loop.begin() + i) ? 1 : 0);
+  };
+  const std::size_t end = boundary.sites.size();
+  const std::uint32_t last = loop.size() - 1;
+  const std::uint32_t count =
+      numbers.edge[loop.begin() + last] + (last > 0 ? 1 : 0) - first_number(0);
+  const std::uint32_t start_number = first_number(start.point);
+  const auto place_of = [&](std::uint32_t number) {
+    return end + (number >= start_number ? number - start_number : number + count - start_number);
+  };
+  boundary.resize(end + count);
+  constexpr std::size_t grain = 4096;
+  parallel_ranges(loop.size(), grain, [&](std::size_t begin, std::size_t stop) {
+    for (auto i = static_cast<std::uint32_t>(begin); i < stop; ++i) {
+      const std::uint32_t number = numbers.edge[loop.begin() + i];
+      if (numbers.is_site(loop.begin() + i))
+        boundary.set(place_of(number - 1), site::make_vertex(loop.local(i)), Element::vertex,
+                     number - 1);
+      if (last > 0)
+        boundary.set(place_of(number), site::make_segment(loop.local(i), loop.local(loop.next(i))),
+                     Element::edge, number);
+    }
+  });
+}
+
 }  // namespace
 
 void Originals::compress() {
@@ -222,12 +253,16 @@ Boundary loops_boundary(const Problem& problem, const SiteNumbers& numbers, Side
   boundary.has_arcs = has_arcs(shape);
   boundary.sides = sides;
   boundary.reserve(numbers.count);
+  if (!boundary.has_arcs) touch_in_parallel(boundary.sites, 0, numbers.count);
   for (std::size_t l = 0; l < shape.loop_count(); ++l) {
     const LoopEdges loop(shape, l, problem.frame);
     const Start start = shape.hole[l] ? start_of_hole(loop, numbers, boundary.has_arcs)
                                       : start_of_outer(loop, numbers, boundary.has_arcs);
     const auto first = static_cast<std::uint32_t>(boundary.sites.size());
-    add_loop(loop, numbers, start, boundary);
+    if (boundary.has_arcs)
+      add_loop(loop, numbers, start, boundary);
+    else
+      add_polygon(loop, numbers, start, boundary);
     const Joint joint = numbers.joints[loop.begin() + start.point];
     const bool at_corner = !shape.hole[l] && (joint == Joint::corner || joint == Joint::blunt);
     boundary.runs.push_back(

@@ -42,6 +42,8 @@ class Originals {
   }
   std::size_t size() const { return stored_.empty() ? count_ : stored_.size(); }
   void reserve(std::size_t count) { stored_.reserve(count); }
+  void resize(std::size_t count) { stored_.resize(count); }
+  void set(std::size_t i, std::uint32_t original) { stored_[i] = original; }
   void push_back(std::uint32_t original) { stored_.push_back(original); }
   void assign(WorkVector<std::uint32_t> originals) { stored_ = std::move(originals); }
   /// Gives memory back where they are the numbers in turn.
@@ -86,6 +88,17 @@ struct Boundary {
     elements.push_back(element);
     originals.push_back(original);
     if (has_arcs) joints.push_back(joint);
+  }
+  void resize(std::size_t count) {
+    sites.resize(count);
+    elements.resize(count);
+    originals.resize(count);
+  }
+  /// Of a boundary without arcs, which may be set on several threads.
+  void set(std::size_t i, const site::Site& site, Element element, std::uint32_t original) {
+    sites[i] = site;
+    elements[i] = element;
+    originals.set(i, original);
   }
   std::size_t longest_run() const {  ///< in sites
     std::size_t longest = 0;

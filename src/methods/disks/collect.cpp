@@ -8,6 +8,7 @@
 #include "axis/node_kinds.h"
 #include "axis/sites.h"
 #include "axis/statistics.h"
+#include "base/compat.h"
 #include "base/fill_gaps.h"
 #include "base/memory.h"
 #include "base/numbers.h"
@@ -59,7 +60,7 @@ struct Gluing {
   WorkVector<std::uint32_t> number;  ///< of each node: which one of the axis it becomes
   std::vector<bool> node_stays;      ///< of those that become one, one
   std::vector<bool> edge_stays;
-  std::size_t nodes = 0, edges = 0;                    ///< that stay
+  std::vector<std::uint32_t> gone;                     ///< edges that do not, increasing
   std::vector<std::array<std::uint32_t, 2>> passages;  ///< edges that stay, and their bridges
 };
 
@@ -89,7 +90,6 @@ Gluing glue(const std::vector<Placed>& placed, std::size_t bridge_count, std::ui
     return node;
   };
   result.edge_stays.assign(edge_count, true);
-  result.edges = edge_count;
   // The node at the end of an edge has no other.
   for (std::uint32_t bridge = 0; bridge < bridge_count; ++bridge) {
     const auto& [a, b] = ends[bridge];
@@ -98,7 +98,7 @@ Gluing glue(const std::vector<Placed>& placed, std::size_t bridge_count, std::ui
       if (with_passages) result.passages.push_back({a.edge, bridge});
       moved[a.node] = moved[b.node] = b.before;
       result.edge_stays[b.edge] = false;
-      --result.edges;
+      result.gone.push_back(b.edge);
     } else if (a.edge != none) {
       moved[a.node] = b.node;
     } else if (b.edge != none) {
@@ -108,6 +108,7 @@ Gluing glue(const std::vector<Placed>& placed, std::size_t bridge_count, std::ui
     }
   }
   ranges::sort(result.passages);
+  ranges::sort(result.gone);
   for (std::uint32_t i = 0; i < node_count; ++i) moved[i] = target(i);
   result.node_stays.resize(node_count);
   WorkVector<std::uint32_t> number(node_count);
@@ -117,9 +118,35 @@ Gluing glue(const std::vector<Placed>& placed, std::size_t bridge_count, std::ui
     result.node_stays[i] = true;
     number[i] = kept++;
   }
-  result.nodes = kept;
   for (std::uint32_t& node : moved) node = number[node];
   return result;
+}
+
+/// How many of a chunk's nodes or edges, from `first` on, stay; all where nothing is joined.
+std::size_t count_of(const std::vector<bool>& stays, std::uint32_t first, std::size_t count) {
+  if (stays.empty()) return count;
+  const auto begin = stays.begin() + first;
+  return static_cast<std::size_t>(
+      std::count(begin, begin + static_cast<std::ptrdiff_t>(count), true));
+}
+
+/// Fills a vector with what each chunk has, chunk after chunk: count(chunk) elements, which
+/// write(chunk, place) writes. A few chunks at a time, so that what they have is freed before more
+/// memory is touched.
+template <class T, class Count, class Write>
+void gather(const std::vector<Placed>& placed, std::vector<T>& all, std::size_t spare,
+            const Count& count, const Write& write) {
+  constexpr std::size_t at_a_time = 1 << 15;
+  std::vector<std::size_t> begin(placed.size() + 1);  // of each chunk
+  for (std::size_t i = 0; i < placed.size(); ++i) begin[i + 1] = begin[i] + count(placed[i]);
+  reserve_large(all, begin.back() + spare);
+  for (std::size_t first = 0, last = 0; first < placed.size(); first = last) {
+    while (last < placed.size() && begin[last] < begin[first] + at_a_time) ++last;
+    touch_in_parallel(all, begin[first], begin[last]);
+    all.resize(begin[last]);
+    parallel_for(last - first,
+                 [&](std::size_t i) { write(placed[first + i], all.data() + begin[first + i]); });
+  }
 }
 
 /// The disks at both ends of an edge.
@@ -168,32 +195,34 @@ Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::span<const Bridg
   const Gluing gluing =
       glued ? glue(placed, bridges.size(), node_count, edge_count, with_passages) : Gluing{};
 
-  // One after the other: what takes the time is memory that is touched for the first time.
   const auto collect_nodes = [&] {
-    reserve_large(graph.nodes, (glued ? gluing.nodes : node_count) + spare_nodes);
-    for (const Placed& p : placed) {
+    const auto count = [&](const Placed& p) {
+      return count_of(gluing.node_stays, p.first_node, p.chunk->nodes.size() - 1);
+    };
+    gather(placed, graph.nodes, spare_nodes, count, [&](const Placed& p, Node* place) {
       p.chunk->nodes.drain([&](std::size_t i, const Disk& disk) {
         if (i > 0 && (!glued || gluing.node_stays[p.first_node + i - 1]))
-          graph.nodes.push_back({disk, p.chunk->component, NodeKind::leaf});
+          *place++ = {disk, p.chunk->component, NodeKind::leaf};
       });
-    }
+    });
   };
   const auto collect_edges = [&] {
-    reserve_large(graph.edges, glued ? gluing.edges : edge_count);
     const auto number = [&](std::uint32_t node) { return glued ? gluing.number[node] : node; };
-    auto passage = gluing.passages.begin();
-    for (const Placed& p : placed) {
+    const auto count = [&](const Placed& p) {
+      return count_of(gluing.edge_stays, p.first_edge, p.chunk->links.size());
+    };
+    gather(placed, graph.edges, 0, count, [&](const Placed& p, Edge* place) {
       p.chunk->links.drain([&](std::size_t i, const Link& link) {
         if (glued && !gluing.edge_stays[p.first_edge + i]) return;
-        const auto edge = static_cast<std::uint32_t>(graph.edges.size());
-        for (; passage != gluing.passages.end() && (*passage)[0] == p.first_edge + i; ++passage)
-          graph.passages.push_back({edge, bridges[(*passage)[1]].disk});
-        graph.edges.push_back(
-            {{number(p.node(link.node[0])), number(p.node(link.node[1]))}, link.site, {}});
+        *place++ = {{number(p.node(link.node[0])), number(p.node(link.node[1]))}, link.site, {}};
       });
-    }
+    });
   };
   in_parallel(collect_nodes, collect_edges);
+  for (const auto& [edge, bridge] : gluing.passages) {
+    const auto before = ranges::lower_bound(gluing.gone, edge) - gluing.gone.begin();
+    graph.passages.push_back({edge - static_cast<std::uint32_t>(before), bridges[bridge].disk});
+  }
   for (const Placed& p : placed) graph.statistics += p.chunk->statistics;
   chunks.clear();
   return graph;

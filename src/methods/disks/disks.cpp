@@ -9,6 +9,7 @@
 #include "base/compat.h"
 #include "base/memory.h"
 #include "base/stopwatch.h"
+#include "base/threads.h"
 #include "methods/checks.h"
 #include "methods/disks/boundary.h"
 #include "methods/disks/collect.h"
@@ -199,11 +200,13 @@ Result<MedialAxis> axis_by(const Problem& problem, const SiteNumbers& numbers, c
   boundary = {};
   take_nodes(*graph, axis, lost);
   axis.edges = std::move(graph->edges);
-  if (!has_right_topology(problem.shape, axis.nodes, axis.edges))
+  bool is_connected = false;
+  in_parallel([&] { is_connected = has_right_topology(problem.shape, axis.nodes, axis.edges); },
+              [&] { axis.sites = site::result_sites(problem.shape, numbers); });
+  if (!is_connected)
     return error_of_wrong_axis(
         problem.shape, axis,
         "the axis does not have one cycle for each hole: please report this shape");
-  axis.sites = site::result_sites(problem.shape, numbers);
   end_times(watch, axis.statistics);
   for (const std::uint32_t edge : loose_edges) {
     if (touches_its_sites(axis, axis.edges[edge], slack)) continue;

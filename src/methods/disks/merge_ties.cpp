@@ -170,18 +170,22 @@ class Merger {
     std::vector<bool> is_listed(graph_.nodes.size());
     for (const std::uint32_t e : edges)
       for (const std::uint32_t node : graph_.edges[e].node) is_listed[node] = true;
+    const WorkVector<std::uint32_t> linked = filter(graph_.edges.size(), [&](std::size_t e) {
+      const auto [from, to] = graph_.edges[e].node;
+      return is_listed[from] || is_listed[to];
+    });
     ends_begin_.assign(graph_.nodes.size() + 1, 0);
-    for (const Edge& edge : graph_.edges)
-      for (const std::uint32_t node : edge.node) ++ends_begin_[node];
+    const auto for_each_end = [&](const auto& visit) {
+      for (const std::uint32_t e : linked)
+        for (const std::uint32_t k : {0u, 1u})
+          if (const std::uint32_t node = graph_.edges[e].node[k]; is_listed[node])
+            visit(node, 2 * e + k);
+    };
+    for_each_end([&](std::uint32_t node, std::uint32_t) { ++ends_begin_[node]; });
     std::uint32_t count = 0;
-    for (std::size_t node = 0; node < graph_.nodes.size(); ++node)
-      ends_begin_[node] = count += is_listed[node] ? ends_begin_[node] : 0;
-    ends_begin_.back() = count;
+    for (std::uint32_t& begin : ends_begin_) begin = count += begin;
     ends_.resize(count);
-    for (std::uint32_t e = 0; e < graph_.edges.size(); ++e)
-      for (const std::uint32_t k : {0u, 1u})
-        if (const std::uint32_t node = graph_.edges[e].node[k]; is_listed[node])
-          ends_[--ends_begin_[node]] = 2 * e + k;
+    for_each_end([&](std::uint32_t node, std::uint32_t end) { ends_[--ends_begin_[node]] = end; });
   }
   /// The ends of edges at a node of a short one: end 2 e + k is node[k] of edge e.
   std::span<const std::uint32_t> ends_at(std::uint32_t node) const {
