@@ -694,8 +694,10 @@ TEST(LeeArcs, GiveTheSameBytesOnAnyNumberOfThreads) {
 
 // Found by fuzzing: a disk of two tolerances next to an arc of 61 spacings of its coordinates.
 TEST(LeeArcs, ASmallDiskNextToASmallArcIsLeftToDisks) {
-  const Shape shape = built({{{{38, 96}, {38.000000000000583, 96.000000000000654}, {-78, 61}},
-                              {0.11811023622047244, 0.36220472440944884, 0}}});
+  Ring needle;
+  needle.points = {{38, 96}, {38.000000000000583, 96.000000000000654}, {-78, 61}};
+  needle.bulges = {0.11811023622047244, 0.36220472440944884, 0};
+  const Shape shape = built({needle});
   const auto axis = compute(shape, by_lee());
   ASSERT_TRUE(axis.ok()) << to_string(axis.error());
   EXPECT_TRUE(verify(shape, *axis).passed);
