@@ -84,12 +84,9 @@ class Merger {
     const WorkVector<std::uint32_t> edges = short_edges();
     if (edges.empty()) return {};
     link_ends(edges);
-    std::vector<std::uint32_t> kept;
-    for (const std::uint32_t i : filter(edges.size(), [&](std::size_t k) {
-           return !leads_away(edges[k]) && could_be_contracted(graph_.edges[edges[k]]);
-         }))
-      kept.push_back(edges[i]);
-    return kept;
+    return those(edges, [&](std::uint32_t e) {
+      return !leads_away(e) && could_be_contracted(graph_.edges[e]);
+    });
   }
 
  private:
@@ -120,10 +117,18 @@ class Merger {
   /// What double may leave open when it looks for candidates.
   double bound() const { return 1.25 * nearnesses[0].level * tolerance_; }
 
+  /// Those of some edges for which `holds`, which takes long, is true.
+  template <class Edges, class Holds>
+  static std::vector<std::uint32_t> those(const Edges& edges, const Holds& holds) {
+    std::vector<std::uint32_t> kept;
+    for (const std::uint32_t i :
+         filter<64>(edges.size(), [&](std::size_t k) { return holds(edges[k]); }))
+      kept.push_back(edges[i]);
+    return kept;
+  }
   /// The numbers below `count` for which `holds` is true, increasing.
-  template <class Holds>
+  template <std::size_t block = 1 << 12, class Holds>
   static WorkVector<std::uint32_t> filter(std::size_t count, Holds&& holds) {
-    constexpr std::size_t block = 1 << 12;
     std::vector<std::vector<std::uint32_t>> found((count + block - 1) / block);
     parallel_for(found.size(), [&](std::size_t i) {
       std::array<std::uint32_t, block> some;
@@ -326,7 +331,10 @@ class Merger {
     std::sort(nodes_.begin(), nodes_.end());
     nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
     group_.assign(nodes_.size(), none);
-    for (const std::uint32_t node : nodes_) contacts_.push_back(contacts_of(node));
+    contacts_.resize(nodes_.size());
+    parallel_ranges(nodes_.size(), 256, [&](std::size_t i, std::size_t end) {
+      for (; i < end; ++i) contacts_[i] = contacts_of(nodes_[i]);
+    });
   }
   std::vector<Touch> contacts_of(std::uint32_t node) const {
     std::vector<Touch> contacts;
@@ -377,7 +385,11 @@ class Merger {
   void contract(std::vector<std::uint32_t>& open, const Nearness& nearness) {
     const std::size_t first = groups_.size();
     find_groups(open, nearness);
-    for (std::size_t i = first; i < groups_.size(); ++i) groups_[i].contracts = fits(groups_[i]);
+    std::vector<std::uint8_t> fit(groups_.size() - first);
+    parallel_ranges(fit.size(), 32, [&](std::size_t i, std::size_t end) {
+      for (; i < end; ++i) fit[i] = fits(groups_[first + i]) ? 1 : 0;
+    });
+    for (std::size_t i = 0; i < fit.size(); ++i) groups_[first + i].contracts = fit[i] != 0;
     // What would turn an edge around is left for the next pair, and so may others be then; what was
     // contracted before stays.
     std::vector<std::uint32_t> backward;
@@ -398,7 +410,7 @@ class Merger {
   /// What edges that are near enough connect, as new groups; leaves those edges in `open`: what is
   /// too far apart now is so for the next pair.
   void find_groups(std::vector<std::uint32_t>& open, const Nearness& nearness) {
-    std::erase_if(open, [&](std::uint32_t e) { return !is_near(graph_.edges[e], nearness); });
+    open = those(open, [&](std::uint32_t e) { return is_near(graph_.edges[e], nearness); });
     DisjointSets sets(nodes_.size());
     std::vector<std::uint32_t> places;
     for (const std::uint32_t e : open) {
