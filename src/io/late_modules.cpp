@@ -1,5 +1,5 @@
-// Stands in for pictures/ and gis/ in the command line: loads them from shared modules when
-// something first needs them.
+// Stands in for pictures/, gis/ and the reader of SVG in the command line: loads them from shared
+// modules when something first needs them.
 
 #include <dlfcn.h>
 
@@ -20,41 +20,51 @@ struct Loaded {
 
 /// A module is never unloaded: GDAL keeps threads and handlers.
 template <class Table>
-Loaded<Table> load(const char* part, const char* file, const char* symbol) {
-  const std::string name = std::string("the part of medial for ") + part;
-  void* const library = dlopen(file, RTLD_LAZY | RTLD_LOCAL);
+Loaded<Table> load() {
+  const std::string name = std::string("the part of medial for ") + Table::part;
+  void* const library = dlopen(Table::file, RTLD_LAZY | RTLD_LOCAL);
   if (library == nullptr)
     return {nullptr, name + " cannot be loaded: install medial again (" + dlerror() + ")"};
-  const auto* const module = static_cast<const Table*>(dlsym(library, symbol));
+  const auto* const module = static_cast<const Table*>(dlsym(library, Table::symbol));
   if (module == nullptr || std::string_view(module->stamp) != MEDIAL_STAMP)
-    return {nullptr, name + " (" + file + ") is of another build of medial: install medial again"};
+    return {nullptr,
+            name + " (" + Table::file + ") is of another build of medial: install medial again"};
   return {module, {}};
 }
 
 /// Loaded once each, by the first thread that asks.
-const Loaded<GisModule>& loaded() {
-  static const auto once =
-      load<GisModule>("GIS formats and images", MEDIAL_GIS_MODULE, gis_module_name);
-  return once;
-}
-const Loaded<DrawModule>& loaded_to_draw() {
-  static const auto once =
-      load<DrawModule>("pictures, meshes and fonts", MEDIAL_DRAW_MODULE, draw_module_name);
+template <class Table = GisModule>
+const Loaded<Table>& loaded() {
+  static const Loaded<Table> once = load<Table>();
   return once;
 }
 
 template <class Table>
-Error missing(const Loaded<Table>& loaded) {
-  return {ErrorCode::unsupported, loaded.failure, {}};
+Error missing() {
+  return {ErrorCode::unsupported, loaded<Table>().failure, {}};
 }
 
-/// What a function of the module returns; an error where there is no module.
-template <class Function, class... Arguments>
-auto in_module(Function GisModule::*function, Arguments&&... arguments)
-    -> decltype((loaded().module->*function)(arguments...)) {
-  const GisModule* const module = loaded().module;
-  if (module == nullptr) return missing(loaded());
+/// What a function of a module returns; an error where there is no module.
+template <class Table, class Function, class... Arguments>
+auto in_module(Function Table::*function, Arguments&&... arguments)
+    -> decltype((loaded<Table>().module->*function)(arguments...)) {
+  const Table* const module = loaded<Table>().module;
+  if (module == nullptr) return missing<Table>();
   return (module->*function)(std::forward<Arguments>(arguments)...);
+}
+
+template <class Table>
+Result<const std::vector<Format>*> rows_of() {
+  const Table* const module = loaded<Table>().module;
+  if (module == nullptr) return missing<Table>();
+  return &module->formats();
+}
+
+template <class Table>
+Attributes libraries_of(const char* first) {
+  const Table* const module = loaded<Table>().module;
+  if (module == nullptr) return {{first, "FAILS: " + loaded<Table>().failure}};
+  return module->libraries();
 }
 
 Format table_format(std::string_view extension, Growing growing) {
@@ -68,11 +78,7 @@ Format table_format(std::string_view extension, Growing growing) {
 }  // namespace
 
 Result<const std::vector<Format>*> formats_in(Module module) {
-  const auto rows_of = [](const auto& late) -> Result<const std::vector<Format>*> {
-    if (late.module == nullptr) return missing(late);
-    return &late.module->formats();
-  };
-  return module == Module::gis ? rows_of(loaded()) : rows_of(loaded_to_draw());
+  return module == Module::gis ? rows_of<GisModule>() : rows_of<DrawModule>();
 }
 
 // What formats_of() lists; the rows of the module do it.
@@ -102,9 +108,11 @@ Format image_format() { return {}; }
 Format gdal_format() { return {}; }
 
 Result<Document<Feature>> read_text(const std::string& text, const std::string& font, double size) {
-  const DrawModule* const module = loaded_to_draw().module;
-  if (module == nullptr) return missing(loaded_to_draw());
-  return module->read_text(text, font, size);
+  return in_module(&DrawModule::read_text, text, font, size);
+}
+
+Result<Document<Feature>> read_svg(const Input& input, const ReadOptions& options) {
+  return in_module(&SvgModule::read_svg, input, options);
 }
 
 void describe_crs(DocumentInfo& document) {
@@ -151,16 +159,14 @@ Result<ImageFile> read_image(const std::string& path, const ImageOptions& option
   return in_module(&GisModule::read_image, path, options);
 }
 
-Attributes drawing_libraries() {
-  const DrawModule* const module = loaded_to_draw().module;
-  if (module == nullptr) return {{"Cairo", "FAILS: " + loaded_to_draw().failure}};
-  return module->drawing_libraries();
-}
+Attributes svg_libraries() { return libraries_of<SvgModule>("libxml2"); }
+Attributes drawing_libraries() { return libraries_of<DrawModule>("Cairo"); }
 
 BuildInfo build_info() {
   if (loaded().module != nullptr) return loaded().module->build_info();
   BuildInfo info;
-  info.libraries = drawing_libraries();
+  for (const Attributes& part : {svg_libraries(), drawing_libraries()})
+    info.libraries.insert(info.libraries.end(), part.begin(), part.end());
   info.libraries.emplace_back("GDAL", "FAILS: " + loaded().failure);
   return info;
 }

@@ -6,19 +6,21 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <map>
 #include <mutex>
 
+#include "base/compat.h"
 #include "io/place.h"
 
 namespace medial::io {
 
 namespace {
 
-constexpr std::size_t window = std::size_t{1} << 18;
+constexpr std::size_t file_window = std::size_t{1} << 18;
 
 }  // namespace
 
@@ -55,10 +57,13 @@ class TextSource::Streams {
   std::map<std::string, std::shared_ptr<TextSource>> sources_;
 };
 
-TextSource::TextSource(std::string path, std::unique_ptr<Handle> handle)
-    : path_(std::move(path)), handle_(std::move(handle)), window_(window) {
-  next_ = end_ = window_.data();
-}
+TextSource::TextSource(std::string path, std::unique_ptr<Handle> handle, std::size_t window)
+    : path_(std::move(path)),
+      handle_(std::move(handle)),
+      window_(uninitialized<char[]>(window)),
+      window_size_(window),
+      next_(window_.get()),
+      end_(next_) {}
 
 TextSource::~TextSource() = default;
 
@@ -81,7 +86,7 @@ Result<std::shared_ptr<TextSource>> TextSource::open(const std::string& path) {
   if (handle->file == nullptr) return failed();
   gzbuffer(handle->file, unsigned{1} << 17);
 
-  std::shared_ptr<TextSource> source(new TextSource(path, std::move(handle)));
+  std::shared_ptr<TextSource> source(new TextSource(path, std::move(handle), file_window));
   source->is_stream_ = is_stream;
   if (source->lookahead(3) == "\xEF\xBB\xBF") source->next_ += 3;  // the byte order mark of UTF-8
   if (is_stream) Streams::all().add(path, source);
@@ -93,10 +98,8 @@ TextSource::Reading::~Reading() {
 }
 
 std::shared_ptr<TextSource> TextSource::of(std::string_view text) {
-  std::shared_ptr<TextSource> source(new TextSource({}, nullptr));
-  source->window_.assign(text.begin(), text.end());
-  source->next_ = source->window_.data();
-  source->end_ = source->next_ + text.size();
+  std::shared_ptr<TextSource> source(new TextSource({}, nullptr, text.size()));
+  source->end_ = std::copy(text.begin(), text.end(), source->window_.get());
   source->at_end_ = true;
   return source;
 }
@@ -104,11 +107,11 @@ std::shared_ptr<TextSource> TextSource::of(std::string_view text) {
 bool TextSource::refill(std::size_t wanted) {
   if (at_end_) return available() >= wanted;
   std::size_t kept = available();
-  std::memmove(window_.data(), next_, kept);
-  next_ = window_.data();
+  std::memmove(window_.get(), next_, kept);
+  next_ = window_.get();
   while (kept < wanted && !at_end_) {
-    const auto room = static_cast<unsigned>(window_.size() - kept);
-    const int got = gzread(handle_->file, window_.data() + kept, room);
+    const auto room = static_cast<unsigned>(window_size_ - kept);
+    const int got = gzread(handle_->file, window_.get() + kept, room);
     if (got > 0) kept += static_cast<std::size_t>(got);
     if (got < static_cast<int>(room)) {
       int code = Z_OK;
@@ -125,7 +128,7 @@ bool TextSource::refill(std::size_t wanted) {
       if (got <= 0 || failure_) at_end_ = true;
     }
   }
-  end_ = window_.data() + kept;
+  end_ = window_.get() + kept;
   return kept >= wanted;
 }
 

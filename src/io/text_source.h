@@ -7,7 +7,6 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "medial/error.h"
 
@@ -87,13 +86,14 @@ class TextSource {
  private:
   struct Handle;
   class Streams;
-  TextSource(std::string path, std::unique_ptr<Handle> handle);
+  TextSource(std::string path, std::unique_ptr<Handle> handle, std::size_t window);
   std::size_t available() const { return static_cast<std::size_t>(end_ - next_); }
   bool refill(std::size_t wanted);
 
   std::string path_;
   std::unique_ptr<Handle> handle_;
-  std::vector<char> window_;
+  std::unique_ptr<char[]> window_;  ///< without initial values: a small file touches little of it
+  std::size_t window_size_;
   const char* next_ = nullptr;
   const char* end_ = nullptr;
   std::uint64_t line_ = 1;

@@ -11,6 +11,7 @@
 #include "base/threads.h"
 #include "load/file_index.h"
 #include "load/progress.h"
+#include "load/threads_of.h"
 #include "medial/load.h"
 #include "methods/raster/finer_grid.h"
 
@@ -79,7 +80,10 @@ Result<Document<AxisItem>> compute_axes(Document<ShapeItem> shapes, Options opti
     if (own.progress) own.progress(1.0);
     return AxisItem{std::move(from.shape), std::move(axis).value(), std::move(from.attributes)};
   };
-  auto items = map_items<AxisItem>(weights, options.threads, compute_one, options.cancel);
+  // What samples a shape may have much to do with few points.
+  const bool sampled = info_of(options.method).sampling != Sampling::curves;
+  const int threads = sampled ? options.threads : threads_of(weights, options);
+  auto items = map_items<AxisItem>(weights, threads, compute_one, options.cancel);
   if (!items) return in_file_of(axes, std::move(items).error());
   axes.items = std::move(items).value();
 

@@ -11,6 +11,7 @@
 #include "load/file_index.h"
 #include "load/progress.h"
 #include "load/suited_arcs.h"
+#include "load/threads_of.h"
 #include "medial/load.h"
 #include "medial/methods.h"
 #include "methods/curve_axis/fits.h"
@@ -304,7 +305,7 @@ Result<Document<ShapeItem>> load_shapes(Document<Feature> features, const LoadOp
     attempt.error = std::move(item).error();
     return attempt;
   };
-  auto items = map_items<Attempt>(weights, options.threads, load, options.cancel);
+  auto items = map_items<Attempt>(weights, threads_of(weights, options), load, options.cancel);
   if (!items) return in_file_of(features, std::move(items).error());
   LoadReport sum;
   std::size_t outlines = 0, places = 0;

@@ -357,7 +357,10 @@ template <class DepthOf>
 std::vector<ToolPoint> path_along(const std::vector<ops::GrooveStep>& trail,
                                   const ops::Grooves& grooves, const DepthOf& depth_of,
                                   double floor) {
+  std::size_t most = 0;
+  for (const ops::GrooveStep& step : trail) most += grooves.parts[step.part].disks.size();
   std::vector<ToolPoint> points;
+  points.reserve(most);
   const auto add = [&](Vec2 p, double deep) {
     const ToolPoint point{p, 0 - std::min(deep, floor), 0};  // 0, not -0, at the surface
     if (points.empty() || !(points.back().point == p) || points.back().z != point.z)

@@ -10,6 +10,7 @@
 #include "axis/steps.h"
 #include "base/arc.h"
 #include "base/disjoint_sets.h"
+#include "base/memory.h"
 #include "medial/query.h"
 #include "medial/sides.h"
 #include "ops/burn.h"
@@ -79,8 +80,8 @@ class Describer {
   AxisFeatures run() {
     find_points();
     const std::vector<Branch> all = branches(axis_);
-    features_.branches.reserve(all.size());
-    features_.runs.reserve(axis_.edges.size());  // hardly ever more
+    reserve_large(features_.branches, all.size());
+    reserve_large(features_.runs, axis_.edges.size());  // hardly ever more
     for (std::uint32_t i = 0; i < all.size(); ++i) add_branch(i, all[i]);
     add_significance(all);
     add_whole();

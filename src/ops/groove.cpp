@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -47,6 +48,7 @@ Grooves grooves_of(const MedialAxis& axis, double least, double most, double cho
   Grooves grooves;
   grooves.junctions = static_cast<std::uint32_t>(axis.nodes.size());
   const double slack = axis.tolerance;
+  grooves.parts.reserve(axis.edges.size());
   std::vector<double> cuts;
   for (const Edge& edge : axis.edges) {
     const Curve whole = curve_of(axis, edge);
@@ -67,6 +69,7 @@ Grooves grooves_of(const MedialAxis& axis, double least, double most, double cho
       Groove& groove = grooves.parts.emplace_back();
       groove.from = from;
       groove.to = junction;
+      groove.disks.reserve(2);
       groove.disks.push_back({part.origin, part.r0});
       const bool curved = deviation(part) > slack;
       sample(part, curved ? chord : infinity, 0, groove.disks);
@@ -218,17 +221,22 @@ std::vector<std::vector<GrooveStep>> trails_of(const Grooves& grooves, Vec2 star
     bool forward;
   };
   const auto& parts = grooves.parts;
-  std::vector<std::vector<End>> around(grooves.junctions);
+  // The ends of parts around each junction, side by side, are taken from behind: those of j stand
+  // before around[behind[j]].
+  std::vector<std::uint32_t> left(grooves.junctions), behind(left), place_of(left);
+  for (const Groove& part : parts) {
+    ++left[part.from];
+    ++left[part.to];
+  }
+  std::exclusive_scan(left.begin(), left.end(), behind.begin(), 0U);
+  std::vector<End> around(2 * parts.size());
   std::vector<Vec2> places(grooves.junctions);
   for (std::uint32_t i = 0; i < parts.size(); ++i) {
-    around[parts[i].from].push_back({i, true});
-    around[parts[i].to].push_back({i, false});
+    around[behind[parts[i].from]++] = {i, true};
+    around[behind[parts[i].to]++] = {i, false};
     places[parts[i].from] = parts[i].disks.front().center;
     places[parts[i].to] = parts[i].disks.back().center;
   }
-  std::vector<std::uint32_t> left(grooves.junctions), place_of(grooves.junctions);
-  for (std::uint32_t j = 0; j < grooves.junctions; ++j)
-    left[j] = static_cast<std::uint32_t>(around[j].size());
   std::vector<bool> done(parts.size(), false);
   std::vector<std::vector<GrooveStep>> trails;
   Vec2 at = start;
@@ -252,10 +260,8 @@ std::vector<std::vector<GrooveStep>> trails_of(const Grooves& grooves, Vec2 star
       if (left[j] == 0) continue;
       auto& trail = trails.emplace_back();
       while (left[j] > 0) {
-        auto& on = around[j];
-        while (done[on.back().part]) on.pop_back();
-        const End step = on.back();
-        on.pop_back();
+        while (done[around[--behind[j]].part]) continue;
+        const End step = around[behind[j]];
         done[step.part] = true;
         trail.push_back({step.part, step.forward});
         --left[j];

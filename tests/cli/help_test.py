@@ -113,13 +113,14 @@ class Doctor(CommandLine):
 
 
 class LateLibraries(CommandLine):
-    """GDAL, and Cairo and Assimp, are in modules beside the program, loaded when they are needed."""
+    """GDAL, Cairo with Assimp, and libxml2 are in modules beside the program, loaded when they are needed."""
 
-    MODULE = os.path.join(os.path.dirname(support.PROGRAM), "medial_gis.so")
+    SVG = '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0H4V3H0Z"/></svg>'
+    MODULES = ("medial_gis.so", "medial_draw.so", "medial_svg.so")
 
     def setUp(self):
         super().setUp()
-        if not os.path.exists(self.MODULE):
+        if not os.path.exists(os.path.join(os.path.dirname(support.PROGRAM), "medial_gis.so")):
             self.skipTest("this build links its libraries")
 
     def loads(self, *arguments, library=b"libgdal"):
@@ -149,6 +150,16 @@ class LateLibraries(CommandLine):
         self.succeed("rebuild", "a.json", "-o", "shape.fgb")
         self.assertFalse(self.loads("axis", "shape.fgb", "-o", "b.json", library=b"medial_draw.so"))
         self.assertFalse(self.loads("axis", "shape.fgb", "-o", "b.json", library=b"libassimp"))
+
+    def test_loaded_to_read_svg(self):
+        self.write("a.wkt", RECTANGLE)
+        self.write("a.svg", self.SVG)
+        for arguments in (["axis", "a.wkt", "-o", "a.json"], ["axis", "a.wkt", "-o", "a.fgb"],
+                          ["rebuild", "a.json", "-o", "b.svg"]):
+            self.assertFalse(self.loads(*arguments, library=b"medial_svg.so"), arguments)
+        self.assertFalse(self.loads("axis", "a.wkt", "-o", "a.json", library=b"libxml2"))
+        self.assertTrue(self.loads("axis", "a.svg", "-o", "b.json", library=b"libxml2"))
+        self.assertFalse(self.loads("axis", "a.svg", "-o", "b.json", library=b"medial_draw.so"))
 
     def test_without_the_module(self):
         alone = self.path("alone")
@@ -193,22 +204,37 @@ class LateLibraries(CommandLine):
             self.assertEqual(b"install medial again" in done.stdout + done.stderr, status > 0,
                              arguments)
 
-    def test_modules_of_another_build(self):
+    def test_without_the_module_that_reads_svg(self):
         for name in ("medial", "medial_gis.so", "medial_draw.so"):
             shutil.copy(os.path.join(os.path.dirname(support.PROGRAM), name), self.folder.name)
+        self.write("a.wkt", RECTANGLE)
+        self.write("a.svg", self.SVG)
+        for arguments, status in ((["axis", "a.svg", "-o", "a.json"], 2), (["doctor"], 1),
+                                  (["axis", "a.wkt", "-o", "b.svg"], 0)):
+            done = subprocess.run([self.path("medial"), *arguments], capture_output=True,
+                                  cwd=self.folder.name)
+            self.assertEqual(done.returncode, status, done.stderr)
+            self.assertEqual(b"install medial again" in done.stdout + done.stderr, status > 0,
+                             arguments)
+
+    def test_modules_of_another_build(self):
+        for name in ("medial", *self.MODULES):
+            shutil.copy(os.path.join(os.path.dirname(support.PROGRAM), name), self.folder.name)
         program = self.path("medial")
-        # Both modules have it; whatever stands before it may be such a digit, too.
+        # All modules have it; whatever stands before it may be such a digit, too.
         found = [set(re.findall(rb"(?=([0-9a-f]{64})\0)", self.read(name)))
-                 for name in ("medial_gis.so", "medial_draw.so")]
+                 for name in self.MODULES]
         [stamp] = set.intersection(*found)
         self.write("a.wkt", RECTANGLE)
         self.succeed("axis", "a.wkt", "-o", "a.json")
         gis = ["axis", "a.wkt", "--project", "-o", "b.json"]
         plot = ["measure", "a.json", "--plot", "plot.svg"]
-        for replaced, arguments in (("medial_gis.so", gis), ("medial_draw.so", plot)):
+        self.write("a.svg", self.SVG)
+        svg = ["axis", "a.svg", "-o", "b.json"]
+        for replaced, arguments in zip(self.MODULES, (gis, plot, svg)):
             module = self.read(replaced)
             self.assertIn(stamp, module)
-            other = self.read("medial_draw.so" if replaced == "medial_gis.so" else "medial_gis.so")
+            other = self.read(next(name for name in self.MODULES if name != replaced))
             for content, text in ((module.replace(stamp, stamp[:-1] + b"!"), b"is of another build"),
                                   (other, b"is of another build"),
                                   (module[:40], b"cannot be loaded")):

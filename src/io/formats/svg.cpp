@@ -326,12 +326,6 @@ void Element::draw_copy() {
 
 }  // namespace
 
-bool begins_like_svg(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-  if (first == std::string_view::npos || text[first] != '<') return false;
-  return text.find("<svg") != std::string_view::npos;
-}
-
 Result<Document<Feature>> read_svg(const Input& input, const ReadOptions& options) {
   TextSource& source = *input.source;
   const Result<SvgDocument> document = SvgDocument::read(source);

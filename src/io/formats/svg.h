@@ -4,9 +4,6 @@
 
 namespace medial::io {
 
-/// Whether a text begins like a document of SVG.
-bool begins_like_svg(std::string_view text);
-
 /// Reads what an SVG document fills: a feature for each filled path or basic shape that is shown,
 /// with its `id` as attribute, in the pixels of the outermost viewport and with the y axis pointing
 /// down, as in the document (docs/format.md).

@@ -74,6 +74,13 @@ void put_svg(OutputStream& out, const Document<ShapeItem>& file) {
   out.put("</g>\n</svg>\n");
 }
 
+/// Whether a text begins like a document of SVG.
+bool begins_like_svg(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  if (first == std::string_view::npos || text[first] != '<') return false;
+  return text.find("<svg") != std::string_view::npos;
+}
+
 Status write_svg(Target& target, const ShapesOutput& output) {
   put_svg(*target.out, output.document);
   return success();

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <gdal.h>
 #include <geos_c.h>
-#include <libxml/xmlversion.h>
 #include <ogr_srs_api.h>
 #include <simdjson.h>
 #include <zlib.h>
@@ -10,9 +9,6 @@
 #ifdef MEDIAL_DXF
 #include <dxflib/dl_dxf.h>
 #endif
-
-#include <algorithm>
-#include <iterator>
 
 #include "io/format.h"
 #include "io/gis/gdal_support.h"
@@ -32,7 +28,6 @@ Attributes loaded_libraries() {
       {"GDAL", GDALVersionInfo("RELEASE_NAME")},
       {"PROJ", proj_version()},
       {"GEOS", GEOSversion()},
-      {"libxml2", LIBXML_DOTTED_VERSION},
       {"simdjson", SIMDJSON_STRINGIFY(SIMDJSON_VERSION)},
       {"zlib", zlibVersion()},
       {"zstd", ZSTD_versionString()},
@@ -68,7 +63,8 @@ BuildInfo build_info() {
   register_gdal();
   BuildInfo info{loaded_libraries(), "", drivers_with(GDAL_DCAP_VECTOR),
                  drivers_with(GDAL_DCAP_RASTER), finds_projections()};
-  std::ranges::move(drawing_libraries(), std::back_inserter(info.libraries));
+  for (const Attributes& part : {svg_libraries(), drawing_libraries()})
+    info.libraries.insert(info.libraries.end(), part.begin(), part.end());
   for (const Format& format : formats_at_hand())
     for (const std::string_view each : {format.extensions, format.also_read})
       if ((format.read != nullptr || format.is_known_to_hold(DocumentKind::mesh)) && !each.empty())

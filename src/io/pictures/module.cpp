@@ -35,7 +35,7 @@ Attributes drawing_libraries() {
 
 extern "C" {
 extern const DrawModule medial_draw_table;
-const DrawModule medial_draw_table{MEDIAL_STAMP, formats_at_hand, drawing_libraries, read_text};
+const DrawModule medial_draw_table{MEDIAL_STAMP, drawing_libraries, formats_at_hand, read_text};
 }
 
 }  // namespace medial::io
