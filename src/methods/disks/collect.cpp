@@ -136,7 +136,9 @@ std::size_t count_of(const std::vector<bool>& stays, std::uint32_t first, std::s
 template <class T, class Count, class Write>
 void gather(const std::vector<Placed>& placed, std::vector<T>& all, std::size_t spare,
             const Count& count, const Write& write) {
-  constexpr std::size_t at_a_time = 1 << 15;
+  constexpr std::size_t of_thread = 1 << 12, most = 1 << 15;
+  const std::size_t at_a_time =
+      std::min(most, of_thread * static_cast<std::size_t>(effective_threads(0)));
   std::vector<std::size_t> begin(placed.size() + 1);  // of each chunk
   for (std::size_t i = 0; i < placed.size(); ++i) begin[i + 1] = begin[i] + count(placed[i]);
   reserve_large(all, begin.back() + spare);
