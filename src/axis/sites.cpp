@@ -94,8 +94,8 @@ std::size_t point_of(const SiteNumbers& numbers, std::uint32_t site, std::size_t
       static_cast<std::size_t>(std::lower_bound(at(low), at(high), site) - edge.begin());
   // A lone point has no edge: the next point's sites begin with that number.
   const std::size_t after = point + 1;
-  const bool is_of_next = after < edge.size() && edge[point] == site &&
-                          edge[after] - (numbers.is_site(after) ? 1 : 0) == site;
+  const bool is_of_next =
+      after < edge.size() && edge[point] == site && numbers.first(after) == site;
   return is_of_next ? after : point;
 }
 
@@ -114,8 +114,7 @@ medial::Site result_site(const Shape& shape, const SiteNumbers& numbers, std::ui
 std::vector<medial::Site> result_sites(const Shape& shape, const SiteNumbers& numbers,
                                        std::size_t first, std::size_t last) {
   const auto first_number = [&](std::size_t point) {
-    return point < numbers.edge.size() ? numbers.edge[point] - (numbers.is_site(point) ? 1 : 0)
-                                       : numbers.count;
+    return point < numbers.edge.size() ? numbers.first(point) : numbers.count;
   };
   const std::uint32_t base = first_number(first);
   auto sites = large_vector<medial::Site>(first_number(last) - base);

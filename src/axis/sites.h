@@ -64,6 +64,8 @@ struct SiteNumbers {
   std::vector<Joint> joints;        ///< at each point
   std::uint32_t count = 0;
   bool is_site(std::size_t point) const { return joints[point] == Joint::reflex; }
+  /// The first of the sites that begin at a point.
+  std::uint32_t first(std::size_t point) const { return edge[point] - (is_site(point) ? 1 : 0); }
 };
 /// `tolerance` in units of the input, `corner_angle` in degrees; see Options.
 SiteNumbers number_sites(const Shape& shape, const LocalFrame& frame, double tolerance,

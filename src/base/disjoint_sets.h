@@ -31,7 +31,7 @@ class DisjointSets {
     --count_;
     return true;
   }
-  /// The same without a change of count(): threads may join numbers that no other one joins.
+  /// The same without a change of count(), for threads that join numbers of their own.
   bool join_uncounted(std::uint32_t i, std::uint32_t j) {
     i = find(i);
     j = find(j);

@@ -17,7 +17,7 @@ void prefer_large_pages(const void* begin, std::size_t bytes);
 /// content is lost.
 void give_back_pages(void* begin, std::size_t bytes);
 
-/// Touches each page of memory in which nothing is yet, so that the system provides it now.
+/// Makes the system provide the pages of unused memory now. Of a vector, that lies beyond its size.
 void touch_pages(void* begin, std::size_t bytes);
 
 /// The same on all threads, of reserved elements: the system clears memory on the thread that

@@ -124,9 +124,10 @@ bool has_right_topology(const Shape& shape, std::span<const Node> nodes, std::sp
   // block of nodes of its own.
   struct Findings {
     std::uint64_t joined = 0;
-    bool stays = true;  ///< no edge leaves its component
-    std::vector<std::uint32_t> others;
-    std::vector<std::pair<std::uint32_t, std::uint64_t>> edges;  ///< of components, in runs
+    bool stays = true;                  ///< no edge leaves its component
+    std::vector<std::uint32_t> others;  ///< edges between blocks, joined after all threads
+    /// Of each component, how many edges: in runs, as most blocks are of one.
+    std::vector<std::pair<std::uint32_t, std::uint64_t>> edges;
   };
   constexpr std::size_t block = 1 << 14;
   DisjointSets parts(nodes.size());

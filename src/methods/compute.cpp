@@ -75,14 +75,18 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options,
     if (auto error = method.refuse(problem)) return std::move(*error);
     if (options.exterior) return compute_exterior(problem);
     const auto divided = small_components(problem);
+    bool is_right = true;
     auto outcome = on_threads(options.threads, [&] {
-      return divided ? run_divided(problem, *divided) : solver_of(options).run(problem);
+      auto found = divided ? run_divided(problem, *divided) : solver_of(options).run(problem);
+      if (found && found->to_check && !problem.is_cancelled())
+        is_right = has_right_topology(shape, found->axis.nodes, found->axis.edges);
+      return found;
     });
     if (!outcome) return std::move(outcome).error();
     MedialAxis& axis = outcome->axis;
     axis.statistics.threads = method.info.threads ? effective_threads(options.threads) : 1;
     if (problem.is_cancelled()) return Error{ErrorCode::cancelled, "cancelled", {}};
-    if (outcome->to_check && !has_right_topology(shape, axis.nodes, axis.edges))
+    if (!is_right)
       return error_of_wrong_axis(
           shape, axis,
           "the axis does not have one part for each component and one cycle for each hole: please "

@@ -46,12 +46,14 @@ Error error_of_wrong_axis(const Shape& shape, const MedialAxis& axis, const char
   // Of the size: 256 bits hold, beside a length of 1, another of 2^-200 with 56 bits of it.
   constexpr double shortest = 0x1p-200;
   const double size = diagonal(bounding_box(shape));
-  const auto is_lost = [&](double way) { return way != 0 && std::abs(way) < shortest * size; };
+  const auto is_lost = [&](double apart) {
+    return apart != 0 && std::abs(apart) < shortest * size;
+  };
   for (std::size_t i = 0; i < shape.loop_count(); ++i) {
     const std::span<const Vec2> loop = shape.loop(i);
     for (std::size_t k = 0; k < loop.size(); ++k) {
-      const Vec2 way = loop[(k + 1) % loop.size()] - loop[k];
-      if (is_lost(way.x) || is_lost(way.y))
+      const Vec2 apart = loop[(k + 1) % loop.size()] - loop[k];
+      if (is_lost(apart.x) || is_lost(apart.y))
         return unsupported_at(loop[k],
                               "two neighbouring vertices differ by too little here beside the size "
                               "of the shape: make their x or y equal, or bring what is far away "

@@ -79,8 +79,7 @@ class Piece {
 
  private:
   static std::uint32_t first_site(const Problem& problem, std::size_t loop) {
-    const std::uint32_t point = problem.shape.loop_begin[loop];
-    return problem.numbers().edge[point] - (problem.numbers().is_site(point) ? 1 : 0);
+    return problem.numbers().first(problem.shape.loop_begin[loop]);
   }
 
   Options options_;

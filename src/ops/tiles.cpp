@@ -311,17 +311,19 @@ Result<MedialAxis> join_tiles(const Shape& shape, std::vector<TileAxisEdge> edge
           return std::max(edge.site[0], edge.site[1]) / 2 >= shape.points.size();
         }))
       return Error{ErrorCode::malformed, "the tiles are of another shape", {}};
-    put_in_order(edges);
-    MedialAxis axis;
-    axis.method = "disks";
-    axis.tolerance = problem.tolerance;
-    axis.sites = problem.result_sites();
-    const auto lacking = add_edges(shape, problem.numbers(), edges, axis);
-    if (join_ties(lacking, axis) || !has_right_topology(shape, axis.nodes, axis.edges))
-      return Error{
-          ErrorCode::internal, "the tiles do not make a whole axis: one seems to be missing", {}};
-    set_node_kinds(axis);
-    return axis;
+    return on_threads(options.threads, [&]() -> Result<MedialAxis> {
+      put_in_order(edges);
+      MedialAxis axis;
+      axis.method = "disks";
+      axis.tolerance = problem.tolerance;
+      axis.sites = problem.result_sites();
+      const auto lacking = add_edges(shape, problem.numbers(), edges, axis);
+      if (join_ties(lacking, axis) || !has_right_topology(shape, axis.nodes, axis.edges))
+        return Error{
+            ErrorCode::internal, "the tiles do not make a whole axis: one seems to be missing", {}};
+      set_node_kinds(axis);
+      return axis;
+    });
   } catch (...) {
     return error_in_flight();
   }

@@ -293,10 +293,12 @@ Result<MedialAxis> axis_around(const PlanarGraph& planar_graph, const Shape& sur
     const Problem problem(surroundings, options);
     const double tolerance = problem.tolerance;
     std::vector<Edge> edges;
-    auto axis =
-        on_threads(options.threads, [&] { return run_around(planar_graph, problem, edges); });
+    auto axis = on_threads(options.threads, [&] {
+      auto found = run_around(planar_graph, problem, edges);
+      if (found) found->sites = problem.result_sites();
+      return found;
+    });
     if (!axis) return explained(std::move(axis).error(), planar_graph, tolerance);
-    axis->sites = problem.result_sites();
     if (divided)
       if (Status split = voronoi::split_long_edges(*axis, edges, true); !split)
         return std::move(split).error();

@@ -180,14 +180,11 @@ void add_loop(const LoopEdges& loop, const SiteNumbers& numbers, const Start& st
 /// its place.
 void add_polygon(const LoopEdges& loop, const SiteNumbers& numbers, const Start& start,
                  Boundary& boundary) {
-  const auto first_number = [&](std::uint32_t i) {
-    return numbers.edge[loop.begin() + i] - (numbers.is_site(loop.begin() + i) ? 1 : 0);
-  };
   const std::size_t end = boundary.sites.size();
   const std::uint32_t last = loop.size() - 1;
   const std::uint32_t count =
-      numbers.edge[loop.begin() + last] + (last > 0 ? 1 : 0) - first_number(0);
-  const std::uint32_t start_number = first_number(start.point);
+      numbers.edge[loop.begin() + last] + (last > 0 ? 1 : 0) - numbers.first(loop.begin());
+  const std::uint32_t start_number = numbers.first(loop.begin() + start.point);
   const auto place_of = [&](std::uint32_t number) {
     return end + (number >= start_number ? number - start_number : number + count - start_number);
   };

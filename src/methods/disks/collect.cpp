@@ -131,7 +131,7 @@ std::size_t count_of(const std::vector<bool>& stays, std::uint32_t first, std::s
 }
 
 /// Fills a vector with what each chunk has, chunk after chunk: count(chunk) elements, which
-/// write(chunk, place) writes. A few chunks at a time, so that what they have is freed before more
+/// write(chunk, to) writes. A few chunks at a time, so that what they have is freed before more
 /// memory is touched.
 template <class T, class Count, class Write>
 void gather(const std::vector<Placed>& placed, std::vector<T>& all, std::size_t spare,
@@ -201,10 +201,10 @@ Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::span<const Bridg
     const auto count = [&](const Placed& p) {
       return count_of(gluing.node_stays, p.first_node, p.chunk->nodes.size() - 1);
     };
-    gather(placed, graph.nodes, spare_nodes, count, [&](const Placed& p, Node* place) {
+    gather(placed, graph.nodes, spare_nodes, count, [&](const Placed& p, Node* to) {
       p.chunk->nodes.drain([&](std::size_t i, const Disk& disk) {
         if (i > 0 && (!glued || gluing.node_stays[p.first_node + i - 1]))
-          *place++ = {disk, p.chunk->component, NodeKind::leaf};
+          *to++ = {disk, p.chunk->component, NodeKind::leaf};
       });
     });
   };
@@ -213,10 +213,10 @@ Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::span<const Bridg
     const auto count = [&](const Placed& p) {
       return count_of(gluing.edge_stays, p.first_edge, p.chunk->links.size());
     };
-    gather(placed, graph.edges, 0, count, [&](const Placed& p, Edge* place) {
+    gather(placed, graph.edges, 0, count, [&](const Placed& p, Edge* to) {
       p.chunk->links.drain([&](std::size_t i, const Link& link) {
         if (glued && !gluing.edge_stays[p.first_edge + i]) return;
-        *place++ = {{number(p.node(link.node[0])), number(p.node(link.node[1]))}, link.site, {}};
+        *to++ = {{number(p.node(link.node[0])), number(p.node(link.node[1]))}, link.site, {}};
       });
     });
   };

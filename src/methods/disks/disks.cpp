@@ -200,10 +200,10 @@ Result<MedialAxis> axis_by(const Problem& problem, const SiteNumbers& numbers, c
   boundary = {};
   take_nodes(*graph, axis, lost);
   axis.edges = std::move(graph->edges);
-  bool is_connected = false;
-  in_parallel([&] { is_connected = has_right_topology(problem.shape, axis.nodes, axis.edges); },
+  bool is_right = false;
+  in_parallel([&] { is_right = has_right_topology(problem.shape, axis.nodes, axis.edges); },
               [&] { axis.sites = site::result_sites(problem.shape, numbers); });
-  if (!is_connected)
+  if (!is_right)
     return error_of_wrong_axis(
         problem.shape, axis,
         "the axis does not have one cycle for each hole: please report this shape");

@@ -117,7 +117,7 @@ class Merger {
   /// What double may leave open when it looks for candidates.
   double bound() const { return 1.25 * nearnesses[0].level * tolerance_; }
 
-  /// Those of some edges for which `holds`, which takes long, is true.
+  /// The edges for which a slow test holds: small blocks, so that few edges still use all threads.
   template <class Edges, class Holds>
   static std::vector<std::uint32_t> those(const Edges& edges, const Holds& holds) {
     std::vector<std::uint32_t> kept;

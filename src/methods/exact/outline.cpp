@@ -41,8 +41,7 @@ SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers) {
   if (has_arcs(problem.shape)) outline.by_next.assign(numbers.count, false);
   for (std::size_t l = 0; l < problem.shape.loop_count(); ++l) {
     const site::LoopEdges loop(problem.shape, l, problem.frame);
-    outline.loop_begin.push_back(numbers.edge[loop.begin()] -
-                                 (numbers.is_site(loop.begin()) ? 1 : 0));
+    outline.loop_begin.push_back(numbers.first(loop.begin()));
     const auto edge_at = [&](std::uint32_t i) {
       return ExactSite{loop.local(i), loop.local(loop.next(i)), loop.bulge(i)};
     };

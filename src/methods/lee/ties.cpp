@@ -196,9 +196,10 @@ bool is_right_locally(const Graph& graph, double slack) {
       most = std::isnan(gap) ? std::numeric_limits<double>::infinity() : std::max(most, gap);
     }
   };
-  // Beside the centre of an arc a disk may touch the arc's end and reach over its circle; and one
-  // of some tolerances, next to a small arc, may be that of another node.
-  constexpr double narrow = 16;
+  // Beside the centre of an arc a disk may touch the arc's end and reach over its circle. And where
+  // a disk is not much larger than the tolerance, an arc bends away from its tangent by as much as
+  // rounding: what it touches is open.
+  constexpr double narrow = 16;  // tolerances
   const auto is_open_at_arc = [&](std::uint32_t node) {
     const Disk& disk = graph.disk(node);
     const auto touched = graph.touched(node);
