@@ -12,6 +12,7 @@
 #include "medial/verify.h"
 #include "methods/disks/disks.h"
 #include "support/computed.h"
+#include "support/nasty.h"
 #include "support/random_shapes.h"
 #include "support/same_graph.h"
 
@@ -127,6 +128,22 @@ TEST(Parts, AreTheAxisOfTheWholeOfRandomShapes) {
     for (const std::size_t nodes : {16, 64})
       EXPECT_EQ(difference(shape, nodes), "") << seed << ' ' << random.kind << ' ' << nodes;
   }
+}
+
+/// Of a shape in which the walk in parts loses its way, so that compute() begins again.
+TEST(Parts, ProgressGrowsToOneOnceWhereTheWalkIsLost) {
+  const auto classes = test::nasty_classes();
+  const auto rings = std::ranges::find(classes, "rings", &test::NastyClass::name);
+  const auto shape = build_shape(test::nasty_shape(*rings, 116, false));
+  ASSERT_TRUE(shape);
+  std::vector<double> told;
+  const Options options{.threads = 1, .progress = [&](double share) { told.push_back(share); }};
+  ASSERT_TRUE(comes_in_parts(*shape, options));
+  const auto axis = compute_in_parts(*shape, options, [](const AxisPart&) { return success(); });
+  ASSERT_TRUE(axis) << to_string(axis.error());
+  EXPECT_GE(told.size(), 3U);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_EQ(std::count(told.begin(), told.end(), 1), 1);
 }
 
 TEST(Parts, HaveTheSameNodesAsTheWhole) {

@@ -152,12 +152,22 @@ bool has_curves(const Feature& feature) {
          std::ranges::any_of(feature.rings, [](const Ring& ring) { return !ring.bulges.empty(); });
 }
 
-/// Refuses heights and geocentric coordinates, by the WKT of their reference system.
+/// The WKT of a reference system, without that of a transformation from it.
+std::string_view without_transformation(std::string_view wkt) {
+  constexpr std::string_view source = "SOURCECRS[";
+  const std::size_t at = wkt.starts_with("BOUNDCRS[") ? wkt.find(source) : wkt.npos;
+  if (at == wkt.npos) return wkt;
+  wkt.remove_prefix(at + source.size());
+  return wkt.substr(std::min(wkt.find_first_not_of(" \t\r\n"), wkt.size()));
+}
+
+/// Refuses heights and geocentric coordinates, judging by the WKT of their reference system.
 Status check_plane(const DocumentInfo& document, ErrorCode code) {
-  const std::string& wkt = document.crs_wkt;
+  const std::string_view wkt = without_transformation(document.crs_wkt);
   // In WKT of 2015, longitudes and latitudes are GEODCRS, too.
-  const bool is_geocentric = wkt.starts_with("GEOCCS[") ||
-                             (wkt.starts_with("GEOD") && wkt.find("CS[Cartesian,") != wkt.npos);
+  const std::string_view axes = wkt.substr(std::min(wkt.find("CS["), wkt.size()));
+  const bool is_geocentric =
+      wkt.starts_with("GEOCCS[") || (wkt.starts_with("GEOD") && axes.starts_with("CS[Cartesian,"));
   if (!is_geocentric && !wkt.starts_with("VERT")) return success();
   const std::size_t begin = wkt.find('"') + 1;  // of its name
   return Error{code,

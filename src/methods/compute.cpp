@@ -107,8 +107,12 @@ Result<MedialAxis> compute_in_parts(const Shape& shape, const Options& options,
                                     const AxisSink& sink) {
   try {
     if (auto error = refuse(shape, options)) return std::move(*error);
+    Options again = options;
     if (comes_in_parts(shape, options)) {
-      const Problem problem(shape, options);
+      Options first = options;
+      first.progress = part_of_progress(options.progress, 0, attempt_share);
+      again.progress = part_of_progress(options.progress, attempt_share, 1 - attempt_share);
+      const Problem problem(shape, first);
       const auto divided = small_components(problem);
       auto axis = on_threads(options.threads, [&] {
         return divided ? run_divided_in_parts(problem, *divided, sink)
@@ -122,7 +126,7 @@ Result<MedialAxis> compute_in_parts(const Shape& shape, const Options& options,
         return std::move(**axis);
       }
     }
-    auto axis = compute(shape, options);
+    auto axis = compute(shape, again);
     if (!axis) return axis;
     if (Status handed = sink(whole_part(*axis)); !handed) return std::move(handed).error();
     return axis;

@@ -6,6 +6,12 @@
 
 namespace medial {
 
+std::function<void(double)> part_of_progress(const std::function<void(double)>& tell, double begin,
+                                             double length) {
+  if (!tell) return {};
+  return [&tell, begin, length](double share) { tell(begin + length * share); };
+}
+
 Problem::Problem(const Shape& a_shape, const Options& some_options,
                  std::span<const Contour> some_contours)
     : shape(a_shape),
@@ -29,11 +35,9 @@ site::SiteNumbers Problem::numbers() && {
 }
 
 std::function<void(double)> Problem::progress_of_attempt() const {
-  if (!options.progress) return {};
-  constexpr double most = 0.9;  // the rest is for what comes after it, as for another attempt
-  const double begin = attempted, length = most * (1 - begin);
+  const double begin = attempted, length = attempt_share * (1 - begin);
   attempted += length;
-  return [&tell = options.progress, begin, length](double share) { tell(begin + length * share); };
+  return part_of_progress(options.progress, begin, length);
 }
 
 }  // namespace medial

@@ -15,6 +15,14 @@
 
 namespace medial {
 
+/// The share of the progress left that one attempt gets; the rest is for what comes after it.
+inline constexpr double attempt_share = 0.9;
+
+/// A callback that maps 0..1 to a part of the progress bar. Empty like `tell`, which must outlive
+/// it.
+std::function<void(double)> part_of_progress(const std::function<void(double)>& tell, double begin,
+                                             double length);
+
 /// A shape prepared once for every method. Lengths are in units of the input unless called local.
 /// The shape and the options must outlive it.
 struct Problem {
@@ -46,8 +54,8 @@ struct Problem {
     return std::get<Own>(options.method);
   }
   bool is_cancelled() const { return options.cancel != nullptr && options.cancel->load(); }
-  /// Takes the share done of one attempt at the problem: its progress goes from where those before
-  /// end, over most of what is left. Empty where the caller wants none.
+  /// A callback for one attempt. It maps 0..1 to the part of the progress bar that earlier attempts
+  /// left, and keeps a tenth for later ones. Empty where the caller wants none.
   std::function<void(double)> progress_of_attempt() const;
 
   mutable double attempted = 0;  ///< the share of the progress where the attempts so far end

@@ -403,11 +403,10 @@ Result<Offsets> floor_rings(const MedialAxis& axis, double flat_from, double ste
   if (!std::isfinite(flat_from)) return Offsets{};
   auto rings = offset_passes(axis, flat_from, step);
   if (!rings && rings.error().code == ErrorCode::too_large)
-    return Error{
-        ErrorCode::too_large,
-        "clearing the flat bottoms would take more than 1e6 passes: a larger step, tool or "
-        "depth takes fewer",
-        {}};
+    return Error{ErrorCode::too_large,
+                 "the flat bottoms take " + rings.error().text +
+                     "; a larger step, tool or depth takes fewer",
+                 {}};
   if (!rings) return std::move(rings).error();
   if (rings->empty()) return Offsets{};
   return inward_offsets(axis, *rings);

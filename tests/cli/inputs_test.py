@@ -291,7 +291,13 @@ class Inputs(CommandLine):
         axis = json.loads(self.succeed("axis", self.write("a.wkt", "POLYGON((0 0,4 0,4 2,0 2,0 0))"), "-o", "-").stdout)
         cartesian = ('GEODCRS["spinning",DATUM["d",ELLIPSOID["e",6378137,298]],CS[Cartesian,3],AXIS["(X)",geocentricX],'
                      'AXIS["(Y)",geocentricY],AXIS["(Z)",geocentricZ],LENGTHUNIT["metre",1]]')
-        for crs in ("EPSG:4978", "EPSG:4936", "EPSG:5773", cartesian):
+        latitudes = cartesian[:cartesian.index("CS[")] + ('CS[ellipsoidal,2],AXIS["latitude",north],AXIS["longitude",east],'
+                                                          'ANGLEUNIT["degree",0.0174532925199433]]')
+        bound = [f'BOUNDCRS[SOURCECRS[{source}],TARGETCRS[{cartesian}],ABRIDGEDTRANSFORMATION["t",METHOD["Geocentric '
+                 'translations (geocentric domain)"],PARAMETER["X-axis translation",1],PARAMETER["Y-axis translation",0],'
+                 'PARAMETER["Z-axis translation",0]]]'
+                 for source in (cartesian, latitudes)]
+        for crs in ("EPSG:4978", "EPSG:4936", "EPSG:5773", cartesian, bound[0]):
             said = "has neither plane coordinates nor longitudes and latitudes"
             self.assertIn(said, self.refuse("invalid_option", "axis", "a.wkt", "--crs", crs))
             self.write("own.json", json.dumps({**axis, "crs": crs}))
@@ -304,8 +310,10 @@ class Inputs(CommandLine):
                    '"crs":{"type":"name","properties":{"name":"EPSG:4978"}}}')
         self.assertIn(said, self.refuse("unsupported", "axis", "a.geojson"))
         self.succeed("axis", "a.geojson", "--crs", "EPSG:25832")
-        self.write("degrees.json", json.dumps({**axis, "crs": "EPSG:4326"}))
-        self.succeed("prune", "degrees.json", "-o", "c.json")
+        for crs in ("EPSG:4326", latitudes, bound[1]):
+            self.write("degrees.json", json.dumps({**axis, "crs": crs}))
+            self.succeed("prune", "degrees.json", "-o", "c.json")
+            self.succeed("axis", "a.wkt", "--crs", crs)
 
     def test_a_code_in_a_file_of_medial_is_a_reference_system(self):
         axis = json.loads(self.succeed("axis", self.write("a.wkt", "POLYGON((0 0,4 0,4 2,0 2,0 0))"), "-o", "-").stdout)
@@ -417,9 +425,12 @@ class Inputs(CommandLine):
         for table in (plain, plain.replace(b"gr__e", "größe".encode("cp1252"))):
             self.write("f.dbf", table)
             named = "größe" if table != plain else "gr__e"
-            for condition in (named + " > 3", "name = 'Köln'"):
+            # The last is in the table's encoding already.
+            for condition in (named + " > 3", "name = 'Köln'", os.fsdecode("name = 'Köln'".encode("cp1252"))):
                 self.succeed("rebuild", "f.shp", "--where", condition, "-o", "g.geojson")
                 features = json.loads(self.read("g.geojson"))["features"]
                 self.assertEqual([(f["properties"][named], f["properties"]["name"]) for f in features], [(5, "Köln")])
+            # Windows-1252 lacks a letter of it.
+            self.assertIn("no feature passes", self.refuse("empty", "axis", "f.shp", "--where", "name = 'Köłln'"))
         self.write("names.txt", "x y\nwords only\n")
         self.refuse("malformed", "axis", "names.txt")

@@ -44,6 +44,13 @@ bool known_extension(const std::string& name) {
   return false;
 }
 
+std::string in_encoding(const std::string& text, const char* from, const char* to) {
+  char* bytes = CPLRecode(text.c_str(), from, to);
+  std::string result = bytes;
+  CPLFree(bytes);
+  return result;
+}
+
 /// Text in UTF-8. Other bytes, of formats that name no encoding, are taken for the most common one;
 /// `recoded` says so.
 std::string utf8(const char* text, bool& recoded) {
@@ -53,10 +60,7 @@ std::string utf8(const char* text, bool& recoded) {
   recoded = true;
   for (char& byte : bytes)  // that stand for no character
     if (std::string_view("\x81\x8d\x8f\x90\x9d").find(byte) != std::string_view::npos) byte = '?';
-  char* characters = CPLRecode(bytes.c_str(), "CP1252", CPL_ENC_UTF8);
-  std::string result = characters;
-  CPLFree(characters);
-  return result;
+  return in_encoding(bytes, "CP1252", CPL_ENC_UTF8);
 }
 std::string utf8(const char* text) {
   bool ignored = false;
@@ -92,13 +96,15 @@ bool names_no_encoding(OGRLayer& layer) {
   return false;
 }
 
-/// A filter as the layer's text is encoded, which GDAL compares byte by byte.
+/// A filter as the layer's text is encoded, which GDAL compares byte by byte. One that is not in
+/// UTF-8 may be encoded like that already; one with characters that the encoding lacks, which
+/// CPLRecode drops, is to find nothing.
 std::string filter_for(OGRLayer& layer, const std::string& filter) {
-  if (is_ascii(filter) || !names_no_encoding(layer)) return filter;
-  char* bytes = CPLRecode(filter.c_str(), CPL_ENC_UTF8, "CP1252");
-  std::string result = bytes;
-  CPLFree(bytes);
-  return result;
+  if (is_ascii(filter) || !CPLIsUTF8(filter.c_str(), -1) || !names_no_encoding(layer))
+    return filter;
+  const GdalMessages unheard;
+  std::string bytes = in_encoding(filter, CPL_ENC_UTF8, "CP1252");
+  return in_encoding(bytes, "CP1252", CPL_ENC_UTF8) == filter ? bytes : filter;
 }
 
 /// " name rank": what filters can ask for.
