@@ -100,6 +100,26 @@ TEST(Limits, VerticesThatDifferByLessThan256BitsHoldHaveAPlace) {
   }
 }
 
+// 256 bits leave open by 1e-10 where the disk of 5e-56 is.
+TEST(Limits, WhatPreciseNumbersLeaveOpenIsMeasured) {
+  const Shape shape =
+      *build_shape(std::vector{ring_of({{4.2080864162421446e-67, -1.0000000000000004},
+                                        {85.000000000000071, -5.0119936214159465e-38},
+                                        {9.5408178832951628e-65, 0},
+                                        {4.3007768761476167e-27, 4.1097543501863732e-67},
+                                        {0, 85.000000000000014},
+                                        {0, 4.871333627475911e-56}})});
+  for (const Method& method : {Method{method::Disks{}}, Method{method::Lee{}}}) {
+    const auto axis = compute(shape, {.method = method});
+    if (axis) {
+      EXPECT_TRUE(verify(shape, *axis).passed);
+    } else {
+      EXPECT_EQ(axis.error().code, ErrorCode::unsupported);
+      EXPECT_TRUE(axis.error().place.point.has_value());
+    }
+  }
+}
+
 // An edge between two vertices so near to each other has a weight of 1e60.
 TEST(Limits, TheAreaBesideAWaistIsANumber) {
   for (const double half : {1e-10, 1e-60, 1e-90}) {

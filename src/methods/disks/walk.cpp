@@ -389,6 +389,8 @@ class Walker {
       lose(span, event.site);
       return is_exact_;
     }
+    // What 256 bits leave open is measured in the end.
+    if (!(found->error <= context_.tolerance)) lose(span, found->site);
     // Between sites that are all but parallel, double's disk is as good as any.
     const bool is_tie = event.kind == Event::Kind::at_node && !context_.joins_ties;
     if (!found->is_well_known() && event.site == found->site && !is_tie) return false;

@@ -1,6 +1,7 @@
 #include "methods/lee/lee.h"
 
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "axis/statistics.h"
@@ -12,6 +13,20 @@
 
 namespace medial::lee {
 namespace {
+
+/// Whether a side is so short, against the tolerance, that rounding turns it, or an arc's bend is
+/// less than rounding.
+bool has_short_sides(const Problem& problem) {
+  constexpr double shortest = 16;  // tolerances
+  const double least = shortest * problem.tolerance;
+  for (std::size_t i = 0; i < problem.shape.loop_count(); ++i) {
+    const std::span<const Vec2> loop = problem.shape.loop(i);
+    for (std::size_t k = 0; loop.size() > 1 && k < loop.size(); ++k)
+      if (squared_norm(loop[k] - loop[k > 0 ? k - 1 : loop.size() - 1]) < least * least)
+        return true;
+  }
+  return false;
+}
 
 /// A shape's diagram, and what its results are completed from.
 class Solution {
@@ -71,6 +86,7 @@ class Solution {
 
 /// The axis, where double decides what its disks touch.
 std::optional<MedialAxis> axis_in_double(const Problem& problem, std::vector<Level>* levels) {
+  if (has_short_sides(problem)) return std::nullopt;
   Solution solution(problem);
   if (!solution.solve(levels)) return std::nullopt;
   MedialAxis axis;

@@ -196,18 +196,13 @@ bool is_right_locally(const Graph& graph, double slack) {
       most = std::isnan(gap) ? std::numeric_limits<double>::infinity() : std::max(most, gap);
     }
   };
-  // Beside the centre of an arc a disk may touch the arc's end and reach over its circle. And where
-  // a disk is not much larger than the tolerance, an arc bends away from its tangent by as much as
-  // rounding: what it touches is open.
-  constexpr double narrow = 16;  // tolerances
-  const auto is_open_at_arc = [&](std::uint32_t node) {
+  // Beside the centre of an arc a disk may touch the arc's end and reach over its circle.
+  const auto reaches_over_circle = [&](std::uint32_t node) {
     const Disk& disk = graph.disk(node);
     const auto touched = graph.touched(node);
     return std::any_of(touched.begin(), touched.end(), [&](std::uint32_t i) {
-      const site::Site& arc = elements.sites[i];
-      return (arc.is_arc() && disk.radius <= narrow * slack) ||
-             (elements.is_convex_arc(i) &&
-              site::carrier_distance(arc, disk.center) < disk.radius - slack);
+      return elements.is_convex_arc(i) &&
+             site::carrier_distance(elements.sites[i], disk.center) < disk.radius - slack;
     });
   };
   double least = 0, most = 0, any = 0;
@@ -215,7 +210,7 @@ bool is_right_locally(const Graph& graph, double slack) {
     graph.for_edges(loop, [&](std::uint32_t edge) {
       const bool from_node = graph.disk(edge).radius > 0 && !graph.begins_at_bridge(edge);
       if (from_node) reach(edge, graph.disk(edge), least, most);
-      if (from_node && is_open_at_arc(edge)) most = std::numeric_limits<double>::infinity();
+      if (from_node && reaches_over_circle(edge)) most = std::numeric_limits<double>::infinity();
       const std::uint32_t end = graph.to(edge);
       if (!from_node || !(graph.disk(end).radius > 0)) return;
       reach(edge, graph.disk(end), least, any);
