@@ -100,6 +100,22 @@ TEST(Limits, VerticesThatDifferByLessThan256BitsHoldHaveAPlace) {
   }
 }
 
+// Double puts a disk of 6e-21 at 1.5, next to sides that 256 bits hold to 1e-38 only.
+TEST(Limits, ANeedleOfATinyBaseIsVerified) {
+  const Shape shape =
+      *build_shape(std::vector{ring_of({{0, -6.8373189140109183e-51},
+                                        {7.440889645336302e-56, -5.9318765896075826e-21},
+                                        {85, -3.0000000000000009},
+                                        {2.0700714505490342e-38, 2.642543054720633e-17},
+                                        {-3.9590548366369501e-92, -7.7272225946954137e-65}})});
+  for (const Method& method : {Method{method::Disks{}}, Method{method::Lee{}}}) {
+    const auto axis = compute(shape, {.method = method});
+    ASSERT_TRUE(axis.ok()) << to_string(axis.error());
+    const Certificate certificate = verify(shape, *axis);
+    EXPECT_TRUE(certificate.passed) << certificate.failures[0];
+  }
+}
+
 // 256 bits leave open by 1e-10 where the disk of 5e-56 is.
 TEST(Limits, WhatPreciseNumbersLeaveOpenIsMeasured) {
   const Shape shape =

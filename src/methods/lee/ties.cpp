@@ -180,7 +180,7 @@ void join_ties(Graph& graph, double tolerance) {
 
 bool is_right_locally(const Graph& graph, double slack) {
   // Of a tie that is not one disk, the points may be the one or the other in a mirror image.
-  constexpr double near = 32;
+  constexpr double near = 32, narrow = 16;
   const auto is_near_tie = [&](std::uint32_t edge) {
     const Disk &from = graph.disk(edge), &to = graph.disk(graph.to(edge));
     return !is_same(from, to) && distance(from.center, to.center) <= near * slack;
@@ -210,7 +210,10 @@ bool is_right_locally(const Graph& graph, double slack) {
     graph.for_edges(loop, [&](std::uint32_t edge) {
       const bool from_node = graph.disk(edge).radius > 0 && !graph.begins_at_bridge(edge);
       if (from_node) reach(edge, graph.disk(edge), least, most);
-      if (from_node && reaches_over_circle(edge)) most = std::numeric_limits<double>::infinity();
+      // Where a shape is not much wider than the tolerance, rounding turns its sides.
+      const bool is_narrow = graph.disk(edge).radius <= narrow * slack;
+      if (from_node && (is_narrow || reaches_over_circle(edge)))
+        most = std::numeric_limits<double>::infinity();
       const std::uint32_t end = graph.to(edge);
       if (!from_node || !(graph.disk(end).radius > 0)) return;
       reach(edge, graph.disk(end), least, any);
