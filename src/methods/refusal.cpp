@@ -43,8 +43,8 @@ Error error_of_wrong_axis(const Shape& shape, const MedialAxis& axis, const char
     return unsupported_at(narrowest->disk.center,
                           "the shape is too narrow here for its sides to differ by more than "
                           "rounding");
-  // Of the size: 256 bits hold, beside a length of 1, another of 2^-200 with 56 bits of it.
-  constexpr double shortest = 0x1p-200;
+  // Of the size: 256 bits hold, beside 1, the product of two lengths of 2^-100 with 56 bits of it.
+  constexpr double shortest = 0x1p-100;
   const double size = diagonal(bounding_box(shape));
   const auto is_lost = [&](double apart) {
     return apart != 0 && std::abs(apart) < shortest * size;
