@@ -92,8 +92,10 @@ std::string fault_of(const Editor& editor) {
     expected = edit::local_axis(shape, {.threads = 1}, axis.tolerance);
   if (!expected) return to_string(expected.error());
   const double tolerance = std::max(axis.tolerance, expected->tolerance);
-  const std::string different = difference(shape, Names(shape, axis, tolerance).renamed(),
-                                           Names(shape, *expected, tolerance).renamed(), tolerance);
+  std::string different = difference(shape, axis, *expected, tolerance);
+  if (!different.empty())
+    different = difference(shape, Names(shape, axis, tolerance).renamed(),
+                           Names(shape, *expected, tolerance).renamed(), tolerance);
   if (!different.empty()) return different;
   const auto passes = [&](const MedialAxis& one) {
     return verify(shape, one, {.threads = 1}).passed;
