@@ -389,8 +389,6 @@ class Walker {
       lose(span, event.site);
       return is_exact_;
     }
-    // What 256 bits leave open is measured in the end.
-    if (!(found->error <= context_.tolerance)) lose(span, found->site);
     // Between sites that are all but parallel, double's disk is as good as any that is so near.
     const bool is_tie = event.kind == Event::Kind::at_node && !context_.joins_ties;
     const double apart = distance(event.disk.center, found->disk.center) +
@@ -398,6 +396,8 @@ class Walker {
     if (!found->is_well_known() && event.site == found->site && !is_tie &&
         apart <= found->error + spread * context_.tolerance)
       return false;
+    // What 256 bits leave open is measured in the end.
+    if (!(found->error <= context_.tolerance)) lose(span, found->site);
     Span ahead = span;
     stay_on_pieces(asked, found->disk.center, ahead);
     const bool passes = ahead.right != span.right || ahead.left != span.left;
