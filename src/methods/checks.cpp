@@ -108,6 +108,19 @@ bool has_arcs(const Shape& shape) {
   return std::any_of(shape.bulges.begin(), shape.bulges.end(), [](double b) { return b != 0; });
 }
 
+namespace {
+
+/// What has_right_topology() finds in a block of edges.
+struct TopologyFindings {
+  std::uint64_t joined = 0;
+  bool stays = true;                  ///< no edge leaves its component
+  std::vector<std::uint32_t> others;  ///< edges between blocks, joined after all threads
+  /// Of each component, how many edges: in runs, as most blocks are of one.
+  std::vector<std::pair<std::uint32_t, std::uint64_t>> edges;
+};
+
+}  // namespace
+
 template <class E>
 bool has_right_topology(const Shape& shape, std::span<const Node> nodes, std::span<const E> edges) {
   struct Count {
@@ -122,39 +135,41 @@ bool has_right_topology(const Shape& shape, std::span<const Node> nodes, std::sp
   }
   // Most edges lead from node to node of about their own number: threads join these, each in a
   // block of nodes of its own.
-  struct Findings {
-    std::uint64_t joined = 0;
-    bool stays = true;                  ///< no edge leaves its component
-    std::vector<std::uint32_t> others;  ///< edges between blocks, joined after all threads
-    /// Of each component, how many edges: in runs, as most blocks are of one.
-    std::vector<std::pair<std::uint32_t, std::uint64_t>> edges;
-  };
   constexpr std::size_t block = 1 << 14;
   DisjointSets parts(nodes.size());
-  const auto findings =
-      in_blocks<Findings>(edges.size(), block, [&](std::size_t e, Findings& found) {
-        const auto [from, to] = edges[e].node;
-        const std::uint32_t component = nodes[from].component;
-        if (component != nodes[to].component) found.stays = false;
-        if (counts.size() > 1) {
-          if (found.edges.empty() || found.edges.back().first != component)
-            found.edges.emplace_back(component, 0);
-          ++found.edges.back().second;
-        }
-        if (from / block == e / block && to / block == e / block)
-          found.joined += parts.join_uncounted(from, to) ? 1 : 0;
-        else
-          found.others.push_back(static_cast<std::uint32_t>(e));
-      });
+  const auto look_at = [&](std::size_t e, TopologyFindings& found) {
+    const auto [from, to] = edges[e].node;
+    const std::uint32_t component = nodes[from].component;
+    if (component != nodes[to].component) found.stays = false;
+    if (counts.size() > 1) {
+      if (found.edges.empty() || found.edges.back().first != component)
+        found.edges.emplace_back(component, 0);
+      ++found.edges.back().second;
+    }
+    if (from / block == e / block && to / block == e / block)
+      found.joined += parts.join_uncounted(from, to) ? 1 : 0;
+    else
+      found.others.push_back(static_cast<std::uint32_t>(e));
+  };
   if (counts.size() == 1) counts[0].edges = edges.size();
   std::uint64_t joined = 0;
-  for (const Findings& found : findings) {
-    if (!found.stays) return false;
+  bool stays = true;
+  const auto add = [&](const TopologyFindings& found) {
+    stays = stays && found.stays;
     joined += found.joined;
     for (const auto& [component, count] : found.edges) counts[component].edges += count;
     for (const std::uint32_t e : found.others)
       joined += parts.join_uncounted(edges[e].node[0], edges[e].node[1]) ? 1 : 0;
+  };
+  if (edges.size() <= block) {  // without a list, which small shapes would notice
+    TopologyFindings all;
+    for (std::size_t e = 0; e < edges.size(); ++e) look_at(e, all);
+    add(all);
+  } else {
+    for (const TopologyFindings& found : in_blocks<TopologyFindings>(edges.size(), block, look_at))
+      add(found);
   }
+  if (!stays) return false;
   // As no edge leaves its component and each component has a node, each is one part then;
   // a connected graph has edges - nodes + 1 independent cycles.
   return nodes.size() - joined == counts.size() &&

@@ -136,6 +136,11 @@ std::size_t count_of(const std::vector<bool>& stays, std::uint32_t first, std::s
 template <class T, class Count, class Write>
 void gather(const std::vector<Placed>& placed, std::vector<T>& all, std::size_t spare,
             const Count& count, const Write& write) {
+  if (placed.size() == 1) {  // as most small shapes: without a list
+    reserve_large(all, count(placed[0]) + spare);
+    all.resize(count(placed[0]));
+    return write(placed[0], all.data());
+  }
   constexpr std::size_t of_thread = 1 << 12, most = 1 << 15;
   const std::size_t at_a_time =
       std::min(most, of_thread * static_cast<std::size_t>(effective_threads(0)));
