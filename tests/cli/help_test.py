@@ -188,6 +188,13 @@ class LateLibraries(CommandLine):
         self.assertEqual(doctor.returncode, 1)
         self.assertIn(b"install medial again", doctor.stdout)
 
+    def expect_installed(self, arguments, status):
+        """Runs the program in the folder, which advises to install it again where it fails."""
+        done = subprocess.run([self.path("medial"), *arguments], capture_output=True,
+                              cwd=self.folder.name)
+        self.assertEqual(done.returncode, status, done.stderr)
+        self.assertEqual(b"install medial again" in done.stdout + done.stderr, status > 0, arguments)
+
     def test_without_the_module_that_draws(self):
         for name in ("medial", "medial_gis.so"):
             shutil.copy(os.path.join(os.path.dirname(support.PROGRAM), name), self.folder.name)
@@ -198,11 +205,7 @@ class LateLibraries(CommandLine):
                                   (["measure", "a.json", "--plot", "p.svg"], 2),
                                   (["voxels", "x.stl", "-o", "x.ply"], 2), (["doctor"], 1),
                                   (["axis", "a.wkt", "-o", "a.fgb"], 0)):
-            done = subprocess.run([self.path("medial"), *arguments], capture_output=True,
-                                  cwd=self.folder.name)
-            self.assertEqual(done.returncode, status, done.stderr)
-            self.assertEqual(b"install medial again" in done.stdout + done.stderr, status > 0,
-                             arguments)
+            self.expect_installed(arguments, status)
 
     def test_without_the_module_that_reads_svg(self):
         for name in ("medial", "medial_gis.so", "medial_draw.so"):
@@ -211,11 +214,7 @@ class LateLibraries(CommandLine):
         self.write("a.svg", self.SVG)
         for arguments, status in ((["axis", "a.svg", "-o", "a.json"], 2), (["doctor"], 1),
                                   (["axis", "a.wkt", "-o", "b.svg"], 0)):
-            done = subprocess.run([self.path("medial"), *arguments], capture_output=True,
-                                  cwd=self.folder.name)
-            self.assertEqual(done.returncode, status, done.stderr)
-            self.assertEqual(b"install medial again" in done.stdout + done.stderr, status > 0,
-                             arguments)
+            self.expect_installed(arguments, status)
 
     def test_modules_of_another_build(self):
         for name in ("medial", *self.MODULES):
