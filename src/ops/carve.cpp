@@ -536,7 +536,8 @@ Result<Carving> carve(const MedialAxis& axis, const CarveOptions& options) {
     return invalid_carving("tabs need a width above 0, and a top below the surface");
   constexpr double smallest_chord = 1e-8;  // the moves grow as the root of one over it
   if (options.chord > 0 && options.chord < smallest_chord * diagonal(box_of(axis)))
-    return invalid_carving("the chord must be at least 1e-8 of the diagonal of the axis's sites");
+    return invalid_carving(
+        "the path tolerance (chord) must be at least 1e-8 of the diagonal of the axis's sites");
   return guarded([&] { return plan(axis, options); });
 }
 

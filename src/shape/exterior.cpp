@@ -20,7 +20,7 @@ Error error_of_exterior(const Shape& shape, const Error& refused) {
   const Place& built = refused.place;
   Error error{
       unsupported,
-      "edges lie nearer to each other here than the exterior resolves, whose tolerance is a "
+      "edges lie nearer to each other than the exterior resolves, whose tolerance is a "
       "share of the enclosure's size: choose a smaller margin, or move them apart",
       {}};
   error.place.point = built.point;

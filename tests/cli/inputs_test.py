@@ -142,6 +142,13 @@ class Inputs(CommandLine):
         self.assertEqual(report["arcs"]["pieces"], 8)
         self.assertAlmostEqual(report["area"], 8 + math.pi, 12)
 
+    def test_svg_in_utf_16_on_standard_input(self):
+        text = '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0H10V10z"/></svg>'
+        for encoding in ("utf-8", "utf-8-sig", "utf-16", "utf-16-be"):
+            mark = b"\xfe\xff" if encoding == "utf-16-be" else b""
+            report = json.loads(self.succeed("info", "-", "--json", given=mark + text.encode(encoding)).stdout)
+            self.assertEqual(report["area"], 50, encoding)
+
     def test_options_of_curves(self):
         self.write("ellipse.svg", '<svg><ellipse rx="4" ry="2"/></svg>')
         few = json.loads(self.succeed("info", "--json", "ellipse.svg", "--arc-tolerance", "1e-2").stdout)
@@ -324,7 +331,7 @@ class Inputs(CommandLine):
         self.assertIn("nowhere", self.refuse("malformed", "prune", "bad.json", "-o", "b.geojson"))
 
     def test_what_is_no_shape_is_named(self):
-        self.assertIn("directory", self.refuse("unsupported", "axis", "."))
+        self.assertIn("directory", self.refuse("unreadable", "axis", "."))
         self.refuse("empty", "axis", "/dev/null")
         self.assertIn("--text", self.refuse("unsupported", "axis", self.write("a.ttf", b"\0\1\0\0" + bytes(60))))
         self.write("shape.txt", "POLYGON((0 0,4 0,4 2,0 2,0 0))")

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <string>
 
 #include "base/arc.h"
 #include "io/formats/svg.h"
@@ -74,8 +76,14 @@ void put_svg(OutputStream& out, const Document<ShapeItem>& file) {
   out.put("</g>\n</svg>\n");
 }
 
-/// Whether a text begins like a document of SVG.
+/// Whether a text begins like a document of SVG, in UTF-8 or UTF-16.
 bool begins_like_svg(std::string_view text) {
+  std::string letters;  // of UTF-16: every other byte of a tag's is 0
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
+    std::copy_if(text.begin() + 2, text.end(), std::back_inserter(letters),
+                 [](char byte) { return byte != 0; });
+    text = letters;
+  }
   const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (first == std::string_view::npos || text[first] != '<') return false;
   return text.find("<svg") != std::string_view::npos;

@@ -213,7 +213,7 @@ class GdalReader final : public FeatureReader {
   Error cannot_open(const std::string& name, const std::string& failure) const {
     std::error_code ignored;
     if (std::filesystem::is_directory(name, ignored))
-      return error(ErrorCode::unsupported, "this is a directory: name a file in it");
+      return error(ErrorCode::unreadable, "this is a directory: name a file in it");
     const bool known = known_extension(name) || GDALIdentifyDriverEx(name.c_str(), GDAL_OF_VECTOR,
                                                                      nullptr, nullptr) != nullptr;
     if (known) {
