@@ -18,11 +18,10 @@ Error error_of_exterior(const Shape& shape, const Error& refused) {
   if (code != overlap && code != crossing && code != no_area && code != too_few_points)
     return refused;
   const Place& built = refused.place;
-  Error error{
-      unsupported,
-      "edges lie nearer to each other than the exterior resolves, whose tolerance is a "
-      "share of the enclosure's size: choose a smaller margin, or move them apart",
-      {}};
+  Error error{unsupported,
+              "edges lie nearer to each other than the exterior resolves, whose tolerance is a "
+              "share of the enclosure's size: choose a smaller margin, or move them apart",
+              {}};
   error.place.point = built.point;
   if (!built.ring || *built.ring == 0) return error;
   const std::size_t loop = *built.ring - 1;
