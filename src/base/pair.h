@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <cstring>
 #ifdef __SSE2__
 #include <emmintrin.h>
@@ -9,9 +10,11 @@
 
 namespace medial {
 
-/// Two numbers, worked on at once where the machine can.
+/// Two numbers, or four of single precision, worked on at once where the machine can.
 using Pair = double __attribute__((vector_size(16)));
+using Lanes = float __attribute__((vector_size(16)));
 using Pairwise = decltype(Pair{} < Pair{});  // -1 where it holds
+using Lanewise = decltype(Lanes{} < Lanes{});
 
 inline Pair both(double value) { return Pair{value, value}; }
 inline Pair pair_at(const double* place) {
@@ -19,19 +22,32 @@ inline Pair pair_at(const double* place) {
   std::memcpy(&pair, place, sizeof pair);
   return pair;
 }
-inline bool all(Pairwise what) { return (what[0] & what[1]) != 0; }
-inline bool any(Pairwise what) { return (what[0] | what[1]) != 0; }
 
 // A compiler makes several instructions of the plain forms.
 #ifdef __SSE2__
 inline Pair larger(Pair a, Pair b) { return _mm_max_pd(a, b); }
 inline Pair smaller(Pair a, Pair b) { return _mm_min_pd(a, b); }
+inline Lanes larger(Lanes a, Lanes b) { return _mm_max_ps(a, b); }
 inline Pair root_of(Pair a) { return _mm_sqrt_pd(a); }
+/// Where it holds, as bits.
+inline std::uint32_t bits_of(Pairwise what) {
+  return static_cast<std::uint32_t>(_mm_movemask_pd(reinterpret_cast<Pair>(what)));
+}
+inline std::uint32_t bits_of(Lanewise what) {
+  return static_cast<std::uint32_t>(_mm_movemask_ps(reinterpret_cast<Lanes>(what)));
+}
 #else
 inline Pair larger(Pair a, Pair b) { return a > b ? a : b; }
 inline Pair smaller(Pair a, Pair b) { return a < b ? a : b; }
+inline Lanes larger(Lanes a, Lanes b) { return a > b ? a : b; }
 inline Pair root_of(Pair a) { return Pair{std::sqrt(a[0]), std::sqrt(a[1])}; }
+inline std::uint32_t bits_of(Pairwise what) { return (what[0] & 1U) | (what[1] & 2U); }
+inline std::uint32_t bits_of(Lanewise what) {
+  return (what[0] & 1U) | (what[1] & 2U) | (what[2] & 4U) | (what[3] & 8U);
+}
 #endif
+inline bool all(Pairwise what) { return bits_of(what) == 3; }
+inline bool any(Pairwise what) { return bits_of(what) != 0; }
 inline Pair size_of(Pair a) { return larger(a, -a); }
 /// Negative where the other one is below 0.
 inline Pair with_sign_of(Pair size, Pair other) { return other < 0 ? -size : size; }

@@ -298,7 +298,8 @@ template <BoundaryTree::Order order, class Visit>
 
   // Start at the lowest node over the whole range; in the plane, at the root.
   const std::uint32_t first_block = in_plane_.empty() ? first / block_size : 0;
-  const std::uint32_t last_block = in_plane_.empty() ? last / block_size : last_block_of_all();
+  const std::uint32_t last_block =
+      in_plane_.empty() ? last / block_size : last_of_all() / block_size;
   const auto common = static_cast<std::uint32_t>(std::bit_width(first_block ^ last_block) + 1) / 2;
   const auto chord_count = static_cast<std::uint32_t>(chords_.size());
 
@@ -354,29 +355,36 @@ inline bool is_out_of_reach(const Site& site, Vec2 c, double reach) {
 
 }  // namespace
 
+template <class Squared, class LookAt>
+[[gnu::always_inline]] inline void BoundaryTree::look_at_each(Vec2 c, std::uint32_t first,
+                                                              std::uint32_t last,
+                                                              const Squared& squared,
+                                                              const LookAt& look_at) const {
+  if (!has_arcs_)
+    for (; first < last; first += 2) {
+      if (!one_is_nearer(sites_[first], sites_[first + 1], c, squared())) continue;
+      look_at(first);
+      look_at(first + 1);
+    }
+  for (; first <= last; ++first) look_at(first);
+}
+
 BoundaryTree::Hit BoundaryTree::nearest(Vec2 c, double reach, std::uint32_t first,
                                         std::uint32_t last) const {
   Hit hit;
   if (first > last || !(reach > 0)) return hit;
   hit.squared_distance = reach * reach;
-  const auto take_if_nearer = [&](std::uint32_t i, double squared) {
+  const auto look_at = [&](std::uint32_t i) {
+    const Site& site = sites_[i];
+    if (has_arcs_ && is_out_of_reach(site, c, reach)) return;
+    const double squared = site::squared_distance(site, c);
     if (squared < hit.squared_distance) hit = {i, squared};
   };
   visit_blocks<Order::nearest_first>(
       c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
         const double before = hit.squared_distance;
-        const Site* site = &sites_[from];
-        if (!has_arcs_) {
-          // Two at a time; rarely is one of them near enough.
-          for (; from < to; from += 2, site += 2) {
-            if (!one_is_nearer(site[0], site[1], c, hit.squared_distance)) continue;
-            take_if_nearer(from, site::squared_distance(site[0], c));
-            take_if_nearer(from + 1, site::squared_distance(site[1], c));
-          }
-        }
-        for (; from <= to; ++from, ++site)
-          if (!is_out_of_reach(*site, c, reach))
-            take_if_nearer(from, site::squared_distance(*site, c));
+        look_at_each(
+            c, from, to, [&] { return hit.squared_distance; }, look_at);
         if (hit.squared_distance < before) reach = std::sqrt(hit.squared_distance);
       });
   return hit;
@@ -403,19 +411,13 @@ BoundaryTree::Hit BoundaryTree::nearest_facing(Vec2 c, double reach, std::uint32
     const double near = std::sqrt(back.squared_distance) + rounding;
     limit = std::min({front.squared_distance, near * near, limit});
   };
-  visit_blocks<Order::nearest_first>(
-      c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
-        const double before = limit;
-        if (!has_arcs_) {
-          for (; from < to; from += 2) {
-            if (!one_is_nearer(sites_[from], sites_[from + 1], c, limit)) continue;
-            look_at(from);
-            look_at(from + 1);
-          }
-        }
-        for (; from <= to; ++from) look_at(from);
-        if (limit < before) reach = std::sqrt(limit);
-      });
+  visit_blocks<Order::nearest_first>(c, reach, first, last,
+                                     [&](std::uint32_t from, std::uint32_t to) {
+                                       const double before = limit;
+                                       look_at_each(
+                                           c, from, to, [&] { return limit; }, look_at);
+                                       if (limit < before) reach = std::sqrt(limit);
+                                     });
   if (!back) return front;
   if (!front) return back;
   return std::sqrt(front.squared_distance) <= std::sqrt(back.squared_distance) + rounding ? front
@@ -429,27 +431,23 @@ BoundaryTree::Hit BoundaryTree::nearest_lowest(Vec2 c, double reach) const {
   constexpr double a_little_more = 1 + 0x1p-40;
   double squared = reach * reach;
   reach *= a_little_more;
-  const auto take_if_nearer = [&](std::uint32_t i) {
+  const auto look_at = [&](std::uint32_t i) {
     const double d = site::squared_distance(sites_[i], c);
     if (d < squared || (d == squared && i < hit.site)) {
       squared = d;
       hit = {i, d};
     }
   };
-  visit_blocks<Order::nearest_first>(
-      c, reach, 0, static_cast<std::uint32_t>(sites_.size() - 1),
-      [&](std::uint32_t from, std::uint32_t to) {
-        const double before = squared;
-        if (!has_arcs_)
-          for (; from < to; from += 2) {
-            const double or_equal = a_little_more * squared + std::numeric_limits<double>::min();
-            if (!one_is_nearer(sites_[from], sites_[from + 1], c, or_equal)) continue;
-            take_if_nearer(from);
-            take_if_nearer(from + 1);
-          }
-        for (; from <= to; ++from) take_if_nearer(from);
-        if (squared < before) reach = a_little_more * std::sqrt(squared);
-      });
+  const auto or_equal = [&] {
+    return a_little_more * squared + std::numeric_limits<double>::min();
+  };
+  visit_blocks<Order::nearest_first>(c, reach, 0, last_of_all(),
+                                     [&](std::uint32_t from, std::uint32_t to) {
+                                       const double before = squared;
+                                       look_at_each(c, from, to, or_equal, look_at);
+                                       if (squared < before)
+                                         reach = a_little_more * std::sqrt(squared);
+                                     });
   return hit;
 }
 
@@ -458,17 +456,12 @@ void BoundaryTree::within(Vec2 c, double reach, std::uint32_t first, std::uint32
   found.clear();
   if (first > last || !(reach > 0)) return;
   const double squared = reach * reach;
-  const auto take_if_near = [&](std::uint32_t i) {
-    if (site::squared_distance(sites_[i], c) < squared) found.push_back(i);
-  };
   visit_blocks<Order::in_turn>(c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
-    if (!has_arcs_)
-      for (; from < to; from += 2) {
-        if (!one_is_nearer(sites_[from], sites_[from + 1], c, squared)) continue;
-        take_if_near(from);
-        take_if_near(from + 1);
-      }
-    for (; from <= to; ++from) take_if_near(from);
+    look_at_each(
+        c, from, to, [&] { return squared; },
+        [&](std::uint32_t i) {
+          if (site::squared_distance(sites_[i], c) < squared) found.push_back(i);
+        });
   });
   if (!in_plane_.empty()) std::sort(found.begin(), found.end());
 }
@@ -478,7 +471,7 @@ bool BoundaryTree::few_within(Vec2 c, double reach, std::size_t most,
   found.clear();
   if (sites_.empty() || !(reach > 0)) return true;
   const double squared = reach * reach;
-  visit_blocks<Order::nearest_first>(c, reach, 0, static_cast<std::uint32_t>(sites_.size() - 1),
+  visit_blocks<Order::nearest_first>(c, reach, 0, last_of_all(),
                                      [&](std::uint32_t from, std::uint32_t to) {
                                        for (; from <= to; ++from)
                                          if (site::squared_distance(sites_[from], c) < squared)

@@ -97,10 +97,13 @@ class BoundaryTree {
   }
   /// How many sites a lane of a level stands for.
   static std::size_t span_of(std::size_t level) { return std::size_t{block_size} << (2 * level); }
-  std::uint32_t last_block_of_all() const {
-    return static_cast<std::uint32_t>(sites_.size() - 1) / block_size;
-  }
+  std::uint32_t last_of_all() const { return static_cast<std::uint32_t>(sites_.size() - 1); }
 
+  /// Calls look_at(i) for the sites first..last that may be nearer to c than the root of squared():
+  /// without arcs two at a time, of which rarely one is.
+  template <class Squared, class LookAt>
+  void look_at_each(Vec2 c, std::uint32_t first, std::uint32_t last, const Squared& squared,
+                    const LookAt& look_at) const;
   /// In which order nodes are visited.
   enum class Order : std::uint8_t { nearest_first, in_turn };
   /// The sites first..last of a block.

@@ -2,13 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/numbers.h"
 #include "base/spatial_order.h"
-
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
 
 namespace medial::site {
 namespace {
@@ -47,7 +43,7 @@ Vec2 facing_normal(std::span<const Site> sites, Vec2 begin, Vec2 chord) {
 struct GrowingBox {
   ChordBox box;
 
-  explicit GrowingBox(Vec2 normal) : box{normal, all, -all, all, -all} {}
+  explicit GrowingBox(Vec2 normal) : box{normal, infinity, -infinity, infinity, -infinity} {}
   void add(Vec2 p) {
     const double height = dot(box.normal, p), position = cross(p, box.normal);
     box.low = std::min(box.low, height);
@@ -63,9 +59,6 @@ struct GrowingBox {
             box.end + chord_rounding,
             false};
   }
-
- private:
-  static constexpr double all = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace
@@ -119,43 +112,26 @@ std::optional<ChordBox> box_along(std::span<const Site> sites,
 }
 
 void ChordBoxes::set(std::size_t lane, const std::optional<ChordBox>& box) {
-  constexpr double all = std::numeric_limits<double>::infinity();
+  constexpr double all = infinity;
   const ChordBox own = box.value_or(ChordBox{{1, 0}, -all, all, -all, all});
-  normal_x[lane] = own.normal.x;
-  normal_y[lane] = own.normal.y;
-  low[lane] = own.low;
-  high[lane] = own.high;
-  begin[lane] = own.begin;
-  end[lane] = own.end;
+  const std::size_t pair = lane / 2, side = lane % 2;
+  normal_x[pair][side] = own.normal.x;
+  normal_y[pair][side] = own.normal.y;
+  low[pair][side] = own.low;
+  high[pair][side] = own.high;
+  begin[pair][side] = own.begin;
+  end[pair][side] = own.end;
 }
 
 std::uint32_t ChordBoxes::beyond(Vec2 c, double reach) const {
   std::uint32_t lanes = 0;
-#if defined(__SSE2__)
-  const __m128d cx = _mm_set1_pd(c.x), cy = _mm_set1_pd(c.y), zero = _mm_setzero_pd();
-  const __m128d squared_reach = _mm_set1_pd(reach * reach);
-  for (std::uint32_t i = 0; i < fan; i += 2) {
-    const __m128d nx = _mm_load_pd(&normal_x[i]), ny = _mm_load_pd(&normal_y[i]);
-    const __m128d height = _mm_add_pd(_mm_mul_pd(nx, cx), _mm_mul_pd(ny, cy));
-    const __m128d position = _mm_sub_pd(_mm_mul_pd(ny, cx), _mm_mul_pd(nx, cy));
-    const __m128d across = _mm_max_pd(_mm_max_pd(_mm_sub_pd(height, _mm_load_pd(&high[i])),
-                                                 _mm_sub_pd(_mm_load_pd(&low[i]), height)),
-                                      zero);
-    const __m128d along = _mm_max_pd(_mm_max_pd(_mm_sub_pd(position, _mm_load_pd(&end[i])),
-                                                _mm_sub_pd(_mm_load_pd(&begin[i]), position)),
-                                     zero);
-    const __m128d squared = _mm_add_pd(_mm_mul_pd(across, across), _mm_mul_pd(along, along));
-    lanes |= static_cast<std::uint32_t>(_mm_movemask_pd(_mm_cmpgt_pd(squared, squared_reach))) << i;
+  for (std::uint32_t i = 0; i < fan / 2; ++i) {
+    const Pair height = normal_x[i] * c.x + normal_y[i] * c.y;
+    const Pair position = normal_y[i] * c.x - normal_x[i] * c.y;
+    const Pair across = larger(larger(height - high[i], low[i] - height), Pair{});
+    const Pair along = larger(larger(position - end[i], begin[i] - position), Pair{});
+    lanes |= bits_of(across * across + along * along > reach * reach) << (2 * i);
   }
-#else
-  for (std::uint32_t i = 0; i < fan; ++i) {
-    const double height = normal_x[i] * c.x + normal_y[i] * c.y;
-    const double position = normal_y[i] * c.x - normal_x[i] * c.y;
-    const double across = std::max({height - high[i], low[i] - height, 0.0});
-    const double along = std::max({position - end[i], begin[i] - position, 0.0});
-    if (across * across + along * along > reach * reach) lanes |= 1u << i;
-  }
-#endif
   return lanes;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "base/pair.h"
 #include "site/site.h"
 
 namespace medial::site {
@@ -27,11 +28,12 @@ struct ChordBox {
 /// boundary is all but touched. A lane without such a box has infinite bounds.
 struct alignas(64) ChordBoxes {
   static constexpr std::uint32_t fan = 4;
-  std::array<double, fan> normal_x, normal_y, low, high, begin, end;
+  std::array<Pair, fan / 2> normal_x, normal_y, low, high, begin, end;
 
   void set(std::size_t lane, const std::optional<ChordBox>& box);
   double area(std::size_t lane) const {
-    return (high[lane] - low[lane]) * (end[lane] - begin[lane]);
+    const std::size_t pair = lane / 2;
+    return ((high[pair] - low[pair]) * (end[pair] - begin[pair]))[lane % 2];
   }
   /// The lanes whose boxes lie beyond the reach from c, as bits.
   std::uint32_t beyond(Vec2 c, double reach) const;

@@ -55,11 +55,6 @@ FirstTouch::FirstTouch(std::span<const Site> sites, std::span<const std::uint32_
   } while (levels_.back().size() > 1);
 }
 
-FirstTouch::Slabs::Slabs() {
-  low.fill(-std::numeric_limits<float>::infinity());
-  high.fill(std::numeric_limits<float>::infinity());
-}
-
 /// The level whose lanes bound `run` entries each, above the last one.
 void FirstTouch::build_level(std::size_t run) {
   const std::size_t sets = (entries_.size() + run - 1) / run;
@@ -106,20 +101,8 @@ void FirstTouch::build_level(std::size_t run) {
 
 /// The lanes whose slabs are further from (x, y) than the reach, as bits.
 std::uint32_t FirstTouch::beside(const Slabs& slabs, float x, float y, float reach) {
-#if defined(__SSE2__)
-  const __m128 height = _mm_add_ps(_mm_mul_ps(_mm_load_ps(slabs.normal_x.data()), _mm_set1_ps(x)),
-                                   _mm_mul_ps(_mm_load_ps(slabs.normal_y.data()), _mm_set1_ps(y)));
-  const __m128 off = _mm_max_ps(_mm_sub_ps(_mm_load_ps(slabs.low.data()), height),
-                                _mm_sub_ps(height, _mm_load_ps(slabs.high.data())));
-  return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_cmpge_ps(off, _mm_set1_ps(reach))));
-#else
-  std::uint32_t lanes = 0;
-  for (std::uint32_t i = 0; i < fan; ++i) {
-    const float height = slabs.normal_x[i] * x + slabs.normal_y[i] * y;
-    if (std::max(slabs.low[i] - height, height - slabs.high[i]) >= reach) lanes |= 1u << i;
-  }
-  return lanes;
-#endif
+  const Lanes height = slabs.normal_x * x + slabs.normal_y * y;
+  return bits_of(larger(slabs.low - height, height - slabs.high) >= reach);
 }
 
 bool FirstTouch::Search::is_within(const Entry& entry, double reach) const {

@@ -83,8 +83,7 @@ class FirstTouch {
   /// segment, which hold slanted segments tighter than boxes do, in single precision. Without a
   /// normal, a slab is everything.
   struct alignas(64) Slabs {
-    Lanes normal_x{}, normal_y{}, low, high;
-    Slabs();
+    Lanes normal_x{}, normal_y{}, low = -all_endless, high = all_endless;
   };
   struct Bounds {
     Boxes boxes;

@@ -176,8 +176,8 @@ struct EndDisks {
     const Pair beside_x = dx - foot * site.direction.x, beside_y = dy - foot * site.direction.y;
     const Pair squared = beside_x * beside_x + beside_y * beside_y;
     // Nor do they lie behind the site, where they get through a gap that rounding has closed.
-    const auto right = (squared >= squared_least) & (squared <= squared_most) & (height >= -slack);
-    return (right[0] & right[1]) != 0;  // false for no number, too
+    // False for no number, too.
+    return all((squared >= squared_least) & (squared <= squared_most) & (height >= -slack));
   }
 
  private:

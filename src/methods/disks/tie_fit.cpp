@@ -14,55 +14,62 @@ Real size_of(const Real& x) {
   return x < 0 ? Real(-x) : x;
 }
 
+using exact::exact_vector;
+using exact::Precise;
+using exact::Vector;
+
 template <class Real>
-ContactOf<Real> contact_with_point(const Real& x, const Real& y, const DiskOf<Real>& disk) {
+Real norm_of(const Vector<Real>& v) {
   using std::sqrt;
-  const Real dx = disk.x - x, dy = disk.y - y;
-  const Real away = sqrt(Real(dx * dx + dy * dy));
-  return {Real(dx / away), Real(dy / away), Real(away - disk.radius)};
+  return sqrt(dot(v, v));
+}
+template <class Real>
+Disk rounded(const DiskOf<Real>& disk) {
+  return {{static_cast<double>(disk.center.x), static_cast<double>(disk.center.y)},
+          static_cast<double>(disk.radius)};
+}
+
+template <class Real>
+ContactOf<Real> contact_with_point(Vec2 point, const DiskOf<Real>& disk) {
+  const Vector<Real> to = disk.center - exact_vector<Real>(point);
+  const Real away = norm_of(to);
+  return {{to.x / away, to.y / away}, away - disk.radius};
 }
 
 ContactOf<double> contact_of(const TieSites& sites, const Touch& i, const DiskOf<double>& disk) {
-  const Vec2 center{disk.x, disk.y};
-  return disks::contact_of(i.seen_from(sites.sites, center), Disk{center, disk.radius});
+  const Disk own = rounded(disk);
+  return disks::contact_of(i.seen_from(sites.sites, own.center), own);
 }
 
 /// By how much the nearest point of what is to be touched is nearer or further than the radius.
 double residual_of(const TieSites& sites, const Touch& i, const DiskOf<double>& disk) {
-  const Vec2 center{disk.x, disk.y};
-  const site::Site seen =
-      i.part == Touch::Part::site ? sites.sites[i.site] : i.seen_from(sites.sites, center);
-  return std::abs(site::gap(seen, {center, disk.radius}));
+  const Disk own = rounded(disk);
+  return std::abs(site::gap(
+      i.part == Touch::Part::site ? sites.sites[i.site] : i.seen_from(sites.sites, own.center),
+      own));
 }
-
-using exact::Precise;
 
 /// Of a site as the shape has it. `Real` has more digits than double.
 template <class Real>
 ContactOf<Real> contact_of(const TieSites& sites, const Touch& i, const DiskOf<Real>& disk) {
-  using std::sqrt;
   const exact::ExactSite& site = sites.exact->site(i.site);
-  const Vec2 center{static_cast<double>(disk.x), static_cast<double>(disk.y)};
-  const site::Site seen = i.seen_from(sites.sites, center);
-  if (seen.is_vertex() && site.is_arc())
-    return contact_with_point(Real(seen.point.x), Real(seen.point.y), disk);
-  const Real x(site.start.x), y(site.start.y);
-  if (site.is_vertex()) return contact_with_point(x, y, disk);
-  const Real along_x = Real(site.end.x) - x, along_y = Real(site.end.y) - y;
-  const Real length = sqrt(Real(along_x * along_x + along_y * along_y));
+  const site::Site seen = i.seen_from(sites.sites, rounded(disk).center);
+  if (seen.is_vertex() && site.is_arc()) return contact_with_point(seen.point, disk);
+  if (site.is_vertex()) return contact_with_point(site.start, disk);
+  const Vector<Real> start = exact_vector<Real>(site.start),
+                     along = exact_vector<Real>(site.end) - start, across = exact::left_of(along);
+  const Real length = norm_of(along);
   if (!site.is_arc()) {
-    const Real nx = -along_y / length, ny = along_x / length;
-    return {nx, ny, Real(nx * (disk.x - x) + ny * (disk.y - y) - disk.radius)};
+    const Vector<Real> normal{across.x / length, across.y / length};
+    return {normal, dot(normal, disk.center - start) - disk.radius};
   }
   const Real bulge(site.bulge), squared = bulge * bulge;
   const Real height = (1 - squared) / (4 * bulge);
-  const Real to_x = disk.x - (x + along_x / 2 - height * along_y),
-             to_y = disk.y - (y + along_y / 2 + height * along_x);
-  const Real away = sqrt(Real(to_x * to_x + to_y * to_y));
+  const Vector<Real> to = disk.center - (start + Real(0.5) * along + height * across);
+  const Real away = norm_of(to);
   const Real radius = length * (1 + squared) / (4 * bulge);  // signed
-  const int sense = bulge > 0 ? -1 : 1;
-  return {Real(sense * to_x / away), Real(sense * to_y / away),
-          Real(radius + sense * away - disk.radius)};
+  const Real sense(bulge > 0 ? -1.0 : 1.0);
+  return {{sense * to.x / away, sense * to.y / away}, radius + sense * away - disk.radius};
 }
 
 enum class Verdict : std::uint8_t { yes, no, open };
@@ -161,21 +168,20 @@ class Exchange {
   bool begin(std::span<const Touch> contacts) {
     const ContactOf<Real> first = contact(furthest_);
     reference_.fill(furthest_);  // where a disk is in a vertex, no other is apart from it
-    Real largest(-1), x(0), y(0);
+    Real largest(-1);
+    Vector<Real> widest{Real(0), Real(0)};
     for (const Touch& i : contacts) {
-      const ContactOf<Real> other = contact(i);
-      const Real dx = other.x - first.x, dy = other.y - first.y, size = dx * dx + dy * dy;
+      const Vector<Real> way = contact(i).toward - first.toward;
+      const Real size = dot(way, way);
       if (!(size > largest)) continue;
       largest = size;
       reference_[1] = i;
-      x = dx;
-      y = dy;
+      widest = way;
     }
     if (!(largest >= 0)) return false;
     largest = -1;
     for (const Touch& i : contacts) {
-      const ContactOf<Real> other = contact(i);
-      const Real size = size_of(Real(x * (other.y - first.y) - y * (other.x - first.x)));
+      const Real size = size_of(cross(widest, contact(i).toward - first.toward));
       if (!(size > largest)) continue;
       largest = size;
       reference_[2] = i;
@@ -186,8 +192,8 @@ class Exchange {
   }
 
   bool has_strayed() const {
-    const Real dx = disk.x - start_.x, dy = disk.y - start_.y;
-    return !(dx * dx + dy * dy <= Real(furthest * furthest) * start_.radius * start_.radius);
+    const Vector<Real> way = disk.center - start_.center;
+    return !(dot(way, way) <= Real(furthest * furthest) * start_.radius * start_.radius);
   }
 
   /// Takes the contact with the largest residual into account. False where no next disk is known.
@@ -240,18 +246,17 @@ class Exchange {
 
   /// Moves to where three residuals have the given values.
   bool move(const std::array<ContactOf<Real>, 3>& contact, const std::array<Real, 3>& goal) {
-    const Real bx = contact[1].x - contact[0].x, by = contact[1].y - contact[0].y;
-    const Real cx = contact[2].x - contact[0].x, cy = contact[2].y - contact[0].y;
+    const Vector<Real> b = contact[1].toward - contact[0].toward,
+                       c = contact[2].toward - contact[0].toward;
     const Real a_change = goal[0] - contact[0].residual;
     const Real db = goal[1] - contact[1].residual - a_change;
     const Real dc = goal[2] - contact[2].residual - a_change;
-    const Real area = bx * cy - by * cx;
+    const Real area = cross(b, c);
     if (area == 0) return false;
-    const Real dx = (db * cy - dc * by) / area, dy = (bx * dc - cx * db) / area;
+    const Vector<Real> step{(db * c.y - dc * b.y) / area, (b.x * dc - c.x * db) / area};
     known_count_ = 0;
-    disk.x += dx;
-    disk.y += dy;
-    disk.radius += contact[0].x * dx + contact[0].y * dy - a_change;
+    disk.center = disk.center + step;
+    disk.radius += dot(contact[0].toward, step) - a_change;
     return disk.radius > 0;
   }
 
@@ -270,7 +275,7 @@ class Exchange {
 
 ContactOf<double> contact_of(const site::Site& site, const Disk& disk) {
   const Vec2 toward = site::outward(site, disk.center);
-  return {toward.x, toward.y, site::carrier_distance(site, disk.center) - disk.radius};
+  return {{toward.x, toward.y}, site::carrier_distance(site, disk.center) - disk.radius};
 }
 
 site::Site Touch::seen_from(std::span<const site::Site> sites, Vec2 center) const {
@@ -301,12 +306,9 @@ bool has_arcs(const TieSites& sites, std::span<const Touch> contacts) {
 /// Asks in these numbers, from a fit's disk on, which moves.
 template <class Real, class Ask>
 Verdict ask_in(const TieSites& sites, TieFit& fit, const Ask& ask) {
-  Exchange<Real> exchange(
-      sites, {Real(fit.disk.center.x), Real(fit.disk.center.y), Real(fit.disk.radius)});
+  Exchange<Real> exchange(sites, {exact_vector<Real>(fit.disk.center), Real(fit.disk.radius)});
   const Verdict verdict = ask(exchange);
-  const DiskOf<Real>& found = exchange.disk;
-  fit.disk = {{static_cast<double>(found.x), static_cast<double>(found.y)},
-              static_cast<double>(found.radius)};
+  fit.disk = rounded(exchange.disk);
   fit.worst = static_cast<double>(exchange.worst);
   return verdict;
 }

@@ -15,7 +15,7 @@ namespace medial::disks {
 /// distance - radius from `residual` to residual + outward.d - e, exactly for a segment.
 template <class Real>
 struct ContactOf {
-  Real x, y;  ///< the outward unit normal: from the foot to the centre
+  exact::Vector<Real> toward;  ///< the outward unit normal: from the foot to the centre
   Real residual;
 };
 /// The contact of a disk with a site's carrier.
@@ -23,7 +23,8 @@ ContactOf<double> contact_of(const site::Site& site, const Disk& disk);
 
 template <class Real>
 struct DiskOf {
-  Real x, y, radius;
+  exact::Vector<Real> center;
+  Real radius;
 };
 
 /// What a disk has to touch: a site, or one of three points of an arc that it touches all along.
@@ -53,17 +54,10 @@ struct Dependency {
   Real level{0};
 
   explicit Dependency(const std::array<ContactOf<Real>, 4>& contact) {
-    std::array<Real, 4> x, y;
-    for (std::size_t i = 0; i < 4; ++i) {
-      x[i] = contact[i].x - contact[0].x;
-      y[i] = contact[i].y - contact[0].y;
-    }
-    const auto cross = [&](std::size_t i, std::size_t j) -> Real {
-      return x[i] * y[j] - y[i] * x[j];
-    };
-    factor[1] = cross(2, 3);
-    factor[2] = cross(3, 1);
-    factor[3] = cross(1, 2);
+    const auto way = [&](std::size_t i) { return contact[i].toward - contact[0].toward; };
+    factor[1] = cross(way(2), way(3));
+    factor[2] = cross(way(3), way(1));
+    factor[3] = cross(way(1), way(2));
     factor[0] = -(factor[1] + factor[2] + factor[3]);
     Real size{0};
     for (std::size_t i = 0; i < 4; ++i) {
