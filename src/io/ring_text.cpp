@@ -137,17 +137,31 @@ void put_geojson_points(OutputStream& out, const std::vector<Vec2>& points) {
   out.put(']');
 }
 
+namespace {
+
+/// Whether the apex of an edge, as its coordinates round, shows that it is an arc: a segment is as
+/// near to one that is flatter, and has no curvature that comes from rounding.
+bool is_curved(const Ring& ring, std::size_t i) {
+  const BulgeArc arc{ring.points[i], next_point(ring, i), bulge_after(ring, i)};
+  if (arc.bulge == 0) return false;
+  const Vec2 p = apex(arc);
+  const double spacing = 0x1p-52 * std::max(std::abs(p.x), std::abs(p.y));
+  return distance(p, midpoint(arc.start, arc.end)) > spacing;
+}
+
+}  // namespace
+
 void put_wkt_curve(OutputStream& out, const Ring& ring) {
   const std::size_t count = ring.points.size();
-  const bool straight =
-      std::all_of(ring.bulges.begin(), ring.bulges.end(), [](double bulge) { return bulge == 0; });
+  bool straight = true;
+  for (std::size_t i = 0; i < count && straight; ++i) straight = !is_curved(ring, i);
   if (!straight) out.put("COMPOUNDCURVE (");
   for (std::size_t i = 0; i < count;) {
-    const bool arcs = bulge_after(ring, i) != 0;
+    const bool arcs = is_curved(ring, i);
     if (i > 0) out.put(", ");
     out.put(arcs ? "CIRCULARSTRING (" : "(");
     put_point(out, ring.points[i], ' ');
-    for (; i < count && (bulge_after(ring, i) != 0) == arcs; ++i) {
+    for (; i < count && is_curved(ring, i) == arcs; ++i) {
       if (arcs) {
         out.put(", ");
         put_point(out, apex({ring.points[i], next_point(ring, i), ring.bulges[i]}), ' ');

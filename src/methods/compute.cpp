@@ -88,7 +88,7 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options,
     if (problem.is_cancelled()) return Error{ErrorCode::cancelled, "cancelled", {}};
     if (!is_right)
       return error_of_wrong_axis(
-          shape, axis,
+          axis,
           "the axis does not have one part for each component and one cycle for each hole: please "
           "report this shape");
     if (options.progress) options.progress(1);

@@ -13,8 +13,7 @@ namespace medial {
 std::optional<Error> error_if_refused(const Problem& problem, const MedialAxis& axis);
 
 /// The error instead of an axis that has come out wrong: unsupported, with the place, where it has
-/// disks of so few tolerances that rounding is the cause, or neighbouring vertices differ by so
-/// little that 256 bits do not hold it beside the size; internal, with the text, else. O(n).
-Error error_of_wrong_axis(const Shape& shape, const MedialAxis& axis, const char* text);
+/// disks of so few tolerances that rounding is the cause; internal, with the text, else. O(n).
+Error error_of_wrong_axis(const MedialAxis& axis, const char* text);
 
 }  // namespace medial

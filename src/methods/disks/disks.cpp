@@ -205,15 +205,13 @@ Result<MedialAxis> axis_by(const Problem& problem, const SiteNumbers& numbers, c
               [&] { axis.sites = site::result_sites(problem.shape, numbers); });
   if (!is_right)
     return error_of_wrong_axis(
-        problem.shape, axis,
-        "the axis does not have one cycle for each hole: please report this shape");
+        axis, "the axis does not have one cycle for each hole: please report this shape");
   end_times(watch, axis.statistics);
   for (const std::uint32_t edge : loose_edges) {
     if (touches_its_sites(axis, axis.edges[edge], slack)) continue;
     if (!with_arcs)
       return error_of_wrong_axis(
-          problem.shape, axis,
-          "a disk of the axis misses a site that it should touch: please report this shape");
+          axis, "a disk of the axis misses a site that it should touch: please report this shape");
     lost.push_back(axis.edges[edge].site[0]);
   }
   return axis;

@@ -13,6 +13,7 @@
 namespace medial::disks {
 
 using exact::Precise;
+using exact::Wide;
 using Hit = Contacts::Hit;
 
 const exact::SiteLoops& ExactSites::outline() const {
@@ -31,11 +32,18 @@ std::optional<std::uint32_t> ExactSites::joined_before(std::uint32_t site) const
 
 std::optional<ExactSites::Touch> ExactSites::first_touch(
     Vec2 foot, const Boundary& boundary, std::span<const std::uint32_t> sites) const {
-  std::optional<exact::DiskBounds<Precise>> best;
+  return outline().is_wide ? first_touch_in<Wide>(foot, boundary, sites)
+                           : first_touch_in<Precise>(foot, boundary, sites);
+}
+
+template <class Real>
+std::optional<ExactSites::Touch> ExactSites::first_touch_in(
+    Vec2 foot, const Boundary& boundary, std::span<const std::uint32_t> sites) const {
+  std::optional<exact::DiskBounds<Real>> best;
   std::uint32_t touched = 0;
   for (const std::uint32_t site : sites) {
     const exact::ExactSite exact_site = outline().sites[boundary.originals[site]];
-    const auto disk = exact::disk_from<Precise>(foot, outreach, exact_site);
+    const auto disk = exact::disk_from<Real>(foot, outreach, exact_site);
     if (!disk || !exact::may_have_foot(exact_site, *disk)) continue;
     if (best && boundary.is_same(site, touched)) {
       // Pieces of one arc: the disk is the same, and touches the nearest one.
@@ -179,7 +187,7 @@ class ExactEvents::Search {
         is_touched(span_.right, *disk, false) && is_touched(span_.left, *disk, false);
     return is_possible ? disk : std::nullopt;
   }
-  static exact::DiskBounds<Twofold> twofold_of(const exact::DiskBounds<Precise>& disk) {
+  static exact::DiskBounds<Twofold> twofold_of(const KnownDisk& disk) {
     return {{exact::twofold_of(disk.center.x), exact::twofold_of(disk.center.y)},
             exact::twofold_of(disk.radius)};
   }
@@ -346,9 +354,11 @@ class ExactEvents::Search {
   /// which fewer digits tell apart.
   static int clearance(const exact::ExactSite& site, const KnownDisk& disk,
                        std::span<const Vec2> touched) {
-    if constexpr (std::is_same_v<Real, Precise>)
-      if (const int sign = exact::clearance(site, twofold_of(disk), touched); sign != 0)
-        return sign;
+    if constexpr (!std::is_same_v<Real, Twofold>) {
+      const std::uint64_t before = Bounded<Twofold>::open_signs;
+      const int sign = exact::clearance(site, twofold_of(disk), touched);
+      if (sign != 0 && Bounded<Twofold>::open_signs == before) return sign;
+    }
     return exact::clearance(site, disk, touched);
   }
 
@@ -460,7 +470,10 @@ std::optional<ExactEvents::Found> ExactEvents::search(const Span& span, const Di
   const std::uint64_t before = Bounded<Twofold>::open_signs;
   auto found = Search<Twofold>(*this, span, from, is_exact).run(hint, all_around);
   if (found && found->is_well_known() && Bounded<Twofold>::open_signs == before) return found;
-  found = Search<Precise>(*this, span, from, is_exact).run(found ? found->site : hint, all_around);
+  if (found) hint = found->site;
+  found = sites_.outline().is_wide
+              ? Search<Wide>(*this, span, from, is_exact).run(hint, all_around)
+              : Search<Precise>(*this, span, from, is_exact).run(hint, all_around);
   if (found) found->in_precise = true;
   return found;
 }

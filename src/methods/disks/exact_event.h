@@ -58,6 +58,9 @@ class ExactSites {
   bool reach_out_ = true;  ///< whether bridges are those of connecting_disks()
   const Boundary& boundary_;
   const exact::SiteLoops& outline() const;
+  template <class Real>
+  std::optional<Touch> first_touch_in(Vec2 foot, const Boundary& boundary,
+                                      std::span<const std::uint32_t> sites) const;
   /// The site from which a foot passes on to a site at its start; none where it does not.
   std::optional<std::uint32_t> joined_before(std::uint32_t site) const;
   mutable std::once_flag once_;

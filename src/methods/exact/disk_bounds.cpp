@@ -95,9 +95,13 @@ template std::optional<DiskBounds<Twofold>> disk_bounds(const SiteLoops&,
                                                         const std::array<std::uint32_t, 3>&);
 template std::optional<DiskBounds<Precise>> disk_bounds(const SiteLoops&,
                                                         const std::array<std::uint32_t, 3>&);
+template std::optional<DiskBounds<Wide>> disk_bounds(const SiteLoops&,
+                                                     const std::array<std::uint32_t, 3>&);
 template std::optional<int> further_along(const ExactSite&, const DiskBounds<Twofold>&,
                                           const DiskBounds<Twofold>&);
 template std::optional<int> further_along(const ExactSite&, const DiskBounds<Precise>&,
                                           const DiskBounds<Precise>&);
+template std::optional<int> further_along(const ExactSite&, const DiskBounds<Wide>&,
+                                          const DiskBounds<Wide>&);
 
 }  // namespace medial::exact

@@ -188,5 +188,7 @@ template std::optional<DiskBounds<Twofold>> disk_of_three(const SiteLoops&,
                                                           const std::array<std::uint32_t, 3>&);
 template std::optional<DiskBounds<Precise>> disk_of_three(const SiteLoops&,
                                                           const std::array<std::uint32_t, 3>&);
+template std::optional<DiskBounds<Wide>> disk_of_three(const SiteLoops&,
+                                                       const std::array<std::uint32_t, 3>&);
 
 }  // namespace medial::exact

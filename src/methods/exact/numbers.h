@@ -1,6 +1,7 @@
 #pragma once
 
-// The numbers of exact decisions: Bounded<Twofold>, Bounded<Precise> and rational ones.
+// The numbers of exact decisions: Bounded<Twofold>, Bounded<Precise>, Bounded<Wide> and rational
+// ones.
 
 #ifdef MEDIAL_WITHOUT_GMP
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -23,31 +24,49 @@ namespace medial {
 namespace exact {
 
 // Of GMP and MPFR where there are these libraries, which are faster; otherwise of Boost's headers.
-// Both compute the same. `Precise` has at least 256 bits, on the stack.
+// Both compute the same, on the stack.
 #ifdef MEDIAL_WITHOUT_GMP
 using Rational = boost::multiprecision::cpp_rational;
-using PreciseBackend =
-    boost::multiprecision::cpp_bin_float<264, boost::multiprecision::digit_base_2>;
+template <unsigned digits>
+using Backend = boost::multiprecision::cpp_bin_float<digits>;
 #else
 using Rational = boost::multiprecision::mpq_rational;
-using PreciseBackend =
-    boost::multiprecision::mpfr_float_backend<78, boost::multiprecision::allocate_stack>;
+template <unsigned digits>
+using Backend =
+    boost::multiprecision::mpfr_float_backend<digits, boost::multiprecision::allocate_stack>;
 #endif
-using Precise = boost::multiprecision::number<PreciseBackend, boost::multiprecision::et_off>;
+template <unsigned digits>
+using Float = boost::multiprecision::number<Backend<digits>, boost::multiprecision::et_off>;
+/// At least 256 bits.
+using Precise = Float<78>;
+/// At least 2,304 bits: beside 1, the product of two lengths of 2^-1074 with 156 bits of it.
+using Wide = Float<694>;
 
 // Operators copy their results, which takes as long as a sum.
 #ifdef MEDIAL_WITHOUT_GMP
-inline void add(const Precise& a, const Precise& b, Precise& sum) { sum = a + b; }
-inline void subtract(const Precise& a, const Precise& b, Precise& rest) { rest = a - b; }
-inline void multiply(const Precise& a, const Precise& b, Precise& product) { product = a * b; }
+template <class Real>
+void add(const Real& a, const Real& b, Real& sum) {
+  sum = a + b;
+}
+template <class Real>
+void subtract(const Real& a, const Real& b, Real& rest) {
+  rest = a - b;
+}
+template <class Real>
+void multiply(const Real& a, const Real& b, Real& product) {
+  product = a * b;
+}
 #else
-inline void add(const Precise& a, const Precise& b, Precise& sum) {
+template <class Real>
+void add(const Real& a, const Real& b, Real& sum) {
   mpfr_add(sum.backend().data(), a.backend().data(), b.backend().data(), MPFR_RNDN);
 }
-inline void subtract(const Precise& a, const Precise& b, Precise& rest) {
+template <class Real>
+void subtract(const Real& a, const Real& b, Real& rest) {
   mpfr_sub(rest.backend().data(), a.backend().data(), b.backend().data(), MPFR_RNDN);
 }
-inline void multiply(const Precise& a, const Precise& b, Precise& product) {
+template <class Real>
+void multiply(const Real& a, const Real& b, Real& product) {
   mpfr_mul(product.backend().data(), a.backend().data(), b.backend().data(), MPFR_RNDN);
 }
 #endif
@@ -55,9 +74,9 @@ inline void multiply(const Precise& a, const Precise& b, Precise& product) {
 }  // namespace exact
 
 /// As for Twofold, but the bounds are rough and quick: with 256 bits there is room.
-template <>
-struct Bounded<exact::Precise> {
-  using Real = exact::Precise;
+template <unsigned digits>
+struct Bounded<exact::Float<digits>> {
+  using Real = exact::Float<digits>;
   using Size = long double;  // its exponents have room for products of many small coordinates
   Real value{0};
   Size error = 0;
@@ -76,8 +95,8 @@ struct Bounded<exact::Precise> {
   Size most() const { return widen * (magnitude() + error); }
   Size least() const { return std::max<Size>(0, magnitude() / widen - error); }
 
-  /// Every operation is correctly rounded to 259 bits at least.
-  static constexpr Size unit = 0x1p-256L;
+  /// Every operation is correctly rounded to three bits more at least.
+  static constexpr Size unit = digits == 78 ? 0x1p-256L : 0x1p-2302L;
   /// Bounds are sums and products of positive numbers with a few roundings each.
   static constexpr Size widen = 1 + 0x1p-48L;
 
@@ -154,9 +173,10 @@ struct Bounded<exact::Precise> {
 namespace exact {
 
 /// The same number with fewer digits.
-inline Bounded<Twofold> twofold_of(const Bounded<Precise>& number) {
+template <class Real>
+Bounded<Twofold> twofold_of(const Bounded<Real>& number) {
   const auto high = static_cast<double>(number.value);
-  const auto low = static_cast<double>(Precise(number.value - high));
+  const auto low = static_cast<double>(Real(number.value - high));
   const auto error = static_cast<double>(number.error) + 0x1p-104 * std::abs(high);
   return {Twofold(high) + Twofold(low), (1 + 0x1p-48) * error + Rounding::lost};
 }

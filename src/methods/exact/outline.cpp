@@ -1,5 +1,7 @@
 #include "methods/exact/outline.h"
 
+#include <cmath>
+
 #include "methods/checks.h"
 #include "site/smooth_place.h"
 
@@ -12,6 +14,13 @@ double curvature_of(const ExactSite& edge) { return curvature({edge.start, edge.
 /// By which way the boundary turns from one edge to the next: 1 to the left, 0 not at all.
 int turn_between(const ExactSite& before, const ExactSite& after) {
   return cross(normal_of<Rational>(before, true), normal_of<Rational>(after, false)).sign();
+}
+
+/// Whether 256 bits do not hold by how much two points differ, beside 1: with the product of two
+/// lengths of 2^-100, 56 bits of it are left.
+bool is_wide(Vec2 a, Vec2 b) {
+  const auto is_tiny = [](double apart) { return apart != 0 && std::abs(apart) < 0x1p-100; };
+  return is_tiny(b.x - a.x) || is_tiny(b.y - a.y);
 }
 
 /// The site of that number.
@@ -49,6 +58,7 @@ SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers) {
       const std::size_t point = loop.begin() + i, after = loop.begin() + loop.next(i);
       const std::uint32_t edge = numbers.edge[point];
       if (loop.size() == 1) continue;  // a lone point has no edge
+      outline.is_wide = outline.is_wide || is_wide(loop.local(i), loop.local(loop.next(i)));
       if (numbers.is_site(point)) outline.passes[edge - 1] = true;
       outline.passes[edge] = numbers.joints[after] != site::Joint::corner;
       outline.blunt[edge] = numbers.joints[after] == site::Joint::blunt;

@@ -75,13 +75,17 @@ std::optional<DiskBounds<Real>> disk_from(Vec2 foot, Vec2 direction, const Exact
 
 template bool may_have_foot(const ExactSite&, const DiskBounds<Twofold>&);
 template bool may_have_foot(const ExactSite&, const DiskBounds<Precise>&);
+template bool may_have_foot(const ExactSite&, const DiskBounds<Wide>&);
 template int clearance(const ExactSite&, const DiskBounds<Twofold>&, std::span<const Vec2>);
 template int clearance(const ExactSite&, const DiskBounds<Precise>&, std::span<const Vec2>);
+template int clearance(const ExactSite&, const DiskBounds<Wide>&, std::span<const Vec2>);
 template std::optional<DiskBounds<Twofold>> disk_along(const Spoke<Bounded<Twofold>>&,
                                                        const ExactSite&);
 template std::optional<DiskBounds<Precise>> disk_along(const Spoke<Bounded<Precise>>&,
                                                        const ExactSite&);
+template std::optional<DiskBounds<Wide>> disk_along(const Spoke<Bounded<Wide>>&, const ExactSite&);
 template std::optional<DiskBounds<Twofold>> disk_from(Vec2, Vec2, const ExactSite&);
 template std::optional<DiskBounds<Precise>> disk_from(Vec2, Vec2, const ExactSite&);
+template std::optional<DiskBounds<Wide>> disk_from(Vec2, Vec2, const ExactSite&);
 
 }  // namespace medial::exact
