@@ -10,6 +10,13 @@ from support import CommandLine
 class Offset(CommandLine):
     SQUARE = "POLYGON ((0 0, 10 0, 10 8, 0 8, 0 0), (4 3, 4 5, 6 5, 6 3, 4 3))"
 
+    def test_arcs_flatter_than_rounding_are_segments_in_text(self):
+        self.write("a.wkt", "POLYGON((0 0,1 -4e-14,2 0,2 2,0 2))")
+        self.succeed("offset", "a.wkt", "--distance=-0.5", "-o", "b.wkt")
+        self.assertEqual(self.read("b.wkt").decode().count("CIRCULARSTRING"), 4)
+        self.succeed("axis", "b.wkt", "-o", "b.json")
+        self.succeed("verify", "b.wkt", "b.json")
+
     def test_every_format(self):
         self.write("s.wkt", self.SQUARE)
         for name in self.supported("o.json", "o.geojson", "o.wkt", "o.dxf", "o.svg", "o.pdf", "o.png", "o.ps"):
