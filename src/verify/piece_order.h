@@ -8,7 +8,7 @@
 
 namespace medial::verify_detail {
 
-inline constexpr std::size_t fan_out = 4;  ///< of the tree over the pieces
+inline constexpr std::uint32_t fan_out = 4;  ///< of the tree over the pieces
 
 /// Calls `visit` with points whose hull holds the edge: its ends, and for an arc the corners of the
 /// trapezoid whose other sides are tangent to it at the ends and in the middle.

@@ -31,12 +31,12 @@ WholeEdge::Range WholeEdge::range_of(const Product& product) const {
 }
 
 /// H of an edge.
-WholeEdge::Range WholeEdge::range_of(const BoundaryEdge& edge, const Arc* arc) const {
-  const Vec2 normal = left_of(start_tangent_of(edge, arc));
+WholeEdge::Range WholeEdge::range_of(Vec2 start, Vec2 start_tangent, const Arc* arc) const {
+  const Vec2 normal = left_of(start_tangent);
   std::array<Vec2, 3> u;
   std::array<double, 3> over;
   for (std::size_t i = 0; i < 3; ++i) {
-    u[i] = control_[i].center - edge.start;
+    u[i] = control_[i].center - start;
     over[i] = dot(normal, u[i]) - control_[i].radius;
   }
   if (arc == nullptr)
@@ -80,9 +80,10 @@ double WholeEdge::contact_gap(const Site& site, const Arc* arc) const {
   if (site.start == site.end) return bound_at_point(range_of(site.start).size());
   if (arc == nullptr && site.bulge != 0) return unknown;
   const BoundaryEdge edge = edge_of(site);
-  const double size = range_of(edge, arc).size(), factor = least_factor(arc, size);
-  if (!(factor > 0)) return unknown;
   const Vec2 start_tangent = start_tangent_of(edge, arc);
+  const double size = range_of(edge.start, start_tangent, arc).size();
+  const double factor = least_factor(arc, size);
+  if (!(factor > 0)) return unknown;
   const Vec2 end_tangent = arc != nullptr ? arc->end_tangent() : start_tangent;
   const double beyond =
       std::max(most_ahead(site.start, -start_tangent), most_ahead(site.end, end_tangent));
@@ -94,7 +95,8 @@ double WholeEdge::contact_gap(const Site& site, const Arc* arc) const {
 }
 
 double WholeEdge::intrusion(const BoundaryEdge& edge, const Arc* arc) const {
-  const double size = std::max(0.0, -range_of(edge, arc).low), factor = least_factor(arc, size);
+  const Range range = range_of(edge.start, start_tangent_of(edge, arc), arc);
+  const double size = std::max(0.0, -range.low), factor = least_factor(arc, size);
   return factor > 0 ? size / factor : unknown;
 }
 
