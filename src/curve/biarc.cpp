@@ -192,8 +192,8 @@ Vec2 balanced_joint(const Station& a, const Station& b, const JointCircle& circl
   const double first = (1.0 / 6 - p - q) / (0.5 + p - q);
   const double last = (1.0 / 3 + 2 * q) / (0.5 + q - p);
   const double weight = (last - (0.5 + 3 * (p - q))) / (last - first);
-  Vec2 joint =
-      weight * osculating_joint(a, circle) + (1 - weight) * osculating_joint(reversed(b), reversed(a));
+  Vec2 joint = weight * osculating_joint(a, circle) +
+               (1 - weight) * osculating_joint(reversed(b), reversed(a));
   // Newton's steps: the middle of a chord is off by the square of its length, not by rounding.
   for (int step = 0; step < 3; ++step) joint = joint - circle.off(joint) * circle.normal(joint);
   return joint;

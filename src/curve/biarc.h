@@ -82,8 +82,8 @@ struct Biarc {
 Biarc make_biarc(const Station& a, Vec2 joint, const Station& b);
 
 /// Where the normal of a biarc at its joint, with this tangent, meets the curve (the joint's
-/// projection from the arcs' centres): the parameter, or nothing where it meets the curve more often
-/// or not at all.
+/// projection from the arcs' centres): the parameter, or nothing where it meets the curve more
+/// often or not at all.
 std::optional<double> projected_joint(const Bezier& curve, Vec2 joint, Vec2 tangent);
 
 /// An upper bound on the Hausdorff distance between a curve and an arc with its end points on the

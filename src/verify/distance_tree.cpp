@@ -25,7 +25,7 @@ using Each = Pairwise;
 constexpr std::uint32_t lanes = 2;
 inline Several several_at(const double* place) { return pair_at(place); }
 inline Several all_of(double value) { return both(value); }
-inline unsigned bits(Each what) { return (what[0] & 1) | (what[1] & 2); }
+inline unsigned bits(Each what) { return static_cast<unsigned>((what[0] & 1) | (what[1] & 2)); }
 
 #include "verify/near_search.h"
 
@@ -61,9 +61,8 @@ inline unsigned bits(Each what) {
 
 namespace {
 
-/// Up to this many edges are all looked at, and up to so many more have one level of bounds, over
-/// runs along the boundary.
-constexpr std::size_t brute_force = 16, flat = 256;
+/// Below this many edges no tree is built.
+constexpr std::size_t brute_force = 16;
 /// Above this many edges the box of a set is not turned: it would be about as large.
 constexpr std::size_t largest_turned = 4096;
 constexpr double machine_epsilon = std::numeric_limits<double>::epsilon();
@@ -75,10 +74,11 @@ constexpr double endless = std::numeric_limits<double>::infinity();
 /// square.
 double longest_piece_of(const std::vector<BoundaryEdge>& edges, const Box& box) {
   constexpr double longest = std::numbers::pi / 4, shortest = std::numbers::pi / 32;
-  constexpr double usual = 200;  // boxes around a place
+  constexpr double largest_bulge = 0.19891236737965800;  // of the longest: tan(pi / 16)
+  constexpr double usual = 200;                          // boxes around a place
   double area = 0;
   for (const BoundaryEdge& edge : edges)
-    if (4 * std::atan(std::abs(edge.bulge)) > longest)
+    if (std::abs(edge.bulge) > largest_bulge)
       area += 0.5 * std::abs(edge.bulge) * squared_norm(edge.end - edge.start);
   const double whole = (box.high.x - box.low.x) * (box.high.y - box.low.y);
   if (!(area > usual * whole)) return longest;
@@ -88,12 +88,10 @@ double longest_piece_of(const std::vector<BoundaryEdge>& edges, const Box& box) 
 /// Calls `visit` with the edge, cut into pieces of at most `longest_piece`.
 template <class Visitor>
 void for_each_piece(const BoundaryEdge& edge, double longest_piece, const Visitor& visit) {
+  if (4 * std::abs(edge.bulge) <= longest_piece * (1 - edge.bulge * edge.bulge)) return visit(edge);
   const double angle = 4 * std::atan(edge.bulge);
   const double count = std::ceil(std::abs(angle) / longest_piece);
-  if (count <= 1) {
-    visit(edge);
-    return;
-  }
+  if (count <= 1) return visit(edge);
   const double length = length_of(edge);
   Vec2 start = edge.start;
   for (double k = 1; k <= count; ++k) {
@@ -175,7 +173,7 @@ void DistanceTree::build(std::vector<BoundaryEdge> edges, const Box& box) {
   if (arcs)
     for (const double c : {box.low.x, box.low.y, box.high.x, box.high.y})
       slack_ = std::max(slack_, 16 * machine_epsilon * std::abs(c));
-  if (edges.size() > flat) {
+  if (edges.size() > brute_force) {
     const std::vector<BoundaryEdge> pieces = fill_runs(std::move(edges), box);  // frees the edges
     build_levels(pieces, diagonal(box));
     return;
@@ -183,10 +181,9 @@ void DistanceTree::build(std::vector<BoundaryEdge> edges, const Box& box) {
   std::vector<std::uint32_t> index(edges.size());
   std::iota(index.begin(), index.end(), 0U);
   runs_ = runs_of(index, [&](std::size_t i) { return edges[i]; });
-  if (edges.size() > brute_force) build_levels(edges, diagonal(box));
 }
 
-/// Makes runs of many edges in spatial order, and returns the pieces that they are bounded by.
+/// Makes runs of many edges, and returns the pieces that they are bounded by.
 std::vector<BoundaryEdge> DistanceTree::fill_runs(std::vector<BoundaryEdge> edges, const Box& box) {
   if (arcs_->empty()) {
     const std::vector<std::uint32_t> order = order_of(edges);
@@ -232,9 +229,8 @@ void DistanceTree::build_levels(const std::vector<BoundaryEdge>& pieces, double 
     });
     below = std::move(extremes);
     levels_.push_back(std::move(level));
-    const bool is_flat = pieces.size() <= flat;
-    clearances_.push_back(is_flat ? std::vector<Clearances>() : clearances_of(pieces, run, size));
-    if (is_flat || bounds <= fan_out) break;
+    clearances_.push_back(clearances_of(pieces, run, size));
+    if (bounds <= fan_out || pieces.size() <= few_pieces) break;
     run *= fan_out;
   }
 }
@@ -417,8 +413,8 @@ MEDIAL_WIDE void DistanceTree::lower(Places& places, const Run& run, std::size_t
 }
 
 bool DistanceTree::find_near(const DiskHull& disks, double tolerance, NearEdges& near) const {
-  return search_near(disks, slack_ + tolerance, [](const Bounds&, std::size_t) { return true; },
-                     near);
+  return search_near(
+      disks, slack_ + tolerance, [](const Bounds&, std::size_t) { return true; }, near);
 }
 
 bool DistanceTree::find_near_between_feet(const DiskHull& disks, double tolerance,

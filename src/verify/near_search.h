@@ -28,9 +28,11 @@ class EdgeHull {
   /// the centre, or all disks lie on one side of it, or behind the line through the place of the
   /// box nearest to the centre that is perpendicular to the way there.
   Each reaches(const Bounds& bounds, std::size_t set, Vec2 origin) const {
-    const Several normal_x = several_at(bounds.normal_x + set), normal_y = several_at(bounds.normal_y + set);
+    const Several normal_x = several_at(bounds.normal_x + set),
+                  normal_y = several_at(bounds.normal_y + set);
     const Several x = all_of(center_.x - origin.x), y = all_of(center_.y - origin.y);
-    const Several from_along = normal_y * x - normal_x * y, from_across = normal_x * x + normal_y * y;
+    const Several from_along = normal_y * x - normal_x * y,
+                  from_across = normal_x * x + normal_y * y;
     const Several low_along = several_at(bounds.low_along + set) - from_along;
     const Several high_along = several_at(bounds.high_along + set) - from_along;
     const Several low_across = several_at(bounds.low_across + set) - from_across;
@@ -85,10 +87,12 @@ class EdgeHull {
     if (bits(straight & ~missed) == 0) return missed;
     // Next to a convex corner, the line of a straight edge decides more than that through its
     // nearer end.
-    const Several across = along_x * from_y - along_y * from_x, side = with_sign_of(all_of(1), across);
+    const Several across = along_x * from_y - along_y * from_x,
+                  side = with_sign_of(all_of(1), across);
     Each beside = straight & (square > 0);
     for (const Corner& corner : corner_) {
-      const Several away = larger(side * (across + along_x * corner.y - along_y * corner.x), all_of(0));
+      const Several away =
+          larger(side * (across + along_x * corner.y - along_y * corner.x), all_of(0));
       beside &= away * away > corner.square * square;
     }
     return missed | beside;

@@ -24,8 +24,13 @@ void for_each_hull_point(const BoundaryEdge& edge, const Visitor& visit) {
   visit(edge.end - side + height);
 }
 
+/// So few have one level of bounds, over chains along the boundary where these are not in each
+/// other's way.
+inline constexpr std::size_t few_pieces = 192;
+
 /// An order of edges, or of pieces of arcs, in which each aligned run of fan_out^k of them lies
-/// close together, k = 1, 2, ...; some may stand there again, next to themselves. O(n log n).
+/// close together, k = 1, 2, ...; some may stand there again, next to themselves. O(n
+/// log n).
 std::vector<std::uint32_t> order_of(const std::vector<BoundaryEdge>& pieces);
 
 }  // namespace medial::verify_detail
