@@ -674,7 +674,7 @@ TEST(DistanceTree, FindsAllThatDisksReach) {
       };
       const auto is_near = [&](const verify_detail::NearEdges& near, std::size_t edge) {
         for (std::size_t k = 0; k < near.size; ++k)
-          if (tree.index_at(near.place[k]) == edge) return true;
+          if (near.index[k] == edge) return true;
         return false;
       };
       verify_detail::NearEdges near, between;

@@ -306,14 +306,13 @@ double Curve::area_beside_chord() const {
   // comes down to atanh(sqrt z) / sqrt z, z = (w - 1) / (w + 1): the arc tangent for an ellipse.
   // Near z = 0 its series: sum z^k / (2 k + 1), and for the other term 2 z^k / ((2 k + 1) (2 k +
   // 3)).
-  constexpr double small = 0.0625;
+  constexpr double small = 0.0625, nothing = 0x1p-60;
   const double z = (weight - 1) / (weight + 1);
   const double rest = 2 / (weight + 1);  // 1 - z, also where z rounds to 1
   double first = 1, second = 2.0 / 3;
   if (std::abs(z) < small) {
-    double power = 1;
-    for (int k = 1; k <= 13; ++k) {
-      power *= z;
+    double power = z;
+    for (int k = 1; k <= 13 && std::abs(power) > nothing; ++k, power *= z) {
       first += power / (2 * k + 1);
       second += 2 * power / ((2 * k + 1) * (2 * k + 3));
     }

@@ -57,6 +57,21 @@ inline double largest_on_pieces(DoubleDegree& f, DoubleDegree* w, int degree,
   return largest;
 }
 
+/// An arc's unit tangents and curvature, all at once.
+struct Directions {
+  Vec2 begin, end;
+  double curvature;
+};
+Directions directions_of(const Arc& arc) {
+  const double b = arc.bulge, scale = 1 / (1 + b * b);
+  const double cosine = (1 - b) * (1 + b) * scale, sine = 2 * b * scale;
+  const Vec2 d = arc.end - arc.begin;
+  const double length = norm(d), along = 1 / length;
+  return {along * Vec2{cosine * d.x + sine * d.y, cosine * d.y - sine * d.x},
+          along * Vec2{cosine * d.x - sine * d.y, cosine * d.y + sine * d.x},
+          4 * b / (length * (1 + b * b))};
+}
+
 /// Where a curve is farthest from an arc that it meets at both ends, at small angles: at the zeros
 /// of the derivative of s (1 - s) (a (1 - s) - b s), with the slopes a and b there. Where two
 /// pieces meet there, the bound is the function itself.
@@ -64,11 +79,11 @@ struct Peaks {
   std::array<double, 2> at{};
   std::size_t count = 0;
 };
-Peaks peaks_of(const Bezier& curve, const Arc& arc) {
+Peaks peaks_of(const Bezier& curve, const Directions& arc) {
   const int n = curve.degree;
   const Vec2 first = curve.point(1) - curve.point(0), last = curve.point(n) - curve.point(n - 1);
-  const double a = cross(tangent_at_begin(arc), first) / norm(first);
-  const double b = cross(tangent_at_end(arc), last) / norm(last);
+  const double a = cross(arc.begin, first) / norm(first);
+  const double b = cross(arc.end, last) / norm(last);
   const double middle = 2 * a + b;
   const double q = middle + std::copysign(std::sqrt(a * a + a * b + b * b), middle);
   Peaks peaks;
@@ -110,11 +125,12 @@ double largest_circle_function(const Bezier& curve, Vec2 base, Vec2 tangent, dou
 }
 
 /// The certified distance of a curve in an arc's sector from its circle through one of its ends.
-double circle_error(const Bezier& curve, const Arc& arc, bool at_begin) {
+double circle_error(const Bezier& curve, const Arc& arc, const Directions& directions,
+                    bool at_begin) {
   const Vec2 base = at_begin ? arc.begin : arc.end;
-  const Vec2 tangent = at_begin ? tangent_at_begin(arc) : tangent_at_end(arc);
-  const double k = curvature(arc);
-  const Peaks peaks = peaks_of(curve, arc);
+  const Vec2 tangent = at_begin ? directions.begin : directions.end;
+  const double k = directions.curvature;
+  const Peaks peaks = peaks_of(curve, directions);
   const double f =
       largest_circle_function(curve, base, tangent, k, std::span(peaks.at.data(), peaks.count));
   return distance_of(k > 0 ? -f : f, k);  // the larger of both sides
@@ -127,13 +143,16 @@ Station reversed(Station station) {
 }
 
 /// Where the osculating circle at `from` meets the joint circle again.
-Vec2 osculating_joint(const Station& from, const Station& to) {
-  const JointCircle circle = joint_circle(from, to);
+Vec2 osculating_joint(const Station& from, const JointCircle& circle) {
   const Vec2 v = from.tangent, m = circle.direction;
   const Vec2 along = circle.curvature * v - from.curvature * m;
   const Vec2 joint = from.point + (-2 * cross(v, m) / squared_norm(along)) * along;
   // One Newton step onto the joint circle: rounding may slide the joint along it, not off it.
   return joint - circle.off(joint) * circle.normal(joint);
+}
+
+Vec2 osculating_joint(const Station& from, const Station& to) {
+  return osculating_joint(from, joint_circle(from, to));
 }
 
 }  // namespace
@@ -146,21 +165,9 @@ double bulge_arriving(Vec2 chord, Vec2 tangent) {
   return cross(chord, tangent) / (norm(chord) + dot(tangent, chord));
 }
 
-double curvature(const Arc& arc) {
-  return 4 * arc.bulge / (distance(arc.begin, arc.end) * (1 + arc.bulge * arc.bulge));
-}
-
-Vec2 tangent_at_begin(const Arc& arc) {
-  const double b = arc.bulge, scale = 1 / (1 + b * b);
-  const double cosine = (1 - b) * (1 + b) * scale, sine = 2 * b * scale;
-  const Vec2 d = arc.end - arc.begin;
-  return (1 / norm(d)) * Vec2{cosine * d.x + sine * d.y, cosine * d.y - sine * d.x};
-}
-
-Vec2 tangent_at_end(const Arc& arc) {
-  const Arc turned{arc.begin, arc.end, -arc.bulge};
-  return tangent_at_begin(turned);
-}
+double curvature(const Arc& arc) { return directions_of(arc).curvature; }
+Vec2 tangent_at_begin(const Arc& arc) { return directions_of(arc).begin; }
+Vec2 tangent_at_end(const Arc& arc) { return directions_of(arc).end; }
 
 JointCircle joint_circle(const Station& a, const Station& b) {
   const Vec2 d = b.point - a.point;
@@ -179,15 +186,14 @@ Vec2 flat_joint(const Station& a, const Station& b) {
   return forward ? osculating_joint(reversed(b), reversed(a)) : osculating_joint(a, b);
 }
 
-Vec2 balanced_joint(const Station& a, const Station& b) {
+Vec2 balanced_joint(const Station& a, const Station& b, const JointCircle& circle) {
   const double whole = (b.curvature - a.curvature) * distance(a.point, b.point);
   const double p = a.tilt / whole, q = b.tilt / whole;
   const double first = (1.0 / 6 - p - q) / (0.5 + p - q);
   const double last = (1.0 / 3 + 2 * q) / (0.5 + q - p);
   const double weight = (last - (0.5 + 3 * (p - q))) / (last - first);
-  Vec2 joint =
-      weight * osculating_joint(a, b) + (1 - weight) * osculating_joint(reversed(b), reversed(a));
-  const JointCircle circle = joint_circle(a, b);
+  Vec2 joint = weight * osculating_joint(a, circle) +
+               (1 - weight) * osculating_joint(reversed(b), reversed(a));
   // Newton's steps: the middle of a chord is off by the square of its length, not by rounding.
   for (int step = 0; step < 3; ++step) joint = joint - circle.off(joint) * circle.normal(joint);
   return joint;
@@ -224,55 +230,55 @@ Biarc make_biarc(const Station& a, Vec2 joint, const Station& b) {
           {joint, b.point, bulge_arriving(b.point - joint, b.tangent)}};
 }
 
-std::optional<double> projected_joint(const Bezier& curve, const Biarc& biarc) {
-  const Vec2 joint = biarc.first.end;
-  const Vec2 tangent = tangent_at_end(biarc.first);
-  const int n = curve.degree;
-  Fixed<double, max_degree + 1> h, b;
-  for (int i = 0; i <= n; ++i) {
-    h[i] = tangent.x * curve.x[i] + tangent.y * curve.y[i] - curve.weight(i) * dot(tangent, joint);
-  }
-  int changes = 0;
-  for (int i = 0; i < n; ++i) changes += (h[i] < 0) != (h[i + 1] < 0);
-  if (changes != 1 || !(h[0] < 0)) return std::nullopt;
-  double low = 0, high = 1;
-  double t = h[0] / (h[0] - h[n]);
-  for (int step = 0; step < 60; ++step) {
-    std::copy_n(h.begin(), n + 1, b.begin());
-    for (int level = n; level > 1; --level) {
-      for (int i = 0; i < level; ++i) b[i] += t * (b[i + 1] - b[i]);
+std::optional<double> projected_joint(const Bezier& curve, Vec2 joint, Vec2 tangent) {
+  return with_degree(curve.degree, [&](auto n) -> std::optional<double> {
+    Fixed<double, max_degree + 1> h, b;
+    for (int i = 0; i <= n; ++i)
+      h[i] =
+          tangent.x * curve.x[i] + tangent.y * curve.y[i] - curve.weight(i) * dot(tangent, joint);
+    int changes = 0;
+    for (int i = 0; i < n; ++i) changes += (h[i] < 0) != (h[i + 1] < 0);
+    if (changes != 1 || !(h[0] < 0)) return std::nullopt;
+    double low = 0, high = 1;
+    double t = h[0] / (h[0] - h[n]);
+    for (int step = 0; step < 60; ++step) {
+      std::copy_n(h.begin(), n + 1, b.begin());
+      for (int level = n; level > 1; --level) {
+        for (int i = 0; i < level; ++i) b[i] += t * (b[i + 1] - b[i]);
+      }
+      const double slope = n * (b[1] - b[0]);
+      const double value = b[0] + t * (b[1] - b[0]);
+      (value < 0 ? low : high) = t;
+      double next = t - value / slope;
+      if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+      // The error at the joint is stationary there, up to the angle to the curve.
+      constexpr double precise = 1e-9;
+      if (std::abs(next - t) < precise) return next;
+      t = next;
     }
-    const double slope = n * (b[1] - b[0]);
-    const double value = b[0] + t * (b[1] - b[0]);
-    (value < 0 ? low : high) = t;
-    double next = t - value / slope;
-    if (!(next >= low && next <= high)) next = 0.5 * (low + high);
-    // The error at the joint is stationary there, up to the angle to the curve.
-    constexpr double precise = 1e-9;
-    if (std::abs(next - t) < precise) return next;
-    t = next;
-  }
-  return t;
+    return t;
+  });
 }
 
 double certified_error(const Bezier& curve, const Arc& arc, double rounding) {
-  const Vec2 begin = tangent_at_begin(arc), end = tangent_at_end(arc);
-  if (!in_sector(curve, arc.begin, begin, arc.end, end, rounding)) return infinity;
-  return circle_error(curve, arc, true);
+  const Directions directions = directions_of(arc);
+  if (!in_sector(curve, arc.begin, directions.begin, arc.end, directions.end, rounding))
+    return infinity;
+  return circle_error(curve, arc, directions, true);
 }
 
 double certified_error(const Bezier& curve, const Biarc& biarc, double rounding) {
-  const std::optional<double> t = projected_joint(curve, biarc);
+  const Arc &first = biarc.first, &second = biarc.second;
+  const Directions of_first = directions_of(first), of_second = directions_of(second);
+  const std::optional<double> t = projected_joint(curve, first.end, of_first.end);
   if (!t) return infinity;
+  // Each circle through the end where it touches the curve.
+  if (!in_sector(curve, first.begin, of_first.begin, second.end, of_second.end, rounding))
+    return infinity;
   Bezier before, after;
   split(curve, *t, before, after);
-  // Each circle through the end where it touches the curve.
-  const Vec2 begin = tangent_at_begin(biarc.first), end = tangent_at_end(biarc.second);
-  if (!in_sector(curve, biarc.first.begin, begin, biarc.second.end, end, rounding)) {
-    return infinity;
-  }
-  return std::max(circle_error(before, biarc.first, true),
-                  circle_error(after, biarc.second, false));
+  return std::max(circle_error(before, first, of_first, true),
+                  circle_error(after, second, of_second, false));
 }
 
 }  // namespace medial::curve

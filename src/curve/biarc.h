@@ -59,7 +59,8 @@ Vec2 flat_joint(const Station& a, const Station& b);
 /// less than a third of the spiral biarc's. Where curvature changes by d over the way c, between
 /// tilts p d c and q d c, that joint is at 1/2 + 3 (p - q) of the way, and the others, whose arcs
 /// osculate at either end, at (1/6 - p - q) / (1/2 + p - q) and (1/3 + 2 q) / (1/2 + q - p).
-Vec2 balanced_joint(const Station& a, const Station& b);
+/// `circle`: joint_circle(a, b).
+Vec2 balanced_joint(const Station& a, const Station& b, const JointCircle& circle);
 
 /// The joint moved by whole steps of a grid to a grid point next to the joint circle: by at most
 /// about `reach`, until it is off the circle by no more than a rounding of the chord.
@@ -80,9 +81,10 @@ struct Biarc {
 /// joint circle, over the length of the chords.
 Biarc make_biarc(const Station& a, Vec2 joint, const Station& b);
 
-/// Where the normal of the biarc at its joint meets the curve (the joint's projection from the
-/// arcs' centres): the parameter, or nothing where it meets the curve more often or not at all.
-std::optional<double> projected_joint(const Bezier& curve, const Biarc& biarc);
+/// Where the normal of a biarc at its joint, with this tangent, meets the curve (the joint's
+/// projection from the arcs' centres): the parameter, or nothing where it meets the curve more
+/// often or not at all.
+std::optional<double> projected_joint(const Bezier& curve, Vec2 joint, Vec2 tangent);
 
 /// An upper bound on the Hausdorff distance between a curve and an arc with its end points on the
 /// normals of the curve's ends: infinite where the bound does not hold, because the curve leaves

@@ -168,7 +168,7 @@ class Converter {
   bool try_biarc(const Bezier& part, const Station& a, const Station& b, Demands demands);
   Biarc biarc_of(const Station& a, const Station& b, Demands demands) const;
   bool is_spiral(const Biarc& biarc, const Station& a, const Station& b, Demands demands) const;
-  Vec2 settled(Vec2 joint, const Station& a, const Station& b) const;
+  Vec2 settled(Vec2 joint, const JointCircle& circle, Vec2 chord) const;
   Station snapped(Station station) const {
     station.point = frame_.snap(station.point);
     return station;
@@ -452,22 +452,24 @@ bool Converter::try_singular_end(const Bezier& part, const Station& a, const Sta
 }
 
 /// A joint on the input's grid, as near to the joint circle as can be.
-Vec2 Converter::settled(Vec2 joint, const Station& a, const Station& b) const {
+Vec2 Converter::settled(Vec2 joint, const JointCircle& circle, Vec2 chord) const {
   // Sliding along the joint circle by this part of the chord changes the arcs' curvatures by no
   // more than about this part of their difference.
   constexpr double slide = 0x1p-20;
-  const Vec2 chord = b.point - a.point;
   const double reach = slide * std::max(std::abs(chord.x), std::abs(chord.y));
   const Vec2 snapped = frame_.snap(joint);
-  return frame_.snap(settle_joint(joint_circle(a, b), snapped, frame_.spacing(snapped), reach));
+  return frame_.snap(settle_joint(circle, snapped, frame_.spacing(snapped), reach));
 }
 
 /// The biarc of least error that keeps what curvature is limited to at its less curved end: at the
 /// joint that balances its arcs, or the one whose arc there is the osculating circle.
 Biarc Converter::biarc_of(const Station& a, const Station& b, Demands demands) const {
-  const auto at = [&](Vec2 joint) { return make_biarc(a, settled(joint, a, b), b); };
+  const JointCircle circle = joint_circle(a, b);
+  const auto at = [&](Vec2 joint) {
+    return make_biarc(a, settled(joint, circle, b.point - a.point), b);
+  };
   if (demands.apex) return at(spiral_joint(a, b));
-  const Biarc balanced = at(balanced_joint(a, b));
+  const Biarc balanced = at(balanced_joint(a, b, circle));
   return is_limited(balanced, a, b, demands.limits) ? balanced : at(flat_joint(a, b));
 }
 
@@ -484,7 +486,8 @@ bool Converter::try_biarc(const Bezier& part, const Station& a, const Station& b
     Station from = a;
     from.point = frame_.to_local(chain_.points.back());
     from.tangent = tangent_at_begin({from.point, a.point, chain_.bulges.back()});
-    const Biarc merged = make_biarc(from, settled(biarc.first.end, from, b), b);
+    const Vec2 joint = settled(biarc.first.end, joint_circle(from, b), b.point - from.point);
+    const Biarc merged = make_biarc(from, joint, b);
     chain_.bulges.back() = merged.first.bulge;
     emit(merged.second.begin, merged.second.bulge, error);
   } else {
@@ -517,7 +520,7 @@ bool Converter::is_spiral(const Biarc& biarc, const Station& a, const Station& b
   // The rounding of the arcs' end points, as seen by their curvature.
   const double slack = options_.rounding / shorter;
   return lowest <= low + slack && low <= high + slack && high <= highest + slack &&
-         is_limited(biarc, a, b, demands.limits);
+         std::abs(low) <= (forward ? demands.limits.end : demands.limits.begin);
 }
 
 /// Leaves out roots that rounding has doubled, and apices next to an end: nothing happens to the

@@ -123,6 +123,7 @@ std::optional<Error> append_with_arcs(const Ring& ring, std::uint32_t index,
   if (edges.size() < 2 || (edges.size() == 2 && edges[0].bulge == -edges[1].bulge)) {
     return place(ErrorCode::no_area, "the ring encloses no area");
   }
+  cleaned.bulges.reserve(cleaned.points.capacity());
   cleaned.bulges.resize(cleaned.points.size(), 0);
   for (const RingEdge& edge : edges) {
     cleaned.points.push_back(edge.point);

@@ -105,14 +105,13 @@ class Cleaner {
                     is_one_line(kept, next(i)));
       if (!dropped[i]) kept = i;
     }
-    std::vector<RingEdge> result;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (dropped[i])
-        ++report_.collinear_points;
-      else
-        result.push_back(edges_[i]);
-    }
-    if (result.size() >= 2) edges_ = std::move(result);
+    const auto gone = static_cast<std::size_t>(std::count(dropped.begin(), dropped.end(), true));
+    report_.collinear_points += gone;
+    if (gone == 0 || count - gone < 2) return;
+    std::size_t stay = 0;
+    for (std::size_t i = 0; i < count; ++i)
+      if (!dropped[i]) edges_[stay++] = edges_[i];
+    edges_.resize(stay);
   }
 
   /// Whether the vertices between two others, few, lie between them in one line, within the play.
@@ -137,10 +136,10 @@ class Cleaner {
     const BulgeArc first = arc(previous(i)), second = arc(i);
     if (!(first.bulge * second.bulge > 0)) return false;
     const double shorter = std::min(norm(first.chord()), norm(second.chord()));
+    if (!(std::abs(curvature(first) - curvature(second)) * shorter * shorter <= 8 * play_))
+      return false;
     const Vec2 arriving = end_tangent(first), leaving = start_tangent(second);
-    return dot(arriving, leaving) > 0 &&
-           std::abs(cross(arriving, leaving)) * shorter <= 2 * play_ &&
-           std::abs(curvature(first) - curvature(second)) * shorter * shorter <= 8 * play_;
+    return dot(arriving, leaving) > 0 && std::abs(cross(arriving, leaving)) * shorter <= 2 * play_;
   }
 
   /// Replaces each run of arcs on one circle by one arc, or by two if it is more than a half
@@ -150,7 +149,8 @@ class Cleaner {
   void merge_cocircular() {
     const std::size_t count = edges_.size();
     std::vector<std::size_t> ends;  // of runs
-    bool is_touched = false;        // in one of them, where the ring would go on
+    ends.reserve(count);
+    bool is_touched = false;  // in one of them, where the ring would go on
     for (std::size_t i = 0; i < count; ++i) {
       const bool goes_on = continues(i);
       if (goes_on && !around_.is_shared(edges_[i].point)) continue;

@@ -256,6 +256,7 @@ Result<Shape> assemble(const Arrangement& arrangement, const SplicedLoops& loops
   shape.points.reserve(arrangement.points.size());
   shape.sources.reserve(arrangement.points.size());
   const bool with_arcs = !arrangement.bulges.empty();
+  if (with_arcs) shape.bulges.reserve(arrangement.points.size());
   std::uint32_t components = 0;
   std::uint32_t gone = ~std::uint32_t{0};  // the component whose outer loop was nothing but needles
   for (const std::uint32_t i : order) {

@@ -112,6 +112,7 @@ NodedRings Noding::monotone() const {
   for (auto* list : {&cleaned.points, &result.originals}) list->reserve(expected);
   for (auto* list : {&cleaned.sources, &result.sources}) list->reserve(expected);
   for (auto* list : {&cleaned.bulges, &result.edge_bulges}) list->reserve(expected);
+  result.weights.reserve(expected);
   result.edges.reserve(expected);
   result.passing.reserve(expected);
 

@@ -230,14 +230,14 @@ void cross_gap(const Problem& problem, const Foot& from, const Foot& to, bool wr
 }
 
 /// Walks once around a loop, from stretch to stretch. `lone_node` is a node without edges of each
-/// component, or no_index.
+/// component, or no_index; `stretches` is room to work in.
 void walk_loop(const Problem& problem, const Touching& touching,
-               const std::vector<std::uint32_t>& lone_node, std::size_t loop, Uncovered& worst) {
+               const std::vector<std::uint32_t>& lone_node, std::size_t loop,
+               std::vector<Stretch>& stretches, Uncovered& worst) {
   const std::uint32_t begin = problem.shape.loop_begin[loop],
                       end = problem.shape.loop_begin[loop + 1];
   bool any = false;
   Foot first{}, reach{};
-  std::vector<Stretch> stretches;
   for (std::uint32_t i = begin; i < end; ++i) {
     touching.stretches(i, i > begin ? i - 1 : end - 1, stretches);
     for (const Stretch& stretch : stretches) {
@@ -272,8 +272,9 @@ double check_coverage(const Problem& problem, const ArcFeet& feet, Certificate& 
   for (std::uint32_t i = 0; i < problem.axis.nodes.size(); ++i)
     if (problem.degree[i] == 0) lone_node[problem.axis.nodes[i].component] = i;
   Uncovered worst;
+  std::vector<Stretch> stretches;
   for (std::size_t i = 0; i < problem.shape.loop_count(); ++i)
-    walk_loop(problem, touching, lone_node, i, worst);
+    walk_loop(problem, touching, lone_node, i, stretches, worst);
   certificate.largest_uncovered = worst.value;
   // A foot may lie the tolerance outside its disk; between the feet of different nodes a gap of
   // width g, which rises by g^2 / (8 r) over their disks, may add as much again.

@@ -159,8 +159,12 @@ class EdgeCheck {
         findings_(block.findings),
         crowd_(block.crowd),
         depths_(depths) {
-    for (std::size_t side = 0; side < 2; ++side)
-      on_boundary_[side] = problem.place[edge_.site[side]] != no_index;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const std::uint32_t at = problem.place[edge_.site[side]];
+      if (at == no_index) continue;
+      const bool vertex = problem.axis.sites[edge_.site[side]].kind() == SiteKind::vertex;
+      own_[side] = {at, vertex ? problem.before(at) : no_index, vertex ? at : problem.next[at]};
+    }
   }
 
   void run(int samples, std::span<const Parameters> parameters,
@@ -225,19 +229,18 @@ class EdgeCheck {
   /// Leaves of what is near only what may be nearer than the sites.
   void leave_nearer() {
     std::size_t kept = 0;
-    for (std::size_t i = 0; i < near_.size; ++i)
-      if (!is_no_nearer(boundary_.index_at(near_.place[i]))) near_.place[kept++] = near_.place[i];
+    for (std::size_t i = 0; i < near_.size; ++i) {
+      if (is_no_nearer(near_.index[i])) continue;
+      near_.place[kept] = near_.place[i];
+      near_.index[kept++] = near_.index[i];
+    }
     near_.size = kept;
   }
   /// Whether a boundary edge is a site, or straight and wholly behind its end, which is one.
   bool is_no_nearer(std::uint32_t place) const {
-    for (std::size_t side = 0; side < 2; ++side) {
-      if (!on_boundary_[side]) continue;
-      const std::uint32_t at = problem_.place[edge_.site[side]];
-      const bool vertex = problem_.axis.sites[edge_.site[side]].kind() == SiteKind::vertex;
-      if (place == at && (!vertex || is_behind(problem_.edge(place)))) return true;
-      if (vertex && place == problem_.before(at) && is_behind(problem_.edge(place).reversed()))
-        return true;
+    for (const Own& own : own_) {
+      if (place == own.at && (!own.is_vertex() || is_behind(problem_.edge(place)))) return true;
+      if (place == own.before && is_behind(problem_.edge(place).reversed())) return true;
     }
     return false;
   }
@@ -252,7 +255,7 @@ class EdgeCheck {
   /// Whether all disks of the edge touch its sites and reach over no other boundary edge, within
   /// the tolerance: then they are legal, too. What it finds without a sample.
   bool is_proven() {
-    if (!(edge_.weight > 0) || !on_boundary_[0] || !on_boundary_[1]) return false;
+    if (!(edge_.weight > 0) || own_[0].at == no_index || own_[1].at == no_index) return false;
     for (const Disk& disk : hull_)
       if (!(disk.radius >= 0)) return false;
     const double tolerance = problem_.tolerance;
@@ -262,8 +265,7 @@ class EdgeCheck {
       gap = std::max(gap, whole.contact_gap(problem_.axis.sites[site], arc_of(problem_, site)));
     if (!(gap <= tolerance)) return false;
     for (std::size_t i = 0; i < near_.size; ++i) {
-      const std::uint32_t place = boundary_.index_at(near_.place[i]);
-      intrusion = std::max(intrusion, intrusion_of(whole, place));
+      intrusion = std::max(intrusion, intrusion_of(whole, near_.index[i]));
       if (!(gap + intrusion <= tolerance)) return false;
     }
     findings_.contact.add(gap, tolerance, hull_[0].center, index_);
@@ -292,11 +294,8 @@ class EdgeCheck {
   }
   /// Whether a point is an end of a site, or one.
   bool is_end_of_site(std::uint32_t point) const {
-    return std::any_of(edge_.site.begin(), edge_.site.end(), [&](std::uint32_t site) {
-      const std::uint32_t place = problem_.place[site];
-      return place == point || (problem_.axis.sites[site].kind() != SiteKind::vertex &&
-                                problem_.next[place] == point);
-    });
+    const auto ends_there = [&](const Own& own) { return point == own.at || point == own.end; };
+    return ends_there(own_[0]) || ends_there(own_[1]);
   }
 
   const Problem& problem_;
@@ -307,7 +306,14 @@ class EdgeCheck {
   Findings& findings_;
   Crowd& crowd_;
   Depths& depths_;
-  std::array<bool, 2> on_boundary_;
+  /// Where the sites are on the boundary, or no_index.
+  struct Own {
+    std::uint32_t at = no_index;      ///< the vertex, or where the edge begins
+    std::uint32_t before = no_index;  ///< of a vertex: the edge that ends there
+    std::uint32_t end = no_index;     ///< of an edge
+    bool is_vertex() const { return before != no_index; }
+  };
+  std::array<Own, 2> own_;
   NearEdges near_;
 };
 

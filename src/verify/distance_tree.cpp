@@ -18,6 +18,47 @@
 #include "verify/piece_order.h"
 
 namespace medial::verify_detail {
+namespace two {
+
+using Several = Pair;
+using Each = Pairwise;
+constexpr std::uint32_t lanes = 2;
+inline Several several_at(const double* place) { return pair_at(place); }
+inline Several all_of(double value) { return both(value); }
+inline unsigned bits(Each what) { return static_cast<unsigned>((what[0] & 1) | (what[1] & 2)); }
+
+#include "verify/near_search.h"
+
+}  // namespace two
+
+#ifdef MEDIAL_HAS_WIDE
+#pragma GCC push_options
+#pragma GCC target("avx2")
+namespace four {
+
+using Several = double __attribute__((vector_size(32)));
+using Each = decltype(Several{} < Several{});
+constexpr std::uint32_t lanes = 4;
+inline Several several_at(const double* place) {
+  Several all;
+  std::memcpy(&all, place, sizeof all);
+  return all;
+}
+inline Several all_of(double value) { return Several{value, value, value, value}; }
+inline Several larger(Several a, Several b) { return __builtin_ia32_maxpd256(a, b); }
+inline Several smaller(Several a, Several b) { return __builtin_ia32_minpd256(a, b); }
+inline Several size_of(Several a) { return larger(a, -a); }
+inline Several with_sign_of(Several size, Several other) { return other < 0 ? -size : size; }
+inline unsigned bits(Each what) {
+  return static_cast<unsigned>(__builtin_ia32_movmskpd256(Several(what)));
+}
+
+#include "verify/near_search.h"
+
+}  // namespace four
+#pragma GCC pop_options
+#endif
+
 namespace {
 
 /// Below this many edges no tree is built.
@@ -33,10 +74,11 @@ constexpr double endless = std::numeric_limits<double>::infinity();
 /// square.
 double longest_piece_of(const std::vector<BoundaryEdge>& edges, const Box& box) {
   constexpr double longest = std::numbers::pi / 4, shortest = std::numbers::pi / 32;
-  constexpr double usual = 200;  // boxes around a place
+  constexpr double largest_bulge = 0.19891236737965800;  // of the longest: tan(pi / 16)
+  constexpr double usual = 200;                          // boxes around a place
   double area = 0;
   for (const BoundaryEdge& edge : edges)
-    if (4 * std::atan(std::abs(edge.bulge)) > longest)
+    if (std::abs(edge.bulge) > largest_bulge)
       area += 0.5 * std::abs(edge.bulge) * squared_norm(edge.end - edge.start);
   const double whole = (box.high.x - box.low.x) * (box.high.y - box.low.y);
   if (!(area > usual * whole)) return longest;
@@ -46,12 +88,10 @@ double longest_piece_of(const std::vector<BoundaryEdge>& edges, const Box& box) 
 /// Calls `visit` with the edge, cut into pieces of at most `longest_piece`.
 template <class Visitor>
 void for_each_piece(const BoundaryEdge& edge, double longest_piece, const Visitor& visit) {
+  if (4 * std::abs(edge.bulge) <= longest_piece * (1 - edge.bulge * edge.bulge)) return visit(edge);
   const double angle = 4 * std::atan(edge.bulge);
   const double count = std::ceil(std::abs(angle) / longest_piece);
-  if (count <= 1) {
-    visit(edge);
-    return;
-  }
+  if (count <= 1) return visit(edge);
   const double length = length_of(edge);
   Vec2 start = edge.start;
   for (double k = 1; k <= count; ++k) {
@@ -143,7 +183,7 @@ void DistanceTree::build(std::vector<BoundaryEdge> edges, const Box& box) {
   runs_ = runs_of(index, [&](std::size_t i) { return edges[i]; });
 }
 
-/// Makes runs of many edges in spatial order, and returns the pieces that they are bounded by.
+/// Makes runs of many edges, and returns the pieces that they are bounded by.
 std::vector<BoundaryEdge> DistanceTree::fill_runs(std::vector<BoundaryEdge> edges, const Box& box) {
   if (arcs_->empty()) {
     const std::vector<std::uint32_t> order = order_of(edges);
@@ -190,7 +230,7 @@ void DistanceTree::build_levels(const std::vector<BoundaryEdge>& pieces, double 
     below = std::move(extremes);
     levels_.push_back(std::move(level));
     clearances_.push_back(clearances_of(pieces, run, size));
-    if (bounds <= fan_out) break;
+    if (bounds <= fan_out || pieces.size() <= few_pieces) break;
     run *= fan_out;
   }
 }
@@ -304,7 +344,8 @@ MEDIAL_WIDE bool DistanceTree::search(Vec2 p, double& best) const {
   // Three brothers wait on each of at most 16 levels.
   std::array<Visit, 64> stack;
   std::size_t size = 0;
-  stack[size++] = {static_cast<std::uint32_t>(levels_.size() - 1), 0, 0};
+  const auto top = static_cast<std::uint32_t>(levels_.size() - 1);
+  for (std::uint32_t i = 0; i < levels_[top].size(); ++i) stack[size++] = {top, i, 0};
   while (size > 0) {
     const Visit visit = stack[--size];
     if (visit.squared > limit) continue;
@@ -337,6 +378,16 @@ MEDIAL_WIDE bool DistanceTree::search(Vec2 p, double& best) const {
   return found;
 }
 
+template <class Wanted>
+bool DistanceTree::search_near(const DiskHull& disks, double slack, const Wanted& wanted,
+                               NearEdges& near) const {
+#ifdef MEDIAL_HAS_WIDE
+  if (__builtin_cpu_supports("avx2"))
+    return four::find_near(four::EdgeHull(disks, slack), runs_, levels_, origin_, wanted, near);
+#endif
+  return two::find_near(two::EdgeHull(disks, slack), runs_, levels_, origin_, wanted, near);
+}
+
 /// Lowers the distances of places to those from an edge.
 MEDIAL_WIDE void DistanceTree::lower(Places& places, const Run& run, std::size_t i) const {
   const Vec2 start{run.start_x[i], run.start_y[i]}, end{run.end_x[i], run.end_y[i]};
@@ -361,72 +412,18 @@ MEDIAL_WIDE void DistanceTree::lower(Places& places, const Run& run, std::size_t
   }
 }
 
-/// Adds those edges of a run that disks may reach, each once.
-inline void DistanceTree::add_near(const EdgeHull& hull, std::uint32_t run, NearEdges& near) const {
-  const auto is_known = [&](std::uint32_t index) {
-    for (std::size_t i = 0; i < near.size; ++i)
-      if (index_at(near.place[i]) == index) return true;
-    return false;
-  };
-  for (std::uint32_t i = 0; i < fan_out; i += 2) {
-    const Pairwise missed = hull.misses(runs_[run], i);
-    if (all(missed)) continue;
-    for (std::uint32_t k = i; k < i + 2; ++k)
-      if (missed[k - i] == 0 && near.size < near.most && !is_known(runs_[run].index[k]))
-        near.place[near.size++] = static_cast<std::uint32_t>(fan_out * run) + k;
-  }
+bool DistanceTree::find_near(const DiskHull& disks, double tolerance, NearEdges& near) const {
+  return search_near(
+      disks, slack_ + tolerance, [](const Bounds&, std::size_t) { return true; }, near);
 }
 
-/// Adds edges that disks may reach, in those sets that are wanted; false if there are too many.
-template <class Wanted>
-inline bool DistanceTree::find_near(const EdgeHull& hull, const Wanted& wanted,
-                                    NearEdges& near) const {
-  constexpr int most_visits = 96;
-  struct Set {
-    std::uint32_t level, index;
-  };
-  std::array<Set, 64> stack;
-  std::size_t size = 0;
-  if (levels_.empty())
-    for (std::uint32_t run = 0; run < runs_.size(); ++run) add_near(hull, run, near);
-  else if (hull.is_bounded())
-    stack[size++] = {static_cast<std::uint32_t>(levels_.size() - 1), 0};
-  else
-    return false;
-  for (int visits = 0; size > 0; ++visits) {
-    if (visits == most_visits || near.size == near.most) return false;
-    const Set set = stack[--size];
-    const Bounds& bounds = levels_[set.level][set.index];
-    for (std::uint32_t i = 0; i < fan_out; i += 2) {
-      const std::array<bool, 2> is_wanted{wanted(bounds, i), wanted(bounds, i + 1)};
-      if (!is_wanted[0] && !is_wanted[1]) continue;
-      const Pairwise reached = hull.reaches(bounds, i, origin_);
-      for (std::uint32_t k = 0; k < 2; ++k) {
-        if (reached[k] == 0 || !is_wanted[k]) continue;
-        const auto child = static_cast<std::uint32_t>(set.index * fan_out) + i + k;
-        if (set.level > 0)
-          stack[size++] = {set.level - 1, child};
-        else
-          add_near(hull, child, near);
-      }
-    }
-  }
-  return near.size < near.most;
-}
-
-MEDIAL_WIDE bool DistanceTree::find_near(const DiskHull& disks, double tolerance,
-                                         NearEdges& near) const {
-  const auto all = [](const Bounds&, std::size_t) { return true; };
-  return find_near(EdgeHull(disks, slack_ + tolerance), all, near);
-}
-
-MEDIAL_WIDE bool DistanceTree::find_near_between_feet(const DiskHull& disks, double tolerance,
-                                                      NearEdges& near) const {
+bool DistanceTree::find_near_between_feet(const DiskHull& disks, double tolerance,
+                                          NearEdges& near) const {
   const BetweenFeet feet(disks, origin_, slack_);
   const auto is_there = [&](const Bounds& bounds, std::size_t set) {
     return !feet.misses(bounds, set);
   };
-  return find_near(EdgeHull(disks, slack_ + tolerance), is_there, near);
+  return search_near(disks, slack_ + tolerance, is_there, near);
 }
 
 void DistanceTree::find_distances(const NearEdges* near, Places& places) const {

@@ -8,18 +8,18 @@
 
 #include "medial/axis.h"
 #include "medial/shape.h"
-#include "verify/edge_hull.h"
 #include "verify/edge_sets.h"
 #include "verify/whole_edge.h"
 
 namespace medial::verify_detail {
 
-/// Edges that disks may reach, by their places in the tree.
+/// Edges that disks may reach.
 struct NearEdges {
   static constexpr std::size_t most = 24;
 
   std::size_t size = 0;
-  std::array<std::uint32_t, most> place;
+  std::array<std::uint32_t, most> place;  ///< in the tree
+  std::array<std::uint32_t, most> index;  ///< among the shape's
 };
 
 /// Centres of disks, whose radii are expected.
@@ -64,7 +64,6 @@ class DistanceTree {
   bool find_near(const DiskHull& disks, double tolerance, NearEdges& near) const;
   /// The same, but not of edges over which no disk reaches deeper than both at the ends.
   bool find_near_between_feet(const DiskHull& disks, double tolerance, NearEdges& near) const;
-  std::uint32_t index_at(std::uint32_t place) const { return runs_[place / 4].index[place % 4]; }
   /// Finds the distances of disks' centres, of which these edges are near, sooner than one by one;
   /// without `near`, one by one.
   void find_distances(const NearEdges* near, Places& places) const;
@@ -94,9 +93,9 @@ class DistanceTree {
   double some_distance(Vec2 p) const;
   template <class EdgeAt>
   static std::vector<Run> runs_of(const std::vector<std::uint32_t>& index, const EdgeAt& edge_at);
-  void add_near(const EdgeHull& hull, std::uint32_t run, NearEdges& near) const;
   template <class Wanted>
-  bool find_near(const EdgeHull& hull, const Wanted& wanted, NearEdges& near) const;
+  bool search_near(const DiskHull& disks, double slack, const Wanted& wanted,
+                   NearEdges& near) const;
   void lower(Places& places, const Run& run, std::size_t i) const;
   double distance_to(const Run& run, std::size_t i, Vec2 p) const {
     if (run.bulge[i] != 0) return (*arcs_)[run.index[i]].distance(p);

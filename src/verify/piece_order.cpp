@@ -56,6 +56,7 @@ class PieceOrder {
           std::span(order_).subspan(from), [&](std::uint32_t i) { return middle_[i]; },
           [&](std::uint32_t i) { return pieces_[i].chord(); }, fan_out);
     }
+    if (pieces_.size() <= few_pieces) return add_pieces(chains);
     const std::size_t half = detail::halve_by_place(
         chains, [&](std::uint32_t c) { return place(c); }, fan_out);
     add(chains.first(half));

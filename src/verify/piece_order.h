@@ -8,7 +8,7 @@
 
 namespace medial::verify_detail {
 
-inline constexpr std::size_t fan_out = 4;  ///< of the tree over the pieces
+inline constexpr std::uint32_t fan_out = 4;  ///< of the tree over the pieces
 
 /// Calls `visit` with points whose hull holds the edge: its ends, and for an arc the corners of the
 /// trapezoid whose other sides are tangent to it at the ends and in the middle.
@@ -24,8 +24,13 @@ void for_each_hull_point(const BoundaryEdge& edge, const Visitor& visit) {
   visit(edge.end - side + height);
 }
 
+/// So few have one level of bounds, over chains along the boundary where these are not in each
+/// other's way.
+inline constexpr std::size_t few_pieces = 192;
+
 /// An order of edges, or of pieces of arcs, in which each aligned run of fan_out^k of them lies
-/// close together, k = 1, 2, ...; some may stand there again, next to themselves. O(n log n).
+/// close together, k = 1, 2, ...; some may stand there again, next to themselves. O(n
+/// log n).
 std::vector<std::uint32_t> order_of(const std::vector<BoundaryEdge>& pieces);
 
 }  // namespace medial::verify_detail

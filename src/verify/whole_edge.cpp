@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/pair.h"
+
 namespace medial::verify_detail {
 namespace {
 
@@ -12,6 +14,14 @@ Vec2 start_tangent_of(const BoundaryEdge& edge, const Arc* arc) {
   return arc != nullptr ? arc->start_tangent() : (1 / norm(edge.chord())) * edge.chord();
 }
 
+/// Two disks side by side.
+struct TwoDisks {
+  Pair x, y, radius;
+
+  TwoDisks(const Disk& a, const Disk& b)
+      : x{a.center.x, b.center.x}, y{a.center.y, b.center.y}, radius{a.radius, b.radius} {}
+};
+
 }  // namespace
 
 WholeEdge::WholeEdge(const DiskHull& control, double weight) : control_(control), weight_(weight) {
@@ -20,38 +30,45 @@ WholeEdge::WholeEdge(const DiskHull& control, double weight) : control_(control)
   largest_radius_ = std::max({a, b, c});
 }
 
-/// Of a quadratic form of the disk, by its polar form.
+/// Of a quadratic form of the disk, by its polar form: `product` of two disks each.
 template <class Product>
 WholeEdge::Range WholeEdge::range_of(const Product& product) const {
+  const TwoDisks first{control_[0], control_[1]}, second{control_[1], control_[2]};
+  const TwoDisks ends{control_[0], control_[2]}, reversed{control_[1], control_[0]};
+  const Pair inner = product(reversed, second), beside = product(first, second),
+             outer = product(ends, ends);
   const double square = 2 * weight_ * weight_;
-  const double middle = (square * product(1, 1) + product(0, 2)) / (square + 1);
-  const double a = product(0, 0), b = product(0, 1), c = product(1, 2), d = product(2, 2);
-  if (!std::isfinite(a + b + middle + c + d)) return {-unknown, unknown};
-  return {std::min({a, b, middle, c, d}), std::max({a, b, middle, c, d})};
+  const double middle = (square * inner[0] + inner[1]) / (square + 1);
+  const Pair low = smaller(outer, beside), high = larger(outer, beside);
+  const Pair sum = outer + beside;
+  if (!std::isfinite(sum[0] + sum[1] + middle)) return {-unknown, unknown};
+  return {std::min(std::min(low[0], low[1]), middle), std::max(std::max(high[0], high[1]), middle)};
 }
 
 /// H of an edge.
-WholeEdge::Range WholeEdge::range_of(const BoundaryEdge& edge, const Arc* arc) const {
-  const Vec2 normal = left_of(start_tangent_of(edge, arc));
-  std::array<Vec2, 3> u;
-  std::array<double, 3> over;
-  for (std::size_t i = 0; i < 3; ++i) {
-    u[i] = control_[i].center - edge.start;
-    over[i] = dot(normal, u[i]) - control_[i].radius;
+WholeEdge::Range WholeEdge::range_of(Vec2 start, Vec2 start_tangent, const Arc* arc) const {
+  const Vec2 normal = left_of(start_tangent);
+  if (arc == nullptr) {
+    const auto over = [&](const Disk& disk) {
+      return dot(normal, disk.center - start) - disk.radius;
+    };
+    const double a = over(control_[0]), b = over(control_[1]), c = over(control_[2]);
+    return {2 * std::min(std::min(a, b), c), 2 * std::max(std::max(a, b), c)};
   }
-  if (arc == nullptr)
-    return {2 * std::min({over[0], over[1], over[2]}), 2 * std::max({over[0], over[1], over[2]})};
-  return range_of([&](std::size_t i, std::size_t j) {
-    const double power = dot(u[i], u[j]) - control_[i].radius * control_[j].radius;
-    return over[i] + over[j] - arc->curvature() * power;
+  const double k = arc->curvature();
+  return range_of([&](const TwoDisks& p, const TwoDisks& q) {
+    const Pair px = p.x - start.x, py = p.y - start.y, qx = q.x - start.x, qy = q.y - start.y;
+    const Pair power = px * qx + py * qy - p.radius * q.radius;
+    return (normal.x * px + normal.y * py - p.radius) + (normal.x * qx + normal.y * qy - q.radius) -
+           k * power;
   });
 }
 
 /// H of a point.
 WholeEdge::Range WholeEdge::range_of(Vec2 point) const {
-  return range_of([&](std::size_t i, std::size_t j) {
-    return dot(control_[i].center - point, control_[j].center - point) -
-           control_[i].radius * control_[j].radius;
+  return range_of([&](const TwoDisks& p, const TwoDisks& q) {
+    return (p.x - point.x) * (q.x - point.x) + (p.y - point.y) * (q.y - point.y) -
+           p.radius * q.radius;
   });
 }
 
@@ -80,9 +97,10 @@ double WholeEdge::contact_gap(const Site& site, const Arc* arc) const {
   if (site.start == site.end) return bound_at_point(range_of(site.start).size());
   if (arc == nullptr && site.bulge != 0) return unknown;
   const BoundaryEdge edge = edge_of(site);
-  const double size = range_of(edge, arc).size(), factor = least_factor(arc, size);
-  if (!(factor > 0)) return unknown;
   const Vec2 start_tangent = start_tangent_of(edge, arc);
+  const double size = range_of(edge.start, start_tangent, arc).size();
+  const double factor = least_factor(arc, size);
+  if (!(factor > 0)) return unknown;
   const Vec2 end_tangent = arc != nullptr ? arc->end_tangent() : start_tangent;
   const double beyond =
       std::max(most_ahead(site.start, -start_tangent), most_ahead(site.end, end_tangent));
@@ -94,7 +112,8 @@ double WholeEdge::contact_gap(const Site& site, const Arc* arc) const {
 }
 
 double WholeEdge::intrusion(const BoundaryEdge& edge, const Arc* arc) const {
-  const double size = std::max(0.0, -range_of(edge, arc).low), factor = least_factor(arc, size);
+  const Range range = range_of(edge.start, start_tangent_of(edge, arc), arc);
+  const double size = std::max(0.0, -range.low), factor = least_factor(arc, size);
   return factor > 0 ? size / factor : unknown;
 }
 

@@ -42,7 +42,7 @@ class WholeEdge {
   };
   template <class Product>
   Range range_of(const Product& product) const;
-  Range range_of(const BoundaryEdge& edge, const Arc* arc) const;
+  Range range_of(Vec2 start, Vec2 start_tangent, const Arc* arc) const;
   Range range_of(Vec2 point) const;
   double least_factor(const Arc* arc, double size) const;
   double bound_at_point(double size) const;

@@ -36,7 +36,8 @@ double value_at(const Polynomial& p, double t) {
 }  // namespace
 
 double sampled_error(const Bezier& curve, const Biarc& biarc, int samples) {
-  const std::optional<double> t = projected_joint(curve, biarc);
+  const std::optional<double> t =
+      projected_joint(curve, biarc.first.end, tangent_at_end(biarc.first));
   if (!t) return infinity;
   double largest = 0;
   const auto sample = [&](const Arc& arc, double from, double to) {
@@ -54,7 +55,8 @@ double sampled_error(const Bezier& curve, const Biarc& biarc, int samples) {
 }
 
 double extremal_error(const Bezier& curve, const Biarc& biarc) {
-  const std::optional<double> t = projected_joint(curve, biarc);
+  const std::optional<double> t =
+      projected_joint(curve, biarc.first.end, tangent_at_end(biarc.first));
   if (!t) return infinity;
   Bezier parts[2];
   split(curve, *t, parts[0], parts[1]);

@@ -50,10 +50,10 @@ inline void expect_distances_on_curves(const Shape& shape, double size, Vec2 mid
         known = j;
     const bool is_known = i % 2 == 0;
     if (is_known) {
-      const auto end =
-          std::remove_if(found.place.begin(), found.place.begin() + found.size,
-                         [&](std::uint32_t place) { return tree.index_at(place) == known; });
-      found.size = static_cast<std::size_t>(end - found.place.begin());
+      std::size_t kept = 0;
+      for (std::size_t k = 0; k < found.size; ++k)
+        if (found.index[k] != known) found.place[kept++] = found.place[k];
+      found.size = kept;
     }
     const Curve curve(hull[0], hull[1], hull[2], 0.2 + 2 * unit(random));
     places.size = 1 + random() % Places::most;
