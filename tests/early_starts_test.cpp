@@ -23,24 +23,12 @@ constexpr std::uint32_t least = 64;
 /// The early starts of a shape with holes or without, and the boundary that they are numbered by.
 struct Found {
   explicit Found(const Shape& shape, std::uint32_t apart = least) : problem(shape, options) {
-    std::vector<disks::Bridge> bridges;
-    boundary = disks::connected_boundary(problem, bridges);
+    boundary = disks::connected_boundary(problem);
     const disks::ExactSites sites(problem, problem.numbers(), boundary);
     const site::BoundaryTree tree(boundary.sites);
-    const disks::ExactEvents events(sites, boundary, tree, never);
-    starts = disks::early_starts({boundary,
-                                  bridges,
-                                  tree,
-                                  problem.fine_tolerance,
-                                  problem.fine_tolerance,
-                                  problem.radius_limit,
-                                  events,
-                                  nullptr,
-                                  {}},
-                                 apart);
+    starts = disks::early_starts({sites, tree}, apart);
   }
   Options options;
-  std::vector<bool> never;
   Problem problem;
   disks::Boundary boundary;
   std::vector<EarlyStart> starts;

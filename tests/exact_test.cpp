@@ -134,7 +134,6 @@ exact::SiteLoops nearly_touched(Random& random) {
   }
   loops.sites.work_out = [sites](std::uint32_t i) { return sites[i]; };
   loops.passes.assign(4, false);
-  loops.blunt.assign(4, false);
   loops.loop_begin = {0, 4};
   return loops;
 }

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cmath>
-
 namespace medial {
 
 /// How double rounds: bounds for what is lost by one operation.
@@ -16,7 +14,6 @@ struct Rounding {
     const double b_part = sum - a, a_part = sum - b_part;
     return (a - a_part) + (b - b_part);
   }
-  static double of_sum(double a, double b, double sum) { return std::abs(rest_of_sum(a, b, sum)); }
 };
 
 /// A real number known as `value`, off by at most `error` (infinite where nothing is known):

@@ -1,5 +1,6 @@
 #include "medial/error.h"
 
+#include <array>
 #include <exception>
 #include <new>
 
@@ -32,47 +33,14 @@ Error error_in_flight() {
 }
 
 const char* name_of(ErrorCode code) {
-  switch (code) {
-    case ErrorCode::not_finite:
-      return "not_finite";
-    case ErrorCode::too_few_points:
-      return "too_few_points";
-    case ErrorCode::no_area:
-      return "no_area";
-    case ErrorCode::crossing:
-      return "crossing";
-    case ErrorCode::overlap:
-      return "overlap";
-    case ErrorCode::hole_outside:
-      return "hole_outside";
-    case ErrorCode::nested_outer:
-      return "nested_outer";
-    case ErrorCode::open_surface:
-      return "open_surface";
-    case ErrorCode::non_manifold:
-      return "non_manifold";
-    case ErrorCode::too_large:
-      return "too_large";
-    case ErrorCode::empty:
-      return "empty";
-    case ErrorCode::unreadable:
-      return "unreadable";
-    case ErrorCode::malformed:
-      return "malformed";
-    case ErrorCode::unsupported:
-      return "unsupported";
-    case ErrorCode::unwritable:
-      return "unwritable";
-    case ErrorCode::invalid_option:
-      return "invalid_option";
-    case ErrorCode::cancelled:
-      return "cancelled";
-    case ErrorCode::out_of_memory:
-      return "out_of_memory";
-    case ErrorCode::internal:
-      return "internal";
-  }
-  return "internal";
+  // In the order of the codes.
+  static constexpr std::array names{
+      "not_finite",     "too_few_points", "no_area",       "crossing",     "overlap",
+      "hole_outside",   "nested_outer",   "open_surface",  "non_manifold", "too_large",
+      "empty",          "unreadable",     "malformed",     "unsupported",  "unwritable",
+      "invalid_option", "cancelled",      "out_of_memory", "internal"};
+  static_assert(names.size() == static_cast<std::size_t>(ErrorCode::internal) + 1);
+  return names[static_cast<std::size_t>(code)];
 }
 
 std::string to_string(const Error& error) {

@@ -8,8 +8,8 @@ namespace medial {
 
 /// Removes the elements in `gone`, increasing: the last ones take their places. Calls
 /// moved(from, to) for each that does.
-template <class T, class Moved>
-void fill_gaps(std::vector<T>& elements, const std::vector<std::uint32_t>& gone, Moved&& moved) {
+template <class T, class Gone, class Moved>
+void fill_gaps(std::vector<T>& elements, const Gone& gone, Moved&& moved) {
   const std::size_t kept = elements.size() - gone.size();
   auto gap = gone.begin();
   auto skipped = std::lower_bound(gone.begin(), gone.end(), kept);

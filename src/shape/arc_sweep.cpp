@@ -8,9 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "base/box_tree.h"
+#include "shape/crossings.h"
 #include "shape/errors.h"
-#include "shape/monotone_arc.h"
 
 namespace medial {
 namespace {
@@ -26,171 +25,6 @@ struct ActivePiece : intrusive::set_base_hook<intrusive::link_mode<intrusive::no
   std::uint32_t left_vertex = 0;
   std::uint32_t right_vertex = 0;
   std::uint32_t piece = 0;
-};
-
-/// Where the circles or lines of two pieces meet, or come nearest if it is nearly so. At most two.
-struct Meetings {
-  std::array<Vec2, 2> points;
-  std::size_t size = 0;
-};
-
-Meetings meetings(const MonotoneArc& a, const MonotoneArc& b) {
-  Meetings result;
-  if (a.half_curvature == 0 && b.half_curvature == 0) {
-    const double begin = b.above_circle(a.left);
-    const double end = b.above_circle(a.right);
-    const double t = begin / (begin - end);
-    if (t > 0 && t < 1) result.points[result.size++] = a.left + t * (a.right - a.left);
-    return result;
-  }
-  // Relative to an end of the smaller circle, whose equation is up.q - K / 2 q^2 = 0. The other
-  // one's less the multiple of it that has the same square is the radical line, normal.q + rest.
-  const bool a_smaller = std::abs(a.half_curvature) >= std::abs(b.half_curvature);
-  const MonotoneArc& small = a_smaller ? a : b;
-  const MonotoneArc& large = a_smaller ? b : a;
-  const Vec2 offset = small.left - large.left;
-  const double ratio = large.half_curvature / small.half_curvature;
-  const Vec2 normal = large.up - 2 * large.half_curvature * offset - ratio * small.up;
-  const double rest = large.above_circle(small.left);
-  const double length = norm(normal);
-  if (!(length > 0)) return result;  // concentric, or the same
-  const Vec2 unit = (1 / length) * normal;
-  const Vec2 along = left_of(unit);
-  const double distance_to_line = -rest / length;
-  const double radius = 1 / (2 * small.half_curvature);  // with the sign of the turn
-  // (t - radius up.along)^2 = radius^2 - (distance_to_line - radius up.unit)^2
-  const double middle = radius * dot(small.up, along);
-  const double product = distance_to_line * (distance_to_line - 2 * radius * dot(small.up, unit));
-  const Vec2 foot = small.left + distance_to_line * unit;
-  const double square = middle * middle - product;
-  if (square <= 0) {
-    result.points[result.size++] = foot + middle * along;
-    return result;
-  }
-  const double far = middle + std::copysign(std::sqrt(square), middle);
-  result.points[result.size++] = foot + far * along;
-  result.points[result.size++] = foot + (far == 0 ? 0 : product / far) * along;
-  return result;
-}
-
-/// The point of an arc next to p, if p is on its circle or line up to a small error, or rounding of
-/// local coordinates, and up to that on the same side of the chord. (It may lie beyond the ends of
-/// a segment.)
-std::optional<Vec2> on_arc(const MonotoneArc& arc, Vec2 p) {
-  constexpr double small = 1e-6, rounding = 0x1p-50;
-  const double offset = arc.above_circle(p), length = distance(arc.left, arc.right);
-  if (!(std::abs(offset) <= small * length + rounding)) return std::nullopt;
-  const Vec2 gradient = arc.up - 2 * arc.half_curvature * (p - arc.left);
-  const Vec2 result = p - (offset / squared_norm(gradient)) * gradient;
-  const double above_chord = cross(arc.right - arc.left, result - arc.left);
-  if (arc.bulge * above_chord > 0 && std::abs(above_chord) > rounding * length) return std::nullopt;
-  return result;
-}
-
-/// Finds where edges meet, each in its inside or one of them in an end: what noding splits them at.
-/// Their common ends are none of these places.
-class CrossingFinder {
- public:
-  CrossingFinder(const Noding& noding, const NodedRings& noded)
-      : noded_(noded), tolerance_(noding.tolerance()) {
-    const CleanRings& cleaned = noded.cleaned;
-    pieces_.reserve(cleaned.points.size());
-    for (std::uint32_t v = 0; v < cleaned.points.size(); ++v) {
-      const std::uint32_t w = cleaned.next(v);
-      if (w == no_index) continue;
-      const Vec2 p = cleaned.points[v], q = cleaned.points[w];
-      const bool forward = lexicographic_less(p, q);
-      const MonotoneArc arc =
-          forward ? monotone_arc(p, q, cleaned.bulges[v]) : monotone_arc(q, p, -cleaned.bulges[v]);
-      pieces_.push_back({arc,
-                         arc.low() - tolerance_,
-                         arc.high() + tolerance_,
-                         noded.edges[v],
-                         {forward ? v : w, forward ? w : v}});
-    }
-  }
-
-  std::vector<TouchedPoint> find() {
-    std::vector<Box> boxes;
-    boxes.reserve(pieces_.size());
-    for (const Piece& piece : pieces_)
-      boxes.push_back(
-          {{piece.arc.left.x - tolerance_, piece.low}, {piece.arc.right.x, piece.high}});
-    BoxTree(boxes).find_pairs([this](std::uint32_t i, std::uint32_t j) {
-      const Piece &a = pieces_[i], &b = pieces_[j];
-      if (a.edge == b.edge) return;
-      // What is found does not depend on where rings begin.
-      if (lexicographic_less(b.arc.left, a.arc.left)) {
-        meet(b, a);
-      } else {
-        meet(a, b);
-      }
-    });
-    return std::move(contacts_);
-  }
-  std::uint64_t crossings() const { return crossings_; }
-
- private:
-  struct Piece {
-    MonotoneArc arc;
-    double low, high;
-    std::uint32_t edge;
-    std::array<std::uint32_t, 2> ends;
-  };
-
-  /// The end of a piece that a point is at; no_index in its inside.
-  std::uint32_t end_at(const Piece& piece, Vec2 p) const {
-    for (const std::uint32_t end : piece.ends)
-      if (distance(noded_.cleaned.points[end], p) <= 2 * tolerance_) return end;
-    return no_index;
-  }
-
-  void meet(const Piece& a, const Piece& b) {
-    const Meetings found = meetings(a.arc, b.arc);
-    for (std::size_t i = 0; i < found.size; ++i) {
-      const auto point = on_arc(a.arc, found.points[i]);
-      if (!point || !a.arc.is_near(*point, tolerance_) || !b.arc.is_near(*point, tolerance_))
-        continue;
-      const std::uint32_t end_of_a = end_at(a, *point), end_of_b = end_at(b, *point);
-      if (end_of_a != no_index && end_of_b != no_index) continue;
-      if (is_beside_common_end(a, b, *point)) continue;
-      if (end_of_a != no_index) {
-        add_end(a, end_of_a, b);
-      } else if (end_of_b != no_index) {
-        add_end(b, end_of_b, a);
-      } else {
-        contacts_.push_back({a.edge, no_index, *point});
-        contacts_.push_back({b.edge, no_index, *point});
-        ++crossings_;
-      }
-    }
-  }
-
-  /// Whether two pieces have an end in common and stay within the tolerance of each other from
-  /// there to the point: nearly tangent there, they meet only in the end. (The order of pieces
-  /// at an end follows from where they part, too.)
-  bool is_beside_common_end(const Piece& a, const Piece& b, Vec2 point) const {
-    for (const std::uint32_t end : a.ends) {
-      const Vec2 p = noded_.cleaned.points[end];
-      if (end_at(b, p) == no_index || p == point) continue;
-      const bool left = lexicographic_less(p, point);
-      const Vec2 between = a.arc.halfway(left ? p : point, left ? point : p);
-      if (std::abs(b.arc.above(between)) <= tolerance_) return true;
-    }
-    return false;
-  }
-
-  /// One piece ends in the inside of the other.
-  void add_end(const Piece& ending, std::uint32_t end, const Piece& other) {
-    if (noded_.passing[end]) contacts_.push_back({ending.edge, end, {}});
-    contacts_.push_back({other.edge, end, {}});
-  }
-
-  const NodedRings& noded_;
-  double tolerance_;
-  std::vector<Piece> pieces_;
-  std::vector<TouchedPoint> contacts_;
-  std::uint64_t crossings_ = 0;
 };
 
 /// One pass over the plane: Shamos and Hoey's, which compares pieces that become neighbours. Goes
@@ -624,11 +458,10 @@ Result<SweptArcs> sweep_arcs(const CleanRings& cleaned, bool node_crossings, dou
     if (node_crossings && cleaned.open) repeated += noding.drop_repeated();
     NodedRings noded = noding.monotone();
     const auto node_all = [&]() -> Result<bool> {
-      CrossingFinder finder(noding, noded);
-      const std::vector<TouchedPoint> contacts = finder.find();
-      crossings += finder.crossings();
-      if (contacts.empty()) return false;
-      if (auto error = noding.apply(noded, contacts, {})) return std::move(*error);
+      const Crossings found = crossings_of(noding, noded);
+      crossings += found.count;
+      if (found.contacts.empty()) return false;
+      if (auto error = noding.apply(noded, found.contacts, {})) return std::move(*error);
       return true;
     };
     // Once all crossings have been noded, the sweep finds whether one is left, which is faster.

@@ -298,8 +298,7 @@ template <BoundaryTree::Order order, class Visit>
 
   // Start at the lowest node over the whole range; in the plane, at the root.
   const std::uint32_t first_block = in_plane_.empty() ? first / block_size : 0;
-  const std::uint32_t last_block =
-      in_plane_.empty() ? last / block_size : last_of_all() / block_size;
+  const std::uint32_t last_block = (in_plane_.empty() ? last : last_of_all()) / block_size;
   const auto common = static_cast<std::uint32_t>(std::bit_width(first_block ^ last_block) + 1) / 2;
   const auto chord_count = static_cast<std::uint32_t>(chords_.size());
 

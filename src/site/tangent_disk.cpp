@@ -13,27 +13,25 @@ namespace medial::site {
 namespace {
 using namespace apollonius;
 
-/// The flattest pair among three sites of a segment that ends where another one begins; -1 if there
-/// is none.
+/// The flattest pair among three sites of a segment that ends where another one begins.
 struct Corner {
-  int before = -1;
-  int after = -1;
+  std::size_t before, after;
 };
-Corner find_corner(const std::array<const Site*, 3>& sites) {
-  Corner flattest;
+std::optional<Corner> find_corner(const std::array<const Site*, 3>& sites) {
+  std::optional<Corner> flattest;
   double along = -2;
   const auto is_segment = [](const Site& site) { return !site.is_vertex() && !site.is_arc(); };
-  for (int i = 0; i < 3; ++i) {
-    const Site& before = *sites[static_cast<std::size_t>(i)];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Site& before = *sites[i];
     if (!is_segment(before)) continue;
     const Vec2 end = before.end();
-    for (int j = 0; j < 3; ++j) {
-      const Site& after = *sites[static_cast<std::size_t>(j)];
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Site& after = *sites[j];
       if (i == j || !is_same_place(end, after.point) || !is_segment(after)) continue;
       const double turn = dot(before.direction, after.direction);
       if (turn <= along) continue;
       along = turn;
-      flattest = {i, j};
+      flattest = Corner{i, j};
     }
   }
   return flattest;
@@ -172,11 +170,10 @@ TangentDisks tangent_disks(const Site& a, const Site& b, const Site& c) {
   const std::array<Carrier<double>, 3> carriers{carrier<double>(a), carrier<double>(b),
                                                 carrier<double>(c)};
   Solutions<double> solved;
-  const Corner corner = find_corner(sites);
-  if (corner.before >= 0) {
-    const auto at = [&](int i) { return carriers[static_cast<std::size_t>(i)]; };
-    solved = corner_and_site<double>(at(corner.after).point, at(corner.before).normal,
-                                     at(corner.after).normal, at(3 - corner.before - corner.after));
+  if (const auto corner = find_corner(sites)) {
+    const Carrier<double>&before = carriers[corner->before], &after = carriers[corner->after];
+    solved = corner_and_site<double>(after.point, before.normal, after.normal,
+                                     carriers[3 - corner->before - corner->after]);
   } else {
     solved = solve<double>({&carriers[0], &carriers[1], &carriers[2]});
   }

@@ -4,8 +4,8 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <limits>
-#include <map>
 #include <memory>
 #include <numbers>
 #include <span>
@@ -19,11 +19,13 @@
 #include "base/local_frame.h"
 #include "base/memory.h"
 #include "base/numbers.h"
+#include "base/numbers_where.h"
 #include "base/threads.h"
 #include "shape/around.h"
 #include "site/bisector.h"
 #include "site/site.h"
 #include "site/tangent_disk.h"
+#include "voronoi/chain_order.h"
 #include "voronoi/clip.h"
 #include "voronoi/enclosure_cut.h"
 #include "voronoi/long_edges.h"
@@ -42,6 +44,8 @@ constexpr std::uint32_t largest_edge = none >> 1U;
 /// Where one own site follows another along the boundary, their chains meet in a corner, or in the
 /// node of the disk that touches where they join; there the spoke leads to.
 class Assembly {
+  using Step = ChainStep;
+
  public:
   Assembly(const PlanarGraph& planar_graph, const Shape& shape, MedialAxis& axis,
            std::vector<VoronoiEdge>& edges, const Box& enclosure)
@@ -75,11 +79,6 @@ class Assembly {
   }
 
  private:
-  struct Step {
-    std::uint32_t edge : 31;
-    std::uint32_t forward : 1;  ///< along the edge
-    std::uint32_t from, to;     ///< nodes of the axis
-  };
   struct Spoke {
     std::uint32_t point, node;
     std::array<std::uint32_t, 2> site;  ///< of the diagram
@@ -136,7 +135,7 @@ class Assembly {
         if (is_enclosure(own)) continue;
         const std::span<Step> steps = chain(own);
         if (steps.empty()) continue;
-        if (!put_in_order(own)) connected = false;
+        if (!put_in_order(steps, !shape_.bulges.empty(), foot_of_side(own))) connected = false;
         first_[own] = steps.front().from;
         last_[own] = steps.back().to;
       }
@@ -148,99 +147,10 @@ class Assembly {
     return {chains_.get() + chain_begin_[own], chains_.get() + chain_begin_[own + 1]};
   }
 
-  /// From the step that no other leads to, or where they make a cycle, any one. False where they
-  /// are not connected.
-  bool put_in_order(std::uint32_t own) const {
-    const std::span<Step> steps = chain(own);
-    if (steps.size() == 1) return true;
-    constexpr std::size_t few = 24;
-    if (!shape_.bulges.empty() && passes_twice(steps)) return put_loops_in_order(own);
-    if (steps.size() > few) return put_many_in_order(steps);
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      const bool begins = std::none_of(
-          steps.begin(), steps.end(), [&](const Step& other) { return other.to == steps[i].from; });
-      if (begins) {
-        std::swap(steps[0], steps[i]);
-        break;
-      }
-    }
-    for (std::size_t i = 1; i < steps.size(); ++i) {
-      const auto next =
-          std::find_if(steps.begin() + static_cast<std::ptrdiff_t>(i), steps.end(),
-                       [&](const Step& other) { return other.from == steps[i - 1].to; });
-      if (next == steps.end()) return false;
-      std::swap(steps[i], *next);
-    }
-    return true;
-  }
-  static bool put_many_in_order(std::span<Step> steps) {
-    std::vector<Step> sorted(steps.begin(), steps.end());
-    std::sort(sorted.begin(), sorted.end(),
-              [](const Step& a, const Step& b) { return a.from < b.from; });
-    std::vector<std::uint32_t> to;
-    for (const Step& step : sorted) to.push_back(step.to);
-    std::sort(to.begin(), to.end());
-    const auto begin = std::find_if(sorted.begin(), sorted.end(), [&](const Step& step) {
-      return !std::binary_search(to.begin(), to.end(), step.from);
-    });
-    Step at = begin == sorted.end() ? sorted.front() : *begin;
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      steps[i] = at;
-      if (i + 1 == steps.size()) break;
-      const auto next =
-          std::lower_bound(sorted.begin(), sorted.end(), at.to,
-                           [](const Step& step, std::uint32_t node) { return step.from < node; });
-      if (next == sorted.end() || next->from != at.to) return false;
-      at = *next;
-    }
-    return true;
-  }
-
-  /// Whether the steps come through a node more than once: where all around the cell of a point it
-  /// is one node within the tolerance.
-  static bool passes_twice(std::span<const Step> steps) {
-    std::vector<std::uint32_t> from;
-    for (const Step& step : steps) from.push_back(step.from);
-    std::sort(from.begin(), from.end());
-    return std::adjacent_find(from.begin(), from.end()) != from.end();
-  }
-  /// As put_in_order(), with several steps from some nodes: what is touched first along the own
-  /// site comes first, and what leads back to a node before what leaves it (Hierholzer).
-  bool put_loops_in_order(std::uint32_t own) const {
-    const std::span<Step> steps = chain(own);
-    std::map<std::uint32_t, std::vector<std::size_t>> open;  // from each node, the first at the end
-    std::map<std::uint32_t, int> surplus;
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      open[steps[i].from].push_back(i);
-      ++surplus[steps[i].from];
-      --surplus[steps[i].to];
-    }
-    for (auto& [node, some] : open)
-      if (some.size() > 1 && !is_vertex(own))
-        ranges::sort(some, {}, [&](std::size_t i) { return -foot_of(own, steps[i]); });
-    const auto begin = ranges::find_if(surplus, [](const auto& node) { return node.second > 0; });
-    const auto most =
-        ranges::max_element(open, {}, [](const auto& node) { return node.second.size(); });
-    std::vector<std::size_t> way, backward;
-    std::uint32_t node = begin != surplus.end() ? begin->first : most->first;
-    for (;;) {
-      if (auto& some = open[node]; !some.empty()) {
-        way.push_back(some.back());
-        some.pop_back();
-        node = steps[way.back()].to;
-      } else {
-        if (way.empty()) break;
-        backward.push_back(way.back());
-        node = steps[way.back()].from;
-        way.pop_back();
-      }
-    }
-    if (backward.size() < steps.size()) return false;
-    const std::vector<Step> all(steps.begin(), steps.end());
-    for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = all[backward[steps.size() - 1 - i]];
-    for (std::size_t i = 1; i < steps.size(); ++i)
-      if (steps[i - 1].to != steps[i].from) return false;
-    return true;
+  /// foot_of() a side of an edge; nothing for a vertex.
+  std::function<double(const Step&)> foot_of_side(std::uint32_t own) const {
+    if (shape_.bulges.empty() || is_vertex(own)) return {};
+    return [this, own](const Step& step) { return foot_of(own, step); };
   }
   /// How far along a side of an edge the disk halfway along a step touches it.
   double foot_of(std::uint32_t own, const Step& step) const {
@@ -438,23 +348,14 @@ class Assembly {
     std::vector<VoronoiEdge>& edges = diagram_.edges;
     reserve_large(place_, edge_count_ + spokes_.size());
     place_.resize(edge_count_);
-    constexpr std::uint32_t block = 1 << 14;
-    std::vector<std::vector<std::uint32_t>> others((edge_count_ + block - 1) / block);
-    parallel_for(others.size(), [&](std::size_t i) {
-      const auto begin = static_cast<std::uint32_t>(i * block);
-      for (std::uint32_t e = begin; e < std::min(begin + block, edge_count_); ++e) {
-        place_[e] = e;
-        if (!keep_whole(edges[e])) others[i].push_back(e);
-      }
+    const auto gone = numbers_where(edge_count_, [&](std::size_t e) {
+      place_[e] = static_cast<std::uint32_t>(e);
+      return !keep_whole(edges[e]);
     });
-    std::vector<std::uint32_t> gone;
     std::vector<Edge> to_cut;
-    for (const auto& some : others) {
-      for (const std::uint32_t e : some) {
-        place_[e] = is_cut | static_cast<std::uint32_t>(gone.size());
-        gone.push_back(e);
-        to_cut.push_back(edges[e]);
-      }
+    for (const std::uint32_t e : gone) {
+      place_[e] = is_cut | static_cast<std::uint32_t>(to_cut.size());
+      to_cut.push_back(edges[e]);
     }
     fill_gaps(edges, gone, [&](std::uint32_t from, std::uint32_t to) { place_[from] = to; });
     for (const Edge& edge : to_cut) {

@@ -5,8 +5,8 @@
 namespace medial::biarc_dc {
 
 SiteOutline outline_of(const Problem& problem, Statistics& statistics) {
-  std::vector<disks::Bridge> bridges;
-  const disks::Boundary boundary = disks::connected_boundary(problem, bridges);
+  const disks::Boundary boundary = disks::connected_boundary(problem);
+  const std::vector<disks::Bridge>& bridges = boundary.bridges;
   statistics.bridges = bridges.size();
   statistics.queries += bridges.size();
   SiteOutline outline;
@@ -25,7 +25,7 @@ SiteOutline outline_of(const Problem& problem, Statistics& statistics) {
         outline.component[boundary.originals[i]] = component;
         continue;
       }
-      const std::uint32_t next = i == run.last ? run.first : i + 1;
+      const std::uint32_t next = run.after(i);
       const bool beside_vertex = boundary.elements[i] == disks::Element::vertex ||
                                  boundary.elements[next] == disks::Element::vertex;
       outline.sites.push_back(boundary.sites[i]);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/memory.h"
+#include "base/numbers.h"
 #include "methods/problem.h"
 #include "site/joint.h"
 #include "site/site.h"
@@ -26,6 +27,17 @@ enum class Element : std::uint8_t {
   edge,    ///< a segment, or an arc of at most a quarter of a circle
   vertex,  ///< reflex, or a straight passage through a touching vertex
   bridge,  ///< the dividing disk between a hole and what it was connected to; touches nothing
+};
+
+/// A maximal disk that connects a hole to another loop: it touches the hole in its furthest point
+/// in the direction `outreach`, a vertex or a place inside an arc, and the other loop further out.
+struct Bridge {
+  Disk disk;
+  std::uint32_t hole = 0;  ///< loop
+  std::uint32_t site = 0;  ///< touched site, in the loops' boundary
+  /// In the order of the connected boundary: before and after the hole. Of a disk at which a part
+  /// of a boundary ends, its one place twice.
+  std::array<std::uint32_t, 2> places{none, none};
 };
 
 /// Which sides of its edges a boundary runs along: on a shape one, around a planar graph both.
@@ -63,6 +75,10 @@ struct Boundary {
     std::uint32_t first = 0;
     std::uint32_t last = 0;
     bool at_corner = true;  ///< whether it begins and ends at a convex corner
+
+    /// The next site, and the one before, of a run that is a loop.
+    std::uint32_t after(std::uint32_t site) const { return site == last ? first : site + 1; }
+    std::uint32_t before(std::uint32_t site) const { return site == first ? last : site - 1; }
   };
 
   WorkVector<site::Site> sites;
@@ -70,9 +86,7 @@ struct Boundary {
   WorkVector<site::Joint> joints;  ///< of an edge with the next one; empty: all are corners
   Originals originals;
   std::vector<SiteRange> runs;  ///< of each component
-  /// Of each bridge, its two places in the order: before and after the hole. Of a disk at which a
-  /// part of a boundary ends, its one place twice.
-  std::vector<std::array<std::uint32_t, 2>> bridge_places;
+  std::vector<Bridge> bridges;
   bool has_arcs = false;
   Sides sides = Sides::one;
 
@@ -123,10 +137,11 @@ struct Boundary {
     if (elements[i] != elements[i + 1]) return true;
     return elements[i] == Element::edge && joint(i) == site::Joint::smooth;
   }
+  const Bridge& bridge_at(std::uint32_t place) const { return bridges[originals[place]]; }
   /// What stands on the other side of the bridge at a place, next to which a site stands: another
   /// piece of that site, or another copy of that vertex. The site itself where the boundary ends.
   std::uint32_t across(std::uint32_t bridge, std::uint32_t site) const {
-    const auto [first, second] = bridge_places[originals[bridge]];
+    const auto [first, second] = bridge_at(bridge).places;
     if (first == second) return site;
     const bool on_hole = site > first && site < second;
     if (bridge == first) return on_hole ? second - 1 : second + 1;

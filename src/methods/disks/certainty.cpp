@@ -18,27 +18,26 @@ constexpr double well_known = 0x1p-10;
 
 Certainty::Certainty(const Boundary& boundary, const Span& span, const Disk& from,
                      const Event& event)
-    : boundary_(boundary), span_(span), from_(from), to_(event.disk) {}
+    : boundary_(boundary),
+      span_(span),
+      from_(from),
+      to_(event.disk),
+      fourth_(event.touched(span)) {}
 
 Certainty::Certainty(const Boundary& boundary, double tolerance, const Span& span, const Disk& from,
                      const Event& event)
     : Certainty(boundary, span, from, event) {
-  using Kind = Event::Kind;
   const bool ties = tolerance <= small_tolerance * to_.radius;
-  if (event.kind == Kind::at_node) {
+  if (event.kind == Event::Kind::at_node) {
     error_ = span.error;
     tie_ = true;
-    fourth_ = event.site;
     certain_ = ties && is_near(span.right, tolerance) && is_near(span.left, tolerance) &&
                (!boundary.has_arcs || has_place(fourth_));
     return;
   }
-  const std::uint32_t fourth = event.kind == Kind::pass_right  ? span.right + 1
-                               : event.kind == Kind::pass_left ? span.left - 1
-                                                               : event.site;
-  fourth_ = fourth;
-  const bool joins_right = fourth == span.right + 1 && boundary.is_smooth(span.right),
-             joins_left = fourth + 1 == span.left && boundary.is_smooth(fourth);
+  const std::uint32_t fourth = fourth_;
+  const bool joins_right = span.continues_right(boundary, fourth),
+             joins_left = span.continues_left(boundary, fourth);
   error_ = joins_right  ? error_at_joint(boundary, span.right, fourth, span.left, to_)
            : joins_left ? error_at_joint(boundary, fourth, span.left, span.right, to_)
                         : error_of_three(fourth);

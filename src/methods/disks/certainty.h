@@ -20,8 +20,6 @@ class Certainty {
   bool is_certain() const { return certain_; }
   /// Whether it is so only if what touches one disk within the tolerance is one.
   bool is_tie() const { return tie_; }
-  /// What the event's disk touches beside the two sites of the span.
-  std::uint32_t fourth() const { return fourth_; }
 
   /// Whether the walk certainly ends at the disk of the span's node, with nothing in between.
   static bool ends(const Boundary& boundary, double tolerance, const Span& span, const Disk& disk);
@@ -83,7 +81,7 @@ class Certainty {
   const Span& span_;
   const Disk& from_;
   const Disk& to_;
-  std::uint32_t fourth_ = 0;
+  const std::uint32_t fourth_;  ///< what the event's disk touches beside the span's two sites
   double error_ = 0;
   bool certain_ = false, tie_ = false;
 };

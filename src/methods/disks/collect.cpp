@@ -12,6 +12,7 @@
 #include "base/fill_gaps.h"
 #include "base/memory.h"
 #include "base/numbers.h"
+#include "base/numbers_where.h"
 #include "base/pair.h"
 #include "base/threads.h"
 #include "medial/query.h"
@@ -230,7 +231,10 @@ Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::span<const Bridg
     const auto before = ranges::lower_bound(gluing.gone, edge) - gluing.gone.begin();
     graph.passages.push_back({edge - static_cast<std::uint32_t>(before), bridges[bridge].disk});
   }
-  for (const Placed& p : placed) graph.statistics += p.chunk->statistics;
+  for (const auto& [chunk, parent, first_node, first_edge] : placed) {
+    graph.statistics += chunk->statistics;
+    graph.lost.insert(graph.lost.end(), chunk->lost.begin(), chunk->lost.end());
+  }
   chunks.clear();
   return graph;
 }
@@ -277,31 +281,28 @@ WorkVector<std::uint8_t> degrees_of(const Graph& graph) {
   return degree;
 }
 
-std::vector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& frame,
-                                    std::optional<double> slack, Graph& graph) {
+WorkVector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& frame,
+                                   std::optional<double> slack, Graph& graph) {
   graph.statistics.largest_residual *= frame.inverse;
-  const auto fill_edge = [&](std::size_t i, std::vector<std::uint32_t>& doubtful) {
+  const auto fill_edge = [&](std::size_t i) {
     Edge& edge = graph.edges[i];
     const site::Site &left = boundary.sites[edge.site[0]], &right = boundary.sites[edge.site[1]];
     const Disk &from = graph.nodes[edge.node[0]].disk, &to = graph.nodes[edge.node[1]].disk;
-    if (slack)
-      if (const EndDisks ends(from, to, *slack); !ends.touch(left) || !ends.touch(right))
-        doubtful.push_back(static_cast<std::uint32_t>(i));
+    const EndDisks ends(from, to, slack.value_or(0));
+    const bool is_doubtful = slack && !(ends.touch(left) && ends.touch(right));
     const site::Control control = site::control_of(left, right, from, to);
     edge.site = {boundary.originals[edge.site[0]], boundary.originals[edge.site[1]]};
     edge.control = {frame.to_input(control.point.center), frame.inverse * control.point.radius};
     edge.weight = control.weight;
+    return is_doubtful;
   };
-  std::vector<std::vector<std::uint32_t>> doubtful;
+  WorkVector<std::uint32_t> doubtful;
   WorkVector<std::uint8_t> degree;
-  const auto fill_edges = [&] {
-    doubtful = in_blocks<std::vector<std::uint32_t>>(graph.edges.size(), 4096, fill_edge);
-  };
   in_parallel(
       [&] {
         if (slack) degree = degrees_of(graph);
       },
-      fill_edges);
+      [&] { doubtful = numbers_where(graph.edges.size(), fill_edge); });
   parallel_ranges(graph.nodes.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Node& node = graph.nodes[i];
@@ -311,9 +312,7 @@ std::vector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& 
       if (slack) node.kind = kind_of_degree(degree[i]);
     }
   });
-  std::vector<std::uint32_t> all;
-  for (const auto& found : doubtful) all.insert(all.end(), found.begin(), found.end());
-  return all;
+  return doubtful;
 }
 
 bool touches_its_sites(const MedialAxis& axis, const Edge& edge, double slack) {

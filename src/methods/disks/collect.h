@@ -46,8 +46,8 @@ void remove_spurs(const Boundary& boundary, Graph& graph);
 /// edge's two sites, give or take `slack` in local units: where bridges divide a site, the piece of
 /// it that the edge names. Without slack, of a diagram whose spokes are still to come: neither
 /// kinds nor such edges.
-std::vector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& frame,
-                                    std::optional<double> slack, Graph& graph);
+WorkVector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& frame,
+                                   std::optional<double> slack, Graph& graph);
 
 /// Whether the disks at both ends and in the middle of an edge touch its two sites, give or take
 /// `slack`, in units of the input.

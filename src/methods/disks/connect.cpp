@@ -7,7 +7,6 @@
 
 #include "base/numbers.h"
 #include "base/threads.h"
-#include "methods/disks/exact_event.h"
 #include "site/first_touch.h"
 
 namespace medial::disks {
@@ -47,11 +46,9 @@ std::uint32_t owner_of_foot(const Boundary& loops, const Boundary::SiteRange& ru
                             std::uint32_t site, Vec2 center) {
   if (loops.elements[site] != Element::edge) return site;
   const double s = site::foot_parameter(loops.sites[site], center);
-  const auto cyclic_next = site == run.last ? run.first : site + 1;
-  const auto cyclic_before = site == run.first ? run.last : site - 1;
-  if (s <= 0 && loops.elements[cyclic_before] == Element::vertex) return cyclic_before;
-  if (s >= loops.sites[site].length && loops.elements[cyclic_next] == Element::vertex)
-    return cyclic_next;
+  const std::uint32_t before = run.before(site), after = run.after(site);
+  if (s <= 0 && loops.elements[before] == Element::vertex) return before;
+  if (s >= loops.sites[site].length && loops.elements[after] == Element::vertex) return after;
   return site;
 }
 
@@ -62,9 +59,7 @@ std::uint32_t facing_site(const Boundary& loops, const site::FirstTouch& first_t
   const auto faces = [&](std::uint32_t i, const Boundary::SiteRange& run) {
     if (loops.elements[i] == Element::edge) return faces_edge(loops.sites[i], center);
     if (run.first == run.last) return true;
-    const std::uint32_t before = i == run.first ? run.last : i - 1;
-    const std::uint32_t after = i == run.last ? run.first : i + 1;
-    return in_wedge(loops.sites[before].end_normal(), loops.sites[after].normal(),
+    return in_wedge(loops.sites[run.before(i)].end_normal(), loops.sites[run.after(i)].normal(),
                     center - loops.sites[i].point);
   };
   if (loops.elements[site] == Element::edge && faces_edge(loops.sites[site], center)) return site;
@@ -81,8 +76,7 @@ std::uint32_t facing_site(const Boundary& loops, const site::FirstTouch& first_t
   first_touch.near(foot, same_place, group, [&](std::uint32_t i) {
     const Boundary::SiteRange run = run_of(loops, i);
     // A vertex is the end of the edge before it.
-    for (const std::uint32_t candidate :
-         {i, i == run.last ? run.first : i + 1, i - (i > run.first ? 1 : 0)})
+    for (const std::uint32_t candidate : {i, run.after(i), i - (i > run.first ? 1 : 0)})
       if (is_it(candidate, run)) found = candidate;
   });
   return found;
@@ -91,11 +85,11 @@ std::uint32_t facing_site(const Boundary& loops, const site::FirstTouch& first_t
 /// Finds the disks that connect holes to others, for a run of holes that lie near to each other.
 class Connector {
  public:
-  Connector(const Shape& shape, const Boundary& loops, const site::FirstTouch& first_touch,
-            double furthest, double typical, double tolerance, const ExactSites& exact,
+  Connector(const Shape& shape, const site::FirstTouch& first_touch, double furthest,
+            double typical, double tolerance, const ExactSites& exact,
             const std::vector<bool>& in_precise)
       : shape_(shape),
-        loops_(loops),
+        loops_(exact.boundary),
         first_touch_(first_touch),
         furthest_(furthest),
         typical_(typical),
@@ -159,8 +153,7 @@ class Connector {
     const std::uint32_t site = bridge.site;
     const Boundary::SiteRange run = run_of(loops_, site);
     if (loops_.elements[site] == Element::edge || run.first == run.last) return touch.count == 1;
-    const Site& before = loops_.sites[site == run.first ? run.last : site - 1];
-    const Site& after = loops_.sites[site == run.last ? run.first : site + 1];
+    const Site &before = loops_.sites[run.before(site)], &after = loops_.sites[run.after(site)];
     const bool is_loose_end = site::are_two_sides(before, after);
     const double slack = site::FirstTouch::distance_rounding + 2 * touch.error;
     // Near the centre of an arc, its foot moves by more than the disk's centre.
@@ -181,7 +174,7 @@ class Connector {
     for (double margin = first_margin;; margin *= growth) {
       const double reach = std::min(largest, radius + margin);
       const std::vector<std::uint32_t> near = sites_in(foot, reach, shape_.component[hole], own);
-      const auto touch = exact_.first_touch(foot, loops_, near);
+      const auto touch = exact_.first_touch(foot, near);
       if (touch && touch->radius <= reach)
         return Bridge{{foot + touch->radius * outreach, touch->radius}, hole, touch->site};
       if (!(reach < largest)) return std::nullopt;
@@ -195,7 +188,7 @@ class Connector {
     const auto add = [&](std::uint32_t site, const Boundary::SiteRange& run) {
       if (site < own.first || site > own.last) near.push_back(site);
       // Searches find edges only.
-      const std::uint32_t after = site == run.last ? run.first : site + 1;
+      const std::uint32_t after = run.after(site);
       if (loops_.elements[after] == Element::vertex && (after < own.first || after > own.last))
         near.push_back(after);
     };
@@ -207,7 +200,7 @@ class Connector {
         return;
       }
       add(site, run);
-      add(site == run.first ? run.last : site - 1, run);
+      add(run.before(site), run);
     });
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
@@ -259,19 +252,20 @@ double place_on_site(const Boundary& loops, std::uint32_t site, std::uint32_t si
 /// Splices loops into runs, without recursion: chains of holes can be long.
 class Splicer {
  public:
-  Splicer(const Shape& shape, const Boundary& loops, const std::vector<Bridge>& bridges)
-      : shape_(shape), loops_(loops), bridges_(bridges), places_(bridges.size()) {
-    std::vector<std::uint32_t> loop(bridges.size());
-    std::vector<Place> found(bridges.size());
-    parallel_for(bridges.size(), [&](std::size_t i) {
-      loop[i] = static_cast<std::uint32_t>(loop_of(loops, bridges[i].site));
+  Splicer(const Shape& shape, const Boundary& loops, std::vector<Bridge> bridges)
+      : shape_(shape), loops_(loops), places_(bridges.size()) {
+    result_.bridges = std::move(bridges);
+    std::vector<std::uint32_t> loop(bridges_.size());
+    std::vector<Place> found(bridges_.size());
+    parallel_for(bridges_.size(), [&](std::size_t i) {
+      loop[i] = static_cast<std::uint32_t>(loop_of(loops, bridges_[i].site));
       found[i] = place_of(static_cast<std::uint32_t>(i), loop[i]);
     });
     // One place further, so that while the lists are filled, each grows to where the next begins.
     first_place_.resize(loops.runs.size() + 2);
     for (const std::uint32_t l : loop) ++first_place_[l + 2];
     for (std::size_t l = 2; l < first_place_.size(); ++l) first_place_[l] += first_place_[l - 1];
-    for (std::size_t i = 0; i < bridges.size(); ++i)
+    for (std::size_t i = 0; i < bridges_.size(); ++i)
       places_[first_place_[loop[i] + 1]++] = found[i];
     for (std::size_t l = 0; l < loops.runs.size(); ++l)
       std::sort(places_.begin() + first_place_[l], places_.begin() + first_place_[l + 1],
@@ -283,7 +277,6 @@ class Splicer {
   }
 
   Boundary splice() {
-    result_.bridge_places.resize(bridges_.size());
     result_.has_arcs = loops_.has_arcs;
     result_.sides = loops_.sides;
     result_.reserve(loops_.sites.size() + 4 * bridges_.size());
@@ -312,8 +305,8 @@ class Splicer {
 
   Place place_of(std::uint32_t bridge, std::uint32_t loop) const {
     const Boundary::SiteRange run = loops_.runs[loop];
-    const auto [disk, hole, site] = bridges_[bridge];
-    const std::uint32_t before = site == run.first ? run.last : site - 1;
+    const auto& [disk, hole, site, places] = bridges_[bridge];
+    const std::uint32_t before = run.before(site);
     const Vec2 foot = loops_.sites[loops_.runs[hole].first].point;
     const double place = place_on_site(loops_, site, before, foot, disk);
     // A hole's run starts in the middle of its first vertex: what is touched earlier on that
@@ -331,7 +324,7 @@ class Splicer {
   }
 
   void add_bridge(std::uint32_t bridge, std::size_t side) {
-    result_.bridge_places[bridge][side] = static_cast<std::uint32_t>(result_.sites.size());
+    result_.bridges[bridge].places[side] = static_cast<std::uint32_t>(result_.sites.size());
     result_.add(far_away, Element::bridge, bridge);
   }
 
@@ -378,21 +371,17 @@ class Splicer {
 
   const Shape& shape_;
   const Boundary& loops_;
-  const std::vector<Bridge>& bridges_;
   std::vector<Place> places_;               ///< loop after loop, in the order of each
   std::vector<std::uint32_t> first_place_;  ///< of each loop
   Boundary result_;
+  const std::vector<Bridge>& bridges_ = result_.bridges;
 };
 
-}  // namespace
-
-std::vector<Bridge> connecting_disks(const Shape& shape, const Boundary& loops, double tolerance,
-                                     const ExactSites& exact, const std::vector<bool>& in_precise,
-                                     std::uint64_t& queries) {
-  std::vector<std::uint32_t> holes;
-  for (std::uint32_t loop = 0; loop < shape.loop_count(); ++loop)
-    if (shape.hole[loop]) holes.push_back(loop);
-  if (holes.empty()) return {};
+/// The bridges of these holes.
+std::vector<Bridge> connecting_disks(const Shape& shape, double tolerance, const ExactSites& exact,
+                                     const std::vector<bool>& in_precise,
+                                     const std::vector<std::uint32_t>& holes) {
+  const Boundary& loops = exact.boundary;
   double furthest = -std::numeric_limits<double>::infinity();
   for (const Site& site : loops.sites) {
     furthest = std::max(furthest, dot(outreach, site.point));
@@ -424,27 +413,33 @@ std::vector<Bridge> connecting_disks(const Shape& shape, const Boundary& loops, 
   std::vector<Bridge> bridges(holes.size());
   constexpr std::size_t together = 8;
   parallel_ranges(holes.size(), 4 * together, [&](std::size_t begin, std::size_t last) {
-    Connector connector(shape, loops, first_touch, furthest, typical, tolerance, exact, in_precise);
+    Connector connector(shape, first_touch, furthest, typical, tolerance, exact, in_precise);
     for (; begin < last; begin += together) {
       const std::size_t end = std::min(begin + together, last);
       connector.begin(std::span(holes).subspan(begin, end - begin));
       for (std::size_t i = begin; i < end; ++i) bridges[i] = connector.connecting_disk(holes[i]);
     }
   });
-  queries += bridges.size();
   return bridges;
 }
 
-Boundary connect(const Shape& shape, const Boundary& loops, const std::vector<Bridge>& bridges) {
-  return Splicer(shape, loops, bridges).splice();
+}  // namespace
+
+void connect_holes(const Shape& shape, double tolerance, const ExactSites& exact,
+                   const std::vector<bool>& in_precise, Boundary& boundary) {
+  std::vector<std::uint32_t> holes;
+  for (std::uint32_t loop = 0; loop < shape.loop_count(); ++loop)
+    if (shape.hole[loop]) holes.push_back(loop);
+  if (holes.empty()) return;
+  auto bridges = connecting_disks(shape, tolerance, exact, in_precise, holes);
+  boundary = Splicer(shape, boundary, std::move(bridges)).splice();
 }
 
-Boundary connected_boundary(const Problem& problem, std::vector<Bridge>& bridges) {
-  Boundary loops = loops_boundary(problem, problem.numbers(), Sides::one);
-  const ExactSites sites(problem, problem.numbers(), loops);
-  std::uint64_t queries = 0;
-  bridges = connecting_disks(problem.shape, loops, problem.fine_tolerance, sites, {}, queries);
-  return bridges.empty() ? std::move(loops) : connect(problem.shape, loops, bridges);
+Boundary connected_boundary(const Problem& problem) {
+  Boundary boundary = loops_boundary(problem, problem.numbers(), Sides::one);
+  const ExactSites sites(problem, problem.numbers(), boundary);
+  connect_holes(problem.shape, problem.fine_tolerance, sites, {}, boundary);
+  return boundary;
 }
 
 }  // namespace medial::disks

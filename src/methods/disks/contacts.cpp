@@ -15,7 +15,30 @@ double turn(Vec2 from, Vec2 to) { return std::atan2(-cross(from, to), dot(from, 
 
 }  // namespace
 
+bool Contacts::faces_side(std::uint32_t i, Vec2 c) const {
+  if (element(i) == Element::edge) return faces_edge(site(i), c);
+  const auto bound = [&](std::uint32_t beside) {
+    if (element(beside) == Element::bridge) return bridge_direction(i, beside);
+    return beside < i ? site(beside).end_normal() : site(beside).normal();
+  };
+  const bool all_around = element(i - 1) == Element::bridge && element(i + 1) == Element::bridge &&
+                          boundary_.originals[i - 1] == boundary_.originals[i + 1];
+  return all_around || in_wedge(bound(i - 1), bound(i + 1), c - site(i).point);
+}
+
+std::uint32_t Contacts::owner_on_sides(std::uint32_t i, Vec2 center, const Span& span) const {
+  if (faces_side(i, center)) return i;
+  const double reach = std::sqrt(site::squared_distance(site(i), center));
+  std::vector<std::uint32_t> together;
+  context.tree.within(center, reach + 2 * context.tolerance, span.right + 1, span.left - 1,
+                      together);
+  for (const std::uint32_t other : together)
+    if (in_one_place(other, i, center, reach) && faces_side(other, center)) return other;
+  return i;
+}
+
 std::uint32_t Contacts::owner(std::uint32_t i, Vec2 center, const Span& span) const {
+  if (has_both_sides()) return owner_on_sides(i, center, span);
   if (element(i) == Element::edge) {
     // At an end that is a vertex site or a smooth joint, what goes on from there is touched, but
     // for an arc whose own circle is smaller: all of that but its end is still ahead.
@@ -31,10 +54,10 @@ std::uint32_t Contacts::owner(std::uint32_t i, Vec2 center, const Span& span) co
     else if (s >= site(i).length && takes(i + 1))
       ++i;
   }
-  if (element(i) != Element::vertex || context_.bridges.empty()) return i;
+  if (element(i) != Element::vertex || boundary_.bridges.empty()) return i;
   // Normals turn to the right along a vertex. A vertex with several bridges takes several steps.
   std::uint32_t copy = i;
-  for (std::size_t step = 0; step <= context_.bridges.size(); ++step) {
+  for (std::size_t step = 0; step <= boundary_.bridges.size(); ++step) {
     const Vec2 to = center - site(copy).point;
     std::uint32_t next = copy;
     // An outer loop without a convex corner may begin with a vertex, which no bridge stands before.
@@ -48,11 +71,6 @@ std::uint32_t Contacts::owner(std::uint32_t i, Vec2 center, const Span& span) co
     copy = next;
   }
   return copy > span.right && copy < span.left ? copy : i;
-}
-
-/// From a vertex towards the centre of the bridge beside it.
-Vec2 Contacts::bridge_direction(std::uint32_t vertex, std::uint32_t bridge) const {
-  return context_.bridges[boundary_.originals[bridge]].disk.center - site(vertex).point;
 }
 
 bool Contacts::touches(std::uint32_t i, const Disk& disk, double slack) const {
@@ -71,7 +89,7 @@ bool Contacts::touches_all(std::uint32_t i, const Disk& disk) const {
   // On a much flatter arc the disk would have to be tiny.
   if (!(arc.curvature * disk.radius > 0.5)) return false;
   const auto on_disk = [&](Vec2 p) {
-    return std::abs(distance(p, disk.center) - disk.radius) <= 2 * context_.tolerance;
+    return std::abs(distance(p, disk.center) - disk.radius) <= 2 * context.tolerance;
   };
   const double half = 0.5 * arc.length;
   const Vec2 middle = arc.at(half), to = disk.center - middle;
@@ -103,7 +121,7 @@ bool Contacts::are_distinct(std::uint32_t first, std::uint32_t second, double an
                             const Disk& disk) const {
   if (angle >= distinct_contacts) return true;
   if (!(angle > 0) || site(first).is_arc() || site(second).is_arc()) return false;
-  const double apart = distinct_feet * context_.tolerance;
+  const double apart = distinct_feet * context.tolerance;
   return squared_norm(site::foot(site(second), disk.center) -
                       site::foot(site(first), disk.center)) > apart * apart;
 }
@@ -120,9 +138,9 @@ const std::vector<std::uint32_t>& Contacts::touched_between(const Span& span, co
       if (near.site > span.right && near.site < span.left && near.away < touching_)
         touched_.push_back(near.site);
   } else {
-    ++statistics_.queries;
-    context_.tree.within(disk.center, disk.radius + touching_, span.right + 1, span.left - 1,
-                         touched_);
+    ++statistics.queries;
+    context.tree.within(disk.center, disk.radius + touching_, span.right + 1, span.left - 1,
+                        touched_);
   }
   if (touched_.empty()) return touched_;
   // Along the boundary the contacts go around the disk counter-clockwise. What comes out of order
@@ -189,11 +207,11 @@ bool Contacts::is_beside(std::uint32_t i, Vec2 center, const Boundary::SiteRange
 const std::vector<Contacts::Neighbor>& Contacts::around(const Span& span, const Disk& disk) {
   const Boundary::SiteRange& run = run_of(span);
   if (is_around(run, disk)) return near_;
-  ++statistics_.queries;
+  ++statistics.queries;
   around_run_ = &run;
   around_ = disk;
   around_reach_ = std::min(further_ * clearance(), std::max(clearance(), short_way * disk.radius));
-  context_.tree.within(disk.center, disk.radius + around_reach_, run.first, run.last, within_);
+  context.tree.within(disk.center, disk.radius + around_reach_, run.first, run.last, within_);
   near_.clear();
   for (const std::uint32_t i : within_) {
     const double distance = std::sqrt(site::squared_distance(site(i), disk.center));
@@ -213,7 +231,7 @@ double Contacts::spread_of(const std::vector<Neighbor>& sites, const Span& span,
   // Feet that only pass on are where they pass.
   const std::array<Vec2, 2> own{site::foot(site(span.right), center),
                                 site::foot(site(span.left), center)};
-  const double here = 4 * context_.tolerance;
+  const double here = 4 * context.tolerance;
   if (ranges::all_of(sites, [&](const Neighbor& near) {
         return std::min(squared_norm(near.foot - own[0]), squared_norm(near.foot - own[1])) <=
                here * here;
@@ -238,22 +256,22 @@ bool Contacts::may_touch(std::uint32_t i, const Span& span, const Disk& disk, do
 
 bool Contacts::may_touch_more(const Span& span, const Disk& disk, std::uint32_t next,
                               double times) {
-  ++statistics_.queries;
-  context_.tree.within(disk.center, disk.radius + 2 * times * touching_, span.right + 1,
-                       span.left - 1, touched_);
+  ++statistics.queries;
+  context.tree.within(disk.center, disk.radius + 2 * times * touching_, span.right + 1,
+                      span.left - 1, touched_);
   return ranges::any_of(
       touched_, [&](std::uint32_t i) { return i != next && may_touch(i, span, disk, times); });
 }
 
 bool Contacts::passes_at(const Span& span, const Disk& disk, std::uint32_t next) const {
   constexpr double well_known = 32;  // tolerances
-  const bool of_right = next == span.right + 1 && boundary_.is_smooth(span.right);
-  if (!of_right && (next + 1 != span.left || !boundary_.is_smooth(next))) return false;
+  const bool of_right = span.continues_right(boundary_, next);
+  if (!of_right && !span.continues_left(boundary_, next)) return false;
   const std::uint32_t own = of_right ? span.right : span.left;
-  return span.error <= well_known * context_.tolerance &&
-         std::abs(beyond_end(own, of_right, disk.center)) <= context_.tolerance &&
-         touches_carrier(next, disk, context_.tolerance) &&
-         touches_carrier(own, disk, context_.tolerance);
+  return span.error <= well_known * context.tolerance &&
+         std::abs(beyond_end(own, of_right, disk.center)) <= context.tolerance &&
+         touches_carrier(next, disk, context.tolerance) &&
+         touches_carrier(own, disk, context.tolerance);
 }
 
 bool Contacts::is_crowded(const Span& span, const Disk& disk) const {
@@ -293,8 +311,8 @@ bool Contacts::is_clean_tie(const Span& span, const Disk& disk, std::uint32_t su
   };
   for (const auto& [i, away, beyond, foot] : sites) {
     const bool at_joint = beyond > -clearance() * spread;
-    if (std::abs(away) > touching_ || beyond > context_.tolerance ||
-        (at_joint && (spread > well_placed || beyond < -context_.tolerance)))
+    if (std::abs(away) > touching_ || beyond > context.tolerance ||
+        (at_joint && (spread > well_placed || beyond < -context.tolerance)))
       return false;
     // A disk that touches one place all but touches what is beside it.
     const double squared = squared_norm(foot - foot_before);
@@ -335,8 +353,8 @@ bool Contacts::is_alone(const std::vector<Neighbor>& tie, const Span& span, cons
   const Boundary::SiteRange& run = run_of(span);
   const bool known = furthest <= around_reach_;
   if (!known) {
-    ++statistics_.queries;
-    context_.tree.within(disk.center, disk.radius + furthest, run.first, run.last, touched_);
+    ++statistics.queries;
+    context.tree.within(disk.center, disk.radius + furthest, run.first, run.last, touched_);
   }
   // By how many times the residuals of three contacts, from `first` on, a disk may be off in
   // another direction: that is so far from each of these.
@@ -384,7 +402,7 @@ std::optional<Disk> Contacts::clean_tie(const Span& span, const Disk& near, std:
     if (contacts.size() <= before) return std::nullopt;
     before = 2 * contacts.size();
     TieFit fit(sites, disk);
-    if (!fit.fits(contacts, context_.tolerance)) return std::nullopt;
+    if (!fit.fits(contacts, context.tolerance)) return std::nullopt;
     disk = fit.disk;
     if (is_clean_tie(span, disk, sure)) return disk;
   }

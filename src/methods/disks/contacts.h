@@ -10,28 +10,42 @@
 
 #include "base/compat.h"
 #include "medial/axis.h"
-#include "methods/disks/boundary.h"
-#include "methods/disks/connect.h"
+#include "methods/disks/exact_sites.h"
 #include "site/boundary_tree.h"
 
 namespace medial::disks {
 
-class ExactEvents;
-
 /// What a walk goes by.
 struct WalkContext {
+  /// The share of the tolerance to which the walk separates contacts: so fine that it asks for
+  /// rounding only. What remains of a tie is merged at the end.
+  static constexpr double fine_share = 0.125;
+
+  WalkContext(const ExactSites& sites, const site::BoundaryTree& a_tree)
+      : exact(sites),
+        boundary(sites.boundary),
+        tree(a_tree),
+        tolerance(fine_share * sites.fine_tolerance),
+        joints(sites.fine_tolerance),
+        radius_limit(sites.radius_limit) {}
+
+  const ExactSites& exact;
   const Boundary& boundary;
-  const std::vector<Bridge>& bridges;
   const site::BoundaryTree& tree;
-  double tolerance = 0;     ///< in the local frame
-  double joints = 0;        ///< joints are smooth to so much
-  double radius_limit = 0;  ///< no disk inside the shape is larger
-  const ExactEvents& exact;
+  double tolerance;              ///< in the local frame
+  double joints;                 ///< joints are smooth to so much
+  double radius_limit;           ///< no disk inside the shape is larger
+  std::vector<bool> in_precise;  ///< of each component: double is never asked; empty: it is
   const std::atomic<bool>* cancel = nullptr;
   std::function<void(std::uint64_t)> finished_sites;  ///< gets the number of further finished sites
   /// Above 0, tasks are deferred, and so is the rest of one that has found this many nodes.
   std::uint32_t most_nodes = 0;
   bool joins_ties = true;  ///< whether what one disk touches within the tolerance is one node
+
+  bool is_in_precise(std::uint32_t component) const {
+    return !in_precise.empty() && in_precise[component];
+  }
+  bool is_cancelled() const { return cancel != nullptr && cancel->load(std::memory_order_relaxed); }
 };
 
 /// A part of the boundary still to be walked: the sites between `right`, whose foot moves forward,
@@ -43,21 +57,34 @@ struct Span {
   std::uint32_t third = ~std::uint32_t{0};  ///< another site that the node's disk touches, if known
   double error = 0;                         ///< how far the exact disk is from the node's, at most
   bool is_exact = false;  ///< the node is the one that the shape has for the three sites
+
+  /// Whether a site continues the right one smoothly, or the left one.
+  bool continues_right(const Boundary& boundary, std::uint32_t site) const {
+    return site == right + 1 && boundary.is_smooth(right);
+  }
+  bool continues_left(const Boundary& boundary, std::uint32_t site) const {
+    return site + 1 == left && boundary.is_smooth(site);
+  }
 };
 
 /// Which sites of a span a disk touches: searches, and what is left to decide when the tree has
-/// answered: joints, and vertices that bridges divide into several copies. What differs around
-/// planar graphs is virtual (planar_contacts.h).
+/// answered: joints, and vertices that bridges divide into several copies.
+///
+/// Around a planar graph, edges stand twice, once for each side. A disk that touches one side is as
+/// near to the other, and where several edges meet, to all of them: it touches what faces it, on
+/// whose side and in whose range of directions its centre lies.
 class Contacts {
  public:
   using Hit = site::BoundaryTree::Hit;
 
-  Contacts(const WalkContext& context, Statistics& statistics)
-      : context_(context),
+  Contacts(const WalkContext& a_context, Statistics& some_statistics)
+      : context(a_context),
+        statistics(some_statistics),
         boundary_(context.boundary),
-        statistics_(statistics),
         touching_((is_polygon() ? 2 : 1) * context.tolerance) {}
-  virtual ~Contacts() = default;
+
+  const WalkContext& context;
+  Statistics& statistics;
 
   /// Whether the boundary is straight. Then what the walk finds in double is taken only where it is
   /// certain.
@@ -72,8 +99,8 @@ class Contacts {
     if (span.right >= empty_.right && span.left <= empty_.left &&
         disk.center == empty_disk_.center && disk.radius == empty_disk_.radius)
       return {};
-    ++statistics_.queries;
-    const Hit hit = search(disk.center, disk.radius - context_.tolerance, span);
+    ++statistics.queries;
+    const Hit hit = search(disk.center, disk.radius - context.tolerance, span);
     if (!hit) {
       empty_ = span;
       empty_disk_ = disk;
@@ -84,14 +111,16 @@ class Contacts {
   /// The site that a disk around `center` really touches where the search found site i: a segment's
   /// end that is a vertex site of its own belongs to the vertex, and a vertex that bridges divide
   /// into several copies is touched by the copy in whose range of directions the centre lies.
-  virtual std::uint32_t owner(std::uint32_t i, Vec2 center, const Span& span) const;
+  std::uint32_t owner(std::uint32_t i, Vec2 center, const Span& span) const;
 
   /// Whether a disk around c that reaches a site may touch it from where it lies: one inside a
   /// shape does.
-  virtual bool faces(std::uint32_t, Vec2) const { return true; }
+  bool faces(std::uint32_t i, Vec2 c) const { return !has_both_sides() || faces_side(i, c); }
 
   /// What a disk that reaches across a site has touched before, if that has another side.
-  virtual std::optional<site::Site> other_side(std::uint32_t) const { return std::nullopt; }
+  std::optional<site::Site> other_side(std::uint32_t i) const {
+    return has_both_sides() ? std::optional(site::reversed(site(i))) : std::nullopt;
+  }
 
   /// Whether a disk that reaches site i from inside touches it there: not in the end of an edge,
   /// where its neighbour would be nearer.
@@ -109,7 +138,7 @@ class Contacts {
 
   /// Whether a disk that touches the site's carrier touches the site itself.
   bool reaches(std::uint32_t i, const Disk& disk) const {
-    const double reach = disk.radius + 2 * context_.tolerance;
+    const double reach = disk.radius + 2 * context.tolerance;
     return site::squared_distance(site(i), disk.center) <= reach * reach;
   }
 
@@ -173,13 +202,13 @@ class Contacts {
   /// Whether a centre is past the normals beside a vertex: of vertices that double does not tell
   /// apart one is touched, between them.
   bool is_past_vertex(std::uint32_t i, Vec2 center) const {
-    return element(i) == Element::vertex && beyond_ends(i, center) > context_.tolerance;
+    return element(i) == Element::vertex && beyond_ends(i, center) > context.tolerance;
   }
   /// Whether two disks are so near to each other that on the way a disk may reach over a site all
   /// along by less than double sees.
   bool is_short_way(const Disk& from, const Disk& to) const {
     constexpr double many = 1 << 10;
-    return !(squared_norm(to.center - from.center) > many * context_.tolerance * from.radius);
+    return !(squared_norm(to.center - from.center) > many * context.tolerance * from.radius);
   }
 
   /// How far a disk's centre lies beyond the nearer of the normals at the ends of a site, where
@@ -189,21 +218,23 @@ class Contacts {
     return std::max(at_start, at_end);
   }
 
- protected:
-  Vec2 bridge_direction(std::uint32_t vertex, std::uint32_t bridge) const;
-  /// The nearest site inside a span, if one is nearer than `reach`.
-  virtual Hit search(Vec2 center, double reach, const Span& span) const {
-    return context_.tree.nearest(center, reach, span.right + 1, span.left - 1);
-  }
-
-  const WalkContext& context_;
-  const Boundary& boundary_;
-  Statistics& statistics_;
-
  private:
+  bool has_both_sides() const { return boundary_.sides == Sides::both; }
+  bool faces_side(std::uint32_t i, Vec2 c) const;
+  std::uint32_t owner_on_sides(std::uint32_t i, Vec2 center, const Span& span) const;
+  /// From a vertex towards the centre of the bridge beside it.
+  Vec2 bridge_direction(std::uint32_t vertex, std::uint32_t bridge) const {
+    return boundary_.bridge_at(bridge).disk.center - site(vertex).point;
+  }
+  /// The nearest site inside a span, if one is nearer than `reach`.
+  Hit search(Vec2 center, double reach, const Span& span) const {
+    const std::uint32_t first = span.right + 1, last = span.left - 1;
+    return has_both_sides() ? context.tree.nearest_facing(center, reach, first, last)
+                            : context.tree.nearest(center, reach, first, last);
+  }
   /// Whether no more than a half turn of directions lies between the normals beside any vertex, so
-  /// that is_beside() knows them.
-  virtual bool has_narrow_wedges() const { return !boundary_.has_arcs; }
+  /// that is_beside() knows them; a point of a planar graph may have all directions to itself.
+  bool has_narrow_wedges() const { return is_polygon() && !has_both_sides(); }
   /// Whether a disk touches two sites in two places, that of the second one by this angle further
   /// around it: narrow slots have walls that a large disk touches next to each other.
   bool are_distinct(std::uint32_t first, std::uint32_t second, double angle,
@@ -257,7 +288,7 @@ class Contacts {
   /// How far away a site is that has nothing to do with a tie.
   double clearance() const {
     constexpr double tolerances = 64;
-    return tolerances * context_.tolerance;
+    return tolerances * context.tolerance;
   }
 
   /// Of the radius: ties are contracted along edges shorter than half of this only.
@@ -267,6 +298,7 @@ class Contacts {
   /// Longer chains need no check: their ends are distinct.
   static constexpr std::uint32_t longest_flat_chain = 8;
 
+  const Boundary& boundary_;
   /// How near a disk has to be to what it touches in a tie: what double leaves open of the disk,
   /// and of the site.
   const double touching_;

@@ -14,7 +14,6 @@
 #include "methods/disks/boundary.h"
 #include "methods/disks/collect.h"
 #include "methods/disks/connect.h"
-#include "methods/disks/exact_event.h"
 #include "methods/disks/merge_ties.h"
 #include "methods/disks/pose.h"
 #include "methods/disks/walk.h"
@@ -33,12 +32,6 @@ std::function<void(std::uint64_t)> reporter(const Problem& problem, const Bounda
   return [&finished, tell, all = static_cast<double>(boundary.sites.size())](std::uint64_t sites) {
     tell(std::min(1.0, static_cast<double>(finished += sites) / all));
   };
-}
-
-/// Adds the sites, as the boundary has them, where the walk found that a step before was wrong.
-void find_lost(const Chunk& chunk, std::vector<std::uint32_t>& lost) {
-  lost.insert(lost.end(), chunk.lost.begin(), chunk.lost.end());
-  for (const auto& child : chunk.children) find_lost(*child, lost);
 }
 
 /// Notes the sites that disks at the tips of branches reach over. Where arcs lie on one circle up
@@ -69,14 +62,10 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
                               std::size_t spare_nodes, Boundary& boundary, Stopwatch& watch,
                               Statistics& statistics) {
   const ExactSites sites(problem, numbers, boundary);
-  const double tolerance = fine_share * problem.fine_tolerance;
-  const std::vector<Bridge> bridges = connecting_disks(problem.shape, boundary, tolerance, sites,
-                                                       way.in_precise, statistics.queries);
-  statistics.bridges = bridges.size();
-  if (!bridges.empty()) {
-    boundary = connect(problem.shape, boundary, bridges);
-    statistics.seconds_connect = watch.lap();
-  }
+  connect_holes(problem.shape, WalkContext::fine_share * problem.fine_tolerance, sites,
+                way.in_precise, boundary);
+  statistics.queries += statistics.bridges = boundary.bridges.size();
+  statistics.seconds_connect = watch.lap();
   if (problem.is_cancelled()) return std::nullopt;
 
   const site::BoundaryTree tree(boundary.sites, site::BoundaryTree::Chords::all,
@@ -84,18 +73,17 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   statistics.seconds_tree = watch.lap();
 
   std::atomic<std::uint64_t> finished = 0;
-  const ExactEvents events(sites, boundary, tree, way.in_precise);
-  auto chunks = walk({boundary, bridges, tree, tolerance, problem.fine_tolerance,
-                      problem.radius_limit, events, problem.options.cancel,
-                      reporter(problem, boundary, finished), 0, way.merges_ties});
+  WalkContext context(sites, tree);
+  context.in_precise = way.in_precise;
+  context.cancel = problem.options.cancel;
+  context.finished_sites = reporter(problem, boundary, finished);
+  context.joins_ties = way.merges_ties;
+  auto chunks = walk(context);
   statistics.seconds_walk = watch.lap();
   if (problem.is_cancelled()) return std::nullopt;
 
-  std::vector<std::uint32_t> lost;
-  for (const auto& chunk : chunks) find_lost(*chunk, lost);
-  Graph graph = collect(chunks, bridges, spare_nodes, boundary.has_arcs);
-  graph.lost = std::move(lost);
-  if (way.merges_ties) merge_ties(boundary, tree, sites, problem.local_tolerance(), graph, names);
+  Graph graph = collect(chunks, boundary.bridges, spare_nodes, boundary.has_arcs);
+  if (way.merges_ties) merge_ties(tree, sites, problem.local_tolerance(), graph, names);
   if (boundary.has_arcs) find_intruders(boundary, tree, 2 * problem.local_tolerance(), graph);
   return graph;
 }
@@ -127,15 +115,6 @@ void take_edges(std::vector<Edge>& from, std::size_t spare, std::vector<E>& to) 
   }
 }
 
-/// Marks the points of these components.
-std::vector<bool> points_of(const Shape& shape, const std::vector<bool>& components) {
-  std::vector<bool> marked(shape.points.size());
-  for (std::size_t loop = 0; loop < shape.loop_count(); ++loop)
-    for (std::size_t i = shape.loop_begin[loop]; i < shape.loop_begin[loop + 1]; ++i)
-      marked[i] = components[shape.component[loop]];
-  return marked;
-}
-
 /// The engine up to the graph: sites, holes connected, tree, walk. Nothing where the caller
 /// cancels.
 std::optional<Graph> attempt(const Problem& problem, const SiteNumbers& own_numbers, Sides sides,
@@ -144,7 +123,7 @@ std::optional<Graph> attempt(const Problem& problem, const SiteNumbers& own_numb
   const SiteNumbers* numbers = &own_numbers;
   std::optional<exact::PartedNumbers> parted;
   if (!way.in_precise.empty() && has_arcs(problem.shape)) {
-    parted = exact::parted_numbers(problem, own_numbers, points_of(problem.shape, way.in_precise));
+    parted = exact::parted_numbers(problem, own_numbers, way.in_precise);
     numbers = &parted->numbers;
   }
   boundary = loops_boundary(problem, *numbers, sides);

@@ -8,10 +8,6 @@
 
 namespace medial::disks {
 
-/// The share of the tolerance to which the walk separates contacts: so fine that it asks for
-/// rounding only. What remains of a tie is merged at the end.
-constexpr double fine_share = 0.125;
-
 /// The method `disks` (docs/disks.md). Requires what compute() has checked. The graph has one part
 /// for each component and one cycle for each hole. Cut short, with any content, where the caller
 /// cancels. Errors: error_of_wrong_axis() where a disk misses one of its

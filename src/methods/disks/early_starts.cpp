@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "methods/disks/certainty.h"
-#include "methods/disks/exact_event.h"
 #include "site/tangent_disk.h"
 
 namespace medial::disks {
@@ -129,7 +128,7 @@ std::vector<EarlyStart> early_starts(const WalkContext& context, std::uint32_t l
   std::vector<EarlyStart> starts;
   if (context.boundary.has_arcs || context.boundary.sides == Sides::both) return starts;
   for (std::uint32_t component = 0; component < context.boundary.runs.size(); ++component)
-    if (!context.exact.always(component)) Finder(context, component).find(least, starts);
+    if (!context.is_in_precise(component)) Finder(context, component).find(least, starts);
   ranges::sort(starts, {}, sites_of);
   const auto twice = std::unique(starts.begin(), starts.end(), [](const auto& a, const auto& b) {
     return sites_of(a) == sites_of(b);

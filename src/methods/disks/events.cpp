@@ -33,31 +33,26 @@ Event EventSearch::local_event(bool on_right) {
 }
 
 Event EventSearch::event_at_smooth_joint(bool on_right) {
-  Event event;
   const auto joint = disk_at_joint(on_right);
-  if (!joint) return event;
+  if (!joint) return {};
   const double position = bisector_.position(joint->disk.center);
   // On a parabola the foot's normal may turn that far only on the way back.
-  if (is_behind(position)) return event;
-  event.kind = !joint->fits ? Event::Kind::far
-               : on_right   ? Event::Kind::pass_right
-                            : Event::Kind::pass_left;
-  const bool behind = position < low_;
-  event.disk = behind ? from_ : joint->disk;
-  event.position = behind ? low_ : position;
-  return event;
+  if (is_behind(position)) return {};
+  const auto kind = !joint->fits ? Event::Kind::far
+                    : on_right   ? Event::Kind::pass_right
+                                 : Event::Kind::pass_left;
+  return not_behind({kind, Hit::none, joint->disk, position});
 }
 
 Event EventSearch::event_across_bridge(bool on_right) {
   const auto [own, next, other] = side(on_right);
-  Event event;
   const std::uint32_t across = on_right ? own + 2 : own - 2;
   const bool continues_other =
       (on_right ? across + 1 : across - 1) == other && boundary_.is_smooth(std::min(across, other));
-  if (continues_other) return event;  // the other foot's own event
+  if (continues_other) return {};  // the other foot's own event
   // Another copy of what is touched already is no third site.
   for (const std::uint32_t touched : {span_.right, span_.left})
-    if (contacts_.in_one_place(across, touched, from_.center, from_.radius)) return event;
+    if (contacts_.in_one_place(across, touched, from_.center, from_.radius)) return {};
   const auto contact = contact_with(across, nowhere);
   // What is across may face elsewhere, and a point may have another copy that was just left.
   const bool faces = contact && contacts_.faces(across, contact->disk.center);
@@ -66,7 +61,6 @@ Event EventSearch::event_across_bridge(bool on_right) {
 
 Event EventSearch::event_at_corner(bool on_right) {
   const auto [own, next, other] = side(on_right);
-  Event event;
   // At a convex corner too, before the foot gets to the corner: the disk there is not empty,
   // unless the corner is so flat that it touches both sides within the tolerance. Their carriers
   // would leave the place open.
@@ -86,25 +80,23 @@ Event EventSearch::event_at_corner(bool on_right) {
     if (!contact) contact = contact_with(next, nowhere);
     if (contact && reaches(*contact)) return *contact;
   }
-  if (!in_reach) return event;
-  event.kind = flat ? Event::Kind::contact : Event::Kind::far;
-  event.site = next;
-  event.disk = {foot + radius * normal, radius};
-  event.position = bisector_.position(event.disk.center);
-  if (is_behind(event.position)) return {};  // the foot turns that far on the way back only
-  return event;
+  if (!in_reach) return {};
+  const Disk disk{foot + radius * normal, radius};
+  const double position = bisector_.position(disk.center);
+  if (is_behind(position)) return {};  // the foot turns that far on the way back only
+  return {flat ? Event::Kind::contact : Event::Kind::far, next, disk, position};
 }
 
 Event EventSearch::end_of_range(bool on_right) const {
   const auto [own, next, other] = side(on_right);
-  const Bridge& bridge = context_.bridges[boundary_.originals[next]];
-  const Vec2 foot = site::foot(site(own), bridge.disk.center), to = bridge.disk.center - foot;
+  const Vec2 center = boundary_.bridge_at(next).disk.center, foot = site::foot(site(own), center),
+             to = center - foot;
   const double radius = site::tangent_radius(foot, (1 / norm(to)) * to, site(other));
   if (!(radius <= context_.radius_limit)) return {};
-  Event event{Event::Kind::far, on_right ? own + 2 : own - 2,
-              Disk{foot + (radius / norm(to)) * to, radius}, 0};
-  event.position = bisector_.position(event.disk.center);
-  return event.position < low_ - slack() ? Event{} : event;
+  const Disk disk{foot + (radius / norm(to)) * to, radius};
+  const double position = bisector_.position(disk.center);
+  if (position < low_ - slack()) return {};
+  return {Event::Kind::far, on_right ? own + 2 : own - 2, disk, position};
 }
 
 bool EventSearch::comes_later(bool on_right, const Event& event) const {
@@ -153,7 +145,7 @@ std::optional<Event> EventSearch::contact_at_joint(std::uint32_t third) const {
 
 std::optional<Event> EventSearch::contact_with(const Site& touched, std::uint32_t third,
                                                double high) {
-  ++statistics_.apollonius;
+  ++contacts_.statistics.apollonius;
   const site::TangentDisks disks = site::tangent_disks(bisector_.right, bisector_.left, touched);
   const auto speed_at = [&](const Disk& disk) {
     return closing(disk, touched, bisector_.tangent(disk.center));
@@ -185,7 +177,7 @@ std::optional<Event> EventSearch::contact_with(const Site& touched, std::uint32_
 
 void EventSearch::polish(Disk& disk, const Site& third) {
   site::polish(disk, bisector_.right, bisector_.left, third, 0.25 * context_.tolerance,
-               context_.tolerance, statistics_.precision_retries);
+               context_.tolerance, contacts_.statistics.precision_retries);
 }
 
 Event EventSearch::by_neighbors() {
@@ -387,7 +379,7 @@ std::optional<Event> EventSearch::pass_at_node() const {
 
 Event EventSearch::bracket(const Disk& start, const Event& event) {
   if (const auto passed = pass_at_node()) return *passed;
-  ++statistics_.brackets;
+  ++contacts_.statistics.brackets;
   Event found{Event::Kind::contact, event.site, start, bisector_.position(start.center)};
   if (found.site == Hit::none || found.site <= span_.right || found.site >= span_.left)
     found.site = contacts_.neighbor(span_, true);

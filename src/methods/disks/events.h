@@ -23,18 +23,23 @@ struct Event {
   Disk disk;
   double position = std::numeric_limits<double>::infinity();
   bool may_grow = false;  ///< of `far`: no neighbour ends the edge
+
+  /// What its disk touches beside a span's two sites.
+  std::uint32_t touched(const Span& span) const {
+    return kind == Kind::pass_right  ? span.right + 1
+           : kind == Kind::pass_left ? span.left - 1
+                                     : site;
+  }
 };
 
 /// Finds what ends an edge of the axis: the first event on the bisector of a span's two sites after
 /// the disk `from`. Refers to both.
 class EventSearch {
  public:
-  EventSearch(const WalkContext& context, Contacts& contacts, Statistics& statistics,
-              const Span& span, const Disk& from)
-      : context_(context),
-        boundary_(context.boundary),
+  EventSearch(Contacts& contacts, const Span& span, const Disk& from)
+      : context_(contacts.context),
+        boundary_(context_.boundary),
         contacts_(contacts),
-        statistics_(statistics),
         span_(span),
         from_(from),
         bisector_(site(span.right), site(span.left)),
@@ -153,7 +158,6 @@ class EventSearch {
   const WalkContext& context_;
   const Boundary& boundary_;
   Contacts& contacts_;
-  Statistics& statistics_;
   const Span& span_;
   const Disk& from_;
   const site::Bisector bisector_;

@@ -12,69 +12,27 @@
 
 namespace medial::disks {
 
+namespace {
+
 using exact::Precise;
 using exact::Wide;
-using Hit = Contacts::Hit;
-
-const exact::SiteLoops& ExactSites::outline() const {
-  std::call_once(once_, [&] {
-    outline_ = make_();
-    before_.resize(outline_.next.size());
-    for (std::uint32_t i = 0; i < before_.size(); ++i) before_[outline_.next[i]] = i;
-  });
-  return outline_;
-}
-
-std::optional<std::uint32_t> ExactSites::joined_before(std::uint32_t site) const {
-  const std::uint32_t before = outline().next.empty() ? outline_.before(site) : before_[site];
-  return outline_.joined(before, site) ? std::optional(before) : std::nullopt;
-}
-
-std::optional<ExactSites::Touch> ExactSites::first_touch(
-    Vec2 foot, const Boundary& boundary, std::span<const std::uint32_t> sites) const {
-  return outline().is_wide ? first_touch_in<Wide>(foot, boundary, sites)
-                           : first_touch_in<Precise>(foot, boundary, sites);
-}
-
-template <class Real>
-std::optional<ExactSites::Touch> ExactSites::first_touch_in(
-    Vec2 foot, const Boundary& boundary, std::span<const std::uint32_t> sites) const {
-  std::optional<exact::DiskBounds<Real>> best;
-  std::uint32_t touched = 0;
-  for (const std::uint32_t site : sites) {
-    const exact::ExactSite exact_site = outline().sites[boundary.originals[site]];
-    const auto disk = exact::disk_from<Real>(foot, outreach, exact_site);
-    if (!disk || !exact::may_have_foot(exact_site, *disk)) continue;
-    if (best && boundary.is_same(site, touched)) {
-      // Pieces of one arc: the disk is the same, and touches the nearest one.
-      const double radius = static_cast<double>(disk->radius.value);
-      const Vec2 center = foot + radius * outreach;
-      if (site::squared_distance(boundary.sites[site], center) <
-          site::squared_distance(boundary.sites[touched], center))
-        touched = site;
-      continue;
-    }
-    const int smaller = best ? (best->radius - disk->radius).sign().value_or(0) : 1;
-    // Where an edge is touched in its end, so is the vertex there, which stands for both.
-    if (smaller < 0 || (smaller == 0 && boundary.elements[site] == Element::edge)) continue;
-    best = disk;
-    touched = site;
-  }
-  if (!best) return std::nullopt;
-  return Touch{touched, static_cast<double>(best->radius.value)};
-}
+using Hit = site::BoundaryTree::Hit;
 
 /// The search of one question. By the lemma of docs/exact.md, the disk is the only one that touches
 /// the two sites and a third one between them, in this order around it, and keeps clear of all.
 template <class Real>
-class ExactEvents::Search {
+class Search {
  public:
-  Search(const ExactEvents& events, const Span& span, const Disk& from, bool is_exact)
-      : events_(events), outline_(events.sites_.outline()), span_(span), from_(from) {
+  Search(const WalkContext& context, const Span& span, const Disk& from, bool is_exact)
+      : context_(context),
+        boundary_(context.boundary),
+        outline_(context.exact.outline()),
+        span_(span),
+        from_(from) {
     if (is_exact) node_ = disk_of_node();
   }
 
-  std::optional<Found> run(std::uint32_t hint, bool all_around) {
+  std::optional<ExactEvent> run(std::uint32_t hint, bool all_around) {
     const std::vector<std::uint32_t> neighbors{span_.right + 1, span_.left - 1, span_.right + 2,
                                                span_.left - 2};
     std::vector<std::uint32_t> candidates{hint};
@@ -88,7 +46,7 @@ class ExactEvents::Search {
           consider(site);
       candidates = best_ ? intruders(*best_) : neighbors;
       if (best_ && candidates.empty())
-        return Found{site_, rounded(*best_), error_of_best(), is_node(*best_)};
+        return ExactEvent{site_, rounded(*best_), error_of_best(), is_node(*best_)};
       erase_seen(candidates);
       if (candidates.empty() && !std::exchange(node_asked, true)) {
         candidates = touched_by_node();
@@ -103,7 +61,7 @@ class ExactEvents::Search {
       // Of disks that grow in one place, the best one reaches over all that the others touch.
       if (best_ || !(reach <= furthest)) return std::nullopt;
       reach *= 4;
-      events_.tree_.within(from_.center, reach, span_.right + 1, span_.left - 1, candidates);
+      context_.tree.within(from_.center, reach, span_.right + 1, span_.left - 1, candidates);
     }
   }
 
@@ -119,8 +77,8 @@ class ExactEvents::Search {
   static constexpr int most_halvings = 128;
 
   exact::ExactSite exact_site(std::uint32_t i) const { return outline_.sites[name(i)]; }
-  std::uint32_t name(std::uint32_t i) const { return events_.boundary_.originals[i]; }
-  bool is_bridge(std::uint32_t i) const { return events_.boundary_.elements[i] == Element::bridge; }
+  std::uint32_t name(std::uint32_t i) const { return boundary_.originals[i]; }
+  bool is_bridge(std::uint32_t i) const { return boundary_.elements[i] == Element::bridge; }
   bool is_inside(std::uint32_t i) const { return i > span_.right && i < span_.left; }
   bool is_seen(std::uint32_t i) const {
     return !is_inside(i) || is_bridge(i) || seen_.count(i) > 0;
@@ -175,7 +133,7 @@ class ExactEvents::Search {
     if (!left.is_vertex()) return {std::clamp(exact::share_of(left, from), last, first), first};
     const Real x = left.start.x - Real(right.start.x), y = left.start.y - Real(right.start.y);
     const Real squared = x * x + y * y, dx = from.x - right.start.x, dy = from.y - right.start.y;
-    return {Real((y * dx - x * dy) / squared), Real(events_.sites_.radius_limit_ / sqrt(squared))};
+    return {Real((y * dx - x * dy) / squared), Real(context_.radius_limit / sqrt(squared))};
   }
 
   /// The disk at a place, if it touches the two sites and comes before the best one, as far as the
@@ -203,22 +161,10 @@ class ExactEvents::Search {
     return KnownDisk{center, root_of((half * half + way * way) * dot(chord, chord))};
   }
 
-  /// The spoke on which the feet on a site begin, or end; none at a vertex from which no foot
-  /// passes on.
-  std::optional<exact::Spoke<Number>> end_of(std::uint32_t own, bool at_end) const {
-    const exact::ExactSite& site = outline_.sites[own];
-    const auto before = events_.sites_.joined_before(own);
-    if (at_end && outline_.joined(own, outline_.next_of(own)))
-      return outline_.template spoke_after<Number>(own);
-    if (!at_end && before) return outline_.template spoke_after<Number>(*before);
-    if (site.is_vertex()) return std::nullopt;
-    return exact::spoke_of<Number>(site, at_end);
-  }
-
   /// Sites that the node's disk touches, as far as it is known.
   std::vector<std::uint32_t> touched_by_node() const {
     std::vector<std::uint32_t> found;
-    events_.tree_.within(from_.center, from_.radius + 2 * slack() + rounding, span_.right + 1,
+    context_.tree.within(from_.center, from_.radius + 2 * slack() + rounding, span_.right + 1,
                          span_.left - 1, found);
     return found;
   }
@@ -240,7 +186,7 @@ class ExactEvents::Search {
 
   /// The node's disk as the sites have it, where all three that it touches are known.
   std::optional<KnownDisk> disk_of_node() const {
-    if (span_.third >= events_.boundary_.sites.size()) return std::nullopt;
+    if (span_.third >= boundary_.sites.size()) return std::nullopt;
     const std::uint32_t right = name(span_.right), left = name(span_.left),
                         third = name(span_.third);
     if (third == right || third == left || right == left) return std::nullopt;
@@ -264,14 +210,14 @@ class ExactEvents::Search {
   }
 
   bool is_too_large(const KnownDisk& disk) const {
-    return (Number(events_.sites_.radius_limit_) - disk.radius).sign() == -1;
+    return (Number(context_.radius_limit) - disk.radius).sign() == -1;
   }
 
   /// How far the node's disk may be off.
   double slack() const {
     constexpr double clear = 0x1p-8;  // of the radius: more than any node is off
     return std::min(span_.error, clear * from_.radius) +
-           std::min(8 * events_.sites_.fine_tolerance_, clear * from_.radius) + 0x1p-50;
+           std::min(8 * context_.joints, clear * from_.radius) + 0x1p-50;
   }
 
   /// Makes a site the best if it is touched before the best so far.
@@ -324,19 +270,19 @@ class ExactEvents::Search {
       for (const std::uint32_t i : {site, site - 1, site + 1}) found.push_back(i);
     };
     const Hit hit =
-        events_.tree_.nearest(disk.center, disk.radius - rounding, span_.right + 1, span_.left - 1);
+        context_.tree.nearest(disk.center, disk.radius - rounding, span_.right + 1, span_.left - 1);
     if (hit && !is_seen(hit.site)) {
       add(hit.site);
       return found;
     }
     std::vector<std::uint32_t> near;
-    events_.tree_.within(disk.center, disk.radius + rounding, span_.right + 1, span_.left - 1,
+    context_.tree.within(disk.center, disk.radius + rounding, span_.right + 1, span_.left - 1,
                          near);
     const std::vector<Vec2> vertices = touched_vertices();
     std::erase_if(near, [&](std::uint32_t site) {
       if (is_bridge(site) || (best_ && site == site_)) return true;
-      const double gap = site::gap(events_.boundary_.sites[site], disk);
-      if (gap >= -events_.sites_.fine_tolerance_ && continues_touched(site)) return true;
+      const double gap = site::gap(boundary_.sites[site], disk);
+      if (gap >= -context_.joints && continues_touched(site)) return true;
       if (gap < -rounding) return false;
       return clearance(exact_site(site), exact_disk, vertices) >= 0;
     });
@@ -383,7 +329,7 @@ class ExactEvents::Search {
     const auto is_joined = [&](std::uint32_t touched) {
       return joins(name(touched), name(site)) || joins(name(site), name(touched));
     };
-    return events_.boundary_.has_arcs &&
+    return boundary_.has_arcs &&
            (is_joined(span_.right) || is_joined(span_.left) || (best_ && is_joined(site_)));
   }
 
@@ -394,11 +340,10 @@ class ExactEvents::Search {
     if (stands_between_bridges(site)) return lies_between_bridges(site, disk);
     // Pieces of one arc between two bridges are one site.
     std::uint32_t first = site, last = site;
-    while (first > 0 && events_.boundary_.is_same(first - 1, site)) --first;
-    while (last + 1 < events_.boundary_.sites.size() && events_.boundary_.is_same(last + 1, site))
-      ++last;
+    while (first > 0 && boundary_.is_same(first - 1, site)) --first;
+    while (last + 1 < boundary_.sites.size() && boundary_.is_same(last + 1, site)) ++last;
     const bool too_early = first > 0 && is_bridge(first - 1) && beyond(first - 1, site, disk) == -1;
-    const bool too_late = last + 1 < events_.boundary_.sites.size() && is_bridge(last + 1) &&
+    const bool too_late = last + 1 < boundary_.sites.size() && is_bridge(last + 1) &&
                           beyond(last + 1, site, disk) == 1;
     return !too_early && !too_late;
   }
@@ -407,24 +352,28 @@ class ExactEvents::Search {
   /// edges join smoothly up to rounding, one normal ends the first one and begins the second.
   bool has_foot(std::uint32_t site, const KnownDisk& disk) const {
     const std::uint32_t own = name(site);
-    const auto before = events_.sites_.joined_before(own);
-    const bool is_joined = before || outline_.joined(own, outline_.next_of(own));
     const exact::ExactSite own_site = exact_site(site);
-    if (!is_joined || own_site.is_vertex()) return exact::may_have_foot(own_site, disk);
-    const auto begin = *end_of(own, false), end = *end_of(own, true);
+    const auto before = context_.exact.joined_before(own);
+    const bool passes_on = outline_.joined(own, outline_.next_of(own));
+    if ((!before && !passes_on) || own_site.is_vertex())
+      return exact::may_have_foot(own_site, disk);
+    const auto begin = before ? outline_.template spoke_after<Number>(*before)
+                              : exact::spoke_of<Number>(own_site, false);
+    const auto end = passes_on ? outline_.template spoke_after<Number>(own)
+                               : exact::spoke_of<Number>(own_site, true);
     return cross(disk.center - begin.foot, begin.normal).sign() != -1 &&
            cross(disk.center - end.foot, end.normal).sign() != 1;
   }
 
   bool stands_between_bridges(std::uint32_t site) const {
-    return site > 0 && is_bridge(site - 1) && site + 1 < events_.boundary_.sites.size() &&
+    return site > 0 && is_bridge(site - 1) && site + 1 < boundary_.sites.size() &&
            is_bridge(site + 1) && exact_site(site).is_vertex();
   }
   /// Whether a disk's centre may lie in the part of a vertex that two bridges leave: more than a
   /// half turn at a lone point, all of it where both are one.
   bool lies_between_bridges(std::uint32_t site, const KnownDisk& disk) const {
-    const std::uint32_t before = events_.boundary_.originals[site - 1],
-                        after = events_.boundary_.originals[site + 1];
+    const std::uint32_t before = boundary_.originals[site - 1],
+                        after = boundary_.originals[site + 1];
     if (before == after) return true;
     const auto from = bridge_disk(before), to = bridge_disk(after);
     if (!from || !to) return true;
@@ -437,20 +386,21 @@ class ExactEvents::Search {
 
   /// Whether a disk's foot on a site lies further along than that of the bridge beside it.
   int beyond(std::uint32_t place, std::uint32_t site, const KnownDisk& disk) const {
-    const auto bridge = bridge_disk(events_.boundary_.originals[place]);
+    const auto bridge = bridge_disk(boundary_.originals[place]);
     if (!bridge) return 0;
     return exact::further_along(exact_site(site), *bridge, disk).value_or(0);
   }
 
   std::optional<KnownDisk> bridge_disk(std::uint32_t bridge) const {
-    if (!events_.sites_.reach_out_) return std::nullopt;
-    const auto [first, second] = events_.boundary_.bridge_places[bridge];
+    if (!context_.exact.reaches_out) return std::nullopt;
+    const std::uint32_t first = boundary_.bridges[bridge].places[0];
     // The hole begins after the first place, where the bridge's disk touches it.
-    return exact::disk_from<Real>(events_.boundary_.sites[first + 1].point, outreach,
+    return exact::disk_from<Real>(boundary_.sites[first + 1].point, outreach,
                                   exact_site(first - 1));
   }
 
-  const ExactEvents& events_;
+  const WalkContext& context_;
+  const Boundary& boundary_;
   const exact::SiteLoops& outline_;
   const Span span_;
   const Disk from_;
@@ -464,28 +414,31 @@ class ExactEvents::Search {
   std::uint32_t site_ = 0;
 };
 
-std::optional<ExactEvents::Found> ExactEvents::search(const Span& span, const Disk& from,
-                                                      std::uint32_t hint, bool is_exact,
-                                                      bool all_around) const {
+/// In numbers of twice double's digits; where these leave a sign open, or find nothing, in 256
+/// bits.
+std::optional<ExactEvent> search(const WalkContext& context, const Span& span, const Disk& from,
+                                 std::uint32_t hint, bool is_exact, bool all_around) {
   const std::uint64_t before = Bounded<Twofold>::open_signs;
-  auto found = Search<Twofold>(*this, span, from, is_exact).run(hint, all_around);
+  auto found = Search<Twofold>(context, span, from, is_exact).run(hint, all_around);
   if (found && found->is_well_known() && Bounded<Twofold>::open_signs == before) return found;
   if (found) hint = found->site;
-  found = sites_.outline().is_wide
-              ? Search<Wide>(*this, span, from, is_exact).run(hint, all_around)
-              : Search<Precise>(*this, span, from, is_exact).run(hint, all_around);
+  found = context.exact.outline().is_wide
+              ? Search<Wide>(context, span, from, is_exact).run(hint, all_around)
+              : Search<Precise>(context, span, from, is_exact).run(hint, all_around);
   if (found) found->in_precise = true;
   return found;
 }
 
-std::optional<ExactEvents::Found> ExactEvents::next(const Span& span, const Disk& from,
-                                                    std::uint32_t hint, bool is_exact) const {
-  return search(span, from, hint, is_exact, false);
+}  // namespace
+
+std::optional<ExactEvent> next_exactly(const WalkContext& context, const Span& span,
+                                       const Disk& from, std::uint32_t hint, bool is_exact) {
+  return search(context, span, from, hint, is_exact, false);
 }
 
-std::optional<ExactEvents::Found> ExactEvents::start(const Span& whole, const Disk& about,
-                                                     std::uint32_t hint) const {
-  return search(whole, about, hint, false, true);
+std::optional<ExactEvent> start_exactly(const WalkContext& context, const Span& whole,
+                                        const Disk& about, std::uint32_t hint) {
+  return search(context, whole, about, hint, false, true);
 }
 
 }  // namespace medial::disks

@@ -12,22 +12,14 @@
 #include "base/fill_gaps.h"
 #include "base/memory.h"
 #include "base/numbers.h"
-#include "base/threads.h"
-#include "methods/disks/certainty.h"
-#include "methods/disks/tie_fit.h"
+#include "base/numbers_where.h"
+#include "methods/disks/node_distance.h"
 #include "site/bisector.h"
 
 namespace medial::disks {
 namespace {
 
 using site::Site;
-
-/// Only edges shorter than this, against the radius, are looked at, and no disk moves further: a
-/// tie's nodes are off by rounding over an angle, and distances are nearly linear so far.
-constexpr double short_edge = 0x1p-7;
-
-/// By how much the centres of two nodes may be nearer or further apart than double has them.
-constexpr double rounding_of_nodes = 0x1p-50;
 
 /// The largest residual at the one end of an edge, against the bound, that a contact of its other
 /// end may have: with the smallest angle between contacts at some 2^-12, the factors of their
@@ -57,11 +49,12 @@ struct Group {
 
 class Merger {
  public:
-  Merger(const Boundary& boundary, const site::BoundaryTree& tree, const ExactSites& exact,
-         double tolerance, Graph& graph, std::span<const std::uint32_t> names)
-      : boundary_(boundary),
+  Merger(const site::BoundaryTree& tree, const ExactSites& exact, double tolerance, Graph& graph,
+         std::span<const std::uint32_t> names)
+      : boundary_(exact.boundary),
         tree_(tree),
-        tie_sites_{boundary.sites, &exact},
+        exact_(exact),
+        tie_sites_{boundary_.sites, &exact},
         tolerance_(tolerance),
         names_(names),
         graph_(graph) {}
@@ -96,7 +89,7 @@ class Merger {
   void put_right() {
     const WorkVector<std::uint8_t> degree = degrees_of(graph_);
     const auto is_hub = [&](std::uint32_t node) { return degree[node] > 3; };
-    link_ends(filter(graph_.edges.size(), [&](std::size_t e) {
+    link_ends(numbers_where(graph_.edges.size(), [&](std::size_t e) {
       const auto [from, to] = graph_.edges[e].node;
       return is_hub(from) || is_hub(to);
     }));
@@ -117,48 +110,21 @@ class Merger {
   /// What double may leave open when it looks for candidates.
   double bound() const { return 1.25 * nearnesses[0].level * tolerance_; }
 
-  /// The edges for which a slow test holds: small blocks, so that few edges still use all threads.
+  /// The edges for which a slow test holds.
   template <class Edges, class Holds>
   static std::vector<std::uint32_t> those(const Edges& edges, const Holds& holds) {
     std::vector<std::uint32_t> kept;
     for (const std::uint32_t i :
-         filter<64>(edges.size(), [&](std::size_t k) { return holds(edges[k]); }))
+         numbers_where<64>(edges.size(), [&](std::size_t k) { return holds(edges[k]); }))
       kept.push_back(edges[i]);
     return kept;
   }
-  /// The numbers below `count` for which `holds` is true, increasing.
-  template <std::size_t block = 1 << 12, class Holds>
-  static WorkVector<std::uint32_t> filter(std::size_t count, Holds&& holds) {
-    std::vector<std::vector<std::uint32_t>> found((count + block - 1) / block);
-    parallel_for(found.size(), [&](std::size_t i) {
-      std::array<std::uint32_t, block> some;
-      std::size_t size = 0;
-      for (std::size_t k = i * block; k < std::min(count, (i + 1) * block); ++k) {
-        some[size] = static_cast<std::uint32_t>(k);
-        size += holds(k) ? 1 : 0;  // without a branch that could be guessed wrong
-      }
-      found[i].assign(some.begin(), some.begin() + static_cast<std::ptrdiff_t>(size));
-    });
-    std::size_t size = 0;
-    for (const auto& some : found) size += some.size();
-    WorkVector<std::uint32_t> all;
-    all.reserve(size);
-    for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
-    return all;
-  }
-
-  /// Whether two nodes are near to each other against both of their disks, give or take `slack`: no
-  /// leaf is.
-  static bool is_short(const Disk& a, const Disk& b, double slack) {
-    const double furthest = short_edge * std::min(a.radius, b.radius) + slack;
-    return furthest > 0 && squared_norm(b.center - a.center) < furthest * furthest;
-  }
   /// The edges that are short, or may be so but for the rounding of their nodes.
   WorkVector<std::uint32_t> short_edges() const {
-    const double rounding = boundary_.has_arcs ? 0 : rounding_of_nodes;
-    return filter(graph_.edges.size(), [&](std::size_t e) {
+    const double rounding = boundary_.has_arcs ? 0 : NodeDistance::rounding;
+    return numbers_where(graph_.edges.size(), [&](std::size_t e) {
       const auto [from, to] = graph_.edges[e].node;
-      return is_short(graph_.nodes[from].disk, graph_.nodes[to].disk, rounding);
+      return NodeDistance::is_short(graph_.nodes[from].disk, graph_.nodes[to].disk, rounding);
     });
   }
 
@@ -167,7 +133,7 @@ class Merger {
     const Disk& from = graph_.nodes[graph_.edges[e].node[0]].disk;
     const auto passed = ranges::lower_bound(graph_.passages, e, {}, &Graph::Passage::edge);
     return passed != graph_.passages.end() && passed->edge == e &&
-           !is_short(from, passed->disk, tolerance_);
+           !NodeDistance::is_short(from, passed->disk, tolerance_);
   }
 
   /// Lists the ends of all edges at the nodes of these ones, the last edge first.
@@ -175,7 +141,7 @@ class Merger {
     std::vector<bool> is_listed(graph_.nodes.size());
     for (const std::uint32_t e : edges)
       for (const std::uint32_t node : graph_.edges[e].node) is_listed[node] = true;
-    const WorkVector<std::uint32_t> linked = filter(graph_.edges.size(), [&](std::size_t e) {
+    const WorkVector<std::uint32_t> linked = numbers_where(graph_.edges.size(), [&](std::size_t e) {
       const auto [from, to] = graph_.edges[e].node;
       return is_listed[from] || is_listed[to];
     });
@@ -258,7 +224,7 @@ class Merger {
   /// Of a site that bridges divide, the piece that is nearest to a disk: an edge that leads across
   /// a bridge is named after a piece on one side of it.
   std::uint32_t nearest_piece(std::uint32_t site, const Disk& disk) const {
-    if (boundary_.bridge_places.empty()) return site;
+    if (boundary_.bridges.empty()) return site;
     const auto away = [&](std::uint32_t i) {
       return site::squared_distance(boundary_.sites[i], disk.center);
     };
@@ -299,7 +265,7 @@ class Merger {
   }
   /// What follows a site on its loop, if holes are connected there, too.
   std::uint32_t next_on_loop(std::uint32_t site, const Boundary::SiteRange& run) const {
-    const std::uint32_t next = site == run.last ? run.first : site + 1;
+    const std::uint32_t next = run.after(site);
     return boundary_.elements[next] == Element::bridge ? boundary_.across(next, site) : next;
   }
 
@@ -431,11 +397,13 @@ class Merger {
 
   bool is_near(const Edge& edge, const Nearness& nearness) const {
     const auto [from, to] = edge.node;
-    if (!is_short(from, to)) return false;
+    const NodeDistance apart(exact_, {graph_.nodes[from].disk, contacts_[place_of(from)]},
+                             {graph_.nodes[to].disk, contacts_[place_of(to)]});
+    if (!apart.is_short()) return false;
     const double length = nearness.length * tolerance_;
-    const auto in_double = are_near_in_double(from, to, length);
+    const auto in_double = apart.is_within_in_double(length, tolerance_);
     if (in_double.value_or(false) || touch_alike(edge, nearness)) return true;
-    return in_double ? false : are_near(from, to, length);
+    return in_double ? false : apart.is_within(length);
   }
   /// Whether the disk of one end of an edge or one next to it touches all that is touched at both.
   bool touch_alike(const Edge& edge, const Nearness& nearness) const {
@@ -453,100 +421,6 @@ class Merger {
     join(start, both);
     TieFit fit(tie_sites_, start);
     return fit.fits(both, nearness.level * tolerance_);
-  }
-
-  /// Whether the disks of two nodes are near to each other against their radii.
-  bool is_short(std::uint32_t a, std::uint32_t b) const {
-    const Disk &from = graph_.nodes[a].disk, &to = graph_.nodes[b].disk;
-    const bool in_double = is_short(from, to, 0);
-    if (is_short(from, to, rounding_of_nodes) == is_short(from, to, -rounding_of_nodes))
-      return in_double;
-    for (const bool first : {true, false}) {
-      const auto near = are_within(a, b, [&](const auto& one, const auto& other) {
-        return std::remove_cvref_t<decltype(one.radius)>(short_edge) * (first ? one : other).radius;
-      });
-      if (!near) return in_double;
-      if (!*near) return false;
-    }
-    return true;
-  }
-  /// Whether the disks of two nodes are so near to each other, if double is certain.
-  std::optional<bool> are_near_in_double(std::uint32_t a, std::uint32_t b, double length) const {
-    constexpr double surely = 16;  // tolerances
-    const double way = distance(graph_.nodes[a].disk.center, graph_.nodes[b].disk.center);
-    if (way > surely * tolerance_) return false;
-    const bool known = std::abs(way - length) > error_of(a) + error_of(b);
-    return known ? std::optional(way <= length) : std::nullopt;
-  }
-  /// The same as the sites have them.
-  bool are_near(std::uint32_t a, std::uint32_t b, double length) const {
-    const auto near = are_within(a, b, [&](const auto& one, const auto&) {
-      return std::remove_cvref_t<decltype(one.radius)>(length);
-    });
-    return near ? *near
-                : distance(graph_.nodes[a].disk.center, graph_.nodes[b].disk.center) <= length;
-  }
-  /// Whether the centres of two nodes are no further apart than `most` of their disks, as the sites
-  /// have these; none where they are not known.
-  template <class Most>
-  std::optional<bool> are_within(std::uint32_t a, std::uint32_t b, const Most& most) const {
-    const auto near = are_within_in<Twofold>(a, b, most);
-    return near ? near : are_within_in<exact::Precise>(a, b, most);
-  }
-  template <class Real, class Most>
-  std::optional<bool> are_within_in(std::uint32_t a, std::uint32_t b, const Most& most) const {
-    if (!three_of(a) || !three_of(b)) return std::nullopt;
-    const auto from = disk_in<Real>(a), to = from ? disk_in<Real>(b) : std::nullopt;
-    if (!to) return std::nullopt;
-    const auto way = to->center - from->center;
-    const Bounded<Real> bound = most(*from, *to);
-    const auto sign = (bound * bound - dot(way, way)).sign();
-    return sign ? std::optional(*sign >= 0) : std::nullopt;
-  }
-  /// The sites of a node that touches three; of several pieces of one site, one.
-  std::optional<std::array<std::uint32_t, 3>> three_of(std::uint32_t node) const {
-    std::array<std::uint32_t, 3> sites;
-    std::size_t count = 0;
-    for (const Touch& contact : contacts_[place_of(node)]) {
-      const std::uint32_t own = boundary_.originals[contact.site];
-      const auto known = std::span(sites).first(count);
-      if (ranges::any_of(known, [&](std::uint32_t s) { return boundary_.originals[s] == own; }))
-        continue;
-      if (count == 3) return std::nullopt;
-      sites[count++] = contact.site;
-    }
-    return count == 3 ? std::optional(sites) : std::nullopt;
-  }
-  /// How far a node's exact disk may be from the one in double; nothing else is known of one that
-  /// touches more than three sites.
-  double error_of(std::uint32_t node) const {
-    const auto sites = three_of(node);
-    if (!sites) return 0;
-    const auto [a, b, c] = *sites;
-    const Disk& disk = graph_.nodes[node].disk;
-    const auto joins = [&](std::uint32_t i, std::uint32_t j) {
-      return i + 1 == j && boundary_.is_smooth(i);
-    };
-    return joins(a, b)   ? Certainty::error_at_joint(boundary_, a, b, c, disk)
-           : joins(b, c) ? Certainty::error_at_joint(boundary_, b, c, a, disk)
-                         : Certainty::error_of_three(boundary_, *sites, disk);
-  }
-  /// The disk of a node that touches three sites; none of one that touches more.
-  template <class Real>
-  std::optional<exact::DiskBounds<Real>> disk_in(std::uint32_t node) const {
-    const Disk& about = graph_.nodes[node].disk;
-    auto sites = three_of(node);
-    if (!sites) return std::nullopt;
-    // Where pieces lie on two sides of a bridge their order is open.
-    for (int order = 0; order < 2; ++order, std::swap((*sites)[1], (*sites)[2])) {
-      const auto disk = tie_sites_.exact->disk_of<Real>(*sites);
-      if (!disk) continue;
-      const Vec2 center{static_cast<double>(disk->center.x.value),
-                        static_cast<double>(disk->center.y.value)};
-      constexpr double of_radius = 0.125, rounding = 0x1p-48;
-      if (distance(center, about.center) <= of_radius * about.radius + rounding) return disk;
-    }
-    return std::nullopt;
   }
 
   /// Whether one disk touches all that a group's nodes touch, and nothing reaches into it. Around a
@@ -688,6 +562,7 @@ class Merger {
 
   const Boundary& boundary_;
   const site::BoundaryTree& tree_;
+  const ExactSites& exact_;
   TieSites tie_sites_;
   double tolerance_;
   std::span<const std::uint32_t> names_;
@@ -703,14 +578,14 @@ class Merger {
 
 }  // namespace
 
-void merge_ties(const Boundary& boundary, const site::BoundaryTree& tree, const ExactSites& exact,
-                double tolerance, Graph& graph, std::span<const std::uint32_t> names) {
-  Merger(boundary, tree, exact, tolerance, graph, names).merge();
+void merge_ties(const site::BoundaryTree& tree, const ExactSites& exact, double tolerance,
+                Graph& graph, std::span<const std::uint32_t> names) {
+  Merger(tree, exact, tolerance, graph, names).merge();
 }
 
-std::vector<std::uint32_t> tie_candidates(const Boundary& boundary, const site::BoundaryTree& tree,
-                                          const ExactSites& exact, double tolerance, Graph& graph) {
-  return Merger(boundary, tree, exact, tolerance, graph, {}).candidates();
+std::vector<std::uint32_t> tie_candidates(const site::BoundaryTree& tree, const ExactSites& exact,
+                                          double tolerance, Graph& graph) {
+  return Merger(tree, exact, tolerance, graph, {}).candidates();
 }
 
 }  // namespace medial::disks

@@ -2,9 +2,8 @@
 
 #include <span>
 
-#include "methods/disks/boundary.h"
 #include "methods/disks/collect.h"
-#include "methods/disks/exact_event.h"
+#include "methods/disks/exact_sites.h"
 #include "site/boundary_tree.h"
 
 namespace medial::disks {
@@ -42,11 +41,11 @@ namespace medial::disks {
 /// Every contraction takes one edge and one node, and none closes a cycle: the graph keeps its
 /// Euler number and its cycles. O(n), and O(m log m) for the m edges that four of their ends'
 /// contacts do not rule out, with the edges of their nodes.
-void merge_ties(const Boundary& boundary, const site::BoundaryTree& tree, const ExactSites& exact,
-                double tolerance, Graph& graph, std::span<const std::uint32_t> names = {});
+void merge_ties(const site::BoundaryTree& tree, const ExactSites& exact, double tolerance,
+                Graph& graph, std::span<const std::uint32_t> names = {});
 
 /// The edges of which merge_ties() may take some out of a graph.
-std::vector<std::uint32_t> tie_candidates(const Boundary& boundary, const site::BoundaryTree& tree,
-                                          const ExactSites& exact, double tolerance, Graph& graph);
+std::vector<std::uint32_t> tie_candidates(const site::BoundaryTree& tree, const ExactSites& exact,
+                                          double tolerance, Graph& graph);
 
 }  // namespace medial::disks

@@ -6,6 +6,7 @@
 
 #include "axis/node_kinds.h"
 #include "axis/statistics.h"
+#include "base/compat.h"
 #include "base/disjoint_sets.h"
 #include "base/numbers.h"
 #include "methods/disks/merge_ties.h"
@@ -43,17 +44,16 @@ class FirstPlaces {
 
 }  // namespace
 
-OpenGraph::OpenGraph(const Problem& problem, const SiteNumbers& numbers, const Boundary& boundary,
-                     std::size_t bridge_count, const site::BoundaryTree& tree,
-                     const ExactSites& exact)
+OpenGraph::OpenGraph(const Problem& problem, const SiteNumbers& numbers,
+                     const site::BoundaryTree& tree, const ExactSites& exact)
     : problem_(problem),
       numbers_(numbers),
-      boundary_(boundary),
+      boundary_(exact.boundary),
       tree_(tree),
       exact_(exact),
       slack_(std::max(looseness * diagonal(problem.box), 4 * problem.tolerance)),
-      ends_(bridge_count),
-      balance_(boundary.runs.size()) {
+      ends_(boundary_.bridges.size()),
+      balance_(boundary_.runs.size()) {
   const Shape& shape = problem.shape;
   for (std::size_t loop = 0; loop < shape.loop_count(); ++loop)
     balance_[shape.component[loop]] += shape.hole[loop] ? 1 : -1;
@@ -205,7 +205,7 @@ void OpenGraph::hold_ties(const std::vector<std::uint32_t>& ties,
 OpenGraph::Cut OpenGraph::cut() {
   Cut cut;
   const std::vector<std::uint32_t> ties =
-      tie_candidates(boundary_, tree_, exact_, problem_.local_tolerance(), graph_);
+      tie_candidates(tree_, exact_, problem_.local_tolerance(), graph_);
   const std::vector<std::uint8_t> held = held_nodes(ties);
   const std::size_t count = graph_.nodes.size();
   const auto is_ready = [&](std::uint32_t i) {
@@ -247,7 +247,7 @@ OpenGraph::Cut OpenGraph::cut() {
       if (cut.place[node] != none && cut.more_ends[cut.place[node]] < 3)
         ++cut.more_ends[cut.place[node]];
   }
-  cut.has_ties = std::any_of(ties.begin(), ties.end(), [&](std::uint32_t tie) {
+  cut.has_ties = ranges::any_of(ties, [&](std::uint32_t tie) {
     const auto [from, to] = graph_.edges[tie].node;
     return cut.place[from] != none && cut.place[to] != none;
   });
@@ -268,7 +268,7 @@ AxisPart OpenGraph::next_part() {
 
 void OpenGraph::complete_part(Cut& cut, AxisPart& part) {
   Graph& graph = cut.graph;
-  if (cut.has_ties) merge_ties(boundary_, tree_, exact_, problem_.local_tolerance(), graph);
+  if (cut.has_ties) merge_ties(tree_, exact_, problem_.local_tolerance(), graph);
   if (!keeps_rim(cut)) {
     lost_ = true;
     return;
@@ -281,7 +281,9 @@ void OpenGraph::complete_part(Cut& cut, AxisPart& part) {
   part.axis.edges = std::move(graph.edges);
   name_nodes(cut, part);
   name_sites(part);
-  check_edges(doubtful, part);
+  lost_ = lost_ || ranges::any_of(doubtful, [&](std::uint32_t edge) {
+            return !touches_its_sites(part.axis, part.axis.edges[edge], slack_);
+          });
 }
 
 /// Whether contracting ties has left those nodes as they are that other parts name as well. It has,
@@ -331,11 +333,6 @@ void OpenGraph::name_sites(AxisPart& part) {
   }
 }
 
-void OpenGraph::check_edges(const std::vector<std::uint32_t>& doubtful, const AxisPart& part) {
-  for (const std::uint32_t edge : doubtful)
-    lost_ = lost_ || !touches_its_sites(part.axis, part.axis.edges[edge], slack_);
-}
-
 /// Keeps what has not been handed out, with the nodes that its edges name.
 void OpenGraph::keep(const Cut& cut) {
   std::vector<std::uint8_t> stays(graph_.nodes.size());
@@ -377,7 +374,7 @@ void OpenGraph::keep(const Cut& cut) {
 }
 
 bool OpenGraph::has_right_cycles() const {
-  return std::all_of(balance_.begin(), balance_.end(), [](std::int64_t b) { return b == 0; });
+  return ranges::all_of(balance_, [](std::int64_t b) { return b == 0; });
 }
 
 }  // namespace medial::disks

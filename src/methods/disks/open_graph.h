@@ -6,7 +6,7 @@
 
 #include "medial/compute.h"
 #include "methods/disks/collect.h"
-#include "methods/disks/exact_event.h"
+#include "methods/disks/exact_sites.h"
 #include "site/boundary_tree.h"
 
 namespace medial::disks {
@@ -23,8 +23,8 @@ class OpenGraph {
     std::uint32_t node;  ///< at which it begins
   };
 
-  OpenGraph(const Problem& problem, const SiteNumbers& numbers, const Boundary& boundary,
-            std::size_t bridge_count, const site::BoundaryTree& tree, const ExactSites& exact);
+  OpenGraph(const Problem& problem, const SiteNumbers& numbers, const site::BoundaryTree& tree,
+            const ExactSites& exact);
 
   /// Adds the tasks at which the walk begins.
   void begin(std::vector<std::unique_ptr<Chunk>> roots);
@@ -73,7 +73,6 @@ class OpenGraph {
   bool keeps_rim(const Cut& cut) const;
   void name_nodes(const Cut& cut, AxisPart& part);
   void name_sites(AxisPart& part);
-  void check_edges(const std::vector<std::uint32_t>& doubtful, const AxisPart& part);
   void keep(const Cut& cut);
 
   const Problem& problem_;

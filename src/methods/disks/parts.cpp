@@ -9,7 +9,6 @@
 #include "methods/disks/boundary.h"
 #include "methods/disks/connect.h"
 #include "methods/disks/disks.h"
-#include "methods/disks/exact_event.h"
 #include "methods/disks/open_graph.h"
 #include "methods/disks/walk.h"
 #include "site/boundary_tree.h"
@@ -23,12 +22,11 @@ constexpr std::size_t tasks_in_part = 16;
 /// Walks all tasks and hands out what is final. Whether the axis is right as far as the walk knows.
 Result<bool> walk_in_parts(const WalkContext& context, const AxisSink& sink, std::size_t part_nodes,
                            OpenGraph& open) {
-  TaskGroup none_runs;
-  open.begin(put_off_walk(context, none_runs));
+  open.begin(put_off_walk(context));
   while (open.has_tasks()) {
     std::vector<OpenGraph::Task> tasks = open.take(part_nodes);
     parallel_for(tasks.size(), [&](std::size_t i) { tasks[i].chunk->walk(); });
-    if (context.cancel != nullptr && context.cancel->load()) return true;
+    if (context.is_cancelled()) return true;
     for (OpenGraph::Task& task : tasks) open.add(std::move(task));
     if (!open.is_lost() && (open.is_full(part_nodes) || !open.has_tasks())) {
       AxisPart part = open.next_part();
@@ -37,7 +35,6 @@ Result<bool> walk_in_parts(const WalkContext& context, const AxisSink& sink, std
     }
     if (open.is_lost()) return false;
   }
-  none_runs.wait();
   return open.has_right_cycles();
 }
 
@@ -53,36 +50,25 @@ Result<std::optional<MedialAxis>> run_in_parts(const Problem& problem, const Axi
   const SiteNumbers& numbers = problem.numbers();
   Boundary boundary = loops_boundary(problem, numbers, Sides::one);
   statistics.seconds_sites = watch.lap();
-  const double tolerance = fine_share * problem.fine_tolerance;
   const ExactSites sites(problem, numbers, boundary);
-  const std::vector<bool> never_in_precise;
-  const std::vector<Bridge> bridges = connecting_disks(problem.shape, boundary, tolerance, sites,
-                                                       never_in_precise, statistics.queries);
-  if (!bridges.empty()) boundary = connect(problem.shape, boundary, bridges);
-  statistics.bridges = bridges.size();
+  connect_holes(problem.shape, WalkContext::fine_share * problem.fine_tolerance, sites, {},
+                boundary);
+  statistics.queries += statistics.bridges = boundary.bridges.size();
   statistics.seconds_connect = watch.lap();
   if (problem.is_cancelled()) return std::optional(std::move(axis));
   const site::BoundaryTree tree(boundary.sites, site::BoundaryTree::Chords::beyond_8_sites,
                                 boundary.longest_run());
   statistics.seconds_tree = watch.lap();
 
-  const ExactEvents exact(sites, boundary, tree, never_in_precise);
   std::atomic<std::uint64_t> finished = 0;
   const auto report = [&, count = static_cast<double>(boundary.sites.size())](std::uint64_t more) {
     problem.options.progress(std::min(1.0, static_cast<double>(finished += more) / count));
   };
-  const WalkContext context{
-      boundary,
-      bridges,
-      tree,
-      tolerance,
-      problem.fine_tolerance,
-      problem.radius_limit,
-      exact,
-      problem.options.cancel,
-      problem.options.progress ? report : std::function<void(std::uint64_t)>(),
-      static_cast<std::uint32_t>(part_nodes / tasks_in_part)};
-  OpenGraph open(problem, numbers, boundary, bridges.size(), tree, sites);
+  WalkContext context(sites, tree);
+  context.cancel = problem.options.cancel;
+  if (problem.options.progress) context.finished_sites = report;
+  context.most_nodes = static_cast<std::uint32_t>(part_nodes / tasks_in_part);
+  OpenGraph open(problem, numbers, tree, sites);
   const auto walked = walk_in_parts(context, sink, part_nodes, open);
   if (!walked) return walked.error();
   if (!*walked) return std::optional<MedialAxis>();

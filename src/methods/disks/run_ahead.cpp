@@ -33,12 +33,10 @@ std::optional<bool> is_settled(const Contacts& contacts, const Disk& from, const
   return true;
 }
 
-RunAhead::RunAhead(const WalkContext& context, Contacts& contacts, Statistics& statistics)
-    : context_(context),
-      contacts_(contacts),
-      statistics_(statistics),
-      is_possible_(contacts.is_polygon() && context.bridges.empty() &&
-                   context.boundary.sides == Sides::one) {}
+RunAhead::RunAhead(Contacts& contacts)
+    : contacts_(contacts),
+      is_possible_(contacts.is_polygon() && contacts.context.boundary.bridges.empty() &&
+                   contacts.context.boundary.sides == Sides::one) {}
 
 const RunAhead::Found* RunAhead::find_or_run(const Span& span, const Disk& from) {
   const auto is_next = [&] {
@@ -67,15 +65,15 @@ void RunAhead::run(const Span& begin, const Disk& start, std::size_t most) {
   Span span = begin;
   Disk from = start;
   while (found_.size() < most) {
-    EventSearch search(context_, contacts_, statistics_, span, from);
+    EventSearch search(contacts_, span, from);
     Found& found = found_.emplace_back(Found{span, from, search.by_neighbors()});
     const auto event = search.plain(found.event);
     if (!event) return;
-    const Certainty certainty(context_.boundary, context_.tolerance, span, from, *event);
+    const Certainty certainty(contacts_.context.boundary, contacts_.context.tolerance, span, from,
+                              *event);
     // Of short ways, are_empty() asks for all.
     if (certainty.is_tie() || is_settled(contacts_, from, *event, certainty) == false) return;
-    found = {
-        span, from, *event, true, certainty.error(), certainty.fourth(), search.asked_disk(*event)};
+    found = {span, from, *event, true, certainty.error(), search.asked_disk(*event)};
     Span first, second;
     const std::size_t count = divide(span, *event, certainty.error(), true, first, second);
     const bool first_open = count > 0 && contacts_.needs_walk(first),
@@ -93,23 +91,24 @@ bool RunAhead::are_empty(std::size_t count) const {
     return contacts_.is_short_way(found.from, found.event.disk);
   };
   if (std::any_of(found_.begin(), found_.begin() + static_cast<std::ptrdiff_t>(count), is_short) &&
-      contacts_.may_touch_more(last.span, last.event.disk, last.fourth, 2))
+      contacts_.may_touch_more(last.span, last.event.disk, last.fourth(), 2))
     return false;
   for (std::size_t i = 0; i + 1 < count; ++i) {
     const Span& span = found_[i].span;
     const Disk& disk = found_[i].asked;
     const auto reaches_over = [&](std::uint32_t first, std::uint32_t end) {
       return first < end &&
-             context_.tree.nearest(disk.center, disk.radius - context_.tolerance, first, end - 1);
+             contacts_.context.tree.nearest(disk.center, disk.radius - contacts_.context.tolerance,
+                                            first, end - 1);
     };
     if (reaches_over(span.right + 1, last.span.right + 1) ||
         reaches_over(last.span.left, span.left))
       return false;
     if (!is_short(found_[i])) continue;
     const auto may_touch = [&](std::uint32_t site) {
-      return site != found_[i].fourth && contacts_.may_touch(site, span, found_[i].from);
+      return site != found_[i].fourth() && contacts_.may_touch(site, span, found_[i].from);
     };
-    if (may_touch(last.fourth)) return false;
+    if (may_touch(last.fourth())) return false;
     for (std::uint32_t site = span.right + 1; site <= last.span.right; ++site)
       if (may_touch(site)) return false;
     for (std::uint32_t site = last.span.left; site < span.left; ++site)

@@ -40,7 +40,7 @@ std::optional<bool> is_settled(const Contacts& contacts, const Disk& from, const
 /// (docs/exact.md).
 class RunAhead {
  public:
-  RunAhead(const WalkContext& context, Contacts& contacts, Statistics& statistics);
+  explicit RunAhead(Contacts& contacts);
 
   struct Found {
     Span span;
@@ -48,8 +48,9 @@ class RunAhead {
     Event event;  ///< if it is not certain, what the neighbours tell
     bool is_certain = false;
     double error = 0;
-    std::uint32_t fourth = 0;  ///< what the event's disk touches beside the span's two
-    Disk asked{};              ///< the disk that has to be empty
+    Disk asked{};  ///< the disk that has to be empty
+
+    std::uint32_t fourth() const { return event.touched(span); }
   };
 
   /// What ends the edge that leads from a disk into a span, if it was found ahead; until the next
@@ -71,9 +72,7 @@ class RunAhead {
   /// Whether the disks of the first `count` are empty.
   bool are_empty(std::size_t count) const;
 
-  const WalkContext& context_;
   Contacts& contacts_;
-  Statistics& statistics_;
   const bool is_possible_;
   std::vector<Found> found_;
   std::size_t next_ = 0;

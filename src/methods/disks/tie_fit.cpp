@@ -299,10 +299,6 @@ constexpr double noise_of_double = 0x1p-51;
 /// distance to a vertex has fewer operations; those to flat arcs may lose all digits.
 constexpr double noise_of_twofold = 0x1p-90;
 
-bool has_arcs(const TieSites& sites, std::span<const Touch> contacts) {
-  return ranges::any_of(contacts, [&](const Touch& i) { return sites.sites[i.site].is_arc(); });
-}
-
 /// Asks in these numbers, from a fit's disk on, which moves.
 template <class Real, class Ask>
 Verdict ask_in(const TieSites& sites, TieFit& fit, const Ask& ask) {
@@ -322,7 +318,7 @@ bool TieFit::fits(std::span<const Touch> contacts, double bound) {
   Verdict verdict = ask_in<double>(*sites_, *this, judge(noise_of_double));
   if (verdict == Verdict::open && sites_->exact != nullptr) {
     const Disk start = disk;
-    if (!has_arcs(*sites_, contacts))
+    if (ranges::none_of(contacts, [&](const Touch& i) { return sites_->sites[i.site].is_arc(); }))
       verdict = ask_in<Twofold>(*sites_, *this, judge(noise_of_twofold));
     if (verdict == Verdict::open) {
       disk = start;

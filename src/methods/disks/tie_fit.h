@@ -6,7 +6,7 @@
 #include <span>
 
 #include "medial/axis.h"
-#include "methods/disks/exact_event.h"
+#include "methods/disks/exact_sites.h"
 #include "site/site.h"
 
 namespace medial::disks {

@@ -4,13 +4,8 @@
 #include <optional>
 
 #include "base/threads.h"
-#include "methods/disks/certainty.h"
+#include "methods/disks/decide.h"
 #include "methods/disks/early_starts.h"
-#include "methods/disks/events.h"
-#include "methods/disks/exact_event.h"
-#include "methods/disks/planar_contacts.h"
-#include "methods/disks/run_ahead.h"
-#include "methods/disks/steps.h"
 #include "site/tangent_disk.h"
 
 namespace medial::disks {
@@ -30,7 +25,7 @@ constexpr std::size_t in_task = 4096;
 
 /// How a walk is divided into tasks.
 struct Sharing {
-  TaskGroup& tasks;
+  TaskGroup* tasks;  ///< none where they are deferred, or there are none
   std::uint32_t fork_size;
   const std::vector<EarlyStart>* starts = nullptr;  ///< if any
 };
@@ -42,11 +37,8 @@ class Walker {
         sharing_(sharing),
         boundary_(context.boundary),
         chunk_(chunk),
-        own_contacts_(contacts_with(context, chunk.statistics)),
-        contacts_(*own_contacts_),
-        ahead_(context, contacts_, chunk.statistics),
-        is_exact_(context.exact.always(chunk.component)),
-        keeps_ties_(contacts_.is_polygon() && !context.joins_ties) {}
+        contacts_(context, chunk.statistics),
+        decider_(contacts_, chunk) {}
 
   /// Walks all of a run: from the convex corner between its last and first site, or from a disk
   /// that touches the boundary where the two join smoothly.
@@ -88,19 +80,17 @@ class Walker {
  private:
   void walk_stack() {
     while (!stack_.empty()) {
-      if (is_set(context_.cancel)) break;
+      if (context_.is_cancelled()) break;
       follow(stack_.pop_back());
-      if (is_full()) put_off_rest();
+      if (!is_full()) continue;
+      stack_.for_each([&](const Step& step) { fork(step); });
+      stack_.clear();
     }
     report_progress(true);
   }
 
   bool is_full() const {
     return context_.most_nodes > 0 && chunk_.nodes.size() > context_.most_nodes;
-  }
-  void put_off_rest() {
-    stack_.for_each([&](const Step& step) { fork(step); });
-    stack_.clear();
   }
 
   const Site& site(std::uint32_t i) const { return boundary_.sites[i]; }
@@ -122,14 +112,15 @@ class Walker {
     Disk from = chunk_.nodes[first.span.node];
     for (Parts* parts = &made[1];; parts = parts == &made[0] ? &made[1] : &made[0]) {
       if (leave_to_early_walk(step->span)) return;
-      if (is_exact_ && joins_pieces(step->span) && !is_open(step->span)) return;
-      if (!step->is_proposed) propose(*step, from);
+      if (decider_.is_exact && decider_.joins_pieces(step->span) && !is_open(step->span)) return;
+      if (!step->is_proposed) decider_.propose(*step, from);
       const bool in_double = step->is_certain;
-      if (!in_double) decide(*step, from);
+      if (!in_double) decider_.decide(*step, from);
       find_parts(*step, from, *parts);
       // What double leaves open next to its disk may have come before it; but not beside arcs where
       // the disk and the node are one tie.
-      if (in_double && looks_ahead(*step) && !are_certain(*parts) && decide(*step, from))
+      if (in_double && decider_.looks_ahead(*step) && !are_certain(*parts) &&
+          decider_.decide(*step, from))
         find_parts(*step, from, *parts);
       step = next_after(*step, from, *parts);
       if (step == nullptr || !is_open(step->span, step->is_proposed)) return;
@@ -158,11 +149,11 @@ class Walker {
     }
     const bool first_larger = size(first) > size(second);
     Step &larger = first_larger ? first : second, &smaller = first_larger ? second : first;
-    if (!smaller.is_proposed && looks_ahead(step)) {
+    if (!smaller.is_proposed && decider_.looks_ahead(step)) {
       is_open(smaller.span);  // ends there
       return &larger;
     }
-    return is_set(context_.cancel) ? nullptr : queue_one(larger, smaller);
+    return context_.is_cancelled() ? nullptr : queue_one(larger, smaller);
   }
 
   /// Leaves a span to the walk from its early start, if it has one, whose parent its node becomes.
@@ -187,10 +178,10 @@ class Walker {
   /// The steps into which an event divides its own; looked ahead at, if asked for.
   void find_parts(const Step& step, const Disk& from, Parts& parts) {
     const Event& event = step.event;
-    const bool looks = looks_ahead(step);
+    const bool looks = decider_.looks_ahead(step);
     // What double takes for the event after their node.
     const auto look_ahead = [&](Step& part) {
-      if (looks && contacts_.needs_walk(part.span)) propose(part, event.disk);
+      if (looks && contacts_.needs_walk(part.span)) decider_.propose(part, event.disk);
       return part.is_proposed;
     };
     many_.clear();
@@ -210,47 +201,6 @@ class Walker {
     for (std::size_t i = 0; i < parts.count; ++i) look_ahead(parts.step[i]);
   }
 
-  /// Whether what a step's disk may have missed is searched for before it is taken.
-  bool looks_ahead(const Step& step) const {
-    return !is_exact_ && !(boundary_.has_arcs && step.joins_node);
-  }
-
-  /// Whether a step's event is taken as double has it.
-  bool is_taken(const Step& step, const Disk& from, const Certainty& certainty) {
-    if (certainty.is_tie() && !context_.joins_ties) return false;
-    if (boundary_.has_arcs) return certainty.is_certain();
-    if (const auto settled = is_settled(contacts_, from, step.event, certainty)) return *settled;
-    const std::uint32_t fourth = certainty.fourth();
-    if (!certainty.is_tie()) return !contacts_.may_touch_more(step.span, from, fourth);
-    return contacts_.passes_at(step.span, from, fourth) ||
-           contacts_.is_clean_tie(step.span, from, fourth);
-  }
-
-  /// What ends the edge of a step's span where that is not certain in double: a tie, or what 256
-  /// bits tell. Whether anything has changed.
-  bool decide(Step& step, const Disk& from) {
-    using Kind = Event::Kind;
-    Event& event = step.event;
-    if (contacts_.is_polygon() && context_.joins_ties && !is_exact_ &&
-        event.kind == Kind::contact) {
-      // Contacts that are near to each other leave open where they meet: in a tie of the node's
-      // own disk, there; but where one only passes on to the next, that may be anywhere.
-      const bool passes =
-          (event.site == step.span.right + 1 && boundary_.is_smooth(event.site - 1)) ||
-          (event.site + 1 == step.span.left && boundary_.is_smooth(event.site));
-      if (!passes && contacts_.is_clean_tie(step.span, from, event.site)) {
-        event.disk = from;
-        return step.is_tie = true;
-      }
-      const auto disk = contacts_.clean_tie(step.span, event.disk, event.site);
-      if (disk && distance(disk->center, from.center) > spread * context_.tolerance) {
-        event.disk = *disk;
-        return step.is_tie = true;
-      }
-    }
-    return decide_exactly(step, from);
-  }
-
   /// The disk between two arcs that are the whole boundary and join bluntly: the largest one.
   Disk disk_between(const Boundary::SiteRange& run) const {
     const auto middle_from = [&](std::uint32_t first) {
@@ -262,158 +212,6 @@ class Walker {
     while (second < run.last && boundary_.is_same(second, run.first)) ++second;
     const Vec2 a = middle_from(run.first), b = middle_from(second);
     return {midpoint(a, b), 0.5 * distance(a, b)};
-  }
-
-  static bool is_set(const std::atomic<bool>* flag) {
-    return flag != nullptr && flag->load(std::memory_order_relaxed);
-  }
-
-  /// Passes on to the last piece of an arc that the boundary has in several, which are one site of
-  /// the shape. Whether there were any.
-  bool joins_pieces(Span& span) const {
-    const Span before = span;
-    while (span.left - span.right > 1 && boundary_.is_same(span.right, span.right + 1))
-      ++span.right;
-    while (span.left - span.right > 1 && boundary_.is_same(span.left - 1, span.left)) --span.left;
-    return span.right != before.right || span.left != before.left;
-  }
-
-  /// Notes that the shape as its doubles say does not continue here: what led to a span was wrong,
-  /// or arcs join so that rounding alone decides.
-  void lose(const Span& span, std::uint32_t third) {
-    ++chunk_.statistics.exact_changes;
-    for (const std::uint32_t i : {span.right, span.left, span.third, third})
-      if (i < boundary_.sites.size() && element(i) != Element::bridge) chunk_.lost.push_back(i);
-  }
-
-  /// Whether an exact disk shows that a step before was wrong, beside arcs. If it reaches over the
-  /// site that the span has left, by more than what counts as touched, the exact axis has no edge
-  /// in the span: ties that double takes for certain may lead there. If it reaches over one of the
-  /// span's own sites, by more than joints are smooth, it is the circle of an arc that joins it,
-  /// and not empty.
-  bool is_wrong(const Span& span, const Disk& disk) const {
-    return reaches_over(span.third, disk, context_.tolerance) ||
-           reaches_over(span.right, disk, context_.joints) ||
-           reaches_over(span.left, disk, context_.joints);
-  }
-  bool reaches_over(std::uint32_t i, const Disk& disk, double slack) const {
-    if (i >= boundary_.sites.size() || element(i) == Element::bridge) return false;
-    const double reach = disk.radius - slack;
-    return reach > 0 && site::squared_distance(site(i), disk.center) < reach * reach;
-  }
-
-  /// Whether the foot lies beyond one end of a piece of an arc. Half a circle on the parameter is
-  /// infinite, of either sign: what is more than a quarter turn behind a piece is ahead of it.
-  bool is_beyond(std::uint32_t i, bool at_end, Vec2 center) const {
-    const double s = site::carrier_parameter(site(i), center), length = site(i).length;
-    const double turn = std::max(length, 2 / std::abs(site(i).curvature));
-    return at_end ? s >= length || s < -turn : s <= 0 || s > length + turn;
-  }
-
-  /// Of the sites of two spans that differ by pieces of one arc, those on which the foot lies.
-  void stay_on_pieces(const Span& last, Vec2 center, Span& span) const {
-    while (span.right < last.right && is_beyond(span.right, true, center)) ++span.right;
-    while (span.left > last.left && is_beyond(span.left, false, center)) --span.left;
-  }
-
-  /// Of the pieces of one arc inside a span, the one on which the foot lies.
-  std::uint32_t piece_below(Vec2 center, std::uint32_t i, const Span& span) const {
-    while (i - 1 > span.right && boundary_.is_same(i - 1, i) && is_beyond(i, false, center)) --i;
-    while (i + 1 < span.left && boundary_.is_same(i, i + 1) && is_beyond(i, true, center)) ++i;
-    return i;
-  }
-
-  /// Whether the event is that a foot passes on to the next piece of the same arc.
-  bool stays_on_arc(const Span& span, const Event& event) const {
-    using Kind = Event::Kind;
-    if (event.kind != Kind::pass_right && event.kind != Kind::pass_left) return false;
-    const std::uint32_t i = event.kind == Kind::pass_right ? span.right : span.left - 1;
-    return boundary_.is_same(i, i + 1);
-  }
-
-  Event event_in_double(const Span& span, const Disk& from) {
-    return EventSearch(context_, contacts_, chunk_.statistics, span, from).next();
-  }
-
-  /// What ends the edge of a step's span, in double, and whether that is certain.
-  void propose(Step& step, const Disk& from) {
-    step.is_proposed = true;
-    if (is_exact_) return;
-    const Span& span = step.span;
-    const RunAhead::Found* const found = ahead_.find(span, from);
-    if (found != nullptr && found->is_certain) {
-      step.event = found->event;
-      step.error = found->error;
-      take(step);
-      return;
-    }
-    const std::uint64_t queries = chunk_.statistics.queries;
-    EventSearch search(context_, contacts_, chunk_.statistics, span, from);
-    step.event = found != nullptr ? search.next(found->event) : search.next();
-    ahead_.note(chunk_.statistics.queries - queries <= 1);
-    const Certainty certainty(boundary_, context_.tolerance, span, from, step.event);
-    step.error = certainty.error();
-    if (is_taken(step, from, certainty)) take(step);
-    step.joins_node = step.is_certain && certainty.is_tie();
-  }
-
-  /// Takes an event as double has it.
-  void take(Step& step) {
-    step.is_certain = true;
-    if (keeps_ties_) step.is_node = false;
-    ++chunk_.statistics.exact_filtered;
-  }
-
-  void count(const std::optional<ExactEvents::Found>& found) {
-    ++(found && !found->in_precise ? chunk_.statistics.exact_twofold
-                                   : chunk_.statistics.exact_precise);
-  }
-
-  /// The same exactly. Where that finds nothing, double's event is taken and noted. Whether
-  /// anything has changed.
-  bool decide_exactly(Step& step, const Disk& from) {
-    Event& event = step.event;
-    Span& span = step.span;
-    Span asked = span;
-    // Where nothing but pieces of one arc is left, the foot passes on over them.
-    if (joins_pieces(asked) && asked.left - asked.right == 1 && stays_on_arc(span, event))
-      return false;
-    const bool from_exact = is_exact_ || (span.is_exact && !boundary_.has_arcs);
-    const std::uint32_t hint = event.kind == Event::Kind::pass_right  ? span.right + 1
-                               : event.kind == Event::Kind::pass_left ? span.left - 1
-                                                                      : event.site;
-    const auto found = context_.exact.next(asked, from, hint, from_exact);
-    count(found);
-    if (!found) {
-      if (is_exact_) event = event_in_double(span, from);
-      lose(span, event.site);
-      return is_exact_;
-    }
-    // Between sites that are all but parallel, double's disk is as good as any that is so near.
-    const bool is_tie = event.kind == Event::Kind::at_node && !context_.joins_ties;
-    const double apart = distance(event.disk.center, found->disk.center) +
-                         std::abs(event.disk.radius - found->disk.radius);
-    if (!found->is_well_known() && event.site == found->site && !is_tie &&
-        apart <= found->error + spread * context_.tolerance)
-      return false;
-    // What 256 bits leave open is measured in the end.
-    if (!(found->error <= context_.tolerance)) lose(span, found->site);
-    Span ahead = span;
-    stay_on_pieces(asked, found->disk.center, ahead);
-    const bool passes = ahead.right != span.right || ahead.left != span.left;
-    if (passes && !is_exact_ && stays_on_arc(span, event)) return false;
-    if (boundary_.has_arcs && is_wrong(span, found->disk)) lose(span, span.third);
-    span = ahead;
-    step.joins_node = false;
-    if (keeps_ties_) step.is_node = found->is_node;
-    step.error = Certainty::rounding + found->error;
-    event.disk = found->disk;
-    event.site = piece_below(event.disk.center, found->site, span);
-    event.kind =
-        event.site == span.right + 1 && boundary_.is_smooth(span.right)  ? Event::Kind::pass_right
-        : event.site + 1 == span.left && boundary_.is_smooth(event.site) ? Event::Kind::pass_left
-                                                                         : Event::Kind::contact;
-    return true;
   }
 
   /// The disk that grows at the smooth place where a run begins and ends, until it touches
@@ -430,7 +228,7 @@ class Walker {
     std::uint32_t behind = Hit::none;
     if (element(run.first) == Element::vertex)
       for (behind = run.first + 1; element(behind) == Element::bridge;)
-        behind = boundary_.bridge_places[boundary_.originals[behind]][1] + 2;
+        behind = boundary_.bridge_at(behind).places[1] + 2;
     std::uint32_t touched = Hit::none;
     while (const Hit hit = contacts_.nearest(disk_of(radius), whole)) {
       // The edge behind a reflex vertex bends into the disk, if at all, up to its end.
@@ -442,7 +240,8 @@ class Walker {
       radius = smaller;
     }
     const Disk disk = disk_of(radius);
-    if (is_uncertain(run, touched, disk) && start_exactly(whole, disk, touched)) return;
+    if (is_uncertain(run, touched, disk))
+      if (const auto found = decider_.start(whole, disk, touched)) return begin_at(*found, run);
     const std::uint32_t node = add_node(disk);
     if (touched != Hit::none) touched = contacts_.owner(touched, disk.center, whole);
     split({run.first, run.last, node}, disk, touched, true);
@@ -451,28 +250,19 @@ class Walker {
 
   /// Whether double leaves open what the disk touches that grows where a run begins.
   bool is_uncertain(const Boundary::SiteRange& run, std::uint32_t touched, const Disk& disk) const {
-    if (is_exact_) return true;
+    if (decider_.is_exact) return true;
     return touched != Hit::none &&
            !(Certainty::error_at_joint(boundary_, run.last, run.first, touched, disk) <=
-             spread * context_.tolerance);
+             Decider::spread * context_.tolerance);
   }
 
-  /// start_at_smooth_place() in 256 bits; `about` and `hint` are what double takes for it. Whether
-  /// there is such a disk.
-  bool start_exactly(const Span& whole, const Disk& about, std::uint32_t hint) {
-    const auto found = context_.exact.start(whole, about, hint);
-    count(found);
-    if (!found) {
-      lose(whole, hint);
-      return false;
-    }
-    const std::uint32_t node = add_node(found->disk);
-    const std::uint32_t touched = piece_below(found->disk.center, found->site, whole);
-    Step first{{whole.right, touched, node, whole.left, Certainty::rounding, true}},
-        second{{touched, whole.left, node, whole.right, Certainty::rounding, true}};
+  /// Begins in a disk that touches the place where a run begins, and a site.
+  void begin_at(const ExactEvent& found, const Boundary::SiteRange& run) {
+    const std::uint32_t node = add_node(found.disk), touched = found.site;
+    Step first{{run.first, touched, node, run.last, Certainty::rounding, true}},
+        second{{touched, run.last, node, run.first, Certainty::rounding, true}};
     const bool first_larger = size(first) > size(second);
     stack_.push_back(*queue_one(first_larger ? first : second, first_larger ? second : first));
-    return true;
   }
 
   /// Whether a walk is needed; where the two sites are neighbours, ends the axis there. What is
@@ -482,9 +272,9 @@ class Walker {
     const bool at_bridge = contacts_.is_at_bridge(span);
     const bool ends =
         between == 1 || (!at_bridge && !is_proposed && contacts_.is_reflex_chain(span));
-    if (ends && boundary_.has_arcs && !is_exact_ &&
+    if (ends && boundary_.has_arcs && !decider_.is_exact &&
         !Certainty::ends(boundary_, context_.tolerance, span, chunk_.nodes[span.node]))
-      lose(span, span.left);
+      decider_.lose(span, span.left);
     if (between == 1) {
       if (boundary_.is_corner(span.right)) {
         const std::uint32_t leaf = add_node({site(span.left).point, 0});
@@ -509,8 +299,8 @@ class Walker {
       return boundary_.originals[boundary_.across(place, i)] == boundary_.originals[i];
     };
     const bool is_node = !goes_on(span.right) || !goes_on(span.left);
-    const Disk& disk = context_.bridges[bridge].disk;
-    if (!keeps_ties_ && coincide(chunk_.nodes[span.node], disk)) {
+    const Disk& disk = boundary_.bridges[bridge].disk;
+    if (!decider_.keeps_ties && coincide(chunk_.nodes[span.node], disk)) {
       chunk_.bridge_ends.push_back({bridge, span.node, BridgeEnd::no_edge});
       return;
     }
@@ -597,7 +387,7 @@ class Walker {
     if (context_.most_nodes > 0)
       child.walk = std::move(walk);
     else
-      sharing_.tasks.run(std::move(walk));
+      sharing_.tasks->run(std::move(walk));
   }
 
   /// The parts of a span whose node touches more sites, in `many_`.
@@ -605,7 +395,7 @@ class Walker {
     many_.clear();
     contacts_.split(span, disk, sure, all_around, many_.spans());
     for (Span& part : many_.spans()) {
-      part.error = span.error + spread * context_.tolerance;
+      part.error = span.error + Decider::spread * context_.tolerance;
       part.third = part.right != span.right ? span.right : span.left;
     }
   }
@@ -620,20 +410,13 @@ class Walker {
     finished_ = 0;
   }
 
-  /// In tolerances: the disks of a tie are as far off as rounding leaves each three of its contacts
-  /// open.
-  static constexpr double spread = 16;
-
   const WalkContext& context_;
   const Sharing sharing_;
   const EarlyStart* own_start_ = nullptr;  ///< at which this walk begins, if at one
   const Boundary& boundary_;
   Chunk& chunk_;
-  const std::unique_ptr<Contacts> own_contacts_;
-  Contacts& contacts_;
-  RunAhead ahead_;
-  const bool is_exact_;        ///< double is never asked
-  const bool keeps_ties_;      ///< nodes of a polygon are one only if their disks are
+  Contacts contacts_;
+  Decider decider_;
   bool starts_blunt_ = false;  ///< the run begins at a blunt joint, node 0
   Steps stack_, many_;         ///< `many_`: parts of the last step, where they are more than two
   std::uint32_t left_behind_ = 0;  ///< sites of spans in the stack, about
@@ -661,7 +444,7 @@ std::vector<std::unique_ptr<Chunk>> walk(const WalkContext& context) {
   const std::vector<EarlyStart> starts = early_starts(context, fork_size);
   std::vector<std::unique_ptr<Chunk>> chunks, early;
   TaskGroup tasks;
-  const Sharing sharing{tasks, fork_size, &starts};
+  const Sharing sharing{&tasks, fork_size, &starts};
   for (const EarlyStart& start : starts) {
     Chunk& chunk = *early.emplace_back(std::make_unique<Chunk>(in_task));
     chunk.component = start.component;
@@ -697,14 +480,14 @@ std::vector<std::unique_ptr<Chunk>> walk(const WalkContext& context) {
   return chunks;
 }
 
-std::vector<std::unique_ptr<Chunk>> put_off_walk(const WalkContext& context, TaskGroup& none) {
+std::vector<std::unique_ptr<Chunk>> put_off_walk(const WalkContext& context) {
   std::vector<std::unique_ptr<Chunk>> chunks;
   for (const Boundary::SiteRange& run : context.boundary.runs) {
     Chunk& chunk = *chunks.emplace_back(std::make_unique<Chunk>());
     chunk.component = static_cast<std::uint32_t>(chunks.size() - 1);
     chunk.span = run.last - run.first;
-    chunk.walk = [&context, &none, &chunk, &run] {
-      Walker(context, {none, fork_size_of(context.boundary)}, chunk).walk_run(run);
+    chunk.walk = [&context, &chunk, &run] {
+      Walker(context, {nullptr, fork_size_of(context.boundary)}, chunk).walk_run(run);
     };
   }
   return chunks;
@@ -712,9 +495,7 @@ std::vector<std::unique_ptr<Chunk>> put_off_walk(const WalkContext& context, Tas
 
 std::unique_ptr<Chunk> walk_part(const WalkContext& context, const Disk& start, double error) {
   auto chunk = std::make_unique<Chunk>();
-  TaskGroup tasks;
-  Walker(context, {tasks, Hit::none}, *chunk).walk_from(context.boundary.runs[0], start, error);
-  tasks.wait();
+  Walker(context, {nullptr, Hit::none}, *chunk).walk_from(context.boundary.runs[0], start, error);
   return chunk;
 }
 

@@ -117,8 +117,8 @@ struct Chunk {
 std::vector<std::unique_ptr<Chunk>> walk(const WalkContext& context);
 
 /// The same deferred, with WalkContext::most_nodes: chunks that Chunk::walk walks, once and on any
-/// thread, and whose children are deferred in turn. Both arguments must outlive them.
-std::vector<std::unique_ptr<Chunk>> put_off_walk(const WalkContext& context, TaskGroup& none);
+/// thread, and whose children are deferred in turn. The context must outlive them.
+std::vector<std::unique_ptr<Chunk>> put_off_walk(const WalkContext& context);
 
 /// Walks a part of a boundary, its one run, from a disk that touches the run's first and last site
 /// and is at most `error` off. The disk is node 1 of the chunk, which has no children.

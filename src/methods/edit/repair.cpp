@@ -5,8 +5,6 @@
 #include <atomic>
 #include <cmath>
 
-#include "methods/disks/disks.h"
-#include "methods/disks/exact_event.h"
 #include "methods/disks/merge_ties.h"
 #include "methods/disks/tie_fit.h"
 #include "site/bisector.h"
@@ -34,7 +32,6 @@ exact::SiteLoops outline_of(const Rings& rings, const Window& window) {
     return {rings.local(vertex), rings.local(rings.corner_after(vertex)), rings[vertex].bulge};
   };
   outline.passes.assign(names.size(), false);
-  outline.blunt.assign(names.size(), false);
   for (std::uint32_t i = 0; i < names.size(); ++i) {
     const std::uint32_t vertex = names[i] / 2, after = rings.next_site(names[i]);
     const bool is_edge = Rings::is_edge(names[i]);
@@ -43,8 +40,8 @@ exact::SiteLoops outline_of(const Rings& rings, const Window& window) {
     const auto place = std::lower_bound(names.begin(), names.end(), after);
     const bool is_inside = place != names.end() && *place == after;
     outline.next.push_back(is_inside ? static_cast<std::uint32_t>(place - names.begin()) : i);
-    outline.passes[i] = is_inside && (!is_edge || joint != site::Joint::corner);
-    outline.blunt[i] = is_edge && is_inside && joint == site::Joint::blunt;
+    outline.passes[i] =
+        is_inside && (!is_edge || joint == site::Joint::smooth || joint == site::Joint::reflex);
   }
   outline.by_next.assign(names.size(), false);
   for (std::uint32_t i = 0; i < names.size(); ++i)
@@ -73,35 +70,24 @@ class Repairer {
     std::vector<std::unique_ptr<disks::Chunk>> chunks;
     chunks.push_back(walk(tree));
     if (!chunks[0]->lost.empty() || !ends_well(*chunks[0], doubtful)) return std::nullopt;
-    disks::Graph part = disks::collect(chunks, window_.bridges, 0, false);
+    disks::Graph part = disks::collect(chunks, boundary_.bridges, 0, false);
     if (degree_of_first(part) != 1) {
       doubtful.push_back(borders_[0].node);
       return std::nullopt;
     }
-    disks::merge_ties(boundary_, tree, sites_, measures_.tolerance, part);
+    disks::merge_ties(tree, sites_, measures_.tolerance, part);
     return result(part, doubtful);
   }
 
  private:
   std::unique_ptr<disks::Chunk> walk(const site::BoundaryTree& tree) {
-    const std::vector<bool> never;
-    const disks::ExactEvents events(sites_, boundary_, tree, never);
-    const disks::WalkContext context{boundary_,
-                                     window_.bridges,
-                                     tree,
-                                     disks::fine_share * measures_.fine_tolerance,
-                                     measures_.fine_tolerance,
-                                     measures_.radius_limit,
-                                     events,
-                                     nullptr,
-                                     {}};
-    return disks::walk_part(context, window_.bridges[0].disk,
+    return disks::walk_part({sites_, tree}, boundary_.bridges[0].disk,
                             border_error * measures_.fine_tolerance);
   }
 
   /// Whether the walk came to all bridges, and to each border by an edge.
   bool ends_well(const disks::Chunk& chunk, std::vector<std::uint32_t>& doubtful) const {
-    std::vector<std::uint32_t> count(window_.bridges.size(), 0);
+    std::vector<std::uint32_t> count(boundary_.bridges.size(), 0);
     count[0] = 1;
     for (const BridgeEnd& end : chunk.bridge_ends) {
       ++count[end.bridge];

@@ -268,7 +268,7 @@ class Assembly {
     bridges.erase(std::unique(bridges.begin(), bridges.end()), bridges.end());
     for (const std::uint32_t bridge : bridges) {
       if (bridge < borders) window.borders.push_back(affected_.borders[bridge]);
-      window.bridges.push_back(
+      window.boundary.bridges.push_back(
           {bridge < borders ? disk_of(bridge) : connections_[bridge - borders]});
     }
     std::sort(window.loops.begin(), window.loops.end());
@@ -297,7 +297,6 @@ class Assembly {
     names.resize(kept);
     disks::Boundary& boundary = window.boundary;
     boundary.has_arcs = rings_.has_arcs();
-    boundary.bridge_places.assign(window.bridges.size(), {none, none});
     boundary.reserve(cycle.size());
     for (const Piece& piece : cycle) add(piece, names, several, boundary);
     boundary.runs.push_back({0, static_cast<std::uint32_t>(boundary.sites.size() - 1), false});
@@ -309,7 +308,7 @@ class Assembly {
     using disks::Element;
     const auto here = static_cast<std::uint32_t>(boundary.sites.size());
     if (piece.site == none) {
-      auto& places = boundary.bridge_places[piece.bridge];
+      auto& places = boundary.bridges[piece.bridge].places;
       if (places[0] == none) places[0] = here;
       places[1] = here;
       boundary.add(site::make_vertex({1e30, 1e30}), Element::bridge, piece.bridge);

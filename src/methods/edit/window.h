@@ -54,7 +54,6 @@ class Spread {
 struct Window {
   std::vector<Border> borders;
   disks::Boundary boundary;
-  std::vector<disks::Bridge> bridges;
   std::vector<std::uint32_t> names;  ///< of the boundary's `originals`: the sites in Rings
   std::vector<std::uint32_t> loops;
 };

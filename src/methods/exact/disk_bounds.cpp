@@ -1,9 +1,152 @@
 #include "methods/exact/disk_bounds.h"
 
-#include "methods/exact/disk_of_three.h"
+#include <algorithm>
+#include <cmath>
+
+#include "base/compat.h"
 
 namespace medial::exact {
 namespace {
+
+/// Its sign, or 0 where the numbers do not tell.
+template <class Real>
+int sign_of(const Bounded<Real>& number) {
+  return number.sign().value_or(0);
+}
+template <class Real>
+double near(const Bounded<Real>& number) {
+  return static_cast<double>(number.value);
+}
+
+template <class Number>
+struct Row {
+  Number x, y, r;  ///< factors of the centre and the radius
+  Number rest;
+};
+template <class Number>
+Number determinant(const Row<Number>& a, const Row<Number>& b, const Row<Number>& c) {
+  return a.x * (b.y * c.r - b.r * c.y) + a.y * (b.r * c.x - b.x * c.r) +
+         a.r * (b.x * c.y - b.y * c.x);
+}
+
+template <class Number>
+using Triple = std::array<Number, 3>;  ///< x, y and radius
+
+/// The disk that touches three straight sites in counter-clockwise order, times `scale`.
+template <class Number>
+std::optional<Triple<Number>> solve_straight(const std::array<Form<Number>, 3>& forms,
+                                             Number& scale) {
+  const auto row = [&](std::size_t i) {
+    return Row<Number>{forms[i].slope.x, forms[i].slope.y, -forms[i].size, -forms[i].height};
+  };
+  const Row<Number> a = row(0), b = row(1), c = row(2);
+  // Counter-clockwise contacts make the determinant negative.
+  scale = determinant(a, b, c);
+  if (sign_of(scale) >= 0) return std::nullopt;
+  const auto replaced = [](Row<Number> one, std::size_t column) {
+    (column == 0 ? one.x : column == 1 ? one.y : one.r) = one.rest;
+    return one;
+  };
+  Triple<Number> disk;
+  for (std::size_t i = 0; i < 3; ++i)
+    disk[i] = determinant(replaced(a, i), replaced(b, i), replaced(c, i));
+  return disk;
+}
+
+/// The base form eliminates the quadric x.x - r r from another one: a plane in (x, y, r).
+template <class Number>
+Row<Number> plane_of(const Form<Number>& base, const Form<Number>& f) {
+  return {base.round * f.slope.x - f.round * base.slope.x,
+          base.round * f.slope.y - f.round * base.slope.y,
+          f.round * base.size - base.round * f.size, base.round * f.height - f.round * base.height};
+}
+
+/// The same where the first site is round. Two planes meet in the line point + lambda along, on
+/// which the base form is a quadratic function of lambda, second / 2 lambda^2 + first lambda +
+/// zeroth / 2. Of its two roots the order of the contacts selects one: the base form's slope along
+/// the line has the sign of the three gradients' determinant, which is negative for disks that the
+/// three sites touch in counter-clockwise order.
+template <class Number>
+std::optional<Triple<Number>> solve_round(const std::array<Form<Number>, 3>& forms, Number& scale) {
+  const Form<Number>& base = forms[0];
+  const Row<Number> a = plane_of(base, forms[1]), b = plane_of(base, forms[2]);
+  const Triple<Number> along{a.y * b.r - a.r * b.y, a.r * b.x - a.x * b.r, a.x * b.y - a.y * b.x};
+  // The point of the line where one coordinate is zero: that along which the line is longest.
+  std::size_t k = 0;
+  for (std::size_t i = 1; i < 3; ++i)
+    if (std::abs(near(along[i])) > std::abs(near(along[k]))) k = i;
+  scale = along[k];
+  const int scale_sign = sign_of(scale);
+  if (scale_sign == 0) return std::nullopt;
+  const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+  const auto column = [](const Row<Number>& row, std::size_t c) {
+    return c == 0 ? row.x : c == 1 ? row.y : row.r;
+  };
+  Triple<Number> point;
+  point[i] = column(a, j) * b.rest - a.rest * column(b, j);
+  point[j] = a.rest * column(b, i) - column(a, i) * b.rest;
+  point[k] = Number(0.0);
+
+  const auto quadric = [](const Triple<Number>& u, const Triple<Number>& v) {
+    return u[0] * v[0] + u[1] * v[1] - u[2] * v[2];
+  };
+  const auto linear = [&](const Triple<Number>& u) {
+    return base.slope.x * u[0] + base.slope.y * u[1] - base.size * u[2];
+  };
+  const Number two(2.0);
+  const Number second = two * base.round * quadric(along, along),
+               first = two * base.round * quadric(point, along) + scale * linear(along),
+               zeroth = two * (base.round * quadric(point, point) +
+                               scale * (linear(point) + scale * base.height));
+  const Number discriminant = first * first - second * zeroth;
+  if (const auto real = discriminant.sign(); !real || *real < 0) return std::nullopt;
+  const Number root = root_of(discriminant);
+  const bool upper = scale_sign < 0;  // the root (-first + sqrt(discriminant)) / second
+  // It is better written as zeroth / (-first - sqrt(discriminant)).
+  const bool cancels = upper ? near(first) > 0 : near(first) < 0;
+  const int divisor = cancels ? -sign_of(first) : sign_of(second);
+  if (divisor == 0) return std::nullopt;
+  // The disk is smaller than the own circles: (constant + lambda factor) / scale is positive.
+  for (const Form<Number>& f : forms) {
+    if (sign_of(f.round) >= 0) continue;
+    const Number twice = two * f.round;
+    const Number constant = f.size * scale + twice * point[2], factor = twice * along[2];
+    const int value =
+        sign_of(cancels ? factor * zeroth - constant * first + (upper ? -constant : constant) * root
+                        : constant * second - factor * first + (upper ? factor : -factor) * root);
+    if (value * divisor * scale_sign <= 0) return std::nullopt;
+  }
+  const Number lambda = cancels ? zeroth / (upper ? -first - root : root - first)
+                                : (upper ? root - first : -first - root) / second;
+  for (std::size_t c = 0; c < 3; ++c) point[c] = point[c] + lambda * along[c];
+  return point;
+}
+
+/// The disk that three sites touch in this counter-clockwise order and that is smaller than their
+/// own circles. No two of the sites may be joined. None if there is no such disk, or if this
+/// precision does not tell.
+template <class Real>
+std::optional<DiskBounds<Real>> disk_of_three(const SiteLoops& outline,
+                                              const std::array<std::uint32_t, 3>& sites) {
+  using Number = Bounded<Real>;
+  std::array<ExactSite, 3> touched{outline.sites[sites[0]], outline.sites[sites[1]],
+                                   outline.sites[sites[2]]};
+  // First the site whose equation is the roundest: a vertex where there is one.
+  const auto roundness = [](const ExactSite& site) {
+    return site.is_vertex() ? 2 : std::abs(site.bulge);
+  };
+  std::rotate(touched.begin(), ranges::max_element(touched, {}, roundness), touched.end());
+  const auto origin = exact_vector<Number>(touched[0].start);
+  std::array<Form<Number>, 3> forms;
+  for (std::size_t i = 0; i < 3; ++i) forms[i] = form_of<Number>(touched[i], origin);
+  Number scale;
+  auto disk = roundness(touched[0]) > 0 ? solve_round(forms, scale) : solve_straight(forms, scale);
+  if (!disk) return std::nullopt;
+  for (Number& coordinate : *disk) coordinate = coordinate / scale;
+  const auto& [x, y, radius] = *disk;
+  if (!radius.positive()) return std::nullopt;
+  return DiskBounds<Real>{origin + Vector<Number>{x, y}, radius};
+}
 
 /// The disk on a spoke whose radius is `times` the spoke.
 template <class Real>

@@ -11,7 +11,7 @@ namespace medial::exact {
 /// Bounds for the one disk that three sites touch in this counter-clockwise order, and which is
 /// smaller than their own circles: proved to exist. None where that is not certain in this
 /// precision. Where two or three of the sites are joined, it is the disk that touches their joint,
-/// or the middle one's own circle; otherwise disk_of_three().
+/// or the middle one's own circle.
 template <class Real>
 std::optional<DiskBounds<Real>> disk_bounds(const SiteLoops& outline,
                                             const std::array<std::uint32_t, 3>& sites);

@@ -23,6 +23,10 @@ bool is_wide(Vec2 a, Vec2 b) {
   return is_tiny(b.x - a.x) || is_tiny(b.y - a.y);
 }
 
+ExactSite edge_of(const site::LoopEdges& loop, std::uint32_t i) {
+  return {loop.local(i), loop.local(loop.next(i)), loop.bulge(i)};
+}
+
 /// The site of that number.
 ExactSite site_of(const Problem& problem, const site::SiteNumbers& numbers, std::uint32_t site) {
   // The share of the points before it is about that of the sites.
@@ -46,24 +50,20 @@ SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers) {
     return site_of(problem, numbers, site);
   };
   outline.passes.assign(numbers.count, false);
-  outline.blunt.assign(numbers.count, false);
   if (has_arcs(problem.shape)) outline.by_next.assign(numbers.count, false);
   for (std::size_t l = 0; l < problem.shape.loop_count(); ++l) {
     const site::LoopEdges loop(problem.shape, l, problem.frame);
     outline.loop_begin.push_back(numbers.first(loop.begin()));
-    const auto edge_at = [&](std::uint32_t i) {
-      return ExactSite{loop.local(i), loop.local(loop.next(i)), loop.bulge(i)};
-    };
     for (std::uint32_t i = 0; i < loop.size(); ++i) {
       const std::size_t point = loop.begin() + i, after = loop.begin() + loop.next(i);
       const std::uint32_t edge = numbers.edge[point];
       if (loop.size() == 1) continue;  // a lone point has no edge
       outline.is_wide = outline.is_wide || is_wide(loop.local(i), loop.local(loop.next(i)));
       if (numbers.is_site(point)) outline.passes[edge - 1] = true;
-      outline.passes[edge] = numbers.joints[after] != site::Joint::corner;
-      outline.blunt[edge] = numbers.joints[after] == site::Joint::blunt;
-      if (numbers.joints[after] == site::Joint::smooth && !outline.by_next.empty())
-        outline.by_next[edge] = by_second(edge_at(i), edge_at(loop.next(i)));
+      const site::Joint joint = numbers.joints[after];
+      outline.passes[edge] = joint == site::Joint::smooth || joint == site::Joint::reflex;
+      if (joint == site::Joint::smooth && !outline.by_next.empty())
+        outline.by_next[edge] = by_second(edge_of(loop, i), edge_of(loop, loop.next(i)));
     }
   }
   outline.loop_begin.push_back(numbers.count);
@@ -71,21 +71,19 @@ SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers) {
 }
 
 PartedNumbers parted_numbers(const Problem& problem, const site::SiteNumbers& whole,
-                             const std::vector<bool>& points) {
+                             const std::vector<bool>& components) {
   using site::Joint;
   PartedNumbers parted{whole, {}};
   site::SiteNumbers& numbers = parted.numbers;
   std::vector<std::uint32_t> flatter(numbers.joints.size());
   for (std::size_t l = 0; l < problem.shape.loop_count(); ++l) {
     const site::LoopEdges loop(problem.shape, l, problem.frame);
-    const auto edge = [&](std::uint32_t i) {
-      return ExactSite{loop.local(i), loop.local(loop.next(i)), loop.bulge(i)};
-    };
+    const bool is_parted = components[problem.shape.component[l]];
     for (std::uint32_t i = 0; i < loop.size(); ++i) {
       const std::uint32_t before = loop.begin() + loop.before(i), point = loop.begin() + i;
       flatter[point] = whole.edge[point];
-      if (numbers.joints[point] != Joint::smooth || !points[point]) continue;
-      const ExactSite first = edge(loop.before(i)), second = edge(i);
+      if (numbers.joints[point] != Joint::smooth || !is_parted) continue;
+      const ExactSite first = edge_of(loop, loop.before(i)), second = edge_of(loop, i);
       const int turn = turn_between(first, second);
       if (turn != 0) numbers.joints[point] = turn > 0 ? Joint::blunt : Joint::reflex;
       if (curvature_of(first) < curvature_of(second)) flatter[point] = whole.edge[before];

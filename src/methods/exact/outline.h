@@ -22,11 +22,9 @@ struct SiteLoops {
   /// The site that follows on the loop; empty: the next number, after a loop's last its first one.
   std::vector<std::uint32_t> next;
   /// Whether a foot can pass on from the site to the next one: at a reflex vertex's ends and at a
-  /// smooth joint, but not at a corner.
+  /// smooth joint, but not at a corner, nor at a blunt joint: there disks touch the edges on both
+  /// sides as well, only that no edge of the axis leads there.
   std::vector<bool> passes;
-  /// Whether the site ends in a blunt joint: disks touch the edges on both sides of it as they do
-  /// at a corner, only that no edge of the axis leads there.
-  std::vector<bool> blunt;
   std::vector<std::uint32_t> loop_begin;  ///< first site of each loop, and the number of all sites
   /// Of an edge that ends in a joint smooth only to rounding, whether the next one's normal counts
   /// for both, and not its own; empty: never.
@@ -46,7 +44,7 @@ struct SiteLoops {
     return site == *(end - 1) ? *end - 1 : site - 1;
   }
   bool joined(std::uint32_t site, std::uint32_t after) const {
-    return passes[site] && !blunt[site] && next_of(site) == after;
+    return passes[site] && next_of(site) == after;
   }
   /// The disks that touch the boundary where `site` ends and the next one begins: on the normal of
   /// the edge that ends there, or, after a vertex and by `by_next`, of the edge that begins. So
@@ -72,9 +70,9 @@ struct PartedNumbers {
   /// What the axis calls each site: a vertex that counts as smooth has the name of an edge there.
   std::vector<std::uint32_t> names;
 };
-/// Of the sites that are numbered as `whole`, which need not be the problem's own. `points`: those
-/// whose joints are parted.
+/// Of the sites that are numbered as `whole`, which need not be the problem's own. `components`:
+/// those whose joints are parted.
 PartedNumbers parted_numbers(const Problem& problem, const site::SiteNumbers& whole,
-                             const std::vector<bool>& points);
+                             const std::vector<bool>& components);
 
 }  // namespace medial::exact

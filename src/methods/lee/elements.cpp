@@ -56,10 +56,9 @@ site::Site half_tangent(const Disk& disk, const site::Site& touched, bool is_bef
   return {is_before ? foot - disk.radius * direction : foot, direction, disk.radius};
 }
 
-void add_passage(const disks::Boundary& boundary, std::uint32_t i,
-                 const std::vector<disks::Bridge>& bridges, Elements& elements) {
+void add_passage(const disks::Boundary& boundary, std::uint32_t i, Elements& elements) {
   const std::uint32_t bridge = boundary.originals[i];
-  const Disk& disk = bridges[bridge].disk;
+  const Disk& disk = boundary.bridges[bridge].disk;
   add(elements, half_tangent(disk, boundary.sites[i - 1], false), none);
   elements.passages.push_back({elements.size(), bridge});
   elements.disks_of_passages.push_back(disk);
@@ -100,15 +99,14 @@ bool begins_chain(const disks::Boundary& boundary, std::uint32_t i) {
 
 /// All components, with their holes.
 void add_connected(const Problem& problem, Elements& elements) {
-  std::vector<disks::Bridge> bridges;
-  const disks::Boundary boundary = disks::connected_boundary(problem, bridges);
+  const disks::Boundary boundary = disks::connected_boundary(problem);
   std::uint32_t component = 0;
   for (const disks::Boundary::SiteRange& run : boundary.runs) {
     const auto first_chain = static_cast<std::uint32_t>(elements.chains.size());
     const std::uint32_t first = elements.size();
     for (std::uint32_t i = run.first; i <= run.last; ++i) {
       if (boundary.elements[i] == disks::Element::bridge) {
-        add_passage(boundary, i, bridges, elements);
+        add_passage(boundary, i, elements);
         continue;
       }
       if (i == run.first || begins_chain(boundary, i)) begin_chain(elements);
