@@ -1,5 +1,6 @@
 #include "methods/problem.h"
 
+#include <cmath>
 #include <utility>
 
 #include "base/tolerance.h"
@@ -34,10 +35,9 @@ site::SiteNumbers Problem::numbers() && {
   return std::move(*numbers_);
 }
 
-std::function<void(double)> Problem::progress_of_attempt() const {
-  const double begin = attempted, length = attempt_share * (1 - begin);
-  attempted += length;
-  return part_of_progress(options.progress, begin, length);
+std::function<void(double)> Problem::progress_of_attempt(int before) const {
+  const double left = std::pow(1 - attempt_share, before);
+  return part_of_progress(options.progress, 1 - left, attempt_share * left);
 }
 
 }  // namespace medial

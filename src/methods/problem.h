@@ -54,11 +54,10 @@ struct Problem {
     return std::get<Own>(options.method);
   }
   bool is_cancelled() const { return options.cancel != nullptr && options.cancel->load(); }
-  /// A callback for one attempt. It maps 0..1 to the part of the progress bar that earlier attempts
-  /// left, and keeps a tenth for later ones. Empty where the caller wants none.
-  std::function<void(double)> progress_of_attempt() const;
-
-  mutable double attempted = 0;  ///< the share of the progress where the attempts so far end
+  /// A callback for an attempt, of which so many come before. It maps 0..1 to the part of the
+  /// progress bar that these left, and keeps a tenth for later ones. Empty where the caller wants
+  /// none.
+  std::function<void(double)> progress_of_attempt(int before) const;
 
  private:
   mutable std::optional<site::SiteNumbers> numbers_;

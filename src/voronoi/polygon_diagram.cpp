@@ -120,7 +120,7 @@ class FromAxis {
 };
 
 Result<VoronoiDiagram> diagram_by_disks(const Problem& problem) {
-  auto axis = disks::run(problem);
+  auto axis = disks::run(problem, 1);
   if (!axis) return std::move(axis).error();
   if (problem.is_cancelled()) return VoronoiDiagram{};
   auto diagram = FromAxis(std::move(axis).value()).run(problem.shape, problem.numbers());

@@ -25,9 +25,10 @@ namespace medial::disks {
 namespace {
 
 /// Reports the share of the walk that is done, if the caller wants it.
-std::function<void(std::uint64_t)> reporter(const Problem& problem, const Boundary& boundary,
+std::function<void(std::uint64_t)> reporter(const Problem& problem, int attempts,
+                                            const Boundary& boundary,
                                             std::atomic<std::uint64_t>& finished) {
-  const auto tell = problem.progress_of_attempt();
+  const auto tell = problem.progress_of_attempt(attempts);
   if (!tell) return {};
   return [&finished, tell, all = static_cast<double>(boundary.sites.size())](std::uint64_t sites) {
     tell(std::min(1.0, static_cast<double>(finished += sites) / all));
@@ -53,6 +54,7 @@ void find_intruders(const Boundary& boundary, const site::BoundaryTree& tree, do
 struct Way {
   std::vector<bool> in_precise = {};  ///< of each component: double is never asked; empty: it is
   bool merges_ties = true;
+  int attempts = 0;  ///< before this one
 };
 
 /// Connects the holes of the boundary, walks it, and joins what the walk finds. Nothing where the
@@ -76,7 +78,7 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   WalkContext context(sites, tree);
   context.in_precise = way.in_precise;
   context.cancel = problem.options.cancel;
-  context.finished_sites = reporter(problem, boundary, finished);
+  context.finished_sites = reporter(problem, way.attempts, boundary, finished);
   context.joins_ties = way.merges_ties;
   auto chunks = walk(context);
   statistics.seconds_walk = watch.lap();
@@ -236,12 +238,12 @@ std::vector<bool> components_of(const Shape& shape, const SiteNumbers& numbers,
 
 /// The axis of a shape, walked as it is. Components in which the walk lost its way, or all of a
 /// shape whose axis is refused, are walked again in 256 bits.
-Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbers) {
+Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbers, int attempts) {
   const bool with_arcs = has_arcs(problem.shape);
   // Next to arcs, a walk that merges nothing is measured, too.
   const bool is_measured = with_arcs && problem.options.exact;
   std::optional<Error> error;
-  Way way{{}, !problem.options.exact};
+  Way way{{}, !problem.options.exact, attempts};
   for (const bool is_last : {false, true}) {
     std::vector<std::uint32_t> lost;
     auto axis = axis_by(problem, numbers, way, lost);
@@ -254,6 +256,7 @@ Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbe
       if (!error || axis) error = std::move(refused);
     }
     way.in_precise = components_of(problem.shape, numbers, lost);
+    ++way.attempts;
   }
   return std::move(*error);
 }
@@ -271,6 +274,7 @@ AxisAround run_around_in_place(const Problem& problem, const SiteNumbers& number
     if (lost.empty() || is_last || takes_long(problem.shape))
       return {std::move(axis), lost.empty()};
     way.in_precise = components_of(problem.shape, numbers, lost);
+    ++way.attempts;
   }
 }
 
@@ -283,16 +287,15 @@ struct Posed {
   explicit Posed(const Problem& own)
       : pose(own.shape), problem(pose.shape(), own.options), numbers(pose.to_image(own.numbers())) {
     problem.joint_tolerance = own.joint_tolerance;
-    problem.attempted = own.attempted;
   }
 };
 
 }  // namespace
 
-Result<MedialAxis> run(const Problem& problem) {
-  if (!has_arcs(problem.shape)) return run_in_place(problem, problem.numbers());
+Result<MedialAxis> run(const Problem& problem, int attempts) {
+  if (!has_arcs(problem.shape)) return run_in_place(problem, problem.numbers(), attempts);
   const Posed posed(problem);
-  auto axis = run_in_place(posed.problem, posed.numbers);
+  auto axis = run_in_place(posed.problem, posed.numbers, attempts);
   if (!axis) return posed.pose.to_input(axis.error());
   posed.pose.to_input(problem, posed.numbers, *axis, axis->edges);
   return axis;

@@ -14,7 +14,8 @@ namespace medial::disks {
 /// sites by far more than rounding explains; unsupported, with the place, where no way to decide
 /// finds an axis that verify() passes. With Options::exact nodes that are not the same are kept
 /// apart, however near; next to arcs such an axis is one that verify() passes.
-Result<MedialAxis> run(const Problem& problem);
+/// `attempts`: so many have been made before, by other methods.
+Result<MedialAxis> run(const Problem& problem, int attempts = 0);
 
 /// run() in parts of about so many nodes, see compute_in_parts(), of straight edges. Returns the
 /// axis without sites, nodes and edges; nothing where the first way to decide fails, and run() has

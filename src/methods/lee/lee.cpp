@@ -69,7 +69,7 @@ class Solution {
     const ConquerContext context{{problem_.fine_tolerance, problem_.radius_limit},
                                  problem_.local_tolerance(),
                                  problem_.options.cancel,
-                                 problem_.progress_of_attempt()};
+                                 problem_.progress_of_attempt(0)};
     const auto last_edges = conquer(*diagram_, context, statistics, levels);
     if (!last_edges || problem_.is_cancelled()) return false;
     graph.emplace(*diagram_, *last_edges, problem_.local_tolerance());
@@ -86,7 +86,6 @@ class Solution {
 
 /// The axis, where double decides what its disks touch.
 std::optional<MedialAxis> axis_in_double(const Problem& problem, std::vector<Level>* levels) {
-  if (has_short_sides(problem)) return std::nullopt;
   Solution solution(problem);
   if (!solution.solve(levels)) return std::nullopt;
   MedialAxis axis;
@@ -109,8 +108,10 @@ std::optional<MedialAxis> axis_in_double(const Problem& problem, std::vector<Lev
 
 Result<MedialAxis> run(const Problem& problem, std::vector<Level>* levels) {
   Stopwatch all;
-  auto decided = axis_in_double(problem, levels);
-  auto axis = decided ? Result<MedialAxis>(std::move(*decided)) : disks::run(problem);
+  const bool in_double = !has_short_sides(problem);
+  auto decided = in_double ? axis_in_double(problem, levels) : std::nullopt;
+  auto axis =
+      decided ? Result<MedialAxis>(std::move(*decided)) : disks::run(problem, in_double ? 1 : 0);
   if (axis) axis->statistics.seconds = all.lap();
   return axis;
 }
