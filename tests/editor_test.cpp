@@ -275,6 +275,17 @@ TEST(Editor, KnowsWhichComponentACircleIs) {
   }
 }
 
+/// Where two circles touch, both have an arc.
+TEST(Editor, KnowsWhichComponentsCirclesAreThatTouch) {
+  for (const double angle : {0.0, 0.5, 1.25, 3.0, 3.141592653589793}) {
+    const Vec2 way{std::cos(angle), std::sin(angle)}, shared = way;
+    const auto circle = [](Vec2 from, Vec2 to) { return Ring{{from, to}, RingRole::any, {1, 1}}; };
+    const Editor editor = editor_of({circle(-way, shared), circle(shared, 3 * way)});
+    EXPECT_EQ(editor.shape().component_count(), 2U);
+    EXPECT_EQ(fault_of(editor), "") << angle;
+  }
+}
+
 TEST(Editor, TakesZerosWithoutTheirSign) {
   const Ring crescent{{{0, 0}, {-1, -0.0}}, RingRole::any, {-1, 0.9375}};
   Editor editor = editor_of(rectangle(4, 4));

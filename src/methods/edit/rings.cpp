@@ -302,12 +302,14 @@ std::uint32_t Rings::arc_of(const Disk& circle) const {
   const double slack = near * joining_.tolerance;
   const Vec2 place = frame_.to_input(circle.center + Vec2{circle.radius, 0});
   std::uint32_t arc = none;
-  double least = std::numeric_limits<double>::infinity();  // that a circle's radius is off by
+  double least = std::numeric_limits<double>::infinity();  // that a circle is off by
   boxes_.find({place - Vec2{slack, slack}, place + Vec2{slack, slack}}, [&](std::uint32_t v) {
     const BulgeArc edge = local_edge(v);
     const site::Site piece = site::pieces_of(edge.start, edge.end, edge.bulge).first();
     if (!(piece.curvature > 0)) return;
-    const double off = std::abs(1 / piece.curvature - circle.radius);
+    const double radius = 1 / piece.curvature;
+    const double off = std::abs(radius - circle.radius) +
+                       distance(piece.point + radius * piece.normal(), circle.center);
     if (off >= least) return;
     arc = 2 * v + 1;
     least = off;
