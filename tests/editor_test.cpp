@@ -951,6 +951,51 @@ TEST(Editor, TurnsASmallLoopInsideOut) {
   }
 }
 
+/// The hole and the needle that it lies in are some roundings of a coordinate wide. Without the
+/// quadrangle far away, all would be computed again.
+TEST(Editor, TurnsAHoleInsideOutThatIsAsSmallAsRounding) {
+  const Ring needle{{{1.0000000000000016, 1.0000000000000009},
+                     {0.99999999999999845, 1.0000000000000007},
+                     {-0.85597782568181113, 3.746305582742802}},
+                    {},
+                    {}};
+  const Ring quadrangle{{{0.25, 0.125}, {-0.125, 0.125}, {-0.125, -0.125}, {0.125, -0.25}}, {}, {}};
+  const Ring hole{{{1, 1.000000000000002},
+                   {0.99999999999999867, 1.0000000000000029},
+                   {0.99999999999999867, 1.0000000000000011}},
+                  {},
+                  {}};
+  Editor editor = editor_of({needle, quadrangle});
+  ASSERT_TRUE(editor.insert_loop(hole).ok());
+  const Shape before = editor.shape();
+  EXPECT_EQ(before.hole_count(), 1U);
+  const std::uint32_t vertex = vertex_at(editor, hole.points[0]);
+  ASSERT_TRUE(editor.move(vertex, {0.99999999999999845, 1.0000000000000011}).ok());
+  EXPECT_EQ(editor.shape().hole_count(), 1U);
+  EXPECT_EQ(fault_of(editor), "");
+  ASSERT_TRUE(editor.undo().ok());
+  EXPECT_EQ(loops_of(editor.shape()), loops_of(before));
+  EXPECT_EQ(fault_of(editor), "");
+}
+
+/// Both sides of the hole are as far away, up to rounding.
+TEST(Editor, KnowsTheInteriorBesideAHoleAsThinAsRounding) {
+  const double right = std::nextafter(1.0, 2);
+  Ring hole{{{1, 1}, {right, 1}, {right, 7}, {1, 7}}, {}, {}};
+  for (int start = 0; start < 4; ++start) {
+    std::rotate(hole.points.begin(), hole.points.begin() + 1, hole.points.end());
+    Editor editor = editor_of({rectangle(16, 8)[0], hole});
+    for (const double x : {4.5, 5.25, 6.5}) {
+      const Vec2 p{x, 4};
+      const Ring second = triangle(p, p + Vec2{0.25, 0}, p + Vec2{0.25, 0.125})[0];
+      ASSERT_TRUE(editor.insert_loop(second).ok());
+      EXPECT_EQ(editor.shape().component_count(), 1U) << start << ' ' << x;
+      EXPECT_EQ(fault_of(editor), "");
+      ASSERT_TRUE(editor.undo().ok());
+    }
+  }
+}
+
 TEST(Editor, TellsHolesFromOuterLoopsWhereSeveralVerticesAreLeftmost) {
   const Ring wide{
       {{-100, -100}, {100, -100}, {100, 100}, {60, 100}, {50, 60}, {40, 100}, {-100, 100}}, {}, {}};
