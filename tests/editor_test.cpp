@@ -286,6 +286,23 @@ TEST(Editor, KnowsWhichComponentsCirclesAreThatTouch) {
   }
 }
 
+/// An arc's circle passes through a vertex up to rounding, and an edge between them is nearly
+/// straight: compute() finds it in another image than the editor.
+TEST(Editor, HasNoEdgeThatTurnsBackBesideAShortEdge) {
+  const Ring ring{{{39.527723291503676, 142.72208574985044},
+                   {39.527723291525582, 142.72208574985021},
+                   {40.53678644424641, 143.77384722861237},
+                   {40.536786431637147, 143.77384747163353},
+                   {39.438912538138737, 144.71709739758211},
+                   {39.438912538141672, 144.71709739757731},
+                   {38.579575018546564, 144.00693996631406},
+                   {38.579575029828575, 144.0069398767701}},
+                  RingRole::any,
+                  {0, 0.43256461879845975, 0, 0.42820774634157355, 0, 0.30455035638286643, 0,
+                   0.49834795320631753}};
+  EXPECT_EQ(fault_of(editor_of({ring})), "");
+}
+
 TEST(Editor, TakesZerosWithoutTheirSign) {
   const Ring crescent{{{0, 0}, {-1, -0.0}}, RingRole::any, {-1, 0.9375}};
   Editor editor = editor_of(rectangle(4, 4));
