@@ -275,6 +275,34 @@ TEST(Editor, KnowsWhichComponentACircleIs) {
   }
 }
 
+/// Where two circles touch, both have an arc.
+TEST(Editor, KnowsWhichComponentsCirclesAreThatTouch) {
+  for (const double angle : {0.0, 0.5, 1.25, 3.0, 3.141592653589793}) {
+    const Vec2 way{std::cos(angle), std::sin(angle)}, shared = way;
+    const auto circle = [](Vec2 from, Vec2 to) { return Ring{{from, to}, RingRole::any, {1, 1}}; };
+    const Editor editor = editor_of({circle(-way, shared), circle(shared, 3 * way)});
+    EXPECT_EQ(editor.shape().component_count(), 2U);
+    EXPECT_EQ(fault_of(editor), "") << angle;
+  }
+}
+
+/// An arc's circle passes through a vertex up to rounding, and an edge between them is nearly
+/// straight: compute() finds it in another image than the editor.
+TEST(Editor, HasNoEdgeThatTurnsBackBesideAShortEdge) {
+  const Ring ring{{{39.527723291503676, 142.72208574985044},
+                   {39.527723291525582, 142.72208574985021},
+                   {40.53678644424641, 143.77384722861237},
+                   {40.536786431637147, 143.77384747163353},
+                   {39.438912538138737, 144.71709739758211},
+                   {39.438912538141672, 144.71709739757731},
+                   {38.579575018546564, 144.00693996631406},
+                   {38.579575029828575, 144.0069398767701}},
+                  RingRole::any,
+                  {0, 0.43256461879845975, 0, 0.42820774634157355, 0, 0.30455035638286643, 0,
+                   0.49834795320631753}};
+  EXPECT_EQ(fault_of(editor_of({ring})), "");
+}
+
 TEST(Editor, TakesZerosWithoutTheirSign) {
   const Ring crescent{{{0, 0}, {-1, -0.0}}, RingRole::any, {-1, 0.9375}};
   Editor editor = editor_of(rectangle(4, 4));
@@ -937,6 +965,51 @@ TEST(Editor, TurnsASmallLoopInsideOut) {
               loops_of(shape_of(with_point_moved(grid, {5, 5}, {6.5, 6.25}))));
     expect_local(editor, mirror, editor.undo());
     EXPECT_EQ(loops_of(editor.shape()), before);
+  }
+}
+
+/// The hole and the needle that it lies in are some roundings of a coordinate wide. Without the
+/// quadrangle far away, all would be computed again.
+TEST(Editor, TurnsAHoleInsideOutThatIsAsSmallAsRounding) {
+  const Ring needle{{{1.0000000000000016, 1.0000000000000009},
+                     {0.99999999999999845, 1.0000000000000007},
+                     {-0.85597782568181113, 3.746305582742802}},
+                    {},
+                    {}};
+  const Ring quadrangle{{{0.25, 0.125}, {-0.125, 0.125}, {-0.125, -0.125}, {0.125, -0.25}}, {}, {}};
+  const Ring hole{{{1, 1.000000000000002},
+                   {0.99999999999999867, 1.0000000000000029},
+                   {0.99999999999999867, 1.0000000000000011}},
+                  {},
+                  {}};
+  Editor editor = editor_of({needle, quadrangle});
+  ASSERT_TRUE(editor.insert_loop(hole).ok());
+  const Shape before = editor.shape();
+  EXPECT_EQ(before.hole_count(), 1U);
+  const std::uint32_t vertex = vertex_at(editor, hole.points[0]);
+  ASSERT_TRUE(editor.move(vertex, {0.99999999999999845, 1.0000000000000011}).ok());
+  EXPECT_EQ(editor.shape().hole_count(), 1U);
+  EXPECT_EQ(fault_of(editor), "");
+  ASSERT_TRUE(editor.undo().ok());
+  EXPECT_EQ(loops_of(editor.shape()), loops_of(before));
+  EXPECT_EQ(fault_of(editor), "");
+}
+
+/// Both sides of the hole are as far away, up to rounding.
+TEST(Editor, KnowsTheInteriorBesideAHoleAsThinAsRounding) {
+  const double right = std::nextafter(1.0, 2);
+  Ring hole{{{1, 1}, {right, 1}, {right, 7}, {1, 7}}, {}, {}};
+  for (int start = 0; start < 4; ++start) {
+    std::rotate(hole.points.begin(), hole.points.begin() + 1, hole.points.end());
+    Editor editor = editor_of({rectangle(16, 8)[0], hole});
+    for (const double x : {4.5, 5.25, 6.5}) {
+      const Vec2 p{x, 4};
+      const Ring second = triangle(p, p + Vec2{0.25, 0}, p + Vec2{0.25, 0.125})[0];
+      ASSERT_TRUE(editor.insert_loop(second).ok());
+      EXPECT_EQ(editor.shape().component_count(), 1U) << start << ' ' << x;
+      EXPECT_EQ(fault_of(editor), "");
+      ASSERT_TRUE(editor.undo().ok());
+    }
   }
 }
 

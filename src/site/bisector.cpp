@@ -192,8 +192,26 @@ std::optional<Control> meeting_of_tangents(const Site& a, const Site& b, const D
                  std::sqrt(weight_squared)};
 }
 
-/// The control point of an edge with an arc: the pole, or where that strays, the meeting of
-/// tangents. An edge for which neither helps is so nearly straight that a parabola
+/// Whether the edge with this control point turns around a vertex against its chord, by more than
+/// rounding. Where the other site all but passes through the vertex, disks touch both wherever they
+/// lie across the edge: how far it strays does not tell.
+bool turns_back(const Control& control, const Site& a, const Site& b, const Disk& from,
+                const Disk& to) {
+  constexpr double rounding = 0x1p-50;
+  for (const Site* s : {&a, &b}) {
+    if (!s->is_vertex()) continue;
+    const Vec2 first = from.center - s->point, last = to.center - s->point;
+    const Vec2 between = control.point.center - s->point;
+    const double by_chord = cross(first, last);
+    const double turn =
+        by_chord + 2 * control.weight * (cross(first, between) + cross(between, last));
+    if (std::abs(turn) > rounding && (turn > 0) != (by_chord > 0)) return true;
+  }
+  return false;
+}
+
+/// The control point of an edge with an arc: the pole, or where that strays or turns back, the
+/// meeting of tangents. An edge for which neither helps is so nearly straight that a parabola
 /// through the disk halfway does better.
 Control control_with_arc(const Site& a, const Site& b, const Disk& from, const Disk& to) {
   constexpr double few_roundings = 0x1p-50, long_enough = 0x1p-7, curved = 0x1p-3;
@@ -233,8 +251,12 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
     strays = now;
     best = control;
   };
-  if (strays <= few_roundings) return best;
-  if (const auto meeting = meeting_of_tangents(a, b, from, to)) take_if_better(*meeting);
+  const bool is_lost = turns_back(best, a, b, from, to);
+  if (strays <= few_roundings && !is_lost) return best;
+  if (const auto meeting = meeting_of_tangents(a, b, from, to)) {
+    if (is_lost && !turns_back(*meeting, a, b, from, to)) strays = std::max(strays, few_roundings);
+    take_if_better(*meeting);
+  }
   if (strays <= few_roundings) return best;
   const Bisector bisector(b, a);
   const Disk halfway =

@@ -44,19 +44,22 @@ class BoxLevels {
     if (!levels_.empty()) find_below(levels_.size() - 1, 0, query, visit);
   }
 
-  /// The number whose box's content is nearest to a point; `squared(number)` measures it.
+  /// The number whose box's content is nearest to a point, and nearer than a limit;
+  /// `squared(number)` measures it.
   template <class Squared>
-  std::uint32_t nearest(Vec2 p, const Squared& squared) const {
-    Nearest best;
+  std::uint32_t nearest(Vec2 p, const Squared& squared, double limit = endless) const {
+    Nearest best{none, limit};
     if (!levels_.empty()) nearest_below(levels_.size() - 1, 0, p, squared, best);
     return best.number;
   }
 
  private:
   static constexpr std::size_t fan_out = 8;
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+  static constexpr double endless = std::numeric_limits<double>::infinity();
   struct Nearest {
-    std::uint32_t number = ~std::uint32_t{0};
-    double squared = std::numeric_limits<double>::infinity();
+    std::uint32_t number;
+    double squared;
   };
 
   static bool meet(const Box& a, const Box& b) {

@@ -267,21 +267,67 @@ std::uint32_t Rings::opening_to(std::uint32_t v, Vec2 p) const {
   return others > 1 ? open : v;
 }
 
-Rings::Around Rings::around(Vec2 place) const {
+double Rings::squared_distance(std::uint32_t v, Vec2 place) const {
   const Vec2 p = frame_.to_local(place);
-  const auto pieces_at = [&](std::uint32_t v) {
-    const BulgeArc arc = local_edge(v);
-    return site::pieces_of(arc.start, arc.end, arc.bulge);
-  };
-  const std::uint32_t v = boxes_.nearest(place, [&](std::uint32_t edge) {
-    const site::Pieces pieces = pieces_at(edge);
-    const double first = site::squared_distance(pieces.first(), p);
-    const double least =
-        pieces.count == 1 ? first : std::min(first, site::squared_distance(pieces.last(), p));
-    return frame_.inverse * frame_.inverse * least;
+  const BulgeArc arc = local_edge(v);
+  const site::Pieces pieces = site::pieces_of(arc.start, arc.end, arc.bulge);
+  const double first = site::squared_distance(pieces.first(), p);
+  const double least =
+      pieces.count == 1 ? first : std::min(first, site::squared_distance(pieces.last(), p));
+  return frame_.inverse * frame_.inverse * least;
+}
+
+std::uint32_t Rings::component_around(Vec2 place) const {
+  std::vector<std::uint32_t> crossed;  // the components whose edges the ray to the right crosses
+  boxes_.find({place, {box().high.x, place.y}}, [&](std::uint32_t v) {
+    if (crosses_ray(vertices_[v].point, vertices_[vertices_[v].next].point, place))
+      crossed.push_back(loops_[vertices_[v].loop].component);
   });
+  std::sort(crossed.begin(), crossed.end());
+  for (auto from = crossed.begin(), to = from; from != crossed.end(); from = to) {
+    to = std::upper_bound(from, crossed.end(), *from);
+    if ((to - from) % 2 != 0) return *from;
+  }
+  return none;
+}
+
+Rings::Around Rings::around(Vec2 place) const {
+  const std::uint32_t v =
+      boxes_.nearest(place, [&](std::uint32_t edge) { return squared_distance(edge, place); });
   if (v == none) return {};
-  const site::Pieces pieces = pieces_at(v);
+  Around found = beside(v, place);
+  if (has_arcs()) return found;
+  // The place is inside if it is on the left of the nearest edge, and of others that end with it.
+  // Of edges that are as near up to rounding, which one is nearest does not matter if they agree.
+  constexpr double endless = std::numeric_limits<double>::infinity();
+  const auto distance_if = [&](bool is_asked, std::uint32_t edge) {
+    return is_asked ? squared_distance(edge, place) : endless;
+  };
+  const double reach = found.away + joining_.tolerance;
+  const std::uint32_t contrary = boxes_.nearest(
+      place,
+      [&](std::uint32_t edge) {
+        return distance_if(is_on_left(edge, place) != (found.site != none), edge);
+      },
+      reach * reach);
+  if (contrary == none) return found;
+  found.site = none;
+  const std::uint32_t own = component_around(place);
+  if (own == none) return found;
+  const std::uint32_t facing = boxes_.nearest(place, [&](std::uint32_t edge) {
+    const bool is_own = loops_[vertices_[edge].loop].component == own;
+    return distance_if(is_own && is_on_left(edge, place), edge);
+  });
+  if (facing == none) return found;  // loops whose directions are not those of a shape
+  found.site = beside(facing, place).site;
+  if (found.site == none) found.site = 2 * corner_to(facing) + 1;
+  return found;
+}
+
+Rings::Around Rings::beside(std::uint32_t v, Vec2 place) const {
+  const Vec2 p = frame_.to_local(place);
+  const BulgeArc arc = local_edge(v);
+  const site::Pieces pieces = site::pieces_of(arc.start, arc.end, arc.bulge);
   const bool is_last = pieces.count > 1 && site::squared_distance(pieces.last(), p) <
                                                site::squared_distance(pieces.first(), p);
   const site::Site& piece = is_last ? pieces.last() : pieces.first();
@@ -302,12 +348,14 @@ std::uint32_t Rings::arc_of(const Disk& circle) const {
   const double slack = near * joining_.tolerance;
   const Vec2 place = frame_.to_input(circle.center + Vec2{circle.radius, 0});
   std::uint32_t arc = none;
-  double least = std::numeric_limits<double>::infinity();  // that a circle's radius is off by
+  double least = std::numeric_limits<double>::infinity();  // that a circle is off by
   boxes_.find({place - Vec2{slack, slack}, place + Vec2{slack, slack}}, [&](std::uint32_t v) {
     const BulgeArc edge = local_edge(v);
     const site::Site piece = site::pieces_of(edge.start, edge.end, edge.bulge).first();
     if (!(piece.curvature > 0)) return;
-    const double off = std::abs(1 / piece.curvature - circle.radius);
+    const double radius = 1 / piece.curvature;
+    const double off = std::abs(radius - circle.radius) +
+                       distance(piece.point + radius * piece.normal(), circle.center);
     if (off >= least) return;
     arc = 2 * v + 1;
     least = off;

@@ -11,6 +11,7 @@
 #include "base/arc.h"
 #include "base/local_frame.h"
 #include "base/numbers.h"
+#include "base/predicates.h"
 #include "medial/axis.h"
 #include "medial/error.h"
 #include "medial/shape.h"
@@ -166,7 +167,8 @@ class Rings {
     boxes_.find(box, visit);
   }
   /// The site nearest to a place in the interior, none where the place is not inside, and how far
-  /// away the boundary is.
+  /// away the boundary is. Without arcs, whether it is inside is exact; with arcs it is certain
+  /// some tolerances from the boundary.
   struct Around {
     std::uint32_t site = none;
     double away = 0;
@@ -237,6 +239,15 @@ class Rings {
   }
   /// Of the vertices at the place of one, that whose interior a place nearby lies in, or none.
   std::uint32_t opening_to(std::uint32_t v, Vec2 p) const;
+  /// See around(), where the edge that begins at a vertex is nearest: up to rounding.
+  Around beside(std::uint32_t v, Vec2 place) const;
+  /// The squared distance of a place from the edge that begins at a vertex, in units of the input.
+  double squared_distance(std::uint32_t v, Vec2 place) const;
+  bool is_on_left(std::uint32_t v, Vec2 place) const {
+    return orientation(vertices_[v].point, vertices_[vertices_[v].next].point, place) > 0;
+  }
+  /// The component whose interior a place lies in, or none. Exact without arcs. O(n).
+  std::uint32_t component_around(Vec2 place) const;
   Extent extent_of(std::uint32_t site) const;
   void append(std::uint32_t loop, std::uint32_t ring, std::uint32_t component, Shape& shape) const;
   BulgeArc edge(std::uint32_t v) const {
