@@ -218,9 +218,7 @@ void LevelWalk::find_crossing(std::uint32_t index, double level) {
   const double b = curve.weight * (curve.r1 - level);
   const double c = inside2 ? curve.r2 - level : std::min(curve.r2 - level, 0.0);
   const double root = std::sqrt(std::max(b * b - a * c, 0.0));
-  const auto at = [&](double numerator, double denominator) {  // t / s = numerator / denominator
-    return curve.at(numerator / (numerator + denominator)).center;
-  };
+  const auto at = [&](double t, double s) { return curve.at(s / (s + t), t / (s + t)).center; };
   const std::size_t place = 2 * std::size_t{index};
   if (inside2) {
     rise_[place] = b <= 0 ? at(root - b, c) : at(-a, b + root);
@@ -278,8 +276,9 @@ bool LevelWalk::pass_joints(std::uint32_t before, std::uint32_t after, double le
   for (std::size_t i = 1; i < chain.size(); ++i) {
     const Site &a = sites[chain[i - 1]], &b = sites[chain[i]];
     const auto met = beside_joint(a, b, level);
-    const Vec2 tangent =
-        a.kind() == SiteKind::vertex ? start_tangent(arc_of(b)) : end_tangent(arc_of(a));
+    // By the arc's own normal: next to its centre, where its offset is small, the normal of the site
+    // before it leads past it, however small the turn to the right between them.
+    const Vec2 tangent = i == 1 ? start_tangent(arc_of(b)) : end_tangent(arc_of(a));
     const Vec2 point = met ? *met : a.end + level * left_of(tangent);
     builder.end(point);
     builder.begin(chain[i], point);
