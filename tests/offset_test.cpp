@@ -158,6 +158,45 @@ TEST(Offset, OfAKeyholeWhoseCircleIsTwoArcs) {
   }
 }
 
+TEST(Offset, NextToTheCentreOfAKeyhole) {
+  // The circle's arcs turn to the right by 2e-9 degrees from the necks' ends. Next to its centre the
+  // offset is smaller than what that is across the circle.
+  const Ring ring{{{13.600000000544958, -97.700000000328103},
+                   {13.600003305223645, -97.699995593938141},
+                   {12.800000001392149, -97.10000000080224},
+                   {13.599996695720634, -97.700004406608826}},
+                  RingRole::any,
+                  {-2.7539595942525136e-06, 0.99999449209598823, 0.99999449209598823,
+                   -2.7539595896312336e-06}};
+  const Shape shape = shape_of({ring});
+  for (const double corner_angle : {0.0, 0.01})
+    for (int k = 3; k <= 12; ++k) {
+      const double level = 0.49999999948853563 - std::pow(10, -k);
+      const auto offsets =
+          offset_curves(shape, std::vector{level}, {.corner_angle = corner_angle});
+      ASSERT_TRUE(offsets.ok());
+      EXPECT_EQ(offsets->regions.size(), 1U) << k;
+      EXPECT_LE(test::check_offsets(shape, *offsets, 3, 0).largest_error, 1e-13) << k;
+    }
+}
+
+TEST(Offset, BelowTheTolerance) {
+  // Coordinates are whole numbers there: the radius along an edge may be anywhere to a tolerance.
+  const double far = 0x1p52;
+  const auto at = [&](std::vector<Vec2> points) {
+    for (Vec2& p : points) p = p + Vec2{far, far};
+    return test::ring_of(points);
+  };
+  const Shape shape = shape_of({at({{3, 2}, {-3, 8}, {-8, 2}, {-7, -5}, {2, -3}}),
+                                at({{0, 3}, {-2, 0}, {1, -2}})});
+  for (double level = 0.1; level < 1.5; level += 0.01) {
+    const auto offsets = offset_curves(shape, std::vector{level});
+    ASSERT_TRUE(offsets.ok());
+    EXPECT_LE(test::check_offsets(shape, *offsets, 1, 0).largest_error, 2 * offsets->tolerance)
+        << level;
+  }
+}
+
 TEST(Offset, BesideJointsThatCountAsSmooth) {
   // Bulges a little off: arcs that were tangent meet at up to 0.009 degrees, convex or reflex.
   const auto check = [](test::Rings rings, test::Random& numbers) {

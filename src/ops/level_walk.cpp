@@ -215,8 +215,11 @@ void LevelWalk::find_crossing(std::uint32_t index, double level) {
   // A node that counts as outside must not be above the level.
   const bool inside0 = height(e.node[0]) > level, inside2 = height(e.node[1]) > level;
   const double a = inside0 ? curve.r0 - level : std::min(curve.r0 - level, 0.0);
-  const double b = curve.weight * (curve.r1 - level);
+  double b = curve.weight * (curve.r1 - level);
   const double c = inside2 ? curve.r2 - level : std::min(curve.r2 - level, 0.0);
+  // Between two nodes inside, what is up to a tolerance above the level counts as below it, without
+  // a crossing. By the least change of b that touches the level, a place up to two tolerances above.
+  if (inside0 && inside2) b = std::min(b, -std::sqrt(a) * std::sqrt(c));
   const double root = std::sqrt(std::max(b * b - a * c, 0.0));
   const auto at = [&](double t, double s) { return curve.at(s / (s + t), t / (s + t)).center; };
   const std::size_t place = 2 * std::size_t{index};
