@@ -259,8 +259,8 @@ std::vector<OffsetRing> LevelWalk::loops_at(double level) {
 /// Continues from one site to another past joints without a branch: one that counts as smooth, or
 /// those at both ends of arcs that a disk touches entirely, to the corner angle. False where the
 /// disk's own feet are enough.
-bool LevelWalk::pass_joints(std::uint32_t before, std::uint32_t after, double level,
-                            RingBuilder& builder) const {
+bool LevelWalk::pass_joints(std::uint32_t before, std::uint32_t after, const Disk& disk,
+                            double level, RingBuilder& builder) const {
   const auto& sites = axis_.sites;
   const auto joined = [&](std::uint32_t a, std::uint32_t b) {
     return std::max(a, b) < sites.size() && sites[a].end == sites[b].start;
@@ -279,10 +279,9 @@ bool LevelWalk::pass_joints(std::uint32_t before, std::uint32_t after, double le
   for (std::size_t i = 1; i < chain.size(); ++i) {
     const Site &a = sites[chain[i - 1]], &b = sites[chain[i]];
     const auto met = beside_joint(a, b, level);
-    // By the arc's own normal: next to its centre, where its offset is small, the normal of the site
-    // before it leads past it, however small the turn to the right between them.
-    const Vec2 tangent = i == 1 ? start_tangent(arc_of(b)) : end_tangent(arc_of(a));
-    const Vec2 point = met ? *met : a.end + level * left_of(tangent);
+    // Along the disk's radius, not along a normal: next to the centre, where offsets are small, the
+    // turn to the right at a joint leads past them, however small, and so do a short arc's normals.
+    const Vec2 point = met ? *met : a.end + (level / disk.radius) * (disk.center - a.end);
     builder.end(point);
     builder.begin(chain[i], point);
   }
@@ -306,7 +305,7 @@ void LevelWalk::pass_node(HalfEdge half, double level, RingBuilder& builder) con
   const std::uint32_t before = halves_.right_site(half), after = halves_.right_site(next);
   const Disk& disk = halves_.disk(half, true);
   if (before == after) return builder.pass(disk.center);
-  if (pass_joints(before, after, level, builder)) return;
+  if (pass_joints(before, after, disk, level, builder)) return;
   const Vec2 p = offset_at(before, disk, level, Part::end);
   const Vec2 q = offset_at(after, disk, level, Part::start);
   builder.end(p);
