@@ -293,7 +293,8 @@ bool LevelWalk::pass_joints(std::uint32_t before, std::uint32_t after, const Dis
 /// end.
 Vec2 LevelWalk::offset_at(std::uint32_t index, const Disk& disk, double level, Part part) const {
   const Site& site = axis_.sites[index];
-  const Vec2 touch = touches_all_of(site, disk, slack_of(axis_, disk))
+  constexpr double roundings = 64;  // in tolerances; any other disk has one foot, if a rough one
+  const Vec2 touch = touches_all_of(site, disk, roundings * axis_.tolerance)
                          ? (part == Part::start ? site.start : site.end)
                          : foot(site, disk.center);
   return touch + (level / disk.radius) * (disk.center - touch);
