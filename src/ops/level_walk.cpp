@@ -37,13 +37,13 @@ BulgeArc arc_of(const Site& site) { return {site.start, site.end, site.bulge}; }
 
 /// Where the offsets of two edges meet beside a joint that turns to the left by no more than the
 /// corner angle: the branch that would lead there is not in the axis. None where they do not meet.
+/// Neither is a vertex.
 ///
 /// At x from the joint both have the distance d. With the edges' normals n1 and n2, curvatures k1
 /// and k2, and s = (x^2 - d^2) / 2, that is x.n1 = d + k1 s and x.n2 = d + k2 s; along the normals'
 /// bisector and across it, that leaves a quadratic in s, of which this is the smaller root. Nothing
 /// is divided by the angle, so that it may be as small as it likes.
 std::optional<Vec2> beside_joint(const Site& before, const Site& after, double d) {
-  if (before.kind() == SiteKind::vertex || after.kind() == SiteKind::vertex) return std::nullopt;
   const BulgeArc one = arc_of(before), other = arc_of(after);
   const Vec2 n1 = left_of(end_tangent(one)), n2 = left_of(start_tangent(other));
   const double cosine = norm(n1 + n2) / 2, sine = cross(n1, n2) / (2 * cosine);
@@ -265,8 +265,19 @@ bool LevelWalk::pass_joints(std::uint32_t before, std::uint32_t after, const Dis
   const auto joined = [&](std::uint32_t a, std::uint32_t b) {
     return std::max(a, b) < sites.size() && sites[a].end == sites[b].start;
   };
+  const auto at_radius = [&](Vec2 joint) {
+    return joint + (level / disk.radius) * (disk.center - joint);
+  };
+  // Where the disk touches the joint, its radius leads to both offsets. Where they meet may be far
+  // away then: the turn is too small for the axis to tell which of the two sites comes first.
+  const auto meeting = [&](const Site& a, const Site& b) -> std::optional<Vec2> {
+    if (a.kind() == SiteKind::vertex || b.kind() == SiteKind::vertex) return std::nullopt;
+    if (std::abs(distance(a.end, disk.center) - disk.radius) <= axis_.tolerance)
+      return at_radius(a.end);
+    return beside_joint(a, b, level);
+  };
   if (joined(before, after)) {
-    const auto met = beside_joint(sites[before], sites[after], level);
+    const auto met = meeting(sites[before], sites[after]);
     if (!met) return false;
     builder.end(*met);
     builder.begin(after, *met);
@@ -278,10 +289,10 @@ bool LevelWalk::pass_joints(std::uint32_t before, std::uint32_t after, const Dis
   if (chain.empty()) return false;
   for (std::size_t i = 1; i < chain.size(); ++i) {
     const Site &a = sites[chain[i - 1]], &b = sites[chain[i]];
-    const auto met = beside_joint(a, b, level);
-    // Along the disk's radius, not along a normal: next to the centre, where offsets are small, the
-    // turn to the right at a joint leads past them, however small, and so do a short arc's normals.
-    const Vec2 point = met ? *met : a.end + (level / disk.radius) * (disk.center - a.end);
+    const auto met = meeting(a, b);
+    // Not along a normal: next to the centre, where offsets are small, the turn to the right at a
+    // joint leads past them, however small, and so do a short arc's normals.
+    const Vec2 point = met ? *met : at_radius(a.end);
     builder.end(point);
     builder.begin(chain[i], point);
   }
