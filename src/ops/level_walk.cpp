@@ -37,13 +37,13 @@ BulgeArc arc_of(const Site& site) { return {site.start, site.end, site.bulge}; }
 
 /// Where the offsets of two edges meet beside a joint that turns to the left by no more than the
 /// corner angle: the branch that would lead there is not in the axis. None where they do not meet.
-/// Neither is a vertex.
 ///
 /// At x from the joint both have the distance d. With the edges' normals n1 and n2, curvatures k1
 /// and k2, and s = (x^2 - d^2) / 2, that is x.n1 = d + k1 s and x.n2 = d + k2 s; along the normals'
 /// bisector and across it, that leaves a quadratic in s, of which this is the smaller root. Nothing
 /// is divided by the angle, so that it may be as small as it likes.
 std::optional<Vec2> beside_joint(const Site& before, const Site& after, double d) {
+  if (before.kind() == SiteKind::vertex || after.kind() == SiteKind::vertex) return std::nullopt;
   const BulgeArc one = arc_of(before), other = arc_of(after);
   const Vec2 n1 = left_of(end_tangent(one)), n2 = left_of(start_tangent(other));
   const double cosine = norm(n1 + n2) / 2, sine = cross(n1, n2) / (2 * cosine);
@@ -101,6 +101,11 @@ class LevelWalk::RingBuilder {
       case SiteKind::arc:
         return add_offset(arc_of(site), point);
     }
+  }
+  /// A step between two points.
+  void step(Vec2 point, Vec2 to) {
+    first_ = point;
+    add(to, 0);
   }
   /// The arc of a disk that touches the boundary all along, counter-clockwise; or a step of
   /// rounding.
@@ -218,7 +223,8 @@ void LevelWalk::find_crossing(std::uint32_t index, double level) {
   double b = curve.weight * (curve.r1 - level);
   const double c = inside2 ? curve.r2 - level : std::min(curve.r2 - level, 0.0);
   // Between two nodes inside, what is up to a tolerance above the level counts as below it, without
-  // a crossing. By the least change of b that touches the level, a place up to two tolerances above.
+  // a crossing. By the least change of b that touches the level, a place up to two tolerances
+  // above.
   if (inside0 && inside2) b = std::min(b, -std::sqrt(a) * std::sqrt(c));
   const double root = std::sqrt(std::max(b * b - a * c, 0.0));
   const auto at = [&](double t, double s) { return curve.at(s / (s + t), t / (s + t)).center; };
@@ -265,22 +271,22 @@ bool LevelWalk::pass_joints(std::uint32_t before, std::uint32_t after, const Dis
   const auto joined = [&](std::uint32_t a, std::uint32_t b) {
     return std::max(a, b) < sites.size() && sites[a].end == sites[b].start;
   };
-  const auto at_radius = [&](Vec2 joint) {
-    return joint + (level / disk.radius) * (disk.center - joint);
-  };
-  // Where the disk touches the joint, its radius leads to both offsets. Where they meet may be far
-  // away then: the turn is too small for the axis to tell which of the two sites comes first.
-  const auto meeting = [&](const Site& a, const Site& b) -> std::optional<Vec2> {
-    if (a.kind() == SiteKind::vertex || b.kind() == SiteKind::vertex) return std::nullopt;
-    if (std::abs(distance(a.end, disk.center) - disk.radius) <= axis_.tolerance)
-      return at_radius(a.end);
-    return beside_joint(a, b, level);
+  // A point at the level from a joint that the disk touches, no farther from the disk's centre than
+  // the level is below its radius, is nowhere nearer to the boundary. Next to the deepest places
+  // others are: however small the turn, the offsets' ends lie past those of other sites. There, the
+  // disk's own radius leads to a point at the level.
+  const auto kept = [&](Vec2 point, Vec2 joint) {
+    const double slack = axis_.tolerance;
+    const bool far = distance(point, disk.center) > disk.radius - level + slack;
+    const bool touched = std::abs(distance(joint, disk.center) - disk.radius) <= slack;
+    return far && touched ? joint + (level / disk.radius) * (disk.center - joint) : point;
   };
   if (joined(before, after)) {
-    const auto met = meeting(sites[before], sites[after]);
+    const auto met = beside_joint(sites[before], sites[after], level);
     if (!met) return false;
-    builder.end(*met);
-    builder.begin(after, *met);
+    const Vec2 point = kept(*met, sites[before].end);
+    builder.end(point);
+    builder.begin(after, point);
     return true;
   }
   const auto chain = sites_between(axis_, before, after, joined, [&](const Site& site) {
@@ -289,12 +295,16 @@ bool LevelWalk::pass_joints(std::uint32_t before, std::uint32_t after, const Dis
   if (chain.empty()) return false;
   for (std::size_t i = 1; i < chain.size(); ++i) {
     const Site &a = sites[chain[i - 1]], &b = sites[chain[i]];
-    const auto met = meeting(a, b);
-    // Not along a normal: next to the centre, where offsets are small, the turn to the right at a
-    // joint leads past them, however small, and so do a short arc's normals.
-    const Vec2 point = met ? *met : at_radius(a.end);
-    builder.end(point);
-    builder.begin(chain[i], point);
+    const auto met = beside_joint(a, b, level);
+    // Where they do not meet, the joint turns to the right, and has a piece of its own in between.
+    const Vec2 leaves =
+        b.kind() == SiteKind::vertex ? end_tangent(arc_of(a)) : start_tangent(arc_of(b));
+    const Vec2 arrives = a.kind() == SiteKind::vertex ? leaves : end_tangent(arc_of(a));
+    const Vec2 p = kept(met ? *met : a.end + level * left_of(arrives), a.end);
+    const Vec2 q = met ? p : kept(a.end + level * left_of(leaves), a.end);
+    builder.end(p);
+    builder.step(p, q);
+    builder.begin(chain[i], q);
   }
   return true;
 }
