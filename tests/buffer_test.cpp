@@ -158,6 +158,25 @@ TEST(Buffer, EveryPointHasItsDistance) {
   EXPECT_GT(regions, 3 * planar_graph_count());
 }
 
+TEST(Buffer, BetweenPointsThatAlmostTouch) {
+  // The edge between the two has a weight of 1 / gap: where it is at the level, the shares of its
+  // ends differ as much.
+  for (int k = 3; k <= 50; ++k) {
+    const double gap = std::ldexp(1, -k);
+    const Chains chains{{{{0, 0}}}, {{{0.6 * gap, 0.8 * gap}}}, {{{1, 0.1}}}};
+    const auto planar_graph = build_planar_graph(chains);
+    ASSERT_TRUE(planar_graph.ok());
+    for (const double d : {0.1, 0.3, 0.4}) {
+      const Offsets offsets = buffers_of(chains, {d});
+      EXPECT_FALSE(offsets.regions.empty());
+      for (const OffsetRegion& region : offsets.regions)
+        for (const Ring& ring : region.rings)
+          for (const Vec2 p : ring.points)
+            EXPECT_NEAR(distance_to(*planar_graph, p), d, 1e-14) << gap;
+    }
+  }
+}
+
 TEST(Buffer, MovesWithThePlanarGraph) {
   // Rotation, scale, shift, mirroring, the other direction, another start and order.
   std::size_t compared = 0;

@@ -158,6 +158,70 @@ TEST(Offset, OfAKeyholeWhoseCircleIsTwoArcs) {
   }
 }
 
+TEST(Offset, NextToTheCentreOfAKeyhole) {
+  // The circle's arcs turn to the right by 2e-9 degrees from the necks' ends. Next to its centre
+  // the offset is smaller than what that is across the circle.
+  const Ring ring{
+      {{13.600000000544958, -97.700000000328103},
+       {13.600003305223645, -97.699995593938141},
+       {12.800000001392149, -97.10000000080224},
+       {13.599996695720634, -97.700004406608826}},
+      RingRole::any,
+      {-2.7539595942525136e-06, 0.99999449209598823, 0.99999449209598823, -2.7539595896312336e-06}};
+  const Shape shape = shape_of({ring});
+  for (const double corner_angle : {0.0, 0.01})
+    for (int k = 3; k <= 12; ++k) {
+      const double level = 0.49999999948853563 - std::pow(10, -k);
+      const auto offsets = offset_curves(shape, std::vector{level}, {.corner_angle = corner_angle});
+      ASSERT_TRUE(offsets.ok());
+      EXPECT_EQ(offsets->regions.size(), 1U) << k;
+      EXPECT_LE(test::check_offsets(shape, *offsets, 3, 0).largest_error, 1e-13) << k;
+    }
+}
+
+TEST(Offset, BesideJointsOfHardlyAnyTurn) {
+  // An offset of another one: pieces of 1e-8 turn by as much.
+  const Ring drop{
+      {{0.4679608671869086, 5.4594821445159685},
+       {0.447738441072716, 6.195956630344697},
+       {0.4477384376871827, 6.195956634325258},
+       {0.4427043540136284, 6.201991107320444},
+       {-0.4131910556691806, 6.233188721735832},
+       {-0.4132082447318622, 6.2331717297045515},
+       {-0.4132082710996582, 6.233171703640528},
+       {-0.14904241266896592, 5.2465777654895085},
+       {-0.14904236833226264, 5.24657775386728},
+       {-0.14903794162759634, 5.246576593444291},
+       {0.46792773062092685, 5.4594385600591915},
+       {0.4679277430990472, 5.459438576473897}},
+      RingRole::any,
+      {0.35224254982866826, 2.2225925917172605e-09, -0.004766102339784699, 0.43231322321835086,
+       -1.4658484122467337e-05, 0, 0.581098196940579, 1.949483733520392e-08, -2.775383673906396e-06,
+       0.3030940410567038, 8.769893554438357e-09, -3.319225906334638e-05}};
+  const Shape shape = shape_of({drop});
+  const auto offsets = offset_curves(shape, std::vector{0.58777993704719234});
+  ASSERT_TRUE(offsets.ok());
+  EXPECT_EQ(offsets->regions.size(), 1U);
+  EXPECT_LE(test::check_offsets(shape, *offsets, 3, 0).largest_error, 1e-13);
+}
+
+TEST(Offset, BelowTheTolerance) {
+  // Coordinates are whole numbers there: the radius along an edge may be anywhere to a tolerance.
+  const double far = 0x1p52;
+  const auto at = [&](std::vector<Vec2> points) {
+    for (Vec2& p : points) p = p + Vec2{far, far};
+    return test::ring_of(points);
+  };
+  const Shape shape =
+      shape_of({at({{3, 2}, {-3, 8}, {-8, 2}, {-7, -5}, {2, -3}}), at({{0, 3}, {-2, 0}, {1, -2}})});
+  for (double level = 0.1; level < 1.5; level += 0.01) {
+    const auto offsets = offset_curves(shape, std::vector{level});
+    ASSERT_TRUE(offsets.ok());
+    EXPECT_LE(test::check_offsets(shape, *offsets, 1, 0).largest_error, 2 * offsets->tolerance)
+        << level;
+  }
+}
+
 TEST(Offset, BesideJointsThatCountAsSmooth) {
   // Bulges a little off: arcs that were tangent meet at up to 0.009 degrees, convex or reflex.
   const auto check = [](test::Rings rings, test::Random& numbers) {

@@ -18,8 +18,9 @@ constexpr double most_pieces = 100000;
 /// The Bernstein polynomials with the weights 1, w, 1, normalised to the sum 1.
 struct Basis {
   double b0, b1, b2;
-  Basis(double t, double weight) {
-    const double s = 1 - t;
+  Basis(double t, double weight) : Basis(1 - t, t, weight) {}
+  /// Of both shares, s = 1 - t and t.
+  Basis(double s, double t, double weight) {
     const double denominator = s * s + 2 * s * t * weight + t * t;
     b0 = s * s / denominator;
     b1 = 2 * s * t * weight / denominator;
@@ -166,12 +167,12 @@ Vec2 Curve::offset(double t) const {
   return p2 - (basis.b0 * p2 + basis.b1 * (p2 - p1));
 }
 
-Disk Curve::at(double t) const {
+Disk Curve::at(double s, double t) const {
   if (t == 0) return {origin, r0};
-  if (t == 1) return {end, r2};
-  const Basis basis(t, weight);
+  if (s == 0) return {end, r2};
+  const Basis basis(s, t, weight);
   const double radius = basis.b0 * r0 + basis.b1 * r1 + basis.b2 * r2;
-  if (t <= 0.5) return {origin + (basis.b1 * p1 + basis.b2 * p2), radius};
+  if (t <= s) return {origin + (basis.b1 * p1 + basis.b2 * p2), radius};
   return {end - (basis.b0 * p2 + basis.b1 * (p2 - p1)), radius};
 }
 
@@ -418,14 +419,15 @@ std::vector<Disk> sample_by_chord(const MedialAxis& axis, const Edge& edge, doub
   std::vector<Disk> out;
   out.reserve(n + 1);
   for (std::size_t i = 0; i <= n; ++i) {
-    double t = static_cast<double>(i) / static_cast<double>(n);
+    double t = static_cast<double>(i) / static_cast<double>(n), s = 1 - t;
     if (angle > 0 && i > 0 && i < n) {
       // Equal steps of u.
       const double before = w > 1 ? std::sinh(angle * t) : std::sin(angle * t);
-      const double after = w > 1 ? std::sinh(angle * (1 - t)) : std::sin(angle * (1 - t));
+      const double after = w > 1 ? std::sinh(angle * s) : std::sin(angle * s);
       t = before / (before + after);
+      s = after / (before + after);
     }
-    out.push_back(curve.at(t));
+    out.push_back(curve.at(s, t));
   }
   return out;
 }

@@ -29,7 +29,10 @@ struct Curve {
 
   /// The disk at t in [0, 1]; the end disks exactly at 0 and 1. Error: a few units in the last
   /// place of the control polygon's size, and the rounding of the centre's coordinates.
-  Disk at(double t) const;
+  Disk at(double t) const { return at(1 - t, t); }
+  /// The same from both shares, s = 1 - t and t. Of a large weight, most of the curve is next to
+  /// its ends, and a t that is a quotient has lost the digits of s at one of them.
+  Disk at(double s, double t) const;
   /// at(t).center - origin, without the rounding of the addition.
   Vec2 offset(double t) const;
 

@@ -102,6 +102,11 @@ class LevelWalk::RingBuilder {
         return add_offset(arc_of(site), point);
     }
   }
+  /// A step between two points.
+  void step(Vec2 point, Vec2 to) {
+    first_ = point;
+    add(to, 0);
+  }
   /// The arc of a disk that touches the boundary all along, counter-clockwise; or a step of
   /// rounding.
   void close_gap(Vec2 center, Vec2 point, Vec2 to, bool around_an_end, double slack) {
@@ -215,12 +220,14 @@ void LevelWalk::find_crossing(std::uint32_t index, double level) {
   // A node that counts as outside must not be above the level.
   const bool inside0 = height(e.node[0]) > level, inside2 = height(e.node[1]) > level;
   const double a = inside0 ? curve.r0 - level : std::min(curve.r0 - level, 0.0);
-  const double b = curve.weight * (curve.r1 - level);
+  double b = curve.weight * (curve.r1 - level);
   const double c = inside2 ? curve.r2 - level : std::min(curve.r2 - level, 0.0);
+  // Between two nodes inside, what is up to a tolerance above the level counts as below it, without
+  // a crossing. By the least change of b that touches the level, a place up to two tolerances
+  // above.
+  if (inside0 && inside2) b = std::min(b, -std::sqrt(a) * std::sqrt(c));
   const double root = std::sqrt(std::max(b * b - a * c, 0.0));
-  const auto at = [&](double numerator, double denominator) {  // t / s = numerator / denominator
-    return curve.at(numerator / (numerator + denominator)).center;
-  };
+  const auto at = [&](double t, double s) { return curve.at(s / (s + t), t / (s + t)).center; };
   const std::size_t place = 2 * std::size_t{index};
   if (inside2) {
     rise_[place] = b <= 0 ? at(root - b, c) : at(-a, b + root);
@@ -258,17 +265,28 @@ std::vector<OffsetRing> LevelWalk::loops_at(double level) {
 /// Continues from one site to another past joints without a branch: one that counts as smooth, or
 /// those at both ends of arcs that a disk touches entirely, to the corner angle. False where the
 /// disk's own feet are enough.
-bool LevelWalk::pass_joints(std::uint32_t before, std::uint32_t after, double level,
-                            RingBuilder& builder) const {
+bool LevelWalk::pass_joints(std::uint32_t before, std::uint32_t after, const Disk& disk,
+                            double level, RingBuilder& builder) const {
   const auto& sites = axis_.sites;
   const auto joined = [&](std::uint32_t a, std::uint32_t b) {
     return std::max(a, b) < sites.size() && sites[a].end == sites[b].start;
   };
+  // A point at the level from a joint that the disk touches, no farther from the disk's centre than
+  // the level is below its radius, is nowhere nearer to the boundary. Next to the deepest places
+  // others are: however small the turn, the offsets' ends lie past those of other sites. There, the
+  // disk's own radius leads to a point at the level.
+  const auto kept = [&](Vec2 point, Vec2 joint) {
+    const double slack = axis_.tolerance;
+    const bool far = distance(point, disk.center) > disk.radius - level + slack;
+    const bool touched = std::abs(distance(joint, disk.center) - disk.radius) <= slack;
+    return far && touched ? joint + (level / disk.radius) * (disk.center - joint) : point;
+  };
   if (joined(before, after)) {
     const auto met = beside_joint(sites[before], sites[after], level);
     if (!met) return false;
-    builder.end(*met);
-    builder.begin(after, *met);
+    const Vec2 point = kept(*met, sites[before].end);
+    builder.end(point);
+    builder.begin(after, point);
     return true;
   }
   const auto chain = sites_between(axis_, before, after, joined, [&](const Site& site) {
@@ -278,11 +296,15 @@ bool LevelWalk::pass_joints(std::uint32_t before, std::uint32_t after, double le
   for (std::size_t i = 1; i < chain.size(); ++i) {
     const Site &a = sites[chain[i - 1]], &b = sites[chain[i]];
     const auto met = beside_joint(a, b, level);
-    const Vec2 tangent =
-        a.kind() == SiteKind::vertex ? start_tangent(arc_of(b)) : end_tangent(arc_of(a));
-    const Vec2 point = met ? *met : a.end + level * left_of(tangent);
-    builder.end(point);
-    builder.begin(chain[i], point);
+    // Where they do not meet, the joint turns to the right, and has a piece of its own in between.
+    const Vec2 leaves =
+        b.kind() == SiteKind::vertex ? end_tangent(arc_of(a)) : start_tangent(arc_of(b));
+    const Vec2 arrives = a.kind() == SiteKind::vertex ? leaves : end_tangent(arc_of(a));
+    const Vec2 p = kept(met ? *met : a.end + level * left_of(arrives), a.end);
+    const Vec2 q = met ? p : kept(a.end + level * left_of(leaves), a.end);
+    builder.end(p);
+    builder.step(p, q);
+    builder.begin(chain[i], q);
   }
   return true;
 }
@@ -292,7 +314,8 @@ bool LevelWalk::pass_joints(std::uint32_t before, std::uint32_t after, double le
 /// end.
 Vec2 LevelWalk::offset_at(std::uint32_t index, const Disk& disk, double level, Part part) const {
   const Site& site = axis_.sites[index];
-  const Vec2 touch = touches_all_of(site, disk, slack_of(axis_, disk))
+  constexpr double roundings = 64;  // in tolerances; any other disk has one foot, if a rough one
+  const Vec2 touch = touches_all_of(site, disk, roundings * axis_.tolerance)
                          ? (part == Part::start ? site.start : site.end)
                          : foot(site, disk.center);
   return touch + (level / disk.radius) * (disk.center - touch);
@@ -304,7 +327,7 @@ void LevelWalk::pass_node(HalfEdge half, double level, RingBuilder& builder) con
   const std::uint32_t before = halves_.right_site(half), after = halves_.right_site(next);
   const Disk& disk = halves_.disk(half, true);
   if (before == after) return builder.pass(disk.center);
-  if (pass_joints(before, after, level, builder)) return;
+  if (pass_joints(before, after, disk, level, builder)) return;
   const Vec2 p = offset_at(before, disk, level, Part::end);
   const Vec2 q = offset_at(after, disk, level, Part::start);
   builder.end(p);

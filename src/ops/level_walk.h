@@ -70,7 +70,7 @@ class LevelWalk {
   OffsetRing loop_from(HalfEdge first, double level);
   OffsetRing loop_around(HalfEdge last, double level) const;
   void pass_node(HalfEdge half, double level, RingBuilder& builder) const;
-  bool pass_joints(std::uint32_t before, std::uint32_t after, double level,
+  bool pass_joints(std::uint32_t before, std::uint32_t after, const Disk& disk, double level,
                    RingBuilder& builder) const;
   Vec2 offset_at(std::uint32_t site, const Disk& disk, double level, Part part) const;
   double height(std::uint32_t node) const {
