@@ -109,9 +109,8 @@ std::optional<Error> append_with_arcs(const Ring& ring, std::uint32_t index,
     if (ring.points.empty()) return error_of_ring(code, text, index);
     return error_at(code, text, {index, 0}, ring.points[0]);
   };
-  if (edges.size() < 2) {
+  if (edges.size() < 2)
     return place(ErrorCode::too_few_points, "the ring has fewer than two distinct points");
-  }
   clean_arcs(edges, around, report);
   for (const RingEdge& edge : edges) {
     if (!std::isfinite(edge.point.x) || !std::isfinite(edge.point.y)) {
@@ -120,9 +119,8 @@ std::optional<Error> append_with_arcs(const Ring& ring, std::uint32_t index,
   }
   const bool straight =
       std::all_of(edges.begin(), edges.end(), [](const RingEdge& edge) { return edge.bulge == 0; });
-  if (edges.size() < 2 || (edges.size() == 2 && edges[0].bulge == -edges[1].bulge)) {
+  if (edges.size() < 2 || (edges.size() == 2 && edges[0].bulge == -edges[1].bulge))
     return place(ErrorCode::no_area, "the ring encloses no area");
-  }
   cleaned.bulges.reserve(cleaned.points.capacity());
   cleaned.bulges.resize(cleaned.points.size(), 0);
   for (const RingEdge& edge : edges) {

@@ -158,7 +158,7 @@ Pair illegality(const Derivatives& d, Pair radius, double delta) {
   const Pair cauchy = size_of(slope) - 1;
   const Pair balance = curvature * radius * root - ((1 - slope) * (1 + slope) - radius * bend);
   const Pair worse = larger(balance - error, larger(cauchy - first_error, both(0)));
-  return (speed > 0) & (error < 0.1) ? worse : both(0);
+  return ((speed > 0) & (error < 0.1)) ? worse : both(0);
 }
 
 class EdgeSamples {
