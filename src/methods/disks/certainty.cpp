@@ -139,12 +139,11 @@ double Certainty::error_at_corner(double tolerance) const {
     return before + 1 == after && !first.is_vertex() && !second.is_vertex() && !first.is_arc() &&
            !second.is_arc() && dot(first.direction, second.direction) > 0;
   };
-  const double error =
-      is_corner(span_.right, fourth_)
-          ? error_at_joint(boundary_, span_.right, fourth_, span_.left, to_)
-      : is_corner(fourth_, span_.left)
-          ? error_at_joint(boundary_, fourth_, span_.left, span_.right, to_)
-          : unknown;
+  const double error = is_corner(span_.right, fourth_)
+                           ? error_at_joint(boundary_, span_.right, fourth_, span_.left, to_)
+                       : is_corner(fourth_, span_.left)
+                           ? error_at_joint(boundary_, fourth_, span_.left, span_.right, to_)
+                           : unknown;
   return error <= well_placed * tolerance ? error : unknown;
 }
 

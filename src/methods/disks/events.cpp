@@ -82,8 +82,9 @@ Event EventSearch::event_at_corner(bool on_right) {
   }
   if (!in_reach) return {};
   Disk disk{foot + radius * normal, radius};
-  if (flat && !boundary_.has_arcs) {
-    // The disk that touches both sides has its centre between their normals.
+  if (flat && !boundary_.has_arcs && dot(normal, next_normal) > 0) {
+    // The disk that touches both sides has its centre between their normals. (At a tip, it is
+    // smaller than the tolerance.)
     const Vec2 between = normal + next_normal, middle = (1 / norm(between)) * between;
     disk.radius = site::tangent_radius(foot, middle, site(other));
     disk.center = foot + disk.radius * middle;
