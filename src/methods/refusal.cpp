@@ -1,8 +1,6 @@
 #include "methods/refusal.h"
 
 #include <algorithm>
-#include <cmath>
-#include <span>
 
 #include "medial/verify.h"
 

@@ -415,7 +415,7 @@ class Search {
 };
 
 /// In numbers of twice double's digits; where these leave a sign open, or find nothing, in 256
-/// bits.
+/// bits, or in as many as the shape's coordinates need.
 std::optional<ExactEvent> search(const WalkContext& context, const Span& span, const Disk& from,
                                  std::uint32_t hint, bool is_exact, bool all_around) {
   const std::uint64_t before = Bounded<Twofold>::open_signs;
