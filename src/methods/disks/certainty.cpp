@@ -14,6 +14,9 @@ constexpr double small_tolerance = 0x1p-16;
 /// How far a disk may be off, against its radius, for the next step to begin at it.
 constexpr double well_known = 0x1p-10;
 
+/// The same, in tolerances, where only a flat corner shows where the disk is.
+constexpr double well_placed = 16;
+
 }  // namespace
 
 Certainty::Certainty(const Boundary& boundary, const Span& span, const Disk& from,
@@ -40,7 +43,7 @@ Certainty::Certainty(const Boundary& boundary, double tolerance, const Span& spa
              joins_left = span.continues_left(boundary, fourth);
   error_ = joins_right  ? error_at_joint(boundary, span.right, fourth, span.left, to_)
            : joins_left ? error_at_joint(boundary, fourth, span.left, span.right, to_)
-                        : error_of_three(fourth);
+                        : std::min(error_of_three(fourth), error_at_corner(tolerance));
   const bool stays = squared_norm(to_.center - from_.center) <= tolerance * tolerance &&
                      std::abs(to_.radius - from_.radius) <= tolerance;
   if (stays) {
@@ -130,6 +133,20 @@ double Certainty::error_of_three(const Boundary& boundary,
   return 2 * spread * within * bend < disk.radius ? within + rounding : unknown;
 }
 
+double Certainty::error_at_corner(double tolerance) const {
+  const auto is_corner = [&](std::uint32_t before, std::uint32_t after) {
+    const site::Site &first = site(before), &second = site(after);
+    return before + 1 == after && !first.is_vertex() && !second.is_vertex() && !first.is_arc() &&
+           !second.is_arc() && dot(first.direction, second.direction) > 0;
+  };
+  const double error = is_corner(span_.right, fourth_)
+                           ? error_at_joint(boundary_, span_.right, fourth_, span_.left, to_)
+                       : is_corner(fourth_, span_.left)
+                           ? error_at_joint(boundary_, fourth_, span_.left, span_.right, to_)
+                           : unknown;
+  return error <= well_placed * tolerance ? error : unknown;
+}
+
 double Certainty::error_at_joint(const Boundary& boundary, std::uint32_t before,
                                  std::uint32_t after, std::uint32_t third, const Disk& disk) {
   const site::Site &first = boundary.sites[before], &second = boundary.sites[after];
@@ -137,7 +154,7 @@ double Certainty::error_at_joint(const Boundary& boundary, std::uint32_t before,
   // The centre lies on the normal at the joint: how far the disk is from touching there, and beside
   // the normal.
   Vec2 normal;
-  double height, beside, unsure;
+  double height, beside, unsure, growth = 1;
   if (first.is_arc() || second.is_arc()) {
     const auto place = boundary.smooth_place(before, after);
     const Vec2 d = disk.center - place.point;
@@ -145,6 +162,16 @@ double Certainty::error_at_joint(const Boundary& boundary, std::uint32_t before,
     height = dot(normal, d) - disk.radius;
     beside = std::abs(cross(normal, d));
     unsure = 4 * rounding * taxicab_norm(d);
+  } else if (!boundary.is_smooth(before)) {
+    // At a corner, the centre lies on the bisector, which passes through it.
+    const Vec2 between = first.normal() + second.normal();
+    const Vec2 d = disk.center - second.point;
+    const Contact a = contact_of(first, disk);
+    growth = 0.5 * norm(between);
+    normal = (0.5 / growth) * between;
+    height = a.residual;
+    beside = std::abs(cross(normal, d));
+    unsure = std::max(a.unsure, rounding * taxicab_norm(d));
   } else {
     const site::Site& edge = first.is_vertex() ? second : first;
     const Contact a = contact_of(edge, disk);
@@ -153,7 +180,7 @@ double Certainty::error_at_joint(const Boundary& boundary, std::uint32_t before,
     beside = std::abs(dot(edge.direction, disk.center - second.point));
     unsure = a.unsure;
   }
-  const double closing = 1 - dot(normal, b.toward);
+  const double closing = growth - dot(normal, b.toward);
   if (!(closing > 0)) return unknown;
   const double within =
       2.01 * (std::abs(b.residual) + b.unsure + std::abs(height) + unsure + 2 * (beside + unsure)) /

@@ -64,6 +64,8 @@ class Certainty {
   double error_of_three(std::uint32_t third) const {
     return error_of_three(boundary_, {span_.right, third, span_.left}, to_);
   }
+  /// The same where two of the three are edges that meet in a corner, however flat it is.
+  double error_at_corner(double tolerance) const;
   /// Whether three contacts leave only rounding open of where their disk is: not where two feet lie
   /// in one place. In an arc's own circle they may be anywhere on it.
   bool has_place(std::uint32_t third) const;

@@ -81,7 +81,14 @@ Event EventSearch::event_at_corner(bool on_right) {
     if (contact && reaches(*contact)) return *contact;
   }
   if (!in_reach) return {};
-  const Disk disk{foot + radius * normal, radius};
+  Disk disk{foot + radius * normal, radius};
+  if (flat && !boundary_.has_arcs && dot(normal, next_normal) > 0) {
+    // The disk that touches both sides has its centre between their normals. (At a tip, it is
+    // smaller than the tolerance.)
+    const Vec2 between = normal + next_normal, middle = (1 / norm(between)) * between;
+    disk.radius = site::tangent_radius(foot, middle, site(other));
+    disk.center = foot + disk.radius * middle;
+  }
   const double position = bisector_.position(disk.center);
   if (is_behind(position)) return {};  // the foot turns that far on the way back only
   return {flat ? Event::Kind::contact : Event::Kind::far, next, disk, position};
