@@ -175,13 +175,31 @@ class Walker {
     return many_.are_certain();
   }
 
+  /// Whether the events that follow on a foot that passes on, within the node's disk, are certain:
+  /// else what double leaves open there may have come before that disk.
+  bool passes_certainly(const Step& tie) {
+    Step step = tie;
+    while (step.joins_node) {
+      Step next, none;
+      if (divide(step.span, step.event, step.error, true, next.span, none.span) != 1) return true;
+      if (!contacts_.needs_walk(next.span)) return true;
+      decider_.propose(next, step.event.disk);
+      if (!next.is_certain) return false;
+      step = next;
+    }
+    return true;
+  }
+
   /// The steps into which an event divides its own; looked ahead at, if asked for.
   void find_parts(const Step& step, const Disk& from, Parts& parts) {
     const Event& event = step.event;
     const bool looks = decider_.looks_ahead(step);
     // What double takes for the event after their node.
     const auto look_ahead = [&](Step& part) {
-      if (looks && contacts_.needs_walk(part.span)) decider_.propose(part, event.disk);
+      if (looks && contacts_.needs_walk(part.span)) {
+        decider_.propose(part, event.disk);
+        if (part.joins_node && !passes_certainly(part)) part.is_certain = part.joins_node = false;
+      }
       return part.is_proposed;
     };
     many_.clear();
