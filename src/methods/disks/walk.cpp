@@ -175,18 +175,53 @@ class Walker {
     return many_.are_certain();
   }
 
-  /// Whether the events that follow on a foot that passes on, within the node's disk, are certain:
-  /// else what double leaves open there may have come before that disk.
-  bool passes_certainly(const Step& tie) {
-    Step step = tie;
-    while (step.joins_node) {
-      Step next, none;
-      if (divide(step.span, step.event, step.error, true, next.span, none.span) != 1) return true;
-      if (!contacts_.needs_walk(next.span)) return true;
-      decider_.propose(next, step.event.disk);
-      if (!next.is_certain) return false;
-      step = next;
+  /// A step that was found to be certain before its turn comes.
+  struct Passed {
+    Step step;
+    Disk from;
+    bool is_next(const Span& span, const Disk& disk) const {
+      return step.span.right == span.right && step.span.left == span.left &&
+             step.span.third == span.third && from.center == disk.center &&
+             from.radius == disk.radius;
     }
+  };
+
+  /// What double takes for the event after a part's node. Where that is a foot that passes on
+  /// within the node's disk, it is certain only if what follows is: else what double leaves open
+  /// there may have come before that disk.
+  void look_ahead(Step& part, const Disk& from) {
+    if (!passed_.empty() && passed_.back().is_next(part.span, from)) {
+      const Step& known = passed_.back().step;
+      part.event = known.event;
+      part.error = known.error;
+      part.is_proposed = part.is_certain = true;
+      part.joins_node = known.joins_node;
+      passed_.pop_back();
+      return;
+    }
+    passed_.clear();
+    decider_.propose(part, from);
+    if (part.joins_node && !passes_certainly(part)) part.is_certain = part.joins_node = false;
+  }
+
+  /// Whether the events that follow on one that passes on are certain, which come next then.
+  bool passes_certainly(const Step& tie) {
+    Passed next{tie, {}};
+    while (next.step.joins_node) {
+      const Step& step = next.step;
+      Step after, none;
+      if (divide(step.span, step.event, step.error, true, after.span, none.span) != 1) break;
+      if (!contacts_.needs_walk(after.span)) break;
+      next.from = step.event.disk;
+      decider_.propose(after, next.from);
+      if (!after.is_certain) {
+        passed_.clear();
+        return false;
+      }
+      next.step = after;
+      passed_.push_back(next);
+    }
+    std::reverse(passed_.begin(), passed_.end());
     return true;
   }
 
@@ -196,10 +231,7 @@ class Walker {
     const bool looks = decider_.looks_ahead(step);
     // What double takes for the event after their node.
     const auto look_ahead = [&](Step& part) {
-      if (looks && contacts_.needs_walk(part.span)) {
-        decider_.propose(part, event.disk);
-        if (part.joins_node && !passes_certainly(part)) part.is_certain = part.joins_node = false;
-      }
+      if (looks && contacts_.needs_walk(part.span)) this->look_ahead(part, event.disk);
       return part.is_proposed;
     };
     many_.clear();
@@ -435,8 +467,9 @@ class Walker {
   Chunk& chunk_;
   Contacts contacts_;
   Decider decider_;
-  bool starts_blunt_ = false;  ///< the run begins at a blunt joint, node 0
-  Steps stack_, many_;         ///< `many_`: parts of the last step, where they are more than two
+  bool starts_blunt_ = false;   ///< the run begins at a blunt joint, node 0
+  Steps stack_, many_;          ///< `many_`: parts of the last step, where they are more than two
+  std::vector<Passed> passed_;  ///< that follow on what was looked ahead at, the next one last
   std::uint32_t left_behind_ = 0;  ///< sites of spans in the stack, about
   std::uint64_t finished_ = 0;
 };
