@@ -186,6 +186,28 @@ TEST(Twofold, DecidesAs256BitsDo) {
   EXPECT_GE(with_disks, count / 2);
 }
 
+// Three lines leave open where a disk is in a flat corner; the corner's bisector does not.
+TEST(Twofold, KnowsDisksInFlatCorners) {
+  const double up = 0x1p-52;
+  const std::vector<exact::ExactSite> sites{
+      {{-1, 0}, {0, -up}}, {{0, -up}, {1, 0}}, {{1, 1}, {-1, 1}}, {{0.25, 1}, {0.25, 1}}};
+  exact::SiteLoops loops;
+  loops.sites.work_out = [&sites](std::uint32_t i) { return sites[i]; };
+  loops.next = {0, 1, 2, 3};
+  loops.passes.assign(4, false);
+  loops.loop_begin = {0, 4};
+  for (const std::uint32_t third : {2u, 3u}) {
+    const auto fast = exact::disk_bounds<Twofold>(loops, {0, 1, third});
+    const auto sure = exact::disk_bounds<exact::Precise>(loops, {0, 1, third});
+    ASSERT_TRUE(fast && sure) << third;
+    EXPECT_LT(fast->center.x.error + fast->center.y.error + fast->radius.error, 1e-28) << third;
+    EXPECT_LT(abs(precise(fast->radius.value) - sure->radius.value), 1e-28) << third;
+    EXPECT_NEAR(fast->center.x.value.high, 0, up) << third;
+  }
+  // In the other order around the disk there is none.
+  EXPECT_FALSE(exact::disk_bounds<exact::Precise>(loops, {1, 0, 2}));
+}
+
 /// Tips of a tree's and of a snowflake's branch: arcs around an apex of which two are as good as of
 /// one circle, and joints that are off by rounding.
 /// x, y, bulge.

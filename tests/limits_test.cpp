@@ -145,6 +145,28 @@ TEST(Limits, ADiskOf5em56BesideASizeOf85) {
                                 {0, 4.871333627475911e-56}}));
 }
 
+// At a corner a disk's radius grows by the cosine of half the turn along the bisector: next to an
+// edge that is nearly parallel to one of the sides, 1 in its place took an open disk for certain.
+TEST(Limits, DisksInACornerBesideANearlyParallelEdge) {
+  expect_verified_axes(ring_of({{1.0000000000000009, 0},
+                                {1.5589291292150784e-22, 0},
+                                {0, 0.5},
+                                {0, 4.2787955428212349e-58},
+                                {-8.9433774804252014e-62, 7}}));
+  expect_verified_axes(ring_of({{100.00000000000003, -69},
+                                {-1.3235609106362873e-49, -99},
+                                {-2.6162143303583957e-65, 0},
+                                {-2.3704155237419353e-70, -1},
+                                {2.5987350957523113e-22, 9.2405317324979121e-66},
+                                {7.0000000000000044, 2.6904542793552223e-64}}));
+  expect_verified_axes(ring_of({{32, 0},
+                                {6.2178340061833699e-22, 1.0096040378410369e-50},
+                                {0, 0.50000000000000044},
+                                {1.0049951009051923e-55, -9.9118238899765686e-47},
+                                {-4.7360514130410979e-53, 5.2288099100831597e-63},
+                                {-1.0889111471496559e-56, 88}}));
+}
+
 // An edge between two vertices so near to each other has a weight of 1e60.
 TEST(Limits, TheAreaBesideAWaistIsANumber) {
   for (const double half : {1e-10, 1e-60, 1e-90}) {

@@ -134,7 +134,7 @@ TEST(Parts, AreTheAxisOfTheWholeOfRandomShapes) {
 TEST(Parts, ProgressGrowsToOneOnceWhereTheWalkIsLost) {
   const auto classes = test::nasty_classes();
   const auto rings = std::ranges::find(classes, "rings", &test::NastyClass::name);
-  const auto shape = build_shape(test::nasty_shape(*rings, 116, false));
+  const auto shape = build_shape(test::nasty_shape(*rings, 53, false));
   ASSERT_TRUE(shape);
   std::vector<double> told;
   const Options options{.threads = 1, .progress = [&](double share) { told.push_back(share); }};

@@ -322,9 +322,50 @@ Rings plate_shape(Random& random, bool small) {
   return rings;
 }
 
+// ---- Straight sides with points on them, as of densified buildings.
+
+Ring with_cut_sides(Random& random, const Ring& ring, std::size_t most) {
+  const bool evenly = random.chance(0.7), alike = random.chance(0.5);
+  const std::size_t pieces = up_to(random, static_cast<std::int64_t>(most));
+  Ring cut;
+  for (std::size_t i = 0; i < ring.points.size(); ++i) {
+    const Vec2 from = ring.points[i], to = ring.points[(i + 1) % ring.points.size()];
+    const std::size_t count = alike ? pieces : up_to(random, static_cast<std::int64_t>(most));
+    for (std::size_t k = 0; k < count; ++k) {
+      const double off = evenly || k == 0 ? 0 : random.between(0, 0.8);
+      const double share = (static_cast<double>(k) + off) / static_cast<double>(count);
+      cut.points.push_back(from + share * (to - from));
+    }
+  }
+  return cut;
+}
+
+Rings cut_shape(Random& random, bool small) {
+  Rings rings;
+  if (random.chance(0.4))
+    rings = rectangle(4, 3);
+  else if (random.chance(0.5))
+    rings = regular_polygon(2 + up_to(random, small ? 2 : 6));
+  else
+    rings = l_shape(2);
+  rings[0] = with_cut_sides(random, rings[0], small ? 3 : 40);
+  if (!small && random.chance(0.3)) {
+    Ring hole = rectangle(0.25, 0.125)[0];
+    for (Vec2& p : hole.points) p = p + Vec2{0.25, 0.25};
+    rings.push_back(with_cut_sides(random, hole, 10));
+  }
+  rings =
+      turned(std::move(rings), random.chance(0.4) ? std::atan2(3, 4) : random.between(0, two_pi));
+  const Vec2 away =
+      random.chance(0.5) ? Vec2{} : Vec2{random.between(0, 1e4), random.between(0, 1e5)};
+  for (Ring& ring : rings)
+    for (Vec2& p : ring.points) p = p + away;
+  return rings;
+}
+
 Rings group_shape(Random& random, bool small);
 
-constexpr std::array<NastyClass, 15> classes{{{"strips", strip_shape},
+constexpr std::array<NastyClass, 16> classes{{{"strips", strip_shape},
                                               {"slits", slit_shape},
                                               {"stretched", stretched_shape},
                                               {"needles", needle_shape},
@@ -338,7 +379,8 @@ constexpr std::array<NastyClass, 15> classes{{{"strips", strip_shape},
                                               {"bars", bar_shape, true},
                                               {"tangents", tangent_arcs, true},
                                               {"gears", gear_shape, true},
-                                              {"plates", plate_shape, true}}};
+                                              {"plates", plate_shape, true},
+                                              {"sides", cut_shape}}};
 
 // ---- Several of one class.
 
@@ -364,9 +406,10 @@ void add_to_quadrant(const Rings& part, std::size_t quadrant, double size, doubl
 /// Components, or, with the holes that they have as islands, holes of one square. All of about one
 /// size, or each of its own.
 Rings group_shape(Random& random, bool small) {
-  std::vector<const NastyClass*> polygons;
+  std::vector<const NastyClass*> polygons;  // less those that came after the first seeds
   for (const NastyClass& one : classes)
-    if (!one.has_arcs && one.generate != group_shape) polygons.push_back(&one);
+    if (!one.has_arcs && one.generate != group_shape && one.generate != cut_shape)
+      polygons.push_back(&one);
   const auto last = static_cast<std::int64_t>(polygons.size()) - 1;
   const NastyClass& one = *polygons[static_cast<std::size_t>(random.integer(0, last))];
   constexpr std::size_t quadrants = 4;

@@ -36,6 +36,7 @@ struct NastyClass {
 /// tangents: random arcs that join smoothly but for an angle of 1e-16 to 1e-7.
 /// gears: turned by any angle, their vertices off by 1e-16 to 1e-10, half of them with holes.
 /// plates: with round holes and slots around the middle, off by as much.
+/// sides: straight ones with points on them, which round to either side of the line.
 std::span<const NastyClass> nasty_classes();
 
 Rings nasty_shape(const NastyClass& one, std::uint64_t seed, bool small);

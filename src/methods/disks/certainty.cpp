@@ -162,7 +162,7 @@ double Certainty::error_at_joint(const Boundary& boundary, std::uint32_t before,
     height = dot(normal, d) - disk.radius;
     beside = std::abs(cross(normal, d));
     unsure = 4 * rounding * taxicab_norm(d);
-  } else if (!boundary.is_smooth(before)) {
+  } else if (after == before + 1 && !boundary.is_smooth(before)) {
     // At a corner, the centre lies on the bisector, which passes through it.
     const Vec2 between = first.normal() + second.normal();
     const Vec2 d = disk.center - second.point;

@@ -191,11 +191,9 @@ class Walker {
   /// there may have come before that disk.
   void look_ahead(Step& part, const Disk& from) {
     if (!passed_.empty() && passed_.back().is_next(part.span, from)) {
-      const Step& known = passed_.back().step;
-      part.event = known.event;
-      part.error = known.error;
-      part.is_proposed = part.is_certain = true;
-      part.joins_node = known.joins_node;
+      const Span span = part.span;
+      part = passed_.back().step;
+      part.span = span;
       passed_.pop_back();
       return;
     }

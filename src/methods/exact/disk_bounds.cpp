@@ -141,7 +141,8 @@ std::optional<DiskBounds<Real>> disk_in_corner(const ExactSite& first, const Exa
                                                const ExactSite& third, bool& is_corner) {
   using Number = Bounded<Real>;
   const auto is_segment = [](const ExactSite& site) { return !site.is_vertex() && !site.is_arc(); };
-  is_corner = is_segment(first) && is_segment(second) && first.end == second.start && !third.is_arc();
+  is_corner =
+      is_segment(first) && is_segment(second) && first.end == second.start && !third.is_arc();
   if (!is_corner) return std::nullopt;
   const auto ends = spoke_of<Number>(first, true), begins = spoke_of<Number>(second, false);
   const Number turn = cross(ends.normal, begins.normal);
@@ -169,8 +170,8 @@ std::optional<DiskBounds<Real>> disk_of_three(const SiteLoops& outline,
                                    outline.sites[sites[2]]};
   for (std::size_t i = 0; i < 3; ++i) {
     bool is_corner = false;
-    const auto disk = disk_in_corner<Real>(touched[i], touched[(i + 1) % 3], touched[(i + 2) % 3],
-                                           is_corner);
+    const auto disk =
+        disk_in_corner<Real>(touched[i], touched[(i + 1) % 3], touched[(i + 2) % 3], is_corner);
     if (is_corner) return disk;
   }
   // First the site whose equation is the roundest: a vertex where there is one.
