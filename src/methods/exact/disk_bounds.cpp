@@ -130,33 +130,39 @@ std::optional<DiskBounds<Real>> disk_on(const Spoke<Bounded<Real>>& spoke,
   return DiskBounds<Real>{spoke.foot + times * spoke.normal, times * spoke.size};
 }
 
-/// The disk that touches two segments which meet in a convex corner, one after the other, and then
-/// a third straight site. It grows along the corner's bisector, from the corner, which the
-/// intersection of three lines would lose where the corner is flat. With unit normals m and n of
-/// the two, the centre is at t (m + n) and the radius is t (1 + m.n), so that x.x - r r is the
-/// square of t |m x n|. The disk reaches the third site at the first root. `is_corner` says whether
-/// the two are so.
-template <class Real>
-std::optional<DiskBounds<Real>> disk_in_corner(const ExactSite& first, const ExactSite& second,
-                                               const ExactSite& third, bool& is_corner) {
-  using Number = Bounded<Real>;
+/// Where two segments meet in a convex corner: the bisector, and the cross product of the normals,
+/// whose square is x.x - r r of the disks on it, against the spoke's.
+template <class Number>
+struct Corner {
+  Spoke<Number> bisector;
+  Number turn;
+};
+template <class Number>
+std::optional<Corner<Number>> corner_between(const ExactSite& first, const ExactSite& second) {
   const auto is_segment = [](const ExactSite& site) { return !site.is_vertex() && !site.is_arc(); };
-  is_corner =
-      is_segment(first) && is_segment(second) && first.end == second.start && !third.is_arc();
-  if (!is_corner) return std::nullopt;
-  const auto ends = spoke_of<Number>(first, true), begins = spoke_of<Number>(second, false);
-  const Number turn = cross(ends.normal, begins.normal);
-  is_corner = turn.positive();
-  if (!is_corner) return std::nullopt;
-  const Spoke<Number> spoke{ends.foot, begins.size * ends.normal + ends.size * begins.normal,
-                            ends.size * begins.size + dot(ends.normal, begins.normal)};
-  const auto form = form_of<Number>(third, spoke.foot);
-  const Number closing = form.size * spoke.size - dot(form.slope, spoke.normal);
+  if (!is_segment(first) || !is_segment(second) || first.end != second.start) return std::nullopt;
+  const auto end = spoke_of<Number>(first, true), begin = spoke_of<Number>(second, false);
+  const Number turn = cross(end.normal, begin.normal);
+  if (!turn.positive()) return std::nullopt;
+  return Corner<Number>{{end.foot, begin.size * end.normal + end.size * begin.normal,
+                         begin.size * end.size + dot(end.normal, begin.normal)},
+                        turn};
+}
+
+/// The disk that grows from a corner, touching both sides, until it touches a straight site: the
+/// first root. The intersection of three lines would lose a flat corner.
+template <class Real>
+std::optional<DiskBounds<Real>> disk_in_corner(const Corner<Bounded<Real>>& corner,
+                                               const ExactSite& site) {
+  using Number = Bounded<Real>;
+  const auto& [bisector, turn] = corner;
+  const auto form = form_of<Number>(site, bisector.foot);
+  const Number closing = form.size * bisector.size - dot(form.slope, bisector.normal);
   if (!closing.positive()) return std::nullopt;
-  if (!third.is_vertex()) return disk_on(spoke, form.height / closing);
+  if (!site.is_vertex()) return disk_on(bisector, form.height / closing);
   const Number discriminant = closing * closing - Number(4.0) * turn * turn * form.height;
   if (!discriminant.positive()) return std::nullopt;
-  return disk_on(spoke, Number(2.0) * form.height / (closing + root_of(discriminant)));
+  return disk_on(bisector, Number(2.0) * form.height / (closing + root_of(discriminant)));
 }
 
 /// The disk that three sites touch in this counter-clockwise order and that is smaller than their
@@ -169,10 +175,10 @@ std::optional<DiskBounds<Real>> disk_of_three(const SiteLoops& outline,
   std::array<ExactSite, 3> touched{outline.sites[sites[0]], outline.sites[sites[1]],
                                    outline.sites[sites[2]]};
   for (std::size_t i = 0; i < 3; ++i) {
-    bool is_corner = false;
-    const auto disk =
-        disk_in_corner<Real>(touched[i], touched[(i + 1) % 3], touched[(i + 2) % 3], is_corner);
-    if (is_corner) return disk;
+    const ExactSite& third = touched[(i + 2) % 3];
+    if (third.is_arc()) continue;
+    if (const auto corner = corner_between<Number>(touched[i], touched[(i + 1) % 3]))
+      return disk_in_corner<Real>(*corner, third);
   }
   // First the site whose equation is the roundest: a vertex where there is one.
   const auto roundness = [](const ExactSite& site) {
