@@ -167,6 +167,33 @@ TEST(Limits, DisksInACornerBesideANearlyParallelEdge) {
                                 {-1.0889111471496559e-56, 88}}));
 }
 
+// On the last hole, some 300 spacings wide, double took the foot of a bridge for one on the other
+// side of the arc's middle, so that an edge passed the bridge.
+TEST(Limits, HolesOfAFewHundredSpacings) {
+  const double fillet = 1.929519843658356e-08, far = 10.999999980704802, top = 13.999999980704802;
+  const Ring outline{.points = {{fillet, 0},
+                                {far, 0},
+                                {11, fillet},
+                                {11, top},
+                                {far, 14},
+                                {fillet, 14},
+                                {0, top},
+                                {0, fillet}},
+                     .bulges = {0, -0.41421356219898819, 0, 0.41421356217721922, 0,
+                                0.41421356247697788, 0, 0.41421356219827676}};
+  const auto lens = [](Vec2 a, double b) {
+    return Ring{.points = {a, {b, a.y}}, .bulges = {0.7, 0.3}};
+  };
+  const Shape shape = *build_shape(
+      std::vector{outline, lens({2.202087029662509, 12.794619595658666}, 2.204907216182074),
+                  lens({4.5933468651405942, 1.3871748635653982}, 4.609191237266252),
+                  lens({5.795748218464067, 5.6752520050544142}, 5.7957482184643103)});
+  const auto axis = compute(shape);
+  ASSERT_TRUE(axis.ok()) << to_string(axis.error());
+  const Certificate certificate = verify(shape, *axis);
+  EXPECT_TRUE(certificate.passed) << certificate.failures[0];
+}
+
 // An edge between two vertices so near to each other has a weight of 1e60.
 TEST(Limits, TheAreaBesideAWaistIsANumber) {
   for (const double half : {1e-10, 1e-60, 1e-90}) {
