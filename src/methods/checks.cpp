@@ -7,10 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "axis/sites.h"
 #include "base/arc.h"
 #include "base/disjoint_sets.h"
 #include "base/threads.h"
 #include "base/tolerance.h"
+#include "methods/problem.h"
 #include "shape/limits.h"
 
 namespace medial {
@@ -106,6 +108,22 @@ std::optional<Error> refuse(const Shape& shape, const Options& options) {
 
 bool has_arcs(const Shape& shape) {
   return std::any_of(shape.bulges.begin(), shape.bulges.end(), [](double b) { return b != 0; });
+}
+
+std::vector<std::size_t> tiny_arcs(const Problem& problem) {
+  constexpr double smallest = 0x1p-26;  // in the local frame, whose size is about 1
+  const Shape& shape = problem.shape;
+  std::vector<std::size_t> found;
+  if (shape.bulges.empty()) return found;
+  for (std::size_t l = 0; l < shape.loop_count(); ++l) {
+    const site::LoopEdges loop(shape, l, problem.frame);
+    for (std::uint32_t i = 0; i < loop.size(); ++i) {
+      const BulgeArc arc{loop.local(i), loop.local(loop.next(i)), loop.bulge(i)};
+      if (arc.bulge != 0 && std::abs(curvature(arc)) * smallest > 1)
+        found.push_back(loop.begin() + i);
+    }
+  }
+  return found;
 }
 
 namespace {

@@ -10,12 +10,20 @@
 
 namespace medial {
 
+struct Problem;
+
 /// What compute() cannot take, if anything: options out of their range, shapes too large, beyond
 /// the limits of coordinates or not made by build_shape(), and what the method leaves out. O(n).
 std::optional<Error> refuse(const Shape& shape, const Options& options);
 
 /// Whether an edge is an arc. O(n).
 bool has_arcs(const Shape& shape);
+
+/// The arcs, by the numbers of their first points, that are so small that double does not know on
+/// which side of a joint or a bridge a foot on them is: an angle of rounding over the radius. The
+/// foot of the same disk on another site may then be off by as much, and the disk reaches over that
+/// by half the square. O(n).
+std::vector<std::size_t> tiny_arcs(const Problem& problem);
 
 /// The options that every exact computation has: the tolerance and the number of threads.
 std::optional<Error> refuse(const Options& options);

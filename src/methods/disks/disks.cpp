@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <optional>
 #include <type_traits>
 
 #include "axis/statistics.h"
-#include "base/arc.h"
 #include "base/compat.h"
 #include "base/memory.h"
 #include "base/stopwatch.h"
@@ -238,23 +236,6 @@ std::vector<bool> components_of(const Shape& shape, const SiteNumbers& numbers,
   return marked;
 }
 
-/// Notes arcs that are so small that double does not know on which side of a joint or a bridge a
-/// foot on them is: their points are rounded by so much against the radius. Beside such a disk, the
-/// foot on the other site may be off by as large an angle, and the disk reaches over an arc there
-/// by half its square.
-void note_tiny_arcs(const Problem& problem, const SiteNumbers& numbers,
-                    std::vector<std::uint32_t>& lost) {
-  constexpr double smallest = 0x1p-26;  // against the size, which is a power of two at most
-  for (std::size_t l = 0; l < problem.shape.loop_count(); ++l) {
-    const site::LoopEdges loop(problem.shape, l, problem.frame);
-    for (std::uint32_t i = 0; i < loop.size(); ++i) {
-      const BulgeArc arc{loop.local(i), loop.local(loop.next(i)), loop.bulge(i)};
-      if (arc.bulge != 0 && std::abs(curvature(arc)) * smallest > 1)
-        lost.push_back(numbers.edge[loop.begin() + i]);
-    }
-  }
-}
-
 /// The axis of a shape, walked as it is. Components in which the walk lost its way, or all of a
 /// shape whose axis is refused, are walked again in 256 bits.
 Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbers, int attempts) {
@@ -266,7 +247,8 @@ Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbe
   for (const bool is_last : {false, true}) {
     std::vector<std::uint32_t> lost;
     auto axis = axis_by(problem, numbers, way, lost);
-    if (with_arcs && !is_last) note_tiny_arcs(problem, numbers, lost);
+    if (!is_last)
+      for (const std::size_t point : tiny_arcs(problem)) lost.push_back(numbers.edge[point]);
     const bool is_certain = lost.empty() && !(with_arcs && is_last) && !is_measured;
     if (axis && (is_certain || problem.is_cancelled())) return axis;
     // A polygon in which the walk lost its way is measured only if another walk takes seconds.
