@@ -18,6 +18,9 @@ constexpr int bracket_steps = 128;
 /// Of growing or shrinking a disk by closed forms before the bracket takes over; some three are
 /// usual.
 constexpr int most_rounds = 200;
+/// From this round on, one that shortens the way by less than half is followed by a part of the
+/// way.
+constexpr int slow_round = 2;
 /// How far beyond() may look, against the radius: there the bisector is still straight.
 constexpr double widest_window = 1e-7;
 /// In tolerances: the radius of a disk that is as good as a point of a planar graph.
@@ -245,13 +248,22 @@ Event EventSearch::at_node(std::uint32_t touched) const {
 
 Event EventSearch::first_contact(Event event) {
   Event intruded = event;
-  bool look_beyond = true;
+  double empty = low_;  // position up to which disks are known to be empty
+  bool look_beyond = true, is_slow = false;
   // Every round comes earlier, but one that looked beyond and those that grow; rounding could make
   // rounds repeat.
   for (int round = 0; round < most_rounds; ++round) {
     if (is_in_point(event)) event = short_of_point(event);
-    Event asked = event.kind == Event::Kind::contact && look_beyond ? beyond(event) : event;
+    const bool is_contact = event.kind == Event::Kind::contact, asks_part = is_slow && is_contact;
+    Event asked = asks_part                   ? part_of_way(empty, event)
+                  : is_contact && look_beyond ? beyond(event)
+                                              : event;
     const Hit hit = contacts_.nearest(asked.disk, span_);
+    if (!hit && asks_part) {
+      empty = asked.position;
+      is_slow = false;
+      continue;
+    }
     if (!hit) {
       if (event.may_grow) {
         Event further = far_event(event.disk.radius);
@@ -261,19 +273,7 @@ Event EventSearch::first_contact(Event event) {
           continue;
         }
       }
-      if (event.kind == Event::Kind::contact)
-        event.site = contacts_.owner(event.site, event.disk.center, span_);
-      // Only the carrier was touched, short of the site.
-      if (event.kind == Event::Kind::contact && !reaches(event))
-        return bracket(event.disk, intruded);
-      // The disk at a corner, where the neighbour is too short to reach into it.
-      const bool at_corner = event.kind == Event::Kind::far && event.site != Hit::none;
-      if (at_corner && reaches(event)) event.kind = Event::Kind::contact;
-      // A foot has left its site: events on flat corners come in doubtful order.
-      if (event.kind == Event::Kind::far || !contacts_.reaches(span_.right, event.disk) ||
-          !contacts_.reaches(span_.left, event.disk))
-        return bracket(from_, event);
-      return event;
+      return of_empty_disk(event, intruded);
     }
     const std::uint32_t intruder = contacts_.owner(hit.site, asked.disk.center, span_);
     if (is_at_node(intruder)) return at_node(intruder);
@@ -282,16 +282,20 @@ Event EventSearch::first_contact(Event event) {
     const std::optional<Event> earlier = contact_before(asked);
     if (!earlier || !(earlier->position < asked.position)) {
       // A disk that is empty, and touched by what is beyond it, will do.
-      if (event.kind == Event::Kind::contact && look_beyond) {
+      if (is_contact && look_beyond && !asks_part) {
         look_beyond = false;
         continue;
       }
       return bracket(from_, asked);
     }
+    // An edge intrudes, and its end is touched. Whether that is a tie is known of segments only.
+    if (contacts_.is_polygon() && is_at_node(earlier->site)) return at_node(earlier->site);
     // A disk too far ahead may reach a point whose other copy was touched before.
     if (element(earlier->site) == Element::vertex && earlier->position <= low_ + slack() &&
         !contacts_.faces(earlier->site, earlier->disk.center))
       return bracket(from_, asked);
+    is_slow = !asks_part && round >= slow_round &&
+              earlier->position - empty > 0.5 * (asked.position - empty);
     look_beyond = earlier->position < event.position;
     event = *earlier;
   }
@@ -313,6 +317,28 @@ Event EventSearch::short_of_point(const Event& event) {
     if (contacts_.nearest(disk, span_)) return {Event::Kind::far, Hit::none, disk, position};
   }
   return event;
+}
+
+Event EventSearch::of_empty_disk(Event event, const Event& intruded) {
+  if (event.kind == Event::Kind::contact)
+    event.site = contacts_.owner(event.site, event.disk.center, span_);
+  // Only the carrier was touched, short of the site.
+  if (event.kind == Event::Kind::contact && !reaches(event)) return bracket(event.disk, intruded);
+  // The disk at a corner, where the neighbour is too short to reach into it.
+  const bool at_corner = event.kind == Event::Kind::far && event.site != Hit::none;
+  if (at_corner && reaches(event)) event.kind = Event::Kind::contact;
+  // A foot has left its site: events on flat corners come in doubtful order.
+  if (event.kind == Event::Kind::far || !contacts_.reaches(span_.right, event.disk) ||
+      !contacts_.reaches(span_.left, event.disk))
+    return bracket(from_, event);
+  return event;
+}
+
+Event EventSearch::part_of_way(double empty, const Event& event) const {
+  const double share = empty > low_ ? 0.5 : 0.125;
+  Event part{Event::Kind::far, Hit::none, {}, empty + share * (event.position - empty)};
+  part.disk = bisector_.disk_at(part.position, from_);
+  return part;
 }
 
 Event EventSearch::beyond(const Event& contact) const {

@@ -131,6 +131,11 @@ class EventSearch {
   /// Shortens the way to `event` until the disk there is empty: each intruder gives a disk
   /// that comes earlier.
   Event first_contact(Event event);
+  /// What the event of an empty disk comes to; `intruded` comes after it.
+  Event of_empty_disk(Event event, const Event& intruded);
+  /// A disk on the way from an empty one to an event. Between two rows of vertices that approach
+  /// each other, what intrudes most on a disk far ahead lets it come but one vertex earlier.
+  Event part_of_way(double empty, const Event& event) const;
   /// Where edges of a planar graph meet, a disk of no radius touches them all, and those between
   /// the two sites reach into the disks before. Such an event becomes one of those disks.
   Event short_of_point(const Event& event);

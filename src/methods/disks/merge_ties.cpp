@@ -247,16 +247,21 @@ class Merger {
   bool all_contacts(std::uint32_t node, const Holds& holds) const {
     const std::span<const std::uint32_t> ends = ends_at(node);
     const Boundary::SiteRange& run = boundary_.runs[graph_.nodes[node].component];
+    const auto name_of = [&](std::uint32_t site) {
+      return std::pair{boundary_.elements[site], boundary_.originals[site]};
+    };
+    // The sites on which edges leave: sorted, as a hub has thousands.
+    std::vector<std::pair<Element, std::uint32_t>> left;
+    for (const std::uint32_t end : ends)
+      left.push_back(name_of(graph_.edges[end / 2].site[1 - end % 2]));
+    std::sort(left.begin(), left.end());
     for (const std::uint32_t end : ends) {
       const auto& sites = graph_.edges[end / 2].site;
       for (const std::uint32_t site : sites)
         if (!holds(nearest_piece(site, graph_.nodes[node].disk))) return false;
       // Seen from the node, the boundary comes in to it on site[end % 2].
       std::uint32_t site = sites[end % 2], steps = run.last - run.first;
-      const auto is_of_edge = [&](std::uint32_t other) {
-        return boundary_.is_same(site, graph_.edges[other / 2].site[1 - other % 2]);
-      };
-      while (ranges::none_of(ends, is_of_edge) && steps-- > 0) {
+      while (!ranges::binary_search(left, name_of(site)) && steps-- > 0) {
         if (site != sites[end % 2] && !holds(site)) return false;
         site = next_on_loop(site, run);
       }
