@@ -43,7 +43,9 @@ Certainty::Certainty(const Boundary& boundary, double tolerance, const Span& spa
              joins_left = span.continues_left(boundary, fourth);
   error_ = joins_right  ? error_at_joint(boundary, span.right, fourth, span.left, to_)
            : joins_left ? error_at_joint(boundary, fourth, span.left, span.right, to_)
-                        : std::min(error_of_three(fourth), error_at_corner(tolerance));
+                        : error_of_three(fourth);
+  if (!(joins_right || joins_left) && !(error_ <= tolerance))
+    error_ = std::min(error_, error_at_corner(tolerance));
   const bool stays = squared_norm(to_.center - from_.center) <= tolerance * tolerance &&
                      std::abs(to_.radius - from_.radius) <= tolerance;
   if (stays) {
