@@ -1,6 +1,9 @@
 #include "site/bisector.h"
 
+#include <limits>
 #include <optional>
+
+#include "base/twofold.h"
 
 namespace medial::site {
 namespace {
@@ -112,6 +115,72 @@ Control pole_of_chord(const Site& a, const Site& b, const Disk& from, const Disk
           std::sqrt(weight_squared)};
 }
 
+/// The distance of a disk of a site from the centre of an arc, or from a vertex.
+double focal_distance(const Site& s, const Disk& disk) {
+  return s.is_vertex() ? disk.radius
+         : s.is_arc()  ? std::abs(1 / s.curvature - disk.radius)
+                       : std::numeric_limits<double>::infinity();
+}
+/// The least one of an edge's ends.
+double focal_distance(const Site& s, const Disk& from, const Disk& to) {
+  return std::min(focal_distance(s, from), focal_distance(s, to));
+}
+
+/// A disk seen from the apex of the cone of all disks that touch an arc or a vertex.
+struct ConeVector {
+  Twofold x, y, r;
+};
+Twofold product(const ConeVector& u, const ConeVector& v) {
+  return u.x * v.x + u.y * v.y - u.r * v.r;
+}
+
+/// The left normal of a site, of unit length to twice the digits.
+ConeVector unit_normal(const Site& s) {
+  const Vec2 n = s.normal();
+  if (s.is_vertex()) return {0.0, 0.0, 0.0};
+  const Twofold size = sqrt(Twofold(n.x) * n.x + Twofold(n.y) * n.y);
+  return {Twofold(n.x) / size, Twofold(n.y) / size, 0.0};
+}
+
+/// The pole with twice the digits, of an edge that is not short against its distance from a focus.
+/// With d = (c - q, rho - r), q the arc's centre and rho its signed radius, the disks that touch the
+/// arc are a cone, P(d, d) = 0. So the pole is P-perpendicular to both ends, which tells its
+/// direction, and how far away it is follows from the plane of the edge, in which the other site's
+/// equation is linear. Each end is off the cone by its own rounding against its distance from the
+/// apex, and so is the curve near to it: from the mean of both ends, the near one would get what the
+/// far one is off. None where the equations leave it open.
+std::optional<Control> pole_of_cone(const Site& a, const Site& b, const Disk& from,
+                                    const Disk& to) {
+  const bool by_a = focal_distance(a, from, to) <= focal_distance(b, from, to);
+  const Site &site = by_a ? a : b, &other = by_a ? b : a;
+  const ConeVector n = unit_normal(site), m = unit_normal(other);
+  const Twofold rho = site.is_vertex() ? Twofold(0.0) : Twofold(1.0) / Twofold(site.curvature);
+  const Twofold qx = rho * n.x + site.point.x, qy = rho * n.y + site.point.y;
+  const auto seen = [&](const Disk& disk) {
+    return ConeVector{Twofold(disk.center.x) - qx, Twofold(disk.center.y) - qy, rho - disk.radius};
+  };
+  const ConeVector first = seen(from), last = seen(to);
+  const ConeVector way{first.y * last.r - first.r * last.y, first.r * last.x - first.x * last.r,
+                       first.y * last.x - first.x * last.y};
+  // flat (m.d - r) = round P(d, d) / 2 of the other site, seen from q.
+  const Twofold flat = other.is_vertex() ? 0.0 : 1.0;
+  const Twofold round = other.is_vertex() ? 1.0 : other.curvature;
+  const Twofold ex = qx - other.point.x, ey = qy - other.point.y;
+  const Twofold slope = (m.x - round * ex) * way.x + (m.y - round * ey) * way.y +
+                        (flat - round * rho) * way.r;
+  const Twofold height = m.x * ex + m.y * ey - flat * rho -
+                         Twofold(0.5) * round * (ex * ex + ey * ey - rho * rho);
+  const Twofold share = -height / slope;
+  const Disk pole{{static_cast<double>(qx + share * way.x), static_cast<double>(qy + share * way.y)},
+                  static_cast<double>(rho - share * way.r)};
+  const auto weight_squared = static_cast<double>(
+      -product(first, last) / (Twofold(2.0) * share * share * product(way, way)));
+  if (!(weight_squared > 0 &&
+        std::isfinite(weight_squared + pole.center.x + pole.center.y + pole.radius)))
+    return std::nullopt;
+  return Control{pole, std::sqrt(weight_squared)};
+}
+
 /// How far the edge with this control point strays from touching both sites: in its middle, and
 /// next to its ends, where it may be bent most; next to a focus, on all scales down to rounding.
 double deviation(const Control& control, const Site& a, const Site& b, const Disk& from,
@@ -136,62 +205,6 @@ double deviation(const Control& control, const Site& a, const Site& b, const Dis
   return worst;
 }
 
-/// The least distance of a disk from the centres of arcs among two sites, and its radius.
-double focal_distance(const Site& a, const Site& b, const Disk& disk) {
-  double least = disk.radius;
-  for (const Site* s : {&a, &b})
-    if (s->is_arc()) least = std::min(least, std::abs(1 / s->curvature - disk.radius));
-  return least;
-}
-
-/// The unit tangent (x, y) at a disk of the bisector of a and b, with the growth of the radius
-/// along it; in either direction.
-DiskVector tangent_at(const Site& a, const Site& b, const Disk& disk) {
-  const Vec2 to_a = outward(a, disk.center), to_b = outward(b, disk.center);
-  const Vec2 sum = to_a + to_b, difference = left_of(to_a - to_b);
-  const Vec2 along = squared_norm(sum) > squared_norm(difference) ? sum : difference;
-  const Vec2 unit = (1 / norm(along)) * along;
-  return {unit, 0.5 * dot(sum, unit)};
-}
-
-/// The same control point, where the tangents at both ends meet. Their parts up to there, u and v,
-/// have one product P(u, u) = P(v, v), and the weight is the square root of P(chord, chord) /
-/// (4 P(v, v)). That keeps the digits that the pole loses where centre and radius change almost
-/// alike. None where an end is the centre of an arc, or the tangents are nearly
-/// parallel.
-std::optional<Control> meeting_of_tangents(const Site& a, const Site& b, const Disk& from,
-                                           const Disk& to) {
-  const DiskVector first = tangent_at(a, b, from), last = tangent_at(a, b, to);
-  const DiskVector chord{to.center - from.center, to.radius - from.radius};
-  // The common perpendicular of the two tangents is short: least squares, in each case without the
-  // part along the other tangent, which is where digits would cancel.
-  const auto inner = [](const DiskVector& u, const DiskVector& v) {
-    return dot(u.c, v.c) + u.r * v.r;
-  };
-  const auto without = [](const DiskVector& u, double share, const DiskVector& v) {
-    return DiskVector{u.c - share * v.c, u.r - share * v.r};
-  };
-  const double aa = inner(first, first), ab = inner(first, last), bb = inner(last, last);
-  const double ca = inner(chord, first), cb = inner(chord, last);
-  const DiskVector first_across = without(first, ab / bb, last);
-  const DiskVector last_across = without(last, ab / aa, first);
-  const double s =
-      inner(without(chord, cb / bb, last), first_across) / inner(first_across, first_across);
-  const double t =
-      -inner(without(chord, ca / aa, first), last_across) / inner(last_across, last_across);
-  const bool from_first = std::abs(s) * std::sqrt(aa) < std::abs(t) * std::sqrt(bb);
-  const Disk& end = from_first ? from : to;
-  const DiskVector& along = from_first ? first : last;
-  const double way = from_first ? s : t;
-  const double weight_squared =
-      product(chord, chord) / (4 * way * way * ((1 - along.r) * (1 + along.r)));
-  // On the way from the one end to the other.
-  const bool between = s * ca > 0 && t * cb < 0;
-  if (!(between && weight_squared > 0 && std::isfinite(weight_squared))) return std::nullopt;
-  return Control{{end.center + way * along.c, end.radius + way * along.r},
-                 std::sqrt(weight_squared)};
-}
-
 /// Whether the edge with this control point turns around a vertex against its chord, by more than
 /// rounding. Where the other site all but passes through the vertex, disks touch both wherever they
 /// lie across the edge: how far it strays does not tell.
@@ -210,14 +223,14 @@ bool turns_back(const Control& control, const Site& a, const Site& b, const Disk
   return false;
 }
 
-/// The control point of an edge with an arc: the pole, or where that strays or turns back, the
-/// meeting of tangents. An edge for which neither helps is so nearly straight that a parabola
-/// through the disk halfway does better.
+/// The control point of an edge with an arc: the pole, with twice the digits where that strays or
+/// turns back.
 Control control_with_arc(const Site& a, const Site& b, const Disk& from, const Disk& to) {
   constexpr double few_roundings = 0x1p-50, long_enough = 0x1p-7, curved = 0x1p-3;
   Control best = pole_of_chord(a, b, from, to);
   const double length = distance(from.center, to.center);
-  const double focal = std::min(focal_distance(a, b, from), focal_distance(a, b, to));
+  const double focal = std::min({focal_distance(a, from, to), focal_distance(b, from, to),
+                                 from.radius, to.radius});
   if (length < long_enough * focal) return best;
   const bool near_focus = focal < curved * length;
   double strays = deviation(best, a, b, from, to, near_focus);
@@ -245,27 +258,12 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
   if ((strays > few_roundings || !leads_between) &&
       deviation(straight, a, b, from, to, near_focus) <= enough)
     return straight;
-  const auto take_if_better = [&](const Control& control) {
-    const double now = deviation(control, a, b, from, to, near_focus);
-    if (!(now < strays)) return;
-    strays = now;
-    best = control;
-  };
   const bool is_lost = turns_back(best, a, b, from, to);
   if (strays <= few_roundings && !is_lost) return best;
-  if (const auto meeting = meeting_of_tangents(a, b, from, to)) {
-    if (is_lost && !turns_back(*meeting, a, b, from, to)) strays = std::max(strays, few_roundings);
-    take_if_better(*meeting);
-  }
-  if (strays <= few_roundings) return best;
-  const Bisector bisector(b, a);
-  const Disk halfway =
-      bisector.disk_at(0.5 * (bisector.position(from.center) + bisector.position(to.center)), from);
-  const Disk middle = straight.point;
-  const Disk bent{2 * halfway.center - middle.center, 2 * halfway.radius - middle.radius};
-  if (is_between(bent.center)) take_if_better({bent, 1});
-  take_if_better(straight);
-  return best;
+  const auto exact = pole_of_cone(a, b, from, to);
+  if (!exact) return best;
+  if (is_lost && !turns_back(*exact, a, b, from, to)) strays = std::max(strays, few_roundings);
+  return deviation(*exact, a, b, from, to, near_focus) < strays ? *exact : best;
 }
 
 }  // namespace
