@@ -205,6 +205,54 @@ double deviation(const Control& control, const Site& a, const Site& b, const Dis
   return worst;
 }
 
+/// The unit tangent (x, y) at a disk of the bisector of a and b, with the growth of the radius
+/// along it; in either direction.
+DiskVector tangent_at(const Site& a, const Site& b, const Disk& disk) {
+  const Vec2 to_a = outward(a, disk.center), to_b = outward(b, disk.center);
+  const Vec2 sum = to_a + to_b, difference = left_of(to_a - to_b);
+  const Vec2 along = squared_norm(sum) > squared_norm(difference) ? sum : difference;
+  const Vec2 unit = (1 / norm(along)) * along;
+  return {unit, 0.5 * dot(sum, unit)};
+}
+
+/// The same control point, where the tangents at both ends meet. Their parts up to there, u and v,
+/// have one product P(u, u) = P(v, v), and the weight is the square root of P(chord, chord) /
+/// (4 P(v, v)). That keeps the digits that the pole loses where centre and radius change almost
+/// alike. None where an end is the centre of an arc, or the tangents are nearly
+/// parallel.
+std::optional<Control> meeting_of_tangents(const Site& a, const Site& b, const Disk& from,
+                                           const Disk& to) {
+  const DiskVector first = tangent_at(a, b, from), last = tangent_at(a, b, to);
+  const DiskVector chord{to.center - from.center, to.radius - from.radius};
+  // The common perpendicular of the two tangents is short: least squares, in each case without the
+  // part along the other tangent, which is where digits would cancel.
+  const auto inner = [](const DiskVector& u, const DiskVector& v) {
+    return dot(u.c, v.c) + u.r * v.r;
+  };
+  const auto without = [](const DiskVector& u, double share, const DiskVector& v) {
+    return DiskVector{u.c - share * v.c, u.r - share * v.r};
+  };
+  const double aa = inner(first, first), ab = inner(first, last), bb = inner(last, last);
+  const double ca = inner(chord, first), cb = inner(chord, last);
+  const DiskVector first_across = without(first, ab / bb, last);
+  const DiskVector last_across = without(last, ab / aa, first);
+  const double s =
+      inner(without(chord, cb / bb, last), first_across) / inner(first_across, first_across);
+  const double t =
+      -inner(without(chord, ca / aa, first), last_across) / inner(last_across, last_across);
+  const bool from_first = std::abs(s) * std::sqrt(aa) < std::abs(t) * std::sqrt(bb);
+  const Disk& end = from_first ? from : to;
+  const DiskVector& along = from_first ? first : last;
+  const double way = from_first ? s : t;
+  const double weight_squared =
+      product(chord, chord) / (4 * way * way * ((1 - along.r) * (1 + along.r)));
+  // On the way from the one end to the other.
+  const bool between = s * ca > 0 && t * cb < 0;
+  if (!(between && weight_squared > 0 && std::isfinite(weight_squared))) return std::nullopt;
+  return Control{{end.center + way * along.c, end.radius + way * along.r},
+                 std::sqrt(weight_squared)};
+}
+
 /// Whether the edge with this control point turns around a vertex against its chord, by more than
 /// rounding. Where the other site all but passes through the vertex, disks touch both wherever they
 /// lie across the edge: how far it strays does not tell.
@@ -223,8 +271,8 @@ bool turns_back(const Control& control, const Site& a, const Site& b, const Disk
   return false;
 }
 
-/// The control point of an edge with an arc: the pole, with twice the digits where that strays or
-/// turns back.
+/// The control point of an edge with an arc: the pole, or where that strays or turns back, the
+/// meeting of tangents; where neither helps, the pole with twice the digits.
 Control control_with_arc(const Site& a, const Site& b, const Disk& from, const Disk& to) {
   constexpr double few_roundings = 0x1p-50, long_enough = 0x1p-7, curved = 0x1p-3;
   Control best = pole_of_chord(a, b, from, to);
@@ -258,12 +306,23 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
   if ((strays > few_roundings || !leads_between) &&
       deviation(straight, a, b, from, to, near_focus) <= enough)
     return straight;
+  const auto take_if_better = [&](const Control& control) {
+    const double now = deviation(control, a, b, from, to, near_focus);
+    if (!(now < strays)) return;
+    strays = now;
+    best = control;
+  };
   const bool is_lost = turns_back(best, a, b, from, to);
   if (strays <= few_roundings && !is_lost) return best;
+  if (const auto meeting = meeting_of_tangents(a, b, from, to)) {
+    if (is_lost && !turns_back(*meeting, a, b, from, to)) strays = std::max(strays, few_roundings);
+    take_if_better(*meeting);
+  }
+  if (strays <= few_roundings) return best;
   const auto exact = pole_of_cone(a, b, from, to);
-  if (!exact) return best;
-  if (is_lost && !turns_back(*exact, a, b, from, to)) strays = std::max(strays, few_roundings);
-  return deviation(*exact, a, b, from, to, near_focus) < strays ? *exact : best;
+  if (exact && is_between(exact->point.center)) take_if_better(*exact);
+  take_if_better(straight);
+  return best;
 }
 
 }  // namespace
