@@ -272,7 +272,9 @@ bool turns_back(const Control& control, const Site& a, const Site& b, const Disk
 }
 
 /// The control point of an edge with an arc: the pole, or where that strays or turns back, the
-/// meeting of tangents; where neither helps, the pole with twice the digits.
+/// meeting of tangents. An edge for which neither helps is so nearly straight that a parabola
+/// through the disk halfway does better, or turns around a focus: there the pole with twice the
+/// digits does, which sites that are nearly tangent would leave open.
 Control control_with_arc(const Site& a, const Site& b, const Disk& from, const Disk& to) {
   constexpr double few_roundings = 0x1p-50, long_enough = 0x1p-7, curved = 0x1p-3;
   Control best = pole_of_chord(a, b, from, to);
@@ -297,12 +299,14 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
   const bool leads_between = is_between(best.point.center);
   constexpr double short_line = 0x1p-46;
   if (!leads_between && length <= short_line) return straight;
-  double enough = 0;
-  if (!leads_between)
+  const auto ends_stray = [&] {
+    double worst = 0;
     for (const Disk& end : {from, to})
       for (const Site* s : {&a, &b})
-        enough = std::max(enough, std::abs(carrier_distance(*s, end.center) - end.radius));
-  enough += few_roundings;
+        worst = std::max(worst, std::abs(carrier_distance(*s, end.center) - end.radius));
+    return worst;
+  };
+  const double enough = few_roundings + (leads_between ? 0 : ends_stray());
   if ((strays > few_roundings || !leads_between) &&
       deviation(straight, a, b, from, to, near_focus) <= enough)
     return straight;
@@ -319,9 +323,16 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
     take_if_better(*meeting);
   }
   if (strays <= few_roundings) return best;
+  const Bisector bisector(b, a);
+  const Disk halfway =
+      bisector.disk_at(0.5 * (bisector.position(from.center) + bisector.position(to.center)), from);
+  const Disk middle = straight.point;
+  const Disk bent{2 * halfway.center - middle.center, 2 * halfway.radius - middle.radius};
+  if (is_between(bent.center)) take_if_better({bent, 1});
+  take_if_better(straight);
+  if (strays <= few_roundings + ends_stray()) return best;
   const auto exact = pole_of_cone(a, b, from, to);
   if (exact && is_between(exact->point.center)) take_if_better(*exact);
-  take_if_better(straight);
   return best;
 }
 
