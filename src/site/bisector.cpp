@@ -143,12 +143,12 @@ ConeVector unit_normal(const Site& s) {
 }
 
 /// The pole with twice the digits, of an edge that is not short against its distance from a focus.
-/// With d = (c - q, rho - r), q the arc's centre and rho its signed radius, the disks that touch the
-/// arc are a cone, P(d, d) = 0. So the pole is P-perpendicular to both ends, which tells its
+/// With d = (c - q, rho - r), q the arc's centre and rho its signed radius, the disks that touch
+/// the arc are a cone, P(d, d) = 0. So the pole is P-perpendicular to both ends, which gives its
 /// direction, and how far away it is follows from the plane of the edge, in which the other site's
 /// equation is linear. Each end is off the cone by its own rounding against its distance from the
-/// apex, and so is the curve near to it: from the mean of both ends, the near one would get what the
-/// far one is off. None where the equations leave it open.
+/// apex, and so is the curve near to it: from the mean of both ends, the near one would get what
+/// the far one is off. None where the equations leave it open.
 std::optional<Control> pole_of_cone(const Site& a, const Site& b, const Disk& from,
                                     const Disk& to) {
   const bool by_a = focal_distance(a, from, to) <= focal_distance(b, from, to);
@@ -166,13 +166,14 @@ std::optional<Control> pole_of_cone(const Site& a, const Site& b, const Disk& fr
   const Twofold flat = other.is_vertex() ? 0.0 : 1.0;
   const Twofold round = other.is_vertex() ? 1.0 : other.curvature;
   const Twofold ex = qx - other.point.x, ey = qy - other.point.y;
-  const Twofold slope = (m.x - round * ex) * way.x + (m.y - round * ey) * way.y +
-                        (flat - round * rho) * way.r;
-  const Twofold height = m.x * ex + m.y * ey - flat * rho -
-                         Twofold(0.5) * round * (ex * ex + ey * ey - rho * rho);
+  const Twofold slope =
+      (m.x - round * ex) * way.x + (m.y - round * ey) * way.y + (flat - round * rho) * way.r;
+  const Twofold height =
+      m.x * ex + m.y * ey - flat * rho - Twofold(0.5) * round * (ex * ex + ey * ey - rho * rho);
   const Twofold share = -height / slope;
-  const Disk pole{{static_cast<double>(qx + share * way.x), static_cast<double>(qy + share * way.y)},
-                  static_cast<double>(rho - share * way.r)};
+  const Disk pole{
+      {static_cast<double>(qx + share * way.x), static_cast<double>(qy + share * way.y)},
+      static_cast<double>(rho - share * way.r)};
   const auto weight_squared = static_cast<double>(
       -product(first, last) / (Twofold(2.0) * share * share * product(way, way)));
   if (!(weight_squared > 0 &&
@@ -279,8 +280,8 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
   constexpr double few_roundings = 0x1p-50, long_enough = 0x1p-7, curved = 0x1p-3;
   Control best = pole_of_chord(a, b, from, to);
   const double length = distance(from.center, to.center);
-  const double focal = std::min({focal_distance(a, from, to), focal_distance(b, from, to),
-                                 from.radius, to.radius});
+  const double focal =
+      std::min({focal_distance(a, from, to), focal_distance(b, from, to), from.radius, to.radius});
   if (length < long_enough * focal) return best;
   const bool near_focus = focal < curved * length;
   double strays = deviation(best, a, b, from, to, near_focus);

@@ -192,20 +192,6 @@ struct EndDisks {
   Pair x, y, squared_least, squared_most;
 };
 
-/// Whether the feet move forward on the right site and backward on the left one, but for `slack`.
-/// Next to the centre of an arc, rounding decides that of an edge no longer than the slack.
-bool feet_advance(const site::Site& left, const site::Site& right, const Disk& from,
-                  const Disk& to, double slack) {
-  if (squared_norm(to.center - from.center) <= slack * slack) {
-    for (const site::Site* arc : {&left, &right})
-      if (arc->is_arc() && std::abs(site::carrier_parameter(*arc, to.center) -
-                                    site::carrier_parameter(*arc, from.center)) > 64 * slack)
-        return false;
-  }
-  return site::foot_advances(right, from.center, to.center, slack) &&
-         site::foot_advances(left, to.center, from.center, slack);
-}
-
 }  // namespace
 
 Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::span<const Bridge> bridges,
@@ -303,9 +289,7 @@ WorkVector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& f
     const site::Site &left = boundary.sites[edge.site[0]], &right = boundary.sites[edge.site[1]];
     const Disk &from = graph.nodes[edge.node[0]].disk, &to = graph.nodes[edge.node[1]].disk;
     const EndDisks ends(from, to, slack.value_or(0));
-    const bool is_doubtful =
-        slack && (!(ends.touch(left) && ends.touch(right)) ||
-                  (boundary.has_arcs && !feet_advance(left, right, from, to, 2 * *slack)));
+    const bool is_doubtful = slack && !(ends.touch(left) && ends.touch(right));
     const site::Control control = site::control_of(left, right, from, to);
     edge.site = {boundary.originals[edge.site[0]], boundary.originals[edge.site[1]]};
     edge.control = {frame.to_input(control.point.center), frame.inverse * control.point.radius};

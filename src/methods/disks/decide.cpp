@@ -76,8 +76,7 @@ bool Decider::decide_exactly(Step& step, const Disk& from) {
   if (!found) {
     if (is_exact) event = event_in_double(span, from);
     if (!step.is_certain && boundary_.has_arcs)
-      if (const auto passed = EventSearch(contacts_, span, from).first_pass(event))
-        event = *passed;
+      if (const auto passed = EventSearch(contacts_, span, from).first_pass(event)) event = *passed;
     lose(span, event.site);
     return is_exact;
   }

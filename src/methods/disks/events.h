@@ -55,9 +55,10 @@ class EventSearch {
   /// Where the node's disk touches the smooth neighbour of one of the two sites as well, within the
   /// tolerance: the foot may pass on to it at once.
   std::optional<Event> pass_at_node() const;
-  /// Where a foot passes on at a joint that leaves open how large the disk there is, since the other
-  /// site touches the boundary next to the joint: the first disk that touches the next site within
-  /// the tolerance. (The boundary turns there by less than that, and what leads on is no branch.)
+  /// Where a foot passes on at a joint that leaves open how large the disk there is, since the
+  /// other site touches the boundary next to the joint: the first disk that touches the next site
+  /// within the tolerance. (The boundary turns there by less than that, and what leads on is no
+  /// branch.)
   std::optional<Event> first_pass(const Event& event) const;
   Disk asked_disk(const Event& event) const {
     return event.kind == Event::Kind::contact ? beyond(event).disk : event.disk;
