@@ -83,7 +83,8 @@ bool ends_at_arc(const Problem& problem, const Edge& edge, std::size_t end, std:
   };
   const auto add_joint = [&](std::uint32_t i) {
     turns =
-        turns || (turn_between(problem.edge(problem.previous[i]), problem.edge(i)) > 0 &&
+        turns || (problem.joint[i] == Joint::smooth &&
+                  turn_between(problem.edge(problem.previous[i]), problem.edge(i)) > 0 &&
                   distance(before.center, problem.point(i)) - before.radius > problem.tolerance);
     if (!problem.blunt_angle.empty()) blunt += problem.blunt_angle[i];
   };

@@ -508,10 +508,13 @@ class Merger {
     const Vec2 halfway = share * (from + to) + middle * control.point.center;
     const double radius = share * (start.radius + end.radius) + middle * control.point.radius;
     // Near an arc's centre, a disk may touch the arc's end although the circle is far away there.
-    for (const Disk& disk : {start, Disk{halfway, radius}, end})
-      for (const Site& site : {left, right})
-        if (!(std::abs(site::carrier_distance(site, disk.center) - disk.radius) <= tolerance_))
-          return false;
+    const auto strays = [&](const Disk& disk, double bound) {
+      return !(std::abs(site::carrier_distance(left, disk.center) - disk.radius) <= bound &&
+               std::abs(site::carrier_distance(right, disk.center) - disk.radius) <= bound);
+    };
+    if (strays({halfway, radius}, tolerance_) || strays(start, 2 * tolerance_) ||
+        strays(end, 2 * tolerance_))
+      return false;
     if (!is_empty({halfway, radius}, graph_.nodes[edge.node[0]].component)) return false;
     const auto moves_forward = [&](const Site& site, Vec2 a, Vec2 b) {
       if (!site.is_vertex())
