@@ -126,7 +126,8 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   if (way.merges_ties) merge_ties(tree, sites, problem.local_tolerance(), graph, names);
   if (boundary.has_arcs) {
     find_intruders(boundary, tree, 2 * problem.local_tolerance(), graph);
-    find_backward(boundary, 4 * problem.local_tolerance(), graph);
+    // A diagram is measured as a whole.
+    if (boundary.sides == Sides::one) find_backward(boundary, 4 * problem.local_tolerance(), graph);
   }
   return graph;
 }
