@@ -331,7 +331,8 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
   const Disk bent{2 * halfway.center - middle.center, 2 * halfway.radius - middle.radius};
   if (is_between(bent.center)) take_if_better({bent, 1});
   take_if_better(straight);
-  if (strays <= few_roundings + ends_stray()) return best;
+  // Ends that are off by more, in ties, would be followed across the edge.
+  if (strays <= few_roundings || ends_stray() > few_roundings) return best;
   const auto exact = pole_of_cone(a, b, from, to);
   if (exact && is_between(exact->point.center)) take_if_better(*exact);
   return best;
