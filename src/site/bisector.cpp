@@ -277,7 +277,8 @@ bool turns_back(const Control& control, const Site& a, const Site& b, const Disk
 /// through the disk halfway does better, or turns around a focus: there the pole with twice the
 /// digits does, which sites that are nearly tangent would leave open.
 Control control_with_arc(const Site& a, const Site& b, const Disk& from, const Disk& to) {
-  constexpr double few_roundings = 0x1p-50, long_enough = 0x1p-7, curved = 0x1p-3;
+  constexpr double few_roundings = 0x1p-50, long_enough = 0x1p-7, curved = 0x1p-3,
+                   short_line = 0x1p-46;
   Control best = pole_of_chord(a, b, from, to);
   const double length = distance(from.center, to.center);
   const double focal =
@@ -298,7 +299,6 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
   // that it need not be measured: as distances change by no more than the place, it strays by half
   // its length at most, and 2^-47 is less than verify() allows a size of one.
   const bool leads_between = is_between(best.point.center);
-  constexpr double short_line = 0x1p-46;
   if (!leads_between && length <= short_line) return straight;
   const auto ends_stray = [&] {
     double worst = 0;
@@ -327,14 +327,14 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
   const Bisector bisector(b, a);
   const Disk halfway =
       bisector.disk_at(0.5 * (bisector.position(from.center) + bisector.position(to.center)), from);
-  const Disk middle = straight.point;
-  const Disk bent{2 * halfway.center - middle.center, 2 * halfway.radius - middle.radius};
+  const Disk bent{2 * halfway.center - straight.point.center,
+                  2 * halfway.radius - straight.point.radius};
   if (is_between(bent.center)) take_if_better({bent, 1});
   take_if_better(straight);
-  // Ends that are off by more, in ties, would be followed across the edge.
+  // An end that a tie has moved would be followed across the edge.
   if (strays <= few_roundings || ends_stray() > few_roundings) return best;
-  const auto exact = pole_of_cone(a, b, from, to);
-  if (exact && is_between(exact->point.center)) take_if_better(*exact);
+  if (const auto exact = pole_of_cone(a, b, from, to); exact && is_between(exact->point.center))
+    take_if_better(*exact);
   return best;
 }
 

@@ -58,10 +58,10 @@ struct Corner {
 
 /// Whether an edge may end with a radius above 0: what lies between the two feet of its last disk
 /// is touched by that disk, and is an arc of convex curvature, the largest thereabouts because its
-/// circle lies inside; or a blunt joint, whose leaf is left out; or a joint that would be blunt but
-/// for rounding, if the disk at the edge's other end does not touch that. Looks at `budget`
-/// boundary edges at most, and takes those away from it: no two leaves of a right axis look at the
-/// same one.
+/// circle lies inside; or a blunt joint, whose leaf is left out; or a joint that is smooth, but
+/// convex within rounding, if the disk at the edge's other end does not touch that. Looks at
+/// `budget` boundary edges at most, and takes those away from it: no two leaves of a right axis
+/// look at the same one.
 bool ends_at_arc(const Problem& problem, const Edge& edge, std::size_t end, std::size_t& budget) {
   const auto place = [&](std::size_t side) { return problem.place[edge.site[side]]; };
   const auto is_vertex = [&](std::size_t side) {
