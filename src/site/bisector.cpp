@@ -272,6 +272,15 @@ bool turns_back(const Control& control, const Site& a, const Site& b, const Disk
   return false;
 }
 
+/// How far an edge's ends are from touching both sites.
+double ends_stray(const Site& a, const Site& b, const Disk& from, const Disk& to) {
+  double worst = 0;
+  for (const Disk& end : {from, to})
+    for (const Site* s : {&a, &b})
+      worst = std::max(worst, std::abs(carrier_distance(*s, end.center) - end.radius));
+  return worst;
+}
+
 /// The control point of an edge with an arc: the pole, or where that strays or turns back, the
 /// meeting of tangents. An edge for which neither helps is so nearly straight that a parabola
 /// through the disk halfway does better, or turns around a focus: there the pole with twice the
@@ -300,14 +309,7 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
   // its length at most, and 2^-47 is less than verify() allows a size of one.
   const bool leads_between = is_between(best.point.center);
   if (!leads_between && length <= short_line) return straight;
-  const auto ends_stray = [&] {
-    double worst = 0;
-    for (const Disk& end : {from, to})
-      for (const Site* s : {&a, &b})
-        worst = std::max(worst, std::abs(carrier_distance(*s, end.center) - end.radius));
-    return worst;
-  };
-  const double enough = few_roundings + (leads_between ? 0 : ends_stray());
+  const double enough = few_roundings + (leads_between ? 0 : ends_stray(a, b, from, to));
   if ((strays > few_roundings || !leads_between) &&
       deviation(straight, a, b, from, to, near_focus) <= enough)
     return straight;
@@ -332,7 +334,7 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
   if (is_between(bent.center)) take_if_better({bent, 1});
   take_if_better(straight);
   // An end that a tie has moved would be followed across the edge.
-  if (strays <= few_roundings || ends_stray() > few_roundings) return best;
+  if (strays <= few_roundings || ends_stray(a, b, from, to) > few_roundings) return best;
   if (const auto exact = pole_of_cone(a, b, from, to); exact && is_between(exact->point.center))
     take_if_better(*exact);
   return best;
