@@ -1,6 +1,9 @@
 #include "site/bisector.h"
 
+#include <limits>
 #include <optional>
+
+#include "base/twofold.h"
 
 namespace medial::site {
 namespace {
@@ -112,6 +115,73 @@ Control pole_of_chord(const Site& a, const Site& b, const Disk& from, const Disk
           std::sqrt(weight_squared)};
 }
 
+/// The distance of a disk of a site from the centre of an arc, or from a vertex.
+double focal_distance(const Site& s, const Disk& disk) {
+  return s.is_vertex() ? disk.radius
+         : s.is_arc()  ? std::abs(1 / s.curvature - disk.radius)
+                       : std::numeric_limits<double>::infinity();
+}
+/// The least one of an edge's ends.
+double focal_distance(const Site& s, const Disk& from, const Disk& to) {
+  return std::min(focal_distance(s, from), focal_distance(s, to));
+}
+
+/// A disk seen from the apex of the cone of all disks that touch an arc or a vertex.
+struct ConeVector {
+  Twofold x, y, r;
+};
+Twofold product(const ConeVector& u, const ConeVector& v) {
+  return u.x * v.x + u.y * v.y - u.r * v.r;
+}
+
+/// The left normal of a site, of unit length to twice the digits.
+ConeVector unit_normal(const Site& s) {
+  const Vec2 n = s.normal();
+  if (s.is_vertex()) return {0.0, 0.0, 0.0};
+  const Twofold size = sqrt(Twofold(n.x) * n.x + Twofold(n.y) * n.y);
+  return {Twofold(n.x) / size, Twofold(n.y) / size, 0.0};
+}
+
+/// The pole with twice the digits, of an edge that is not short against its distance from a focus.
+/// With d = (c - q, rho - r), q the arc's centre and rho its signed radius, the disks that touch
+/// the arc are a cone, P(d, d) = 0. So the pole is P-perpendicular to both ends, which gives its
+/// direction, and how far away it is follows from the plane of the edge, in which the other site's
+/// equation is linear. Each end is off the cone by its own rounding against its distance from the
+/// apex, and so is the curve near to it: from the mean of both ends, the near one would get what
+/// the far one is off. None where the equations leave it open.
+std::optional<Control> pole_of_cone(const Site& a, const Site& b, const Disk& from,
+                                    const Disk& to) {
+  const bool by_a = focal_distance(a, from, to) <= focal_distance(b, from, to);
+  const Site &site = by_a ? a : b, &other = by_a ? b : a;
+  const ConeVector n = unit_normal(site), m = unit_normal(other);
+  const Twofold rho = site.is_vertex() ? Twofold(0.0) : Twofold(1.0) / Twofold(site.curvature);
+  const Twofold qx = rho * n.x + site.point.x, qy = rho * n.y + site.point.y;
+  const auto seen = [&](const Disk& disk) {
+    return ConeVector{Twofold(disk.center.x) - qx, Twofold(disk.center.y) - qy, rho - disk.radius};
+  };
+  const ConeVector first = seen(from), last = seen(to);
+  const ConeVector way{first.y * last.r - first.r * last.y, first.r * last.x - first.x * last.r,
+                       first.y * last.x - first.x * last.y};
+  // flat (m.d - r) = round P(d, d) / 2 of the other site, seen from q.
+  const Twofold flat = other.is_vertex() ? 0.0 : 1.0;
+  const Twofold round = other.is_vertex() ? 1.0 : other.curvature;
+  const Twofold ex = qx - other.point.x, ey = qy - other.point.y;
+  const Twofold slope =
+      (m.x - round * ex) * way.x + (m.y - round * ey) * way.y + (flat - round * rho) * way.r;
+  const Twofold height =
+      m.x * ex + m.y * ey - flat * rho - Twofold(0.5) * round * (ex * ex + ey * ey - rho * rho);
+  const Twofold share = -height / slope;
+  const Disk pole{
+      {static_cast<double>(qx + share * way.x), static_cast<double>(qy + share * way.y)},
+      static_cast<double>(rho - share * way.r)};
+  const auto weight_squared = static_cast<double>(
+      -product(first, last) / (Twofold(2.0) * share * share * product(way, way)));
+  if (!(weight_squared > 0 &&
+        std::isfinite(weight_squared + pole.center.x + pole.center.y + pole.radius)))
+    return std::nullopt;
+  return Control{pole, std::sqrt(weight_squared)};
+}
+
 /// How far the edge with this control point strays from touching both sites: in its middle, and
 /// next to its ends, where it may be bent most; next to a focus, on all scales down to rounding.
 double deviation(const Control& control, const Site& a, const Site& b, const Disk& from,
@@ -134,14 +204,6 @@ double deviation(const Control& control, const Site& a, const Site& b, const Dis
     add(1 - t, t);
   }
   return worst;
-}
-
-/// The least distance of a disk from the centres of arcs among two sites, and its radius.
-double focal_distance(const Site& a, const Site& b, const Disk& disk) {
-  double least = disk.radius;
-  for (const Site* s : {&a, &b})
-    if (s->is_arc()) least = std::min(least, std::abs(1 / s->curvature - disk.radius));
-  return least;
 }
 
 /// The unit tangent (x, y) at a disk of the bisector of a and b, with the growth of the radius
@@ -210,14 +272,26 @@ bool turns_back(const Control& control, const Site& a, const Site& b, const Disk
   return false;
 }
 
+/// How far an edge's ends are from touching both sites.
+double ends_stray(const Site& a, const Site& b, const Disk& from, const Disk& to) {
+  double worst = 0;
+  for (const Disk& end : {from, to})
+    for (const Site* s : {&a, &b})
+      worst = std::max(worst, std::abs(carrier_distance(*s, end.center) - end.radius));
+  return worst;
+}
+
 /// The control point of an edge with an arc: the pole, or where that strays or turns back, the
 /// meeting of tangents. An edge for which neither helps is so nearly straight that a parabola
-/// through the disk halfway does better.
+/// through the disk halfway does better, or turns around a focus: there the pole with twice the
+/// digits does, which sites that are nearly tangent would leave open.
 Control control_with_arc(const Site& a, const Site& b, const Disk& from, const Disk& to) {
-  constexpr double few_roundings = 0x1p-50, long_enough = 0x1p-7, curved = 0x1p-3;
+  constexpr double few_roundings = 0x1p-50, long_enough = 0x1p-7, curved = 0x1p-3,
+                   short_line = 0x1p-46;
   Control best = pole_of_chord(a, b, from, to);
   const double length = distance(from.center, to.center);
-  const double focal = std::min(focal_distance(a, b, from), focal_distance(a, b, to));
+  const double focal =
+      std::min({focal_distance(a, from, to), focal_distance(b, from, to), from.radius, to.radius});
   if (length < long_enough * focal) return best;
   const bool near_focus = focal < curved * length;
   double strays = deviation(best, a, b, from, to, near_focus);
@@ -234,14 +308,8 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
   // that it need not be measured: as distances change by no more than the place, it strays by half
   // its length at most, and 2^-47 is less than verify() allows a size of one.
   const bool leads_between = is_between(best.point.center);
-  constexpr double short_line = 0x1p-46;
   if (!leads_between && length <= short_line) return straight;
-  double enough = 0;
-  if (!leads_between)
-    for (const Disk& end : {from, to})
-      for (const Site* s : {&a, &b})
-        enough = std::max(enough, std::abs(carrier_distance(*s, end.center) - end.radius));
-  enough += few_roundings;
+  const double enough = few_roundings + (leads_between ? 0 : ends_stray(a, b, from, to));
   if ((strays > few_roundings || !leads_between) &&
       deviation(straight, a, b, from, to, near_focus) <= enough)
     return straight;
@@ -261,10 +329,14 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
   const Bisector bisector(b, a);
   const Disk halfway =
       bisector.disk_at(0.5 * (bisector.position(from.center) + bisector.position(to.center)), from);
-  const Disk middle = straight.point;
-  const Disk bent{2 * halfway.center - middle.center, 2 * halfway.radius - middle.radius};
+  const Disk bent{2 * halfway.center - straight.point.center,
+                  2 * halfway.radius - straight.point.radius};
   if (is_between(bent.center)) take_if_better({bent, 1});
   take_if_better(straight);
+  // An end that a tie has moved would be followed across the edge.
+  if (strays <= few_roundings || ends_stray(a, b, from, to) > few_roundings) return best;
+  if (const auto exact = pole_of_cone(a, b, from, to); exact && is_between(exact->point.center))
+    take_if_better(*exact);
   return best;
 }
 

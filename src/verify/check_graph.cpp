@@ -58,8 +58,10 @@ struct Corner {
 
 /// Whether an edge may end with a radius above 0: what lies between the two feet of its last disk
 /// is touched by that disk, and is an arc of convex curvature, the largest thereabouts because its
-/// circle lies inside; or a blunt joint, whose leaf is left out. Looks at `budget` boundary edges
-/// at most, and takes those away from it: no two leaves of a right axis look at the same one.
+/// circle lies inside; or a blunt joint, whose leaf is left out; or a joint that is smooth, but
+/// convex within rounding, if the disk at the edge's other end does not touch that. Looks at
+/// `budget` boundary edges at most, and takes those away from it: no two leaves of a right axis
+/// look at the same one.
 bool ends_at_arc(const Problem& problem, const Edge& edge, std::size_t end, std::size_t& budget) {
   const auto place = [&](std::size_t side) { return problem.place[edge.site[side]]; };
   const auto is_vertex = [&](std::size_t side) {
@@ -70,8 +72,9 @@ bool ends_at_arc(const Problem& problem, const Edge& edge, std::size_t end, std:
   if (place(right) == no_index || place(left) == no_index) return false;
   const Disk& disk = problem.disk(edge.node[end]);
   const std::uint32_t first = is_vertex(right) ? place(right) : problem.next[place(right)];
-  bool arcs = false;
+  bool arcs = false, turns = false;
   double farthest = 0, blunt = 0;
+  const Disk& before = problem.disk(edge.node[1 - end]);
   const auto deviation = [&](const BoundaryEdge& on) {
     double worst = 0;
     for (const Vec2 p : {on.start, apex(on), on.end})
@@ -79,6 +82,10 @@ bool ends_at_arc(const Problem& problem, const Edge& edge, std::size_t end, std:
     return worst;
   };
   const auto add_joint = [&](std::uint32_t i) {
+    turns =
+        turns || (problem.joint[i] == Joint::smooth &&
+                  turn_between(problem.edge(problem.previous[i]), problem.edge(i)) > 0 &&
+                  distance(before.center, problem.point(i)) - before.radius > problem.tolerance);
     if (!problem.blunt_angle.empty()) blunt += problem.blunt_angle[i];
   };
   if (!is_vertex(right)) add_joint(first);
@@ -96,7 +103,7 @@ bool ends_at_arc(const Problem& problem, const Edge& edge, std::size_t end, std:
     const BoundaryEdge touched = problem.edge(place(side));
     arcs = arcs || (!is_vertex(side) && touched.bulge > 0 && deviation(touched) <= limit);
   }
-  return (arcs || blunt > 0) && farthest <= limit;
+  return (arcs || blunt > 0 || turns) && farthest <= limit;
 }
 
 }  // namespace

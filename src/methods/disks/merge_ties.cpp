@@ -497,7 +497,9 @@ class Merger {
   }
 
   /// Whether the feet move forward on the right site and backward on the left one, but for what
-  /// the tolerance leaves open, and the disk halfway along the edge still touches both and no more.
+  /// the tolerance leaves open, and the edge still lies on the bisector of the two carriers: its
+  /// ends, and the disk halfway, which reaches over nothing else. With the pole of its chord, three
+  /// places determine a conic.
   bool advances(const Edge& edge) const {
     const double slack = 4 * tolerance_;
     const Site &left = boundary_.sites[edge.site[0]], &right = boundary_.sites[edge.site[1]];
@@ -510,8 +512,14 @@ class Merger {
     const double share = 0.5 / (1 + control.weight), middle = control.weight / (1 + control.weight);
     const Vec2 halfway = share * (from + to) + middle * control.point.center;
     const double radius = share * (start.radius + end.radius) + middle * control.point.radius;
-    for (const Site& site : {left, right})
-      if (!(std::abs(site::carrier_distance(site, halfway) - radius) <= tolerance_)) return false;
+    // Near an arc's centre, a disk may touch the arc's end although the circle is far away there.
+    const auto strays = [&](const Disk& disk, double bound) {
+      return !(std::abs(site::carrier_distance(left, disk.center) - disk.radius) <= bound &&
+               std::abs(site::carrier_distance(right, disk.center) - disk.radius) <= bound);
+    };
+    if (strays({halfway, radius}, tolerance_) || strays(start, 2 * tolerance_) ||
+        strays(end, 2 * tolerance_))
+      return false;
     if (!is_empty({halfway, radius}, graph_.nodes[edge.node[0]].component)) return false;
     const auto moves_forward = [&](const Site& site, Vec2 a, Vec2 b) {
       if (!site.is_vertex())
