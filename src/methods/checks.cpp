@@ -111,7 +111,9 @@ bool has_arcs(const Shape& shape) {
 }
 
 std::vector<std::size_t> tiny_arcs(const Problem& problem) {
-  constexpr double smallest = 0x1p-26;  // in the local frame, whose size is about 1
+  // In the local frame, whose size is about 1: of an angle of 2^-50 (some roundings) over 2^-26,
+  // half the square is 2^-49, which is less than the tolerance.
+  constexpr double smallest = 0x1p-26;
   const Shape& shape = problem.shape;
   std::vector<std::size_t> found;
   if (shape.bulges.empty()) return found;

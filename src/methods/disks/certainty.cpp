@@ -14,7 +14,8 @@ constexpr double small_tolerance = 0x1p-16;
 /// How far a disk may be off, against its radius, for the next step to begin at it.
 constexpr double well_known = 0x1p-10;
 
-/// The same, in tolerances, where only a flat corner shows where the disk is.
+/// How many tolerances a disk in a flat corner may be off: what a tie leaves open, since opposite
+/// corners all but tie.
 constexpr double well_placed = 16;
 
 }  // namespace
@@ -141,54 +142,49 @@ double Certainty::error_at_corner(double tolerance) const {
     return before + 1 == after && !first.is_vertex() && !second.is_vertex() && !first.is_arc() &&
            !second.is_arc() && dot(first.direction, second.direction) > 0;
   };
-  const double error = is_corner(span_.right, fourth_)
-                           ? error_at_joint(boundary_, span_.right, fourth_, span_.left, to_)
-                       : is_corner(fourth_, span_.left)
-                           ? error_at_joint(boundary_, fourth_, span_.left, span_.right, to_)
-                           : unknown;
+  const auto error_of = [&](std::uint32_t before, std::uint32_t after, std::uint32_t third) {
+    const site::Site &first = site(before), &second = site(after);
+    const Vec2 between = first.normal() + second.normal(), d = to_.center - second.point;
+    const double growth = 0.5 * norm(between);
+    const Contact a = contact(before);
+    return error_on({(0.5 / growth) * between, growth, d, a.residual,
+                     std::max(a.unsure, rounding * taxicab_norm(d))},
+                    contact(third), to_.radius);
+  };
+  const double error = is_corner(span_.right, fourth_)  ? error_of(span_.right, fourth_, span_.left)
+                       : is_corner(fourth_, span_.left) ? error_of(fourth_, span_.left, span_.right)
+                                                        : unknown;
   return error <= well_placed * tolerance ? error : unknown;
 }
 
 double Certainty::error_at_joint(const Boundary& boundary, std::uint32_t before,
                                  std::uint32_t after, std::uint32_t third, const Disk& disk) {
   const site::Site &first = boundary.sites[before], &second = boundary.sites[after];
-  const Contact b = contact_of(boundary.sites[third], disk);
-  // The centre lies on the normal at the joint: how far the disk is from touching there, and beside
-  // the normal.
-  Vec2 normal;
-  double height, beside, unsure, growth = 1;
+  Line line;
   if (first.is_arc() || second.is_arc()) {
     const auto place = boundary.smooth_place(before, after);
     const Vec2 d = disk.center - place.point;
-    normal = place.normal;
-    height = dot(normal, d) - disk.radius;
-    beside = std::abs(cross(normal, d));
-    unsure = 4 * rounding * taxicab_norm(d);
-  } else if (after == before + 1 && !boundary.is_smooth(before)) {
-    // At a corner, the centre lies on the bisector, which passes through it.
-    const Vec2 between = first.normal() + second.normal();
-    const Vec2 d = disk.center - second.point;
-    const Contact a = contact_of(first, disk);
-    growth = 0.5 * norm(between);
-    normal = (0.5 / growth) * between;
-    height = a.residual;
-    beside = std::abs(cross(normal, d));
-    unsure = std::max(a.unsure, rounding * taxicab_norm(d));
+    line = {place.normal, 1, d, dot(place.normal, d) - disk.radius, 4 * rounding * taxicab_norm(d)};
   } else {
-    const site::Site& edge = first.is_vertex() ? second : first;
-    const Contact a = contact_of(edge, disk);
-    normal = a.toward;
-    height = a.residual;
-    beside = std::abs(dot(edge.direction, disk.center - second.point));
-    unsure = a.unsure;
+    const Contact a = contact_of(first.is_vertex() ? second : first, disk);
+    line = {a.toward, 1, disk.center - second.point, a.residual, a.unsure};
   }
-  const double closing = growth - dot(normal, b.toward);
+  return error_on(line, contact_of(boundary.sites[third], disk), disk.radius);
+}
+
+/// Along the line, the distance to what meets there grows by `growth`, and the third one by the dot
+/// product of both directions: the third site closes in by the difference. (Newton and Kantorovich,
+/// as above.)
+double Certainty::error_on(const Line& line, const Contact& third, double radius) {
+  const double closing = line.growth - dot(line.direction, third.toward);
   if (!(closing > 0)) return unknown;
-  const double within =
-      2.01 * (std::abs(b.residual) + b.unsure + std::abs(height) + unsure + 2 * (beside + unsure)) /
-      closing;
-  const double bend = std::max(1.0, b.bend * disk.radius);
-  return 2 * within * bend < disk.radius * closing ? within + rounding : unknown;
+  const double beside = std::abs(cross(line.direction, line.to_center));
+  const double within = 2.01 *
+                        (std::abs(third.residual) + third.unsure + std::abs(line.residual) +
+                         line.unsure + 2 * (beside + line.unsure)) /
+                        closing;
+  const double bend = std::max(1.0, third.bend * radius);
+  return 2 * within * bend < radius * closing ? within + rounding : unknown;
 }
 
 bool Certainty::moves_forward() const {

@@ -59,6 +59,16 @@ class Certainty {
   }
   static Contact contact_of_arc(const site::Site& arc, const Disk& disk);
   Contact contact(std::uint32_t i) const { return contact_of(site(i), to_); }
+  /// The line on which the centres lie of all disks that touch the boundary where two sites meet:
+  /// the normal of a joint, the bisector of a corner.
+  struct Line {
+    Vec2 direction;   ///< a unit vector
+    double growth;    ///< of the radius along it
+    Vec2 to_center;   ///< from where the sites meet
+    double residual;  ///< of the disk there
+    double unsure;    ///< by how much that may be off, and the place beside the line
+  };
+  static double error_on(const Line& line, const Contact& third, double radius);
   bool is_near(std::uint32_t i, double slack) const;
   bool touches(std::uint32_t third, double slack) const;
   double error_of_three(std::uint32_t third) const {

@@ -282,15 +282,14 @@ std::vector<bool> components_of(const Shape& shape, const SiteNumbers& numbers,
 /// shape whose axis is refused, are walked again in 256 bits.
 Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbers, int attempts) {
   const bool with_arcs = has_arcs(problem.shape);
+  const std::vector<std::size_t> tiny = tiny_arcs(problem);
   // Next to arcs, a walk that merges nothing is measured, too.
-  const bool is_measured = with_arcs && problem.options.exact;
+  const bool is_measured = with_arcs && (problem.options.exact || !tiny.empty());
   std::optional<Error> error;
   Way way{{}, !problem.options.exact, attempts};
   for (const bool is_last : {false, true}) {
     std::vector<std::uint32_t> lost;
     auto axis = axis_by(problem, numbers, way, lost);
-    if (!is_last)
-      for (const std::size_t point : tiny_arcs(problem)) lost.push_back(numbers.edge[point]);
     const bool is_certain = lost.empty() && !(with_arcs && is_last) && !is_measured;
     if (axis && (is_certain || problem.is_cancelled())) return axis;
     // A polygon in which the walk lost its way is measured only if another walk takes seconds.
@@ -299,6 +298,8 @@ Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbe
       if (!refused) return axis;
       if (!error || axis) error = std::move(refused);
     }
+    if (!lost.empty())  // else all components are walked again
+      for (const std::size_t point : tiny) lost.push_back(numbers.edge[point]);
     way.in_precise = components_of(problem.shape, numbers, lost);
     ++way.attempts;
   }

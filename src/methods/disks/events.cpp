@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "site/tangent_disk.h"
 
@@ -86,11 +87,10 @@ Event EventSearch::event_at_corner(bool on_right) {
   if (!in_reach) return {};
   Disk disk{foot + radius * normal, radius};
   if (flat && !boundary_.has_arcs && dot(normal, next_normal) > 0) {
-    // The disk that touches both sides has its centre between their normals. (At a tip, it is
-    // smaller than the tolerance.)
+    // Between the two normals, so that the disk is as near to one side as to the other.
     const Vec2 between = normal + next_normal, middle = (1 / norm(between)) * between;
-    disk.radius = site::tangent_radius(foot, middle, site(other));
-    disk.center = foot + disk.radius * middle;
+    const double halfway = site::tangent_radius(foot, middle, site(other));
+    if (halfway <= context_.radius_limit) disk = {foot + halfway * middle, halfway};
   }
   const double position = bisector_.position(disk.center);
   if (is_behind(position)) return {};  // the foot turns that far on the way back only
@@ -254,17 +254,17 @@ Event EventSearch::first_contact(Event event) {
   // rounds repeat.
   for (int round = 0; round < most_rounds; ++round) {
     if (is_in_point(event)) event = short_of_point(event);
-    const bool is_contact = event.kind == Event::Kind::contact, asks_part = is_slow && is_contact;
+    const bool is_contact = event.kind == Event::Kind::contact;
+    const bool asks_part = std::exchange(is_slow, false) && is_contact;
     Event asked = asks_part                   ? part_of_way(empty, event)
                   : is_contact && look_beyond ? beyond(event)
                                               : event;
     const Hit hit = contacts_.nearest(asked.disk, span_);
-    if (!hit && asks_part) {
-      empty = asked.position;
-      is_slow = false;
-      continue;
-    }
     if (!hit) {
+      if (asks_part) {
+        empty = asked.position;
+        continue;
+      }
       if (event.may_grow) {
         Event further = far_event(event.disk.radius);
         if (!(further.position > event.position)) further = far_event(0);
@@ -278,17 +278,20 @@ Event EventSearch::first_contact(Event event) {
     const std::uint32_t intruder = contacts_.owner(hit.site, asked.disk.center, span_);
     if (is_at_node(intruder)) return at_node(intruder);
     asked.site = intruder;
-    intruded = asked;
     const std::optional<Event> earlier = contact_before(asked);
     if (!earlier || !(earlier->position < asked.position)) {
+      if (asks_part) continue;
+      intruded = asked;
       // A disk that is empty, and touched by what is beyond it, will do.
-      if (is_contact && look_beyond && !asks_part) {
+      if (is_contact && look_beyond) {
         look_beyond = false;
         continue;
       }
       return bracket(from_, asked);
     }
-    // An edge intrudes, and its end is touched. Whether that is a tie is known of segments only.
+    intruded = asked;
+    // The intruder's end touches the node's disk: a tie, not a later contact. (Next to arcs, that
+    // does not tell.)
     if (contacts_.is_polygon() && is_at_node(earlier->site)) return at_node(earlier->site);
     // A disk too far ahead may reach a point whose other copy was touched before.
     if (element(earlier->site) == Element::vertex && earlier->position <= low_ + slack() &&

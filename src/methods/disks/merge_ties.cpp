@@ -250,18 +250,28 @@ class Merger {
     const auto name_of = [&](std::uint32_t site) {
       return std::pair{boundary_.elements[site], boundary_.originals[site]};
     };
-    // The sites on which edges leave: sorted, as a hub has thousands.
-    std::vector<std::pair<Element, std::uint32_t>> left;
-    for (const std::uint32_t end : ends)
-      left.push_back(name_of(graph_.edges[end / 2].site[1 - end % 2]));
-    std::sort(left.begin(), left.end());
+    const auto leaves_on = [&](std::uint32_t end) {
+      return name_of(graph_.edges[end / 2].site[1 - end % 2]);
+    };
+    // A hub has thousands of ends.
+    constexpr std::size_t few = 16;
+    std::vector<std::pair<Element, std::uint32_t>> sorted;
+    if (ends.size() > few) {
+      for (const std::uint32_t end : ends) sorted.push_back(leaves_on(end));
+      std::sort(sorted.begin(), sorted.end());
+    }
+    const auto is_left_on = [&](std::uint32_t site) {
+      const auto name = name_of(site);
+      if (ends.size() > few) return ranges::binary_search(sorted, name);
+      return ranges::any_of(ends, [&](std::uint32_t end) { return leaves_on(end) == name; });
+    };
     for (const std::uint32_t end : ends) {
       const auto& sites = graph_.edges[end / 2].site;
       for (const std::uint32_t site : sites)
         if (!holds(nearest_piece(site, graph_.nodes[node].disk))) return false;
       // Seen from the node, the boundary comes in to it on site[end % 2].
       std::uint32_t site = sites[end % 2], steps = run.last - run.first;
-      while (!ranges::binary_search(left, name_of(site)) && steps-- > 0) {
+      while (!is_left_on(site) && steps-- > 0) {
         if (site != sites[end % 2] && !holds(site)) return false;
         site = next_on_loop(site, run);
       }

@@ -175,37 +175,41 @@ class Walker {
     return many_.are_certain();
   }
 
-  /// A step that was found to be certain before its turn comes.
-  struct Passed {
+  /// A step proposed beyond a tie, before its turn comes.
+  struct Ahead {
     Step step;
     Disk from;
-    bool is_next(const Span& span, const Disk& disk) const {
+    bool is_of(const Span& span, const Disk& disk) const {
       return step.span.right == span.right && step.span.left == span.left &&
-             step.span.third == span.third && from.center == disk.center &&
-             from.radius == disk.radius;
+             step.span.third == span.third && step.span.error == span.error &&
+             from.center == disk.center && from.radius == disk.radius;
     }
   };
 
-  /// What double takes for the event after a part's node. Where that is a foot that passes on
-  /// within the node's disk, it is certain only if what follows is: else what double leaves open
-  /// there may have come before that disk.
+  /// What double takes for the event after a part's node. On a polygon, a foot that passes on
+  /// within the node's disk is certain only if what follows is: else what double leaves open there
+  /// may have come before that disk.
   void look_ahead(Step& part, const Disk& from) {
-    if (!passed_.empty() && passed_.back().is_next(part.span, from)) {
+    if (!ahead_.empty() && ahead_.back().is_of(part.span, from)) {
       const Span span = part.span;
-      part = passed_.back().step;
+      part = ahead_.back().step;
       part.span = span;
-      passed_.pop_back();
+      ahead_.pop_back();
       return;
     }
-    passed_.clear();
+    ahead_.clear();
     decider_.propose(part, from);
-    if (part.joins_node && !passes_certainly(part)) part.is_certain = part.joins_node = false;
+    if (contacts_.is_polygon() && part.joins_node && !passes_certainly(part))
+      part.is_certain = part.joins_node = false;
   }
 
-  /// Whether the events that follow on one that passes on are certain, which come next then.
+  /// Whether the events after one that passes on are certain, up to one that does more than pass
+  /// on: that one is looked ahead at in its turn. They are kept as the next steps.
   bool passes_certainly(const Step& tie) {
-    Passed next{tie, {}};
-    while (next.step.joins_node) {
+    constexpr std::size_t longest =
+        16;  // else a long chain would be proposed for each of its steps
+    Ahead next{tie, {}};
+    while (next.step.joins_node && ahead_.size() < longest) {
       const Step& step = next.step;
       Step after, none;
       if (divide(step.span, step.event, step.error, true, after.span, none.span) != 1) break;
@@ -213,13 +217,13 @@ class Walker {
       next.from = step.event.disk;
       decider_.propose(after, next.from);
       if (!after.is_certain) {
-        passed_.clear();
+        ahead_.clear();
         return false;
       }
       next.step = after;
-      passed_.push_back(next);
+      ahead_.push_back(next);
     }
-    std::reverse(passed_.begin(), passed_.end());
+    std::reverse(ahead_.begin(), ahead_.end());
     return true;
   }
 
@@ -228,15 +232,15 @@ class Walker {
     const Event& event = step.event;
     const bool looks = decider_.looks_ahead(step);
     // What double takes for the event after their node.
-    const auto look_ahead = [&](Step& part) {
-      if (looks && contacts_.needs_walk(part.span)) this->look_ahead(part, event.disk);
+    const auto propose_part = [&](Step& part) {
+      if (looks && contacts_.needs_walk(part.span)) look_ahead(part, event.disk);
       return part.is_proposed;
     };
     many_.clear();
     for (Step& part : parts.step) part = Step{};
     if (step.is_tie || event.kind == Event::Kind::at_node) {
       split(step.span, step.is_tie ? event.disk : from, event.site, false);
-      many_.propose(look_ahead);
+      many_.propose(propose_part);
       parts.count = many_.size() <= 2 ? many_.size() : 0;
       for (std::size_t i = parts.count; i-- > 0;) parts.step[i] = many_.pop_back();
       return;
@@ -246,7 +250,7 @@ class Walker {
                           event.disk.radius != from.radius;
     auto& [first, second] = parts.step;
     parts.count = divide(step.span, event, step.error, is_exact, first.span, second.span);
-    for (std::size_t i = 0; i < parts.count; ++i) look_ahead(parts.step[i]);
+    for (std::size_t i = 0; i < parts.count; ++i) propose_part(parts.step[i]);
   }
 
   /// The disk between two arcs that are the whole boundary and join bluntly: the largest one.
@@ -465,9 +469,9 @@ class Walker {
   Chunk& chunk_;
   Contacts contacts_;
   Decider decider_;
-  bool starts_blunt_ = false;   ///< the run begins at a blunt joint, node 0
-  Steps stack_, many_;          ///< `many_`: parts of the last step, where they are more than two
-  std::vector<Passed> passed_;  ///< that follow on what was looked ahead at, the next one last
+  bool starts_blunt_ = false;  ///< the run begins at a blunt joint, node 0
+  Steps stack_, many_;         ///< `many_`: parts of the last step, where they are more than two
+  std::vector<Ahead> ahead_;   ///< beyond the last tie that was looked ahead at, in reverse order
   std::uint32_t left_behind_ = 0;  ///< sites of spans in the stack, about
   std::uint64_t finished_ = 0;
 };

@@ -130,23 +130,27 @@ std::optional<DiskBounds<Real>> disk_on(const Spoke<Bounded<Real>>& spoke,
   return DiskBounds<Real>{spoke.foot + times * spoke.normal, times * spoke.size};
 }
 
-/// Where two segments meet in a convex corner: the bisector, and the cross product of the normals,
-/// whose square is x.x - r r of the disks on it, against the spoke's.
+/// Where two segments meet in a convex corner of more than a right angle: the bisector, and the
+/// cross product of the normals, whose square is x.x - r r of the disks on it, against the spoke's.
+/// (Of a sharp corner the bisector would lose what three lines keep.)
 template <class Number>
 struct Corner {
   Spoke<Number> bisector;
   Number turn;
+  double cosine;  ///< of the turn, about
 };
 template <class Number>
 std::optional<Corner<Number>> corner_between(const ExactSite& first, const ExactSite& second) {
   const auto is_segment = [](const ExactSite& site) { return !site.is_vertex() && !site.is_arc(); };
   if (!is_segment(first) || !is_segment(second) || first.end != second.start) return std::nullopt;
   const auto end = spoke_of<Number>(first, true), begin = spoke_of<Number>(second, false);
-  const Number turn = cross(end.normal, begin.normal);
-  if (!turn.positive()) return std::nullopt;
-  return Corner<Number>{{end.foot, begin.size * end.normal + end.size * begin.normal,
-                         begin.size * end.size + dot(end.normal, begin.normal)},
-                        turn};
+  const Number turn = cross(end.normal, begin.normal), along = dot(end.normal, begin.normal),
+               sizes = begin.size * end.size;
+  if (!(near(along) > 0) || !turn.positive()) return std::nullopt;
+  return Corner<Number>{
+      {end.foot, begin.size * end.normal + end.size * begin.normal, sizes + along},
+      turn,
+      near(along) / near(sizes)};
 }
 
 /// The disk that grows from a corner, touching both sides, until it touches a straight site: the
@@ -155,7 +159,7 @@ template <class Real>
 std::optional<DiskBounds<Real>> disk_in_corner(const Corner<Bounded<Real>>& corner,
                                                const ExactSite& site) {
   using Number = Bounded<Real>;
-  const auto& [bisector, turn] = corner;
+  const auto& [bisector, turn, cosine] = corner;
   const auto form = form_of<Number>(site, bisector.foot);
   const Number closing = form.size * bisector.size - dot(form.slope, bisector.normal);
   if (!closing.positive()) return std::nullopt;
@@ -174,12 +178,17 @@ std::optional<DiskBounds<Real>> disk_of_three(const SiteLoops& outline,
   using Number = Bounded<Real>;
   std::array<ExactSite, 3> touched{outline.sites[sites[0]], outline.sites[sites[1]],
                                    outline.sites[sites[2]]};
+  // From the flattest corner, if there are two.
+  std::optional<Corner<Number>> flattest;
+  const ExactSite* third = nullptr;
   for (std::size_t i = 0; i < 3; ++i) {
-    const ExactSite& third = touched[(i + 2) % 3];
-    if (third.is_arc()) continue;
-    if (const auto corner = corner_between<Number>(touched[i], touched[(i + 1) % 3]))
-      return disk_in_corner<Real>(*corner, third);
+    if (touched[(i + 2) % 3].is_arc()) continue;
+    const auto corner = corner_between<Number>(touched[i], touched[(i + 1) % 3]);
+    if (!corner || (flattest && !(corner->cosine > flattest->cosine))) continue;
+    flattest = corner;
+    third = &touched[(i + 2) % 3];
   }
+  if (flattest) return disk_in_corner<Real>(*flattest, *third);
   // First the site whose equation is the roundest: a vertex where there is one.
   const auto roundness = [](const ExactSite& site) {
     return site.is_vertex() ? 2 : std::abs(site.bulge);
