@@ -213,7 +213,7 @@ Shape lost_after_a_part() {
   const auto classes = test::nasty_classes();
   const auto one =
       std::ranges::find_if(classes, [](const auto& known) { return known.name == "rings"; });
-  test::Rings rings = test::nasty_shape(*one, 116, false);
+  test::Rings rings = test::nasty_shape(*one, 201, false);
   Vec2 corner = rings[0].points[0];
   double right = corner.x;
   for (const Ring& ring : rings)
