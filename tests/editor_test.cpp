@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "medial/verify.h"
 #include "methods/edit/rings.h"
 #include "support/computed.h"
 #include "support/edits.h"
@@ -1117,6 +1118,16 @@ TEST(Editor, KeepsFarShapesExact) {
     ASSERT_TRUE(editor.move(i, *editor.vertex(i) + Vec2{0.125, 0.25}).ok());
     EXPECT_EQ(fault_of(editor), "");
   }
+}
+
+// A vertex inside a straight edge that begins at an arc's end: how smooth the joint there is
+// depends on the length of the edge, not of its part.
+TEST(Editor, JudgesJointsByWholeEdges) {
+  auto editor = editor_of({Ring{.points = {{-1, 0}, {-0.0004, 0}, {0.0004, 0}, {1, 0}},
+                                .bulges = {7.8419860305709303e-11, 0, -7.1e-11, 1}}});
+  ASSERT_TRUE(editor.insert(1, {-0.00039, 0}));
+  const Certificate certificate = verify(editor.shape(), editor.axis());
+  EXPECT_TRUE(certificate.passed) << certificate.failures[0];
 }
 
 }  // namespace

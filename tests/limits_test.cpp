@@ -194,6 +194,34 @@ TEST(Limits, HolesOfAFewHundredSpacings) {
   EXPECT_TRUE(certificate.passed) << certificate.failures[0];
 }
 
+// With ties kept, two nodes have one disk in double, with both feet of their edge in one place.
+TEST(Limits, AnEdgeOfNoLengthInAFlatCornerIsVerified) {
+  const Shape shape =
+      *build_shape(std::vector{ring_of({{-0.07, 0},
+                                        {0, 0},
+                                        {9.642004557593873e-13, 9.082039841780426e-23},
+                                        {0.7240524425670826, 6.820026988841895e-11},
+                                        {0, 0.3}})});
+  const auto axis = compute(shape, {.exact = true});
+  ASSERT_TRUE(axis.ok()) << to_string(axis.error());
+  const Certificate certificate = verify(shape, *axis);
+  EXPECT_TRUE(certificate.passed) << certificate.failures[0];
+}
+
+// A fillet that is off by rounding: with ties kept, no edge leads on past its centre.
+TEST(Limits, AFilletOffByRoundingHasOneLeaf) {
+  const Shape shape = *build_shape(std::vector{
+      Ring{.points = {{-4, -3}, {4, -3}, {4, 2.6346224407871359}, {3.6346224407871359, 3}, {-4, 3}},
+           .bulges = {0, 0, 0.41421356273088761, 0, 0}}});
+  for (const bool exact : {false, true}) {
+    const auto axis = compute(shape, {.exact = exact});
+    ASSERT_TRUE(axis.ok()) << to_string(axis.error());
+    EXPECT_EQ(axis->edges.size(), 6U) << exact;
+    const Certificate certificate = verify(shape, *axis);
+    EXPECT_TRUE(certificate.passed) << certificate.failures[0];
+  }
+}
+
 // An edge between two vertices so near to each other has a weight of 1e60.
 TEST(Limits, TheAreaBesideAWaistIsANumber) {
   for (const double half : {1e-10, 1e-60, 1e-90}) {

@@ -296,7 +296,11 @@ class Slices {
   /// again.
   bool leads_to_feet(const Edge& edge, std::size_t end, const Disk& disk) const {
     const bool forward = passes_on(edge, 1 - end, end), backward = passes_on(edge, end, end);
-    return forward != backward ? forward : edge.control.radius < disk.radius;
+    if (forward != backward) return forward;
+    // Ahead of one end of an edge of hardly any length, and behind the other: no matter which.
+    const Disk& other = problem_.disk(edge.node[1 - end]);
+    if (distance(disk.center, other.center) <= problem_.tolerance) return end == 0;
+    return edge.control.radius < disk.radius;
   }
   /// Whether the boundary leads from one edge to another past few vertices, which all lie where the
   /// disk's feet on the two nearly coincide.

@@ -157,7 +157,10 @@ void Rings::set_touches(std::uint32_t v, bool touches) {
 }
 
 site::Joint Rings::joint_at(std::uint32_t v) const {
-  const BulgeArc before = edge(vertices_[v].before), after = edge(v);
+  // From corner to corner, as the shape has them: how smooth a joint is depends on the lengths.
+  const std::uint32_t from = corner_before(v), to = corner_after(v);
+  const BulgeArc before{vertices_[from].point, vertices_[v].point, vertices_[from].bulge},
+      after{vertices_[v].point, vertices_[to].point, vertices_[v].bulge};
   if (before.bulge == 0 && after.bulge == 0)
     return orientation(before.start, after.start, after.end) > 0 ? site::Joint::corner
                                                                  : site::Joint::reflex;
@@ -165,9 +168,9 @@ site::Joint Rings::joint_at(std::uint32_t v) const {
                         joining_.corner_angle * std::numbers::pi / 180);
 }
 
-void Rings::judge_vertex(std::uint32_t v) {
-  vertices_[v].flat = is_flat(v);
-  vertices_[v].joint = joint_at(v);
+void Rings::judge(std::span<const std::uint32_t> vertices) {
+  for (const std::uint32_t v : vertices) vertices_[v].flat = is_flat(v);
+  for (const std::uint32_t v : vertices) vertices_[v].joint = joint_at(v);
 }
 
 void Rings::set_box(std::uint32_t v) { boxes_.set(v, box_of(edge(v))); }
@@ -421,10 +424,10 @@ void Rings::put_in(const Edit& edit, bool is_followed) {
     vertices_[v].loop = seat.loop;
     set_bulge(v, turns ? -before.bulge : corners[i].bulge);
   }
-  for (const Corner& corner : corners) {
-    judge_vertex(corner.number);
-    set_box(corner.number);
-  }
+  std::vector<std::uint32_t> numbers;
+  for (const Corner& corner : corners) numbers.push_back(corner.number);
+  judge(numbers);
+  for (const std::uint32_t v : numbers) set_box(v);
 }
 
 void Rings::apply(const Edit& edit, bool is_followed) {
@@ -457,11 +460,11 @@ void Rings::apply(const Edit& edit, bool is_followed) {
   vertices_[edit.before].next = edit.fresh != none ? edit.fresh : edit.after;
   vertices_[edit.after].before = edit.fresh != none ? edit.fresh : edit.before;
   loops_[loop].first = edit.seat ? edit.seat->first : edit.before;
-  for (const std::uint32_t v : {edit.before, edit.fresh, edit.after}) {
-    if (v == none) continue;
-    judge_vertex(v);
-    set_box(v);
-  }
+  std::vector<std::uint32_t> judged;
+  for (const std::uint32_t v : {edit.before, edit.fresh, edit.after})
+    if (v != none) judged.push_back(v);
+  judge(judged);
+  for (const std::uint32_t v : judged) set_box(v);
 }
 
 Edit Rings::inverse(const Edit& edit) const {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -260,7 +261,8 @@ class Rings {
   bool is_flat(std::uint32_t v) const;
   void set_touches(std::uint32_t v, bool touches);
   site::Joint joint_at(std::uint32_t v) const;
-  void judge_vertex(std::uint32_t v);
+  /// Which of these are flat, and how the others join.
+  void judge(std::span<const std::uint32_t> vertices);
   void set_box(std::uint32_t v);
   void take_out(std::uint32_t loop);
   void put_in(const Edit& edit, bool is_followed);

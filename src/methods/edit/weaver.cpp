@@ -187,10 +187,8 @@ bool Weaver::join_at(std::uint32_t own) {
 void Weaver::judge_places() {
   for (const Vec2 place : places_) {
     const std::vector<std::uint32_t> all = vertices_at(loops_, place);
-    for (const std::uint32_t v : all) {
-      vertex(v).touches = all.size() > 1;
-      loops_.judge_vertex(v);
-    }
+    for (const std::uint32_t v : all) vertex(v).touches = all.size() > 1;
+    loops_.judge(all);
   }
 }
 
