@@ -104,6 +104,12 @@ TEST(Limits, VerticesMayDifferByLessThan256BitsHold) {
                                 {-1, 0}}));
 }
 
+// Found by fuzzing: a slit along y = x, 1e-95 wide at its end, next to no vertex that is as near.
+TEST(Limits, ACoordinateMayBeSmallerThan256BitsHold) {
+  expect_verified_axes(
+      ring_of({{26, 26}, {-122, -122}, {-122, 26}, {52, 52}, {9.3633527093843967e-96, 0}}));
+}
+
 // Whether a disk's foot lies on an edge that ends at a touched vertex is open in twice double's
 // digits, so they do not show that the disk reaches over the edge.
 TEST(Limits, ADiskBesideATouchedVertexKeepsClearOfTheEdgeThere) {

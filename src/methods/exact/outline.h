@@ -29,8 +29,8 @@ struct SiteLoops {
   /// Of an edge that ends in a joint smooth only to rounding, whether the next one's normal counts
   /// for both, and not its own; empty: never.
   std::vector<bool> by_next;
-  /// Whether neighbouring points differ by so little beside the size that Precise numbers do not
-  /// hold it, and Wide ones are asked instead.
+  /// Whether coordinates, or their differences between neighbours, are so small beside the size
+  /// that Precise numbers do not hold them, and Wide ones are asked instead.
   bool is_wide = false;
 
   std::uint32_t next_of(std::uint32_t site) const {
