@@ -14,9 +14,8 @@ constexpr double small_tolerance = 0x1p-16;
 /// How far a disk may be off, against its radius, for the next step to begin at it.
 constexpr double well_known = 0x1p-10;
 
-/// How many tolerances a disk in a flat corner may be off: what a tie leaves open, since opposite
-/// corners all but tie.
-constexpr double well_placed = 16;
+/// In tolerances: what a tie leaves open of where its disk is. Opposite flat corners all but tie.
+constexpr double open_in_tie = 16;
 
 }  // namespace
 
@@ -154,7 +153,7 @@ double Certainty::error_at_corner(double tolerance) const {
   const double error = is_corner(span_.right, fourth_)  ? error_of(span_.right, fourth_, span_.left)
                        : is_corner(fourth_, span_.left) ? error_of(fourth_, span_.left, span_.right)
                                                         : unknown;
-  return error <= well_placed * tolerance ? error : unknown;
+  return error <= open_in_tie * tolerance ? error : unknown;
 }
 
 double Certainty::error_at_joint(const Boundary& boundary, std::uint32_t before,
@@ -208,21 +207,20 @@ bool Certainty::moves_forward() const {
 
 bool Certainty::ends(const Boundary& boundary, double tolerance, const Span& span,
                      const Disk& disk) {
-  constexpr double open = 16;  // tolerances: what a tie leaves open
   const auto gap = [&](std::uint32_t after) {
     return std::abs(distance(boundary.sites[after].point, disk.center) - disk.radius);
   };
   for (std::uint32_t i = span.right; i < span.left; ++i) {
     if (boundary.is_smooth(i)) {
       const std::uint32_t at = boundary.elements[i] == Element::vertex ? i : i + 1;
-      if (!(gap(at) <= open * tolerance + span.error)) return false;
+      if (!(gap(at) <= open_in_tie * tolerance + span.error)) return false;
       continue;
     }
     // At a corner so flat that any disk beside it touches its vertex, no foot can be seen to move.
-    if (gap(i + 1) <= open * tolerance) continue;
+    if (gap(i + 1) <= open_in_tie * tolerance) continue;
     const Event leaf{Event::Kind::contact, i + 1, Disk{boundary.sites[i + 1].point, 0}};
     Certainty end(boundary, span, disk, leaf);
-    if (disk.radius > open * tolerance && !end.moves_forward()) return false;
+    if (disk.radius > open_in_tie * tolerance && !end.moves_forward()) return false;
   }
   return true;
 }

@@ -52,9 +52,6 @@ class EventSearch {
   Event next() { return next(by_neighbors()); }
   /// What next() makes of such an event if asked_disk() is empty, and if that is all it asks for.
   std::optional<Event> plain(const Event& by_neighbors);
-  /// Where the node's disk touches the smooth neighbour of one of the two sites as well, within the
-  /// tolerance: the foot may pass on to it at once.
-  std::optional<Event> pass_at_node() const;
   /// Where a foot passes on at a joint that leaves open how large the disk there is, since the
   /// other site touches the boundary next to the joint: the first disk that touches the next site
   /// within the tolerance. (The boundary turns there by less than that, and what leads on is no
@@ -131,6 +128,9 @@ class EventSearch {
   /// Brings a disk's residual below the tolerance: by Newton's method, and where that fails in
   /// higher precision.
   void polish(Disk& disk, const site::Site& third);
+  /// Where the node's disk touches the smooth neighbour of one of the two sites as well, within the
+  /// tolerance: the foot may pass on to it at once.
+  std::optional<Event> pass_at_node() const;
   bool is_at_node(std::uint32_t touched) const;
   Event at_node(std::uint32_t touched) const;
   /// Shortens the way to `event` until the disk there is empty: each intruder gives a disk

@@ -206,8 +206,8 @@ class Walker {
   /// Whether the events after one that passes on are certain, up to one that does more than pass
   /// on: that one is looked ahead at in its turn. They are kept as the next steps.
   bool passes_certainly(const Step& tie) {
-    constexpr std::size_t longest =
-        16;  // else a long chain would be proposed for each of its steps
+    // A longer chain would be proposed again for each of its steps.
+    constexpr std::size_t longest = 16;
     Ahead next{tie, {}};
     while (next.step.joins_node && ahead_.size() < longest) {
       const Step& step = next.step;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/compat.h"
+#include "methods/exact/touch.h"
 
 namespace medial::exact {
 namespace {
@@ -159,12 +160,13 @@ template <class Real>
 std::optional<DiskBounds<Real>> disk_in_corner(const Corner<Bounded<Real>>& corner,
                                                const ExactSite& site) {
   using Number = Bounded<Real>;
-  const auto& [bisector, turn, cosine] = corner;
+  const Spoke<Number>& bisector = corner.bisector;
+  if (!site.is_vertex()) return disk_along(bisector, site);
   const auto form = form_of<Number>(site, bisector.foot);
   const Number closing = form.size * bisector.size - dot(form.slope, bisector.normal);
   if (!closing.positive()) return std::nullopt;
-  if (!site.is_vertex()) return disk_on(bisector, form.height / closing);
-  const Number discriminant = closing * closing - Number(4.0) * turn * turn * form.height;
+  const Number discriminant =
+      closing * closing - Number(4.0) * corner.turn * corner.turn * form.height;
   if (!discriminant.positive()) return std::nullopt;
   return disk_on(bisector, Number(2.0) * form.height / (closing + root_of(discriminant)));
 }
