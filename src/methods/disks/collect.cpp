@@ -239,7 +239,39 @@ Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::span<const Bridg
   return graph;
 }
 
-void remove_spurs(const Boundary& boundary, Graph& graph) {
+namespace {
+
+/// Whether a disk touches all that lies between two sites within the tolerance, with a blunt joint
+/// and without a corner or a whole convex arc: what led on from it would lead to the joint, where
+/// an axis has no leaf.
+bool touches_blunt_joint(const Boundary& boundary, const Boundary::SiteRange& run, const Disk& disk,
+                         std::uint32_t first, std::uint32_t last, double tolerance) {
+  const auto touches = [&](Vec2 place) {
+    return std::abs(distance(disk.center, place) - disk.radius) <= tolerance;
+  };
+  bool is_blunt = false;
+  for (std::uint32_t i = first, next; i != last; i = next) {
+    next = run.after(i);
+    const site::Site& site = boundary.sites[i];
+    for (const std::uint32_t place : {i, next})
+      if (boundary.elements[place] == Element::bridge) return false;
+    // From the foot on an arc, a disk that touches it there leaves it further and further.
+    if (boundary.is_same(i, next)) continue;
+    const bool is_passed =
+        site.is_arc() && !boundary.is_same(i, first) && !boundary.is_same(i, last);
+    if (is_passed && (site.curvature > 0 || !touches(site.at(0.5 * site.length)))) return false;
+    if (!touches(site.end())) return false;
+    if (boundary.elements[i] == Element::vertex || boundary.elements[next] == Element::vertex)
+      continue;
+    if (boundary.joint(i) == site::Joint::corner) return false;
+    is_blunt = is_blunt || boundary.joint(i) == site::Joint::blunt;
+  }
+  return is_blunt;
+}
+
+}  // namespace
+
+void remove_spurs(const Boundary& boundary, double tolerance, Graph& graph) {
   // Of each node, how many edges end there, and the exclusive or of their numbers: the one edge of
   // a leaf.
   std::vector<std::array<std::uint32_t, 2>> ends(graph.nodes.size());
@@ -253,12 +285,18 @@ void remove_spurs(const Boundary& boundary, Graph& graph) {
     for (std::uint32_t leaf = i; ends[leaf][0] == 1;) {
       const std::uint32_t e = ends[leaf][1];
       const auto [left, right] = graph.edges[e].site;
-      if (boundary.originals[left] != boundary.originals[right]) break;
+      const auto [from, to] = graph.edges[e].node;
+      const std::uint32_t rest = leaf == from ? to : from;
+      const auto [disk, component, kind] = graph.nodes[rest];
+      const auto [first, last] = leaf == to ? std::pair(right, left) : std::pair(left, right);
+      if (boundary.originals[left] != boundary.originals[right] &&
+          !(graph.nodes[leaf].disk.radius > 0 &&
+            touches_blunt_joint(boundary, boundary.runs[component], disk, first, last, tolerance)))
+        break;
       edges.push_back(e);
       nodes.push_back(leaf);
       ends[leaf][0] = 0;
-      const auto [from, to] = graph.edges[e].node;
-      leaf = leaf == from ? to : from;
+      leaf = rest;
       --ends[leaf][0];
       ends[leaf][1] ^= e;
     }

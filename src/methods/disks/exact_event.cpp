@@ -18,6 +18,12 @@ using exact::Precise;
 using exact::Wide;
 using Hit = site::BoundaryTree::Hit;
 
+template <class Real>
+Disk rounded(const exact::DiskBounds<Real>& disk) {
+  return {{static_cast<double>(disk.center.x.value), static_cast<double>(disk.center.y.value)},
+          static_cast<double>(disk.radius.value)};
+}
+
 /// The search of one question. By the lemma of docs/exact.md, the disk is the only one that touches
 /// the two sites and a third one between them, in this order around it, and keeps clear of all.
 template <class Real>
@@ -240,11 +246,6 @@ class Search {
     site_ = site;
   }
 
-  static Disk rounded(const KnownDisk& disk) {
-    return {{static_cast<double>(disk.center.x.value), static_cast<double>(disk.center.y.value)},
-            static_cast<double>(disk.radius.value)};
-  }
-
   /// Makes a site the best if the disk that grows where the span's ends join touches it before the
   /// best so far.
   void consider_at_joint(std::uint32_t site) {
@@ -439,6 +440,27 @@ std::optional<ExactEvent> next_exactly(const WalkContext& context, const Span& s
 std::optional<ExactEvent> start_exactly(const WalkContext& context, const Span& whole,
                                         const Disk& about, std::uint32_t hint) {
   return search(context, whole, about, hint, false, true);
+}
+
+std::optional<Disk> leaf_toward_joint(const WalkContext& context, std::uint32_t before,
+                                      std::uint32_t after, const Disk& node) {
+  using Number = Bounded<Precise>;
+  constexpr int most_halvings = 64;
+  const exact::ExactSite first = context.exact.site(before), second = context.exact.site(after);
+  const auto away = [&](const Disk& disk) {
+    return std::abs(distance(disk.center, first.end) - disk.radius);
+  };
+  if (away(node) <= context.tolerance || first.is_vertex()) return std::nullopt;
+  const Precise end(-1.0);
+  Precise share = exact::share_of<Precise>(first, {node.center.x, node.center.y});
+  for (int halvings = 0; halvings < most_halvings; ++halvings) {
+    share = (share + end) / 2;
+    const auto found = exact::disk_along(exact::spoke_at(first, Number(share, 0)), second);
+    if (!found) continue;
+    const Disk disk = rounded(*found);
+    if (away(disk) <= 0.5 * context.tolerance) return disk;
+  }
+  return std::nullopt;
 }
 
 }  // namespace medial::disks

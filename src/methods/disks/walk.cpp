@@ -331,6 +331,8 @@ class Walker {
       if (boundary_.is_corner(span.right)) {
         const std::uint32_t leaf = add_node({site(span.left).point, 0});
         add_edge(span, leaf);
+      } else if (const auto leaf = blunt_leaf(span.right, span.left, chunk_.nodes[span.node])) {
+        add_edge(span, add_node(*leaf));
       }
       finished(2);
       return false;
@@ -386,8 +388,21 @@ class Walker {
   }
 
   void add_edge(const Span& span, std::uint32_t to) {
-    if (starts_blunt_ && span.node == 0) return;  // no edge leads to a blunt joint
-    chunk_.links.push_back({{span.node, to}, {span.left, span.right}});
+    std::uint32_t from = span.node;
+    if (starts_blunt_ && from == 0) {  // no edge leads to a blunt joint
+      const auto leaf = blunt_leaf(span.left, span.right, chunk_.nodes[to]);
+      if (!leaf) return;
+      from = add_node(*leaf);
+    }
+    chunk_.links.push_back({{from, to}, {span.left, span.right}});
+  }
+
+  /// Where an edge ends that leads from a node towards the joint of two edges, if that is blunt as
+  /// the doubles have it.
+  std::optional<Disk> blunt_leaf(std::uint32_t before, std::uint32_t after,
+                                 const Disk& node) const {
+    if (!decider_.is_exact || boundary_.joint(before) != site::Joint::blunt) return std::nullopt;
+    return leaf_toward_joint(context_, before, after, node);
   }
 
   /// The node of a step's event, with the edge that leads there; the old node where it is that one.
