@@ -313,19 +313,20 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
   if ((strays > few_roundings || !leads_between) &&
       deviation(straight, a, b, from, to, near_focus) <= enough)
     return straight;
+  bool is_lost = turns_back(best, a, b, from, to);
   const auto take_if_better = [&](const Control& control) {
     const double now = deviation(control, a, b, from, to, near_focus);
-    if (!(now < strays)) return;
+    if (!is_lost && !(now < strays)) return;
+    const bool turns = turns_back(control, a, b, from, to);
+    if (turns && (!is_lost || !(now < strays))) return;
     strays = now;
+    is_lost = turns;
     best = control;
   };
-  const bool is_lost = turns_back(best, a, b, from, to);
-  if (strays <= few_roundings && !is_lost) return best;
-  if (const auto meeting = meeting_of_tangents(a, b, from, to)) {
-    if (is_lost && !turns_back(*meeting, a, b, from, to)) strays = std::max(strays, few_roundings);
-    take_if_better(*meeting);
-  }
-  if (strays <= few_roundings) return best;
+  const auto is_good = [&] { return strays <= few_roundings && !is_lost; };
+  if (is_good()) return best;
+  if (const auto meeting = meeting_of_tangents(a, b, from, to)) take_if_better(*meeting);
+  if (is_good()) return best;
   const Bisector bisector(b, a);
   const Disk halfway =
       bisector.disk_at(0.5 * (bisector.position(from.center) + bisector.position(to.center)), from);
@@ -334,7 +335,7 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
   if (is_between(bent.center)) take_if_better({bent, 1});
   take_if_better(straight);
   // An end that a tie has moved would be followed across the edge.
-  if (strays <= few_roundings || ends_stray(a, b, from, to) > few_roundings) return best;
+  if (is_good() || ends_stray(a, b, from, to) > few_roundings) return best;
   if (const auto exact = pole_of_cone(a, b, from, to); exact && is_between(exact->point.center))
     take_if_better(*exact);
   return best;
