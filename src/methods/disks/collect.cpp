@@ -241,15 +241,14 @@ Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::span<const Bridg
 
 namespace {
 
-/// Whether a disk touches all that lies between two sites within the tolerance, with a blunt joint
-/// and without a corner or a whole convex arc: what led on from it would lead to the joint, where
-/// an axis has no leaf.
-bool touches_blunt_joint(const Boundary& boundary, const Boundary::SiteRange& run, const Disk& disk,
+/// Whether a disk touches all that lies between two sites within the tolerance, without a corner or
+/// a whole convex arc: what led on from it would lead to a joint where an axis has no leaf.
+bool touches_all_between(const Boundary& boundary, const Boundary::SiteRange& run, const Disk& disk,
                          std::uint32_t first, std::uint32_t last, double tolerance) {
+  using site::Joint;
   const auto touches = [&](Vec2 place) {
     return std::abs(distance(disk.center, place) - disk.radius) <= tolerance;
   };
-  bool is_blunt = false;
   for (std::uint32_t i = first, next; i != last; i = next) {
     next = run.after(i);
     const site::Site& site = boundary.sites[i];
@@ -260,13 +259,11 @@ bool touches_blunt_joint(const Boundary& boundary, const Boundary::SiteRange& ru
     const bool is_passed =
         site.is_arc() && !boundary.is_same(i, first) && !boundary.is_same(i, last);
     if (is_passed && (site.curvature > 0 || !touches(site.at(0.5 * site.length)))) return false;
-    if (!touches(site.end())) return false;
-    if (boundary.elements[i] == Element::vertex || boundary.elements[next] == Element::vertex)
-      continue;
-    if (boundary.joint(i) == site::Joint::corner) return false;
-    is_blunt = is_blunt || boundary.joint(i) == site::Joint::blunt;
+    const bool joins_edges =
+        boundary.elements[i] == Element::edge && boundary.elements[next] == Element::edge;
+    if ((joins_edges && boundary.joint(i) == Joint::corner) || !touches(site.end())) return false;
   }
-  return is_blunt;
+  return true;
 }
 
 }  // namespace
@@ -290,8 +287,8 @@ void remove_spurs(const Boundary& boundary, double tolerance, Graph& graph) {
       const auto [disk, component, kind] = graph.nodes[rest];
       const auto [first, last] = leaf == to ? std::pair(right, left) : std::pair(left, right);
       if (boundary.originals[left] != boundary.originals[right] &&
-          !(graph.nodes[leaf].disk.radius > 0 &&
-            touches_blunt_joint(boundary, boundary.runs[component], disk, first, last, tolerance)))
+          !(boundary.sides == Sides::one && graph.nodes[leaf].disk.radius > 0 &&
+            touches_all_between(boundary, boundary.runs[component], disk, first, last, tolerance)))
         break;
       edges.push_back(e);
       nodes.push_back(leaf);

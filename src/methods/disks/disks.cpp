@@ -179,7 +179,7 @@ std::optional<Graph> attempt(const Problem& problem, const SiteNumbers& own_numb
   if (!graph) return graph;
   if (parted) rename(parted->names, boundary);
   for (std::uint32_t& site : graph->lost) site = boundary.originals[site];
-  if (parted) remove_spurs(boundary, problem.local_tolerance(), *graph);
+  if (boundary.has_arcs) remove_spurs(boundary, problem.local_tolerance(), *graph);
   return graph;
 }
 
