@@ -173,12 +173,11 @@ void take_control(const Site& left, const Site& right, ConicEdge& part) {
   // Rounding is measured against a size of about one. A segment may be so short against the edge
   // that its direction needs all of its digits.
   const bool has_arc = left.kind() == SiteKind::arc || right.kind() == SiteKind::arc;
-  const Site& shorter = squared_norm(left.end - left.start) <= squared_norm(right.end - right.start)
-                            ? left
-                            : right;
+  const Site& shorter =
+      squared_norm(left.end - left.start) <= squared_norm(right.end - right.start) ? left : right;
   const Vec2 origin = has_arc ? part.from.center : shorter.start;
-  const double unit = unit_for(std::max(
-      {distance(part.from.center, part.to.center), part.from.radius, part.to.radius}));
+  const double unit = unit_for(
+      std::max({distance(part.from.center, part.to.center), part.from.radius, part.to.radius}));
   const auto seen = [&](const Disk& disk) {
     return Disk{unit * (disk.center - origin), unit * disk.radius};
   };

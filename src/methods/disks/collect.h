@@ -38,8 +38,8 @@ Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::span<const Bridg
               std::size_t spare_nodes, bool with_passages);
 
 /// Takes edges to leaves out of the graph: those with one site of the result on both sides, which
-/// bound no cell (where joints are taken as the doubles have them, one edge may have two sites); and
-/// in a shape those towards a joint where an axis has no leaf, if the disk at which they begin
+/// bound no cell (where joints are taken as the doubles have them, one edge may have two sites);
+/// and in a shape those towards a joint where an axis has no leaf, if the disk at which they begin
 /// touches all that lies between their sites there within the tolerance.
 void remove_spurs(const Boundary& boundary, double tolerance, Graph& graph);
 
