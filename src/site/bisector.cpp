@@ -264,7 +264,7 @@ bool turns_back(const Control& control, const Site& a, const Site& b, const Disk
   for (const Site* s : {&a, &b}) {
     if (!s->is_vertex() && !s->is_arc()) {
       const auto [first, last] =
-          std::minmax(dot(s->direction, from.center), dot(s->direction, to.center));
+          std::minmax({dot(s->direction, from.center), dot(s->direction, to.center)});
       const double foot = dot(s->direction, control.point.center);
       if (foot < first - beside || foot > last + beside) return true;
       continue;
