@@ -59,8 +59,8 @@ struct Corner {
 /// Whether an edge may end with a radius above 0: what lies between the two feet of its last disk
 /// is touched by that disk, and is an arc of convex curvature, the largest thereabouts because its
 /// circle lies inside; or a blunt joint, whose leaf is left out; or a joint that is smooth, but
-/// convex within rounding, if the disk at the edge's other end does not touch that, as the axis
-/// itself judges: else it would have ended there. Looks at
+/// convex within rounding, if the disk at the edge's other end does not touch that within the
+/// tolerance of a computation: else the axis would have ended there. Looks at
 /// `budget` boundary edges at most, and takes those away from it: no two leaves of a right axis
 /// look at the same one.
 bool ends_at_arc(const Problem& problem, const Edge& edge, std::size_t end, std::size_t& budget) {
@@ -73,6 +73,7 @@ bool ends_at_arc(const Problem& problem, const Edge& edge, std::size_t end, std:
   if (place(right) == no_index || place(left) == no_index) return false;
   const Disk& disk = problem.disk(edge.node[end]);
   const std::uint32_t first = is_vertex(right) ? place(right) : problem.next[place(right)];
+  const double own_tolerance = std::max(tolerance_for(problem.box, 0), problem.axis.tolerance);
   bool arcs = false, turns = false;
   double farthest = 0, blunt = 0;
   const Disk& before = problem.disk(edge.node[1 - end]);
@@ -86,7 +87,7 @@ bool ends_at_arc(const Problem& problem, const Edge& edge, std::size_t end, std:
     turns = turns || (problem.joint[i] == Joint::smooth &&
                       turn_between(problem.edge(problem.previous[i]), problem.edge(i)) > 0 &&
                       distance(before.center, problem.point(i)) - before.radius >
-                          std::min(problem.tolerance, problem.axis.tolerance));
+                          std::min(problem.tolerance, own_tolerance));
     if (!problem.blunt_angle.empty()) blunt += problem.blunt_angle[i];
   };
   if (!is_vertex(right)) add_joint(first);
