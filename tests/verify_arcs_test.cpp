@@ -125,6 +125,34 @@ TEST(VerifyArcs, OfDisksAtTheEndOfASideTheOutermostGoesOn) {
   EXPECT_LT(certificate.largest_uncovered, 2e-14);
 }
 
+/// Three arcs of nearly one circle, between tiny ones. Next to a gap of a third of it, where no edge
+/// has its arc, four disks touch a tiny arc equally far along it; but only the leaf's fills the gap.
+TEST(VerifyArcs, OfDisksThatReachEquallyFarAnyMayFillAGap) {
+  const Ring circle{{{-0.38976796633937089, 117.63048835315533},
+                     {-0.38976848295622102, 117.63048771019434},
+                     {-0.23197048431874298, 116.8743765398177},
+                     {-0.2319701899622045, 116.87437638565878},
+                     {0.49694355617170277, 117.37251015983165},
+                     {0.49694351948719695, 117.37251049008124}},
+                    RingRole::any,
+                    {-4.123990169788661e-07, 0.47237808526606323, -1.661405625437658e-07,
+                     0.6007433855674732, -1.6614041160547737e-07, 0.66741919249933879}};
+  const auto shape = build_shape({&circle, 1});
+  const auto axis = compute(*shape);
+  EXPECT_EQ(verify(*shape, *axis).failures, std::vector<std::string>{});
+  // Each of its four edges ends in a leaf, or joins those that do.
+  for (std::size_t i = 0; i < axis->edges.size(); ++i) {
+    MedialAxis damaged = *axis;
+    damaged.edges.erase(damaged.edges.begin() + static_cast<std::ptrdiff_t>(i));
+    EXPECT_FALSE(verify(*shape, damaged).passed) << i;
+    for (const std::uint32_t node : axis->edges[i].node) {
+      damaged = *axis;
+      damaged.nodes[node].disk.radius -= 1e-12;
+      EXPECT_FALSE(verify(*shape, damaged).passed) << node;
+    }
+  }
+}
+
 TEST(VerifyArcsFinds, MovedNodes) {
   for (const HandMadeArcs& m : all_hand_made_arcs()) {
     for (std::size_t i = 0; i < m.axis.nodes.size(); ++i) {

@@ -72,6 +72,14 @@ Stretch stretch_of(const Problem& problem, const ArcFeet& feet, std::uint32_t pl
   return all;
 }
 
+/// Where disks touch last before a gap in the boundary, or first behind it: way `at` along boundary
+/// edge `edge`. The disk of `node` is one of them.
+struct Foot {
+  std::uint32_t edge;
+  double at;
+  std::uint32_t node;
+};
+
 /// The edges of the axis that touch each boundary edge, or the vertex that it begins in.
 class Touching {
  public:
@@ -88,13 +96,9 @@ class Touching {
   /// The stretches of one boundary edge, in order along it. `before` is the edge before it.
   void stretches(std::uint32_t place, std::uint32_t before, std::vector<Stretch>& found) const {
     found.clear();
-    for (std::uint32_t k = begin_[place]; k < begin_[place + 1]; ++k) {
-      const Edge& edge = problem_.axis.edges[edges_[k]];
-      // An edge that touches it with both sites stands here twice.
-      const bool again = k > begin_[place] && edges_[k - 1] == edges_[k];
-      const std::size_t side = problem_.place[edge.site[0]] == place && !again ? 0 : 1;
+    for_each_edge(place, [&](const Edge& edge, std::size_t side) {
       found.push_back(stretch_of(problem_, feet_, place, before, edge, side));
-    }
+    });
     const auto key = [](const Stretch& a) {
       return std::tuple(std::max(0.0, a.begin), a.turn, a.begin, a.end);
     };
@@ -102,7 +106,33 @@ class Touching {
               [&](const Stretch& a, const Stretch& b) { return key(a) < key(b); });
   }
 
+  /// Adds the disks that touch the place of a foot, as far as rounding lets one tell.
+  void add_disks(const Foot& foot, std::vector<std::uint32_t>& nodes) const {
+    const Track on = problem_.track(foot.edge);
+    for_each_edge(foot.edge, [&](const Edge& edge, std::size_t side) {
+      for (std::size_t end = 0; end < 2; ++end) {
+        const bool vertex = problem_.axis.sites[edge.site[side]].kind() == SiteKind::vertex;
+        const Stretch here = vertex ? Stretch{0, 0, edge.node[end], edge.node[end]}
+                                    : touched_by(problem_, feet_, on, edge, side, end);
+        const double open = here.end - here.begin;
+        if (here.begin - open <= foot.at && foot.at <= here.end + open)
+          nodes.push_back(edge.node[end]);
+      }
+    });
+  }
+
  private:
+  /// Calls `visit` with each edge of the axis that touches a boundary edge, and with its side
+  /// there.
+  template <class Visitor>
+  void for_each_edge(std::uint32_t place, const Visitor& visit) const {
+    for (std::uint32_t k = begin_[place]; k < begin_[place + 1]; ++k) {
+      const Edge& edge = problem_.axis.edges[edges_[k]];
+      // An edge that touches it with both sites stands here twice.
+      const bool again = k > begin_[place] && edges_[k - 1] == edges_[k];
+      visit(edge, problem_.place[edge.site[0]] == place && !again ? 0 : 1);
+    }
+  }
   template <class Visitor>
   void for_each_contact(const Visitor& visit) const {
     for (std::uint32_t i = 0; i < problem_.axis.edges.size(); ++i)
@@ -169,13 +199,6 @@ double uncovered(const Disk& a, const Disk& b, const Track& edge, double from, d
   return worst;
 }
 
-/// Where disks touch last before a gap in the boundary: parameter `at` of boundary edge `edge`.
-struct Foot {
-  std::uint32_t edge;
-  double at;
-  std::uint32_t node;
-};
-
 /// The largest distance of the boundary from the disks, above what blunt joints leave open.
 struct Uncovered {
   double value = 0;
@@ -193,14 +216,51 @@ struct Uncovered {
   }
 };
 
-/// The boundary from one foot on to another, against the two disks that touch there. Where a blunt
+/// A gap in the boundary from one foot to another, and what of it disks leave uncovered.
+class Gap {
+ public:
+  Gap(const Problem& problem, const Touching& touching, const Foot& from, const Foot& to)
+      : problem_(problem), touching_(touching), from_(from), to_(to) {}
+
+  /// The largest distance of a stretch of the gap from the disks that touch beside it. Two of them
+  /// mostly reach over it. Where others touch at the same places, rounding alone decides which two
+  /// are the outermost: each of them may be the one that reaches over it.
+  double uncovered(const Track& edge, double from, double to, double most) {
+    const auto by = [&](std::uint32_t a, std::uint32_t b) {
+      return verify_detail::uncovered(problem_.disk(a), problem_.disk(b), edge, from, to);
+    };
+    double least = by(from_.node, to_.node);
+    if (least <= most) return least;
+    if (others_.empty())
+      for (const Foot& foot : {from_, to_}) touching_.add_disks(foot, others_);
+    for (std::uint32_t& other : others_) {
+      least = std::min({least, by(from_.node, other), by(other, to_.node)});
+      if (least <= most) {
+        std::swap(other, others_.front());  // the next stretch asks it first
+        break;
+      }
+    }
+    return least;
+  }
+
+ private:
+  const Problem& problem_;
+  const Touching& touching_;
+  const Foot from_, to_;
+  std::vector<std::uint32_t> others_;  ///< nodes whose disks touch at either end
+};
+
+/// How far a stretch may lie outside the disks. A foot may lie the tolerance outside its disk;
+/// between the feet of different nodes a gap of width g, which rises by g^2 / (8 r) over their
+/// disks, may add as much again.
+double cover_limit(const Problem& problem) { return 2 * problem.tolerance; }
+
+/// The boundary from one foot on to another, against the disks that touch there. Where a blunt
 /// joint lies in between, the disks of its dropped leaf would have covered what is left open: less
 /// than the larger radius times the joint's angle, as their edge ends where a disk touches both
 /// edges of the joint, at directions that differ by no more.
-void cross_gap(const Problem& problem, const Foot& from, const Foot& to, bool wrapped,
-               Uncovered& worst) {
-  const Disk& a = problem.disk(from.node);
-  const Disk& b = problem.disk(to.node);
+void cross_gap(const Problem& problem, const Touching& touching, const Foot& from, const Foot& to,
+               bool wrapped, Uncovered& worst) {
   const bool around = from.edge != to.edge || wrapped;
   double allowed = 0;
   if (!problem.blunt_angle.empty() && around) {
@@ -210,11 +270,13 @@ void cross_gap(const Problem& problem, const Foot& from, const Foot& to, bool wr
       edge = problem.next[edge];
       angle += problem.blunt_angle[edge];
     } while (edge != to.edge);
-    allowed = angle * std::max(a.radius, b.radius);
+    allowed = angle * std::max(problem.disk(from.node).radius, problem.disk(to.node).radius);
   }
+  Gap gap(problem, touching, from, to);
   const auto advance = [&](const Track& on, double begin, double end) {
     if (allowed > 0) worst.open += allowed * std::max(0.0, on.length_at(end) - on.length_at(begin));
-    worst.add(uncovered(a, b, on, begin, end), allowed, on, 0.5 * (begin + end));
+    worst.add(gap.uncovered(on, begin, end, allowed + cover_limit(problem)), allowed, on,
+              0.5 * (begin + end));
   };
   const Track first = problem.track(from.edge);
   if (!around) {
@@ -245,7 +307,7 @@ void walk_loop(const Problem& problem, const Touching& touching,
         first = {i, stretch.begin, stretch.begin_node};
         any = true;
       } else if (reach.edge != i || stretch.begin > reach.at) {
-        cross_gap(problem, reach, {i, stretch.begin, stretch.begin_node}, false, worst);
+        cross_gap(problem, touching, reach, {i, stretch.begin, stretch.begin_node}, false, worst);
       } else if (stretch.end < reach.at) {
         continue;
       }
@@ -253,7 +315,7 @@ void walk_loop(const Problem& problem, const Touching& touching,
     }
   }
   if (any) {
-    cross_gap(problem, reach, first, true, worst);
+    cross_gap(problem, touching, reach, first, true, worst);
     return;
   }
   // No edge touches it: a circle, which one disk fills.
@@ -261,7 +323,7 @@ void walk_loop(const Problem& problem, const Touching& touching,
   if (lone == no_index)
     worst.add(diagonal(problem.box), 0, problem.track(begin), 0);
   else
-    cross_gap(problem, {begin, 0, lone}, {begin, 0, lone}, true, worst);
+    cross_gap(problem, touching, {begin, 0, lone}, {begin, 0, lone}, true, worst);
 }
 
 }  // namespace
@@ -276,9 +338,7 @@ double check_coverage(const Problem& problem, const ArcFeet& feet, Certificate& 
   for (std::size_t i = 0; i < problem.shape.loop_count(); ++i)
     walk_loop(problem, touching, lone_node, i, stretches, worst);
   certificate.largest_uncovered = worst.value;
-  // A foot may lie the tolerance outside its disk; between the feet of different nodes a gap of
-  // width g, which rises by g^2 / (8 r) over their disks, may add as much again.
-  const double limit = 2 * problem.tolerance;
+  const double limit = cover_limit(problem);
   if (!(worst.excess <= limit))
     certificate.failures.push_back(sentence(
         "A stretch of the boundary is touched by no disk: near (%.17g, %.17g) it lies %.3g "
