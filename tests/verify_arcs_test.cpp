@@ -125,8 +125,9 @@ TEST(VerifyArcs, OfDisksAtTheEndOfASideTheOutermostGoesOn) {
   EXPECT_LT(certificate.largest_uncovered, 2e-14);
 }
 
-/// Three arcs of nearly one circle, between tiny ones. Next to a gap of a third of it, where no edge
-/// has its arc, four disks touch a tiny arc equally far along it; but only the leaf's fills the gap.
+/// Three arcs of nearly one circle, between tiny ones. Next to a gap of a third of it, where no
+/// edge has its arc, four disks touch a tiny arc equally far along it; but only the leaf's fills
+/// the gap.
 TEST(VerifyArcs, OfDisksThatReachEquallyFarAnyMayFillAGap) {
   const Ring circle{{{-0.38976796633937089, 117.63048835315533},
                      {-0.38976848295622102, 117.63048771019434},
@@ -294,6 +295,46 @@ TEST(VerifyArcs, BluntJointsHaveNoLeaf) {
   EXPECT_TRUE(verify(*shape, *sharp, {.corner_angle = 0.001}).passed)
       << joined(verify(*shape, *sharp, {.corner_angle = 0.001}));
   EXPECT_EQ(verify(*shape, *sharp, {.corner_angle = 0.001}).convex_corners, 4U);
+}
+
+/// A branch into a blunt joint, all the way or as far as anywhere on it.
+TEST(VerifyArcsFinds, BranchesIntoBluntJoints) {
+  const double fillet = 1e-3, bulge = 0.4142135;  // convex by 2e-7 at both ends
+  const Ring square{{{-2, -2}, {2, -2}, {2, 2 - fillet}, {2 - fillet, 2}, {-2, 2}},
+                    RingRole::any,
+                    {0, 0, bulge, 0, 0}};
+  const auto shape = build_shape({&square, 1});
+  const auto axis = compute(*shape);
+  const Certificate certificate = verify(*shape, *axis);
+  EXPECT_TRUE(certificate.passed) << joined(certificate);
+  EXPECT_EQ(certificate.blunt_joints, 2U);
+  EXPECT_EQ(certificate.curvature_leaves, 1U);
+  const auto site_of = [&](Vec2 start) {
+    std::uint32_t i = 0;
+    while (!(axis->sites[i].start == start)) ++i;
+    return i;
+  };
+  const std::uint32_t before = site_of({2, -2}), arc = site_of({2, 2 - fillet});
+  for (std::uint32_t node = 0; node < axis->nodes.size(); ++node) {
+    const Disk& from = axis->nodes[node].disk;
+    const Vec2 joint{2, 2 - fillet};
+    if (std::abs(from.radius - fillet) > 1e-6) continue;  // the leaf
+    for (const double part : {0.01, 0.5, 1.0}) {
+      MedialAxis spoilt = *axis;
+      const Disk to{part < 1 ? from.center + part * (joint - from.center) : joint,
+                    part < 1 ? (1 - part) * from.radius : 0};
+      spoilt.nodes.push_back({to, 0, NodeKind::leaf});
+      spoilt.nodes[node].kind = NodeKind::site_change;
+      spoilt.edges.push_back({{node, static_cast<std::uint32_t>(axis->nodes.size())},
+                              {arc, before},
+                              {midpoint(from.center, to.center), 0.5 * (from.radius + to.radius)},
+                              1});
+      const std::string failures = joined(verify(*shape, spoilt));
+      EXPECT_NE(failures.find(part < 1 ? "at no arc of largest curvature" : "not convex corners"),
+                std::string::npos)
+          << failures;
+    }
+  }
 }
 
 TEST(VerifyArcsFinds, DamageInComputedAxes) {

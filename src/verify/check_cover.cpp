@@ -255,22 +255,21 @@ class Gap {
 /// disks, may add as much again.
 double cover_limit(const Problem& problem) { return 2 * problem.tolerance; }
 
-/// The boundary from one foot on to another, against the disks that touch there. Where a blunt
-/// joint lies in between, the disks of its dropped leaf would have covered what is left open: less
-/// than the larger radius times the joint's angle, as their edge ends where a disk touches both
-/// edges of the joint, at directions that differ by no more.
+/// The boundary from one foot on to another, against the disks that touch there, but for what blunt
+/// joints in between leave open.
 void cross_gap(const Problem& problem, const Touching& touching, const Foot& from, const Foot& to,
                bool wrapped, Uncovered& worst) {
   const bool around = from.edge != to.edge || wrapped;
   double allowed = 0;
   if (!problem.blunt_angle.empty() && around) {
-    double angle = 0;
+    OpenAtJoints open(problem,
+                      std::max(problem.disk(from.node).radius, problem.disk(to.node).radius));
     std::uint32_t edge = from.edge;
     do {
       edge = problem.next[edge];
-      angle += problem.blunt_angle[edge];
+      open.add(edge);
     } while (edge != to.edge);
-    allowed = angle * std::max(problem.disk(from.node).radius, problem.disk(to.node).radius);
+    allowed = open.value();
   }
   Gap gap(problem, touching, from, to);
   const auto advance = [&](const Track& on, double begin, double end) {
