@@ -337,6 +337,67 @@ TEST(VerifyArcsFinds, BranchesIntoBluntJoints) {
   }
 }
 
+/// A branch of half the size leads to the reflex vertex at the end of a tiny arc, whose other joint
+/// is blunt. Without it the disks leave hardly anything uncovered, but touch the vertex from only
+/// some of the directions between its normals.
+TEST(VerifyArcsFinds, ADroppedBranchBesideATinyArc) {
+  const Ring square{{{2.7800772983034605, -0.52074006515509419},
+                     {0.52074006515509419, 2.7800772983034605},
+                     {-1.1296686165741832, 1.6504086817292773},
+                     {-1.1296702853501939, 1.6504075393593858},
+                     {-2.7235938674747513, 0.43821963106863016},
+                     {-0.52074006515509419, -2.7800772983034605}},
+                    RingRole::any,
+                    {0, 0, -4.8569378998392425e-07, 0.42943684375407942, 0, 0}};
+  const auto shape = build_shape({&square, 1});
+  const auto axis = compute(*shape);
+  EXPECT_EQ(verify(*shape, *axis).failures, std::vector<std::string>{});
+  const std::vector<Edge>& edges = axis->edges;
+  const auto degree = [&](std::uint32_t node) {
+    return std::count_if(edges.begin(), edges.end(), [&](const Edge& edge) {
+      return edge.node[0] == node || edge.node[1] == node;
+    });
+  };
+  unsigned dropped = 0;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    for (const std::uint32_t leaf : edges[i].node) {
+      if (degree(leaf) != 1 || axis->nodes[leaf].disk.radius == 0) continue;
+      MedialAxis damaged = *axis;
+      damaged.edges.erase(damaged.edges.begin() + static_cast<std::ptrdiff_t>(i));
+      damaged.nodes.erase(damaged.nodes.begin() + leaf);
+      for (Edge& edge : damaged.edges)
+        for (std::uint32_t& node : edge.node) node -= node > leaf ? 1 : 0;
+      const std::string failures = joined(verify(*shape, damaged));
+      EXPECT_NE(failures.find("touched from some directions only"), std::string::npos) << failures;
+      ++dropped;
+    }
+  EXPECT_EQ(dropped, 1U);
+}
+
+/// Disks that touch an arc's end, and no more of it, have the vertex there as their site.
+TEST(VerifyArcsFinds, ArcsInPlaceOfTheVertexAtTheirEnd) {
+  const Ring notched{
+      {{0, 0}, {6, 0}, {6, 4}, {3.5, 4}, {2.5, 4}, {0, 4}}, RingRole::any, {0, 0, 0, 0.8, 0, 0}};
+  const auto shape = build_shape({&notched, 1});
+  const auto axis = compute(*shape);
+  EXPECT_TRUE(verify(*shape, *axis).passed);
+  unsigned vertices = 0;
+  for (std::uint32_t vertex = 0; vertex < axis->sites.size(); ++vertex)
+    for (std::uint32_t arc = 0; arc < axis->sites.size(); ++arc) {
+      const Site &at = axis->sites[vertex], &other = axis->sites[arc];
+      if (at.kind() != SiteKind::vertex || other.kind() != SiteKind::arc) continue;
+      if (!(other.start == at.start || other.end == at.start)) continue;
+      ++vertices;
+      MedialAxis spoilt = *axis;
+      for (Edge& edge : spoilt.edges)
+        for (std::uint32_t& site : edge.site)
+          if (site == vertex) site = arc;
+      EXPECT_NE(joined(verify(*shape, spoilt)).find("touched from some directions only"),
+                std::string::npos);
+    }
+  EXPECT_EQ(vertices, 2U);
+}
+
 TEST(VerifyArcsFinds, DamageInComputedAxes) {
   // The engine may be wrong here, so only what passes is damaged; but most must pass.
   unsigned passed = 0, tried = 0;

@@ -17,6 +17,9 @@ struct Stretch {
   /// Of disks around a vertex, which touch it one after the other: turn_of() the clockwise angle of
   /// the first from the normal where the vertex is arrived at; an edge's come after them.
   double turn = std::numeric_limits<double>::infinity();
+  double last_turn = turn;  ///< of the last one
+
+  bool is_of_vertex() const { return turn < std::numeric_limits<double>::infinity(); }
 };
 
 /// Where one disk touches a boundary edge. Next to the centre of an arc, rounding alone decides
@@ -56,7 +59,8 @@ Stretch stretch_of(const Problem& problem, const ArcFeet& feet, std::uint32_t pl
       return turn_of(dot(arriving, off), cross(arriving, off));
     };
     const double first = turn(from), last = turn(to);
-    return last < first ? Stretch{0, 0, to, from, last} : Stretch{0, 0, from, to, first};
+    return last < first ? Stretch{0, 0, to, from, last, first}
+                        : Stretch{0, 0, from, to, first, last};
   }
   const Track on = problem.track(place);
   Stretch all = touched_by(problem, feet, on, edge, side, 0);
@@ -216,7 +220,7 @@ struct Uncovered {
   }
 };
 
-/// A gap in the boundary from one foot to another, and what of it disks leave uncovered.
+/// A gap in the boundary from one foot to another, and how far it lies outside the disks there.
 class Gap {
  public:
   Gap(const Problem& problem, const Touching& touching, const Foot& from, const Foot& to)
@@ -290,17 +294,80 @@ void cross_gap(const Problem& problem, const Touching& touching, const Foot& fro
   advance(problem.track(to.edge), 0, to.at);
 }
 
+/// How far a disk that touches a reflex vertex lies beside the normal there of the edge that ends
+/// in it, or begins; in lengths that rounding leaves open, and 0 if it lies behind that. Rounding
+/// moves normals of short edges, and a disk that touches the line of an edge within the tolerance
+/// is taken to touch the edge. One that touches also the edge beyond, across a joint without a
+/// leaf, need not pass the normals in between.
+double beside_normal(const Problem& problem, std::uint32_t vertex, const Disk& disk, bool leaving) {
+  double least = std::numeric_limits<double>::infinity();
+  std::uint32_t point = vertex;
+  do {
+    const BoundaryEdge edge = problem.edge(leaving ? point : problem.previous[point]);
+    const Vec2 off = disk.center - problem.point(point);
+    const Vec2 tangent = leaving ? start_tangent(edge) : end_tangent(edge);
+    const double ahead = leaving ? -dot(tangent, off) : dot(tangent, off);
+    const double open = problem.tolerance * (1 + disk.radius / norm(edge.chord())) +
+                        std::sqrt(2 * disk.radius * problem.tolerance);
+    // Beyond a quarter of a turn, all the way to the vertex is missing.
+    const double missing = ahead <= 0 ? 0 : cross(tangent, off) > 0 ? ahead : norm(off);
+    least = std::min(least, missing / open);
+    point = leaving ? problem.next[point] : problem.previous[point];
+  } while (least > 1 && point != vertex &&
+           (problem.joint[point] == Joint::smooth || problem.is_blunt(point)) &&
+           std::abs(distance(disk.center, problem.point(point)) - disk.radius) <=
+               4 * problem.tolerance);
+  return least;
+}
+
+/// How much of the axis is missing around a reflex vertex, in lengths that rounding leaves open. In
+/// a right axis disks turn about it from the normal of the edge that ends there to the normal of
+/// the one that begins, and each edge of the axis begins where the one before ends. `before`: a
+/// disk that touches the boundary last before the vertex, or none.
+double missing_around(const Problem& problem, std::uint32_t vertex, const Disk* before,
+                      const std::vector<Stretch>& stretches) {
+  const double tiny = 4 * problem.tolerance;  // smaller disks lie anywhere around it
+  const Stretch* last = nullptr;
+  double missing = 0;
+  for (const Stretch& stretch : stretches) {
+    if (!stretch.is_of_vertex()) break;
+    for (const std::uint32_t node : {stretch.begin_node, stretch.end_node})
+      if (problem.disk(node).radius <= tiny) return 0;
+    const Disk& disk = problem.disk(stretch.begin_node);
+    if (last == nullptr)
+      missing = beside_normal(problem, vertex, disk, false);
+    else if (stretch.begin_node != last->end_node && stretch.turn > last->last_turn)
+      missing = std::max(missing, distance(disk.center, problem.disk(last->end_node).center) /
+                                      std::sqrt(2 * disk.radius * problem.tolerance));
+    if (last == nullptr || stretch.last_turn >= last->last_turn) last = &stretch;
+  }
+  if (last != nullptr)
+    return std::max(missing, beside_normal(problem, vertex, problem.disk(last->end_node), true));
+  // No edge has the vertex: one disk touches it.
+  double least = std::numeric_limits<double>::infinity();
+  for (const Disk* disk :
+       {before, stretches.empty() ? nullptr : &problem.disk(stretches[0].begin_node)})
+    if (disk != nullptr && disk->radius > tiny)
+      least = std::min(least, std::max(beside_normal(problem, vertex, *disk, false),
+                                       beside_normal(problem, vertex, *disk, true)));
+  return std::isinf(least) ? 0 : least;
+}
+
 /// Walks once around a loop, from stretch to stretch. `lone_node` is a node without edges of each
 /// component, or no_index; `stretches` is room to work in.
 void walk_loop(const Problem& problem, const Touching& touching,
                const std::vector<std::uint32_t>& lone_node, std::size_t loop,
-               std::vector<Stretch>& stretches, Uncovered& worst) {
+               std::vector<Stretch>& stretches, Uncovered& worst, Worst& turns) {
+  constexpr double few = 2;  // a disk and the edge that it all but touches are off by one each
   const std::uint32_t begin = problem.shape.loop_begin[loop],
                       end = problem.shape.loop_begin[loop + 1];
   bool any = false;
   Foot first{}, reach{};
   for (std::uint32_t i = begin; i < end; ++i) {
     touching.stretches(i, i > begin ? i - 1 : end - 1, stretches);
+    if (problem.joint[i] == Joint::reflex)
+      turns.add(missing_around(problem, i, any ? &problem.disk(reach.node) : nullptr, stretches),
+                few, problem.point(i), i);
     for (const Stretch& stretch : stretches) {
       if (!any) {
         first = {i, stretch.begin, stretch.begin_node};
@@ -333,10 +400,16 @@ double check_coverage(const Problem& problem, const ArcFeet& feet, Certificate& 
   for (std::uint32_t i = 0; i < problem.axis.nodes.size(); ++i)
     if (problem.degree[i] == 0) lone_node[problem.axis.nodes[i].component] = i;
   Uncovered worst;
+  Worst turns;
   std::vector<Stretch> stretches;
   for (std::size_t i = 0; i < problem.shape.loop_count(); ++i)
-    walk_loop(problem, touching, lone_node, i, stretches, worst);
+    walk_loop(problem, touching, lone_node, i, stretches, worst, turns);
   certificate.largest_uncovered = worst.value;
+  if (turns.over > 0)
+    certificate.failures.push_back(sentence(
+        "%llu reflex vertices are touched from some directions only, not from all between the "
+        "normals there; the worst is (%.17g, %.17g).",
+        static_cast<unsigned long long>(turns.over), turns.where.x, turns.where.y));
   const double limit = cover_limit(problem);
   if (!(worst.excess <= limit))
     certificate.failures.push_back(sentence(
