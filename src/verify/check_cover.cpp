@@ -259,22 +259,31 @@ class Gap {
 /// disks, may add as much again.
 double cover_limit(const Problem& problem) { return 2 * problem.tolerance; }
 
+/// What blunt joints between two feet on different edges, or around a loop, leave open.
+double open_between(const Problem& problem, const Foot& from, const Foot& to) {
+  if (problem.blunt_angle.empty()) return 0;
+  bool any = false;
+  const auto for_each_joint = [&](const auto& visit) {
+    std::uint32_t joint = from.edge;
+    do {
+      joint = problem.next[joint];
+      visit(joint);
+    } while (joint != to.edge);
+  };
+  for_each_joint([&](std::uint32_t joint) { any |= problem.is_blunt(joint); });
+  if (!any) return 0;  // mostly
+  OpenAtJoints open(problem,
+                    std::max(problem.disk(from.node).radius, problem.disk(to.node).radius));
+  for_each_joint([&](std::uint32_t joint) { open.add(joint); });
+  return open.value();
+}
+
 /// The boundary from one foot on to another, against the disks that touch there, but for what blunt
 /// joints in between leave open.
 void cross_gap(const Problem& problem, const Touching& touching, const Foot& from, const Foot& to,
                bool wrapped, Uncovered& worst) {
   const bool around = from.edge != to.edge || wrapped;
-  double allowed = 0;
-  if (!problem.blunt_angle.empty() && around) {
-    OpenAtJoints open(problem,
-                      std::max(problem.disk(from.node).radius, problem.disk(to.node).radius));
-    std::uint32_t edge = from.edge;
-    do {
-      edge = problem.next[edge];
-      open.add(edge);
-    } while (edge != to.edge);
-    allowed = open.value();
-  }
+  const double allowed = around ? open_between(problem, from, to) : 0;
   Gap gap(problem, touching, from, to);
   const auto advance = [&](const Track& on, double begin, double end) {
     if (allowed > 0) worst.open += allowed * std::max(0.0, on.length_at(end) - on.length_at(begin));
