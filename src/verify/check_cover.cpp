@@ -50,10 +50,10 @@ double turn_of(double sine, double cosine) {
 /// The stretch of a boundary edge, or of the vertex it begins in, that an edge of the axis touches
 /// with the site on one of its sides.
 Stretch stretch_of(const Problem& problem, const ArcFeet& feet, std::uint32_t place,
-                   std::uint32_t before, const Edge& edge, std::size_t side) {
+                   const Edge& edge, std::size_t side) {
   const auto [from, to] = edge.node;
   if (problem.axis.sites[edge.site[side]].kind() == SiteKind::vertex) {
-    const Vec2 arriving = end_tangent(problem.edge(before));
+    const Vec2 arriving = problem.arriving(place);
     const auto turn = [&](std::uint32_t node) {
       const Vec2 off = problem.disk(node).center - problem.point(place);
       return turn_of(dot(arriving, off), cross(arriving, off));
@@ -88,21 +88,22 @@ struct Foot {
 class Touching {
  public:
   Touching(const Problem& problem, const ArcFeet& feet) : problem_(problem), feet_(feet) {
-    begin_.assign(problem.shape.points.size() + 1, 0);
-    for_each_contact([&](std::uint32_t, std::uint32_t place) { ++begin_[place + 1]; });
-    for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
+    // One place ahead, where the next one of each boundary edge goes until all are there.
+    begin_.assign(problem.shape.points.size() + 2, 0);
+    for_each_contact([&](std::uint32_t, std::uint32_t place) { ++begin_[place + 2]; });
+    for (std::size_t i = 2; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
     edges_.resize(begin_.back());
-    std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
     for_each_contact(
-        [&](std::uint32_t edge, std::uint32_t place) { edges_[next[place]++] = edge; });
+        [&](std::uint32_t edge, std::uint32_t place) { edges_[begin_[place + 1]++] = edge; });
   }
 
-  /// The stretches of one boundary edge, in order along it. `before` is the edge before it.
-  void stretches(std::uint32_t place, std::uint32_t before, std::vector<Stretch>& found) const {
+  /// The stretches of one boundary edge, in order along it.
+  void stretches(std::uint32_t place, std::vector<Stretch>& found) const {
     found.clear();
     for_each_edge(place, [&](const Edge& edge, std::size_t side) {
-      found.push_back(stretch_of(problem_, feet_, place, before, edge, side));
+      found.push_back(stretch_of(problem_, feet_, place, edge, side));
     });
+    if (found.size() < 2) return;
     const auto key = [](const Stretch& a) {
       return std::tuple(std::max(0.0, a.begin), a.turn, a.begin, a.end);
     };
@@ -166,7 +167,8 @@ double uncovered(const Disk& a, const Disk& b, const Track& edge, double from, d
   };
   const auto outside_at = [&](double way) {
     const Vec2 p = edge.point_at(way);
-    return Outside{outside(a, p), outside(b, p)};
+    const double outside_a = outside(a, p);
+    return Outside{outside_a, &a == &b ? outside_a : outside(b, p)};
   };
   if (!(from < to)) return std::max(0.0, outside_at(from).least());
   std::array<double, 6> bound;
@@ -178,10 +180,12 @@ double uncovered(const Disk& a, const Disk& b, const Track& edge, double from, d
     for (; bound[place - 1] > way; --place) bound[place] = bound[place - 1];
     bound[place] = way;
   };
-  for (const Disk& disk : {a, b}) {
+  const auto turns_beside = [&](const Disk& disk) {
     turns_at(edge.way_to_foot(disk.center));
     if (!edge.is_straight()) turns_at(edge.way_to_opposite(disk.center));
-  }
+  };
+  turns_beside(a);
+  if (&a != &b) turns_beside(b);
   bound[bounds++] = to;
   double worst = 0;
   Outside before = outside_at(from);
@@ -295,7 +299,8 @@ void cross_gap(const Problem& problem, const Touching& touching, const Foot& fro
     advance(first, from.at, to.at);
     return;
   }
-  advance(first, from.at, first.whole_way());
+  // Where nothing of the first edge is left, the next one begins at the same point.
+  if (from.at < first.whole_way()) advance(first, from.at, first.whole_way());
   for (std::uint32_t edge = problem.next[from.edge]; edge != to.edge; edge = problem.next[edge]) {
     const Track whole = problem.track(edge);
     advance(whole, 0, whole.whole_way());
@@ -312,15 +317,15 @@ double beside_normal(const Problem& problem, std::uint32_t vertex, const Disk& d
   double least = std::numeric_limits<double>::infinity();
   std::uint32_t point = vertex;
   do {
-    const BoundaryEdge edge = problem.edge(leaving ? point : problem.previous[point]);
     const Vec2 off = disk.center - problem.point(point);
-    const Vec2 tangent = leaving ? start_tangent(edge) : end_tangent(edge);
+    const Vec2 tangent = leaving ? problem.leaving(point) : problem.arriving(point);
     const double ahead = leaving ? -dot(tangent, off) : dot(tangent, off);
-    const double open = problem.tolerance * (1 + disk.radius / norm(edge.chord())) +
+    if (ahead <= 0) return 0;
+    const Vec2 chord = problem.edge(leaving ? point : problem.previous[point]).chord();
+    const double open = problem.tolerance * (1 + disk.radius / norm(chord)) +
                         std::sqrt(2 * disk.radius * problem.tolerance);
     // Beyond a quarter of a turn, all the way to the vertex is missing.
-    const double missing = ahead <= 0 ? 0 : cross(tangent, off) > 0 ? ahead : norm(off);
-    least = std::min(least, missing / open);
+    least = std::min(least, (cross(tangent, off) > 0 ? ahead : norm(off)) / open);
     point = leaving ? problem.next[point] : problem.previous[point];
   } while (least > 1 && point != vertex &&
            (problem.joint[point] == Joint::smooth || problem.is_blunt(point)) &&
@@ -373,7 +378,7 @@ void walk_loop(const Problem& problem, const Touching& touching,
   bool any = false;
   Foot first{}, reach{};
   for (std::uint32_t i = begin; i < end; ++i) {
-    touching.stretches(i, i > begin ? i - 1 : end - 1, stretches);
+    touching.stretches(i, stretches);
     if (problem.joint[i] == Joint::reflex)
       turns.add(missing_around(problem, i, any ? &problem.disk(reach.node) : nullptr, stretches),
                 few, problem.point(i), i);

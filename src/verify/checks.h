@@ -51,6 +51,15 @@ struct Problem {
     return Track(edge(i), shape.bulge(i) != 0 ? &arcs[i] : nullptr);
   }
   std::uint32_t before(std::uint32_t i) const { return previous[i]; }
+  /// The directions in which the boundary arrives at a point, and leaves it.
+  Vec2 arriving(std::uint32_t i) const {
+    const BoundaryEdge on = edge(previous[i]);
+    return on.bulge != 0 ? arcs[previous[i]].end_tangent() : end_tangent(on);
+  }
+  Vec2 leaving(std::uint32_t i) const {
+    const BoundaryEdge on = edge(i);
+    return on.bulge != 0 ? arcs[i].start_tangent() : start_tangent(on);
+  }
   bool is_blunt(std::uint32_t i) const { return joint[i] == Joint::blunt; }
   const Disk& disk(std::uint32_t node) const { return axis.nodes[node].disk; }
 };
