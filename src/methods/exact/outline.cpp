@@ -73,7 +73,7 @@ SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers) {
 PartedNumbers parted_numbers(const Problem& problem, const site::SiteNumbers& whole,
                              const std::vector<bool>& components) {
   using site::Joint;
-  PartedNumbers parted{whole, {}};
+  PartedNumbers parted{whole, {}, {}};
   site::SiteNumbers& numbers = parted.numbers;
   std::vector<std::uint32_t> flatter(numbers.joints.size()), before_blunt;
   for (std::size_t l = 0; l < problem.shape.loop_count(); ++l) {
