@@ -1130,5 +1130,27 @@ TEST(Editor, JudgesJointsByWholeEdges) {
   EXPECT_TRUE(certificate.passed) << certificate.failures[0];
 }
 
+// A vertex that was flat in its edge closes a channel: its neighbour, a corner before and after,
+// joins its edges as a vertex beside one that is no longer flat. Found by fuzzing.
+TEST(Editor, JudgesAVertexBesideOneThatWasFlat) {
+  Editor editor = editor_of({{{{0, 0},
+                               {60, 0},
+                               {60, 30},
+                               {50, 30},
+                               {50, 38},
+                               {38, 38},
+                               {38, 48},
+                               {32, 48},
+                               {32, 28},
+                               {0, 28}},
+                              {},
+                              {}}});
+  const auto inserted = editor.insert(vertex_at(editor, {38, 38}), {38, 39});
+  ASSERT_TRUE(inserted.ok());
+  Mirror mirror(editor);
+  expect_local(editor, mirror, editor.move(inserted->vertex, {32, 31}));
+  EXPECT_EQ(editor.shape().component_count(), 2U);
+}
+
 }  // namespace
 }  // namespace medial::test
