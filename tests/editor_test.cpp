@@ -1130,6 +1130,29 @@ TEST(Editor, JudgesJointsByWholeEdges) {
   EXPECT_TRUE(certificate.passed) << certificate.failures[0];
 }
 
+// The same at both ends of an edge whose inner vertices move out of its line.
+TEST(Editor, JudgesJointsWhereAStraightEdgeBecomesShorter) {
+  Ring ring{.points = {{-1, 0}, {-0.0004, 0}, {0.0004, 0}, {1, 0}},
+            .bulges = {7.8419860305709303e-11, 0, -7.1e-11}};
+  for (int i = 20; i >= 0; --i) {
+    ring.points.push_back({0.1 * i - 1, 0.5});
+    ring.points.push_back({0.1 * i - 1.05, 0.55});
+  }
+  ring.points.pop_back();
+  ring.bulges.resize(ring.points.size());
+  Editor editor = editor_of({ring});
+  for (const double side : {-1, 1}) {
+    const std::uint32_t from = vertex_at(editor, {-0.0004, 0});
+    const auto near = editor.insert(from, {side * 0.00039, 0});
+    ASSERT_TRUE(near.ok());
+    const auto middle = editor.insert(side < 0 ? near->vertex : from, {0, 0});
+    ASSERT_TRUE(middle.ok());
+    Mirror mirror(editor);
+    expect_local(editor, mirror, editor.move(middle->vertex, {0, 0.0001}));
+    for (int i = 0; i < 3; ++i) ASSERT_TRUE(editor.undo().ok());
+  }
+}
+
 // A vertex that was flat in its edge closes a channel: its neighbour, a corner before and after,
 // joins its edges as a vertex beside one that is no longer flat. Found by fuzzing.
 TEST(Editor, JudgesAVertexBesideOneThatWasFlat) {

@@ -230,6 +230,8 @@ std::vector<Rings::Extent> Rings::sites_around(const Edit& edit) const {
     if (sites.empty() || sites.back().site != 2 * corner + 1) add(2 * corner + 1);
     if (!vertices_[v].flat && is_reflex(v)) add(2 * v);
   }
+  for (const std::uint32_t corner : {corner_before(edit.before), corner_after(edit.after)})
+    if (is_reflex(corner)) add(2 * corner);
   return sites;
 }
 
@@ -464,6 +466,9 @@ void Rings::apply(const Edit& edit, bool is_followed) {
   for (const std::uint32_t v : {edit.before, edit.fresh, edit.after})
     if (v != none) judged.push_back(v);
   judge(judged);
+  // Whether `before` and `after` are flat decides how long the edges beyond them are.
+  for (const std::uint32_t v : {corner_before(edit.before), corner_after(edit.after)})
+    vertices_[v].joint = joint_at(v);
   for (const std::uint32_t v : judged) set_box(v);
 }
 
