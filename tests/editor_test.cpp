@@ -1175,5 +1175,21 @@ TEST(Editor, JudgesAVertexBesideOneThatWasFlat) {
   EXPECT_EQ(editor.shape().component_count(), 2U);
 }
 
+// A vertex comes to the axis of coordinates but for 1e-95, beside a slit along y = x that ends
+// there: too little for 256 bits.
+TEST(Editor, DecidesBesideCoordinatesThat256BitsDoNotHold) {
+  Ring ring{.points = {{26, 26}, {-122, -122}}};
+  for (int i = 0; i < 6; ++i) {
+    ring.points.push_back({-130 - 10. * i, -122});
+    ring.points.push_back({-135 - 10. * i, -110});
+  }
+  for (const Vec2 p : {Vec2{-200, -122}, {-200, 26}, {-122, 26}, {52, 52}, {20, 0}})
+    ring.points.push_back(p);
+  Editor editor = editor_of({ring});
+  Mirror mirror(editor);
+  expect_local(editor, mirror,
+               editor.move(vertex_at(editor, {20, 0}), {9.3633527093843967e-96, 0}));
+}
+
 }  // namespace
 }  // namespace medial::test

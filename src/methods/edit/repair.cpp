@@ -48,6 +48,11 @@ exact::SiteLoops outline_of(const Rings& rings, const Window& window) {
     if (const std::uint32_t after = outline.next[i]; outline.joined(i, after))
       if (!outline.sites[i].is_vertex() && !outline.sites[after].is_vertex())
         outline.by_next[i] = exact::by_second(outline.sites[i], outline.sites[after]);
+  for (std::uint32_t i = 0; i < names.size(); ++i) {
+    const exact::ExactSite site = outline.sites[i];
+    outline.is_wide = outline.is_wide || exact::is_wide(site.start, site.end) ||
+                      exact::is_wide(site.end, site.start);
+  }
   outline.loop_begin = {0, static_cast<std::uint32_t>(names.size())};
   return outline;
 }
