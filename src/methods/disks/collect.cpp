@@ -268,7 +268,8 @@ bool touches_all_between(const Boundary& boundary, const Boundary::SiteRange& ru
 
 }  // namespace
 
-void remove_spurs(const Boundary& boundary, double tolerance, Graph& graph) {
+void remove_spurs(const Boundary& boundary, double tolerance, Graph& graph,
+                  std::span<const std::uint32_t> borders) {
   // Of each node, how many edges end there, and the exclusive or of their numbers: the one edge of
   // a leaf.
   std::vector<std::array<std::uint32_t, 2>> ends(graph.nodes.size());
@@ -277,6 +278,7 @@ void remove_spurs(const Boundary& boundary, double tolerance, Graph& graph) {
       ++ends[node][0];
       ends[node][1] ^= e;
     }
+  for (const std::uint32_t node : borders) ++ends[node][0];
   std::vector<std::uint32_t> edges, nodes;
   for (std::uint32_t i = 0; i < graph.nodes.size(); ++i)
     for (std::uint32_t leaf = i; ends[leaf][0] == 1;) {

@@ -38,10 +38,12 @@ Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::span<const Bridg
               std::size_t spare_nodes, bool with_passages);
 
 /// Takes edges to leaves out of the graph: those with one site of the result on both sides, which
-/// bound no cell (where joints are taken as the doubles have them, one edge may have two sites); and
-/// in a shape those towards a joint where an axis has no leaf, if the disk at which they begin
-/// touches all that lies between their sites there within the tolerance.
-void remove_spurs(const Boundary& boundary, double tolerance, Graph& graph);
+/// bound no cell (where joints are taken as the doubles have them, one edge may have two sites);
+/// and in a shape those towards a joint where an axis has no leaf, if the disk at which they begin
+/// touches all that lies between their sites there within the tolerance. `borders`: nodes at which
+/// the axis goes on.
+void remove_spurs(const Boundary& boundary, double tolerance, Graph& graph,
+                  std::span<const std::uint32_t> borders = {});
 
 /// Works out the edges' curves and an axis' nodes' kinds, and goes back to the result's numbers of
 /// sites and to the input's units. Returns the edges with an end that does not touch one of the
