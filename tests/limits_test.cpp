@@ -214,6 +214,19 @@ TEST(Limits, AnEdgeOfNoLengthInAFlatCornerIsVerified) {
   EXPECT_TRUE(certificate.passed) << certificate.failures[0];
 }
 
+// The disk of a corner of 1e-12 touches the lines of three edges wherever it is.
+TEST(Limits, AVeryFlatCornerBesideAFlatOne) {
+  const Shape shape = *build_shape(std::vector{ring_of({{-0.007359907, -0.0050210733},
+                                                        {0, 0},
+                                                        {3.19400685694e-12, 2.17901449242e-12},
+                                                        {0.00042522841357, 0.000290099213077},
+                                                        {0, 0.01}})});
+  const auto axis = compute(shape);
+  ASSERT_TRUE(axis.ok()) << to_string(axis.error());
+  const Certificate certificate = verify(shape, *axis);
+  EXPECT_TRUE(certificate.passed) << certificate.failures[0];
+}
+
 // A fillet that is off by rounding: with ties kept, no edge leads on past its centre.
 TEST(Limits, AFilletOffByRoundingHasOneLeaf) {
   const Shape shape = *build_shape(std::vector{

@@ -768,8 +768,18 @@ TEST(PlanarGraph, RoundEndsMayBeginAtTheirJoints) {
     }
 }
 
-/// Where spokes end and a bisector goes on, the enclosure passes up to rounding, so that a spoke is
-/// cut next to its end.
+/// Their direction is lost if they are seen from the end of a part that is 1e10 times as long.
+TEST(PlanarGraph, PartsOfEdgesBesideTinySegments) {
+  EXPECT_EQ(fault_of(diagram_of({{{{20, 0},
+                                   {-7.060150235528e-07, 9.420099234719e-07},
+                                   {-7.0631228661246e-07, 9.4178697617716e-07},
+                                   {-7.0633017174552e-07, 9.4177356232737e-07},
+                                   {0, 0}},
+                                  {},
+                                  true}})),
+            "");
+}
+
 TEST(PlanarGraph, SpokesMayEndAtTheEnclosure) {
   EXPECT_EQ(fault_of(diagram_of({{{{-0.1, 0}, {-1, 0}}},
                                  {{{5.000000000000001e-15, 8.660254037844387e-15},

@@ -89,36 +89,56 @@ class Piece {
   std::vector<std::uint32_t> names_;      ///< of each site, the whole's
 };
 
-/// What is done with the axis of a piece; an error ends the computation.
-using Use = std::function<Status(const Piece& piece, MedialAxis&& axis)>;
-
 std::size_t points_of(const Shape& shape, const Loops& loops) {
   std::size_t points = 0;
   for (const std::uint32_t loop : loops) points += shape.loop(loop).size();
   return points;
 }
 
-/// Computes each small component, and uses their axes in order.
-Status run_small(const Problem& problem, const LoopsBySize& loops, const Use& use) {
+/// Where the next small components end that follow each other from `begin` on and have at least so
+/// many points, or are the last.
+std::size_t end_of_batch(const Shape& shape, const LoopsBySize& loops, std::size_t begin,
+                         std::size_t points) {
+  std::size_t end = begin;
+  for (std::size_t count = 0; end < loops.small.size() && count < points; ++end)
+    count += points_of(shape, loops.small[end]);
+  return end;
+}
+
+/// Computes the small components, batch after batch, some at the same time: take(piece, outcome,
+/// batch) for each component of one, in order, and then use(batch) for each batch, in order.
+template <class Batch, class Take, class Use>
+Status run_small(const Problem& problem, const LoopsBySize& loops, const Take& take,
+                 const Use& use) {
   const MethodRow& method = solver_of(problem.options);
-  constexpr std::size_t block = 1 << 18;  // points whose axes are in memory at the same time
+  constexpr std::size_t of_batch = 1 << 11;  // points; what a thread does in turn
+  constexpr std::size_t together = 1 << 7;   // batches that are in memory at the same time
   std::size_t done = points_of(problem.shape, loops.large);
-  for (std::size_t begin = 0, count = 0; begin < loops.small.size(); begin += count) {
-    std::size_t points = 0;
-    for (count = 0; begin + count < loops.small.size() && points < block; ++count)
-      points += points_of(problem.shape, loops.small[begin + count]);
-    std::vector<std::unique_ptr<const Piece>> pieces(count);
-    std::vector<std::optional<Result<Outcome>>> outcomes(count);
-    parallel_for(count, [&](std::size_t i) {
-      pieces[i] = std::make_unique<const Piece>(problem, loops.small[begin + i], nullptr);
-      outcomes[i].emplace(method.run(pieces[i]->problem()));
+  for (std::size_t begin = 0; begin < loops.small.size();) {
+    std::vector<std::size_t> bounds{begin};
+    while (bounds.size() <= together && bounds.back() < loops.small.size())
+      bounds.push_back(end_of_batch(problem.shape, loops, bounds.back(), of_batch));
+    std::vector<Batch> batches(bounds.size() - 1);
+    std::vector<std::optional<Error>> errors(batches.size());
+    parallel_for(batches.size(), [&](std::size_t b) {
+      for (std::size_t i = bounds[b]; i < bounds[b + 1] && !problem.is_cancelled(); ++i) {
+        const Piece piece(problem, loops.small[i], nullptr);
+        auto outcome = method.run(piece.problem());
+        if (!outcome) {
+          errors[b] = std::move(outcome).error();
+          return;
+        }
+        take(piece, *std::move(outcome), batches[b]);
+      }
     });
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t b = 0; b < batches.size(); ++b) {
       if (problem.is_cancelled()) return success();
-      if (!*outcomes[i]) return std::move(*outcomes[i]).error();
-      if (Status used = use(*pieces[i], std::move((*outcomes[i])->axis)); !used) return used;
+      if (errors[b]) return *std::move(errors[b]);
+      if (Status used = use(std::move(batches[b])); !used) return used;
     }
-    done += points;
+    for (std::size_t i = begin; i < bounds.back(); ++i)
+      done += points_of(problem.shape, loops.small[i]);
+    begin = bounds.back();
     if (problem.options.progress)
       problem.options.progress(static_cast<double>(done) /
                                static_cast<double>(problem.shape.points.size()));
@@ -134,22 +154,34 @@ std::function<void(double)> progress_of_large(const Problem& problem, const Loop
   return [&problem, share](double done) { problem.options.progress(share * done); };
 }
 
-/// Adds the axis of a piece to the sum of those before.
-void append(const Piece& piece, MedialAxis&& axis, MedialAxis& sum) {
-  piece.name_components(axis.nodes);
-  for (Edge& edge : axis.edges)
-    for (std::uint32_t& site : edge.site) site = piece.site(site);
-  if (sum.nodes.empty()) {
-    sum = std::move(axis);
+/// The axes of some components together.
+struct Sum {
+  MedialAxis axis;
+  bool to_check = false;  ///< see Outcome
+};
+
+void append(Sum&& part, Sum& sum) {
+  sum.to_check = sum.to_check || part.to_check;
+  MedialAxis &from = part.axis, &to = sum.axis;
+  if (to.nodes.empty()) {
+    to = std::move(from);
     return;
   }
-  const auto nodes = static_cast<std::uint32_t>(sum.nodes.size());
-  for (Edge& edge : axis.edges)
+  const auto nodes = static_cast<std::uint32_t>(to.nodes.size());
+  for (Edge& edge : from.edges)
     for (std::uint32_t& node : edge.node) node += nodes;
-  sum.nodes.insert(sum.nodes.end(), axis.nodes.begin(), axis.nodes.end());
-  sum.edges.insert(sum.edges.end(), axis.edges.begin(), axis.edges.end());
-  sum.tolerance = std::max(sum.tolerance, axis.tolerance);
-  sum.statistics += axis.statistics;
+  to.nodes.insert(to.nodes.end(), from.nodes.begin(), from.nodes.end());
+  to.edges.insert(to.edges.end(), from.edges.begin(), from.edges.end());
+  to.tolerance = std::max(to.tolerance, from.tolerance);
+  to.statistics += from.statistics;
+}
+
+/// The same of a piece, with the whole's numbers.
+void append(const Piece& piece, Outcome&& outcome, Sum& sum) {
+  piece.name_components(outcome.axis.nodes);
+  for (Edge& edge : outcome.axis.edges)
+    for (std::uint32_t& site : edge.site) site = piece.site(site);
+  append({std::move(outcome.axis), outcome.to_check}, sum);
 }
 
 }  // namespace
@@ -188,20 +220,25 @@ std::optional<LoopsBySize> small_components(const Problem& problem) {
 
 Result<Outcome> run_divided(const Problem& problem, const LoopsBySize& loops) {
   problem.numbers();  // from here on several threads ask for them
-  Outcome sum;
+  Sum sum;
   if (!loops.large.empty()) {
     const Piece piece(problem, loops.large, progress_of_large(problem, loops));
     auto outcome = solver_of(problem.options).run(piece.problem());
     if (!outcome || problem.is_cancelled()) return outcome;
-    append(piece, std::move(outcome->axis), sum.axis);
+    append(piece, *std::move(outcome), sum);
   }
-  const Status small = run_small(problem, loops, [&](const Piece& piece, MedialAxis&& axis) {
-    append(piece, std::move(axis), sum.axis);
-    return success();
-  });
+  const Status small = run_small<Sum>(
+      problem, loops,
+      [](const Piece& piece, Outcome&& outcome, Sum& batch) {
+        append(piece, std::move(outcome), batch);
+      },
+      [&](Sum&& batch) {
+        append(std::move(batch), sum);
+        return success();
+      });
   if (!small) return small.error();
   sum.axis.sites = problem.result_sites();
-  return sum;
+  return Outcome{std::move(sum.axis), sum.to_check};
 }
 
 Result<std::optional<MedialAxis>> run_divided_in_parts(const Problem& problem,
@@ -209,32 +246,50 @@ Result<std::optional<MedialAxis>> run_divided_in_parts(const Problem& problem,
                                                        const AxisSink& sink) {
   problem.numbers();
   std::uint32_t nodes = 0;  // in all parts so far
-  const auto hand_out = [&](const Piece& piece, AxisPart&& part) {
-    nodes += static_cast<std::uint32_t>(part.nodes.size() - part.known);
+  const auto name = [](const Piece& piece, AxisPart& part) {
     piece.name_components(part.axis.nodes);
     for (std::uint32_t& site : part.sites) site = piece.site(site);
+  };
+  const auto hand_out = [&](AxisPart&& part) {
+    nodes += static_cast<std::uint32_t>(part.nodes.size() - part.known);
     return sink(std::move(part));
   };
   std::optional<MedialAxis> rest;
   if (!loops.large.empty()) {
     const Piece piece(problem, loops.large, progress_of_large(problem, loops));
-    auto large = disks::run_in_parts(
-        piece.problem(), [&](AxisPart&& part) { return hand_out(piece, std::move(part)); });
+    auto large = disks::run_in_parts(piece.problem(), [&](AxisPart&& part) {
+      name(piece, part);
+      return hand_out(std::move(part));
+    });
     if (!large || !*large || problem.is_cancelled()) return large;
     rest = std::move(*large);
   }
-  const Status small = run_small(problem, loops, [&](const Piece& piece, MedialAxis&& axis) {
-    AxisPart part = whole_part(axis);
-    part.begins = nodes == 0;
-    for (std::uint32_t& node : part.nodes) node += nodes;
-    if (rest) {
-      rest->tolerance = std::max(rest->tolerance, axis.tolerance);
-      rest->statistics += axis.statistics;
-    } else {
-      rest = std::move(axis);
-    }
-    return hand_out(piece, std::move(part));
-  });
+  struct OfPiece {
+    AxisPart part;
+    MedialAxis rest;
+  };
+  using Batch = std::vector<OfPiece>;
+  const Status small = run_small<Batch>(
+      problem, loops,
+      [&](const Piece& piece, Outcome&& outcome, Batch& batch) {
+        AxisPart part = whole_part(outcome.axis);
+        name(piece, part);
+        batch.push_back({std::move(part), std::move(outcome.axis)});
+      },
+      [&](Batch&& batch) -> Status {
+        for (auto& [part, rest_of_part] : batch) {
+          part.begins = nodes == 0;
+          for (std::uint32_t& node : part.nodes) node += nodes;
+          if (rest) {
+            rest->tolerance = std::max(rest->tolerance, rest_of_part.tolerance);
+            rest->statistics += rest_of_part.statistics;
+          } else {
+            rest = std::move(rest_of_part);
+          }
+          if (Status taken = hand_out(std::move(part)); !taken) return taken;
+        }
+        return success();
+      });
   if (!small) return small.error();
   return rest;
 }

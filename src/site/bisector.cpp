@@ -254,16 +254,25 @@ std::optional<Control> meeting_of_tangents(const Site& a, const Site& b, const D
                  std::sqrt(weight_squared)};
 }
 
-/// Whether the edge with this control point turns around a vertex against its chord, by more than
-/// rounding. Where the other site all but passes through the vertex, disks touch both wherever they
-/// lie across the edge: how far it strays does not tell.
+/// Whether the edge with this control point turns around a vertex, or an arc's centre, against its
+/// chord, or its foot on a segment turns back, by more than rounding. Where the other site all but
+/// passes through the vertex, or touches the circle or the line, disks touch both wherever they lie
+/// across the edge: how far it strays does not tell.
 bool turns_back(const Control& control, const Site& a, const Site& b, const Disk& from,
                 const Disk& to) {
-  constexpr double rounding = 0x1p-50;
+  constexpr double rounding = 0x1p-50, beside = 0x1p-46;
   for (const Site* s : {&a, &b}) {
-    if (!s->is_vertex()) continue;
-    const Vec2 first = from.center - s->point, last = to.center - s->point;
-    const Vec2 between = control.point.center - s->point;
+    if (!s->is_vertex() && !s->is_arc()) {
+      const auto [first, last] =
+          std::minmax({dot(s->direction, from.center), dot(s->direction, to.center)});
+      const double foot = dot(s->direction, control.point.center);
+      if (foot < first - beside || foot > last + beside) return true;
+      continue;
+    }
+    if (std::abs(s->curvature) < 1 && !s->is_vertex()) continue;  // its centre is far away
+    const Vec2 focus = s->is_vertex() ? s->point : s->point + (1 / s->curvature) * s->normal();
+    const Vec2 first = from.center - focus, last = to.center - focus;
+    const Vec2 between = control.point.center - focus;
     const double by_chord = cross(first, last);
     const double turn =
         by_chord + 2 * control.weight * (cross(first, between) + cross(between, last));

@@ -9,6 +9,7 @@
 
 #include "base/spatial_order.h"
 #include "base/threads.h"
+#include "base/wide.h"
 
 namespace medial::site {
 namespace {
@@ -361,15 +362,15 @@ template <class Squared, class LookAt>
                                                               const LookAt& look_at) const {
   if (!has_arcs_)
     for (; first < last; first += 2) {
-      if (!one_is_nearer(sites_[first], sites_[first + 1], c, squared())) continue;
-      look_at(first);
-      look_at(first + 1);
+      const std::uint32_t nearer = nearer_of_two(sites_[first], sites_[first + 1], c, squared());
+      if ((nearer & 1) != 0) look_at(first);
+      if ((nearer & 2) != 0) look_at(first + 1);
     }
   for (; first <= last; ++first) look_at(first);
 }
 
-BoundaryTree::Hit BoundaryTree::nearest(Vec2 c, double reach, std::uint32_t first,
-                                        std::uint32_t last) const {
+MEDIAL_WIDE BoundaryTree::Hit BoundaryTree::nearest(Vec2 c, double reach, std::uint32_t first,
+                                                    std::uint32_t last) const {
   Hit hit;
   if (first > last || !(reach > 0)) return hit;
   hit.squared_distance = reach * reach;
@@ -450,8 +451,8 @@ BoundaryTree::Hit BoundaryTree::nearest_lowest(Vec2 c, double reach) const {
   return hit;
 }
 
-void BoundaryTree::within(Vec2 c, double reach, std::uint32_t first, std::uint32_t last,
-                          std::vector<std::uint32_t>& found) const {
+MEDIAL_WIDE void BoundaryTree::within(Vec2 c, double reach, std::uint32_t first, std::uint32_t last,
+                                      std::vector<std::uint32_t>& found) const {
   found.clear();
   if (first > last || !(reach > 0)) return;
   const double squared = reach * reach;

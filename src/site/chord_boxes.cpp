@@ -123,16 +123,4 @@ void ChordBoxes::set(std::size_t lane, const std::optional<ChordBox>& box) {
   end[pair][side] = own.end;
 }
 
-std::uint32_t ChordBoxes::beyond(Vec2 c, double reach) const {
-  std::uint32_t lanes = 0;
-  for (std::uint32_t i = 0; i < fan / 2; ++i) {
-    const Pair height = normal_x[i] * c.x + normal_y[i] * c.y;
-    const Pair position = normal_y[i] * c.x - normal_x[i] * c.y;
-    const Pair across = larger(larger(height - high[i], low[i] - height), Pair{});
-    const Pair along = larger(larger(position - end[i], begin[i] - position), Pair{});
-    lanes |= bits_of(across * across + along * along > reach * reach) << (2 * i);
-  }
-  return lanes;
-}
-
 }  // namespace medial::site

@@ -36,7 +36,17 @@ struct alignas(64) ChordBoxes {
     return ((high[pair] - low[pair]) * (end[pair] - begin[pair]))[lane % 2];
   }
   /// The lanes whose boxes lie beyond the reach from c, as bits.
-  std::uint32_t beyond(Vec2 c, double reach) const;
+  std::uint32_t beyond(Vec2 c, double reach) const {
+    std::uint32_t lanes = 0;
+    for (std::uint32_t i = 0; i < fan / 2; ++i) {
+      const Pair height = normal_x[i] * c.x + normal_y[i] * c.y;
+      const Pair position = normal_y[i] * c.x - normal_x[i] * c.y;
+      const Pair across = larger(larger(height - high[i], low[i] - height), Pair{});
+      const Pair along = larger(larger(position - end[i], begin[i] - position), Pair{});
+      lanes |= bits_of(across * across + along * along > reach * reach) << (2 * i);
+    }
+    return lanes;
+  }
 };
 
 /// The box along the chord of a piece of a boundary. None where the boundary strays from it, but

@@ -6,6 +6,7 @@
 
 #include "base/spatial_order.h"
 #include "base/threads.h"
+#include "base/wide.h"
 #include "site/tangent_disk.h"
 
 namespace medial::site {
@@ -161,7 +162,8 @@ void FirstTouch::search_block(std::uint32_t block, Search& search) const {
   const auto limit = [&] { return (search.radius + looked_at) * (search.radius + looked_at); };
   if (!has_arcs_) {
     for (; i + 1 < end; i += 2) {
-      if (!one_is_nearer(entries_[i].site, entries_[i + 1].site, search.center, limit())) continue;
+      if (nearer_of_two(entries_[i].site, entries_[i + 1].site, search.center, limit()) == 0)
+        continue;
       look_at(entries_[i]);
       look_at(entries_[i + 1]);
     }
@@ -170,9 +172,10 @@ void FirstTouch::search_block(std::uint32_t block, Search& search) const {
     if (site::squared_distance(entries_[i].site, search.center) < limit()) look_at(entries_[i]);
 }
 
-std::optional<FirstTouch::Touch> FirstTouch::find(Vec2 foot, Vec2 direction, double largest,
-                                                  std::uint32_t group, std::uint32_t first,
-                                                  std::uint32_t last) const {
+MEDIAL_WIDE std::optional<FirstTouch::Touch> FirstTouch::find(Vec2 foot, Vec2 direction,
+                                                              double largest, std::uint32_t group,
+                                                              std::uint32_t first,
+                                                              std::uint32_t last) const {
   Search search{foot, direction, group, first, last, largest, foot + largest * direction};
   const auto foot_x = static_cast<float>(foot.x), foot_y = static_cast<float>(foot.y);
   struct Waiting {
@@ -242,9 +245,11 @@ void FirstTouch::look_around(const Extent& box, Region& region) const {
   }
 }
 
-std::optional<FirstTouch::Touch> FirstTouch::find(Vec2 foot, Vec2 direction, double largest,
-                                                  std::uint32_t group, std::uint32_t first,
-                                                  std::uint32_t last, Region& region) const {
+MEDIAL_WIDE std::optional<FirstTouch::Touch> FirstTouch::find(Vec2 foot, Vec2 direction,
+                                                              double largest, std::uint32_t group,
+                                                              std::uint32_t first,
+                                                              std::uint32_t last,
+                                                              Region& region) const {
   Search search{foot, direction, group, first, last, largest, foot + largest * direction};
   const auto foot_x = static_cast<float>(foot.x), foot_y = static_cast<float>(foot.y);
   const WorkVector<Bounds>& lowest = levels_.front();

@@ -59,7 +59,8 @@ struct Corner {
 /// Whether an edge may end with a radius above 0: what lies between the two feet of its last disk
 /// is touched by that disk, and is an arc of convex curvature, the largest thereabouts because its
 /// circle lies inside; or a blunt joint, whose leaf is left out; or a joint that is smooth, but
-/// convex within rounding, if the disk at the edge's other end does not touch that. Looks at
+/// convex within rounding, if the disk at the edge's other end does not touch that, as the axis
+/// itself judges: else it would have ended there. Looks at
 /// `budget` boundary edges at most, and takes those away from it: no two leaves of a right axis
 /// look at the same one.
 bool ends_at_arc(const Problem& problem, const Edge& edge, std::size_t end, std::size_t& budget) {
@@ -82,10 +83,10 @@ bool ends_at_arc(const Problem& problem, const Edge& edge, std::size_t end, std:
     return worst;
   };
   const auto add_joint = [&](std::uint32_t i) {
-    turns =
-        turns || (problem.joint[i] == Joint::smooth &&
-                  turn_between(problem.edge(problem.previous[i]), problem.edge(i)) > 0 &&
-                  distance(before.center, problem.point(i)) - before.radius > problem.tolerance);
+    turns = turns || (problem.joint[i] == Joint::smooth &&
+                      turn_between(problem.edge(problem.previous[i]), problem.edge(i)) > 0 &&
+                      distance(before.center, problem.point(i)) - before.radius >
+                          std::min(problem.tolerance, problem.axis.tolerance));
     if (!problem.blunt_angle.empty()) blunt += problem.blunt_angle[i];
   };
   if (!is_vertex(right)) add_joint(first);

@@ -170,13 +170,21 @@ class Pieces {
 }  // namespace
 
 void take_control(const Site& left, const Site& right, ConicEdge& part) {
-  // Rounding is measured against a size of about one.
-  const Vec2 origin = part.from.center, way = part.to.center - origin;
-  const double unit = unit_for(std::max({norm(way), part.from.radius, part.to.radius}));
-  const Vec2 middle = midpoint({0, 0}, unit * way);
-  const site::Control control = site::control_of(
-      seen_from(left, origin, unit, middle), seen_from(right, origin, unit, middle),
-      {{0, 0}, unit * part.from.radius}, {unit * way, unit * part.to.radius});
+  // Rounding is measured against a size of about one. A segment may be so short against the edge
+  // that its direction needs all of its digits.
+  const bool has_arc = left.kind() == SiteKind::arc || right.kind() == SiteKind::arc;
+  const Site& shorter =
+      squared_norm(left.end - left.start) <= squared_norm(right.end - right.start) ? left : right;
+  const Vec2 origin = has_arc ? part.from.center : shorter.start;
+  const double unit = unit_for(
+      std::max({distance(part.from.center, part.to.center), part.from.radius, part.to.radius}));
+  const auto seen = [&](const Disk& disk) {
+    return Disk{unit * (disk.center - origin), unit * disk.radius};
+  };
+  const Disk from = seen(part.from), to = seen(part.to);
+  const Vec2 middle = midpoint(from.center, to.center);
+  const site::Control control = site::control_of(seen_from(left, origin, unit, middle),
+                                                 seen_from(right, origin, unit, middle), from, to);
   part.control = {origin + (1 / unit) * control.point.center, control.point.radius / unit};
   part.weight = control.weight;
 }

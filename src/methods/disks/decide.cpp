@@ -77,8 +77,6 @@ bool Decider::decide_exactly(Step& step, const Disk& from) {
   count(found);
   if (!found) {
     if (is_exact) event = event_in_double(span, from);
-    if (!step.is_certain && boundary_.has_arcs && context_.joins_ties && std::isinf(step.error))
-      if (const auto passed = EventSearch(contacts_, span, from).first_pass(event)) event = *passed;
     lose(span, event.site);
     return is_exact;
   }

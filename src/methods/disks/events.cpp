@@ -413,27 +413,6 @@ std::optional<Event> EventSearch::pass_at_node() const {
   return std::nullopt;
 }
 
-std::optional<Event> EventSearch::first_pass(const Event& event) const {
-  if (event.kind != Event::Kind::pass_right && event.kind != Event::Kind::pass_left)
-    return std::nullopt;
-  const auto [own, next, other] = side(event.kind == Event::Kind::pass_right);
-  const auto is_touched = [&](std::uint32_t i, const Disk& disk) {
-    return std::abs(site::gap(site(i), disk)) <= context_.joints;
-  };
-  Event found = event;
-  double low = low_;
-  for (int step = 0; step < bracket_steps; ++step) {
-    const double middle = 0.5 * (low + found.position);
-    if (!(low < middle && middle < found.position)) break;
-    const Disk disk = bisector_.disk_at(middle, from_);
-    if (is_touched(next, disk) && is_touched(own, disk) && is_touched(other, disk))
-      found = {event.kind, event.site, disk, middle};
-    else
-      low = middle;
-  }
-  return found;
-}
-
 Event EventSearch::bracket(const Disk& start, const Event& event) {
   if (const auto passed = pass_at_node()) return *passed;
   ++contacts_.statistics.brackets;

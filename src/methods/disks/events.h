@@ -52,11 +52,6 @@ class EventSearch {
   Event next() { return next(by_neighbors()); }
   /// What next() makes of such an event if asked_disk() is empty, and if that is all it asks for.
   std::optional<Event> plain(const Event& by_neighbors);
-  /// Where a foot passes on at a joint that leaves open how large the disk there is, since the
-  /// other site touches the boundary next to the joint: the first disk that touches the next site
-  /// within the tolerance. (The boundary turns there by less than that, and what leads on is no
-  /// branch.)
-  std::optional<Event> first_pass(const Event& event) const;
   Disk asked_disk(const Event& event) const {
     return event.kind == Event::Kind::contact ? beyond(event).disk : event.disk;
   }

@@ -253,7 +253,8 @@ class Search {
     seen_.insert(site);
     const std::uint32_t before = name(span_.left), after = name(span_.right), third = name(site);
     const auto disk = exact::disk_bounds<Real>(outline_, {before, after, third});
-    if (!disk || (best_ && !(best_->radius - disk->radius).positive())) return;
+    if (!disk || is_too_large(*disk)) return;
+    if (best_ && !(best_->radius - disk->radius).positive()) return;
     if (!is_touched(site, *disk, false)) return;
     best_ = disk;
     site_ = site;
