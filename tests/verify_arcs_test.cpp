@@ -125,6 +125,35 @@ TEST(VerifyArcs, OfDisksAtTheEndOfASideTheOutermostGoesOn) {
   EXPECT_LT(certificate.largest_uncovered, 2e-14);
 }
 
+/// Three arcs of nearly one circle, between tiny ones. Next to a gap of a third of it, where no
+/// edge has its arc, four disks touch a tiny arc equally far along it; but only the leaf's fills
+/// the gap.
+TEST(VerifyArcs, OfDisksThatReachEquallyFarAnyMayFillAGap) {
+  const Ring circle{{{-0.38976796633937089, 117.63048835315533},
+                     {-0.38976848295622102, 117.63048771019434},
+                     {-0.23197048431874298, 116.8743765398177},
+                     {-0.2319701899622045, 116.87437638565878},
+                     {0.49694355617170277, 117.37251015983165},
+                     {0.49694351948719695, 117.37251049008124}},
+                    RingRole::any,
+                    {-4.123990169788661e-07, 0.47237808526606323, -1.661405625437658e-07,
+                     0.6007433855674732, -1.6614041160547737e-07, 0.66741919249933879}};
+  const auto shape = build_shape({&circle, 1});
+  const auto axis = compute(*shape);
+  EXPECT_EQ(verify(*shape, *axis).failures, std::vector<std::string>{});
+  // Each of its four edges ends in a leaf, or joins those that do.
+  for (std::size_t i = 0; i < axis->edges.size(); ++i) {
+    MedialAxis damaged = *axis;
+    damaged.edges.erase(damaged.edges.begin() + static_cast<std::ptrdiff_t>(i));
+    EXPECT_FALSE(verify(*shape, damaged).passed) << i;
+    for (const std::uint32_t node : axis->edges[i].node) {
+      damaged = *axis;
+      damaged.nodes[node].disk.radius -= 1e-12;
+      EXPECT_FALSE(verify(*shape, damaged).passed) << node;
+    }
+  }
+}
+
 TEST(VerifyArcsFinds, MovedNodes) {
   for (const HandMadeArcs& m : all_hand_made_arcs()) {
     for (std::size_t i = 0; i < m.axis.nodes.size(); ++i) {
@@ -266,6 +295,107 @@ TEST(VerifyArcs, BluntJointsHaveNoLeaf) {
   EXPECT_TRUE(verify(*shape, *sharp, {.corner_angle = 0.001}).passed)
       << joined(verify(*shape, *sharp, {.corner_angle = 0.001}));
   EXPECT_EQ(verify(*shape, *sharp, {.corner_angle = 0.001}).convex_corners, 4U);
+}
+
+/// A branch into a blunt joint, all the way or as far as anywhere on it.
+TEST(VerifyArcsFinds, BranchesIntoBluntJoints) {
+  const double fillet = 1e-3, bulge = 0.4142135;  // convex by 2e-7 at both ends
+  const Ring square{{{-2, -2}, {2, -2}, {2, 2 - fillet}, {2 - fillet, 2}, {-2, 2}},
+                    RingRole::any,
+                    {0, 0, bulge, 0, 0}};
+  const auto shape = build_shape({&square, 1});
+  const auto axis = compute(*shape);
+  const Certificate certificate = verify(*shape, *axis);
+  EXPECT_TRUE(certificate.passed) << joined(certificate);
+  EXPECT_EQ(certificate.blunt_joints, 2U);
+  EXPECT_EQ(certificate.curvature_leaves, 1U);
+  const auto site_of = [&](Vec2 start) {
+    std::uint32_t i = 0;
+    while (!(axis->sites[i].start == start)) ++i;
+    return i;
+  };
+  const std::uint32_t before = site_of({2, -2}), arc = site_of({2, 2 - fillet});
+  for (std::uint32_t node = 0; node < axis->nodes.size(); ++node) {
+    const Disk& from = axis->nodes[node].disk;
+    const Vec2 joint{2, 2 - fillet};
+    if (std::abs(from.radius - fillet) > 1e-6) continue;  // the leaf
+    for (const double part : {0.01, 0.5, 1.0}) {
+      MedialAxis spoilt = *axis;
+      const Disk to{part < 1 ? from.center + part * (joint - from.center) : joint,
+                    part < 1 ? (1 - part) * from.radius : 0};
+      spoilt.nodes.push_back({to, 0, NodeKind::leaf});
+      spoilt.nodes[node].kind = NodeKind::site_change;
+      spoilt.edges.push_back({{node, static_cast<std::uint32_t>(axis->nodes.size())},
+                              {arc, before},
+                              {midpoint(from.center, to.center), 0.5 * (from.radius + to.radius)},
+                              1});
+      const std::string failures = joined(verify(*shape, spoilt));
+      EXPECT_NE(failures.find(part < 1 ? "at no arc of largest curvature" : "not convex corners"),
+                std::string::npos)
+          << failures;
+    }
+  }
+}
+
+/// A branch of half the size leads to the reflex vertex at the end of a tiny arc, whose other joint
+/// is blunt. Without it the disks leave hardly anything uncovered, but touch the vertex from only
+/// some of the directions between its normals.
+TEST(VerifyArcsFinds, ADroppedBranchBesideATinyArc) {
+  const Ring square{{{2.7800772983034605, -0.52074006515509419},
+                     {0.52074006515509419, 2.7800772983034605},
+                     {-1.1296686165741832, 1.6504086817292773},
+                     {-1.1296702853501939, 1.6504075393593858},
+                     {-2.7235938674747513, 0.43821963106863016},
+                     {-0.52074006515509419, -2.7800772983034605}},
+                    RingRole::any,
+                    {0, 0, -4.8569378998392425e-07, 0.42943684375407942, 0, 0}};
+  const auto shape = build_shape({&square, 1});
+  const auto axis = compute(*shape);
+  EXPECT_EQ(verify(*shape, *axis).failures, std::vector<std::string>{});
+  const std::vector<Edge>& edges = axis->edges;
+  const auto degree = [&](std::uint32_t node) {
+    return std::count_if(edges.begin(), edges.end(), [&](const Edge& edge) {
+      return edge.node[0] == node || edge.node[1] == node;
+    });
+  };
+  unsigned dropped = 0;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    for (const std::uint32_t leaf : edges[i].node) {
+      if (degree(leaf) != 1 || axis->nodes[leaf].disk.radius == 0) continue;
+      MedialAxis damaged = *axis;
+      damaged.edges.erase(damaged.edges.begin() + static_cast<std::ptrdiff_t>(i));
+      damaged.nodes.erase(damaged.nodes.begin() + leaf);
+      for (Edge& edge : damaged.edges)
+        for (std::uint32_t& node : edge.node) node -= node > leaf ? 1 : 0;
+      const std::string failures = joined(verify(*shape, damaged));
+      EXPECT_NE(failures.find("touched from some directions only"), std::string::npos) << failures;
+      ++dropped;
+    }
+  EXPECT_EQ(dropped, 1U);
+}
+
+/// Disks that touch an arc's end, and no more of it, have the vertex there as their site.
+TEST(VerifyArcsFinds, ArcsInPlaceOfTheVertexAtTheirEnd) {
+  const Ring notched{
+      {{0, 0}, {6, 0}, {6, 4}, {3.5, 4}, {2.5, 4}, {0, 4}}, RingRole::any, {0, 0, 0, 0.8, 0, 0}};
+  const auto shape = build_shape({&notched, 1});
+  const auto axis = compute(*shape);
+  EXPECT_TRUE(verify(*shape, *axis).passed);
+  unsigned vertices = 0;
+  for (std::uint32_t vertex = 0; vertex < axis->sites.size(); ++vertex)
+    for (std::uint32_t arc = 0; arc < axis->sites.size(); ++arc) {
+      const Site &at = axis->sites[vertex], &other = axis->sites[arc];
+      if (at.kind() != SiteKind::vertex || other.kind() != SiteKind::arc) continue;
+      if (!(other.start == at.start || other.end == at.start)) continue;
+      ++vertices;
+      MedialAxis spoilt = *axis;
+      for (Edge& edge : spoilt.edges)
+        for (std::uint32_t& site : edge.site)
+          if (site == vertex) site = arc;
+      EXPECT_NE(joined(verify(*shape, spoilt)).find("touched from some directions only"),
+                std::string::npos);
+    }
+  EXPECT_EQ(vertices, 2U);
 }
 
 TEST(VerifyArcsFinds, DamageInComputedAxes) {

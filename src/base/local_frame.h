@@ -49,7 +49,8 @@ inline LocalFrame frame_of(const Box& box) {
 }
 
 /// No disk inside the shape has a larger radius: half of the box's smaller side, with room for
-/// rounding; where arcs end the box, by the spacing of the coordinates.
+/// rounding, and for the spacing of the coordinates, by which the furthest place of an arc on each
+/// side may be off.
 inline double radius_limit(const Box& box, const LocalFrame& frame) {
   const double width = box.high.x - box.low.x, height = box.high.y - box.low.y;
   return frame.scale * (0.5 * std::min(width, height) * (1 + 0x1p-20) + spacing_in(box));

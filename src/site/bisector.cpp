@@ -260,7 +260,8 @@ std::optional<Control> meeting_of_tangents(const Site& a, const Site& b, const D
 /// across the edge: how far it strays does not tell.
 bool turns_back(const Control& control, const Site& a, const Site& b, const Disk& from,
                 const Disk& to) {
-  constexpr double rounding = 0x1p-50, beside = 0x1p-46;
+  constexpr double rounding = 0x1p-50;
+  constexpr double beside = 0x1p-46;  // a control point has lost digits where its edge is straight
   for (const Site* s : {&a, &b}) {
     if (!s->is_vertex() && !s->is_arc()) {
       const auto [first, last] =
@@ -273,10 +274,13 @@ bool turns_back(const Control& control, const Site& a, const Site& b, const Disk
     const Vec2 focus = s->is_vertex() ? s->point : s->point + (1 / s->curvature) * s->normal();
     const Vec2 first = from.center - focus, last = to.center - focus;
     const Vec2 between = control.point.center - focus;
+    // Opposite ends as seen from the focus leave open on which side the edge passes it.
+    if (s->is_arc() && !(dot(first, last) > 0)) continue;
     const double by_chord = cross(first, last);
     const double turn =
         by_chord + 2 * control.weight * (cross(first, between) + cross(between, last));
-    if (std::abs(turn) > rounding && (turn > 0) != (by_chord > 0)) return true;
+    const bool is_known = std::abs(by_chord) > rounding && std::abs(turn) > rounding;
+    if (is_known && (turn > 0) != (by_chord > 0)) return true;
   }
   return false;
 }
@@ -323,11 +327,13 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
       deviation(straight, a, b, from, to, near_focus) <= enough)
     return straight;
   bool is_lost = turns_back(best, a, b, from, to);
+  // One that does not turn back is better than one that does, if it does not stray for that.
   const auto take_if_better = [&](const Control& control) {
     const double now = deviation(control, a, b, from, to, near_focus);
-    if (!is_lost && !(now < strays)) return;
+    const bool is_near = is_lost ? now <= std::max(strays, enough) : now < strays;
+    if (!is_near) return;
     const bool turns = turns_back(control, a, b, from, to);
-    if (turns && (!is_lost || !(now < strays))) return;
+    if (turns && !(is_lost && now < strays)) return;
     strays = now;
     is_lost = turns;
     best = control;

@@ -17,6 +17,9 @@ struct Stretch {
   /// Of disks around a vertex, which touch it one after the other: turn_of() the clockwise angle of
   /// the first from the normal where the vertex is arrived at; an edge's come after them.
   double turn = std::numeric_limits<double>::infinity();
+  double last_turn = turn;  ///< of the last one
+
+  bool is_of_vertex() const { return turn < std::numeric_limits<double>::infinity(); }
 };
 
 /// Where one disk touches a boundary edge. Next to the centre of an arc, rounding alone decides
@@ -47,16 +50,17 @@ double turn_of(double sine, double cosine) {
 /// The stretch of a boundary edge, or of the vertex it begins in, that an edge of the axis touches
 /// with the site on one of its sides.
 Stretch stretch_of(const Problem& problem, const ArcFeet& feet, std::uint32_t place,
-                   std::uint32_t before, const Edge& edge, std::size_t side) {
+                   const Edge& edge, std::size_t side) {
   const auto [from, to] = edge.node;
   if (problem.axis.sites[edge.site[side]].kind() == SiteKind::vertex) {
-    const Vec2 arriving = end_tangent(problem.edge(before));
+    const Vec2 arriving = problem.arriving(place);
     const auto turn = [&](std::uint32_t node) {
       const Vec2 off = problem.disk(node).center - problem.point(place);
       return turn_of(dot(arriving, off), cross(arriving, off));
     };
     const double first = turn(from), last = turn(to);
-    return last < first ? Stretch{0, 0, to, from, last} : Stretch{0, 0, from, to, first};
+    return last < first ? Stretch{0, 0, to, from, last, first}
+                        : Stretch{0, 0, from, to, first, last};
   }
   const Track on = problem.track(place);
   Stretch all = touched_by(problem, feet, on, edge, side, 0);
@@ -72,29 +76,34 @@ Stretch stretch_of(const Problem& problem, const ArcFeet& feet, std::uint32_t pl
   return all;
 }
 
+/// Where disks touch last before a gap in the boundary, or first behind it: way `at` along boundary
+/// edge `edge`. The disk of `node` is one of them.
+struct Foot {
+  std::uint32_t edge;
+  double at;
+  std::uint32_t node;
+};
+
 /// The edges of the axis that touch each boundary edge, or the vertex that it begins in.
 class Touching {
  public:
   Touching(const Problem& problem, const ArcFeet& feet) : problem_(problem), feet_(feet) {
-    begin_.assign(problem.shape.points.size() + 1, 0);
-    for_each_contact([&](std::uint32_t, std::uint32_t place) { ++begin_[place + 1]; });
-    for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
+    // One place ahead, where the next one of each boundary edge goes until all are there.
+    begin_.assign(problem.shape.points.size() + 2, 0);
+    for_each_contact([&](std::uint32_t, std::uint32_t place) { ++begin_[place + 2]; });
+    for (std::size_t i = 2; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
     edges_.resize(begin_.back());
-    std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
     for_each_contact(
-        [&](std::uint32_t edge, std::uint32_t place) { edges_[next[place]++] = edge; });
+        [&](std::uint32_t edge, std::uint32_t place) { edges_[begin_[place + 1]++] = edge; });
   }
 
-  /// The stretches of one boundary edge, in order along it. `before` is the edge before it.
-  void stretches(std::uint32_t place, std::uint32_t before, std::vector<Stretch>& found) const {
+  /// The stretches of one boundary edge, in order along it.
+  void stretches(std::uint32_t place, std::vector<Stretch>& found) const {
     found.clear();
-    for (std::uint32_t k = begin_[place]; k < begin_[place + 1]; ++k) {
-      const Edge& edge = problem_.axis.edges[edges_[k]];
-      // An edge that touches it with both sites stands here twice.
-      const bool again = k > begin_[place] && edges_[k - 1] == edges_[k];
-      const std::size_t side = problem_.place[edge.site[0]] == place && !again ? 0 : 1;
-      found.push_back(stretch_of(problem_, feet_, place, before, edge, side));
-    }
+    for_each_edge(place, [&](const Edge& edge, std::size_t side) {
+      found.push_back(stretch_of(problem_, feet_, place, edge, side));
+    });
+    if (found.size() < 2) return;
     const auto key = [](const Stretch& a) {
       return std::tuple(std::max(0.0, a.begin), a.turn, a.begin, a.end);
     };
@@ -102,7 +111,33 @@ class Touching {
               [&](const Stretch& a, const Stretch& b) { return key(a) < key(b); });
   }
 
+  /// Adds the disks that touch the place of a foot, as far as rounding lets one tell.
+  void add_disks(const Foot& foot, std::vector<std::uint32_t>& nodes) const {
+    const Track on = problem_.track(foot.edge);
+    for_each_edge(foot.edge, [&](const Edge& edge, std::size_t side) {
+      for (std::size_t end = 0; end < 2; ++end) {
+        const bool vertex = problem_.axis.sites[edge.site[side]].kind() == SiteKind::vertex;
+        const Stretch here = vertex ? Stretch{0, 0, edge.node[end], edge.node[end]}
+                                    : touched_by(problem_, feet_, on, edge, side, end);
+        const double open = here.end - here.begin;
+        if (here.begin - open <= foot.at && foot.at <= here.end + open)
+          nodes.push_back(edge.node[end]);
+      }
+    });
+  }
+
  private:
+  /// Calls `visit` with each edge of the axis that touches a boundary edge, and with its side
+  /// there.
+  template <class Visitor>
+  void for_each_edge(std::uint32_t place, const Visitor& visit) const {
+    for (std::uint32_t k = begin_[place]; k < begin_[place + 1]; ++k) {
+      const Edge& edge = problem_.axis.edges[edges_[k]];
+      // An edge that touches it with both sites stands here twice.
+      const bool again = k > begin_[place] && edges_[k - 1] == edges_[k];
+      visit(edge, problem_.place[edge.site[0]] == place && !again ? 0 : 1);
+    }
+  }
   template <class Visitor>
   void for_each_contact(const Visitor& visit) const {
     for (std::uint32_t i = 0; i < problem_.axis.edges.size(); ++i)
@@ -132,7 +167,8 @@ double uncovered(const Disk& a, const Disk& b, const Track& edge, double from, d
   };
   const auto outside_at = [&](double way) {
     const Vec2 p = edge.point_at(way);
-    return Outside{outside(a, p), outside(b, p)};
+    const double outside_a = outside(a, p);
+    return Outside{outside_a, &a == &b ? outside_a : outside(b, p)};
   };
   if (!(from < to)) return std::max(0.0, outside_at(from).least());
   std::array<double, 6> bound;
@@ -144,10 +180,12 @@ double uncovered(const Disk& a, const Disk& b, const Track& edge, double from, d
     for (; bound[place - 1] > way; --place) bound[place] = bound[place - 1];
     bound[place] = way;
   };
-  for (const Disk& disk : {a, b}) {
+  const auto turns_beside = [&](const Disk& disk) {
     turns_at(edge.way_to_foot(disk.center));
     if (!edge.is_straight()) turns_at(edge.way_to_opposite(disk.center));
-  }
+  };
+  turns_beside(a);
+  if (&a != &b) turns_beside(b);
   bound[bounds++] = to;
   double worst = 0;
   Outside before = outside_at(from);
@@ -169,13 +207,6 @@ double uncovered(const Disk& a, const Disk& b, const Track& edge, double from, d
   return worst;
 }
 
-/// Where disks touch last before a gap in the boundary: parameter `at` of boundary edge `edge`.
-struct Foot {
-  std::uint32_t edge;
-  double at;
-  std::uint32_t node;
-};
-
 /// The largest distance of the boundary from the disks, above what blunt joints leave open.
 struct Uncovered {
   double value = 0;
@@ -193,35 +224,83 @@ struct Uncovered {
   }
 };
 
-/// The boundary from one foot on to another, against the two disks that touch there. Where a blunt
-/// joint lies in between, the disks of its dropped leaf would have covered what is left open: less
-/// than the larger radius times the joint's angle, as their edge ends where a disk touches both
-/// edges of the joint, at directions that differ by no more.
-void cross_gap(const Problem& problem, const Foot& from, const Foot& to, bool wrapped,
-               Uncovered& worst) {
-  const Disk& a = problem.disk(from.node);
-  const Disk& b = problem.disk(to.node);
-  const bool around = from.edge != to.edge || wrapped;
-  double allowed = 0;
-  if (!problem.blunt_angle.empty() && around) {
-    double angle = 0;
-    std::uint32_t edge = from.edge;
-    do {
-      edge = problem.next[edge];
-      angle += problem.blunt_angle[edge];
-    } while (edge != to.edge);
-    allowed = angle * std::max(a.radius, b.radius);
+/// A gap in the boundary from one foot to another, and how far it lies outside the disks there.
+class Gap {
+ public:
+  Gap(const Problem& problem, const Touching& touching, const Foot& from, const Foot& to)
+      : problem_(problem), touching_(touching), from_(from), to_(to) {}
+
+  /// The largest distance of a stretch of the gap from the disks that touch beside it. Two of them
+  /// mostly reach over it. Where others touch at the same places, rounding alone decides which two
+  /// are the outermost: each of them may be the one that reaches over it.
+  double uncovered(const Track& edge, double from, double to, double most) {
+    const auto by = [&](std::uint32_t a, std::uint32_t b) {
+      return verify_detail::uncovered(problem_.disk(a), problem_.disk(b), edge, from, to);
+    };
+    double least = by(from_.node, to_.node);
+    if (least <= most) return least;
+    if (others_.empty())
+      for (const Foot& foot : {from_, to_}) touching_.add_disks(foot, others_);
+    for (std::uint32_t& other : others_) {
+      least = std::min({least, by(from_.node, other), by(other, to_.node)});
+      if (least <= most) {
+        std::swap(other, others_.front());  // the next stretch asks it first
+        break;
+      }
+    }
+    return least;
   }
+
+ private:
+  const Problem& problem_;
+  const Touching& touching_;
+  const Foot from_, to_;
+  std::vector<std::uint32_t> others_;  ///< nodes whose disks touch at either end
+};
+
+/// How far a stretch may lie outside the disks. A foot may lie the tolerance outside its disk;
+/// between the feet of different nodes a gap of width g, which rises by g^2 / (8 r) over their
+/// disks, may add as much again.
+double cover_limit(const Problem& problem) { return 2 * problem.tolerance; }
+
+/// What blunt joints between two feet on different edges, or around a loop, leave open.
+double open_between(const Problem& problem, const Foot& from, const Foot& to) {
+  if (problem.blunt_angle.empty()) return 0;
+  bool any = false;
+  const auto for_each_joint = [&](const auto& visit) {
+    std::uint32_t joint = from.edge;
+    do {
+      joint = problem.next[joint];
+      visit(joint);
+    } while (joint != to.edge);
+  };
+  for_each_joint([&](std::uint32_t joint) { any |= problem.is_blunt(joint); });
+  if (!any) return 0;  // mostly
+  OpenAtJoints open(problem,
+                    std::max(problem.disk(from.node).radius, problem.disk(to.node).radius));
+  for_each_joint([&](std::uint32_t joint) { open.add(joint); });
+  return open.value();
+}
+
+/// The boundary from one foot on to another, against the disks that touch there, but for what blunt
+/// joints in between leave open.
+void cross_gap(const Problem& problem, const Touching& touching, const Foot& from, const Foot& to,
+               bool wrapped, Uncovered& worst) {
+  const bool around = from.edge != to.edge || wrapped;
+  const double allowed = around ? open_between(problem, from, to) : 0;
+  Gap gap(problem, touching, from, to);
   const auto advance = [&](const Track& on, double begin, double end) {
     if (allowed > 0) worst.open += allowed * std::max(0.0, on.length_at(end) - on.length_at(begin));
-    worst.add(uncovered(a, b, on, begin, end), allowed, on, 0.5 * (begin + end));
+    worst.add(gap.uncovered(on, begin, end, allowed + cover_limit(problem)), allowed, on,
+              0.5 * (begin + end));
   };
   const Track first = problem.track(from.edge);
   if (!around) {
     advance(first, from.at, to.at);
     return;
   }
-  advance(first, from.at, first.whole_way());
+  // Where nothing of the first edge is left, the next one begins at the same point.
+  if (from.at < first.whole_way()) advance(first, from.at, first.whole_way());
   for (std::uint32_t edge = problem.next[from.edge]; edge != to.edge; edge = problem.next[edge]) {
     const Track whole = problem.track(edge);
     advance(whole, 0, whole.whole_way());
@@ -229,23 +308,86 @@ void cross_gap(const Problem& problem, const Foot& from, const Foot& to, bool wr
   advance(problem.track(to.edge), 0, to.at);
 }
 
+/// How far a disk that touches a reflex vertex lies beside the normal there of the edge that ends
+/// in it, or begins; in lengths that rounding leaves open, and 0 if it lies behind that. Rounding
+/// moves normals of short edges, and a disk that touches the line of an edge within the tolerance
+/// is taken to touch the edge. One that touches also the edge beyond, across a joint without a
+/// leaf, need not pass the normals in between.
+double beside_normal(const Problem& problem, std::uint32_t vertex, const Disk& disk, bool leaving) {
+  double least = std::numeric_limits<double>::infinity();
+  std::uint32_t point = vertex;
+  do {
+    const Vec2 off = disk.center - problem.point(point);
+    const Vec2 tangent = leaving ? problem.leaving(point) : problem.arriving(point);
+    const double ahead = leaving ? -dot(tangent, off) : dot(tangent, off);
+    if (ahead <= 0) return 0;
+    const Vec2 chord = problem.edge(leaving ? point : problem.previous[point]).chord();
+    const double open = problem.tolerance * (1 + disk.radius / norm(chord)) +
+                        std::sqrt(2 * disk.radius * problem.tolerance);
+    // Beyond a quarter of a turn, all the way to the vertex is missing.
+    least = std::min(least, (cross(tangent, off) > 0 ? ahead : norm(off)) / open);
+    point = leaving ? problem.next[point] : problem.previous[point];
+  } while (least > 1 && point != vertex &&
+           (problem.joint[point] == Joint::smooth || problem.is_blunt(point)) &&
+           std::abs(distance(disk.center, problem.point(point)) - disk.radius) <=
+               4 * problem.tolerance);
+  return least;
+}
+
+/// How much of the axis is missing around a reflex vertex, in lengths that rounding leaves open. In
+/// a right axis disks turn about it from the normal of the edge that ends there to the normal of
+/// the one that begins, and each edge of the axis begins where the one before ends. `before`: a
+/// disk that touches the boundary last before the vertex, or none.
+double missing_around(const Problem& problem, std::uint32_t vertex, const Disk* before,
+                      const std::vector<Stretch>& stretches) {
+  const double tiny = 4 * problem.tolerance;  // smaller disks lie anywhere around it
+  const Stretch* last = nullptr;
+  double missing = 0;
+  for (const Stretch& stretch : stretches) {
+    if (!stretch.is_of_vertex()) break;
+    for (const std::uint32_t node : {stretch.begin_node, stretch.end_node})
+      if (problem.disk(node).radius <= tiny) return 0;
+    const Disk& disk = problem.disk(stretch.begin_node);
+    if (last == nullptr)
+      missing = beside_normal(problem, vertex, disk, false);
+    else if (stretch.begin_node != last->end_node && stretch.turn > last->last_turn)
+      missing = std::max(missing, distance(disk.center, problem.disk(last->end_node).center) /
+                                      std::sqrt(2 * disk.radius * problem.tolerance));
+    if (last == nullptr || stretch.last_turn >= last->last_turn) last = &stretch;
+  }
+  if (last != nullptr)
+    return std::max(missing, beside_normal(problem, vertex, problem.disk(last->end_node), true));
+  // No edge has the vertex: one disk touches it.
+  double least = std::numeric_limits<double>::infinity();
+  for (const Disk* disk :
+       {before, stretches.empty() ? nullptr : &problem.disk(stretches[0].begin_node)})
+    if (disk != nullptr && disk->radius > tiny)
+      least = std::min(least, std::max(beside_normal(problem, vertex, *disk, false),
+                                       beside_normal(problem, vertex, *disk, true)));
+  return std::isinf(least) ? 0 : least;
+}
+
 /// Walks once around a loop, from stretch to stretch. `lone_node` is a node without edges of each
 /// component, or no_index; `stretches` is room to work in.
 void walk_loop(const Problem& problem, const Touching& touching,
                const std::vector<std::uint32_t>& lone_node, std::size_t loop,
-               std::vector<Stretch>& stretches, Uncovered& worst) {
+               std::vector<Stretch>& stretches, Uncovered& worst, Worst& turns) {
+  constexpr double few = 2;  // a disk and the edge that it all but touches are off by one each
   const std::uint32_t begin = problem.shape.loop_begin[loop],
                       end = problem.shape.loop_begin[loop + 1];
   bool any = false;
   Foot first{}, reach{};
   for (std::uint32_t i = begin; i < end; ++i) {
-    touching.stretches(i, i > begin ? i - 1 : end - 1, stretches);
+    touching.stretches(i, stretches);
+    if (problem.joint[i] == Joint::reflex)
+      turns.add(missing_around(problem, i, any ? &problem.disk(reach.node) : nullptr, stretches),
+                few, problem.point(i), i);
     for (const Stretch& stretch : stretches) {
       if (!any) {
         first = {i, stretch.begin, stretch.begin_node};
         any = true;
       } else if (reach.edge != i || stretch.begin > reach.at) {
-        cross_gap(problem, reach, {i, stretch.begin, stretch.begin_node}, false, worst);
+        cross_gap(problem, touching, reach, {i, stretch.begin, stretch.begin_node}, false, worst);
       } else if (stretch.end < reach.at) {
         continue;
       }
@@ -253,7 +395,7 @@ void walk_loop(const Problem& problem, const Touching& touching,
     }
   }
   if (any) {
-    cross_gap(problem, reach, first, true, worst);
+    cross_gap(problem, touching, reach, first, true, worst);
     return;
   }
   // No edge touches it: a circle, which one disk fills.
@@ -261,7 +403,7 @@ void walk_loop(const Problem& problem, const Touching& touching,
   if (lone == no_index)
     worst.add(diagonal(problem.box), 0, problem.track(begin), 0);
   else
-    cross_gap(problem, {begin, 0, lone}, {begin, 0, lone}, true, worst);
+    cross_gap(problem, touching, {begin, 0, lone}, {begin, 0, lone}, true, worst);
 }
 
 }  // namespace
@@ -272,13 +414,17 @@ double check_coverage(const Problem& problem, const ArcFeet& feet, Certificate& 
   for (std::uint32_t i = 0; i < problem.axis.nodes.size(); ++i)
     if (problem.degree[i] == 0) lone_node[problem.axis.nodes[i].component] = i;
   Uncovered worst;
+  Worst turns;
   std::vector<Stretch> stretches;
   for (std::size_t i = 0; i < problem.shape.loop_count(); ++i)
-    walk_loop(problem, touching, lone_node, i, stretches, worst);
+    walk_loop(problem, touching, lone_node, i, stretches, worst, turns);
   certificate.largest_uncovered = worst.value;
-  // A foot may lie the tolerance outside its disk; between the feet of different nodes a gap of
-  // width g, which rises by g^2 / (8 r) over their disks, may add as much again.
-  const double limit = 2 * problem.tolerance;
+  if (turns.over > 0)
+    certificate.failures.push_back(sentence(
+        "%llu reflex vertices are touched from some directions only, not from all between the "
+        "normals there; the worst is (%.17g, %.17g).",
+        static_cast<unsigned long long>(turns.over), turns.where.x, turns.where.y));
+  const double limit = cover_limit(problem);
   if (!(worst.excess <= limit))
     certificate.failures.push_back(sentence(
         "A stretch of the boundary is touched by no disk: near (%.17g, %.17g) it lies %.3g "

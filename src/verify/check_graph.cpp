@@ -27,12 +27,6 @@ const char* plural_s(std::uint64_t count) { return count == 1 ? "" : "s"; }
 
 bool before(Vec2 a, Vec2 b) { return lexicographic_less(a, b); }
 
-/// By how much the boundary turns to the left between two edges.
-double turn_between(const BoundaryEdge& before, const BoundaryEdge& after) {
-  const Vec2 arriving = end_tangent(before), leaving = start_tangent(after);
-  return std::atan2(cross(arriving, leaving), dot(arriving, leaving));
-}
-
 Joint joint_between(const BoundaryEdge& before, const BoundaryEdge& after, double tolerance,
                     double corner_angle) {
   if (before.bulge == 0 && after.bulge == 0) {
@@ -59,8 +53,8 @@ struct Corner {
 /// Whether an edge may end with a radius above 0: what lies between the two feet of its last disk
 /// is touched by that disk, and is an arc of convex curvature, the largest thereabouts because its
 /// circle lies inside; or a blunt joint, whose leaf is left out; or a joint that is smooth, but
-/// convex within rounding, if the disk at the edge's other end does not touch that, as the axis
-/// itself judges: else it would have ended there. Looks at
+/// convex within rounding, if the disk at the edge's other end does not touch that within the
+/// tolerance of a computation: else the axis would have ended there. Looks at
 /// `budget` boundary edges at most, and takes those away from it: no two leaves of a right axis
 /// look at the same one.
 bool ends_at_arc(const Problem& problem, const Edge& edge, std::size_t end, std::size_t& budget) {
@@ -73,8 +67,10 @@ bool ends_at_arc(const Problem& problem, const Edge& edge, std::size_t end, std:
   if (place(right) == no_index || place(left) == no_index) return false;
   const Disk& disk = problem.disk(edge.node[end]);
   const std::uint32_t first = is_vertex(right) ? place(right) : problem.next[place(right)];
+  const double own_tolerance = std::max(tolerance_for(problem.box, 0), problem.axis.tolerance);
   bool arcs = false, turns = false;
-  double farthest = 0, blunt = 0;
+  double farthest = 0;
+  OpenAtJoints open(problem, disk.radius);
   const Disk& before = problem.disk(edge.node[1 - end]);
   const auto deviation = [&](const BoundaryEdge& on) {
     double worst = 0;
@@ -86,8 +82,8 @@ bool ends_at_arc(const Problem& problem, const Edge& edge, std::size_t end, std:
     turns = turns || (problem.joint[i] == Joint::smooth &&
                       turn_between(problem.edge(problem.previous[i]), problem.edge(i)) > 0 &&
                       distance(before.center, problem.point(i)) - before.radius >
-                          std::min(problem.tolerance, problem.axis.tolerance));
-    if (!problem.blunt_angle.empty()) blunt += problem.blunt_angle[i];
+                          std::min(problem.tolerance, own_tolerance));
+    open.add(i);
   };
   if (!is_vertex(right)) add_joint(first);
   for (std::uint32_t i = first; i != place(left); i = problem.next[i]) {
@@ -99,12 +95,17 @@ bool ends_at_arc(const Problem& problem, const Edge& edge, std::size_t end, std:
     if (problem.next[i] != place(left) || !is_vertex(left)) add_joint(problem.next[i]);
   }
   // Rounding may end the axis on the bisector with the arc itself.
-  const double limit = 2 * problem.tolerance + blunt * disk.radius;
+  const double limit = 2 * problem.tolerance + open.value();
   for (const std::size_t side : {right, left}) {
     const BoundaryEdge touched = problem.edge(place(side));
     arcs = arcs || (!is_vertex(side) && touched.bulge > 0 && deviation(touched) <= limit);
   }
-  return (arcs || blunt > 0 || turns) && farthest <= limit;
+  // Between two edges that join bluntly there is no branch, unless the disk touches all of one.
+  bool blunt = open.value() > 0;
+  if (blunt && first == place(left) && !is_vertex(left))
+    blunt = deviation(problem.edge(place(right))) <= limit ||
+            deviation(problem.edge(place(left))) <= limit;
+  return (arcs || blunt || turns) && farthest <= limit;
 }
 
 }  // namespace
@@ -451,14 +452,13 @@ Corner corner_at(const Problem& problem, std::uint32_t i) {
   return {problem.point(i), problem.component[i]};
 }
 
-/// Corners and leaves as sorted lists: what is in only one of them is an offence. Where all joints
-/// are blunt, an axis may begin at one of them. Nearly all leaves are found at the corners that
-/// their sites make, and are in no list.
+/// Corners and leaves as sorted lists: what is in only one of them is an offence. Nearly all leaves
+/// are found at the corners that their sites make, and are in no list.
 void check_leaves(const Problem& problem, Certificate& certificate) {
   const MedialAxis& axis = problem.axis;
   const auto count = static_cast<std::uint32_t>(problem.shape.points.size());
   auto& failures = certificate.failures;
-  std::vector<Corner> corners, blunt, leaves;
+  std::vector<Corner> corners, leaves;
   std::vector<bool> has_leaf(count, false);
   const auto add_leaf = [&](const Edge& edge, const Corner& leaf) {
     const std::uint32_t i = joint_of_sites(problem, edge);
@@ -486,17 +486,13 @@ void check_leaves(const Problem& problem, Certificate& certificate) {
     const bool is_corner = problem.joint[i] == Joint::corner;
     certificate.convex_corners += is_corner ? 1 : 0;
     if (is_corner && !has_leaf[i]) corners.push_back(corner_at(problem, i));
-    if (problem.is_blunt(i)) blunt.push_back(corner_at(problem, i));
   }
   std::sort(corners.begin(), corners.end());
-  std::sort(blunt.begin(), blunt.end());
   std::sort(leaves.begin(), leaves.end());
-  std::vector<Corner> bare, strange, extra;
+  std::vector<Corner> bare, extra;
   std::set_difference(corners.begin(), corners.end(), leaves.begin(), leaves.end(),
                       std::back_inserter(bare));
   std::set_difference(leaves.begin(), leaves.end(), corners.begin(), corners.end(),
-                      std::back_inserter(strange));
-  std::set_difference(strange.begin(), strange.end(), blunt.begin(), blunt.end(),
                       std::back_inserter(extra));
   certificate.corners_without_leaf = bare.size();
   if (!bare.empty())

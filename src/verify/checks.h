@@ -51,8 +51,52 @@ struct Problem {
     return Track(edge(i), shape.bulge(i) != 0 ? &arcs[i] : nullptr);
   }
   std::uint32_t before(std::uint32_t i) const { return previous[i]; }
+  /// The directions in which the boundary arrives at a point, and leaves it.
+  Vec2 arriving(std::uint32_t i) const {
+    const BoundaryEdge on = edge(previous[i]);
+    return on.bulge != 0 ? arcs[previous[i]].end_tangent() : end_tangent(on);
+  }
+  Vec2 leaving(std::uint32_t i) const {
+    const BoundaryEdge on = edge(i);
+    return on.bulge != 0 ? arcs[i].start_tangent() : start_tangent(on);
+  }
   bool is_blunt(std::uint32_t i) const { return joint[i] == Joint::blunt; }
   const Disk& disk(std::uint32_t node) const { return axis.nodes[node].disk; }
+};
+
+/// By how much the boundary turns to the left between two edges.
+inline double turn_between(const BoundaryEdge& before, const BoundaryEdge& after) {
+  const Vec2 arriving = end_tangent(before), leaving = start_tangent(after);
+  return std::atan2(cross(arriving, leaving), dot(arriving, leaving));
+}
+
+/// How far points may lie outside a disk that touches both edges beside blunt joints, whose leaves
+/// are dropped. From its foot on either edge of one the boundary turns away from it by less than
+/// the joint's angle; at the end of an edge that joins smoothly, it may do so at once, by as much
+/// as rounding leaves open there. No more than the radius times all angles: directions of the feet
+/// differ by no more.
+class OpenAtJoints {
+ public:
+  OpenAtJoints(const Problem& problem, double radius) : problem_(problem), radius_(radius) {}
+
+  void add(std::uint32_t joint) {
+    const bool blunt = problem_.is_blunt(joint);
+    if (problem_.blunt_angle.empty() || !(blunt || problem_.joint[joint] == Joint::smooth)) return;
+    const BoundaryEdge before = problem_.edge(problem_.previous[joint]),
+                       after = problem_.edge(joint);
+    const auto [shorter, longer] = std::minmax({length_of(before), length_of(after)});
+    if (blunt) {
+      angles_ += problem_.blunt_angle[joint];
+      sum_ += problem_.blunt_angle[joint] * std::min(radius_, 0.5 * shorter);
+    } else {
+      sum_ += std::abs(turn_between(before, after)) * std::min(radius_, longer);
+    }
+  }
+  double value() const { return std::min(angles_ * radius_, sum_); }
+
+ private:
+  const Problem& problem_;
+  double radius_, angles_ = 0, sum_ = 0;
 };
 
 /// What `work` makes of a site's arc: the boundary's, if it is one of those.

@@ -170,12 +170,12 @@ class Pieces {
 }  // namespace
 
 void take_control(const Site& left, const Site& right, ConicEdge& part) {
-  // Rounding is measured against a size of about one. A segment may be so short against the edge
-  // that its direction needs all of its digits.
+  // Rounding is measured against a size of about one. A parabola far from its vertex has that next
+  // to the segment, whose direction and distance would be lost as seen from there; an arc is about
+  // as large as what is seen of it.
   const bool has_arc = left.kind() == SiteKind::arc || right.kind() == SiteKind::arc;
-  const Site& shorter =
-      squared_norm(left.end - left.start) <= squared_norm(right.end - right.start) ? left : right;
-  const Vec2 origin = has_arc ? part.from.center : shorter.start;
+  const Site& vertex = left.kind() == SiteKind::vertex ? left : right;
+  const Vec2 origin = has_arc ? part.from.center : vertex.start;
   const double unit = unit_for(
       std::max({distance(part.from.center, part.to.center), part.from.radius, part.to.radius}));
   const auto seen = [&](const Disk& disk) {

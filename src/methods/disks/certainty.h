@@ -70,6 +70,8 @@ class Certainty {
   };
   static double error_on(const Line& line, const Contact& third, double radius);
   bool is_near(std::uint32_t i, double slack) const;
+  /// Whether the event's disk touches the lines and circles of three sites, and the sites
+  /// themselves up to where these end.
   bool touches(std::uint32_t third, double slack) const;
   double error_of_three(std::uint32_t third) const {
     return error_of_three(boundary_, {span_.right, third, span_.left}, to_);

@@ -241,35 +241,37 @@ Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::span<const Bridg
 
 namespace {
 
-/// Whether a disk touches all that lies between two sites within the tolerance, without a corner or
-/// a whole convex arc: what led on from it would lead to a joint where an axis has no leaf.
+/// Whether a disk touches all that lies between its feet on two sites of a run within the
+/// tolerance, without a corner or a whole convex arc: so an edge that leads on from it would only
+/// reach a joint, where an axis has no leaf.
 bool touches_all_between(const Boundary& boundary, const Boundary::SiteRange& run, const Disk& disk,
                          std::uint32_t first, std::uint32_t last, double tolerance) {
-  using site::Joint;
   const auto touches = [&](Vec2 place) {
     return std::abs(distance(disk.center, place) - disk.radius) <= tolerance;
   };
-  for (std::uint32_t i = first, next; i != last; i = next) {
-    next = run.after(i);
+  const auto is_edge = [&](std::uint32_t i) { return boundary.elements[i] == Element::edge; };
+  for (std::uint32_t i = first;; i = run.after(i)) {
     const site::Site& site = boundary.sites[i];
-    for (const std::uint32_t place : {i, next})
-      if (boundary.elements[place] == Element::bridge) return false;
-    // From the foot on an arc, a disk that touches it there leaves it further and further.
-    if (boundary.is_same(i, next)) continue;
-    const bool is_passed =
-        site.is_arc() && !boundary.is_same(i, first) && !boundary.is_same(i, last);
-    if (is_passed && (site.curvature > 0 || !touches(site.at(0.5 * site.length)))) return false;
-    const bool joins_edges =
-        boundary.elements[i] == Element::edge && boundary.elements[next] == Element::edge;
-    if ((joins_edges && boundary.joint(i) == Joint::corner) || !touches(site.end())) return false;
+    if (boundary.elements[i] == Element::bridge) return false;
+    if (site.is_arc()) {
+      const bool is_whole = !boundary.is_same(i, first) && !boundary.is_same(i, last);
+      if (is_whole && site.curvature > 0) return false;
+      // Along a quarter of a circle, three places bound how far the disk is away.
+      const double foot = std::clamp(site::carrier_parameter(site, disk.center), 0.0, site.length);
+      const double begin = i == first ? foot : 0, end = i == last ? foot : site.length;
+      if (!touches(site.at(0.5 * (begin + end)))) return false;
+    }
+    if (i == last) return true;
+    const std::uint32_t next = run.after(i);
+    const bool at_corner = is_edge(i) && is_edge(next) && boundary.joint(i) == site::Joint::corner;
+    if (at_corner || !touches(site.end())) return false;
   }
-  return true;
 }
 
 }  // namespace
 
-void remove_spurs(const Boundary& boundary, double tolerance, Graph& graph,
-                  std::span<const std::uint32_t> borders) {
+void remove_spurs(const Boundary& boundary, std::span<const std::uint32_t> names, double tolerance,
+                  Graph& graph, std::span<const std::uint32_t> borders) {
   // Of each node, how many edges end there, and the exclusive or of their numbers: the one edge of
   // a leaf.
   std::vector<std::array<std::uint32_t, 2>> ends(graph.nodes.size());
@@ -279,23 +281,30 @@ void remove_spurs(const Boundary& boundary, double tolerance, Graph& graph,
       ends[node][1] ^= e;
     }
   for (const std::uint32_t node : borders) ++ends[node][0];
+  const auto name = [&](std::uint32_t i) {
+    const std::uint32_t own = boundary.originals[i];
+    return names.empty() ? own : names[own];
+  };
+  const auto is_spur = [&](const Edge& edge, std::uint32_t leaf) {
+    const auto [left, right] = edge.site;
+    if (!names.empty() && name(left) == name(right)) return true;
+    // Most leaves are corners.
+    if (boundary.sides == Sides::both || !(graph.nodes[leaf].disk.radius > 0)) return false;
+    const bool is_end = leaf == edge.node[1];
+    const Node& root = graph.nodes[edge.node[is_end ? 0 : 1]];
+    return touches_all_between(boundary, boundary.runs[root.component], root.disk,
+                               is_end ? right : left, is_end ? left : right, tolerance);
+  };
   std::vector<std::uint32_t> edges, nodes;
   for (std::uint32_t i = 0; i < graph.nodes.size(); ++i)
     for (std::uint32_t leaf = i; ends[leaf][0] == 1;) {
       const std::uint32_t e = ends[leaf][1];
-      const auto [left, right] = graph.edges[e].site;
-      const auto [from, to] = graph.edges[e].node;
-      const std::uint32_t rest = leaf == from ? to : from;
-      const auto [disk, component, kind] = graph.nodes[rest];
-      const auto [first, last] = leaf == to ? std::pair(right, left) : std::pair(left, right);
-      if (boundary.originals[left] != boundary.originals[right] &&
-          !(boundary.sides == Sides::one && graph.nodes[leaf].disk.radius > 0 &&
-            touches_all_between(boundary, boundary.runs[component], disk, first, last, tolerance)))
-        break;
+      if (!is_spur(graph.edges[e], leaf)) break;
       edges.push_back(e);
       nodes.push_back(leaf);
       ends[leaf][0] = 0;
-      leaf = rest;
+      const auto [from, to] = graph.edges[e].node;
+      leaf = leaf == from ? to : from;
       --ends[leaf][0];
       ends[leaf][1] ^= e;
     }

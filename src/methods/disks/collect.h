@@ -37,13 +37,13 @@ WorkVector<std::uint8_t> degrees_of(const Graph& graph);
 Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::span<const Bridge> bridges,
               std::size_t spare_nodes, bool with_passages);
 
-/// Takes edges to leaves out of the graph: those with one site of the result on both sides, which
-/// bound no cell (where joints are taken as the doubles have them, one edge may have two sites);
+/// Takes edges to leaves out of the graph: where joints are taken as the doubles have them and
+/// sites have other `names` in the result, those with one site on both sides, which bound no cell;
 /// and in a shape those towards a joint where an axis has no leaf, if the disk at which they begin
 /// touches all that lies between their sites there within the tolerance. `borders`: nodes at which
 /// the axis goes on.
-void remove_spurs(const Boundary& boundary, double tolerance, Graph& graph,
-                  std::span<const std::uint32_t> borders = {});
+void remove_spurs(const Boundary& boundary, std::span<const std::uint32_t> names, double tolerance,
+                  Graph& graph, std::span<const std::uint32_t> borders = {});
 
 /// Works out the edges' curves and an axis' nodes' kinds, and goes back to the result's numbers of
 /// sites and to the input's units. Returns the edges with an end that does not touch one of the

@@ -36,6 +36,7 @@ struct WalkContext {
   double joints;                 ///< joints are smooth to so much
   double radius_limit;           ///< no disk inside the shape is larger
   std::vector<bool> in_precise;  ///< of each component: double is never asked; empty: it is
+  const std::vector<bool>* ends_smooth = nullptr;  ///< exact::PartedNumbers::ends_smooth, if parted
   const std::atomic<bool>* cancel = nullptr;
   std::function<void(std::uint64_t)> finished_sites;  ///< gets the number of further finished sites
   /// Above 0, tasks are deferred, and so is the rest of one that has found this many nodes.
@@ -44,6 +45,10 @@ struct WalkContext {
 
   bool is_in_precise(std::uint32_t component) const {
     return !in_precise.empty() && in_precise[component];
+  }
+  /// Whether an edge ends in a joint that is blunt as the doubles have it, but counts as smooth.
+  bool ends_smoothly(std::uint32_t edge) const {
+    return ends_smooth != nullptr && (*ends_smooth)[boundary.originals[edge]];
   }
   bool is_cancelled() const { return cancel != nullptr && cancel->load(std::memory_order_relaxed); }
 };

@@ -45,9 +45,9 @@ struct Way {
 };
 
 /// Connects the holes of the boundary, walks it, and joins what the walk finds. Nothing where the
-/// caller cancels. `names`: those of the axis, if `numbers` are others.
+/// caller cancels. `parted`: if `numbers` are those.
 std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers,
-                              std::span<const std::uint32_t> names, const Way& way,
+                              const exact::PartedNumbers* parted, const Way& way,
                               std::size_t spare_nodes, Boundary& boundary, Stopwatch& watch,
                               Statistics& statistics) {
   const ExactSites sites(problem, numbers, boundary);
@@ -67,13 +67,21 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   context.cancel = problem.options.cancel;
   context.finished_sites = reporter(problem, way.attempts, boundary, finished);
   context.joins_ties = way.merges_ties;
+  std::span<const std::uint32_t> names;
+  if (parted != nullptr) {
+    names = parted->names;
+    if (boundary.sides == Sides::one) context.ends_smooth = &parted->ends_smooth;
+  }
   auto chunks = walk(context);
   statistics.seconds_walk = watch.lap();
   if (problem.is_cancelled()) return std::nullopt;
 
   Graph graph = collect(chunks, boundary.bridges, spare_nodes, boundary.has_arcs);
   if (way.merges_ties) merge_ties(tree, sites, problem.local_tolerance(), graph, names);
-  if (boundary.has_arcs) find_doubts(boundary, tree, problem.local_tolerance(), graph);
+  if (boundary.has_arcs) {
+    remove_spurs(boundary, names, problem.local_tolerance(), graph);
+    find_doubts(boundary, tree, problem.local_tolerance(), graph);
+  }
   return graph;
 }
 
@@ -118,13 +126,11 @@ std::optional<Graph> attempt(const Problem& problem, const SiteNumbers& own_numb
   boundary = loops_boundary(problem, *numbers, sides);
   statistics.seconds_sites = watch.lap();
 
-  std::span<const std::uint32_t> names;
-  if (parted) names = parted->names;
-  auto graph = graph_of(problem, *numbers, names, way, spare_nodes, boundary, watch, statistics);
+  auto graph = graph_of(problem, *numbers, parted ? &*parted : nullptr, way, spare_nodes, boundary,
+                        watch, statistics);
   if (!graph) return graph;
   if (parted) rename(parted->names, boundary);
   for (std::uint32_t& site : graph->lost) site = boundary.originals[site];
-  if (boundary.has_arcs) remove_spurs(boundary, problem.local_tolerance(), *graph);
   return graph;
 }
 
@@ -228,8 +234,10 @@ std::vector<bool> components_of(const Shape& shape, const SiteNumbers& numbers,
 Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbers, int attempts) {
   const bool with_arcs = has_arcs(problem.shape);
   const std::vector<std::size_t> tiny = tiny_arcs(problem);
-  // Next to arcs, a walk that merges nothing is measured, too.
-  const bool is_measured = with_arcs && (problem.options.exact || !tiny.empty());
+  // Next to arcs, a walk that merges nothing, or far more than rounding, is measured, too.
+  constexpr double coarse = 8;
+  const bool is_coarse = problem.tolerance > coarse * problem.joint_tolerance;
+  const bool is_measured = with_arcs && (problem.options.exact || !tiny.empty() || is_coarse);
   std::optional<Error> error;
   Way way{{}, !problem.options.exact, attempts};
   for (const bool is_last : {false, true}) {

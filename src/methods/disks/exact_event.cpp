@@ -431,6 +431,26 @@ std::optional<ExactEvent> search(const WalkContext& context, const Span& span, c
   return found;
 }
 
+template <class Real>
+std::optional<Disk> leaf_on_bisector(const WalkContext& context, std::uint32_t before,
+                                     std::uint32_t after, const Disk& node) {
+  using Number = Bounded<Real>;
+  constexpr int enough = 64;  // halvings, after which feet are in one place to rounding
+  const exact::ExactSite first = context.exact.site(before), second = context.exact.site(after);
+  const auto away = [&](const Disk& disk) {
+    return std::abs(distance(disk.center, first.end) - disk.radius);
+  };
+  if (away(node) <= context.joints) return std::nullopt;
+  const Real begin(1.0), end(-1.0);
+  Real share = std::clamp(exact::share_of<Real>(first, {node.center.x, node.center.y}), end, begin);
+  for (int halvings = 0; halvings < enough; ++halvings) {
+    share = (share + end) / 2;
+    const auto found = exact::disk_along(exact::spoke_at(first, Number(share, 0)), second);
+    if (found && away(rounded(*found)) <= 0.5 * context.joints) return rounded(*found);
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<ExactEvent> next_exactly(const WalkContext& context, const Span& span,
@@ -445,23 +465,8 @@ std::optional<ExactEvent> start_exactly(const WalkContext& context, const Span& 
 
 std::optional<Disk> leaf_toward_joint(const WalkContext& context, std::uint32_t before,
                                       std::uint32_t after, const Disk& node) {
-  using Number = Bounded<Precise>;
-  constexpr int most_halvings = 64;
-  const exact::ExactSite first = context.exact.site(before), second = context.exact.site(after);
-  const auto away = [&](const Disk& disk) {
-    return std::abs(distance(disk.center, first.end) - disk.radius);
-  };
-  if (away(node) <= context.tolerance || first.is_vertex()) return std::nullopt;
-  const Precise end(-1.0);
-  Precise share = exact::share_of<Precise>(first, {node.center.x, node.center.y});
-  for (int halvings = 0; halvings < most_halvings; ++halvings) {
-    share = (share + end) / 2;
-    const auto found = exact::disk_along(exact::spoke_at(first, Number(share, 0)), second);
-    if (!found) continue;
-    const Disk disk = rounded(*found);
-    if (away(disk) <= 0.5 * context.tolerance) return disk;
-  }
-  return std::nullopt;
+  return context.exact.outline().is_wide ? leaf_on_bisector<Wide>(context, before, after, node)
+                                         : leaf_on_bisector<Precise>(context, before, after, node);
 }
 
 }  // namespace medial::disks

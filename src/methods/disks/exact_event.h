@@ -32,10 +32,10 @@ std::optional<ExactEvent> next_exactly(const WalkContext& context, const Span& s
 std::optional<ExactEvent> start_exactly(const WalkContext& context, const Span& whole,
                                         const Disk& about, std::uint32_t hint);
 
-/// Where an edge ends towards a blunt joint that double takes for smooth, of the edges `before` and
-/// `after`: the first disk found on their bisector, from that of the edge's node on, that touches
-/// the joint within half of the tolerance. None if the node's does within the tolerance, as it
-/// mostly does; else the two are arcs of nearly one circle.
+/// Where an edge ends towards a joint of the edges `before` and `after` that counts as smooth: on
+/// their bisector, at the first disk tried, halving the way from the edge's node, that touches the
+/// joint within half of the tolerance. None if the node's does within the tolerance, as it mostly
+/// does; else the two are arcs of nearly one circle.
 std::optional<Disk> leaf_toward_joint(const WalkContext& context, std::uint32_t before,
                                       std::uint32_t after, const Disk& node);
 

@@ -389,7 +389,7 @@ class Walker {
 
   void add_edge(const Span& span, std::uint32_t to) {
     std::uint32_t from = span.node;
-    if (starts_blunt_ && from == 0) {  // no edge leads to a blunt joint
+    if (starts_blunt_ && from == 0) {  // no edge leads to a blunt joint, but towards one
       const auto leaf = blunt_leaf(span.left, span.right, chunk_.nodes[to]);
       if (!leaf) return;
       from = add_node(*leaf);
@@ -398,10 +398,10 @@ class Walker {
   }
 
   /// Where an edge ends that leads from a node towards the joint of two edges, if that is blunt as
-  /// the doubles have it.
+  /// the doubles have it and counts as smooth. The node of a run that begins there is the joint.
   std::optional<Disk> blunt_leaf(std::uint32_t before, std::uint32_t after,
                                  const Disk& node) const {
-    if (!decider_.is_exact || boundary_.joint(before) != site::Joint::blunt) return std::nullopt;
+    if (!context_.ends_smoothly(before)) return std::nullopt;
     return leaf_toward_joint(context_, before, after, node);
   }
 

@@ -89,10 +89,9 @@ class Repairer {
     find_moved(part, nodes, doubtful);
     if (!doubtful.empty()) return std::nullopt;
     if (boundary_.has_arcs) {
-      // compute() would measure such an axis, and perhaps walk again.
+      disks::remove_spurs(boundary_, {}, measures_.tolerance, part, nodes);
       disks::find_doubts(boundary_, tree, measures_.tolerance, part);
-      if (!part.lost.empty()) return std::nullopt;
-      disks::remove_spurs(boundary_, measures_.tolerance, part, nodes);
+      if (!part.lost.empty()) return std::nullopt;  // compute() measures, and may walk again
     }
     return result(part, doubtful);
   }

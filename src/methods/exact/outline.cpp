@@ -73,7 +73,7 @@ PartedNumbers parted_numbers(const Problem& problem, const site::SiteNumbers& wh
   using site::Joint;
   PartedNumbers parted{whole, {}};
   site::SiteNumbers& numbers = parted.numbers;
-  std::vector<std::uint32_t> flatter(numbers.joints.size());
+  std::vector<std::uint32_t> flatter(numbers.joints.size()), before_blunt;
   for (std::size_t l = 0; l < problem.shape.loop_count(); ++l) {
     const site::LoopEdges loop(problem.shape, l, problem.frame);
     const bool is_parted = components[problem.shape.component[l]];
@@ -84,11 +84,14 @@ PartedNumbers parted_numbers(const Problem& problem, const site::SiteNumbers& wh
       const ExactSite first = edge_of(loop, loop.before(i)), second = edge_of(loop, i);
       const int turn = turn_between(first, second);
       if (turn != 0) numbers.joints[point] = turn > 0 ? Joint::blunt : Joint::reflex;
+      if (turn > 0) before_blunt.push_back(before);
       if (curvature_of(first) < curvature_of(second)) flatter[point] = whole.edge[before];
     }
   }
   site::count_sites(problem.shape, numbers);
   parted.names.resize(numbers.count);
+  parted.ends_smooth.assign(numbers.count, false);
+  for (const std::uint32_t point : before_blunt) parted.ends_smooth[numbers.edge[point]] = true;
   for (std::size_t point = 0; point < numbers.joints.size(); ++point) {
     const std::uint32_t edge = numbers.edge[point];
     if (edge < numbers.count) parted.names[edge] = whole.edge[point];

@@ -73,6 +73,7 @@ struct PartedNumbers {
   site::SiteNumbers numbers;
   /// What the axis calls each site: a vertex that counts as smooth has the name of an edge there.
   std::vector<std::uint32_t> names;
+  std::vector<bool> ends_smooth;  ///< of each site: an edge that ends in a blunt joint of this kind
 };
 /// Of the sites that are numbered as `whole`, which need not be the problem's own. `components`:
 /// those whose joints are parted.
