@@ -276,6 +276,17 @@ TEST(Editor, KnowsWhichComponentACircleIs) {
   }
 }
 
+/// At the rightmost place of the circle there is a segment, too short to matter to its disk.
+TEST(Editor, KnowsWhichComponentACircleWithAShortSegmentIs) {
+  const Ring beside{.points = {{1, 1}, {9, 1}, {9, 9}, {1, 9}}};
+  const Ring circle{.points = {{0, -1.2945537148236916e-06},
+                               {0, -1.2374100882315284e-06},
+                               {-0.17322600674953426, -1.0230584799355918e-06},
+                               {-0.086613139122552543, -0.086614269356734983}},
+                    .bulges = {0, 0.99999843271211275, 0.41421392480216529, 0.41421392480216529}};
+  EXPECT_EQ(fault_of(editor_of({beside, circle})), "");
+}
+
 /// Where two circles touch, both have an arc.
 TEST(Editor, KnowsWhichComponentsCirclesAreThatTouch) {
   for (const double angle : {0.0, 0.5, 1.25, 3.0, 3.141592653589793}) {
