@@ -381,6 +381,43 @@ TEST(OffsetOfTwoArcs, ALeafTowardsAJointIsNoSpur) {
       8);
 }
 
+/// A disk next to the end of a slot touches the end's joints within the tolerance, but no more.
+TEST(BarWithEndsOfArcs, AShortPieceBeforeAnEndKeepsItsLeaf) {
+  const Ring slot{{{0, 0.025670824191800886},
+                   {1e-11, 0.025670824191800886},
+                   {4, 0.02567},
+                   {4, 0.0256718},
+                   {-2e-13, 0.0256718}},
+                  RingRole::any,
+                  {-1e-10, 2e-10, 1, -7e-10, 0.99999976}};
+  expect_verified(slot, 13);
+}
+
+/// Ties that are far coarser than rounding may join what is no tie.
+TEST(Gear, WithACoarseToleranceIsVerified) {
+  const auto shape = build_shape(Rings{{{{1, 0},
+                                         {0.6, 0.82},
+                                         {0.31, 1},
+                                         {-0.6, 0.8},
+                                         {-0.81, 0.6},
+                                         {-0.9453283872, -0.32611997},
+                                         {-0.809016994375, -0.58778525},
+                                         {0.01803598738, -0.9998373384},
+                                         {0.018035987, -0.9998373362},
+                                         {0.30901699, -0.9510565142443409},
+                                         {0.3090169944, -0.95105652},
+                                         {0.9564752425, -0.2918134858},
+                                         {1, -0.3}},
+                                        RingRole::any,
+                                        {0.24, 0.07, 0.24, 0.074, 0.245, 0.0742, 0.2448531042, 0,
+                                         0.0742, 0, 0.2448531042, 0, 0.07}}});
+  ASSERT_TRUE(shape) << to_string(shape.error());
+  const auto axis = compute(*shape, {.tolerance = 4.57e-5, .threads = 1});
+  ASSERT_TRUE(axis) << to_string(axis.error());
+  const Certificate certificate = verify(*shape, *axis, {.threads = 1});
+  EXPECT_TRUE(certificate.passed) << certificate.failures.front();
+}
+
 /// A box of arcs rounds: a disk may be larger than half of it.
 TEST(OffsetOfTwoArcs, ADiskThatFillsABoxThatIsRounded) {
   expect_verified({{{-11.399990472330394, 74.79999285424833},

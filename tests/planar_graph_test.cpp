@@ -768,7 +768,7 @@ TEST(PlanarGraph, RoundEndsMayBeginAtTheirJoints) {
     }
 }
 
-/// Their direction is lost if they are seen from the end of a part that is 1e10 times as long.
+/// The direction of a tiny segment is lost as seen from the end of an edge 1e10 times as long.
 TEST(PlanarGraph, PartsOfEdgesBesideTinySegments) {
   EXPECT_EQ(fault_of(diagram_of({{{{20, 0},
                                    {-7.060150235528e-07, 9.420099234719e-07},
@@ -780,6 +780,13 @@ TEST(PlanarGraph, PartsOfEdgesBesideTinySegments) {
             "");
 }
 
+/// Its edge ends on opposite sides of the half circle's centre.
+TEST(PlanarGraph, ACrescentIsRight) {
+  EXPECT_EQ(fault_of(diagram_of({{{{1, 0}, {-1, 0}}, {1, -0.5}, true}})), "");
+}
+
+/// Where spokes end and a bisector goes on, the enclosure passes up to rounding, so that a spoke is
+/// cut next to its end.
 TEST(PlanarGraph, SpokesMayEndAtTheEnclosure) {
   EXPECT_EQ(fault_of(diagram_of({{{{-0.1, 0}, {-1, 0}}},
                                  {{{5.000000000000001e-15, 8.660254037844387e-15},
