@@ -110,18 +110,21 @@ bool has_arcs(const Shape& shape) {
   return std::any_of(shape.bulges.begin(), shape.bulges.end(), [](double b) { return b != 0; });
 }
 
-std::vector<std::size_t> tiny_arcs(const Problem& problem) {
+bool is_tiny_arc(const BulgeArc& local) {
   // In the local frame, whose size is about 1: of an angle of 2^-50 (some roundings) over 2^-26,
   // half the square is 2^-49, which is less than the tolerance.
   constexpr double smallest = 0x1p-26;
+  return local.bulge != 0 && std::abs(curvature(local)) * smallest > 1;
+}
+
+std::vector<std::size_t> tiny_arcs(const Problem& problem) {
   const Shape& shape = problem.shape;
   std::vector<std::size_t> found;
   if (shape.bulges.empty()) return found;
   for (std::size_t l = 0; l < shape.loop_count(); ++l) {
     const site::LoopEdges loop(shape, l, problem.frame);
     for (std::uint32_t i = 0; i < loop.size(); ++i) {
-      const BulgeArc arc{loop.local(i), loop.local(loop.next(i)), loop.bulge(i)};
-      if (arc.bulge != 0 && std::abs(curvature(arc)) * smallest > 1)
+      if (is_tiny_arc({loop.local(i), loop.local(loop.next(i)), loop.bulge(i)}))
         found.push_back(loop.begin() + i);
     }
   }

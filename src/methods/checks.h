@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "base/arc.h"
 #include "medial/compute.h"
 #include "medial/error.h"
 #include "medial/shape.h"
@@ -19,10 +20,11 @@ std::optional<Error> refuse(const Shape& shape, const Options& options);
 /// Whether an edge is an arc. O(n).
 bool has_arcs(const Shape& shape);
 
-/// The arcs, by the numbers of their first points, that are so small that double does not know on
-/// which side of a joint or a bridge a foot on them is: an angle of rounding over the radius. The
-/// foot of the same disk on another site may then be off by as much, and the disk reaches over that
-/// by half the square. O(n).
+/// Whether an edge is an arc that is so small that double does not know on which side of a joint or
+/// a bridge a foot on it is: an angle of rounding over the radius. The foot of the same disk on
+/// another site may then be off by as much, and the disk reaches over that by half the square.
+bool is_tiny_arc(const BulgeArc& local);
+/// Those of a shape, by the numbers of their first points. O(n).
 std::vector<std::size_t> tiny_arcs(const Problem& problem);
 
 /// The options that every exact computation has: the tolerance and the number of threads.

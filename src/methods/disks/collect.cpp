@@ -271,7 +271,7 @@ bool touches_all_between(const Boundary& boundary, const Boundary::SiteRange& ru
 }  // namespace
 
 void remove_spurs(const Boundary& boundary, std::span<const std::uint32_t> names, double tolerance,
-                  Graph& graph) {
+                  Graph& graph, std::span<const std::uint32_t> borders) {
   // Of each node, how many edges end there, and the exclusive or of their numbers: the one edge of
   // a leaf.
   std::vector<std::array<std::uint32_t, 2>> ends(graph.nodes.size());
@@ -280,6 +280,7 @@ void remove_spurs(const Boundary& boundary, std::span<const std::uint32_t> names
       ++ends[node][0];
       ends[node][1] ^= e;
     }
+  for (const std::uint32_t node : borders) ++ends[node][0];
   const auto name = [&](std::uint32_t i) {
     const std::uint32_t own = boundary.originals[i];
     return names.empty() ? own : names[own];

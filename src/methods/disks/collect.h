@@ -40,9 +40,10 @@ Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::span<const Bridg
 /// Takes edges to leaves out of the graph: where joints are taken as the doubles have them and
 /// sites have other `names` in the result, those with one site on both sides, which bound no cell;
 /// and in a shape those towards a joint where an axis has no leaf, if the disk at which they begin
-/// touches all that lies between their sites there within the tolerance.
+/// touches all that lies between their sites there within the tolerance. `borders`: nodes at which
+/// the axis goes on.
 void remove_spurs(const Boundary& boundary, std::span<const std::uint32_t> names, double tolerance,
-                  Graph& graph);
+                  Graph& graph, std::span<const std::uint32_t> borders = {});
 
 /// Works out the edges' curves and an axis' nodes' kinds, and goes back to the result's numbers of
 /// sites and to the input's units. Returns the edges with an end that does not touch one of the

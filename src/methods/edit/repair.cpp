@@ -5,6 +5,8 @@
 #include <atomic>
 #include <cmath>
 
+#include "methods/checks.h"
+#include "methods/disks/doubts.h"
 #include "methods/disks/merge_ties.h"
 #include "methods/disks/tie_fit.h"
 #include "site/bisector.h"
@@ -48,6 +50,11 @@ exact::SiteLoops outline_of(const Rings& rings, const Window& window) {
     if (const std::uint32_t after = outline.next[i]; outline.joined(i, after))
       if (!outline.sites[i].is_vertex() && !outline.sites[after].is_vertex())
         outline.by_next[i] = exact::by_second(outline.sites[i], outline.sites[after]);
+  for (std::uint32_t i = 0; i < names.size(); ++i) {
+    const exact::ExactSite site = outline.sites[i];
+    outline.is_wide = outline.is_wide || exact::is_wide(site.start, site.end) ||
+                      exact::is_wide(site.end, site.start);
+  }
   outline.loop_begin = {0, static_cast<std::uint32_t>(names.size())};
   return outline;
 }
@@ -66,16 +73,26 @@ class Repairer {
                measures.radius_limit, window.boundary) {}
 
   std::optional<Repair> run(std::vector<std::uint32_t>& doubtful) {
+    if (boundary_.has_arcs && has_tiny_arcs()) return std::nullopt;
     const site::BoundaryTree tree(boundary_.sites);
     std::vector<std::unique_ptr<disks::Chunk>> chunks;
     chunks.push_back(walk(tree));
     if (!chunks[0]->lost.empty() || !ends_well(*chunks[0], doubtful)) return std::nullopt;
-    disks::Graph part = disks::collect(chunks, boundary_.bridges, 0, false);
+    disks::Graph part = disks::collect(chunks, boundary_.bridges, 0, boundary_.has_arcs);
     if (degree_of_first(part) != 1) {
       doubtful.push_back(borders_[0].node);
       return std::nullopt;
     }
     disks::merge_ties(tree, sites_, measures_.tolerance, part);
+    const std::vector<std::uint32_t> nodes = border_nodes(part);
+    if (std::count(nodes.begin(), nodes.end(), none) > 0) return std::nullopt;
+    find_moved(part, nodes, doubtful);
+    if (!doubtful.empty()) return std::nullopt;
+    if (boundary_.has_arcs) {
+      disks::remove_spurs(boundary_, {}, measures_.tolerance, part, nodes);
+      disks::find_doubts(boundary_, tree, measures_.tolerance, part);
+      if (!part.lost.empty()) return std::nullopt;  // compute() measures, and may walk again
+    }
     return result(part, doubtful);
   }
 
@@ -83,6 +100,26 @@ class Repairer {
   std::unique_ptr<disks::Chunk> walk(const site::BoundaryTree& tree) {
     return disks::walk_part({sites_, tree}, boundary_.bridges[0].disk,
                             border_error * measures_.fine_tolerance);
+  }
+
+  bool has_tiny_arcs() const {
+    return std::any_of(window_.names.begin(), window_.names.end(), [&](std::uint32_t name) {
+      const std::uint32_t vertex = name / 2;
+      return Rings::is_edge(name) &&
+             is_tiny_arc({rings_.local(vertex), rings_.local(rings_.corner_after(vertex)),
+                          rings_[vertex].bulge});
+    });
+  }
+
+  /// Adds the nodes of borders that merge_ties() has made one with others of the part, and so has
+  /// moved.
+  void find_moved(const disks::Graph& part, const std::vector<std::uint32_t>& nodes,
+                  std::vector<std::uint32_t>& doubtful) const {
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const Disk &own = part.nodes[nodes[i]].disk, &old = graph_.disk(borders_[i].node);
+      if (!(own.center == old.center) || own.radius != old.radius)
+        doubtful.push_back(borders_[i].node);
+    }
   }
 
   /// Whether the walk came to all bridges, and to each border by an edge.
@@ -114,30 +151,37 @@ class Repairer {
     return bridge < borders_.size() ? bridge : none;
   }
 
-  std::optional<Repair> result(const disks::Graph& part,
-                               std::vector<std::uint32_t>& doubtful) const {
-    Repair repair;
-    std::vector<std::uint32_t> degree(part.nodes.size(), 0);
+  /// Of each border the node where the part ends there; none where it does not. The walk begins at
+  /// the first one.
+  std::vector<std::uint32_t> border_nodes(const disks::Graph& part) const {
+    const WorkVector<std::uint8_t> degree = disks::degrees_of(part);
+    std::vector<std::uint32_t> nodes(borders_.size(), none);
+    if (degree[0] == 1) nodes[0] = 0;
     for (const Edge& link : part.edges)
-      for (const std::uint32_t node : link.node) ++degree[node];
-    for (const Node& node : part.nodes) repair.disks.push_back(node.disk);
-    repair.old_nodes.assign(part.nodes.size(), none);
-    repair.old_nodes[0] = borders_[0].node;
-    std::size_t found = 1;
-    for (const Edge& link : part.edges) {
       for (std::size_t k = 0; k < 2; ++k) {
         if (degree[link.node[k]] != 1) continue;
         // On the way to the node.
         const std::uint32_t right = link.site[k], left = link.site[1 - k];
         const std::uint32_t border = border_between(right, left);
-        if (border == none || border == 0) continue;
-        repair.old_nodes[link.node[k]] = borders_[border].node;
-        ++found;
+        if (border != none && border != 0) nodes[border] = link.node[k];
       }
+    return nodes;
+  }
+
+  std::optional<Repair> result(const disks::Graph& part,
+                               std::vector<std::uint32_t>& doubtful) const {
+    Repair repair;
+    for (const Node& node : part.nodes) repair.disks.push_back(node.disk);
+    repair.old_nodes.assign(part.nodes.size(), none);
+    const std::vector<std::uint32_t> nodes = border_nodes(part);
+    for (std::size_t i = 0; i < borders_.size(); ++i) {
+      if (nodes[i] == none) return std::nullopt;
+      repair.old_nodes[nodes[i]] = borders_[i].node;
+    }
+    for (const Edge& link : part.edges) {
       if (!touches(part, link)) return std::nullopt;
       repair.edges.push_back({link.node, {name_of(link.site[0]), name_of(link.site[1])}, {}, 1});
     }
-    if (degree[0] != 1 || found != borders_.size()) return std::nullopt;
     find_doubtful(repair, doubtful);
     if (!doubtful.empty()) return std::nullopt;
     for (std::size_t i = 0; i < part.edges.size(); ++i) {
@@ -161,14 +205,18 @@ class Repairer {
     return window_.names[boundary_.originals[site]];
   }
 
+  /// Whether the disks at the ends of an edge touch its sites, if not the pieces that it names.
+  /// Next to arcs, several near ties may add up to more than a tolerance: compute() measures such
+  /// an axis.
   bool touches(const disks::Graph& part, const Edge& link) const {
+    const double slack = boundary_.has_arcs ? 2 * measures_.tolerance : loose;
+    const auto touches_site = [&](const Disk& disk, const site::Site& site) {
+      return std::abs(std::sqrt(site::squared_distance(site, disk.center)) - disk.radius) <= slack;
+    };
     for (const std::uint32_t node : link.node)
-      for (const std::uint32_t i : link.site) {
-        const Disk& disk = part.nodes[node].disk;
-        const site::Site site = rings_.site_near(name_of(i), disk.center);
-        const double away = std::sqrt(site::squared_distance(site, disk.center));
-        if (!(std::abs(away - disk.radius) <= loose)) return false;
-      }
+      for (const std::uint32_t i : link.site)
+        if (const Disk& disk = part.nodes[node].disk; !touches_site(disk, boundary_.sites[i]))
+          if (!touches_site(disk, rings_.site_near(name_of(i), disk.center))) return false;
     return true;
   }
 

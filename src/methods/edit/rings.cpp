@@ -230,6 +230,8 @@ std::vector<Rings::Extent> Rings::sites_around(const Edit& edit) const {
     if (sites.empty() || sites.back().site != 2 * corner + 1) add(2 * corner + 1);
     if (!vertices_[v].flat && is_reflex(v)) add(2 * v);
   }
+  for (const std::uint32_t corner : {corner_before(edit.before), corner_after(edit.after)})
+    if (is_reflex(corner)) add(2 * corner);
   return sites;
 }
 
@@ -349,10 +351,12 @@ Rings::Around Rings::beside(std::uint32_t v, Vec2 place) const {
 std::uint32_t Rings::arc_of(const Disk& circle) const {
   constexpr double near = 1 << 12;  // tolerances: rounded, the circle's arcs are so far off
   const double slack = near * joining_.tolerance;
-  const Vec2 place = frame_.to_input(circle.center + Vec2{circle.radius, 0});
+  // Short segments may join the arcs, so not at one place of the circle.
+  const Vec2 center = frame_.to_input(circle.center);
+  const double reach = frame_.inverse * circle.radius + slack;
   std::uint32_t arc = none;
   double least = std::numeric_limits<double>::infinity();  // that a circle is off by
-  boxes_.find({place - Vec2{slack, slack}, place + Vec2{slack, slack}}, [&](std::uint32_t v) {
+  boxes_.find({center - Vec2{reach, reach}, center + Vec2{reach, reach}}, [&](std::uint32_t v) {
     const BulgeArc edge = local_edge(v);
     const site::Site piece = site::pieces_of(edge.start, edge.end, edge.bulge).first();
     if (!(piece.curvature > 0)) return;
@@ -464,6 +468,9 @@ void Rings::apply(const Edit& edit, bool is_followed) {
   for (const std::uint32_t v : {edit.before, edit.fresh, edit.after})
     if (v != none) judged.push_back(v);
   judge(judged);
+  // Whether `before` and `after` are flat decides how long the edges beyond them are.
+  for (const std::uint32_t v : {corner_before(edit.before), corner_after(edit.after)})
+    vertices_[v].joint = joint_at(v);
   for (const std::uint32_t v : judged) set_box(v);
 }
 

@@ -184,12 +184,15 @@ bool Weaver::join_at(std::uint32_t own) {
   return true;
 }
 
+/// All at once: how a vertex joins its edges depends on which of its neighbours are flat.
 void Weaver::judge_places() {
+  std::vector<std::uint32_t> all;
   for (const Vec2 place : places_) {
-    const std::vector<std::uint32_t> all = vertices_at(loops_, place);
-    for (const std::uint32_t v : all) vertex(v).touches = all.size() > 1;
-    loops_.judge(all);
+    const std::vector<std::uint32_t> here = vertices_at(loops_, place);
+    for (const std::uint32_t v : here) vertex(v).touches = here.size() > 1;
+    all.insert(all.end(), here.begin(), here.end());
   }
+  loops_.judge(all);
 }
 
 /// Of two edges that end at one place, each goes on as the other one did.

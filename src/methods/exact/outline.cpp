@@ -16,13 +16,6 @@ int turn_between(const ExactSite& before, const ExactSite& after) {
   return cross(normal_of<Rational>(before, true), normal_of<Rational>(after, false)).sign();
 }
 
-/// Whether 256 bits do not hold a point, or by how much two points differ, beside 1: with the
-/// product of two lengths of 2^-100, 56 bits of it are left.
-bool is_wide(Vec2 a, Vec2 b) {
-  const auto is_tiny = [](double apart) { return apart != 0 && std::abs(apart) < 0x1p-100; };
-  return is_tiny(a.x) || is_tiny(a.y) || is_tiny(b.x - a.x) || is_tiny(b.y - a.y);
-}
-
 ExactSite edge_of(const site::LoopEdges& loop, std::uint32_t i) {
   return {loop.local(i), loop.local(loop.next(i)), loop.bulge(i)};
 }
@@ -42,6 +35,11 @@ ExactSite site_of(const Problem& problem, const site::SiteNumbers& numbers, std:
 bool by_second(const ExactSite& first, const ExactSite& second) {
   return site::by_second(site::pieces_of(first.start, first.end, first.bulge).last(),
                          site::pieces_of(second.start, second.end, second.bulge).first());
+}
+
+bool is_wide(Vec2 a, Vec2 b) {
+  const auto is_tiny = [](double apart) { return apart != 0 && std::abs(apart) < 0x1p-100; };
+  return is_tiny(a.x) || is_tiny(a.y) || is_tiny(b.x - a.x) || is_tiny(b.y - a.y);
 }
 
 SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers) {

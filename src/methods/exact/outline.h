@@ -60,6 +60,10 @@ struct SiteLoops {
 /// Of two edges that join smoothly, whether the normal of the second one counts for both.
 bool by_second(const ExactSite& first, const ExactSite& second);
 
+/// Whether 256 bits do not hold a point, or by how much two points differ, beside 1: with the
+/// product of two lengths of 2^-100, 56 bits of it are left.
+bool is_wide(Vec2 a, Vec2 b);
+
 /// `numbers`: the problem's, or those of parted_numbers(). Both must outlive it.
 SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers);
 
