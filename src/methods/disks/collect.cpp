@@ -241,6 +241,13 @@ Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::span<const Bridg
 
 namespace {
 
+/// Whether a disk is an arc's own, which an axis leads to.
+bool is_own_circle(const site::Site& site, const Disk& disk, double tolerance) {
+  if (!(site.curvature > 0)) return false;
+  const Vec2 center = site.point + (1 / site.curvature) * site.normal();
+  return squared_norm(disk.center - center) <= tolerance * tolerance;
+}
+
 /// Whether a disk touches all that lies between its feet on two sites of a run within the
 /// tolerance, without a corner or a whole convex arc: so an edge that leads on from it would only
 /// reach a joint, where an axis has no leaf.
@@ -253,16 +260,20 @@ bool touches_all_between(const Boundary& boundary, const Boundary::SiteRange& ru
   for (std::uint32_t i = first;; i = run.after(i)) {
     const site::Site& site = boundary.sites[i];
     if (boundary.elements[i] == Element::bridge) return false;
+    double begin = 0, end = site.length;
     if (site.is_arc()) {
-      const bool is_whole = !boundary.is_same(i, first) && !boundary.is_same(i, last);
-      if (is_whole && site.curvature > 0) return false;
-      // Along a quarter of a circle, three places bound how far the disk is away.
+      // The feet may lie on any piece of the arc.
+      const bool at_first = boundary.is_same(i, first), at_last = boundary.is_same(i, last);
+      if (!at_first && !at_last && site.curvature > 0) return false;
       const double foot = std::clamp(site::carrier_parameter(site, disk.center), 0.0, site.length);
-      const double begin = i == first ? foot : 0, end = i == last ? foot : site.length;
-      if (!touches(site.at(0.5 * (begin + end)))) return false;
+      if (at_first) begin = foot;
+      if (at_last) end = foot;
+      // Along a quarter of a circle, three places bound how far the disk is away.
+      if (begin < end && !touches(site.at(0.5 * (begin + end)))) return false;
     }
-    if (i == last) return true;
+    if (i == last || end < site.length) return true;
     const std::uint32_t next = run.after(i);
+    if (begin == site.length && boundary.is_same(i, next)) continue;
     const bool at_corner = is_edge(i) && is_edge(next) && boundary.joint(i) == site::Joint::corner;
     if (at_corner || !touches(site.end())) return false;
   }
@@ -290,6 +301,10 @@ void remove_spurs(const Boundary& boundary, std::span<const std::uint32_t> names
     if (!names.empty() && name(left) == name(right)) return true;
     // Most leaves are corners.
     if (boundary.sides == Sides::both || !(graph.nodes[leaf].disk.radius > 0)) return false;
+    const Disk& end = graph.nodes[leaf].disk;
+    if (is_own_circle(boundary.sites[left], end, tolerance) ||
+        is_own_circle(boundary.sites[right], end, tolerance))
+      return false;
     const bool is_end = leaf == edge.node[1];
     const Node& root = graph.nodes[edge.node[is_end ? 0 : 1]];
     return touches_all_between(boundary, boundary.runs[root.component], root.disk,
