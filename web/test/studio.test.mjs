@@ -652,6 +652,13 @@ test("a thousand edits keep the memory flat", async () => {
   assert.equal(size[0], size[1]);
 });
 
+const cutIsDrawn = (page) =>
+  page.waitForFunction(() => {
+    const { width, height } = document.getElementById("relief");
+    if (!width || !height) return false;
+    return document.getElementById("relief").getContext("2d").getImageData(0, 0, width, height).data.some((value) => value > 0);
+  });
+
 for (const colorScheme of ["light", "dark"])
   test(`axe-core finds nothing, and the cut is turned by keys (${colorScheme})`, async () => {
     const own = await open({ colorScheme });
@@ -660,10 +667,10 @@ for (const colorScheme of ["light", "dark"])
     assert.deepEqual(await check(), []);
     await own.locator("#carve").fill("60");
     await own.focus("#relief");
-    const cut = () => own.evaluate(() => document.getElementById("relief").toDataURL());
-    const before = await cut();
+    await cutIsDrawn(own);
+    const before = await own.evaluate(() => document.getElementById("relief").toDataURL());
     await own.keyboard.press("ArrowRight");
-    assert.notEqual(await cut(), before);
+    await own.waitForFunction((old) => document.getElementById("relief").toDataURL() !== old, before);
     assert.deepEqual(await check(), []);
     await own.click("#help-open");
     assert.deepEqual(await check(), []);
@@ -682,11 +689,7 @@ test("a phone", async () => {
   await own.tap("#panel-toggle");
   assert.ok(await own.isVisible("#method"));
   // What was cut while the panel was closed is drawn once it is open.
-  await own.waitForFunction(() => {
-    const { width, height } = document.getElementById("relief");
-    if (!width || !height) return false;
-    return document.getElementById("relief").getContext("2d").getImageData(0, 0, width, height).data.some((value) => value > 0);
-  });
+  await cutIsDrawn(own);
   await own.close();
 });
 
