@@ -35,7 +35,7 @@ Certainty::Certainty(const Boundary& boundary, double tolerance, const Span& spa
     error_ = span.error;
     tie_ = true;
     certain_ = ties && is_near(span.right, tolerance) && is_near(span.left, tolerance) &&
-               (!boundary.has_arcs || has_place(fourth_));
+               (!boundary.has_arcs || (has_place(fourth_) && touches_own_arc(tolerance)));
     return;
   }
   const std::uint32_t fourth = fourth_;
@@ -84,6 +84,13 @@ Certainty::Contact Certainty::contact_of_arc(const site::Site& arc, const Disk& 
 
 bool Certainty::is_near(std::uint32_t i, double slack) const {
   return std::abs(site::gap(site(i), to_)) <= slack;
+}
+
+bool Certainty::touches_own_arc(double slack) const {
+  constexpr double own_circle = 0x1p-20;
+  const site::Site& arc = site(fourth_);
+  if (!(std::abs(arc.curvature * to_.radius - 1) <= own_circle)) return true;
+  return std::abs(distance(arc.at(0.5 * arc.length), to_.center) - to_.radius) <= slack;
 }
 
 bool Certainty::fits(std::uint32_t i, double tolerance) const {
