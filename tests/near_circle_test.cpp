@@ -393,6 +393,14 @@ TEST(BarWithEndsOfArcs, AShortPieceBeforeAnEndKeepsItsLeaf) {
   expect_verified(slot, 13);
 }
 
+/// A disk next to the centre of an arc touches one end of it long before the rest.
+TEST(BarWithEndsOfArcs, OfTwoQuartersHasALeafInACentre) {
+  expect_verified({{{0, 0}, {40, 0}, {9e-11, 2}, {-1, 1}},
+                   RingRole::any,
+                   {0, 0.4, 0.414213562373, 0.414213562373}},
+                  14);
+}
+
 /// Ties that are far coarser than rounding may join what is no tie.
 TEST(Gear, WithACoarseToleranceIsVerified) {
   const auto shape = build_shape(Rings{{{{1, 0},
