@@ -81,8 +81,8 @@ class Certainty {
   /// Whether three contacts leave only rounding open of where their disk is: not where two feet lie
   /// in one place. In an arc's own circle they may be anywhere on it.
   bool has_place(std::uint32_t third) const;
-  /// Whether the event's disk, if it is nearly the circle of the arc that it touches, touches all of
-  /// that: else it may touch one end of the arc long before the rest.
+  /// Whether the event's disk, if it is nearly the circle of the arc that it touches, touches all
+  /// of that: else it may touch one end of the arc long before the rest.
   bool touches_own_arc(double slack) const;
   /// Whether the disk is no larger than an arc's own circle, but for the tolerance.
   bool fits(std::uint32_t i, double tolerance) const;
