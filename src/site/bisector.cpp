@@ -261,7 +261,8 @@ std::optional<Control> meeting_of_tangents(const Site& a, const Site& b, const D
 bool turns_back(const Control& control, const Site& a, const Site& b, const Disk& from,
                 const Disk& to) {
   constexpr double rounding = 0x1p-50;
-  constexpr double beside = 0x1p-46;  // a control point has lost digits where its edge is straight
+  constexpr double beside =
+      0x1p-46;  // control points of edges that are nearly straight lose digits
   for (const Site* s : {&a, &b}) {
     if (!s->is_vertex() && !s->is_arc()) {
       const auto [first, last] =
@@ -271,7 +272,7 @@ bool turns_back(const Control& control, const Site& a, const Site& b, const Disk
       continue;
     }
     if (std::abs(s->curvature) < 1 && !s->is_vertex()) continue;  // its centre is far away
-    const Vec2 focus = s->is_vertex() ? s->point : s->point + (1 / s->curvature) * s->normal();
+    const Vec2 focus = focus_of(*s);
     const Vec2 first = from.center - focus, last = to.center - focus;
     const Vec2 between = control.point.center - focus;
     // Opposite ends as seen from the focus leave open on which side the edge passes it.
@@ -327,7 +328,7 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
       deviation(straight, a, b, from, to, near_focus) <= enough)
     return straight;
   bool is_lost = turns_back(best, a, b, from, to);
-  // One that does not turn back is better than one that does, if it does not stray for that.
+  // A candidate that does not turn back is better than one that does, unless it strays further.
   const auto take_if_better = [&](const Control& control) {
     const double now = deviation(control, a, b, from, to, near_focus);
     const bool is_near = is_lost ? now <= std::max(strays, enough) : now < strays;

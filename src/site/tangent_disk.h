@@ -21,6 +21,11 @@ double tangent_radius(Vec2 foot, Vec2 normal, const Site& site);
 /// closed site, from whichever side; infinity where it never does.
 double touching_radius(Vec2 foot, Vec2 normal, const Site& site);
 
+/// The centre of an arc's circle; a vertex itself.
+inline Vec2 focus_of(const Site& site) {
+  return site.is_vertex() ? site.point : site.point + (1 / site.curvature) * site.normal();
+}
+
 /// Up to two disks, in no particular order.
 struct TangentDisks {
   std::array<Disk, 2> disk;

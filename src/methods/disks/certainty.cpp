@@ -87,9 +87,9 @@ bool Certainty::is_near(std::uint32_t i, double slack) const {
 }
 
 bool Certainty::touches_own_arc(double slack) const {
-  constexpr double own_circle = 0x1p-20;
+  constexpr double nearly = 0x1p-20;
   const site::Site& arc = site(fourth_);
-  if (!(std::abs(arc.curvature * to_.radius - 1) <= own_circle)) return true;
+  if (!(std::abs(arc.curvature * to_.radius - 1) <= nearly)) return true;
   return std::abs(distance(arc.at(0.5 * arc.length), to_.center) - to_.radius) <= slack;
 }
 

@@ -243,9 +243,8 @@ namespace {
 
 /// Whether a disk is an arc's own, which an axis leads to.
 bool is_own_circle(const site::Site& site, const Disk& disk, double tolerance) {
-  if (!(site.curvature > 0)) return false;
-  const Vec2 center = site.point + (1 / site.curvature) * site.normal();
-  return squared_norm(disk.center - center) <= tolerance * tolerance;
+  return site.curvature > 0 &&
+         squared_norm(disk.center - site::focus_of(site)) <= tolerance * tolerance;
 }
 
 /// Whether a disk touches all that lies between its feet on two sites of a run within the

@@ -389,7 +389,7 @@ class Walker {
 
   void add_edge(const Span& span, std::uint32_t to) {
     std::uint32_t from = span.node;
-    if (starts_blunt_ && from == 0) {  // no edge leads to a blunt joint, but towards one
+    if (starts_blunt_ && from == 0) {  // no edge ends in a blunt joint; one may lead towards it
       const auto leaf = blunt_leaf(span.left, span.right, chunk_.nodes[to]);
       if (!leaf) return;
       from = add_node(*leaf);
