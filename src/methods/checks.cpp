@@ -117,15 +117,27 @@ bool is_tiny_arc(const BulgeArc& local) {
   return local.bulge != 0 && std::abs(curvature(local)) * smallest > 1;
 }
 
-std::vector<std::size_t> tiny_arcs(const Problem& problem) {
+bool is_flat_joint(site::Joint joint, const BulgeArc& before, const BulgeArc& after) {
+  constexpr double flat = 0x1p-6;
+  if (joint == site::Joint::smooth || (before.bulge == 0 && after.bulge == 0)) return false;
+  const Vec2 arriving = end_tangent(before), leaving = start_tangent(after);
+  return dot(arriving, leaving) > 0 && std::abs(cross(arriving, leaving)) <= flat;
+}
+
+std::vector<std::size_t> doubtful_points(const Problem& problem, const site::SiteNumbers& numbers) {
   const Shape& shape = problem.shape;
   std::vector<std::size_t> found;
   if (shape.bulges.empty()) return found;
   for (std::size_t l = 0; l < shape.loop_count(); ++l) {
     const site::LoopEdges loop(shape, l, problem.frame);
+    const auto edge = [&](std::uint32_t i) -> BulgeArc {
+      return {loop.local(i), loop.local(loop.next(i)), loop.bulge(i)};
+    };
     for (std::uint32_t i = 0; i < loop.size(); ++i) {
-      if (is_tiny_arc({loop.local(i), loop.local(loop.next(i)), loop.bulge(i)}))
-        found.push_back(loop.begin() + i);
+      const std::uint32_t point = loop.begin() + i;
+      if (is_tiny_arc(edge(i)) ||
+          is_flat_joint(numbers.joints[point], edge(loop.before(i)), edge(i)))
+        found.push_back(point);
     }
   }
   return found;

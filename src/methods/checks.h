@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "axis/sites.h"
 #include "base/arc.h"
 #include "medial/compute.h"
 #include "medial/error.h"
@@ -24,8 +25,14 @@ bool has_arcs(const Shape& shape);
 /// a bridge a foot on it is: an angle of rounding over the radius. The foot of the same disk on
 /// another site may then be off by as much, and the disk reaches over that by half the square.
 bool is_tiny_arc(const BulgeArc& local);
-/// Those of a shape, by the numbers of their first points. O(n).
-std::vector<std::size_t> tiny_arcs(const Problem& problem);
+/// Whether two edges, of which one is an arc, meet almost smoothly, but not up to rounding: at an
+/// angle up to 2^-6. A blunt joint has no leaf, though disks lead towards it, and the normals of a
+/// reflex vertex lie so close to each other that rounding decides in which order disks touch it and
+/// its edges.
+bool is_flat_joint(site::Joint joint, const BulgeArc& before, const BulgeArc& after);
+/// The points of a shape at which tiny arcs begin, or that are flat joints: next to these double
+/// may be wrong about what a disk touches. O(n).
+std::vector<std::size_t> doubtful_points(const Problem& problem, const site::SiteNumbers& numbers);
 
 /// The options that every exact computation has: the tolerance and the number of threads.
 std::optional<Error> refuse(const Options& options);

@@ -230,33 +230,39 @@ std::vector<bool> components_of(const Shape& shape, const SiteNumbers& numbers,
 }
 
 /// The axis of a shape, walked as it is. Components in which the walk lost its way, or all of a
-/// shape whose axis is refused, are walked again in 256 bits.
+/// shape whose axis is refused, are walked again in 256 bits; and if one disk does not touch what
+/// seemed to be one tie there, once more, with ties kept apart.
 Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbers, int attempts) {
   const bool with_arcs = has_arcs(problem.shape);
-  const std::vector<std::size_t> tiny = tiny_arcs(problem);
+  const std::vector<std::size_t> doubtful = doubtful_points(problem, numbers);
   // Next to arcs, a walk that merges nothing, or far more than rounding, is measured, too.
   constexpr double coarse = 8;
   const bool is_coarse = problem.tolerance > coarse * problem.joint_tolerance;
-  const bool is_measured = with_arcs && (problem.options.exact || !tiny.empty() || is_coarse);
+  const bool is_measured = with_arcs && (problem.options.exact || !doubtful.empty() || is_coarse);
   std::optional<Error> error;
   Way way{{}, !problem.options.exact, attempts};
-  for (const bool is_last : {false, true}) {
+  for (bool is_precise = false;;) {
     std::vector<std::uint32_t> lost;
     auto axis = axis_by(problem, numbers, way, lost);
-    const bool is_certain = lost.empty() && !(with_arcs && is_last) && !is_measured;
+    const bool is_certain = lost.empty() && !(with_arcs && is_precise) && !is_measured;
     if (axis && (is_certain || problem.is_cancelled())) return axis;
     // A polygon in which the walk lost its way is measured only if another walk takes seconds.
-    if (with_arcs || is_last || takes_long(problem.shape)) {
+    if (with_arcs || is_precise || takes_long(problem.shape)) {
       auto refused = axis ? error_if_refused(problem, *axis) : axis.error();
       if (!refused) return axis;
       if (!error || axis) error = std::move(refused);
     }
-    if (!lost.empty())  // else all components are walked again
-      for (const std::size_t point : tiny) lost.push_back(numbers.edge[point]);
-    way.in_precise = components_of(problem.shape, numbers, lost);
     ++way.attempts;
+    if (is_precise) {
+      if (!way.merges_ties) return std::move(*error);
+      way.merges_ties = false;
+      continue;
+    }
+    if (!lost.empty())  // else all components are walked again
+      for (const std::size_t point : doubtful) lost.push_back(numbers.edge[point]);
+    way.in_precise = components_of(problem.shape, numbers, lost);
+    is_precise = true;
   }
-  return std::move(*error);
 }
 
 /// The axis around a planar graph, walked as it is, and once more in 256 bits where the walk lost
