@@ -295,6 +295,25 @@ double ends_stray(const Site& a, const Site& b, const Disk& from, const Disk& to
   return worst;
 }
 
+/// The control point of a short edge of two convex arcs that lie on one circle but for roundings of
+/// a shape of size 1. The edge is a hyperbola whose foci are that far apart, so it leads straight
+/// along a line from the centre; or to the centre and away from it, in another direction, closer
+/// to the centre than rounding. Empty for other edges, which leave digits to find the control point
+/// by.
+std::optional<Control> control_at_common_centre(const Site& a, const Site& b, const Disk& from,
+                                                const Disk& to) {
+  constexpr double rounding = 0x1p-52, roundings = 8 * rounding, is_short = 0x1p-26;
+  const double length = distance(from.center, to.center);
+  if (!(a.curvature > 1 && b.curvature > 1 && length < is_short)) return std::nullopt;
+  const Vec2 one = focus_of(a), other = focus_of(b), centre = midpoint(one, other);
+  if (std::abs(1 / a.curvature - 1 / b.curvature) > roundings ||
+      squared_norm(other - one) > roundings * roundings)
+    return std::nullopt;
+  if (dot(from.center - centre, to.center - centre) > 0) return Control{middle_of(from, to), 1};
+  return Control{{centre, 0.5 * (1 / a.curvature + 1 / b.curvature)},
+                 std::max(1.0, length / rounding)};
+}
+
 /// The control point of an edge with an arc: the pole, or where that strays or turns back, the
 /// meeting of tangents. An edge for which neither helps is so nearly straight that a parabola
 /// through the disk halfway does better, or turns around a focus: there the pole with twice the
@@ -307,6 +326,7 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
   const double focal =
       std::min({focal_distance(a, from, to), focal_distance(b, from, to), from.radius, to.radius});
   if (length < long_enough * focal) return best;
+  if (const auto control = control_at_common_centre(a, b, from, to)) return *control;
   const bool near_focus = focal < curved * length;
   double strays = deviation(best, a, b, from, to, near_focus);
   // Where the sites are nearly tangent, all disks beyond the ends touch both as well, and so do

@@ -157,9 +157,17 @@ void gather(const std::vector<Placed>& placed, std::vector<T>& all, std::size_t 
   }
 }
 
-/// The disks at both ends of an edge.
-struct EndDisks {
-  EndDisks(const Disk& from, const Disk& to, double a_slack) : ends{&from, &to}, slack(a_slack) {
+/// The disk in the middle of an edge's curve.
+Disk middle_of(const Disk& from, const site::Control& control, const Disk& to) {
+  const double w = control.weight, scale = 0.5 / (1 + w);
+  const Disk& c = control.point;
+  return {scale * (from.center + to.center + (2 * w) * c.center),
+          scale * (from.radius + to.radius + 2 * w * c.radius)};
+}
+
+/// Two disks of an edge, such as those at its ends.
+struct TwoDisks {
+  TwoDisks(const Disk& from, const Disk& to, double a_slack) : ends{&from, &to}, slack(a_slack) {
     x = Pair{from.center.x, to.center.x};
     y = Pair{from.center.y, to.center.y};
     const Pair radius{from.radius, to.radius}, least = radius - slack, most = radius + slack;
@@ -348,9 +356,17 @@ WorkVector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& f
     Edge& edge = graph.edges[i];
     const site::Site &left = boundary.sites[edge.site[0]], &right = boundary.sites[edge.site[1]];
     const Disk &from = graph.nodes[edge.node[0]].disk, &to = graph.nodes[edge.node[1]].disk;
-    const EndDisks ends(from, to, slack.value_or(0));
-    const bool is_doubtful = slack && !(ends.touch(left) && ends.touch(right));
     const site::Control control = site::control_of(left, right, from, to);
+    const auto touch_both = [&](const Disk& one, const Disk& other) {
+      const TwoDisks disks(one, other, *slack);
+      return disks.touch(left) && disks.touch(right);
+    };
+    bool is_doubtful = slack && !touch_both(from, to);
+    if (slack && !is_doubtful && (left.is_arc() || right.is_arc())) {
+      // Next to an arc's centre, rounding of the ends may turn the tangents there at will.
+      const Disk middle = middle_of(from, control, to);
+      is_doubtful = !touch_both(middle, middle);
+    }
     edge.site = {boundary.originals[edge.site[0]], boundary.originals[edge.site[1]]};
     edge.control = {frame.to_input(control.point.center), frame.inverse * control.point.radius};
     edge.weight = control.weight;
