@@ -293,14 +293,15 @@ class Slices {
   /// Whether feet of an edge's end that nearly coincide lie ahead of the edge. They do where the
   /// boundary passes on from the right one to the left one, and elsewhere where the radius shrinks
   /// along the tangent, which points to the control point: through a gap it shrinks and grows
-  /// again.
+  /// again. Around an arc's centre the tangent may cross the way there; then the other end decides.
   bool leads_to_feet(const Edge& edge, std::size_t end, const Disk& disk) const {
     const bool forward = passes_on(edge, 1 - end, end), backward = passes_on(edge, end, end);
     if (forward != backward) return forward;
     // Ahead of one end of an edge of hardly any length, and behind the other: no matter which.
     const Disk& other = problem_.disk(edge.node[1 - end]);
     if (distance(disk.center, other.center) <= problem_.tolerance) return end == 0;
-    return edge.control.radius < disk.radius;
+    const double growth = edge.control.radius - disk.radius;
+    return (std::abs(growth) <= problem_.tolerance ? other.radius - disk.radius : growth) < 0;
   }
   /// Whether the boundary leads from one edge to another past few vertices, which all lie where the
   /// disk's feet on the two nearly coincide.
