@@ -295,6 +295,9 @@ class Slices {
   /// along the tangent, which points to the control point: through a gap it shrinks and grows
   /// again. Around an arc's centre the tangent may cross the way there; then the other end decides.
   bool leads_to_feet(const Edge& edge, std::size_t end, const Disk& disk) const {
+    const bool is_leaf = problem_.degree[edge.node[end]] == 1;
+    if (is_leaf && (is_own_disk(edge.site[0], disk) || is_own_disk(edge.site[1], disk)))
+      return true;  // what lies between them on the other side holds an arc
     const bool forward = passes_on(edge, 1 - end, end), backward = passes_on(edge, end, end);
     if (forward != backward) return forward;
     // Ahead of one end of an edge of hardly any length, and behind the other: no matter which.
@@ -302,6 +305,15 @@ class Slices {
     if (distance(disk.center, other.center) <= problem_.tolerance) return end == 0;
     const double growth = edge.control.radius - disk.radius;
     return (std::abs(growth) <= problem_.tolerance ? other.radius - disk.radius : growth) < 0;
+  }
+  /// Whether a disk touches all of a convex arc, of which its feet cut off more than nothing.
+  bool is_own_disk(std::uint32_t site, const Disk& disk) const {
+    const Site& arc = problem_.axis.sites[site];
+    if (!(arc.bulge > nearly_one)) return false;
+    const Vec2 middle = point_at_share(edge_of(arc), 0.5);
+    return ranges::all_of(std::array{arc.start, middle, arc.end}, [&](Vec2 place) {
+      return std::abs(distance(disk.center, place) - disk.radius) <= problem_.tolerance;
+    });
   }
   /// Whether the boundary leads from one edge to another past few vertices, which all lie where the
   /// disk's feet on the two nearly coincide.
