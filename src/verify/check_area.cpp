@@ -295,8 +295,9 @@ class Slices {
   /// along the tangent, which points to the control point: through a gap it shrinks and grows
   /// again. Around an arc's centre the tangent may cross the way there; then the other end decides.
   bool leads_to_feet(const Edge& edge, std::size_t end, const Disk& disk) const {
-    const bool is_leaf = problem_.degree[edge.node[end]] == 1;
-    if (is_leaf && (is_own_disk(edge.site[0], disk) || is_own_disk(edge.site[1], disk)))
+    const bool is_only_leaf =
+        problem_.degree[edge.node[end]] == 1 && problem_.degree[edge.node[1 - end]] > 1;
+    if (is_only_leaf && (is_own_disk(edge.site[0], disk) || is_own_disk(edge.site[1], disk)))
       return true;  // what lies between them on the other side holds an arc
     const bool forward = passes_on(edge, 1 - end, end), backward = passes_on(edge, end, end);
     if (forward != backward) return forward;

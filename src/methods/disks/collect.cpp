@@ -157,12 +157,12 @@ void gather(const std::vector<Placed>& placed, std::vector<T>& all, std::size_t 
   }
 }
 
-/// The disk in the middle of an edge's curve.
-Disk middle_of(const Disk& from, const site::Control& control, const Disk& to) {
-  const double w = control.weight, scale = 0.5 / (1 + w);
+/// The disk a quarter of the way along an edge's curve.
+Disk quarter_of(const Disk& from, const site::Control& control, const Disk& to) {
+  const double w = 6 * control.weight, scale = 1 / (10 + w);
   const Disk& c = control.point;
-  return {scale * (from.center + to.center + (2 * w) * c.center),
-          scale * (from.radius + to.radius + 2 * w * c.radius)};
+  return {scale * (9 * from.center + w * c.center + to.center),
+          scale * (9 * from.radius + w * c.radius + to.radius)};
 }
 
 /// Two disks of an edge, such as those at its ends.
@@ -362,11 +362,9 @@ WorkVector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& f
       return disks.touch(left) && disks.touch(right);
     };
     bool is_doubtful = slack && !touch_both(from, to);
-    if (slack && !is_doubtful && (left.is_arc() || right.is_arc())) {
-      // Next to an arc's centre, rounding of the ends may turn the tangents there at will.
-      const Disk middle = middle_of(from, control, to);
-      is_doubtful = !touch_both(middle, middle);
-    }
+    // Next to an arc's centre, rounding of the ends may turn the tangents there at will.
+    if (slack && !is_doubtful && (left.is_arc() || right.is_arc()))
+      is_doubtful = !touch_both(quarter_of(from, control, to), quarter_of(to, control, from));
     edge.site = {boundary.originals[edge.site[0]], boundary.originals[edge.site[1]]};
     edge.control = {frame.to_input(control.point.center), frame.inverse * control.point.radius};
     edge.weight = control.weight;
@@ -406,8 +404,9 @@ bool touches_its_sites(const MedialAxis& axis, const Edge& edge, double slack) {
     return std::abs(std::sqrt(squared_distance(site, disk.center)) - disk.radius) <= slack;
   };
   const Disk &from = axis.nodes[edge.node[0]].disk, &to = axis.nodes[edge.node[1]].disk;
-  for (const std::uint32_t site : edge.site)
-    for (const Disk& disk : {from, disk_at(axis, edge, 0.5), to})
+  for (const Disk& disk :
+       {from, disk_at(axis, edge, 0.25), disk_at(axis, edge, 0.5), disk_at(axis, edge, 0.75), to})
+    for (const std::uint32_t site : edge.site)
       if (!touches(disk, axis.sites[site])) return false;
   return true;
 }

@@ -46,15 +46,15 @@ void remove_spurs(const Boundary& boundary, std::span<const std::uint32_t> names
                   Graph& graph, std::span<const std::uint32_t> borders = {});
 
 /// Works out the edges' curves and an axis' nodes' kinds, and goes back to the result's numbers of
-/// sites and to the input's units. Returns the edges with an end that does not touch one of the
-/// edge's two sites, give or take `slack` in local units: where bridges divide a site, the piece of
-/// it that the edge names. Without slack, of a diagram whose spokes are still to come: neither
+/// sites and to the input's units. Returns the edges with an end, or next to arcs a place between,
+/// that does not touch one of the edge's two sites, give or take `slack` in local units: where
+/// bridges divide a site, the piece of it that the edge names. Without slack, of a diagram whose spokes are still to come: neither
 /// kinds nor such edges.
 WorkVector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& frame,
                                    std::optional<double> slack, Graph& graph);
 
-/// Whether the disks at both ends and in the middle of an edge touch its two sites, give or take
-/// `slack`, in units of the input.
+/// Whether the disks at both ends of an edge, and at each quarter of it, touch its two sites, give
+/// or take `slack`, in units of the input.
 bool touches_its_sites(const MedialAxis& axis, const Edge& edge, double slack);
 
 }  // namespace medial::disks
