@@ -157,6 +157,17 @@ void gather(const std::vector<Placed>& placed, std::vector<T>& all, std::size_t 
   }
 }
 
+/// Whether an edge comes so near to an arc's centre that rounding of its ends may turn the tangents
+/// there at will.
+bool is_near_centre(const site::Site& s, const Disk& from, const Disk& to) {
+  constexpr double near = 4;  // lengths
+  if (!s.is_arc()) return false;
+  const double least = std::min(std::abs(1 - s.curvature * from.radius),
+                                std::abs(1 - s.curvature * to.radius));
+  const double reach = near * s.curvature;
+  return least * least <= reach * reach * squared_norm(to.center - from.center);
+}
+
 /// The disk a quarter of the way along an edge's curve.
 Disk quarter_of(const Disk& from, const site::Control& control, const Disk& to) {
   const double w = 6 * control.weight, scale = 1 / (10 + w);
@@ -362,8 +373,7 @@ WorkVector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& f
       return disks.touch(left) && disks.touch(right);
     };
     bool is_doubtful = slack && !touch_both(from, to);
-    // Next to an arc's centre, rounding of the ends may turn the tangents there at will.
-    if (slack && !is_doubtful && (left.is_arc() || right.is_arc()))
+    if (slack && !is_doubtful && (is_near_centre(left, from, to) || is_near_centre(right, from, to)))
       is_doubtful = !touch_both(quarter_of(from, control, to), quarter_of(to, control, from));
     edge.site = {boundary.originals[edge.site[0]], boundary.originals[edge.site[1]]};
     edge.control = {frame.to_input(control.point.center), frame.inverse * control.point.radius};

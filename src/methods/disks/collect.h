@@ -46,7 +46,7 @@ void remove_spurs(const Boundary& boundary, std::span<const std::uint32_t> names
                   Graph& graph, std::span<const std::uint32_t> borders = {});
 
 /// Works out the edges' curves and an axis' nodes' kinds, and goes back to the result's numbers of
-/// sites and to the input's units. Returns the edges with an end, or next to arcs a place between,
+/// sites and to the input's units. Returns the edges with an end, or near an arc's centre a quarter,
 /// that does not touch one of the edge's two sites, give or take `slack` in local units: where
 /// bridges divide a site, the piece of it that the edge names. Without slack, of a diagram whose spokes are still to come: neither
 /// kinds nor such edges.
