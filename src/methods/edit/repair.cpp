@@ -73,7 +73,7 @@ class Repairer {
                measures.radius_limit, window.boundary) {}
 
   std::optional<Repair> run(std::vector<std::uint32_t>& doubtful) {
-    if (boundary_.has_arcs && has_tiny_arcs()) return std::nullopt;
+    if (boundary_.has_arcs && is_doubtful()) return std::nullopt;
     const site::BoundaryTree tree(boundary_.sites);
     std::vector<std::unique_ptr<disks::Chunk>> chunks;
     chunks.push_back(walk(tree));
@@ -102,12 +102,17 @@ class Repairer {
                             border_error * measures_.fine_tolerance);
   }
 
-  bool has_tiny_arcs() const {
+  /// Whether the window has tiny arcs or flat joints, next to which compute() measures the axis.
+  bool is_doubtful() const {
+    const auto edge = [&](std::uint32_t v) -> BulgeArc {
+      return {rings_.local(v), rings_.local(rings_.corner_after(v)), rings_[v].bulge};
+    };
     return std::any_of(window_.names.begin(), window_.names.end(), [&](std::uint32_t name) {
       const std::uint32_t vertex = name / 2;
-      return Rings::is_edge(name) &&
-             is_tiny_arc({rings_.local(vertex), rings_.local(rings_.corner_after(vertex)),
-                          rings_[vertex].bulge});
+      if (!Rings::is_edge(name)) return false;
+      const BulgeArc own = edge(vertex), before = edge(rings_.corner_before(vertex));
+      return is_tiny_arc(own) ||
+             is_flat_joint(rings_[vertex].joint, before, own, measures_.tolerance);
     });
   }
 
