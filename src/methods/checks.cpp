@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "axis/sites.h"
 #include "base/arc.h"
 #include "base/disjoint_sets.h"
 #include "base/threads.h"
@@ -117,21 +116,22 @@ bool is_tiny_arc(const BulgeArc& local) {
   return local.bulge != 0 && std::abs(curvature(local)) * smallest > 1;
 }
 
-bool is_flat_joint(site::Joint joint, const BulgeArc& before, const BulgeArc& after,
-                   double tolerance) {
-  constexpr double near = 1 << 12;
-  const double curved = std::max(std::abs(curvature(before)), std::abs(curvature(after)));
-  if (joint == site::Joint::smooth || curved == 0) return false;
+bool is_almost_smooth(site::Joint joint, const BulgeArc& before, const BulgeArc& after,
+                      double tolerance) {
+  constexpr double most = 1 << 12;
+  if (joint == site::Joint::smooth || (before.bulge == 0 && after.bulge == 0)) return false;
   const Vec2 arriving = end_tangent(before), leaving = start_tangent(after);
-  const double sine = cross(arriving, leaving);
-  return dot(arriving, leaving) > 0 && sine * sine <= 2 * near * tolerance * curved;
+  if (!(dot(arriving, leaving) > 0)) return false;
+  const double sine = std::abs(cross(arriving, leaving)), reach = most * tolerance;
+  const double curved = std::max(std::abs(curvature(before)), std::abs(curvature(after)));
+  return sine * sine <= 2 * reach * curved ||
+         sine * std::min(norm(before.chord()), norm(after.chord())) <= reach;
 }
 
 std::vector<std::size_t> doubtful_points(const Problem& problem, const site::SiteNumbers& numbers) {
   const Shape& shape = problem.shape;
   std::vector<std::size_t> found;
   if (shape.bulges.empty()) return found;
-  const double tolerance = problem.local_tolerance();
   for (std::size_t l = 0; l < shape.loop_count(); ++l) {
     const site::LoopEdges loop(shape, l, problem.frame);
     const auto edge = [&](std::uint32_t i) -> BulgeArc {
@@ -139,8 +139,8 @@ std::vector<std::size_t> doubtful_points(const Problem& problem, const site::Sit
     };
     for (std::uint32_t i = 0; i < loop.size(); ++i) {
       const std::uint32_t point = loop.begin() + i;
-      if (is_tiny_arc(edge(i)) ||
-          is_flat_joint(numbers.joints[point], edge(loop.before(i)), edge(i), tolerance))
+      if (is_tiny_arc(edge(i)) || is_almost_smooth(numbers.joints[point], edge(loop.before(i)),
+                                                   edge(i), problem.fine_tolerance))
         found.push_back(point);
     }
   }

@@ -295,22 +295,28 @@ double ends_stray(const Site& a, const Site& b, const Disk& from, const Disk& to
   return worst;
 }
 
-/// The control point of a short edge of two convex arcs that lie on one circle but for roundings of
-/// a shape of size 1. The edge is a hyperbola whose foci are that far apart, so it leads straight
-/// along a line from the centre; or to the centre and away from it, in another direction, closer
-/// to the centre than rounding. Empty for other edges, which leave digits to find the control point
+/// How far an edge may stray from its sites: some roundings of local coordinates.
+constexpr double few_roundings = 0x1p-50;
+
+/// The control point of a short edge of two convex arcs that lie on one circle but for some
+/// roundings. The edge is a hyperbola whose foci are that far apart, so it leads straight along a
+/// line from the centre; or to the centre and away from it in another direction, turning closer to
+/// the centre than rounding. Empty for other edges, which leave digits to find the control point
 /// by.
 std::optional<Control> control_at_common_centre(const Site& a, const Site& b, const Disk& from,
                                                 const Disk& to) {
-  constexpr double rounding = 0x1p-52, roundings = 8 * rounding, is_short = 0x1p-26;
+  constexpr double rounding = 0x1p-52, is_short = 0x1p-26;
   const double length = distance(from.center, to.center);
-  if (!(a.curvature > 1 && b.curvature > 1 && length < is_short)) return std::nullopt;
-  const Vec2 one = focus_of(a), other = focus_of(b), centre = midpoint(one, other);
-  if (std::abs(1 / a.curvature - 1 / b.curvature) > roundings ||
-      squared_norm(other - one) > roundings * roundings)
+  if (!(a.curvature > 0 && b.curvature > 0 && length < is_short)) return std::nullopt;
+  const double radius = 1 / a.curvature, other_radius = 1 / b.curvature;
+  const Vec2 centre = focus_of(a), other_centre = focus_of(b);
+  if (std::abs(radius - other_radius) > 2 * few_roundings ||
+      squared_norm(other_centre - centre) > 4 * few_roundings * few_roundings)
     return std::nullopt;
-  if (dot(from.center - centre, to.center - centre) > 0) return Control{middle_of(from, to), 1};
-  return Control{{centre, 0.5 * (1 / a.curvature + 1 / b.curvature)},
+  const Control straight{middle_of(from, to), 1};
+  if (deviation(straight, a, b, from, to, true) <= few_roundings + ends_stray(a, b, from, to))
+    return straight;
+  return Control{{midpoint(centre, other_centre), 0.5 * (radius + other_radius)},
                  std::max(1.0, length / rounding)};
 }
 
@@ -319,8 +325,7 @@ std::optional<Control> control_at_common_centre(const Site& a, const Site& b, co
 /// through the disk halfway does better, or turns around a focus: there the pole with twice the
 /// digits does, which sites that are nearly tangent would leave open.
 Control control_with_arc(const Site& a, const Site& b, const Disk& from, const Disk& to) {
-  constexpr double few_roundings = 0x1p-50, long_enough = 0x1p-7, curved = 0x1p-3,
-                   short_line = 0x1p-46;
+  constexpr double long_enough = 0x1p-7, curved = 0x1p-3, short_line = 0x1p-46;
   Control best = pole_of_chord(a, b, from, to);
   const double length = distance(from.center, to.center);
   const double focal =

@@ -295,24 +295,25 @@ class Slices {
   /// along the tangent, which points to the control point: through a gap it shrinks and grows
   /// again. Around an arc's centre the tangent may cross the way there; then the other end decides.
   bool leads_to_feet(const Edge& edge, std::size_t end, const Disk& disk) const {
-    const bool is_only_leaf =
-        problem_.degree[edge.node[end]] == 1 && problem_.degree[edge.node[1 - end]] > 1;
-    if (is_only_leaf && (is_own_disk(edge.site[0], disk) || is_own_disk(edge.site[1], disk)))
-      return true;  // what lies between them on the other side holds an arc
     const bool forward = passes_on(edge, 1 - end, end), backward = passes_on(edge, end, end);
     if (forward != backward) return forward;
+    const bool is_only_leaf =
+        incidence_.degree(edge.node[end]) == 1 && incidence_.degree(edge.node[1 - end]) > 1;
+    if (is_only_leaf && (is_own_circle(edge.site[0], disk) || is_own_circle(edge.site[1], disk)))
+      return true;  // on their other side lies an arc
     // Ahead of one end of an edge of hardly any length, and behind the other: no matter which.
     const Disk& other = problem_.disk(edge.node[1 - end]);
     if (distance(disk.center, other.center) <= problem_.tolerance) return end == 0;
+    // Where feet nearly coincide, the radius changes as fast as the centre moves.
     const double growth = edge.control.radius - disk.radius;
-    return (std::abs(growth) <= problem_.tolerance ? other.radius - disk.radius : growth) < 0;
+    const bool is_across = 2 * std::abs(growth) <= distance(edge.control.center, disk.center);
+    return (is_across ? other.radius - disk.radius : growth) < 0;
   }
-  /// Whether a disk touches all of a convex arc, of which its feet cut off more than nothing.
-  bool is_own_disk(std::uint32_t site, const Disk& disk) const {
+  /// Whether a disk touches all of a convex arc, whose ends lie further apart than such feet.
+  bool is_own_circle(std::uint32_t site, const Disk& disk) const {
     const Site& arc = problem_.axis.sites[site];
-    if (!(arc.bulge > nearly_one)) return false;
-    const Vec2 middle = point_at_share(edge_of(arc), 0.5);
-    return ranges::all_of(std::array{arc.start, middle, arc.end}, [&](Vec2 place) {
+    if (!(arc.bulge > 0 && distance(arc.start, arc.end) > nearly_one * disk.radius)) return false;
+    return ranges::all_of(std::array{arc.start, apex(edge_of(arc)), arc.end}, [&](Vec2 place) {
       return std::abs(distance(disk.center, place) - disk.radius) <= problem_.tolerance;
     });
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "axis/curve.h"
 #include "axis/node_kinds.h"
 #include "axis/sites.h"
 #include "axis/statistics.h"
@@ -157,25 +158,6 @@ void gather(const std::vector<Placed>& placed, std::vector<T>& all, std::size_t 
   }
 }
 
-/// Whether an edge comes so near to an arc's centre that rounding of its ends may turn the tangents
-/// there at will.
-bool is_near_centre(const site::Site& s, const Disk& from, const Disk& to) {
-  constexpr double near = 4;  // lengths
-  if (!s.is_arc()) return false;
-  const double least = std::min(std::abs(1 - s.curvature * from.radius),
-                                std::abs(1 - s.curvature * to.radius));
-  const double reach = near * s.curvature;
-  return least * least <= reach * reach * squared_norm(to.center - from.center);
-}
-
-/// The disk a quarter of the way along an edge's curve.
-Disk quarter_of(const Disk& from, const site::Control& control, const Disk& to) {
-  const double w = 6 * control.weight, scale = 1 / (10 + w);
-  const Disk& c = control.point;
-  return {scale * (9 * from.center + w * c.center + to.center),
-          scale * (9 * from.radius + w * c.radius + to.radius)};
-}
-
 /// Two disks of an edge, such as those at its ends.
 struct TwoDisks {
   TwoDisks(const Disk& from, const Disk& to, double a_slack) : ends{&from, &to}, slack(a_slack) {
@@ -186,6 +168,9 @@ struct TwoDisks {
     squared_most = most * most;
   }
 
+  bool touch(const site::Site& left, const site::Site& right) const {
+    return touch(left) && touch(right);
+  }
   /// Whether both touch a site from its inside, give or take the slack.
   bool touch(const site::Site& site) const {
     if (site.is_arc()) return touches_arc(site, 0) && touches_arc(site, 1);
@@ -360,6 +345,20 @@ WorkVector<std::uint8_t> degrees_of(const Graph& graph) {
   return degree;
 }
 
+bool strays_at_centre(const site::Site& left, const site::Site& right, const Disk& from,
+                      const Disk& to, double slack) {
+  constexpr double near = 4;  // lengths
+  const double reach = near * distance(from.center, to.center);
+  const auto comes_near = [&](const site::Site& s) {
+    return s.curvature > 0 && (std::abs(1 - s.curvature * from.radius) <= s.curvature * reach ||
+                               std::abs(1 - s.curvature * to.radius) <= s.curvature * reach);
+  };
+  if (!comes_near(left) && !comes_near(right)) return false;
+  const site::Control control = site::control_of(left, right, from, to);
+  const Curve curve(from, control.point, to, control.weight);
+  return !TwoDisks(curve.at(0.25), curve.at(0.75), slack).touch(left, right);
+}
+
 WorkVector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& frame,
                                    std::optional<double> slack, Graph& graph) {
   graph.statistics.largest_residual *= frame.inverse;
@@ -368,13 +367,8 @@ WorkVector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& f
     const site::Site &left = boundary.sites[edge.site[0]], &right = boundary.sites[edge.site[1]];
     const Disk &from = graph.nodes[edge.node[0]].disk, &to = graph.nodes[edge.node[1]].disk;
     const site::Control control = site::control_of(left, right, from, to);
-    const auto touch_both = [&](const Disk& one, const Disk& other) {
-      const TwoDisks disks(one, other, *slack);
-      return disks.touch(left) && disks.touch(right);
-    };
-    bool is_doubtful = slack && !touch_both(from, to);
-    if (slack && !is_doubtful && (is_near_centre(left, from, to) || is_near_centre(right, from, to)))
-      is_doubtful = !touch_both(quarter_of(from, control, to), quarter_of(to, control, from));
+    const bool is_doubtful = slack && (!TwoDisks(from, to, *slack).touch(left, right) ||
+                                       strays_at_centre(left, right, from, to, *slack));
     edge.site = {boundary.originals[edge.site[0]], boundary.originals[edge.site[1]]};
     edge.control = {frame.to_input(control.point.center), frame.inverse * control.point.radius};
     edge.weight = control.weight;
@@ -413,11 +407,12 @@ bool touches_its_sites(const MedialAxis& axis, const Edge& edge, double slack) {
       return false;
     return std::abs(std::sqrt(squared_distance(site, disk.center)) - disk.radius) <= slack;
   };
-  const Disk &from = axis.nodes[edge.node[0]].disk, &to = axis.nodes[edge.node[1]].disk;
-  for (const Disk& disk :
-       {from, disk_at(axis, edge, 0.25), disk_at(axis, edge, 0.5), disk_at(axis, edge, 0.75), to})
-    for (const std::uint32_t site : edge.site)
-      if (!touches(disk, axis.sites[site])) return false;
+  const Curve curve = curve_of(axis, edge);
+  for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    const Disk disk = curve.at(t);
+    if (!touches(disk, axis.sites[edge.site[0]]) || !touches(disk, axis.sites[edge.site[1]]))
+      return false;
+  }
   return true;
 }
 

@@ -45,11 +45,17 @@ Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::span<const Bridg
 void remove_spurs(const Boundary& boundary, std::span<const std::uint32_t> names, double tolerance,
                   Graph& graph, std::span<const std::uint32_t> borders = {});
 
+/// Whether an edge that comes within four of its lengths of the centre of a convex arc does not
+/// touch its sites at a quarter of its way, give or take `slack`: next to the centre, rounding of
+/// its ends may turn the tangents there at will.
+bool strays_at_centre(const site::Site& left, const site::Site& right, const Disk& from,
+                      const Disk& to, double slack);
+
 /// Works out the edges' curves and an axis' nodes' kinds, and goes back to the result's numbers of
-/// sites and to the input's units. Returns the edges with an end, or near an arc's centre a quarter,
-/// that does not touch one of the edge's two sites, give or take `slack` in local units: where
-/// bridges divide a site, the piece of it that the edge names. Without slack, of a diagram whose spokes are still to come: neither
-/// kinds nor such edges.
+/// sites and to the input's units. Returns the edges that do not touch both their sites at their
+/// ends, or stray at a centre, give or take `slack` in local units: where bridges divide a site,
+/// the piece of it that the edge names. Without slack, of a diagram whose spokes are still to come:
+/// neither kinds nor such edges.
 WorkVector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& frame,
                                    std::optional<double> slack, Graph& graph);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <type_traits>
+#include <utility>
 
 #include "axis/statistics.h"
 #include "base/compat.h"
@@ -229,9 +230,22 @@ std::vector<bool> components_of(const Shape& shape, const SiteNumbers& numbers,
   return marked;
 }
 
+/// Turns to the next way after one whose axis is refused. False after the last.
+bool turn_to_next(const Problem& problem, const SiteNumbers& numbers,
+                  const std::vector<std::size_t>& doubtful, std::vector<std::uint32_t> lost,
+                  Way& way) {
+  ++way.attempts;
+  // What seemed to be one tie may be none that one disk touches: the last way keeps it apart.
+  if (!way.in_precise.empty()) return std::exchange(way.merges_ties, false);
+  if (!lost.empty())  // else all components are walked again
+    for (const std::size_t point : doubtful) lost.push_back(numbers.edge[point]);
+  way.in_precise = components_of(problem.shape, numbers, lost);
+  return true;
+}
+
 /// The axis of a shape, walked as it is. Components in which the walk lost its way, or all of a
-/// shape whose axis is refused, are walked again in 256 bits; and if one disk does not touch what
-/// seemed to be one tie there, once more, with ties kept apart.
+/// shape whose axis is refused, are walked again in 256 bits; if that is refused, too, once more
+/// with ties kept apart.
 Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbers, int attempts) {
   const bool with_arcs = has_arcs(problem.shape);
   const std::vector<std::size_t> doubtful = doubtful_points(problem, numbers);
@@ -241,9 +255,11 @@ Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbe
   const bool is_measured = with_arcs && (problem.options.exact || !doubtful.empty() || is_coarse);
   std::optional<Error> error;
   Way way{{}, !problem.options.exact, attempts};
-  for (bool is_precise = false;;) {
-    std::vector<std::uint32_t> lost;
+  std::vector<std::uint32_t> lost;
+  do {
+    lost.clear();
     auto axis = axis_by(problem, numbers, way, lost);
+    const bool is_precise = !way.in_precise.empty();
     const bool is_certain = lost.empty() && !(with_arcs && is_precise) && !is_measured;
     if (axis && (is_certain || problem.is_cancelled())) return axis;
     // A polygon in which the walk lost its way is measured only if another walk takes seconds.
@@ -252,17 +268,8 @@ Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbe
       if (!refused) return axis;
       if (!error || axis) error = std::move(refused);
     }
-    ++way.attempts;
-    if (is_precise) {
-      if (!way.merges_ties) return std::move(*error);
-      way.merges_ties = false;
-      continue;
-    }
-    if (!lost.empty())  // else all components are walked again
-      for (const std::size_t point : doubtful) lost.push_back(numbers.edge[point]);
-    way.in_precise = components_of(problem.shape, numbers, lost);
-    is_precise = true;
-  }
+  } while (turn_to_next(problem, numbers, doubtful, lost, way));
+  return std::move(*error);
 }
 
 /// The axis around a planar graph, walked as it is, and once more in 256 bits where the walk lost

@@ -73,7 +73,7 @@ class Repairer {
                measures.radius_limit, window.boundary) {}
 
   std::optional<Repair> run(std::vector<std::uint32_t>& doubtful) {
-    if (boundary_.has_arcs && is_doubtful()) return std::nullopt;
+    if (boundary_.has_arcs && has_doubtful_points()) return std::nullopt;
     const site::BoundaryTree tree(boundary_.sites);
     std::vector<std::unique_ptr<disks::Chunk>> chunks;
     chunks.push_back(walk(tree));
@@ -102,17 +102,19 @@ class Repairer {
                             border_error * measures_.fine_tolerance);
   }
 
-  /// Whether the window has tiny arcs or flat joints, next to which compute() measures the axis.
-  bool is_doubtful() const {
+  /// Whether the window has such points as compute() measures the axis next to.
+  bool has_doubtful_points() const {
     const auto edge = [&](std::uint32_t v) -> BulgeArc {
       return {rings_.local(v), rings_.local(rings_.corner_after(v)), rings_[v].bulge};
     };
+    const auto is_doubtful = [&](std::uint32_t v) {
+      return is_almost_smooth(rings_[v].joint, edge(rings_.corner_before(v)), edge(v),
+                              measures_.fine_tolerance);
+    };
     return std::any_of(window_.names.begin(), window_.names.end(), [&](std::uint32_t name) {
       const std::uint32_t vertex = name / 2;
-      if (!Rings::is_edge(name)) return false;
-      const BulgeArc own = edge(vertex), before = edge(rings_.corner_before(vertex));
-      return is_tiny_arc(own) ||
-             is_flat_joint(rings_[vertex].joint, before, own, measures_.tolerance);
+      return Rings::is_edge(name) && (is_tiny_arc(edge(vertex)) || is_doubtful(vertex) ||
+                                      is_doubtful(rings_.corner_after(vertex)));
     });
   }
 
@@ -222,7 +224,10 @@ class Repairer {
       for (const std::uint32_t i : link.site)
         if (const Disk& disk = part.nodes[node].disk; !touches_site(disk, boundary_.sites[i]))
           if (!touches_site(disk, rings_.site_near(name_of(i), disk.center))) return false;
-    return true;
+    const auto [left, right] = link.site;
+    return !disks::strays_at_centre(boundary_.sites[left], boundary_.sites[right],
+                                    part.nodes[link.node[0]].disk, part.nodes[link.node[1]].disk,
+                                    slack);
   }
 
   /// Adds the nodes of borders that merge_ties() might make one with their new neighbours, were the
