@@ -25,7 +25,7 @@ bool has_arcs(const Shape& shape);
 /// a bridge a foot on it is: an angle of rounding over the radius. The foot of the same disk on
 /// another site may then be off by as much, and the disk reaches over that by half the square.
 bool is_tiny_arc(const BulgeArc& local);
-/// Whether two edges, of which one is an arc, meet almost smoothly, but not up to rounding: at an
+/// Whether two edges, one of them an arc, meet almost smoothly, but not up to rounding: at an
 /// angle so small that a disk of the arc's radius reaches over a straight edge there by at most
 /// 2^12 tolerances, or that the shorter edge rises by no more. A blunt joint has no leaf, though
 /// disks lead towards it, and rounding decides in which order disks touch a reflex vertex and its

@@ -1,4 +1,4 @@
-// Joints next to arcs that are almost smooth, and arcs that share a centre but for rounding: there
+// Joints next to arcs that are almost smooth, and arcs that share a centre up to rounding: there
 // double does not know which site a disk touches first, so compute() measures the axis.
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ void expect_verified(const Rings& rings, const Options& options = {.threads = 1}
 
 /// The sides of a slot lean by 1e-5, so that its end has the angle of a blunt joint: the edge
 /// around the end's centre was off by 5e4 tolerances.
-TEST(FlatJoint, AtTheEndOfASlot) {
+TEST(AlmostSmoothJoint, AtTheEndOfASlot) {
   expect_verified({{{{1.2483518959176966e-05, 9.883699877980862e-06},
                      {1.2483461548151041e-05, 9.883772390464996e-06},
                      {-0.620725748848253, 0.7840277705344926},
@@ -43,7 +43,7 @@ TEST(FlatJoint, AtTheEndOfASlot) {
                      0.41421356237309503, 0.41421356237309503}}});
 }
 
-TEST(FlatJoint, OfAnEllipseThatIsAlmostACircle) {
+TEST(AlmostSmoothJoint, OfAnEllipseThatIsAlmostACircle) {
   expect_verified(
       {{{{1, 0},
          {0.9999999953737583, 9.618982043086488e-05},
@@ -65,7 +65,7 @@ TEST(FlatJoint, OfAnEllipseThatIsAlmostACircle) {
 
 /// In 256 bits, too, the nodes near the end's centre would be one tie, but no disk touches all of
 /// its sites: they stay apart.
-TEST(FlatJoint, KeepsNodesApartThatAreNoTie) {
+TEST(AlmostSmoothJoint, KeepsNodesApartThatAreNoTie) {
   expect_verified({{{{0, -0.0015072444836314828},
                      {3.1711331316794496e-06, -0.0015072444836314828},
                      {3.2490414734021917, -0.001507244483666063},
@@ -82,7 +82,7 @@ TEST(FlatJoint, KeepsNodesApartThatAreNoTie) {
 }
 
 /// An edge of a segment and an arc turns around the arc's centre between its ends.
-TEST(FlatJoint, AnEdgeIsFollowedAroundACentre) {
+TEST(AlmostSmoothJoint, AnEdgeIsFollowedAroundACentre) {
   expect_verified({{{{3.5999891102161214, -0.5358847478752341},
                      {2.559890391216008, 1.2799420497869194},
                      {2.559888752278117, 1.2799422155353122},
@@ -97,7 +97,7 @@ TEST(FlatJoint, AnEdgeIsFollowedAroundACentre) {
 
 /// A leaf in the centre of a circle with a narrow mouth: the feet of its disk are next to each
 /// other, and the circle lies between them, not nothing.
-TEST(FlatJoint, ALeafOfACircleWithAMouth) {
+TEST(AlmostSmoothJoint, ALeafOfACircleWithAMouth) {
   expect_verified({{{{-2.4431192860099356, 13.082339464491074},
                      {-2.4431141564090124, 13.082346304656033},
                      {-2.756880712329952, 13.317660534223098},
@@ -115,7 +115,7 @@ TEST(FlatJoint, ALeafOfACircleWithAMouth) {
         {-4.5179405089314495e-11, 4.2627492664025436e-06, 0.9999953564939822, 0.999996117009265}}});
 }
 
-TEST(FlatJoint, IsLeftToDisksByLee) {
+TEST(AlmostSmoothJoint, IsLeftToDisksByLee) {
   Options options{.method = method::Lee{}, .threads = 1};
   expect_verified({{{{5.259379083290482e-07, 0},
                      {9.709375034496542, 0},
@@ -152,7 +152,7 @@ TEST(FlatJoint, IsLeftToDisksByLee) {
 }
 
 /// A row of circles that are joined by necks from 1e-9 to 1e-2 of their radius. Each of them
-/// consists of two arcs, above and below, of one circle but for rounding.
+/// consists of two arcs, above and below, of one circle up to rounding.
 Ring row_of_circles(Random& random) {
   const auto count = static_cast<std::size_t>(random.integer(2, 6));
   std::vector<double> radius(count), neck(count + 1);
