@@ -118,17 +118,21 @@ bool is_tiny_arc(const BulgeArc& local) {
 
 bool is_almost_smooth(site::Joint joint, const BulgeArc& before, const BulgeArc& after,
                       double tolerance) {
-  constexpr double most = 1 << 12;
   if (joint == site::Joint::smooth || (before.bulge == 0 && after.bulge == 0)) return false;
   const Vec2 arriving = end_tangent(before), leaving = start_tangent(after);
   if (!(dot(arriving, leaving) > 0)) return false;
-  const double sine = std::abs(cross(arriving, leaving)), reach = most * tolerance;
+  const double sine = std::abs(cross(arriving, leaving));
   const double curved = std::max(std::abs(curvature(before)), std::abs(curvature(after)));
-  return sine * sine <= 2 * reach * curved ||
-         sine * std::min(norm(before.chord()), norm(after.chord())) <= reach;
+  return sine * sine <= 2 * tolerance * curved ||
+         sine * std::min(norm(before.chord()), norm(after.chord())) <= tolerance;
 }
 
-std::vector<std::size_t> doubtful_points(const Problem& problem, const site::SiteNumbers& numbers) {
+namespace {
+
+/// The points of a shape at which `is_meant(point, before, after)` says so of the edges there,
+/// local ones. O(n).
+template <class IsMeant>
+std::vector<std::size_t> points_where(const Problem& problem, const IsMeant& is_meant) {
   const Shape& shape = problem.shape;
   std::vector<std::size_t> found;
   if (shape.bulges.empty()) return found;
@@ -137,14 +141,30 @@ std::vector<std::size_t> doubtful_points(const Problem& problem, const site::Sit
     const auto edge = [&](std::uint32_t i) -> BulgeArc {
       return {loop.local(i), loop.local(loop.next(i)), loop.bulge(i)};
     };
+    BulgeArc before = edge(loop.size() - 1);
     for (std::uint32_t i = 0; i < loop.size(); ++i) {
-      const std::uint32_t point = loop.begin() + i;
-      if (is_tiny_arc(edge(i)) || is_almost_smooth(numbers.joints[point], edge(loop.before(i)),
-                                                   edge(i), problem.fine_tolerance))
-        found.push_back(point);
+      const BulgeArc after = edge(i);
+      if (is_meant(loop.begin() + i, before, after)) found.push_back(loop.begin() + i);
+      before = after;
     }
   }
   return found;
+}
+
+}  // namespace
+
+std::vector<std::size_t> tiny_arcs(const Problem& problem) {
+  return points_where(problem, [](std::size_t, const BulgeArc&, const BulgeArc& after) {
+    return is_tiny_arc(after);
+  });
+}
+
+std::vector<std::size_t> almost_smooth_joints(const Problem& problem,
+                                              const site::SiteNumbers& numbers) {
+  return points_where(
+      problem, [&](std::size_t point, const BulgeArc& before, const BulgeArc& after) {
+        return is_almost_smooth(numbers.joints[point], before, after, problem.fine_tolerance);
+      });
 }
 
 namespace {

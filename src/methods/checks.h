@@ -25,16 +25,18 @@ bool has_arcs(const Shape& shape);
 /// a bridge a foot on it is: an angle of rounding over the radius. The foot of the same disk on
 /// another site may then be off by as much, and the disk reaches over that by half the square.
 bool is_tiny_arc(const BulgeArc& local);
-/// Whether two edges, one of them an arc, meet almost smoothly, but not up to rounding: at an
-/// angle so small that a disk of the arc's radius reaches over a straight edge there by at most
-/// 2^12 tolerances, or that the shorter edge rises by no more. A blunt joint has no leaf, though
-/// disks lead towards it, and rounding decides in which order disks touch a reflex vertex and its
-/// edges. In local units.
+/// Whether two edges, one of them an arc, meet almost smoothly, but not up to rounding: at an angle
+/// so small that a disk of the arc's radius reaches over a straight edge there by at most the
+/// tolerance, or that the shorter edge rises by no more. A blunt joint has no leaf, though disks
+/// lead towards it, and rounding decides in which order disks touch a reflex vertex and its edges.
+/// In local units.
 bool is_almost_smooth(site::Joint joint, const BulgeArc& before, const BulgeArc& after,
                       double tolerance);
-/// The points of a shape at which tiny arcs begin, or edges meet almost smoothly: next to these
-/// double may be wrong about what a disk touches. O(n).
-std::vector<std::size_t> doubtful_points(const Problem& problem, const site::SiteNumbers& numbers);
+/// The points of a shape at which tiny arcs begin, and those at which edges meet almost smoothly:
+/// next to these double may be wrong about what a disk touches. O(n).
+std::vector<std::size_t> tiny_arcs(const Problem& problem);
+std::vector<std::size_t> almost_smooth_joints(const Problem& problem,
+                                              const site::SiteNumbers& numbers);
 
 /// The options that every exact computation has: the tolerance and the number of threads.
 std::optional<Error> refuse(const Options& options);

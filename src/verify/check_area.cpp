@@ -297,25 +297,33 @@ class Slices {
   bool leads_to_feet(const Edge& edge, std::size_t end, const Disk& disk) const {
     const bool forward = passes_on(edge, 1 - end, end), backward = passes_on(edge, end, end);
     if (forward != backward) return forward;
-    const bool is_only_leaf =
-        incidence_.degree(edge.node[end]) == 1 && incidence_.degree(edge.node[1 - end]) > 1;
-    if (is_only_leaf && (is_own_circle(edge.site[0], disk) || is_own_circle(edge.site[1], disk)))
-      return true;  // on their other side lies an arc
-    // Ahead of one end of an edge of hardly any length, and behind the other: no matter which.
+    if (is_around_arc(edge, end)) return true;
     const Disk& other = problem_.disk(edge.node[1 - end]);
-    if (distance(disk.center, other.center) <= problem_.tolerance) return end == 0;
+    // Ahead of one end of an edge of hardly any length, and behind the other: no matter which.
+    if (distance(disk.center, other.center) <= problem_.tolerance)
+      return end == 0 && !is_around_arc(edge, 1 - end);
     // Where feet nearly coincide, the radius changes as fast as the centre moves.
     const double growth = edge.control.radius - disk.radius;
     const bool is_across = 2 * std::abs(growth) <= distance(edge.control.center, disk.center);
     return (is_across ? other.radius - disk.radius : growth) < 0;
   }
-  /// Whether a disk touches all of a convex arc, whose ends lie further apart than such feet.
-  bool is_own_circle(std::uint32_t site, const Disk& disk) const {
-    const Site& arc = problem_.axis.sites[site];
-    if (!(arc.bulge > 0 && distance(arc.start, arc.end) > nearly_one * disk.radius)) return false;
-    return ranges::all_of(std::array{arc.start, apex(edge_of(arc)), arc.end}, [&](Vec2 place) {
+  /// Whether an edge ends in a leaf whose disk touches all of a convex arc, with most of it between
+  /// the leaf's feet, as the boundary leads from the left one, past the leaf, to the right one.
+  bool is_around_arc(const Edge& edge, std::size_t end) const {
+    if (incidence_.degree(edge.node[end]) != 1 || incidence_.degree(edge.node[1 - end]) == 1)
+      return false;
+    const Disk& disk = problem_.disk(edge.node[end]);
+    const auto touches = [&](Vec2 place) {
       return std::abs(distance(disk.center, place) - disk.radius) <= problem_.tolerance;
-    });
+    };
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Site& arc = problem_.axis.sites[edge.site[side]];
+      const Vec2 last = side == end ? arc.end : arc.start;
+      if (arc.bulge > 0 && distance(foot_on(edge, side, end), last) > nearly_one * disk.radius &&
+          touches(arc.start) && touches(apex(edge_of(arc))) && touches(arc.end))
+        return true;
+    }
+    return false;
   }
   /// Whether the boundary leads from one edge to another past few vertices, which all lie where the
   /// disk's feet on the two nearly coincide.

@@ -230,6 +230,37 @@ std::vector<bool> components_of(const Shape& shape, const SiteNumbers& numbers,
   return marked;
 }
 
+/// Whether a disk of an axis nearly is the circle of a convex arc that begins or ends at one of
+/// these points. There feet move far along the arc while the centre hardly moves. O(n log n).
+bool fills_arcs_beside(const Shape& shape, const SiteNumbers& numbers,
+                       const std::vector<std::size_t>& points, const MedialAxis& axis) {
+  std::vector<Disk> circles;
+  const auto add = [&](std::size_t point) {
+    const Site& edge = axis.sites[numbers.edge[point]];
+    const BulgeArc arc{edge.start, edge.end, edge.bulge};
+    if (!(arc.bulge > 0)) return;
+    const double radius = 1 / curvature(arc);
+    circles.push_back({arc.start + radius * left_of(start_tangent(arc)), radius});
+  };
+  for (const std::size_t point : axis.sites.empty() ? std::vector<std::size_t>{} : points) {
+    const auto loop = std::upper_bound(shape.loop_begin.begin(), shape.loop_begin.end(), point) - 1;
+    add(point);
+    add(point > *loop ? point - 1 : loop[1] - 1);
+  }
+  if (circles.empty()) return false;
+  ranges::sort(circles, {}, &Disk::radius);
+  constexpr double near = 0x1p-10;
+  constexpr std::size_t looks = 64;  // of each node on average; where there are more, it is likely
+  std::size_t budget = looks * (axis.nodes.size() + circles.size());
+  for (const auto& [disk, component, kind] : axis.nodes) {
+    const double slack = near * disk.radius;
+    for (auto circle = ranges::lower_bound(circles, disk.radius - slack, {}, &Disk::radius);
+         circle != circles.end() && circle->radius <= disk.radius + slack; ++circle)
+      if (squared_norm(circle->center - disk.center) <= slack * slack || budget-- == 0) return true;
+  }
+  return false;
+}
+
 /// Turns to the next way after one whose axis is refused. False after the last.
 bool turn_to_next(const Problem& problem, const SiteNumbers& numbers,
                   const std::vector<std::size_t>& doubtful, std::vector<std::uint32_t> lost,
@@ -248,11 +279,14 @@ bool turn_to_next(const Problem& problem, const SiteNumbers& numbers,
 /// with ties kept apart.
 Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbers, int attempts) {
   const bool with_arcs = has_arcs(problem.shape);
-  const std::vector<std::size_t> doubtful = doubtful_points(problem, numbers);
+  std::vector<std::size_t> doubtful = tiny_arcs(problem);
+  const bool has_tiny_arcs = !doubtful.empty();
+  const std::vector<std::size_t> joints = almost_smooth_joints(problem, numbers);
+  doubtful.insert(doubtful.end(), joints.begin(), joints.end());
   // Next to arcs, a walk that merges nothing, or far more than rounding, is measured, too.
   constexpr double coarse = 8;
   const bool is_coarse = problem.tolerance > coarse * problem.joint_tolerance;
-  const bool is_measured = with_arcs && (problem.options.exact || !doubtful.empty() || is_coarse);
+  const bool is_measured = with_arcs && (problem.options.exact || has_tiny_arcs || is_coarse);
   std::optional<Error> error;
   Way way{{}, !problem.options.exact, attempts};
   std::vector<std::uint32_t> lost;
@@ -260,7 +294,8 @@ Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbe
     lost.clear();
     auto axis = axis_by(problem, numbers, way, lost);
     const bool is_precise = !way.in_precise.empty();
-    const bool is_certain = lost.empty() && !(with_arcs && is_precise) && !is_measured;
+    const bool is_certain = lost.empty() && !(with_arcs && is_precise) && !is_measured && axis &&
+                            !fills_arcs_beside(problem.shape, numbers, joints, *axis);
     if (axis && (is_certain || problem.is_cancelled())) return axis;
     // A polygon in which the walk lost its way is measured only if another walk takes seconds.
     if (with_arcs || is_precise || takes_long(problem.shape)) {
