@@ -10,6 +10,7 @@
 #include "medial/query.h"
 #include "medial/sides.h"
 #include "medial/verify.h"
+#include "ops/hull_outline.h"
 #include "support/random_shapes.h"
 
 namespace medial {
@@ -382,6 +383,18 @@ TEST(ShapeDistance, IsWhatItIsByHand) {
   EXPECT_EQ(shape_distance(one.shape, one.shape).hausdorff(), 0);
   EXPECT_EQ(shape_distance({}, {}).hausdorff(), 0);
   EXPECT_TRUE(std::isinf(shape_distance(one.shape, {}).hausdorff()));
+}
+
+/// Found by fuzzing: a damaged pack of 194 bytes, whose error is 1e-12 of its size, became outlines
+/// of millions of points.
+TEST(Rebuild, ATinyChordDoesNotMakeMillionsOfPoints) {
+  MedialAxis axis;
+  for (int i = 0; i < 50; ++i)
+    axis.nodes.push_back({{{0.1 * i, 0}, 1 + 0.01 * i}, 0, NodeKind::leaf});
+  std::size_t points = 0;
+  for (const Ring& ring : ops::outline_of_hulls(axis, 1e-12)) points += ring.points.size();
+  EXPECT_GT(points, std::size_t{1} << 17);
+  EXPECT_LE(points, (std::size_t{1} << 18) + 3 * axis.nodes.size());
 }
 
 }  // namespace

@@ -180,7 +180,7 @@ std::vector<Ring> outline_of_hulls(const MedialAxis& whole, double chord, std::u
   // sectors cover what is not in a neighbour's. So the sum of all these parts, each of them
   // counter-clockwise, is the union. Its boundary runs along a tangent, around the gap, and on;
   // where tangents overlap instead, it goes on from where they cross.
-  const double most = std::max(4096.0, 0x1p22 / static_cast<double>(axis.nodes.size()));
+  const double most = std::max(4096.0, 0x1p18 / static_cast<double>(axis.nodes.size()));
   const std::vector<bool> detached = detach(axis, off);
   const HalfEdges halves(axis);
   const auto add_turn = [&](HalfEdge half, std::vector<Vec2>& points) {
