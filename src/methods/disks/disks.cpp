@@ -236,7 +236,7 @@ bool fills_arcs_beside(const Shape& shape, const SiteNumbers& numbers,
                        const std::vector<std::size_t>& points, const MedialAxis& axis) {
   std::vector<Disk> circles;
   const auto add = [&](std::size_t point) {
-    const Site& edge = axis.sites[numbers.edge[point]];
+    const medial::Site& edge = axis.sites[numbers.edge[point]];
     const BulgeArc arc{edge.start, edge.end, edge.bulge};
     if (!(arc.bulge > 0)) return;
     const double radius = 1 / curvature(arc);
