@@ -129,8 +129,8 @@ bool is_almost_smooth(site::Joint joint, const BulgeArc& before, const BulgeArc&
 
 namespace {
 
-/// The points of a shape at which `is_meant(point, before, after)` says so of the edges there,
-/// local ones. O(n).
+/// The points of a shape for which `is_meant(point, before, after)` holds, with the edges before
+/// and after the point in local units. O(n).
 template <class IsMeant>
 std::vector<std::size_t> points_where(const Problem& problem, const IsMeant& is_meant) {
   const Shape& shape = problem.shape;

@@ -298,7 +298,7 @@ double ends_stray(const Site& a, const Site& b, const Disk& from, const Disk& to
 /// How far an edge may stray from its sites: some roundings of local coordinates.
 constexpr double few_roundings = 0x1p-50;
 
-/// The control point of a short edge of two convex arcs that lie on one circle but for some
+/// The control point of a short edge of two convex arcs that lie on one circle up to some
 /// roundings. The edge is a hyperbola whose foci are that far apart, so it leads straight along a
 /// line from the centre; or to the centre and away from it in another direction, turning closer to
 /// the centre than rounding. Empty for other edges, which leave digits to find the control point

@@ -234,6 +234,7 @@ std::vector<bool> components_of(const Shape& shape, const SiteNumbers& numbers,
 /// these points. There feet move far along the arc while the centre hardly moves. O(n log n).
 bool fills_arcs_beside(const Shape& shape, const SiteNumbers& numbers,
                        const std::vector<std::size_t>& points, const MedialAxis& axis) {
+  if (axis.sites.empty()) return false;  // cancelled
   std::vector<Disk> circles;
   const auto add = [&](std::size_t point) {
     const medial::Site& edge = axis.sites[numbers.edge[point]];
@@ -242,7 +243,7 @@ bool fills_arcs_beside(const Shape& shape, const SiteNumbers& numbers,
     const double radius = 1 / curvature(arc);
     circles.push_back({arc.start + radius * left_of(start_tangent(arc)), radius});
   };
-  for (const std::size_t point : axis.sites.empty() ? std::vector<std::size_t>{} : points) {
+  for (const std::size_t point : points) {
     const auto loop = std::upper_bound(shape.loop_begin.begin(), shape.loop_begin.end(), point) - 1;
     add(point);
     add(point > *loop ? point - 1 : loop[1] - 1);

@@ -102,7 +102,8 @@ class Repairer {
                             border_error * measures_.fine_tolerance);
   }
 
-  /// Whether the window has such points as compute() measures the axis next to.
+  /// Whether the window has tiny arcs or joints that are almost smooth: next to them compute() may
+  /// measure the axis.
   bool has_doubtful_points() const {
     const auto edge = [&](std::uint32_t v) -> BulgeArc {
       return {rings_.local(v), rings_.local(rings_.corner_after(v)), rings_[v].bulge};
