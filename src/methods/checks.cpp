@@ -109,33 +109,42 @@ bool has_arcs(const Shape& shape) {
   return std::any_of(shape.bulges.begin(), shape.bulges.end(), [](double b) { return b != 0; });
 }
 
-bool is_tiny_arc(const BulgeArc& local) {
+bool is_tiny_edge(const BulgeArc& local) {
   // In the local frame, whose size is about 1: of an angle of 2^-50 (some roundings) over 2^-26,
-  // half the square is 2^-49, which is less than the tolerance.
+  // half the square is 2^-49, which is less than the tolerance. So is half the square of 2^-26.
   constexpr double smallest = 0x1p-26;
-  return local.bulge != 0 && std::abs(curvature(local)) * smallest > 1;
+  return squared_norm(local.chord()) < smallest * smallest ||
+         std::abs(curvature(local)) * smallest > 1;
 }
 
-bool is_almost_smooth(site::Joint joint, const BulgeArc& before, const BulgeArc& after,
+double doubtful_share(site::Joint joint, const BulgeArc& before, const BulgeArc& after,
                       double tolerance) {
-  if (joint == site::Joint::smooth || (before.bulge == 0 && after.bulge == 0)) return false;
+  constexpr double near = 0x1p-10;
+  if (before.bulge == 0 && after.bulge == 0) return 0;
   const Vec2 arriving = end_tangent(before), leaving = start_tangent(after);
-  if (!(dot(arriving, leaving) > 0)) return false;
-  const double sine = std::abs(cross(arriving, leaving));
+  if (!(dot(arriving, leaving) > 0)) return 0;
+  const double turn = cross(arriving, leaving), sine = std::abs(turn);
   const double curved = std::max(std::abs(curvature(before)), std::abs(curvature(after)));
-  return sine * sine <= 2 * tolerance * curved ||
-         sine * std::min(norm(before.chord()), norm(after.chord())) <= tolerance;
+  if (joint == site::Joint::smooth) {
+    const double bend = std::abs(curvature(before) - curvature(after));
+    const double reach = sine * sine / (2 * tolerance);
+    const bool reaches = turn < 0 && 2 * reach > bend && curved + reach > 1;  // no disk is larger
+    return reaches ? reach / curved : 0;
+  }
+  const bool is_almost_smooth =
+      sine * sine <= 2 * tolerance * curved ||
+      sine * std::min(norm(before.chord()), norm(after.chord())) <= tolerance;
+  return is_almost_smooth ? near : 0;
 }
 
 namespace {
 
-/// The points of a shape for which `is_meant(point, before, after)` holds, with the edges before
-/// and after the point in local units. O(n).
-template <class IsMeant>
-std::vector<std::size_t> points_where(const Problem& problem, const IsMeant& is_meant) {
+/// Calls look(point, before, after) for all points of a shape with arcs, with the edges before and
+/// after each in local units. O(n).
+template <class Look>
+void for_each_joint(const Problem& problem, const Look& look) {
   const Shape& shape = problem.shape;
-  std::vector<std::size_t> found;
-  if (shape.bulges.empty()) return found;
+  if (shape.bulges.empty()) return;
   for (std::size_t l = 0; l < shape.loop_count(); ++l) {
     const site::LoopEdges loop(shape, l, problem.frame);
     const auto edge = [&](std::uint32_t i) -> BulgeArc {
@@ -144,27 +153,31 @@ std::vector<std::size_t> points_where(const Problem& problem, const IsMeant& is_
     BulgeArc before = edge(loop.size() - 1);
     for (std::uint32_t i = 0; i < loop.size(); ++i) {
       const BulgeArc after = edge(i);
-      if (is_meant(loop.begin() + i, before, after)) found.push_back(loop.begin() + i);
+      look(loop.begin() + i, before, after);
       before = after;
     }
   }
-  return found;
 }
 
 }  // namespace
 
-std::vector<std::size_t> tiny_arcs(const Problem& problem) {
-  return points_where(problem, [](std::size_t, const BulgeArc&, const BulgeArc& after) {
-    return is_tiny_arc(after);
+std::vector<std::size_t> tiny_edges(const Problem& problem) {
+  std::vector<std::size_t> found;
+  for_each_joint(problem, [&](std::size_t point, const BulgeArc&, const BulgeArc& after) {
+    if (is_tiny_edge(after)) found.push_back(point);
   });
+  return found;
 }
 
-std::vector<std::size_t> almost_smooth_joints(const Problem& problem,
-                                              const site::SiteNumbers& numbers) {
-  return points_where(
-      problem, [&](std::size_t point, const BulgeArc& before, const BulgeArc& after) {
-        return is_almost_smooth(numbers.joints[point], before, after, problem.fine_tolerance);
-      });
+std::vector<AlmostSmooth> almost_smooth_joints(const Problem& problem,
+                                               const site::SiteNumbers& numbers) {
+  std::vector<AlmostSmooth> found;
+  for_each_joint(problem, [&](std::size_t point, const BulgeArc& before, const BulgeArc& after) {
+    const double share =
+        doubtful_share(numbers.joints[point], before, after, problem.fine_tolerance);
+    if (share > 0) found.push_back({point, share});
+  });
+  return found;
 }
 
 namespace {

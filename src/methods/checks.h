@@ -21,22 +21,32 @@ std::optional<Error> refuse(const Shape& shape, const Options& options);
 /// Whether an edge is an arc. O(n).
 bool has_arcs(const Shape& shape);
 
-/// Whether an edge is an arc that is so small that double does not know on which side of a joint or
-/// a bridge a foot on it is: an angle of rounding over the radius. The foot of the same disk on
-/// another site may then be off by as much, and the disk reaches over that by half the square.
-bool is_tiny_arc(const BulgeArc& local);
-/// Whether two edges, one of them an arc, meet almost smoothly, but not up to rounding: at an angle
-/// so small that a disk of the arc's radius reaches over a straight edge there by at most the
-/// tolerance, or that the shorter edge rises by no more. A blunt joint has no leaf, though disks
-/// lead towards it, and rounding decides in which order disks touch a reflex vertex and its edges.
-/// In local units.
-bool is_almost_smooth(site::Joint joint, const BulgeArc& before, const BulgeArc& after,
+/// Whether an edge of a shape with arcs is so small that double does not know on which side of a
+/// joint or a bridge a foot on it or beside it is. On a tiny arc a foot is off by an angle of
+/// rounding over the radius, and that of the same disk on another site may be off by as much; the
+/// disk reaches over that by half the square. A disk that touches a longer arc within rounding has
+/// its feet anywhere on a tiny edge beside that. In local units.
+bool is_tiny_edge(const BulgeArc& local);
+/// Where two edges, one of them an arc, meet almost smoothly, double may be wrong about what a disk
+/// touches that nearly is the circle of one of them. How near, as a share of its radius; 0 where
+/// it never is. In local units. An angle is almost smooth, but not up to rounding, if a disk of the
+/// arc's radius reaches over a straight edge there by at most the tolerance, or the shorter edge
+/// rises by no more. A blunt joint has no leaf, though disks lead towards it, and rounding decides
+/// in which order disks touch a reflex vertex and its edges. A reflex angle that counts as smooth,
+/// since an edge is short, lets a disk reach over it by half its square over the difference of
+/// their curvatures.
+double doubtful_share(site::Joint joint, const BulgeArc& before, const BulgeArc& after,
                       double tolerance);
-/// The points of a shape at which tiny arcs begin, and those at which edges meet almost smoothly:
-/// next to these double may be wrong about what a disk touches. O(n).
-std::vector<std::size_t> tiny_arcs(const Problem& problem);
-std::vector<std::size_t> almost_smooth_joints(const Problem& problem,
-                                              const site::SiteNumbers& numbers);
+/// The points of a shape with arcs at which tiny edges begin: next to these double may be wrong
+/// about what a disk touches. O(n).
+std::vector<std::size_t> tiny_edges(const Problem& problem);
+/// A point at which edges meet almost smoothly.
+struct AlmostSmooth {
+  std::size_t point;
+  double share;  ///< doubtful_share()
+};
+std::vector<AlmostSmooth> almost_smooth_joints(const Problem& problem,
+                                               const site::SiteNumbers& numbers);
 
 /// The options that every exact computation has: the tolerance and the number of threads.
 std::optional<Error> refuse(const Options& options);

@@ -271,17 +271,20 @@ bool turns_back(const Control& control, const Site& a, const Site& b, const Disk
       if (foot < first - beside || foot > last + beside) return true;
       continue;
     }
-    if (std::abs(s->curvature) < 1 && !s->is_vertex()) continue;  // its centre is far away
     const Vec2 focus = focus_of(*s);
     const Vec2 first = from.center - focus, last = to.center - focus;
     const Vec2 between = control.point.center - focus;
     // Opposite ends as seen from the focus leave open on which side the edge passes it.
     if (s->is_arc() && !(dot(first, last) > 0)) continue;
+    // What products of vectors from a centre that is far away lose.
+    const double size = std::max({1.0, squared_norm(first), squared_norm(last)});
+    const auto differ = [&](double u, double v, double least) {
+      return std::abs(u) > least * size && std::abs(v) > least * size && (u > 0) != (v > 0);
+    };
+    const double there = cross(first, between), onward = cross(between, last);
+    if (differ(there, onward, beside)) return true;
     const double by_chord = cross(first, last);
-    const double turn =
-        by_chord + 2 * control.weight * (cross(first, between) + cross(between, last));
-    const bool is_known = std::abs(by_chord) > rounding && std::abs(turn) > rounding;
-    if (is_known && (turn > 0) != (by_chord > 0)) return true;
+    if (differ(by_chord, by_chord + 2 * control.weight * (there + onward), rounding)) return true;
   }
   return false;
 }

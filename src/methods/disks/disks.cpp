@@ -231,33 +231,41 @@ std::vector<bool> components_of(const Shape& shape, const SiteNumbers& numbers,
 }
 
 /// Whether a disk of an axis nearly is the circle of a convex arc that begins or ends at one of
-/// these points. There feet move far along the arc while the centre hardly moves. O(n log n).
+/// these joints. There feet move far along the arc while the centre hardly moves. O(n log n).
 bool fills_arcs_beside(const Shape& shape, const SiteNumbers& numbers,
-                       const std::vector<std::size_t>& points, const MedialAxis& axis) {
+                       const std::vector<AlmostSmooth>& joints, const MedialAxis& axis) {
   if (axis.sites.empty()) return false;  // cancelled
-  std::vector<Disk> circles;
-  const auto add = [&](std::size_t point) {
+  struct Circle {
+    Disk disk;
+    double near;  ///< that a share of its radius away is near
+  };
+  std::vector<Circle> circles;
+  double nearest = 0;
+  const auto add = [&](std::size_t point, double share) {
     const medial::Site& edge = axis.sites[numbers.edge[point]];
     const BulgeArc arc{edge.start, edge.end, edge.bulge};
     if (!(arc.bulge > 0)) return;
     const double radius = 1 / curvature(arc);
-    circles.push_back({arc.start + radius * left_of(start_tangent(arc)), radius});
+    circles.push_back({{arc.start + radius * left_of(start_tangent(arc)), radius}, share * radius});
+    nearest = std::max(nearest, share);
   };
-  for (const std::size_t point : points) {
+  for (const auto [point, share] : joints) {
     const auto loop = std::upper_bound(shape.loop_begin.begin(), shape.loop_begin.end(), point) - 1;
-    add(point);
-    add(point > *loop ? point - 1 : loop[1] - 1);
+    add(point, share);
+    add(point > *loop ? point - 1 : loop[1] - 1, share);
   }
   if (circles.empty()) return false;
-  ranges::sort(circles, {}, &Disk::radius);
-  constexpr double near = 0x1p-10;
+  const auto radius_of = [](const Circle& circle) { return circle.disk.radius; };
+  ranges::sort(circles, {}, radius_of);
   constexpr std::size_t looks = 64;  // of each node on average; where there are more, it is likely
   std::size_t budget = looks * (axis.nodes.size() + circles.size());
   for (const auto& [disk, component, kind] : axis.nodes) {
-    const double slack = near * disk.radius;
-    for (auto circle = ranges::lower_bound(circles, disk.radius - slack, {}, &Disk::radius);
-         circle != circles.end() && circle->radius <= disk.radius + slack; ++circle)
-      if (squared_norm(circle->center - disk.center) <= slack * slack || budget-- == 0) return true;
+    const double most = disk.radius * (1 + nearest);
+    for (auto circle = ranges::lower_bound(circles, disk.radius * (1 - nearest), {}, radius_of);
+         circle != circles.end() && radius_of(*circle) <= most; ++circle)
+      if (budget-- == 0 || (std::abs(radius_of(*circle) - disk.radius) <= circle->near &&
+                            distance(circle->disk.center, disk.center) <= circle->near))
+        return true;
   }
   return false;
 }
@@ -280,14 +288,14 @@ bool turn_to_next(const Problem& problem, const SiteNumbers& numbers,
 /// with ties kept apart.
 Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbers, int attempts) {
   const bool with_arcs = has_arcs(problem.shape);
-  std::vector<std::size_t> doubtful = tiny_arcs(problem);
-  const bool has_tiny_arcs = !doubtful.empty();
-  const std::vector<std::size_t> joints = almost_smooth_joints(problem, numbers);
-  doubtful.insert(doubtful.end(), joints.begin(), joints.end());
+  std::vector<std::size_t> doubtful = tiny_edges(problem);
+  const bool has_tiny_edges = !doubtful.empty();
+  const std::vector<AlmostSmooth> joints = almost_smooth_joints(problem, numbers);
+  for (const auto [point, share] : joints) doubtful.push_back(point);
   // Next to arcs, a walk that merges nothing, or far more than rounding, is measured, too.
   constexpr double coarse = 8;
   const bool is_coarse = problem.tolerance > coarse * problem.joint_tolerance;
-  const bool is_measured = with_arcs && (problem.options.exact || has_tiny_arcs || is_coarse);
+  const bool is_measured = with_arcs && (problem.options.exact || has_tiny_edges || is_coarse);
   std::optional<Error> error;
   Way way{{}, !problem.options.exact, attempts};
   std::vector<std::uint32_t> lost;

@@ -102,19 +102,19 @@ class Repairer {
                             border_error * measures_.fine_tolerance);
   }
 
-  /// Whether the window has tiny arcs or joints that are almost smooth: next to them compute() may
+  /// Whether the window has tiny edges or joints that are almost smooth: next to them compute() may
   /// measure the axis.
   bool has_doubtful_points() const {
     const auto edge = [&](std::uint32_t v) -> BulgeArc {
       return {rings_.local(v), rings_.local(rings_.corner_after(v)), rings_[v].bulge};
     };
     const auto is_doubtful = [&](std::uint32_t v) {
-      return is_almost_smooth(rings_[v].joint, edge(rings_.corner_before(v)), edge(v),
-                              measures_.fine_tolerance);
+      return doubtful_share(rings_[v].joint, edge(rings_.corner_before(v)), edge(v),
+                            measures_.fine_tolerance) > 0;
     };
     return std::any_of(window_.names.begin(), window_.names.end(), [&](std::uint32_t name) {
       const std::uint32_t vertex = name / 2;
-      return Rings::is_edge(name) && (is_tiny_arc(edge(vertex)) || is_doubtful(vertex) ||
+      return Rings::is_edge(name) && (is_tiny_edge(edge(vertex)) || is_doubtful(vertex) ||
                                       is_doubtful(rings_.corner_after(vertex)));
     });
   }
