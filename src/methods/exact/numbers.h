@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -162,10 +164,23 @@ struct Bounded<exact::Float<digits>> {
     constexpr int bits = std::numeric_limits<mp_limb_t>::digits;
     const auto* limbs = static_cast<const mp_limb_t*>(mpfr_custom_get_significand(number));
     const auto count = (mpfr_get_prec(number) + bits - 1) / bits;
+    const auto exponent = static_cast<int>(mpfr_custom_get_exp(number));
+    // x87's format is a limb with a leading one and an exponent; std::ldexp() takes ten times as
+    // long as to put them together.
+    constexpr bool is_x87 = std::numeric_limits<Size>::digits == 64 && bits == 64;
+    constexpr int bias = 16382, largest = 32767;
+    if (is_x87 && exponent > -bias && exponent < largest - bias) {
+      const std::uint64_t leading = limbs[count - 1];
+      const auto biased = static_cast<std::uint16_t>(exponent + bias);
+      Size size = 0;
+      std::memcpy(&size, &leading, sizeof leading);
+      std::memcpy(reinterpret_cast<char*>(&size) + sizeof leading, &biased, sizeof biased);
+      return size;
+    }
     constexpr Size limb = bits == 64 ? 0x1p64L : 0x1p32L;
     const Size leading =
         static_cast<Size>(limbs[count - 1]) * limb + static_cast<Size>(limbs[count - 2]);
-    return std::ldexp(leading, static_cast<int>(mpfr_custom_get_exp(number)) - 2 * bits);
+    return std::ldexp(leading, exponent - 2 * bits);
 #endif
   }
 };
