@@ -154,6 +154,21 @@ TEST(VerifyArcs, OfDisksThatReachEquallyFarAnyMayFillAGap) {
   }
 }
 
+/// The circle's last point, where its arcs join smoothly, is the reflex vertex of the other shape.
+TEST(VerifyArcs, AVertexThatAnotherComponentTouches) {
+  const Ring circle{{{-2, 0}, {0, 0}}, RingRole::any, {1, 1}};
+  const Ring other{{{0, 0}, {-1e-8, -1}, {2, -1}, {2, 1}, {-1e-8, 1}}};
+  for (const auto& rings : {std::vector{circle, other}, std::vector{other, circle}}) {
+    const auto shape = build_shape(rings);
+    ASSERT_TRUE(shape) << to_string(shape.error());
+    ASSERT_EQ(shape->component_count(), 2U);
+    const auto axis = compute(*shape);
+    ASSERT_TRUE(axis) << to_string(axis.error());
+    const Certificate certificate = verify(*shape, *axis);
+    EXPECT_TRUE(certificate.passed) << certificate.failures.front();
+  }
+}
+
 TEST(VerifyArcsFinds, MovedNodes) {
   for (const HandMadeArcs& m : all_hand_made_arcs()) {
     for (std::size_t i = 0; i < m.axis.nodes.size(); ++i) {

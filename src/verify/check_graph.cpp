@@ -240,8 +240,9 @@ void read_boundary(Problem& problem, double corner_angle, Certificate& certifica
   }
 }
 
-/// Finds the boundary points of sites. These mostly come in the order of the boundary, so the point
-/// after the last one is tried first; otherwise points are looked up by their coordinates.
+/// Finds the boundary points of sites. These mostly come in the order of the boundary, a vertex
+/// before the edge that begins there, so the points that follow are tried first: several loops may
+/// touch in one place. Otherwise points are looked up by their coordinates.
 class PlaceFinder {
  public:
   explicit PlaceFinder(const Problem& problem) : problem_(problem), shape_(problem.shape) {}
@@ -250,10 +251,10 @@ class PlaceFinder {
   std::uint32_t place_of(const Site& site) {
     const auto count = static_cast<std::uint32_t>(shape_.points.size());
     std::uint32_t place = no_index;
-    for (std::uint32_t i = last_; i < std::min(last_ + 2, count) && place == no_index; ++i)
+    for (std::uint32_t i = next_; i < std::min(next_ + 2, count) && place == no_index; ++i)
       if (fits(site, i)) place = i;
     if (place == no_index) place = look_up(site);
-    if (place != no_index) last_ = place;
+    if (place != no_index) next_ = site.kind() == SiteKind::vertex ? place : place + 1;
     return place;
   }
 
@@ -285,7 +286,7 @@ class PlaceFinder {
   const Problem& problem_;
   const Shape& shape_;
   std::vector<std::uint32_t> sorted_;  ///< points by their coordinates; made when first needed
-  std::uint32_t last_ = 0;
+  std::uint32_t next_ = 0;
 };
 
 void locate_sites(Problem& problem, Certificate& certificate) {
