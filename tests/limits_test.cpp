@@ -151,6 +151,16 @@ TEST(Limits, ADiskOf5em56BesideASizeOf85) {
                                 {0, 4.871333627475911e-56}}));
 }
 
+// Found by fuzzing: the edge below a needle ends beside its vertices, at less than 2^-128 of the
+// way.
+TEST(Limits, AnEventAtTheEndOfALongWay) {
+  expect_verified_axes(ring_of({{14, 87},
+                                {42, -63},
+                                {42.000000000006366, -63.000000000008185},
+                                {-86, 96},
+                                {1.5177100720513508e+82, 0}}));
+}
+
 // At a corner a disk's radius grows by the cosine of half the turn along the bisector: next to an
 // edge that is nearly parallel to one of the sides, 1 in its place took an open disk for certain.
 TEST(Limits, DisksInACornerBesideANearlyParallelEdge) {

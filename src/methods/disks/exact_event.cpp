@@ -79,8 +79,9 @@ class Search {
   static constexpr double rounding = 0x1p-47;
   /// No two points of the local frame are further apart.
   static constexpr double furthest = 8;
-  /// An event nearer to the node than what this leaves of the way is touched by the node's disk.
-  static constexpr int most_halvings = 128;
+  /// An event nearer to the node than what this leaves of the way is touched by the node's disk:
+  /// what is_wide() has points as near to each other as doubles are.
+  static constexpr int most_halvings = std::is_same_v<Real, Wide> ? 1200 : 128;
 
   exact::ExactSite exact_site(std::uint32_t i) const { return outline_.sites[name(i)]; }
   std::uint32_t name(std::uint32_t i) const { return boundary_.originals[i]; }
