@@ -168,14 +168,16 @@ struct Bounded<exact::Float<digits>> {
     // x87's format is a limb with a leading one and an exponent; std::ldexp() takes ten times as
     // long as to put them together.
     constexpr bool is_x87 = std::numeric_limits<Size>::digits == 64 && bits == 64;
-    constexpr int bias = 16382, largest = 32767;
-    if (is_x87 && exponent > -bias && exponent < largest - bias) {
-      const std::uint64_t leading = limbs[count - 1];
-      const auto biased = static_cast<std::uint16_t>(exponent + bias);
-      Size size = 0;
-      std::memcpy(&size, &leading, sizeof leading);
-      std::memcpy(reinterpret_cast<char*>(&size) + sizeof leading, &biased, sizeof biased);
-      return size;
+    if constexpr (is_x87) {
+      constexpr int bias = 16382, largest = 32767;
+      if (exponent > -bias && exponent < largest - bias) {
+        const std::uint64_t leading = limbs[count - 1];
+        const auto biased = static_cast<std::uint16_t>(exponent + bias);
+        Size size = 0;
+        std::memcpy(&size, &leading, sizeof leading);
+        std::memcpy(reinterpret_cast<char*>(&size) + sizeof leading, &biased, sizeof biased);
+        return size;
+      }
     }
     constexpr Size limb = bits == 64 ? 0x1p64L : 0x1p32L;
     const Size leading =
