@@ -176,7 +176,7 @@ TEST(AlmostSmoothJoint, BesideAShortArcNextToADiskOfItsRadius) {
                      0.0055849662476476535, 0.0}}});
 }
 
-/// Edges of 1e-11 at the ends of a slot: all but half of their disks touch the arc as well, within
+/// Edges of 1e-11 at the ends of a slot: disks that touch them touch the arc as well, within
 /// rounding.
 TEST(AlmostSmoothJoint, TinyEdgesBesideAnArc) {
   expect_verified({{{{0.2825933275238482, -0.00017739858858061214},

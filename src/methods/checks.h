@@ -27,14 +27,15 @@ bool has_arcs(const Shape& shape);
 /// disk reaches over that by half the square. A disk that touches a longer arc within rounding has
 /// its feet anywhere on a tiny edge beside that. In local units.
 bool is_tiny_edge(const BulgeArc& local);
-/// Where two edges, one of them an arc, meet almost smoothly, double may be wrong about what a disk
-/// touches that nearly is the circle of one of them. How near, as a share of its radius; 0 where
-/// it never is. In local units. An angle is almost smooth, but not up to rounding, if a disk of the
-/// arc's radius reaches over a straight edge there by at most the tolerance, or the shorter edge
-/// rises by no more. A blunt joint has no leaf, though disks lead towards it, and rounding decides
-/// in which order disks touch a reflex vertex and its edges. A reflex angle that counts as smooth,
-/// since an edge is short, lets a disk reach over it by half its square over the difference of
-/// their curvatures.
+/// How near a disk must come to the circle of an arc for double to be wrong about what it touches
+/// where the arc meets another edge almost smoothly: a share of the arc's radius, 0 where double is
+/// never wrong. In local units.
+///
+/// A joint is almost smooth if a disk of the arc's radius reaches over a straight edge there by at
+/// most the tolerance, or if the shorter edge rises by no more: a blunt joint has no leaf, though
+/// disks lead towards it, and rounding decides in which order disks touch a reflex vertex and its
+/// edges. A reflex joint that counts as smooth, since an edge is short, is almost smooth as well: a
+/// disk reaches over it by half the square of its angle over the difference of the curvatures.
 double doubtful_share(site::Joint joint, const BulgeArc& before, const BulgeArc& after,
                       double tolerance);
 /// The points of a shape with arcs at which tiny edges begin: next to these double may be wrong

@@ -276,7 +276,7 @@ bool turns_back(const Control& control, const Site& a, const Site& b, const Disk
     const Vec2 between = control.point.center - focus;
     // Opposite ends as seen from the focus leave open on which side the edge passes it.
     if (s->is_arc() && !(dot(first, last) > 0)) continue;
-    // What products of vectors from a centre that is far away lose.
+    // Products of vectors from a distant centre lose digits in proportion to this.
     const double size = std::max({1.0, squared_norm(first), squared_norm(last)});
     const auto differ = [&](double u, double v, double least) {
       return std::abs(u) > least * size && std::abs(v) > least * size && (u > 0) != (v > 0);

@@ -237,17 +237,17 @@ bool fills_arcs_beside(const Shape& shape, const SiteNumbers& numbers,
   if (axis.sites.empty()) return false;  // cancelled
   struct Circle {
     Disk disk;
-    double near;  ///< that a share of its radius away is near
+    double near;  ///< a disk this far away, or nearer, nearly is the circle
   };
   std::vector<Circle> circles;
-  double nearest = 0;
+  double largest_share = 0;
   const auto add = [&](std::size_t point, double share) {
     const medial::Site& edge = axis.sites[numbers.edge[point]];
     const BulgeArc arc{edge.start, edge.end, edge.bulge};
     if (!(arc.bulge > 0)) return;
     const double radius = 1 / curvature(arc);
     circles.push_back({{arc.start + radius * left_of(start_tangent(arc)), radius}, share * radius});
-    nearest = std::max(nearest, share);
+    largest_share = std::max(largest_share, share);
   };
   for (const auto [point, share] : joints) {
     const auto loop = std::upper_bound(shape.loop_begin.begin(), shape.loop_begin.end(), point) - 1;
@@ -260,8 +260,9 @@ bool fills_arcs_beside(const Shape& shape, const SiteNumbers& numbers,
   constexpr std::size_t looks = 64;  // of each node on average; where there are more, it is likely
   std::size_t budget = looks * (axis.nodes.size() + circles.size());
   for (const auto& [disk, component, kind] : axis.nodes) {
-    const double most = disk.radius * (1 + nearest);
-    for (auto circle = ranges::lower_bound(circles, disk.radius * (1 - nearest), {}, radius_of);
+    const double most = disk.radius * (1 + largest_share);
+    for (auto circle =
+             ranges::lower_bound(circles, disk.radius * (1 - largest_share), {}, radius_of);
          circle != circles.end() && radius_of(*circle) <= most; ++circle)
       if (budget-- == 0 || (std::abs(radius_of(*circle) - disk.radius) <= circle->near &&
                             distance(circle->disk.center, disk.center) <= circle->near))

@@ -79,8 +79,8 @@ class Search {
   static constexpr double rounding = 0x1p-47;
   /// No two points of the local frame are further apart.
   static constexpr double furthest = 8;
-  /// An event nearer to the node than what this leaves of the way is touched by the node's disk:
-  /// what is_wide() has points as near to each other as doubles are.
+  /// An event nearer to the node than what this leaves of the way is touched by the node's disk. A
+  /// shape that is_wide() may have points as near to each other as doubles can be.
   static constexpr int most_halvings = std::is_same_v<Real, Wide> ? 1200 : 128;
 
   exact::ExactSite exact_site(std::uint32_t i) const { return outline_.sites[name(i)]; }
