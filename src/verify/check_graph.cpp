@@ -50,13 +50,30 @@ struct Corner {
   }
 };
 
+/// Whether no disk that touches two edges of a boundary, one of them a convex arc, is larger than
+/// this one by more than the tolerance.
+bool is_largest_between(const BoundaryEdge& before, const BoundaryEdge& after, const Disk& disk,
+                        double tolerance) {
+  const bool by_first = curvature(before) > curvature(after);
+  const BoundaryEdge &rounder = by_first ? before : after, &other = by_first ? after : before;
+  if (!(rounder.bulge > 0)) return false;
+  const Arc arc(rounder);
+  const double radius = 1 / arc.curvature();
+  const Vec2 center = rounder.start - radius * arc.from_center(rounder.start);
+  // The largest one touches the two in opposite places, on a line through the arc's centre.
+  const double away = other.bulge != 0
+                          ? Arc(other).carrier_distance(center)
+                          : cross(other.chord(), center - other.start) / norm(other.chord());
+  return disk.radius >= 0.5 * (radius + away) - tolerance;
+}
+
 /// Whether an edge may end with a radius above 0: what lies between the two feet of its last disk
 /// is touched by that disk, and is an arc of convex curvature, the largest thereabouts because its
-/// circle lies inside; or a blunt joint, whose leaf is left out; or a joint that is smooth, but
-/// convex within rounding, if the disk at the edge's other end does not touch that within the
-/// tolerance of a computation: else the axis would have ended there. Looks at
-/// `budget` boundary edges at most, and takes those away from it: no two leaves of a right axis
-/// look at the same one.
+/// circle lies inside; or a blunt joint, whose leaf is left out; or any joint but a corner, if no
+/// disk further on is larger; or a joint that is smooth, but convex within rounding, if the disk at
+/// the edge's other end does not touch that within the tolerance of a computation: else the axis
+/// would have ended there. Looks at `budget` boundary edges at most, and takes those away from it:
+/// no two leaves of a right axis look at the same one.
 bool ends_at_arc(const Problem& problem, const Edge& edge, std::size_t end, std::size_t& budget) {
   const auto place = [&](std::size_t side) { return problem.place[edge.site[side]]; };
   const auto is_vertex = [&](std::size_t side) {
@@ -71,7 +88,7 @@ bool ends_at_arc(const Problem& problem, const Edge& edge, std::size_t end, std:
   bool arcs = false, turns = false;
   double farthest = 0;
   OpenAtJoints open(problem, disk.radius);
-  const Disk& before = problem.disk(edge.node[1 - end]);
+  const Disk& other_end = problem.disk(edge.node[1 - end]);
   const auto deviation = [&](const BoundaryEdge& on) {
     double worst = 0;
     for (const Vec2 p : {on.start, apex(on), on.end})
@@ -81,7 +98,7 @@ bool ends_at_arc(const Problem& problem, const Edge& edge, std::size_t end, std:
   const auto add_joint = [&](std::uint32_t i) {
     turns = turns || (problem.joint[i] == Joint::smooth &&
                       turn_between(problem.edge(problem.previous[i]), problem.edge(i)) > 0 &&
-                      distance(before.center, problem.point(i)) - before.radius >
+                      distance(other_end.center, problem.point(i)) - other_end.radius >
                           std::min(problem.tolerance, own_tolerance));
     open.add(i);
   };
@@ -100,12 +117,16 @@ bool ends_at_arc(const Problem& problem, const Edge& edge, std::size_t end, std:
     const BoundaryEdge touched = problem.edge(place(side));
     arcs = arcs || (!is_vertex(side) && touched.bulge > 0 && deviation(touched) <= limit);
   }
-  // Between two edges that join bluntly there is no branch, unless the disk touches all of one.
-  bool blunt = open.value() > 0;
-  if (blunt && first == place(left) && !is_vertex(left))
-    blunt = deviation(problem.edge(place(right))) <= limit ||
-            deviation(problem.edge(place(left))) <= limit;
-  return (arcs || blunt || turns) && farthest <= limit;
+  // Between two edges that join bluntly there is no branch, unless the disk touches all of one, or
+  // is the largest.
+  bool blunt = open.value() > 0, largest = false;
+  if (first == place(left) && !is_vertex(left) && !is_vertex(right)) {
+    const BoundaryEdge before = problem.edge(place(right)), after = problem.edge(place(left));
+    blunt = blunt && (deviation(before) <= limit || deviation(after) <= limit);
+    largest = problem.joint[first] != Joint::corner &&
+              is_largest_between(before, after, disk, problem.tolerance);
+  }
+  return (arcs || blunt || turns || largest) && farthest <= limit;
 }
 
 }  // namespace

@@ -432,12 +432,54 @@ std::optional<ExactEvent> search(const WalkContext& context, const Span& span, c
   return found;
 }
 
+/// The largest disk that touches two edges, one of them a convex arc at least: in opposite places,
+/// on the line through a circle's centre that is across the other edge. None where the two feet, on
+/// the way from a node's disk to the joint of the edges, do not pass there.
 template <class Real>
-std::optional<Disk> leaf_on_bisector(const WalkContext& context, std::uint32_t before,
-                                     std::uint32_t after, const Disk& node) {
+std::optional<Disk> largest_on_way(const exact::ExactSite& first, const exact::ExactSite& second,
+                                   const Disk& node) {
+  using Number = Bounded<Real>;
+  // Of signed radius, as curvature is.
+  const auto circle_of = [](const exact::ExactSite& arc) -> exact::DiskBounds<Real> {
+    const auto spoke = exact::spoke_of<Number>(arc, false);
+    const Number times = Number(1.0) / Number(4 * arc.bulge);
+    return {spoke.foot + times * spoke.normal, times * spoke.size};
+  };
+  const auto curvature_of = [](const exact::ExactSite& edge) {
+    return curvature(BulgeArc{edge.start, edge.end, edge.bulge});
+  };
+  const bool by_first = curvature_of(first) > curvature_of(second);
+  const exact::ExactSite &arc = by_first ? first : second, &other = by_first ? second : first;
+  if (!(arc.bulge > 0)) return std::nullopt;
+  const auto own = circle_of(arc);
+  // Away from the other edge, and by how much the centre is.
+  auto away = exact::normal_of<Number>(other, false);
+  Number distance = dot(away, own.center - exact::exact_vector<Number>(other.start));
+  Number size = root_of(dot(away, away));
+  if (other.is_arc()) {
+    const auto circle = circle_of(other);
+    away = other.bulge > 0 ? circle.center - own.center : own.center - circle.center;
+    size = root_of(dot(away, away));
+    distance = circle.radius + (other.bulge > 0 ? -size : size);
+  } else {
+    distance = distance / size;
+  }
+  const auto side_of = [&](Vec2 place) {
+    return cross(away, exact::exact_vector<Number>(place) - own.center).sign().value_or(0);
+  };
+  if (side_of(node.center) * side_of(first.end) >= 0) return std::nullopt;
+  const Number radius = Number(0.5) * (own.radius + distance);
+  const exact::DiskBounds<Real> largest{own.center + ((own.radius - radius) / size) * away, radius};
+  return rounded(largest);
+}
+
+/// On the bisector of two edges, the first disk tried, halving the way from a node's, that touches
+/// their joint within half of the tolerance.
+template <class Real>
+std::optional<Disk> next_to_joint(const WalkContext& context, const exact::ExactSite& first,
+                                  const exact::ExactSite& second, const Disk& node) {
   using Number = Bounded<Real>;
   constexpr int enough = 64;  // halvings, after which feet are in one place to rounding
-  const exact::ExactSite first = context.exact.site(before), second = context.exact.site(after);
   const auto away = [&](const Disk& disk) {
     return std::abs(distance(disk.center, first.end) - disk.radius);
   };
@@ -452,6 +494,15 @@ std::optional<Disk> leaf_on_bisector(const WalkContext& context, std::uint32_t b
   return std::nullopt;
 }
 
+template <class Real>
+Disk end_toward_joint(const WalkContext& context, std::uint32_t before, std::uint32_t after,
+                      const Disk& node) {
+  const exact::ExactSite first = context.exact.site(before), second = context.exact.site(after);
+  const Disk end = largest_on_way<Real>(first, second, node).value_or(node);
+  if (!context.ends_smoothly(before)) return end;
+  return next_to_joint<Real>(context, first, second, end).value_or(end);
+}
+
 }  // namespace
 
 std::optional<ExactEvent> next_exactly(const WalkContext& context, const Span& span,
@@ -464,10 +515,16 @@ std::optional<ExactEvent> start_exactly(const WalkContext& context, const Span& 
   return search(context, whole, about, hint, false, true);
 }
 
-std::optional<Disk> leaf_toward_joint(const WalkContext& context, std::uint32_t before,
-                                      std::uint32_t after, const Disk& node) {
-  return context.exact.outline().is_wide ? leaf_on_bisector<Wide>(context, before, after, node)
-                                         : leaf_on_bisector<Precise>(context, before, after, node);
+Disk end_toward_joint(const WalkContext& context, std::uint32_t before, std::uint32_t after,
+                      const Disk& node) {
+  // Ahead of feet that are less than a half turn apart the radius shrinks.
+  constexpr double clear = 0x1p-20;
+  const site::Site &first = context.boundary.sites[before], &second = context.boundary.sites[after];
+  const bool shrinks =
+      cross(site::outward(first, node.center), site::outward(second, node.center)) > clear;
+  if (shrinks && !context.ends_smoothly(before)) return node;
+  return context.exact.outline().is_wide ? end_toward_joint<Wide>(context, before, after, node)
+                                         : end_toward_joint<Precise>(context, before, after, node);
 }
 
 }  // namespace medial::disks

@@ -32,11 +32,12 @@ std::optional<ExactEvent> next_exactly(const WalkContext& context, const Span& s
 std::optional<ExactEvent> start_exactly(const WalkContext& context, const Span& whole,
                                         const Disk& about, std::uint32_t hint);
 
-/// Where an edge ends towards a joint of the edges `before` and `after` that counts as smooth: on
-/// their bisector, at the first disk tried, halving the way from the edge's node, that touches the
-/// joint within half of the tolerance. None if the node's does within the tolerance, as it mostly
-/// does; else the two are arcs of nearly one circle.
-std::optional<Disk> leaf_toward_joint(const WalkContext& context, std::uint32_t before,
-                                      std::uint32_t after, const Disk& node);
+/// The disk at which an edge ends that leads from a node towards the blunt joint of the edges
+/// `before` and `after`; the node's own, if the edge is left out. On the way the radius shrinks,
+/// and no edge is needed; but where both are arcs of nearly one circle it may grow first, up to the
+/// largest disk of their bisector. If the joint counts as smooth, the edge goes on until its disk
+/// touches the joint within the tolerance, as most nodes' do.
+Disk end_toward_joint(const WalkContext& context, std::uint32_t before, std::uint32_t after,
+                      const Disk& node);
 
 }  // namespace medial::disks

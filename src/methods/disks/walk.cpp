@@ -397,12 +397,15 @@ class Walker {
     chunk_.links.push_back({{from, to}, {span.left, span.right}});
   }
 
-  /// Where an edge ends that leads from a node towards the joint of two edges, if that is blunt as
-  /// the doubles have it and counts as smooth. The node of a run that begins there is the joint.
+  /// Where an edge ends that leads from a node towards the joint of two edges, if that is blunt and
+  /// the edge is not left out. The node of a run that begins there is the joint.
   std::optional<Disk> blunt_leaf(std::uint32_t before, std::uint32_t after,
                                  const Disk& node) const {
-    if (!context_.ends_smoothly(before)) return std::nullopt;
-    return leaf_toward_joint(context_, before, after, node);
+    if (element(before) != Element::edge || element(after) != Element::edge ||
+        boundary_.joint(before) != site::Joint::blunt)
+      return std::nullopt;
+    const Disk end = end_toward_joint(context_, before, after, node);
+    return coincide(node, end) ? std::nullopt : std::optional(end);
   }
 
   /// The node of a step's event, with the edge that leads there; the old node where it is that one.
