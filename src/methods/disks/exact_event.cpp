@@ -470,6 +470,8 @@ std::optional<Disk> largest_on_way(const exact::ExactSite& first, const exact::E
   if (side_of(node.center) * side_of(first.end) >= 0) return std::nullopt;
   const Number radius = Number(0.5) * (own.radius + distance);
   const exact::DiskBounds<Real> largest{own.center + ((own.radius - radius) / size) * away, radius};
+  if (!exact::may_have_foot(first, largest) || !exact::may_have_foot(second, largest))
+    return std::nullopt;
   return rounded(largest);
 }
 
@@ -498,7 +500,9 @@ template <class Real>
 Disk end_toward_joint(const WalkContext& context, std::uint32_t before, std::uint32_t after,
                       const Disk& node) {
   const exact::ExactSite first = context.exact.site(before), second = context.exact.site(after);
-  const Disk end = largest_on_way<Real>(first, second, node).value_or(node);
+  Disk end = node;
+  if (const auto largest = largest_on_way<Real>(first, second, node))
+    if (largest->radius > node.radius + context.joints) end = *largest;
   if (!context.ends_smoothly(before)) return end;
   return next_to_joint<Real>(context, first, second, end).value_or(end);
 }

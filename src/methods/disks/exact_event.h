@@ -34,9 +34,9 @@ std::optional<ExactEvent> start_exactly(const WalkContext& context, const Span& 
 
 /// The disk at which an edge ends that leads from a node towards the blunt joint of the edges
 /// `before` and `after`; the node's own, if the edge is left out. On the way the radius shrinks,
-/// and no edge is needed; but where both are arcs of nearly one circle it may grow first, up to the
-/// largest disk of their bisector. If the joint counts as smooth, the edge goes on until its disk
-/// touches the joint within the tolerance, as most nodes' do.
+/// and no edge is needed; but where both are arcs of nearly one circle it may grow first, by more
+/// than the tolerance, up to the largest disk of their bisector. If the joint counts as smooth, the
+/// edge goes on until its disk touches the joint within the tolerance, as most nodes' do.
 Disk end_toward_joint(const WalkContext& context, std::uint32_t before, std::uint32_t after,
                       const Disk& node);
 
