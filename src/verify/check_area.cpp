@@ -167,15 +167,13 @@ bool all_paired(std::vector<Spoke>& spokes) {
 /// Feet nearly coincide that are seen under a smaller angle from the disk's centre.
 constexpr double nearly_one = 1e-3;
 
-/// The angle at an edge's end between its feet, on the side of the edge, in [0, 2 pi]. Feet that
-/// nearly coincide lie ahead of the edge or behind it, which `ahead` is then asked for.
-template <class Ahead>
-double angle_between_feet(Vec2 center, Vec2 right, Vec2 left, const Ahead& ahead) {
+/// The angle at an edge's end between its feet, on the side of the edge: of feet that nearly
+/// coincide about 0, or else in (0, 2 pi).
+double angle_between_feet(Vec2 center, Vec2 right, Vec2 left) {
   const double sine = doubled_triangle(center, right, left);
   const double cosine = dot(right - center, left - center);
   const double angle = std::atan2(sine, cosine);
-  if (std::abs(angle) < nearly_one) return ahead() ? angle : angle + 2 * std::numbers::pi;
-  return angle < 0 ? angle + 2 * std::numbers::pi : angle;
+  return angle <= -nearly_one ? angle + 2 * std::numbers::pi : angle;
 }
 
 /// A shape's own area and perimeter. Each loop's area is seen from a point of it: what lies far
@@ -290,68 +288,61 @@ class Slices {
     for (Spoke& spoke : spokes) spoke.foot = foot_on(*spoke.edge, spoke.side, spoke.end);
     return all_paired(spokes);
   }
-  /// Whether feet of an edge's end that nearly coincide lie ahead of the edge. They do where the
-  /// boundary passes on from the right one to the left one, and elsewhere where the radius shrinks
-  /// along the tangent, which points to the control point: through a gap it shrinks and grows
-  /// again. Around an arc's centre the tangent may cross the way there; then the other end decides.
-  bool leads_to_feet(const Edge& edge, std::size_t end, const Disk& disk) const {
-    const bool forward = passes_on(edge, 1 - end, end), backward = passes_on(edge, end, end);
-    if (forward != backward) return forward;
-    if (is_around_arc(edge, end)) return true;
-    const Disk& other = problem_.disk(edge.node[1 - end]);
-    // Ahead of one end of an edge of hardly any length, and behind the other: no matter which.
-    if (distance(disk.center, other.center) <= problem_.tolerance)
-      return end == 0 && !is_around_arc(edge, 1 - end);
-    // Where feet nearly coincide, the radius changes as fast as the centre moves.
-    const double growth = edge.control.radius - disk.radius;
-    const bool is_across = 2 * std::abs(growth) <= distance(edge.control.center, disk.center);
-    return (is_across ? other.radius - disk.radius : growth) < 0;
-  }
-  /// Whether an edge ends in a leaf whose disk touches all of a convex arc, with most of it between
-  /// the leaf's feet, as the boundary leads from the left one, past the leaf, to the right one.
-  bool is_around_arc(const Edge& edge, std::size_t end) const {
-    if (incidence_.degree(edge.node[end]) != 1 || incidence_.degree(edge.node[1 - end]) == 1)
-      return false;
-    const Disk& disk = problem_.disk(edge.node[end]);
-    const auto touches = [&](Vec2 place) {
-      return std::abs(distance(disk.center, place) - disk.radius) <= problem_.tolerance;
-    };
-    for (std::size_t side = 0; side < 2; ++side) {
-      const Site& arc = problem_.axis.sites[edge.site[side]];
-      const Vec2 last = side == end ? arc.end : arc.start;
-      if (arc.bulge > 0 && distance(foot_on(edge, side, end), last) > nearly_one * disk.radius &&
-          touches(arc.start) && touches(apex(edge_of(arc))) && touches(arc.end))
-        return true;
-    }
-    return false;
-  }
-  /// Whether the boundary leads from one edge to another past few vertices, which all lie where the
-  /// disk's feet on the two nearly coincide.
-  bool passes_on(const Edge& edge, std::size_t side, std::size_t end) const {
-    const std::uint32_t site = edge.site[side], other = edge.site[1 - side];
-    const Disk& disk = problem_.disk(edge.node[end]);
-    constexpr int most_vertices = 4;
-    for (const std::uint32_t i : {site, other})
-      if (problem_.axis.sites[i].kind() == SiteKind::vertex || problem_.place[i] == no_index)
-        return false;
-    const Vec2 foot = foot_on(edge, side, end);
-    std::uint32_t point = problem_.place[site];
-    for (int k = 0; k < most_vertices; ++k) {
-      point = problem_.next[point];
-      if (!(distance(problem_.point(point), foot) <= nearly_one * disk.radius)) return false;
-      if (point == problem_.place[other]) return true;
-    }
-    return false;
-  }
-  /// What they leave of the full angle.
+  /// What they leave of the full angle. Feet that nearly coincide leave open whether next to nothing
+  /// lies between them, on the side of their edge, or all the way around; but one edge at most has
+  /// all the way, and then nothing is left.
   double angle_between(std::uint32_t node) const {
-    const Disk& disk = problem_.disk(node);
-    double angle = 2 * std::numbers::pi;
+    constexpr double whole = 2 * std::numbers::pi;
+    const Vec2 center = problem_.disk(node).center;
+    double angle = whole, open = 0;
     for_each_end(node, [&](const Edge& edge, std::size_t end) {
-      angle -= angle_between_feet(disk.center, foot_on(edge, 1 - end, end), foot_on(edge, end, end),
-                                  [&] { return leads_to_feet(edge, end, disk); });
+      const double one =
+          angle_between_feet(center, foot_on(edge, 1 - end, end), foot_on(edge, end, end));
+      open += std::abs(one) < nearly_one ? nearly_one : 0;
+      angle -= one;
     });
-    return angle;
+    const bool is_open = angle >= whole - std::min(open, std::numbers::pi);
+    return is_open && goes_on_around(node) ? angle - whole : angle;
+  }
+  /// Whether the boundary goes on, in a place as seen from a node, from every foot behind which
+  /// nothing is swept to one from which on there is.
+  bool goes_on_around(std::uint32_t node) const {
+    const auto place_of = [&](std::uint32_t site) {
+      const bool is_edge = problem_.axis.sites[site].kind() != SiteKind::vertex;
+      return 2 * std::size_t{problem_.place[site]} + (is_edge ? 1 : 0);
+    };
+    std::vector<std::size_t> begins;
+    for_each_end(node, [&](const Edge& edge, std::size_t end) {
+      begins.push_back(place_of(edge.site[1 - end]));
+    });
+    ranges::sort(begins);
+    const double near = nearly_one * problem_.disk(node).radius;
+    bool goes_on = true;
+    for_each_end(node, [&](const Edge& edge, std::size_t end) {
+      goes_on = goes_on && goes_on_from(place_of(edge.site[end]), foot_on(edge, end, end), near,
+                                        begins);
+    });
+    return goes_on;
+  }
+  /// Whether the boundary leads from a place to one of some others, past vertices near a foot.
+  /// Vertices and the edges that begin there are numbered in turn.
+  bool goes_on_from(std::size_t place, Vec2 foot, double near,
+                    const std::vector<std::size_t>& others) const {
+    constexpr int most_vertices = 64;
+    for (int vertices = 0; vertices < most_vertices;) {
+      if (std::binary_search(others.begin(), others.end(), place)) return true;
+      const auto point = static_cast<std::uint32_t>(place / 2);
+      if (point >= problem_.next.size()) return false;
+      if (place % 2 == 0) {
+        ++place;
+        continue;
+      }
+      const std::uint32_t next = problem_.next[point];
+      if (!(distance(problem_.point(next), foot) <= near)) return false;
+      place = 2 * std::size_t{next};
+      ++vertices;
+    }
+    return false;
   }
 
   const Problem& problem_;
