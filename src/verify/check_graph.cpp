@@ -452,11 +452,11 @@ void check_graph(const Problem& problem, bool part, Certificate& certificate) {
 
 namespace {
 
-/// The boundary point in which both sites of an edge meet, one after the other; or no_index.
-std::uint32_t joint_of_sites(const Problem& problem, const Edge& edge) {
-  const std::uint32_t a = problem.place[edge.site[0]], b = problem.place[edge.site[1]];
-  if (a == no_index || b == no_index) return no_index;
-  return problem.next[a] == b ? b : problem.next[b] == a ? a : no_index;
+/// The boundary point in which one site ends and another one begins; or no_index.
+std::uint32_t joint_between_sites(const Problem& problem, std::uint32_t before,
+                                  std::uint32_t after) {
+  const std::uint32_t a = problem.place[before], b = problem.place[after];
+  return a != no_index && b != no_index && problem.next[a] == b ? b : no_index;
 }
 
 void report_raised(const Problem& problem, const Offences& raised,
@@ -482,22 +482,28 @@ void check_leaves(const Problem& problem, Certificate& certificate) {
   auto& failures = certificate.failures;
   std::vector<Corner> corners, leaves;
   std::vector<bool> has_leaf(count, false);
-  const auto add_leaf = [&](const Edge& edge, const Corner& leaf) {
-    const std::uint32_t i = joint_of_sites(problem, edge);
-    if (i != no_index && problem.joint[i] == Joint::corner && !has_leaf[i] &&
-        corner_at(problem, i) == leaf)
+  Offences raised, turned;
+  const auto add_leaf = [&](const Edge& edge, std::size_t end, std::uint32_t node) {
+    const Corner leaf{axis.nodes[node].disk.center, axis.nodes[node].component};
+    const auto are_joined = [&](std::uint32_t i) {
+      return i != no_index && corner_at(problem, i) == leaf;
+    };
+    // Ahead of the end, the boundary runs from the site on the right to the one on the left.
+    const std::uint32_t right = edge.site[end], left = edge.site[1 - end];
+    const std::uint32_t i = joint_between_sites(problem, right, left);
+    if (are_joined(i) && problem.joint[i] == Joint::corner && !has_leaf[i])
       has_leaf[i] = true;
     else
       leaves.push_back(leaf);
+    if (!are_joined(i) && are_joined(joint_between_sites(problem, left, right))) turned.add(node);
   };
-  Offences raised;
   std::size_t budget = count;
   for (const Edge& edge : axis.edges) {
     for (std::size_t end = 0; end < 2; ++end) {
       const std::uint32_t i = edge.node[end];
       if (problem.degree[i] != 1) continue;
       if (!(axis.nodes[i].disk.radius > 0))
-        add_leaf(edge, {axis.nodes[i].disk.center, axis.nodes[i].component});
+        add_leaf(edge, end, i);
       else if (ends_at_arc(problem, edge, end, budget))
         ++certificate.curvature_leaves;
       else
@@ -526,6 +532,10 @@ void check_leaves(const Problem& problem, Certificate& certificate) {
     failures.push_back(sentence("%zu leaves are not convex corners; the first is (%.17g, %.17g).",
                                 extra.size(), extra[0].point.x, extra[0].point.y));
   report_raised(problem, raised, failures);
+  if (turned.count > 0)
+    failures.push_back(
+        sentence("%zu leaves have their edge's sites on the wrong sides; the first is node %zu.",
+                 turned.count, turned.first));
 }
 
 /// Which boundary points disks touch. A reflex vertex is touched by the disks of its own edges; or,
