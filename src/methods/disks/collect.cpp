@@ -186,9 +186,13 @@ struct TwoDisks {
   }
 
  private:
+  /// The arc and its circle: next to the centre a disk may touch the arc's end while the circle is
+  /// far away there, and the edge, which lies on the bisector of the circles, as well.
   bool touches_arc(const site::Site& arc, int end) const {
-    const double squared = site::squared_distance(arc, ends[end]->center);
-    return squared >= squared_least[end] && squared <= squared_most[end];
+    const Disk& disk = *ends[end];
+    const double squared = site::squared_distance(arc, disk.center);
+    return squared >= squared_least[end] && squared <= squared_most[end] &&
+           std::abs(site::carrier_distance(arc, disk.center) - disk.radius) <= slack;
   }
 
   const Disk* ends[2];
