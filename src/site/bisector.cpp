@@ -301,16 +301,14 @@ double ends_stray(const Site& a, const Site& b, const Disk& from, const Disk& to
 /// How far an edge may stray from its sites: some roundings of local coordinates.
 constexpr double few_roundings = 0x1p-50;
 
-/// The control point of a short edge of two convex arcs that lie on one circle up to some
-/// roundings. The edge is a hyperbola whose foci are that far apart, so it leads straight along a
-/// line from the centre; or to the centre and away from it in another direction, turning closer to
-/// the centre than rounding. Empty for other edges, which leave digits to find the control point
-/// by.
+/// The control point of an edge of two convex arcs that lie on one circle up to some roundings. The
+/// edge is a hyperbola whose foci are that far apart, so it leads straight along a line from the
+/// centre; or to the centre and away from it in another direction, turning closer to the centre than
+/// rounding. Empty for other edges, which leave digits to find the control point by.
 std::optional<Control> control_at_common_centre(const Site& a, const Site& b, const Disk& from,
                                                 const Disk& to) {
-  constexpr double rounding = 0x1p-52, is_short = 0x1p-26;
-  const double length = distance(from.center, to.center);
-  if (!(a.curvature > 0 && b.curvature > 0 && length < is_short)) return std::nullopt;
+  constexpr double rounding = 0x1p-52;
+  if (!(a.curvature > 0 && b.curvature > 0)) return std::nullopt;
   const double radius = 1 / a.curvature, other_radius = 1 / b.curvature;
   const Vec2 centre = focus_of(a), other_centre = focus_of(b);
   if (std::abs(radius - other_radius) > 2 * few_roundings ||
@@ -320,7 +318,7 @@ std::optional<Control> control_at_common_centre(const Site& a, const Site& b, co
   if (deviation(straight, a, b, from, to, true) <= few_roundings + ends_stray(a, b, from, to))
     return straight;
   return Control{{midpoint(centre, other_centre), 0.5 * (radius + other_radius)},
-                 std::max(1.0, length / rounding)};
+                 std::max(1.0, distance(from.center, to.center) / rounding)};
 }
 
 /// The control point of an edge with an arc: the pole, or where that strays or turns back, the
