@@ -303,8 +303,8 @@ constexpr double few_roundings = 0x1p-50;
 
 /// The control point of an edge of two convex arcs that lie on one circle up to some roundings. The
 /// edge is a hyperbola whose foci are that far apart, so it leads straight along a line from the
-/// centre; or to the centre and away from it in another direction, turning closer to the centre than
-/// rounding. Empty for other edges, which leave digits to find the control point by.
+/// centre; or to the centre and away from it in another direction, turning closer to the centre
+/// than rounding. Empty for other edges, which leave digits to find the control point by.
 std::optional<Control> control_at_common_centre(const Site& a, const Site& b, const Disk& from,
                                                 const Disk& to) {
   constexpr double rounding = 0x1p-52;

@@ -288,9 +288,9 @@ class Slices {
     for (Spoke& spoke : spokes) spoke.foot = foot_on(*spoke.edge, spoke.side, spoke.end);
     return all_paired(spokes);
   }
-  /// What they leave of the full angle. Feet that nearly coincide leave open whether next to nothing
-  /// lies between them, on the side of their edge, or all the way around; but one edge at most has
-  /// all the way, and then nothing is left.
+  /// What they leave of the full angle. Feet that nearly coincide leave open whether next to
+  /// nothing lies between them, on the side of their edge, or all the way around; but one edge at
+  /// most has all the way, and then nothing is left.
   double angle_between(std::uint32_t node) const {
     constexpr double whole = 2 * std::numbers::pi;
     const Vec2 center = problem_.disk(node).center;
@@ -319,8 +319,8 @@ class Slices {
     const double near = nearly_one * problem_.disk(node).radius;
     bool goes_on = true;
     for_each_end(node, [&](const Edge& edge, std::size_t end) {
-      goes_on = goes_on && goes_on_from(place_of(edge.site[end]), foot_on(edge, end, end), near,
-                                        begins);
+      goes_on =
+          goes_on && goes_on_from(place_of(edge.site[end]), foot_on(edge, end, end), near, begins);
     });
     return goes_on;
   }
