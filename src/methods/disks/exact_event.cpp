@@ -464,14 +464,14 @@ std::optional<Disk> largest_on_way(const exact::ExactSite& first, const exact::E
   } else {
     distance = distance / size;
   }
-  const auto side_of = [&](Vec2 place) {
-    return cross(away, exact::exact_vector<Number>(place) - own.center).sign().value_or(0);
-  };
-  if (side_of(node.center) * side_of(first.end) >= 0) return std::nullopt;
   const Number radius = Number(0.5) * (own.radius + distance);
   const exact::DiskBounds<Real> largest{own.center + ((own.radius - radius) / size) * away, radius};
   if (!exact::may_have_foot(first, largest) || !exact::may_have_foot(second, largest))
     return std::nullopt;
+  const exact::DiskBounds<Real> from{exact::exact_vector<Number>(node.center), Number(node.radius)};
+  const auto onward = by_first ? exact::further_along(arc, from, largest)
+                               : exact::further_along(arc, largest, from);
+  if (onward != 1) return std::nullopt;
   return rounded(largest);
 }
 
