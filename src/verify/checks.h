@@ -87,7 +87,9 @@ class OpenAtJoints {
     const auto [shorter, longer] = std::minmax({length_of(before), length_of(after)});
     if (blunt) {
       angles_ += problem_.blunt_angle[joint];
-      sum_ += problem_.blunt_angle[joint] * std::min(radius_, 0.5 * shorter);
+      // As high as the joint may be above the chord between feet on both edges.
+      const double height = shorter * longer / (shorter + longer);
+      sum_ += problem_.blunt_angle[joint] * std::min(radius_, height);
     } else {
       sum_ += std::abs(turn_between(before, after)) * std::min(radius_, longer);
     }
