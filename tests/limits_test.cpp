@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "medial/medial.h"
@@ -286,6 +287,27 @@ TEST(Limits, PolygonsFarFromTheOriginAreVerified) {
     const Outcome outcome = examine(std::vector{ring_of(points)});
     EXPECT_EQ(outcome.verdict, Verdict::verified) << shift << ": " << outcome.reasons[0];
   }
+}
+
+/// A keyhole 1e13 from the origin, whose head is an arc of nearly a full circle: rounding has moved
+/// its neck's sides across each other, by less than build_shape() can see.
+TEST(Limits, ArcsThatCrossByLessThanRoundingAreNamed) {
+  const auto shape =
+      build_shape(Rings{{{{3166498081406.5195, 16016884625326.006},
+                          {3166498083933.3721, 16016884625011.492},
+                          {3166498083933.4209, 16016884625011.887}},
+                         RingRole::any,
+                         {0.9999219897534104, 12818.328835894043, 0.9999219897534104}}});
+  ASSERT_TRUE(shape) << to_string(shape.error());
+  const auto axis = compute(*shape);
+  ASSERT_FALSE(axis);
+  EXPECT_EQ(axis.error().code, ErrorCode::crossing);
+  EXPECT_NE(axis.error().text.find("crosses the edge that starts at vertex 2 of ring 0"),
+            std::string::npos)
+      << axis.error().text;
+  EXPECT_EQ(axis.error().place.vertex, 0u);
+  ASSERT_TRUE(axis.error().place.point);
+  EXPECT_NEAR(axis.error().place.point->x, 3166498083933.4, 1);
 }
 
 }  // namespace

@@ -3,6 +3,9 @@
 #include <algorithm>
 
 #include "medial/verify.h"
+#include "methods/checks.h"
+#include "methods/exact/crossing.h"
+#include "shape/errors.h"
 
 namespace medial {
 namespace {
@@ -27,6 +30,17 @@ std::optional<Error> error_if_refused(const Problem& problem, const MedialAxis& 
   return unsupported_at(
       certificate.worst,
       "rounding alone decides what a disk touches here: move the vertices near it apart");
+}
+
+Error crossing_or(const Problem& problem, Error error) {
+  if (!has_arcs(problem.shape)) return error;
+  const auto crossing = exact::find_crossing(problem);
+  if (!crossing) return error;
+  const std::vector<VertexSource>& sources = problem.shape.sources;
+  return error_at(ErrorCode::crossing,
+                  text_of_edges(ErrorCode::crossing, sources[crossing->second]) +
+                      ", by less than rounding: move them apart",
+                  sources[crossing->first], crossing->point);
 }
 
 Error error_of_wrong_axis(const MedialAxis& axis, const char* text) {

@@ -314,7 +314,7 @@ Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbe
       if (!error || axis) error = std::move(refused);
     }
   } while (turn_to_next(problem, numbers, doubtful, lost, way));
-  return std::move(*error);
+  return crossing_or(problem, std::move(*error));
 }
 
 /// The axis around a planar graph, walked as it is, and once more in 256 bits where the walk lost

@@ -1,0 +1,124 @@
+#include "methods/exact/crossing.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "axis/sites.h"
+#include "base/arc_box.h"
+#include "base/compat.h"
+#include "methods/exact/site_form.h"
+
+namespace medial::exact {
+namespace {
+
+using Number = Bounded<Precise>;
+using Point = Vector<Number>;
+
+/// The line of places whose way from an origin has this product with a normal.
+struct Line {
+  Point normal;
+  Number product;
+};
+
+struct Circle {
+  Point center;
+  Number squared_radius;
+};
+Circle circle_of(const ExactSite& arc) {
+  const Number share = Number(1.0) / Number(4 * arc.bulge);
+  const Point radius = share * normal_of<Number>(arc, false);
+  return {exact_vector<Number>(arc.start) + radius, dot(radius, radius)};
+}
+
+/// Seen from an origin.
+Line line_of(const ExactSite& segment, const Point& origin) {
+  const Point normal = normal_of<Number>(segment, false);
+  return {normal, dot(normal, exact_vector<Number>(segment.start) - origin)};
+}
+/// The line through the points that two circles share, seen from the first one's centre.
+Line line_of(const Circle& a, const Circle& b) {
+  const Point way = b.center - a.center;
+  return {way, Number(0.5) * (a.squared_radius - b.squared_radius + dot(way, way))};
+}
+
+/// Where a line that is seen from a circle's centre surely crosses the circle.
+std::vector<Point> points_on(const Circle& circle, const Line& line) {
+  const Number squared = dot(line.normal, line.normal);
+  if (!squared.positive()) return {};
+  const Number share = line.product / squared;
+  const Number height = circle.squared_radius / squared - share * share;
+  if (!height.positive()) return {};
+  const Point foot = circle.center + share * line.normal,
+              way = root_of(height) * left_of(line.normal);
+  return {foot - way, foot + way};
+}
+
+std::vector<Point> points_of(const ExactSite& a, const ExactSite& b) {
+  if (a.is_arc()) {
+    const Circle circle = circle_of(a);
+    return points_on(circle,
+                     b.is_arc() ? line_of(circle, circle_of(b)) : line_of(b, circle.center));
+  }
+  if (b.is_arc()) return points_of(b, a);
+  const Point start = exact_vector<Number>(a.start), along = exact_vector<Number>(a.end) - start;
+  const Line line = line_of(b, start);
+  const Number slope = dot(line.normal, along);
+  if (!slope.sign() || *slope.sign() == 0) return {};
+  return {start + (line.product / slope) * along};
+}
+
+/// Whether a place on an edge's carrier surely lies inside the edge. No arc has more than a half
+/// circle: it lies on one side of its chord.
+bool is_inside(const ExactSite& edge, const Point& place) {
+  const Point start = exact_vector<Number>(edge.start), end = exact_vector<Number>(edge.end);
+  if (edge.is_arc()) return cross(end - start, place - start).sign() == (edge.bulge > 0 ? -1 : 1);
+  return dot(end - start, place - start).positive() && dot(end - start, end - place).positive();
+}
+
+/// An edge in the local frame.
+struct Placed {
+  Box box;
+  std::size_t point;
+  ExactSite edge;
+};
+std::vector<Placed> edges_of(const Problem& problem) {
+  std::vector<Placed> edges;
+  for (std::size_t l = 0; l < problem.shape.loop_count(); ++l) {
+    const site::LoopEdges loop(problem.shape, l, problem.frame);
+    for (std::uint32_t i = 0; i < loop.size(); ++i) {
+      const ExactSite edge{loop.local(i), loop.local(loop.next(i)), loop.bulge(i)};
+      if (edge.is_vertex()) continue;
+      const Box box = box_around({edge.start, edge.end, edge.bulge});
+      edges.push_back({box, loop.begin() + i, edge});
+    }
+  }
+  ranges::sort(edges, {}, [](const Placed& placed) { return placed.box.low.x; });
+  return edges;
+}
+
+}  // namespace
+
+std::optional<Crossing> find_crossing(const Problem& problem) {
+  constexpr std::size_t looks = 1 << 10, questions = 1 << 4, least = 1 << 12;  // of each edge
+  const std::vector<Placed> edges = edges_of(problem);
+  std::size_t looks_left = looks * edges.size() + least,
+              questions_left = questions * edges.size() + least;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    for (std::size_t j = i + 1; j < edges.size(); ++j) {
+      const Placed &a = edges[i], &b = edges[j];
+      if (b.box.low.x > a.box.high.x) break;
+      if (looks_left-- == 0) return std::nullopt;
+      if (b.box.low.y > a.box.high.y || a.box.low.y > b.box.high.y) continue;
+      if (questions_left-- == 0) return std::nullopt;
+      for (const Point& place : points_of(a.edge, b.edge)) {
+        if (!is_inside(a.edge, place) || !is_inside(b.edge, place)) continue;
+        const Vec2 local{static_cast<double>(place.x.value), static_cast<double>(place.y.value)};
+        return Crossing{std::min(a.point, b.point), std::max(a.point, b.point),
+                        problem.frame.to_input(local)};
+      }
+    }
+  return std::nullopt;
+}
+
+}  // namespace medial::exact
