@@ -274,23 +274,10 @@ bool Contacts::passes_at(const Span& span, const Disk& disk, std::uint32_t next)
          touches_carrier(own, disk, context.tolerance);
 }
 
-bool Contacts::is_crowded(const Span& span, const Disk& disk) const {
-  const auto [a, b] = crowded_;
-  const Boundary::SiteRange& run = run_of(span);
-  const auto is_near = [&](std::uint32_t i) {
-    return i >= run.first && i <= run.last && std::abs(away(i, disk)) <= clearance() &&
-           !is_beside(i, disk.center, run) && faces(i, disk.center);
-  };
-  return is_near(a) && is_near(b) &&
-         squared_norm(site::foot(site(a), disk.center) - site::foot(site(b), disk.center)) <=
-             2 * disk.radius * clearance();
-}
-
 bool Contacts::is_clean_tie(const Span& span, const Disk& disk, std::uint32_t sure) {
   constexpr double well_placed = 16, furthest = 0x1p-12;
   for (const std::uint32_t i : {span.right, span.left, sure})
     if (std::abs(away(i, disk)) > touching_) return false;
-  if (is_crowded(span, disk)) return false;
   const std::vector<Neighbor>& sites = around(span, disk);
   const auto has = [&](std::uint32_t i) {
     return ranges::binary_search(sites, i, {}, &Neighbor::site);
@@ -317,10 +304,8 @@ bool Contacts::is_clean_tie(const Span& span, const Disk& disk, std::uint32_t su
     // A disk that touches one place all but touches what is beside it.
     const double squared = squared_norm(foot - foot_before);
     if ((before + 1 != i || !boundary_.is_smooth(before)) && !are_points_apart(i, squared) &&
-        squared <= 2 * disk.radius * clearance()) {
-      crowded_ = {before, i};
+        squared <= 2 * disk.radius * clearance())
       return false;
-    }
     before = i;
     foot_before = foot;
   }
@@ -365,10 +350,6 @@ bool Contacts::is_alone(const std::vector<Neighbor>& tie, const Span& span, cons
     const double a = apart(i, i + 1), b = apart(i + 1, i + 2), c = apart(i, i + 2);
     return std::array{1 / (a * c), 1 / (a * b), 1 / (b * c)};
   };
-  // Of a few sites all are asked for again and again, of thousands hardly any.
-  std::array<std::array<double, 3>, 32> shares_of_few;
-  const bool are_few = count <= shares_of_few.size();
-  for (std::size_t i = 0; are_few && i < count; ++i) shares_of_few[i] = shares_of(i);
   return ranges::all_of(known ? within_ : touched_, [&](std::uint32_t i) {
     const double gap = away(i, disk);
     if (!(gap < furthest) || ranges::binary_search(tie, i, {}, &Neighbor::site) ||
@@ -381,8 +362,7 @@ bool Contacts::is_alone(const std::vector<Neighbor>& tie, const Span& span, cons
     for (std::size_t k = 0; k < away_from.size(); ++k)
       away_from[k] = distance(to, toward[(begin + k) % count]);
     for (std::size_t k = 0; k < 4; ++k) {
-      const std::size_t place = (begin + k) % count;
-      const auto [first, second, third] = are_few ? shares_of_few[place] : shares_of(place);
+      const auto [first, second, third] = shares_of((begin + k) % count);
       const double factor = first * away_from[k + 1] * away_from[k + 2] +
                             second * away_from[k] * away_from[k + 2] +
                             third * away_from[k] * away_from[k + 1];
@@ -396,7 +376,7 @@ std::optional<Disk> Contacts::clean_tie(const Span& span, const Disk& near, std:
   const TieSites sites{boundary_.sites};
   Disk disk = near;
   // What touches a disk places it better, so that it touches more.
-  for (std::size_t before = 3; !is_crowded(span, disk);) {
+  for (std::size_t before = 3;;) {
     std::vector<Touch> contacts;
     for (const Neighbor& one : around(span, disk)) contacts.push_back({one.site});
     if (contacts.size() <= before) return std::nullopt;
@@ -406,7 +386,6 @@ std::optional<Disk> Contacts::clean_tie(const Span& span, const Disk& near, std:
     disk = fit.disk;
     if (is_clean_tie(span, disk, sure)) return disk;
   }
-  return std::nullopt;
 }
 
 void Contacts::split(const Span& span, const Disk& disk, std::uint32_t sure, bool all_around,

@@ -274,10 +274,6 @@ class Contacts {
   /// How far a disk may be from the one that it should be, at most, against the residuals of its
   /// contacts with some of these sites (docs/exact.md).
   double spread_of(const std::vector<Neighbor>& sites, const Span& span, Vec2 center) const;
-  /// Whether a disk is near to the two feet that the last tie had too near to each other: a tie of
-  /// thousands is not collected again for each of its contacts. That spares work and changes no
-  /// answer, since is_clean_tie() would find the two again.
-  bool is_crowded(const Span& span, const Disk& disk) const;
   /// How far away a site is that has nothing to do with a tie.
   double clearance() const {
     constexpr double tolerances = 64;
@@ -310,7 +306,6 @@ class Contacts {
   std::vector<Neighbor> near_;      ///< of those within clearance(), what is not beside the disk
   std::vector<std::uint32_t> tie_;  ///< of is_alone()
   std::vector<Vec2> toward_;
-  std::array<std::uint32_t, 2> crowded_{Hit::none, Hit::none};  ///< see is_crowded()
 };
 
 }  // namespace medial::disks
