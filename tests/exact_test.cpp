@@ -16,7 +16,6 @@
 #include "medial/verify.h"
 #include "methods/exact/disk_bounds.h"
 #include "methods/exact/numbers.h"
-#include "methods/exact/touch.h"
 #include "support/nasty_check.h"
 #include "support/random_shapes.h"
 #include "support/same_graph.h"

@@ -10,6 +10,7 @@
 #include "medial/axis.h"
 #include "methods/disks/boundary.h"
 #include "methods/disks/walk.h"
+#include "site/boundary_tree.h"
 
 namespace medial::disks {
 
@@ -44,6 +45,11 @@ Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::span<const Bridg
 /// the axis goes on.
 void remove_spurs(const Boundary& boundary, std::span<const std::uint32_t> names, double tolerance,
                   Graph& graph, std::span<const std::uint32_t> borders = {});
+
+/// Notes among a graph's lost sites where it may be wrong next to arcs: where disks reach over
+/// sites, and where edges may run backward. O(n log n).
+void find_doubts(const Boundary& boundary, const site::BoundaryTree& tree, double tolerance,
+                 Graph& graph);
 
 /// Whether an edge that comes within four of its lengths of the centre of a convex arc does not
 /// touch its sites at a quarter of its way, give or take `slack`: next to the centre, rounding of

@@ -16,7 +16,6 @@
 #include "methods/disks/boundary.h"
 #include "methods/disks/collect.h"
 #include "methods/disks/connect.h"
-#include "methods/disks/doubts.h"
 #include "methods/disks/merge_ties.h"
 #include "methods/disks/pose.h"
 #include "methods/disks/walk.h"

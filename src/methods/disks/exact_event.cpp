@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "methods/exact/disk_bounds.h"
-#include "methods/exact/touch.h"
 
 namespace medial::disks {
 

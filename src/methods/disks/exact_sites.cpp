@@ -1,7 +1,5 @@
 #include "methods/disks/exact_sites.h"
 
-#include "methods/exact/touch.h"
-
 namespace medial::disks {
 
 const exact::SiteLoops& ExactSites::outline() const {

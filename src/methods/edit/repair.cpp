@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "methods/checks.h"
-#include "methods/disks/doubts.h"
+#include "methods/disks/collect.h"
 #include "methods/disks/merge_ties.h"
 #include "methods/disks/tie_fit.h"
 #include "site/bisector.h"
