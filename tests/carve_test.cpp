@@ -41,7 +41,7 @@ TEST(OpenBoxes, FindTheNearestThatIsLeft) {
     const Vec2 p{std::floor(20 * random.unit()), std::floor(20 * random.unit())};
     boxes.push_back({p, p});
   }
-  OpenBoxes open(boxes, true);
+  OpenBoxes open(boxes);
   std::vector<bool> left(boxes.size(), true);
   for (std::size_t count = boxes.size(); count > 0; --count) {
     ASSERT_FALSE(open.empty());

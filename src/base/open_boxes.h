@@ -15,13 +15,13 @@ namespace medial {
 /// Things in boxes, in a tree of boxes around those that are left; finds the nearest.
 class OpenBoxes {
  public:
-  /// At first all are left, or none. O(n log n).
-  OpenBoxes(std::vector<Box> boxes, bool left) : boxes_(std::move(boxes)), left_(boxes_.size()) {
+  /// At first all are left. O(n log n).
+  explicit OpenBoxes(std::vector<Box> boxes)
+      : boxes_(std::move(boxes)), left_(boxes_.size(), true) {
     const std::vector<Vec2> places = BoxTree::places_of(boxes_);
     order_ = spatial_order(places, fan_out);
     leaf_of_.resize(order_.size());
     for (std::uint32_t k = 0; k < order_.size(); ++k) leaf_of_[order_[k]] = k;
-    left_.assign(boxes_.size(), left);
     if (!boxes_.empty())
       levels_ = bound_levels(order_.size(), fan_out, [this](std::size_t k) { return leaf(k); });
   }

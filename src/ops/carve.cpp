@@ -81,7 +81,7 @@ class RingsLeft {
         ring_of_.push_back(ring);
       }
     }
-    edges_.emplace(std::move(boxes), true);
+    edges_.emplace(std::move(boxes));
   }
   bool empty() const { return left_ == 0; }
   Vec2 first_point() { return (edges_ ? rings_[ring_of_[edges_->first()]] : rings_[0]).points[0]; }
@@ -250,7 +250,7 @@ class Floors {
   /// Trees that are cut one after another.
   struct Choice {
     Choice(const Floors& floors, std::vector<std::uint32_t> trees)
-        : roots(std::move(trees)), left(boxes_of(floors, roots), true) {}
+        : roots(std::move(trees)), left(boxes_of(floors, roots)) {}
     std::uint32_t take_nearest(const Floors& floors) {
       const auto& planner = floors.planner_;
       const Vec2 from = planner.started() ? planner.at() : floors.place(roots[left.first()]);

@@ -251,7 +251,7 @@ std::vector<std::vector<GrooveStep>> trails_of(const Grooves& grooves, Vec2 star
       place_of[j] = static_cast<std::uint32_t>(boxes.size());
       boxes.push_back({places[j], places[j]});
     }
-    OpenBoxes open(std::move(boxes), true);
+    OpenBoxes open(std::move(boxes));
     while (!open.empty()) {
       const std::uint32_t nearest =
           open.nearest(at, [&](std::uint32_t i) { return squared_norm(places[ends[i]] - at); });

@@ -64,11 +64,11 @@ void put_row(OutputStream& out, Values... values) {
   out.put(']');
 }
 
-/// Brackets around what put(element) writes for each element, with `between` between, `first` in
-/// front where there is any, and `last` behind.
+/// Brackets around what put(element) writes for each element, with `between` between, and `first`
+/// in front where there is any.
 template <class Range, class Put>
 void put_list(OutputStream& out, const Range& range, const Put& put, std::string_view first = "",
-              std::string_view between = ",", std::string_view last = "") {
+              std::string_view between = ",") {
   out.put('[');
   std::string_view separator = first;
   for (const auto& element : range) {
@@ -76,7 +76,6 @@ void put_list(OutputStream& out, const Range& range, const Put& put, std::string
     separator = between;
     put(element);
   }
-  out.put(last);
   out.put(']');
 }
 
