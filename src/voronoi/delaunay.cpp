@@ -17,14 +17,19 @@ namespace {
 
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-/// The order of insertion: rounds of a random eighth of what is left for later ones, each along the
+/// The sides of a triangle after and before one, without a branch.
+constexpr std::uint32_t side_after(std::uint32_t side) { return (0b001001U >> (2 * side)) & 3U; }
+constexpr std::uint32_t side_before(std::uint32_t side) { return (0b010010U >> (2 * side)) & 3U; }
+
+/// The order of insertion: rounds of a random 32nd of what is left for later ones, each along the
 /// curve, every other one backward, so that a round begins where the last one ended.
 std::vector<std::uint32_t> insertion_order(std::span<const Vec2> points) {
-  constexpr std::size_t smallest_round = 64;
+  constexpr std::size_t smallest_round = 64, growth_bits = 5;
   std::size_t rounds = 1;
-  for (std::size_t count = points.size(); count > smallest_round; count /= 8) ++rounds;
+  for (std::size_t count = points.size(); count > smallest_round; count >>= growth_bits) ++rounds;
   const auto drawn = [rounds](Random& random) {
-    return std::min(static_cast<std::size_t>(std::countr_zero(random.next())) / 3, rounds - 1);
+    return std::min(static_cast<std::size_t>(std::countr_zero(random.next())) / growth_bits,
+                    rounds - 1);
   };
   // What is drawn most often comes last. Those that run backward are filled from their end.
   std::vector<std::size_t> place(rounds);
@@ -91,11 +96,6 @@ class Insertion {
   }
 
  private:
-  struct Side {
-    std::uint32_t from, to;  ///< vertices
-    std::uint32_t beyond;    ///< half-edge of the triangle that stays
-  };
-
   void add_triangle(const Delaunay::Triangle& triangle) {
     triangles_.push_back(triangle);
     circles_.push_back({{{}, endless}});
@@ -134,7 +134,7 @@ class Insertion {
       const auto& [center, size] = circles_[at].disk;
       const double power = squared_norm(p - center) - size;
       if ((power < 0 && is_sure(power, size)) || t.is_ghost()) return at;
-      const std::uint32_t i = came == 2 ? 0 : came + 1, j = i == 2 ? 0 : i + 1;
+      const std::uint32_t i = side_after(came), j = side_before(came);
       const Vec2 a = points_[t.vertex[i]], b = points_[t.vertex[j]], c = points_[t.vertex[came]];
       const bool beyond_first = is_right_of(a, b, p), beyond_second = is_right_of(b, c, p);
       if (!beyond_first && !beyond_second) return at;
@@ -148,75 +148,80 @@ class Insertion {
   /// of what they cover. They form a tree, since no vertex lies between them. No code branches
   /// on what is in conflict, which the processor could not predict.
   void find_cavity(Vec2 p, std::uint32_t first) {
-    std::size_t inside = 1, sides = 0, open = 3;
-    cavity_[0] = first;
-    ranges::copy(triangles_[first].twin, open_.begin());
-    for (std::size_t i = 0; i < open; ++i) {
-      const std::uint32_t beyond = open_[i], side = beyond & 3U;
-      const Delaunay::Triangle& t = triangles_[beyond >> 2U];
-      const std::uint32_t next = (0b001001U >> (2 * side)) & 3U;
-      const std::uint32_t before = (0b010010U >> (2 * side)) & 3U;
+    std::size_t inside = 0, sides = 0;
+    const auto look = [&](std::uint32_t beyond) {
       const auto& [center, size] = circles_[beyond >> 2U].disk;
       const double power = squared_norm(p - center) - size;
-      bool conflict = power < 0;
+      std::size_t conflict = std::bit_cast<std::uint64_t>(power) >> 63U;  // 1 where it is negative
       if (!is_sure(power, size)) [[unlikely]]
-        conflict = is_in_conflict(t, p);
-      cavity_[inside] = beyond >> 2U;
-      inside += conflict ? 1 : 0;
-      open_[open] = t.twin[next];
-      open_[open + 1] = t.twin[before];
-      open += conflict ? 2 : 0;
-      sides_[sides] = {t.vertex[next], t.vertex[side], beyond};
-      sides += conflict ? 0 : 1;
-      if (open + 2 > open_.size()) [[unlikely]]
+        conflict = is_in_conflict(triangles_[beyond >> 2U], p) ? 1 : 0;
+      entered_[inside] = sides_[sides] = beyond;
+      inside += conflict;
+      sides += 1 - conflict;
+    };
+    cavity_[0] = first;
+    for (const std::uint32_t beyond : triangles_[first].twin) look(beyond);
+    for (std::size_t i = 0; i < inside; ++i) {
+      const std::uint32_t side = entered_[i] & 3U, t = entered_[i] >> 2U;
+      cavity_[i + 1] = t;
+      const std::uint32_t next = triangles_[t].twin[side_after(side)];
+      const std::uint32_t before = triangles_[t].twin[side_before(side)];
+      look(next);
+      look(before);
+      if (inside + 5 > entered_.size()) [[unlikely]]
         make_room();
     }
     side_count_ = sides;
-    for (; inside < sides; ++inside) {
+    for (++inside; inside < sides; ++inside) {
       cavity_[inside] = static_cast<std::uint32_t>(triangles_.size());
       add_triangle({});
     }
   }
   void make_room() {
-    const std::size_t room = 2 * open_.size();
-    open_.resize(room);
-    cavity_.resize(room);
-    sides_.resize(room);
+    const std::size_t room = 2 * entered_.size();
+    for (auto* numbers : {&entered_, &cavity_, &sides_, &from_, &to_}) numbers->resize(room);
   }
 
   /// A triangle on each side, in the place of those that go and of the new ones.
   void fill_cavity(std::uint32_t p) {
     const auto at_outside = static_cast<std::uint32_t>(points_.size());
-    for (std::size_t k = 0; k < side_count_; ++k)
-      leaving_[std::min(sides_[k].from, at_outside)] = 4 * cavity_[k];
-    leaving_[p] = 4 * cavity_[0] + 2;
     for (std::size_t k = 0; k < side_count_; ++k) {
-      const auto& [from, to, beyond] = sides_[k];
+      const std::uint32_t beyond = sides_[k], side = beyond & 3U;
+      const Delaunay::Triangle& t = triangles_[beyond >> 2U];
+      const std::uint32_t from = t.vertex[side_after(side)];
+      from_[k] = from;
+      to_[k] = t.vertex[side];
+      leaving_[std::min(from, at_outside)] = 4 * cavity_[k];
+    }
+    leaving_[p] = 4 * cavity_[0] + 2;
+    const Vec2 apex = points_[p];
+    for (std::size_t k = 0; k < side_count_; ++k) {
+      const std::uint32_t from = from_[k], to = to_[k], beyond = sides_[k];
       const std::uint32_t own = 4 * cavity_[k], after = leaving_[std::min(to, at_outside)];
-      Delaunay::Triangle& t = triangles_[cavity_[k]];
+      Delaunay::Triangle& t = triangles_[own >> 2U];
+      Disk& circle = circles_[own >> 2U].disk;
       t.vertex = {from, to, p};
       t.twin[0] = beyond;
       t.twin[1] = after + 2;
       triangles_[after >> 2U].twin[2] = own + 1;
       triangles_[beyond >> 2U].twin[beyond & 3U] = own;
-      set_circle(t, circles_[cavity_[k]].disk);
+      if (from == outside || to == outside) [[unlikely]] {
+        t.mark = 0;
+        circle = {{}, endless};
+      } else {
+        t.mark = set_circle(apex, points_[from] - apex, points_[to] - apex, circle);
+      }
     }
     last_ = cavity_[0];
   }
-  void set_circle(Delaunay::Triangle& t, Disk& circle) const {
-    if (t.is_ghost()) [[unlikely]] {
-      t.mark = 0;
-      circle = {{}, endless};
-      return;
-    }
-    const Vec2 apex = points_[t.vertex[2]];
-    const Vec2 u = points_[t.vertex[0]] - apex, v = points_[t.vertex[1]] - apex;
+  /// 1 if it has all of its digits.
+  static std::uint32_t set_circle(Vec2 apex, Vec2 u, Vec2 v, Disk& circle) {
     const double uu = squared_norm(u), vv = squared_norm(v), factor = 0.5 / cross(u, v);
     const Vec2 offset{factor * (uu * v.y - vv * u.y), factor * (vv * u.x - uu * v.x)};
     // S / 2 A, too large where products may underflow; negative or not a number by rounding alone.
     const double spread = factor * (uu + vv + 0x1p-455);
-    t.mark = spread > 0 && spread < 8 ? 1 : 0;
     circle = {apex + offset, spread > 0 && spread < 0x1p20 ? squared_norm(offset) : endless};
+    return spread > 0 && spread < 8 ? 1 : 0;
   }
 
   const std::vector<Vec2>& points_;
@@ -226,8 +231,8 @@ class Insertion {
   double slack_ = endless, area_error_ = endless;
   std::uint32_t last_ = 0;
   std::size_t side_count_ = 0;
-  std::vector<std::uint32_t> open_ = std::vector<std::uint32_t>(64), cavity_ = open_;
-  std::vector<Side> sides_ = std::vector<Side>(64);
+  std::vector<std::uint32_t> entered_ = std::vector<std::uint32_t>(64), cavity_ = entered_,
+                             sides_ = entered_, from_ = entered_, to_ = entered_;
 };
 
 }  // namespace

@@ -45,7 +45,7 @@ struct Delaunay {
 /// The triangulation of points that are all different, in the local frame; exact for all finite
 /// coordinates; of points on one circle one that some tiny displacement would give. O(n log n)
 /// expected for any points, over the random choices made here: points are inserted round by round,
-/// each eight times as large as the one before, a round along a space-filling curve (Amenta, Choi
+/// each 32 times as large as the one before, a round along a space-filling curve (Amenta, Choi
 /// and Rote, "Incremental constructions con BRIO", 2003), by the triangles whose circle holds them
 /// (Bowyer 1981; Watson 1981). Incomplete where `cancel` becomes true. Requires less than 2^29
 /// points.

@@ -13,6 +13,7 @@
 #include "base/predicates.h"
 #include "base/stopwatch.h"
 #include "base/tolerance.h"
+#include "base/wide.h"
 #include "methods/checks.h"
 #include "voronoi/delaunay.h"
 #include "voronoi/enclosure_cut.h"
@@ -56,14 +57,49 @@ double area_of(Vec2 a, Vec2 b, Vec2 c) {
                                                                           : careful_area(a, b, c);
 }
 
+/// Some edges: the points that they separate, their ends and control points.
+struct PointEdges {
+  static constexpr std::size_t room = 32;
+  struct Points {
+    alignas(32) std::array<double, room> x{}, y{};
+    void set(std::size_t i, Vec2 p) { x[i] = p.x, y[i] = p.y; }
+    Vec2 at(std::size_t i) const { return {x[i], y[i]}; }
+  };
+  struct Disks {
+    Points center;
+    alignas(32) std::array<double, room> radius{};
+    void set(std::size_t i, const Disk& disk) {
+      center.set(i, disk.center);
+      radius[i] = disk.radius;
+    }
+    Disk at(std::size_t i) const { return {center.at(i), radius[i]}; }
+  };
+  Points first, second;
+  Disks from, to, control;
+  alignas(32) std::array<double, room> weight{};
+};
+
+/// take_control_of_points(), several at a time.
+MEDIAL_WIDE void take_controls(PointEdges& edges) {
+  for (std::size_t i = 0; i < PointEdges::room; ++i) {
+    ConicEdge edge;
+    edge.from = edges.from.at(i);
+    edge.to = edges.to.at(i);
+    take_control_of_points(edges.first.at(i), edges.second.at(i), edge);
+    edges.control.set(i, edge.control);
+    edges.weight[i] = edge.weight;
+  }
+}
+
 class Dual {
  public:
   Dual(const PlanarGraph& planar_graph, const Options& options, const Box& enclosure)
       : planar_graph_(planar_graph),
         options_(options),
         enclosure_(enclosure),
-        local_(frame_of(bounding_box(planar_graph))),
-        tolerance_(tolerance_for(bounding_box(planar_graph), options.tolerance)),
+        box_(bounding_box(planar_graph)),
+        local_(frame_of(box_)),
+        tolerance_(tolerance_for(box_, options.tolerance)),
         reach_(2 * local_.scale * diagonal(enclosure)),
         cut_(planar_graph, enclosure, tolerance_, diagram_) {}
 
@@ -103,7 +139,8 @@ class Dual {
   };
   /// An edge to be made, dual to a half-edge.
   struct NewEdge {
-    std::uint32_t half_edge, from, to;  ///< vertices
+    std::uint32_t from, to;             ///< vertices
+    std::array<std::uint32_t, 2> node;  ///< of the triangles on its right and left
   };
 
   void triangulate() {
@@ -315,18 +352,29 @@ class Dual {
       const std::uint32_t last = std::min(count, first + at_a_time);
       to_make_.clear();
       for (std::uint32_t v = first; v < last; ++v) make_face(v);
-      for (const NewEdge& edge : to_make_) make_edge(edge);
+      for (std::size_t i = 0; i < to_make_.size(); i += PointEdges::room)
+        make_edges(std::span(to_make_).subspan(i, std::min(to_make_.size() - i, PointEdges::room)));
     }
   }
   /// Numbers the edges around a vertex that have no number yet, and lists all of them.
   void make_face(std::uint32_t v) {
     const auto& triangles = triangulation_.triangles;
     // Asked for here: g++ leaves out calls of a function that does nothing else.
-    if (v + 2 * ahead < degree_.size()) {
-      __builtin_prefetch(&diagram_.face_begin[site_of(v + 2 * ahead)]);
-      __builtin_prefetch(&triangles[triangulation_.leaving[v + 2 * ahead] >> 2U]);
-      for (const std::uint32_t twin : triangles[triangulation_.leaving[v + ahead] >> 2U].twin)
+    if (v + 3 * ahead < degree_.size()) {
+      const auto star = [&](std::uint32_t turns) -> const Delaunay::Triangle& {
+        return triangles[triangulation_.leaving[v + turns] >> 2U];
+      };
+      __builtin_prefetch(&diagram_.face_begin[site_of(v + 3 * ahead)]);
+      __builtin_prefetch(&star(3 * ahead));
+      for (const std::uint32_t twin : star(2 * ahead).twin)
         __builtin_prefetch(&triangles[twin >> 2U]);
+      for (const std::uint32_t twin : star(ahead).twin)
+        for (const std::uint32_t other : triangles[twin >> 2U].twin)
+          __builtin_prefetch(&triangles[other >> 2U]);
+      const std::uint32_t* const face =
+          diagram_.face_edges.data() + diagram_.face_begin[site_of(v + ahead)];
+      __builtin_prefetch(face, 1);
+      __builtin_prefetch(face + 6, 1);  // mostly its last one
     }
     const std::uint32_t degree = degree_[v] & ~is_cut;
     const bool whole = degree == degree_[v];
@@ -339,7 +387,8 @@ class Dual {
     for (std::uint32_t k = 0; k < degree; ++k) {
       const std::uint32_t twin = triangulation_.twin(h);
       std::uint32_t &own = edge_of(h), &other = edge_of(twin);
-      made[count] = {h, v, other};
+      __builtin_prefetch(diagram_.nodes.data() + node_at(h));
+      made[count] = {v, other, {node_at(twin), node_at(h)}};
       const bool is_new = own < is_edge;  // still a vertex
       own = other = is_new ? (number + count) | is_edge : own;
       count += static_cast<std::uint32_t>(is_new);
@@ -351,17 +400,19 @@ class Dual {
     take_cut_face(v, cut_face_);
     ranges::copy(cut_face_, out);
   }
-  void make_edge(const NewEdge& edge) {
-    const std::array<std::uint32_t, 2> node{node_at(triangulation_.twin(edge.half_edge)),
-                                            node_at(edge.half_edge)};
-    ConicEdge curve;
-    curve.from = diagram_.nodes[node[0]].disk;
-    curve.to = diagram_.nodes[node[1]].disk;
-    take_control_of_points(point(edge.from), point(edge.to), curve);
-    diagram_.edges.push_back(
-        {{node, {site_of(edge.from), site_of(edge.to)}, curve.control, curve.weight},
-         false,
-         false});
+  void make_edges(std::span<const NewEdge> made) {
+    for (std::size_t i = 0; i < made.size(); ++i) {
+      some_edges_.first.set(i, point(made[i].from));
+      some_edges_.second.set(i, point(made[i].to));
+      some_edges_.from.set(i, diagram_.nodes[made[i].node[0]].disk);
+      some_edges_.to.set(i, diagram_.nodes[made[i].node[1]].disk);
+    }
+    take_controls(some_edges_);
+    for (std::size_t i = 0; i < made.size(); ++i) {
+      const std::array<std::uint32_t, 2> site{site_of(made[i].from), site_of(made[i].to)};
+      diagram_.edges.push_back(
+          {{made[i].node, site, some_edges_.control.at(i), some_edges_.weight[i]}, false, false});
+    }
   }
   /// A face that the enclosure cuts off.
   void take_cut_face(std::uint32_t v, std::vector<std::uint32_t>& face) const {
@@ -418,7 +469,7 @@ class Dual {
 
   const PlanarGraph& planar_graph_;
   const Options& options_;
-  const Box enclosure_;
+  const Box enclosure_, box_;
   const LocalFrame local_;
   const double tolerance_;
   const double reach_;  ///< local: further than that from a site is outside the enclosure
@@ -429,6 +480,7 @@ class Dual {
   std::vector<std::uint32_t> degree_;  ///< of each vertex: triangles around it, and `is_cut`
   std::uint32_t enclosure_edges_ = 0;  ///< number of the first one
   std::vector<NewEdge> to_make_;
+  PointEdges some_edges_;
   std::vector<std::uint32_t> cut_face_;
   std::vector<std::uint32_t> line_edges_;  ///< where all points lie on one: between neighbours
   std::vector<std::uint32_t> line_;        ///< sites, where all lie on one
