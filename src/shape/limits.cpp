@@ -16,8 +16,18 @@ namespace {
 
 std::optional<Error> beyond_limits(std::span<const Vec2> points, double largest,
                                    std::span<const VertexSource> sources) {
-  for (const Vec2 p : points) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+  // Sizes are in the same order as their bits, and 0 less one bit is above all.
+  std::uint64_t most = bit_cast<std::uint64_t>(largest), least = ~std::uint64_t{0};
+  for (const Vec2 p : points)
+    for (const double c : {p.x, p.y}) {
+      const auto bits = bit_cast<std::uint64_t>(std::abs(c));
+      most = std::max(most, bits);
+      least = std::min(least, bits - 1);
+    }
+  largest = bit_cast<double>(most);
   const double smallest = smallest_coordinate * std::max(1.0, largest);
+  if (largest <= largest_coordinate && least >= bit_cast<std::uint64_t>(smallest))
+    return std::nullopt;
   const auto within = [smallest](double c) {
     return c == 0 || (std::abs(c) >= smallest && std::abs(c) <= largest_coordinate);
   };

@@ -152,7 +152,7 @@ class Insertion {
     const auto look = [&](std::uint32_t beyond) {
       const auto& [center, size] = circles_[beyond >> 2U].disk;
       const double power = squared_norm(p - center) - size;
-      std::size_t conflict = std::bit_cast<std::uint64_t>(power) >> 63U;  // 1 where it is negative
+      std::size_t conflict = bit_cast<std::uint64_t>(power) >> 63U;  // 1 where it is negative
       if (!is_sure(power, size)) [[unlikely]]
         conflict = is_in_conflict(triangles_[beyond >> 2U], p) ? 1 : 0;
       entered_[inside] = sides_[sides] = beyond;
@@ -242,7 +242,11 @@ Delaunay triangulate(std::span<const Vec2> points, const LocalFrame& local,
   Delaunay result;
   result.input = insertion_order(points);
   reserve_large(result.points, points.size());
-  for (const std::uint32_t i : result.input) result.points.push_back(local.to_local(points[i]));
+  constexpr std::size_t ahead = 32;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (k + ahead < points.size()) __builtin_prefetch(&points[result.input[k + ahead]]);
+    result.points.push_back(local.to_local(points[result.input[k]]));
+  }
   const auto count = static_cast<std::uint32_t>(points.size());
   std::uint32_t third = 2;
   while (third < count &&

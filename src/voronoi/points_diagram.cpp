@@ -117,11 +117,12 @@ class Dual {
     }
     enclosure_edges_ = static_cast<std::uint32_t>(diagram_.edges.size());
     if (Status closed = cut_.close(); !closed) return std::move(closed).error();
-    make_sites();
     if (triangulation_.triangles.empty())
       make_faces_of_line();
     else
       make_faces();
+    triangulation_ = {};  // whose memory the sites take
+    make_sites();
     diagram_.method = "delaunay";
     diagram_.tolerance = tolerance_;
     diagram_.enclosure = enclosure_;
