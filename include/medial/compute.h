@@ -37,10 +37,9 @@ struct Options {
 /// Errors: invalid_option; cancelled; empty; too_large (2^29 vertices; ridge: 2^31 pixels,
 /// 2^23 crossings with them; brushfire: a diagonal of 2^16 pixels); unsupported (a coordinate above
 /// 1e100, or nonzero but below 1e-100 in size or as a share of the largest; what the method does
-/// not support, see MethodInfo; pixels as fine as the coordinates; Options::exact, if the build
-/// lacks it or arcs are of one circle up to rounding; a place so narrow that rounding could join
-/// its sides); crossing (arcs that cross by less than rounding, which build_shape() cannot see);
-/// malformed (arrays that build_shape() cannot have made); out_of_memory; internal.
+/// not support, see MethodInfo; pixels as fine as the coordinates; a place so narrow that rounding
+/// could join its sides); crossing (of arcs, by less than build_shape() can see); malformed (arrays
+/// that it cannot have made); out_of_memory; internal.
 Result<MedialAxis> compute(const Shape& shape, const Options& options = {},
                            std::span<const Contour> contours = {});
 

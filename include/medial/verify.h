@@ -47,8 +47,7 @@ struct VerifyOptions {
 
 /// Checks an axis against its shape, by code that shares nothing with the engines: its own distance
 /// search, area and count of cycles. O(n log n) expected. A shape that compute() refuses as
-/// unsupported fails. At a blunt joint, its angle times the shorter edge may stay uncovered, or half
-/// of that where both edges are as long.
+/// unsupported fails. At a blunt joint, the shorter edge times its angle may stay uncovered.
 ///
 /// For a sampled axis, checks indices, kinds, connected parts, cycles, and radii within half a
 /// pixel's diagonal; contacts, corners, coverage and area stay 0. For an axis of the exterior,

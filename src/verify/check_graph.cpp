@@ -459,15 +459,17 @@ std::uint32_t joint_between_sites(const Problem& problem, std::uint32_t before,
   return a != no_index && b != no_index && problem.next[a] == b ? b : no_index;
 }
 
-void report_raised(const Problem& problem, const Offences& raised,
+void report_leaves(const Problem& problem, const Offences& raised, const Offences& turned,
                    std::vector<std::string>& failures) {
-  if (raised.count == 0) return;
-  const Disk& disk = problem.disk(static_cast<std::uint32_t>(raised.first));
-  failures.push_back(
-      sentence("%zu leaves have a radius above 0 and are at no arc of largest curvature; the "
-               "first is node "
-               "%zu at (%.17g, %.17g), r = %.17g.",
-               raised.count, raised.first, disk.center.x, disk.center.y, disk.radius));
+  const auto report = [&](const char* what, const Offences& found) {
+    if (found.count == 0) return;
+    const Disk& disk = problem.disk(static_cast<std::uint32_t>(found.first));
+    failures.push_back(
+        sentence("%zu leaves %s; the first is node %zu at (%.17g, %.17g), r = %.17g.", found.count,
+                 what, found.first, disk.center.x, disk.center.y, disk.radius));
+  };
+  report("have a radius above 0 and are at no arc of largest curvature", raised);
+  report("have their edge's sites on the wrong sides", turned);
 }
 
 Corner corner_at(const Problem& problem, std::uint32_t i) {
@@ -531,11 +533,7 @@ void check_leaves(const Problem& problem, Certificate& certificate) {
   if (!extra.empty())
     failures.push_back(sentence("%zu leaves are not convex corners; the first is (%.17g, %.17g).",
                                 extra.size(), extra[0].point.x, extra[0].point.y));
-  report_raised(problem, raised, failures);
-  if (turned.count > 0)
-    failures.push_back(
-        sentence("%zu leaves have their edge's sites on the wrong sides; the first is node %zu.",
-                 turned.count, turned.first));
+  report_leaves(problem, raised, turned, failures);
 }
 
 /// Which boundary points disks touch. A reflex vertex is touched by the disks of its own edges; or,
