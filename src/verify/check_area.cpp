@@ -304,8 +304,8 @@ class Slices {
     const bool is_open = angle >= whole - std::min(open, std::numbers::pi);
     return is_open && goes_on_around(node) ? angle - whole : angle;
   }
-  /// Whether the boundary goes on, in a place as seen from a node, from every foot behind which
-  /// nothing is swept to one from which on there is.
+  /// Whether, from each foot at which a swept area ends, the boundary goes on to one at which an
+  /// area begins, in one place as seen from the node.
   bool goes_on_around(std::uint32_t node) const {
     const auto place_of = [&](std::uint32_t site) {
       const bool is_edge = problem_.axis.sites[site].kind() != SiteKind::vertex;

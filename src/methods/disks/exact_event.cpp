@@ -432,31 +432,25 @@ std::optional<ExactEvent> search(const WalkContext& context, const Span& span, c
 }
 
 /// The largest disk that touches two edges, one of them a convex arc at least: in opposite places,
-/// on the line through a circle's centre that is across the other edge. None where the two feet, on
-/// the way from a node's disk to the joint of the edges, do not pass there.
+/// on a line through the arc's centre. None where the feet do not get there on the way from a
+/// node's disk to the joint of the edges.
 template <class Real>
 std::optional<Disk> largest_on_way(const exact::ExactSite& first, const exact::ExactSite& second,
                                    const Disk& node) {
   using Number = Bounded<Real>;
-  // Of signed radius, as curvature is.
-  const auto circle_of = [](const exact::ExactSite& arc) -> exact::DiskBounds<Real> {
-    const auto spoke = exact::spoke_of<Number>(arc, false);
-    const Number times = Number(1.0) / Number(4 * arc.bulge);
-    return {spoke.foot + times * spoke.normal, times * spoke.size};
-  };
   const auto curvature_of = [](const exact::ExactSite& edge) {
     return curvature(BulgeArc{edge.start, edge.end, edge.bulge});
   };
   const bool by_first = curvature_of(first) > curvature_of(second);
   const exact::ExactSite &arc = by_first ? first : second, &other = by_first ? second : first;
   if (!(arc.bulge > 0)) return std::nullopt;
-  const auto own = circle_of(arc);
+  const auto own = exact::circle_of<Real>(arc);
   // Away from the other edge, and by how much the centre is.
   auto away = exact::normal_of<Number>(other, false);
   Number distance = dot(away, own.center - exact::exact_vector<Number>(other.start));
   Number size = root_of(dot(away, away));
   if (other.is_arc()) {
-    const auto circle = circle_of(other);
+    const auto circle = exact::circle_of<Real>(other);
     away = other.bulge > 0 ? circle.center - own.center : own.center - circle.center;
     size = root_of(dot(away, away));
     distance = circle.radius + (other.bulge > 0 ? -size : size);

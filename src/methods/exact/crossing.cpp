@@ -21,15 +21,7 @@ struct Line {
   Number product;
 };
 
-struct Circle {
-  Point center;
-  Number squared_radius;
-};
-Circle circle_of(const ExactSite& arc) {
-  const Number share = Number(1.0) / Number(4 * arc.bulge);
-  const Point radius = share * normal_of<Number>(arc, false);
-  return {exact_vector<Number>(arc.start) + radius, dot(radius, radius)};
-}
+using Circle = DiskBounds<Precise>;
 
 /// Seen from an origin.
 Line line_of(const ExactSite& segment, const Point& origin) {
@@ -39,7 +31,7 @@ Line line_of(const ExactSite& segment, const Point& origin) {
 /// The line through the points that two circles share, seen from the first one's centre.
 Line line_of(const Circle& a, const Circle& b) {
   const Point way = b.center - a.center;
-  return {way, Number(0.5) * (a.squared_radius - b.squared_radius + dot(way, way))};
+  return {way, Number(0.5) * (a.radius * a.radius - b.radius * b.radius + dot(way, way))};
 }
 
 /// Where a line that is seen from a circle's centre surely crosses the circle.
@@ -47,7 +39,7 @@ std::vector<Point> points_on(const Circle& circle, const Line& line) {
   const Number squared = dot(line.normal, line.normal);
   if (!squared.positive()) return {};
   const Number share = line.product / squared;
-  const Number height = circle.squared_radius / squared - share * share;
+  const Number height = circle.radius * circle.radius / squared - share * share;
   if (!height.positive()) return {};
   const Point foot = circle.center + share * line.normal,
               way = root_of(height) * left_of(line.normal);
@@ -56,9 +48,9 @@ std::vector<Point> points_on(const Circle& circle, const Line& line) {
 
 std::vector<Point> points_of(const ExactSite& a, const ExactSite& b) {
   if (a.is_arc()) {
-    const Circle circle = circle_of(a);
-    return points_on(circle,
-                     b.is_arc() ? line_of(circle, circle_of(b)) : line_of(b, circle.center));
+    const Circle circle = circle_of<Precise>(a);
+    return points_on(
+        circle, b.is_arc() ? line_of(circle, circle_of<Precise>(b)) : line_of(b, circle.center));
   }
   if (b.is_arc()) return points_of(b, a);
   const Point start = exact_vector<Number>(a.start), along = exact_vector<Number>(a.end) - start;

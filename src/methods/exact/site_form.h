@@ -79,6 +79,15 @@ Spoke<Number> spoke_of(const ExactSite& edge, bool at_end) {
           size};
 }
 
+/// The circle of an arc; the radius is negative where the arc turns to the right.
+template <class Real>
+DiskBounds<Real> circle_of(const ExactSite& arc) {
+  using Number = Bounded<Real>;
+  const Spoke<Number> spoke = spoke_of<Number>(arc, false);
+  const Number times = Number(1.0) / Number(4 * arc.bulge);
+  return {spoke.foot + times * spoke.normal, times * spoke.size};
+}
+
 /// The normal between the ends of an edge, at a `share` of the way from 1 at its start to -1 at its
 /// end: for an arc of bulge b, that of its chord turned by twice the arc tangent of b share.
 template <class Number>
