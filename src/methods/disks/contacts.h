@@ -122,6 +122,11 @@ class Contacts {
   /// shape does.
   bool faces(std::uint32_t i, Vec2 c) const { return !has_both_sides() || faces_side(i, c); }
 
+  /// What a disk that reaches across a site has touched before, if that has another side.
+  std::optional<site::Site> other_side(std::uint32_t i) const {
+    return has_both_sides() ? std::optional(site::reversed(site(i))) : std::nullopt;
+  }
+
   /// Whether a disk that reaches site i from inside touches it there: not in the end of an edge,
   /// where its neighbour would be nearer.
   bool touches(std::uint32_t i, const Disk& disk, double slack) const;

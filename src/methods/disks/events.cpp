@@ -353,6 +353,13 @@ std::optional<Event> EventSearch::contact_before(const Event& intruded) {
   if (const auto at_joint = contact_at_joint(i)) return at_joint;
   std::optional<Event> contact = contact_with(i, intruded.position);
   if (intruder.is_vertex() || (contact && reaches(*contact))) return contact;
+  if (const auto other_side = contacts_.other_side(i)) {
+    auto behind = contact_with(*other_side, i, intruded.position);
+    if (behind && contacts_.reaches(i, behind->disk)) {
+      behind->site = contacts_.owner(i, behind->disk.center, span_);
+      if (contacts_.faces(behind->site, behind->disk.center)) return behind;
+    }
+  }
   // The carrier is touched short of the edge: one of its neighbours comes first.
   std::optional<Event> earliest;
   for (const std::uint32_t next : {i - 1, i + 1}) {
