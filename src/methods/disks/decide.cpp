@@ -19,7 +19,6 @@ void Decider::propose(Step& step, const Disk& from) {
   EventSearch search(contacts_, span, from);
   step.event = found != nullptr ? search.next(found->event) : search.next();
   ahead_.note(chunk_.statistics.queries - queries <= 1);
-  if (step.event.kind == Event::Kind::none) return;
   const Certainty certainty(boundary_, context_.tolerance, span, from, step.event);
   step.error = certainty.error();
   if (is_taken(step, from, certainty)) take(step);

@@ -14,7 +14,10 @@ using Hit = Contacts::Hit;
 
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 
-/// Of growing or shrinking a disk by closed forms before that is left open; some three are usual.
+/// Halving an interval of doubles more often than this cannot change it.
+constexpr int bracket_steps = 128;
+/// Of growing or shrinking a disk by closed forms before the bracket takes over; some three are
+/// usual.
 constexpr int most_rounds = 200;
 /// From this round on, one that shortens the way by less than half is followed by a part of the
 /// way.
@@ -244,6 +247,7 @@ Event EventSearch::at_node(std::uint32_t touched) const {
 }
 
 Event EventSearch::first_contact(Event event) {
+  Event intruded = event;
   double empty = low_;  // position up to which disks are known to be empty
   bool look_beyond = true, is_slow = false;
   // Every round comes earlier, but one that looked beyond and those that grow; rounding could make
@@ -265,11 +269,11 @@ Event EventSearch::first_contact(Event event) {
         Event further = far_event(event.disk.radius);
         if (!(further.position > event.position)) further = far_event(0);
         if (further.position > event.position) {
-          event = further;
+          event = intruded = further;
           continue;
         }
       }
-      return of_empty_disk(event);
+      return of_empty_disk(event, intruded);
     }
     const std::uint32_t intruder = contacts_.owner(hit.site, asked.disk.center, span_);
     if (is_at_node(intruder)) return at_node(intruder);
@@ -277,17 +281,28 @@ Event EventSearch::first_contact(Event event) {
     const std::optional<Event> earlier = contact_before(asked);
     if (!earlier || !(earlier->position < asked.position)) {
       if (asks_part) continue;
-      break;
+      intruded = asked;
+      // A disk that is empty, and touched by what is beyond it, will do.
+      if (is_contact && look_beyond) {
+        look_beyond = false;
+        continue;
+      }
+      return bracket(from_, asked);
     }
+    intruded = asked;
     // The intruder's end touches the node's disk: a tie, not a later contact. (Next to arcs, that
     // does not tell.)
     if (contacts_.is_polygon() && is_at_node(earlier->site)) return at_node(earlier->site);
+    // A disk too far ahead may reach a point whose other copy was touched before.
+    if (element(earlier->site) == Element::vertex && earlier->position <= low_ + slack() &&
+        !contacts_.faces(earlier->site, earlier->disk.center))
+      return bracket(from_, asked);
     is_slow = !asks_part && round >= slow_round &&
               earlier->position - empty > 0.5 * (asked.position - empty);
     look_beyond = earlier->position < event.position;
     event = *earlier;
   }
-  return left_open();
+  return bracket(from_, intruded);
 }
 
 bool EventSearch::is_in_point(const Event& event) const {
@@ -296,10 +311,8 @@ bool EventSearch::is_in_point(const Event& event) const {
 }
 
 Event EventSearch::short_of_point(const Event& event) {
-  // Halving an interval of doubles more often than this cannot change it.
-  constexpr int most_halvings = 128;
   double way = event.position - low_;
-  for (int step = 0; step < most_halvings; ++step) {
+  for (int step = 0; step < bracket_steps; ++step) {
     way *= 0.5;
     const double position = event.position - way;
     if (!(low_ < position && position < event.position)) break;
@@ -309,15 +322,18 @@ Event EventSearch::short_of_point(const Event& event) {
   return event;
 }
 
-Event EventSearch::of_empty_disk(Event event) const {
-  if (event.kind == Event::Kind::contact) {
+Event EventSearch::of_empty_disk(Event event, const Event& intruded) {
+  if (event.kind == Event::Kind::contact)
     event.site = contacts_.owner(event.site, event.disk.center, span_);
-    if (!reaches(event)) return left_open();  // only the carrier was touched, short of the site
-  }
+  // Only the carrier was touched, short of the site.
+  if (event.kind == Event::Kind::contact && !reaches(event)) return bracket(event.disk, intruded);
+  // The disk at a corner, where the neighbour is too short to reach into it.
+  const bool at_corner = event.kind == Event::Kind::far && event.site != Hit::none;
+  if (at_corner && reaches(event)) event.kind = Event::Kind::contact;
   // A foot has left its site: events on flat corners come in doubtful order.
   if (event.kind == Event::Kind::far || !contacts_.reaches(span_.right, event.disk) ||
       !contacts_.reaches(span_.left, event.disk))
-    return left_open();
+    return bracket(from_, event);
   return event;
 }
 
@@ -376,15 +392,55 @@ std::optional<Event> EventSearch::contact_before(const Event& intruded) {
   return on_place ? on_place : contact;
 }
 
-Event EventSearch::left_open() const {
-  if (!(from_.radius > 0)) return {};
+std::uint32_t EventSearch::obstacle(const Disk& disk) {
+  if (!(disk.radius <= context_.radius_limit)) return contacts_.neighbor(span_, true);
+  const Hit hit = contacts_.nearest(disk, span_);
+  if (hit) return contacts_.owner(hit.site, disk.center, span_);
+  if (!contacts_.reaches(span_.right, disk)) return contacts_.neighbor(span_, true);
+  if (!contacts_.reaches(span_.left, disk)) return contacts_.neighbor(span_, false);
+  return Hit::none;
+}
+
+std::optional<Event> EventSearch::pass_at_node() const {
+  if (!(from_.radius > 0)) return std::nullopt;
   for (const bool on_right : {true, false}) {
     const auto [own, next, other] = side(on_right);
     if (boundary_.is_smooth(std::min(own, next)) &&
         contacts_.touches_carrier(next, from_, context_.tolerance))
-      return {on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, from_, low_};
+      return Event{on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, from_,
+                   low_};
   }
-  return {};
+  return std::nullopt;
+}
+
+Event EventSearch::bracket(const Disk& start, const Event& event) {
+  if (const auto passed = pass_at_node()) return *passed;
+  ++contacts_.statistics.brackets;
+  Event found{Event::Kind::contact, event.site, start, bisector_.position(start.center)};
+  if (found.site == Hit::none || found.site <= span_.right || found.site >= span_.left)
+    found.site = contacts_.neighbor(span_, true);
+  double high = event.position;
+  for (int step = 0; step < bracket_steps; ++step) {
+    const double middle = 0.5 * (found.position + high);
+    if (!(found.position < middle && middle < high)) break;
+    const Disk disk = bisector_.disk_at(middle, start);
+    const std::uint32_t site = obstacle(disk);
+    if (site == Hit::none) {
+      found.position = middle;
+      found.disk = disk;
+    } else {
+      high = middle;
+      found.site = site;
+    }
+  }
+  Event polished = found;
+  polish(polished.disk, site(found.site));
+  polished.position = bisector_.position(polished.disk.center);
+  const bool holds = polished.position >= bisector_.position(start.center) && reaches(polished) &&
+                     contacts_.reaches(span_.right, polished.disk) &&
+                     contacts_.reaches(span_.left, polished.disk) &&
+                     !contacts_.nearest(polished.disk, span_);
+  return holds ? polished : found;
 }
 
 }  // namespace medial::disks

@@ -47,7 +47,7 @@ class EventSearch {
 
   /// The first event that the two sites and their neighbours alone tell.
   Event by_neighbors();
-  /// What that comes to; never `far`. None where closed forms leave it open.
+  /// What that comes to; never `none` or `far`.
   Event next(const Event& by_neighbors);
   Event next() { return next(by_neighbors()); }
   /// What next() makes of such an event if asked_disk() is empty, and if that is all it asks for.
@@ -123,16 +123,16 @@ class EventSearch {
   /// Brings a disk's residual below the tolerance: by Newton's method, and where that fails in
   /// higher precision.
   void polish(Disk& disk, const site::Site& third);
-  /// What closed forms leave open: none, unless the node's disk touches the smooth neighbour of one
-  /// of the two sites as well, within the tolerance. Then the foot may pass on to it at once.
-  Event left_open() const;
+  /// Where the node's disk touches the smooth neighbour of one of the two sites as well, within the
+  /// tolerance: the foot may pass on to it at once.
+  std::optional<Event> pass_at_node() const;
   bool is_at_node(std::uint32_t touched) const;
   Event at_node(std::uint32_t touched) const;
   /// Shortens the way to `event` until the disk there is empty: each intruder gives a disk
   /// that comes earlier.
   Event first_contact(Event event);
-  /// What the event of an empty disk comes to.
-  Event of_empty_disk(Event event) const;
+  /// What the event of an empty disk comes to; `intruded` comes after it.
+  Event of_empty_disk(Event event, const Event& intruded);
   /// A disk on the way from an empty one to an event. Between two rows of vertices that approach
   /// each other, what intrudes most on a disk far ahead lets it come but one vertex earlier.
   Event part_of_way(double empty, const Event& event) const;
@@ -150,6 +150,12 @@ class EventSearch {
   /// A contact with the intruder of a disk that comes earlier: with its carrier, with its neighbour
   /// where the carrier is touched short of it, or with a point of it.
   std::optional<Event> contact_before(const Event& intruded);
+  /// The site that keeps a disk of the bisector from being a maximal one: an intruder, or the
+  /// neighbour to which a foot has passed on. None for a maximal disk.
+  std::uint32_t obstacle(const Disk& disk);
+  /// Where closed forms fail: halves the way from the node's disk, which is maximal, to that of
+  /// `event`, which is not, until nothing is left in between. Always ends.
+  Event bracket(const Disk& start, const Event& event);
   std::optional<Event> contact_with(std::uint32_t third, double high) {
     return contact_with(site(third), third, high);
   }
