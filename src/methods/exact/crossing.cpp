@@ -1,7 +1,6 @@
 #include "methods/exact/crossing.h"
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 #include "axis/sites.h"
@@ -92,7 +91,8 @@ std::vector<Placed> edges_of(const Problem& problem) {
 }  // namespace
 
 std::optional<Crossing> find_crossing(const Problem& problem) {
-  constexpr std::size_t looks = 1 << 10, questions = 1 << 4, least = 1 << 12;  // of each edge
+  constexpr std::size_t looks = 1 << 10, questions = 1 << 4;  // of each edge, on average
+  constexpr std::size_t least = 1 << 12;
   const std::vector<Placed> edges = edges_of(problem);
   std::size_t looks_left = looks * edges.size() + least,
               questions_left = questions * edges.size() + least;
