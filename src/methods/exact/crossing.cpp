@@ -1,11 +1,10 @@
 #include "methods/exact/crossing.h"
 
-#include <algorithm>
 #include <vector>
 
 #include "axis/sites.h"
 #include "base/arc_box.h"
-#include "base/compat.h"
+#include "base/box_tree.h"
 #include "methods/exact/site_form.h"
 
 namespace medial::exact {
@@ -67,50 +66,46 @@ bool is_inside(const ExactSite& edge, const Point& place) {
   return dot(end - start, place - start).positive() && dot(end - start, end - place).positive();
 }
 
-/// An edge in the local frame.
-struct Placed {
-  Box box;
-  std::size_t point;
-  ExactSite edge;
-};
-std::vector<Placed> edges_of(const Problem& problem) {
-  std::vector<Placed> edges;
+/// The edges of a shape in the local frame, by the points in which they begin.
+std::vector<ExactSite> edges_of(const Problem& problem) {
+  std::vector<ExactSite> edges;
+  edges.reserve(problem.shape.points.size());
   for (std::size_t l = 0; l < problem.shape.loop_count(); ++l) {
     const site::LoopEdges loop(problem.shape, l, problem.frame);
-    for (std::uint32_t i = 0; i < loop.size(); ++i) {
-      const ExactSite edge{loop.local(i), loop.local(loop.next(i)), loop.bulge(i)};
-      if (edge.is_vertex()) continue;
-      const Box box = box_around({edge.start, edge.end, edge.bulge});
-      edges.push_back({box, loop.begin() + i, edge});
-    }
+    for (std::uint32_t i = 0; i < loop.size(); ++i)
+      edges.push_back({loop.local(i), loop.local(loop.next(i)), loop.bulge(i)});
   }
-  ranges::sort(edges, {}, [](const Placed& placed) { return placed.box.low.x; });
   return edges;
+}
+
+/// Where two edges surely cross inside both.
+std::optional<Vec2> crossing_of(const ExactSite& a, const ExactSite& b) {
+  for (const Point& place : points_of(a, b))
+    if (is_inside(a, place) && is_inside(b, place))
+      return Vec2{static_cast<double>(place.x.value), static_cast<double>(place.y.value)};
+  return std::nullopt;
 }
 
 }  // namespace
 
 std::optional<Crossing> find_crossing(const Problem& problem) {
-  constexpr std::size_t looks = 1 << 10, questions = 1 << 4;  // of each edge, on average
-  constexpr std::size_t least = 1 << 12;
-  const std::vector<Placed> edges = edges_of(problem);
-  std::size_t looks_left = looks * edges.size() + least,
-              questions_left = questions * edges.size() + least;
-  for (std::size_t i = 0; i < edges.size(); ++i)
-    for (std::size_t j = i + 1; j < edges.size(); ++j) {
-      const Placed &a = edges[i], &b = edges[j];
-      if (b.box.low.x > a.box.high.x) break;
-      if (looks_left-- == 0) return std::nullopt;
-      if (b.box.low.y > a.box.high.y || a.box.low.y > b.box.high.y) continue;
-      if (questions_left-- == 0) return std::nullopt;
-      for (const Point& place : points_of(a.edge, b.edge)) {
-        if (!is_inside(a.edge, place) || !is_inside(b.edge, place)) continue;
-        const Vec2 local{static_cast<double>(place.x.value), static_cast<double>(place.y.value)};
-        return Crossing{std::min(a.point, b.point), std::max(a.point, b.point),
-                        problem.frame.to_input(local)};
-      }
-    }
-  return std::nullopt;
+  constexpr std::size_t questions = 1 << 4, least = 1 << 12;  // of each edge, on average
+  const std::vector<ExactSite> edges = edges_of(problem);
+  std::vector<Box> boxes;
+  boxes.reserve(edges.size());
+  for (const ExactSite& edge : edges)
+    boxes.push_back(box_around({edge.start, edge.end, edge.bulge}));
+  const BoxTree tree(boxes);
+  std::size_t left = questions * edges.size() + least;
+  std::optional<Crossing> found;
+  for (std::size_t i = 0; i < edges.size() && !found && left > 0; ++i)
+    tree.find(boxes[i], [&](std::uint32_t j) {
+      if (j <= i || found || left == 0) return;
+      --left;
+      if (const auto place = crossing_of(edges[i], edges[j]))
+        found = {i, j, problem.frame.to_input(*place)};
+    });
+  return found;
 }
 
 }  // namespace medial::exact

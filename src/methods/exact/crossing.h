@@ -15,8 +15,7 @@ struct Crossing {
 
 /// Two edges that cross inside both, as the doubles have them: proved in 256 bits. build_shape()
 /// lets arcs pass that cross by less than its tolerance. None also where the boxes of very many
-/// pairs of edges meet, as then not all pairs are asked. O(n log n + k n) for at most k neighbours
-/// of an edge in one coordinate.
+/// pairs of edges meet, as then not all pairs are asked. O(n log n) for small edges.
 std::optional<Crossing> find_crossing(const Problem& problem);
 
 }  // namespace medial::exact
