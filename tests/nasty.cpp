@@ -2,7 +2,7 @@
 //
 //   medial_nasty [--class NAME] [--count N] [--from SEED] [--seconds N] [--oracle K]
 //                [--planar edges|points|joints] [--threads N] [--method NAME] [--exact 1]
-//                [--save FOLDER]
+//                [--images 0] [--save FOLDER]
 //
 // Each shape is computed and verified, and so are its mirror image, its image under a quarter turn,
 // under a power of two, and from another start, and with two threads: all must have one graph.
@@ -10,8 +10,8 @@
 // compared with the true one (support/true_graph.h). --planar edges: planar graphs of the same
 // edges, of which some are left out, and their Voronoi diagrams; points: with points beside them;
 // joints: the classes of nasty_graph_classes() instead.
-// --seconds: for each class. --save: writes the first failures of each kind, made smaller. Exit
-// status 1 if anything goes wrong.
+// --seconds: for each class. --images 0: no images, no second thread. --save: writes the first
+// failures of each kind, made smaller. Exit status 1 if anything goes wrong.
 
 #include <array>
 #include <atomic>
@@ -40,7 +40,7 @@ using Clock = std::chrono::steady_clock;
 struct Switches {
   std::string_view only, method, save, planar;
   std::uint64_t from = 0, count = 1000, seconds = 1U << 30U, oracle = 0;
-  std::uint64_t threads = 1, exact = 0;
+  std::uint64_t threads = 1, exact = 0, images = 1;
 };
 
 std::string fixed_width(std::string_view text, std::size_t width) {
@@ -107,6 +107,7 @@ Faults count_faults(const Switches& switches, Examine&& examine, Keep&& keep) {
 
 Faults run(const Switches& switches, const NastyClass& one) {
   NastyOptions options{.exact = switches.exact != 0,
+                       .images = switches.images != 0,
                        .planar = !switches.planar.empty(),
                        .points = switches.planar == "points"};
   if (!switches.method.empty()) options.method = *method_from(switches.method);
@@ -175,6 +176,7 @@ bool parse(int count, char** arguments, Switches& switches) {
                            : name == "--threads" ? &switches.threads
                            : name == "--oracle"  ? &switches.oracle
                            : name == "--exact"   ? &switches.exact
+                           : name == "--images"  ? &switches.images
                                                  : nullptr;
     if (word != nullptr) {
       *word = text;
@@ -216,7 +218,7 @@ int main(int count, char** arguments) {
     std::fprintf(stderr,
                  "usage: medial_nasty [--class NAME] [--count N] [--from SEED] [--seconds N]\n"
                  "                    [--oracle K] [--planar edges|points|joints] [--threads N]\n"
-                 "                    [--method NAME] [--exact 1] [--save FOLDER]\n");
+                 "                    [--method NAME] [--exact 1] [--images 0] [--save FOLDER]\n");
     return 2;
   }
   return medial::test::run_all(switches);

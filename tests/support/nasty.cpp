@@ -430,7 +430,15 @@ Rings group_shape(Random& random, bool small) {
 
 }  // namespace
 
-std::span<const NastyClass> nasty_classes() { return classes; }
+std::span<const NastyClass> nasty_classes() {
+  static const std::vector<NastyClass> all = [] {
+    std::vector<NastyClass> both(classes.begin(), classes.end());
+    const auto of_arcs = nasty_arc_classes();
+    both.insert(both.end(), of_arcs.begin(), of_arcs.end());
+    return both;
+  }();
+  return all;
+}
 
 Rings nasty_shape(const NastyClass& one, std::uint64_t seed, bool small) {
   Random random(seed);

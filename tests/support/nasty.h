@@ -37,7 +37,20 @@ struct NastyClass {
 /// gears: turned by any angle, their vertices off by 1e-16 to 1e-10, half of them with holes.
 /// plates: with round holes and slots around the middle, off by as much.
 /// sides: straight ones with points on them, which round to either side of the line.
+/// And nasty_arc_classes().
 std::span<const NastyClass> nasty_classes();
+
+/// Outlines of arcs, whose points and bulges are off by 1e-16 to 1e-3, some with edges as short as
+/// that, some far from the origin. Some are no valid input.
+/// rows: of circles, joined by necks of 1e-14 to 0.1.
+/// belts: around pulleys, on their outside and inside. slots: between two arcs of one centre.
+/// lenses: of two arcs, often of one circle, with sides of 1e-14 to 0.1 at their ends.
+/// rosettes: arcs over the sides of a regular polygon. sectors: stairs around one centre.
+/// dimples: a dent, bump or slit on a circle, bar or polygon.
+/// fillets: corners rounded by as much as fits, or by very little. bows: hardly bent edges.
+/// offsets: of these, and offsets of offsets; made by the library, so that another version of it
+/// may make another shape of a seed.
+std::span<const NastyClass> nasty_arc_classes();
 
 Rings nasty_shape(const NastyClass& one, std::uint64_t seed, bool small);
 /// The same with some of the edges left out.

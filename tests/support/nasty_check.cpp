@@ -34,7 +34,10 @@ const std::vector<Symmetry>& exact_symmetries() {
 
 Finding of_error(const Error& error, const std::string& where) {
   const bool refusal = is_refusal(error.code) && error.code != ErrorCode::malformed;
-  return {refusal ? Fault::unsupported : Fault::internal, where + to_string(error)};
+  return {error.code == ErrorCode::crossing ? Fault::refused  // by less than build_shape() can see
+          : refusal                         ? Fault::unsupported
+                                            : Fault::internal,
+          where + to_string(error)};
 }
 
 /// The two sites of each edge.
@@ -62,7 +65,11 @@ Finding compare(const Shape& shape, const MedialAxis& axis, const Rings& rings,
   const auto image = build_shape(transformed(rings, symmetry));
   if (!image) return {Fault::asymmetric, where + to_string(image.error())};
   auto other = compute(*image, options);
-  if (!other) return of_error(other.error(), where);
+  if (!other) {
+    Finding finding = of_error(other.error(), where);
+    if (finding.fault == Fault::refused) finding.fault = Fault::asymmetric;
+    return finding;
+  }
   if (const Certificate certificate = verify(*image, *other, {.threads = 1}); !certificate.passed)
     return {Fault::wrong, where + certificate.failures.front()};
   const MedialAxis back = moved_back(shape, axis.sites, *image, std::move(*other), symmetry);
@@ -101,7 +108,7 @@ Finding examine_nasty(const Rings& rings, const NastyOptions& nasty) {
     return {Fault::wrong, certificate.failures.front()};
   Finding finding;
   if (nasty.oracle) finding = compare_with_truth(*shape, *axis);
-  if (finding.fault != Fault::none) return finding;
+  if (finding.fault != Fault::none || !nasty.images) return finding;
   const bool compared = finding.compared;
   for (const Symmetry& symmetry : exact_symmetries()) {
     Finding next = compare(*shape, *axis, rings, symmetry, options);

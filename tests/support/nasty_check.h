@@ -37,6 +37,7 @@ struct Finding {
 struct NastyOptions {
   Method method = method::Disks{};
   bool exact = false;   ///< Options::exact
+  bool images = true;   ///< compare with mirror images and the like
   bool oracle = false;  ///< compare with true_graph(): a polygon of few sites
   bool planar = false;  ///< planar graphs of the same edges, and their diagrams
   bool points = false;  ///< beside their edges as well
