@@ -276,8 +276,9 @@ bool turns_back(const Control& control, const Site& a, const Site& b, const Disk
     const Vec2 between = control.point.center - focus;
     // Opposite ends as seen from the focus leave open on which side the edge passes it.
     if (s->is_arc() && !(dot(first, last) > 0)) continue;
-    // Products of vectors from a distant centre lose digits in proportion to this.
-    const double size = std::max({1.0, squared_norm(first), squared_norm(last)});
+    // What rounding of centres, or of a focus far away, leaves open of their products.
+    const double longest = std::sqrt(std::max(squared_norm(first), squared_norm(last)));
+    const double size = longest * std::max(1.0, longest);
     const auto differ = [&](double u, double v, double least) {
       return std::abs(u) > least * size && std::abs(v) > least * size && (u > 0) != (v > 0);
     };
@@ -354,13 +355,14 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
       deviation(straight, a, b, from, to, near_focus) <= enough)
     return straight;
   bool is_lost = turns_back(best, a, b, from, to);
-  // A candidate that does not turn back is better than one that does, unless it strays further.
+  // A candidate that does not turn back is better than one that does, unless it strays further, or
+  // by more than verify() allows: around the tip of a slit narrower than rounding, edges turn back.
   const auto take_if_better = [&](const Control& control) {
     const double now = deviation(control, a, b, from, to, near_focus);
     const bool is_near = is_lost ? now <= std::max(strays, enough) : now < strays;
     if (!is_near) return;
     const bool turns = turns_back(control, a, b, from, to);
-    if (turns && !(is_lost && now < strays)) return;
+    if (turns && !(now < strays && (is_lost || strays > 0.5 * short_line))) return;
     strays = now;
     is_lost = turns;
     best = control;
@@ -378,8 +380,7 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
   take_if_better(straight);
   // An end that a tie has moved would be followed across the edge.
   if (is_good() || ends_stray(a, b, from, to) > few_roundings) return best;
-  if (const auto exact = pole_of_cone(a, b, from, to); exact && is_between(exact->point.center))
-    take_if_better(*exact);
+  if (const auto exact = pole_of_cone(a, b, from, to)) take_if_better(*exact);
   return best;
 }
 
