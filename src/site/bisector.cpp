@@ -378,8 +378,9 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
                   2 * halfway.radius - straight.point.radius};
   if (is_between(bent.center)) take_if_better({bent, 1});
   take_if_better(straight);
-  // An end that a tie has moved would be followed across the edge.
-  if (is_good() || ends_stray(a, b, from, to) > few_roundings) return best;
+  // An end that a tie has moved would be followed across the edge. One that is only rounded may be
+  // off by some roundings, and what measures it by as many.
+  if (is_good() || ends_stray(a, b, from, to) > 4 * few_roundings) return best;
   if (const auto exact = pole_of_cone(a, b, from, to)) take_if_better(*exact);
   return best;
 }

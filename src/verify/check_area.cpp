@@ -311,11 +311,11 @@ class Slices {
       const bool is_edge = problem_.axis.sites[site].kind() != SiteKind::vertex;
       return 2 * std::size_t{problem_.place[site]} + (is_edge ? 1 : 0);
     };
-    std::vector<std::size_t> begins;
+    std::vector<Begin> begins;
     for_each_end(node, [&](const Edge& edge, std::size_t end) {
-      begins.push_back(place_of(edge.site[1 - end]));
+      begins.push_back({place_of(edge.site[1 - end]), foot_on(edge, 1 - end, end)});
     });
-    ranges::sort(begins);
+    ranges::sort(begins, {}, &Begin::place);
     const double near = nearly_one * problem_.disk(node).radius;
     bool goes_on = true;
     for_each_end(node, [&](const Edge& edge, std::size_t end) {
@@ -324,13 +324,20 @@ class Slices {
     });
     return goes_on;
   }
-  /// Whether the boundary leads from a place to one of some others, past vertices near a foot.
+  /// Where a swept area begins.
+  struct Begin {
+    std::size_t place;
+    Vec2 foot;
+  };
+  /// Whether the boundary leads from a foot to one of some others near it, past vertices near it.
   /// Vertices and the edges that begin there are numbered in turn.
   bool goes_on_from(std::size_t place, Vec2 foot, double near,
-                    const std::vector<std::size_t>& others) const {
+                    const std::vector<Begin>& others) const {
     constexpr int most_vertices = 64;
     for (int vertices = 0; vertices < most_vertices;) {
-      if (std::binary_search(others.begin(), others.end(), place)) return true;
+      for (auto other = ranges::lower_bound(others, place, {}, &Begin::place);
+           other != others.end() && other->place == place; ++other)
+        if (distance(other->foot, foot) <= near) return true;
       const auto point = static_cast<std::uint32_t>(place / 2);
       if (point >= problem_.next.size()) return false;
       if (place % 2 == 0) {

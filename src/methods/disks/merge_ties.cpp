@@ -319,8 +319,12 @@ class Merger {
   }
   std::vector<Touch> contacts_of(std::uint32_t node) const {
     std::vector<Touch> contacts;
+    const std::span<const std::uint32_t> ends = ends_at(node);
+    const auto is_between = [&](std::uint32_t site) {
+      return ends.size() == 1 && !ranges::count(graph_.edges[ends[0] / 2].site, site);
+    };
     all_contacts(node, [&](std::uint32_t site) {
-      add_contact(site, graph_.nodes[node].disk, contacts);
+      add_contact(site, graph_.nodes[node].disk, is_between(site), contacts);
       return true;
     });
     sort_unique(contacts);
@@ -343,10 +347,13 @@ class Merger {
     return static_cast<std::uint32_t>(place - nodes_.begin());
   }
 
-  /// What a disk near to a given one has to do in order to touch a site.
-  void add_contact(std::uint32_t site, const Disk& disk, std::vector<Touch>& contacts) const {
+  /// What a disk near to a given one has to do in order to touch a site. The disk at a leaf stands
+  /// for all of a convex arc between its feet: one that touches the arc's ends leaves out the rest.
+  void add_contact(std::uint32_t site, const Disk& disk, bool is_between,
+                   std::vector<Touch>& contacts) const {
     using Part = Touch::Part;
-    if (boundary_.sites[site].is_arc() && touches_all(boundary_.sites[site], disk)) {
+    const Site& own = boundary_.sites[site];
+    if (own.is_arc() && ((is_between && own.curvature > 0) || touches_all(own, disk))) {
       for (const Part part : {Part::start, Part::middle, Part::end})
         contacts.push_back({site, part});
       return;
