@@ -331,8 +331,8 @@ class Walker {
       if (boundary_.is_corner(span.right)) {
         const std::uint32_t leaf = add_node({site(span.left).point, 0});
         add_edge(span, leaf);
-      } else if (const auto leaf = blunt_leaf(span.right, span.left, chunk_.nodes[span.node])) {
-        add_edge(span, add_node(*leaf));
+      } else {
+        end_at_blunt_joint(span);
       }
       finished(2);
       return false;
@@ -395,6 +395,15 @@ class Walker {
       from = add_node(*leaf);
     }
     chunk_.links.push_back({{from, to}, {span.left, span.right}});
+  }
+
+  /// Between two blunt joints, an edge either leads towards both or is none: what was found on the
+  /// way to one of them need not be the largest disk.
+  void end_at_blunt_joint(const Span& span) {
+    const auto leaf = blunt_leaf(span.right, span.left, chunk_.nodes[span.node]);
+    const bool begins_at_joint = starts_blunt_ && span.node == 0;
+    if (leaf && (!begins_at_joint || blunt_leaf(span.left, span.right, *leaf)))
+      add_edge(span, add_node(*leaf));
   }
 
   /// Where an edge ends that leads from a node towards the joint of two edges, if that is blunt and
