@@ -72,11 +72,7 @@ Control control_of_parabola(const Site& segment, Vec2 vertex, const Disk& from, 
 /// both ends holds for the control point, the pole of the edge's chord: it lies in the plane of the
 /// edge, P-perpendicular to the chord over its middle. Of the two sites the rounder one gives the
 /// height over the chord and the weight.
-struct Pole {
-  Control control;
-  double noise = 0;  ///< the share of the plane that is rounding: sites next to each other cancel
-};
-Pole pole_of_chord(const Site& a, const Site& b, const Disk& from, const Disk& to) {
+Control pole_of_chord(const Site& a, const Site& b, const Disk& from, const Disk& to) {
   const Disk middle = middle_of(from, to);
   // An edge this short against its radius, its arcs' and the distances to their centres (its foci)
   // is straight to rounding; its plane would be lost.
@@ -87,7 +83,7 @@ Pole pole_of_chord(const Site& a, const Site& b, const Disk& from, const Disk& t
       size =
           std::min({size, 1 / std::abs(s->curvature), std::abs(1 / s->curvature - middle.radius)});
   size *= straight;
-  if (squared_norm(to.center - from.center) <= size * size) return {{middle, 1}};
+  if (squared_norm(to.center - from.center) <= size * size) return {middle, 1};
   // Scaled so that round and flat add up to one in size.
   const auto flat_of = [](const Site& s) {
     return s.is_vertex() ? 0 : 1 / (1 + std::abs(s.curvature));
@@ -103,9 +99,6 @@ Pole pole_of_chord(const Site& a, const Site& b, const Disk& from, const Disk& t
   const Vec2 g =
       round_of(other) * (q - p) + flat_of(other) * other.normal() - (ratio * flat) * site.normal();
   const double s = ratio * flat - flat_of(other);
-  const double terms = std::abs(round_of(other)) * std::max(norm(p), norm(q)) + flat_of(other);
-  const double noise =
-      std::numeric_limits<double>::epsilon() * terms / std::sqrt(squared_norm(g) + s * s);
   const DiskVector chord{to.center - from.center, to.radius - from.radius};
   // In the plane, and P-perpendicular to the chord.
   const DiskVector across{{-g.y * chord.r - s * chord.c.y, s * chord.c.x + g.x * chord.r},
@@ -117,10 +110,9 @@ Pole pole_of_chord(const Site& a, const Site& b, const Disk& from, const Disk& t
   const double height = round * squared / (4 * product(across, gradient));
   const double weight_squared = squared / (squared + 4 * height * height * product(across, across));
   if (!(std::isfinite(height) && weight_squared > 0 && std::isfinite(weight_squared)))
-    return {{middle, 1}};
-  return {{{middle.center + height * across.c, middle.radius + height * across.r},
-           std::sqrt(weight_squared)},
-          noise};
+    return {middle, 1};
+  return {{middle.center + height * across.c, middle.radius + height * across.r},
+          std::sqrt(weight_squared)};
 }
 
 /// The distance of a disk of a site from the centre of an arc, or from a vertex.
@@ -335,10 +327,8 @@ std::optional<Control> control_at_common_centre(const Site& a, const Site& b, co
 /// through the disk halfway does better, or turns around a focus: there the pole with twice the
 /// digits does, which sites that are nearly tangent would leave open.
 Control control_with_arc(const Site& a, const Site& b, const Disk& from, const Disk& to) {
-  constexpr double long_enough = 0x1p-7, curved = 0x1p-3, short_line = 0x1p-46;
-  constexpr double much = 0x1p-20;  // of the digits
-  const Pole pole = pole_of_chord(a, b, from, to);
-  Control best = pole.control;
+  constexpr double long_enough = 0x1p-7, curved = 0x1p-3, short_line = 0x1p-46, hardly = 0x1p-26;
+  Control best = pole_of_chord(a, b, from, to);
   const double length = distance(from.center, to.center);
   const double focal =
       std::min({focal_distance(a, from, to), focal_distance(b, from, to), from.radius, to.radius});
@@ -354,24 +344,28 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
     return along >= 0 && along <= squared_norm(chord);
   };
   const Control straight{middle_of(from, to), 1};
-  // A curve that leads another way around a focus, or is made of rounding, is no better than a line
-  // that strays no further than the ends do: beside joints that are smooth but for some tolerances,
-  // and from where two sites are seen as one. Nor than one so short
-  // that it need not be measured: as distances change by no more than the place, it strays by half
-  // its length at most, and 2^-47 is less than verify() allows a size of one.
+  // A curve that leads another way around a focus is no better than a line that strays no further
+  // than the ends do, beside joints that are smooth but for some tolerances. Nor is one that hardly
+  // leaves its chord, as from where two sites are seen as one: how far it does so is rounding. Nor
+  // than one so short that it need not be measured: as distances change by no more than the place,
+  // it strays by half its length at most, and 2^-47 is less than verify() allows a size of one.
   const bool leads_between = is_between(best.point.center);
   if (!leads_between && length <= short_line) return straight;
-  const bool is_doubtful = !leads_between || pole.noise > much;
+  const double beside = best.weight * std::abs(cross(chord, best.point.center - from.center));
+  const bool is_doubtful =
+      !leads_between || beside <= hardly * (1 + best.weight) * squared_norm(chord);
   const double enough = few_roundings + (is_doubtful ? ends_stray(a, b, from, to) : 0);
   if ((strays > few_roundings || is_doubtful) &&
       deviation(straight, a, b, from, to, near_focus) <= enough)
     return straight;
   bool is_lost = turns_back(best, a, b, from, to);
-  // A candidate that does not turn back is better than one that does, unless it strays further, or
-  // by more than verify() allows: around the tip of a slit narrower than rounding, edges turn back.
+  // A candidate that does not turn back is better than one that does, unless it strays further than
+  // that and than a line may between ends off by so much, or by more than verify() allows: around
+  // the tip of a slit narrower than rounding, edges turn back.
+  const double of_line = is_lost ? 2 * ends_stray(a, b, from, to) + few_roundings : 0;
   const auto take_if_better = [&](const Control& control) {
     const double now = deviation(control, a, b, from, to, near_focus);
-    const bool is_near = is_lost ? now <= std::max(strays, enough) : now < strays;
+    const bool is_near = is_lost ? now <= std::max(strays, of_line) : now < strays;
     if (!is_near) return;
     const bool turns = turns_back(control, a, b, from, to);
     if (turns && !(now < strays && (is_lost || strays > 0.5 * short_line))) return;
