@@ -80,6 +80,19 @@ double WholeEdge::least_factor(const Arc* arc, double size) const {
   return least > 0 ? least + std::sqrt(std::max(0.0, least * least - std::abs(k) * size)) : 0;
 }
 
+/// What rounding leaves open of the H of an arc: next to the circle's centre, where the factor is
+/// small, it is more than H.
+double WholeEdge::rounding_of_form(Vec2 start, const Arc* arc) const {
+  if (arc == nullptr) return 0;
+  constexpr double rounding = 0x1p-49;  // some eighteen operations
+  double most = largest_radius_;
+  for (const Disk& disk : control_) {
+    const Vec2 to = disk.center - start;
+    most = std::max(most, std::abs(to.x) + std::abs(to.y));
+  }
+  return rounding * most * (1 + std::abs(arc->curvature()) * most);
+}
+
 /// On |d - r|, by that on H.
 double WholeEdge::bound_at_point(double size) const {
   const double r = least_radius_;
@@ -98,7 +111,8 @@ double WholeEdge::contact_gap(const Site& site, const Arc* arc) const {
   if (arc == nullptr && site.bulge != 0) return unknown;
   const BoundaryEdge edge = edge_of(site);
   const Vec2 start_tangent = start_tangent_of(edge, arc);
-  const double size = range_of(edge.start, start_tangent, arc).size();
+  const double size =
+      range_of(edge.start, start_tangent, arc).size() + rounding_of_form(edge.start, arc);
   const double factor = least_factor(arc, size);
   if (!(factor > 0)) return unknown;
   const Vec2 end_tangent = arc != nullptr ? arc->end_tangent() : start_tangent;
@@ -113,7 +127,8 @@ double WholeEdge::contact_gap(const Site& site, const Arc* arc) const {
 
 double WholeEdge::intrusion(const BoundaryEdge& edge, const Arc* arc) const {
   const Range range = range_of(edge.start, start_tangent_of(edge, arc), arc);
-  const double size = std::max(0.0, -range.low), factor = least_factor(arc, size);
+  const double size = std::max(0.0, -range.low) + rounding_of_form(edge.start, arc);
+  const double factor = least_factor(arc, size);
   return factor > 0 ? size / factor : unknown;
 }
 

@@ -45,6 +45,7 @@ class WholeEdge {
   Range range_of(Vec2 start, Vec2 start_tangent, const Arc* arc) const;
   Range range_of(Vec2 point) const;
   double least_factor(const Arc* arc, double size) const;
+  double rounding_of_form(Vec2 start, const Arc* arc) const;
   double bound_at_point(double size) const;
   double most_ahead(Vec2 point, Vec2 tangent) const;
 
