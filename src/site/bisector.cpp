@@ -3,7 +3,9 @@
 #include <limits>
 #include <optional>
 
+#include "base/pair.h"
 #include "base/twofold.h"
+#include "site/lanes.h"
 
 namespace medial::site {
 namespace {
@@ -186,24 +188,26 @@ std::optional<Control> pole_of_cone(const Site& a, const Site& b, const Disk& fr
 /// next to its ends, where it may be bent most; next to a focus, on all scales down to rounding.
 double deviation(const Control& control, const Site& a, const Site& b, const Disk& from,
                  const Disk& to, bool near_focus) {
-  double worst = 0;
-  const auto add = [&](double t, double rest) {
-    const double first = rest * rest, last = t * t, middle = 2 * t * rest * control.weight;
-    const double scale = 1 / (first + middle + last);
-    const Vec2 center =
-        scale * (first * from.center + middle * control.point.center + last * to.center);
-    const double radius =
-        scale * (first * from.radius + middle * control.point.radius + last * to.radius);
+  Pair worst{};
+  const auto add = [&](Pair t) {  // two parameters at a time
+    const Pair rest = 1 - t, first = rest * rest, last = t * t;
+    const Pair middle = 2 * t * rest * control.weight, scale = 1 / (first + middle + last);
+    const auto mean = [&](double at_first, double between, double at_last) {
+      return scale * (first * at_first + middle * between + last * at_last);
+    };
+    const Disk& point = control.point;
+    const Pair x = mean(from.center.x, point.center.x, to.center.x);
+    const Pair y = mean(from.center.y, point.center.y, to.center.y);
+    const Pair radius = mean(from.radius, point.radius, to.radius);
+    worst = larger(-radius, worst);  // what is no number is passed over
     for (const Site* s : {&a, &b})
-      worst = std::max({worst, std::abs(carrier_distance(*s, center) - radius), -radius});
+      worst = larger(size_of(carrier_distances(*s, x, y) - radius), worst);
   };
-  for (const double t : {0.0625, 0.5, 0.9375}) add(t, 1 - t);
-  if (!near_focus) return worst;
-  for (double t = 0x1p-6; t > 0x1p-26; t *= 0x1p-2) {
-    add(t, 1 - t);
-    add(1 - t, t);
-  }
-  return worst;
+  add(Pair{0.0625, 0.9375});
+  add(both(0.5));
+  if (near_focus)
+    for (double t = 0x1p-6; t > 0x1p-26; t *= 0x1p-2) add(Pair{t, 1 - t});
+  return std::max(worst[0], worst[1]);
 }
 
 /// The unit tangent (x, y) at a disk of the bisector of a and b, with the growth of the radius

@@ -74,4 +74,30 @@ inline std::uint32_t nearer_of_two(const Site& a, const Site& b, Vec2 c, double 
   return bits_of(dx * dx + dy * dy < squared);
 }
 
+/// carrier_distance() of two points from an arc, and squared_distance().
+struct TwoDistances {
+  Pair carrier, squared;
+};
+inline TwoDistances distances_from_arc(const Site& arc, Pair x, Pair y) {
+  const Vec2 normal = arc.normal(), end = arc.end();
+  const Pair dx = x - arc.point.x, dy = y - arc.point.y, ex = x - end.x, ey = y - end.y;
+  const Pair toward_x = normal.x - arc.curvature * dx, toward_y = normal.y - arc.curvature * dy;
+  const Pair size = root_of(toward_x * toward_x + toward_y * toward_y);
+  const Pair from_start = dx * dx + dy * dy, from_end = ex * ex + ey * ey;
+  const Pair height = (normal.x * dx + normal.y * dy) - 0.5 * arc.curvature * from_start;
+  const Pair distance = 2 * height / (1 + size);
+  const Pair along = arc.direction.x * dx + arc.direction.y * dy;
+  const Pair forward = normal.x * toward_x + normal.y * toward_y;
+  const auto faces = (along >= 0) & (forward >= 0) & (2 * along <= arc.length * (size + forward));
+  return {distance, faces ? distance * distance : smaller(from_start, from_end)};
+}
+
+/// The same of two points from any carrier.
+inline Pair carrier_distances(const Site& site, Pair x, Pair y) {
+  if (site.is_arc()) return distances_from_arc(site, x, y).carrier;
+  const Pair dx = x - site.point.x, dy = y - site.point.y;
+  return site.is_vertex() ? root_of(dx * dx + dy * dy)
+                          : site.direction.x * dy - site.direction.y * dx;
+}
+
 }  // namespace medial::site

@@ -18,6 +18,7 @@
 #include "base/threads.h"
 #include "medial/query.h"
 #include "site/bisector.h"
+#include "site/lanes.h"
 
 namespace medial::disks {
 namespace {
@@ -160,10 +161,12 @@ void gather(const std::vector<Placed>& placed, std::vector<T>& all, std::size_t 
 
 /// Two disks of an edge, such as those at its ends.
 struct TwoDisks {
-  TwoDisks(const Disk& from, const Disk& to, double a_slack) : ends{&from, &to}, slack(a_slack) {
-    x = Pair{from.center.x, to.center.x};
-    y = Pair{from.center.y, to.center.y};
-    const Pair radius{from.radius, to.radius}, least = radius - slack, most = radius + slack;
+  TwoDisks(const Disk& from, const Disk& to, double a_slack)
+      : slack(a_slack),
+        x{from.center.x, to.center.x},
+        y{from.center.y, to.center.y},
+        radius{from.radius, to.radius} {
+    const Pair least = radius - slack, most = radius + slack;
     squared_least = larger(least, both(0)) * larger(least, both(0));
     squared_most = most * most;
   }
@@ -173,7 +176,7 @@ struct TwoDisks {
   }
   /// Whether both touch a site from its inside, give or take the slack.
   bool touch(const site::Site& site) const {
-    if (site.is_arc()) return touches_arc(site, 0) && touches_arc(site, 1);
+    if (site.is_arc()) return touches_arc(site);
     const Pair dx = x - site.point.x, dy = y - site.point.y;
     const Pair along = site.direction.x * dx + site.direction.y * dy;
     const Pair height = site.direction.x * dy - site.direction.y * dx;
@@ -188,16 +191,14 @@ struct TwoDisks {
  private:
   /// The arc and its circle: next to the centre a disk may touch the arc's end while the circle is
   /// far away there, and the edge, which lies on the bisector of the circles, as well.
-  bool touches_arc(const site::Site& arc, int end) const {
-    const Disk& disk = *ends[end];
-    const double squared = site::squared_distance(arc, disk.center);
-    return squared >= squared_least[end] && squared <= squared_most[end] &&
-           std::abs(site::carrier_distance(arc, disk.center) - disk.radius) <= slack;
+  bool touches_arc(const site::Site& arc) const {
+    const auto [distance, squared] = site::distances_from_arc(arc, x, y);
+    return all((squared >= squared_least) & (squared <= squared_most) &
+               (size_of(distance - radius) <= slack));
   }
 
-  const Disk* ends[2];
   double slack;
-  Pair x, y, squared_least, squared_most;
+  Pair x, y, radius, squared_least, squared_most;
 };
 
 }  // namespace
@@ -434,8 +435,9 @@ WorkVector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& f
     const site::Site &left = boundary.sites[edge.site[0]], &right = boundary.sites[edge.site[1]];
     const Disk &from = graph.nodes[edge.node[0]].disk, &to = graph.nodes[edge.node[1]].disk;
     const site::Control control = site::control_of(left, right, from, to);
-    const bool is_doubtful = slack && (!TwoDisks(from, to, *slack).touch(left, right) ||
-                                       strays_at_centre(left, right, from, to, *slack));
+    const bool is_doubtful =
+        slack && (!TwoDisks(from, to, *slack).touch(left, right) ||
+                  (boundary.has_arcs && strays_at_centre(left, right, from, to, *slack)));
     edge.site = {boundary.originals[edge.site[0]], boundary.originals[edge.site[1]]};
     edge.control = {frame.to_input(control.point.center), frame.inverse * control.point.radius};
     edge.weight = control.weight;
