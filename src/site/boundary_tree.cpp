@@ -361,8 +361,8 @@ template <class Squared, class LookAt>
                                                               const Squared& squared,
                                                               const LookAt& look_at) const {
   if (!has_arcs_)
-    for (; first < last; first += 2) {
-      const std::uint32_t nearer = nearer_of_two(sites_[first], sites_[first + 1], c, squared());
+    for (const Site* site = sites_.data() + first; first < last; first += 2, site += 2) {
+      const std::uint32_t nearer = nearer_of_two(site[0], site[1], c, squared());
       if ((nearer & 1) != 0) look_at(first);
       if ((nearer & 2) != 0) look_at(first + 1);
     }
