@@ -45,11 +45,7 @@ exact::SiteLoops outline_of(const Rings& rings, const Window& window) {
     outline.passes[i] =
         is_inside && (!is_edge || joint == site::Joint::smooth || joint == site::Joint::reflex);
   }
-  outline.by_next.assign(names.size(), false);
-  for (std::uint32_t i = 0; i < names.size(); ++i)
-    if (const std::uint32_t after = outline.next[i]; outline.joined(i, after))
-      if (!outline.sites[i].is_vertex() && !outline.sites[after].is_vertex())
-        outline.by_next[i] = exact::by_second(outline.sites[i], outline.sites[after]);
+  outline.has_arcs = true;
   for (std::uint32_t i = 0; i < names.size(); ++i) {
     const exact::ExactSite site = outline.sites[i];
     outline.is_wide = outline.is_wide || exact::is_wide(site.start, site.end) ||

@@ -48,20 +48,21 @@ SiteLoops outline_of(const Problem& problem, const site::SiteNumbers& numbers) {
     return site_of(problem, numbers, site);
   };
   outline.passes.assign(numbers.count, false);
-  if (has_arcs(problem.shape)) outline.by_next.assign(numbers.count, false);
+  outline.has_arcs = has_arcs(problem.shape);
   for (std::size_t l = 0; l < problem.shape.loop_count(); ++l) {
     const site::LoopEdges loop(problem.shape, l, problem.frame);
     outline.loop_begin.push_back(numbers.first(loop.begin()));
+    Vec2 here = loop.local(0);
     for (std::uint32_t i = 0; i < loop.size(); ++i) {
       const std::size_t point = loop.begin() + i, after = loop.begin() + loop.next(i);
       const std::uint32_t edge = numbers.edge[point];
       if (loop.size() == 1) continue;  // a lone point has no edge
-      outline.is_wide = outline.is_wide || is_wide(loop.local(i), loop.local(loop.next(i)));
+      const Vec2 there = loop.local(loop.next(i));
+      outline.is_wide = outline.is_wide || is_wide(here, there);
+      here = there;
       if (numbers.is_site(point)) outline.passes[edge - 1] = true;
       const site::Joint joint = numbers.joints[after];
       outline.passes[edge] = joint == site::Joint::smooth || joint == site::Joint::reflex;
-      if (joint == site::Joint::smooth && !outline.by_next.empty())
-        outline.by_next[edge] = by_second(edge_of(loop, i), edge_of(loop, loop.next(i)));
     }
   }
   outline.loop_begin.push_back(numbers.count);

@@ -16,6 +16,9 @@ struct SiteList {
   ExactSite operator[](std::uint32_t i) const { return work_out(i); }
 };
 
+/// Of two edges that join smoothly, whether the normal of the second one counts for both.
+bool by_second(const ExactSite& first, const ExactSite& second);
+
 /// The boundary as loops of sites, numbered as in MedialAxis::sites.
 struct SiteLoops {
   SiteList sites;
@@ -26,9 +29,7 @@ struct SiteLoops {
   /// sides as well, only that no edge of the axis leads there.
   std::vector<bool> passes;
   std::vector<std::uint32_t> loop_begin;  ///< first site of each loop, and the number of all sites
-  /// Of an edge that ends in a joint smooth only to rounding, whether the next one's normal counts
-  /// for both, and not its own; empty: never.
-  std::vector<bool> by_next;
+  bool has_arcs = false;                  ///< joints may be smooth only to rounding
   /// Whether coordinates, or their differences between neighbours, are so small beside the size
   /// that Precise numbers do not hold them, and Wide ones are asked instead.
   bool is_wide = false;
@@ -47,18 +48,16 @@ struct SiteLoops {
     return passes[site] && next_of(site) == after;
   }
   /// The disks that touch the boundary where `site` ends and the next one begins: on the normal of
-  /// the edge that ends there, or, after a vertex and by `by_next`, of the edge that begins. So
+  /// the edge that ends there, or, after a vertex and by by_second(), of the edge that begins. So
   /// where two edges join smoothly only to rounding, the normal of one counts for both.
   template <class Number>
   Spoke<Number> spoke_after(std::uint32_t site) const {
-    if (sites[site].is_vertex() || (!by_next.empty() && by_next[site]))
-      return spoke_of<Number>(sites[next_of(site)], false);
-    return spoke_of<Number>(sites[site], true);
+    const ExactSite own = sites[site], after = sites[next_of(site)];
+    if (own.is_vertex() || (has_arcs && !after.is_vertex() && by_second(own, after)))
+      return spoke_of<Number>(after, false);
+    return spoke_of<Number>(own, true);
   }
 };
-
-/// Of two edges that join smoothly, whether the normal of the second one counts for both.
-bool by_second(const ExactSite& first, const ExactSite& second);
 
 /// Whether 256 bits do not hold a point, or by how much two points differ, beside 1: with the
 /// product of two lengths of 2^-100, 56 bits of it are left.
