@@ -12,6 +12,7 @@ namespace {
 
 std::vector<QuarterMap> quarter_maps() {
   std::vector<QuarterMap> maps;
+  maps.reserve(8);
   for (unsigned i = 0; i < 8; ++i) maps.push_back({(i & 1) != 0, (i & 2) != 0, (i & 4) != 0});
   return maps;
 }
@@ -20,6 +21,7 @@ std::vector<QuarterMap> quarter_maps() {
 template <class Key>
 void keep_least(std::vector<QuarterMap>& maps, const Key& key) {
   std::vector<std::pair<double, double>> keys;
+  keys.reserve(maps.size());
   for (const QuarterMap& map : maps) keys.push_back(key(map));
   const auto least = *std::min_element(keys.begin(), keys.end());
   std::size_t kept = 0;

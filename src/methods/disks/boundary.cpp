@@ -249,7 +249,11 @@ Boundary loops_boundary(const Problem& problem, const SiteNumbers& numbers, Side
   Boundary boundary;
   boundary.has_arcs = has_arcs(shape);
   boundary.sides = sides;
-  boundary.reserve(numbers.count);
+  const auto halved = std::count_if(shape.bulges.begin(), shape.bulges.end(), [](double bulge) {
+    return std::abs(bulge) > site::largest_bulge;
+  });
+  const std::size_t divided = boundary.has_arcs ? shape.loop_count() : 0;  // where a loop begins
+  boundary.reserve(numbers.count + static_cast<std::size_t>(halved) + divided);
   if (!boundary.has_arcs) touch_in_parallel(boundary.sites, 0, numbers.count);
   for (std::size_t l = 0; l < shape.loop_count(); ++l) {
     const LoopEdges loop(shape, l, problem.frame);
