@@ -296,11 +296,12 @@ bool turns_back(const Control& control, const Site& a, const Site& b, const Disk
 
 /// How far an edge's ends are from touching both sites.
 double ends_stray(const Site& a, const Site& b, const Disk& from, const Disk& to) {
-  double worst = 0;
-  for (const Disk& end : {from, to})
-    for (const Site* s : {&a, &b})
-      worst = std::max(worst, std::abs(carrier_distance(*s, end.center) - end.radius));
-  return worst;
+  const Pair x{from.center.x, to.center.x}, y{from.center.y, to.center.y};
+  const Pair radius{from.radius, to.radius};
+  Pair worst{};
+  for (const Site* s : {&a, &b})
+    worst = larger(size_of(carrier_distances(*s, x, y) - radius), worst);
+  return std::max(worst[0], worst[1]);
 }
 
 /// How far an edge may stray from its sites: some roundings of local coordinates.

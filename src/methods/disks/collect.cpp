@@ -185,7 +185,7 @@ struct TwoDisks {
     const Pair squared = beside_x * beside_x + beside_y * beside_y;
     // Nor do they lie behind the site, where they get through a gap that rounding has closed.
     // False for no number, too.
-    return all((squared >= squared_least) & (squared <= squared_most) & (height >= -slack));
+    return is_between(squared) && all(height >= -slack);
   }
 
  private:
@@ -193,8 +193,10 @@ struct TwoDisks {
   /// far away there, and the edge, which lies on the bisector of the circles, as well.
   bool touches_arc(const site::Site& arc) const {
     const auto [distance, squared] = site::distances_from_arc(arc, x, y);
-    return all((squared >= squared_least) & (squared <= squared_most) &
-               (size_of(distance - radius) <= slack));
+    return is_between(squared) && all(size_of(distance - radius) <= slack);
+  }
+  bool is_between(Pair squared) const {
+    return all(squared >= squared_least) && all(squared <= squared_most);
   }
 
   double slack;
@@ -209,6 +211,9 @@ Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::span<const Bridg
   std::uint32_t node_count = 0, edge_count = 0;
   const std::vector<Placed> placed = place(chunks, node_count, edge_count);
   const bool glued = !bridges.empty();
+  // Some megabytes are used again sooner than the system could clear others.
+  constexpr std::uint32_t few = 1 << 18;
+  const bool gives_back = node_count + edge_count > few;
   const Gluing gluing =
       glued ? glue(placed, bridges.size(), node_count, edge_count, with_passages) : Gluing{};
 
@@ -217,7 +222,7 @@ Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::span<const Bridg
       return count_of(gluing.node_stays, p.first_node, p.chunk->nodes.size() - 1);
     };
     gather(placed, graph.nodes, spare_nodes, count, [&](const Placed& p, Node* to) {
-      p.chunk->nodes.drain([&](std::size_t i, const Disk& disk) {
+      p.chunk->nodes.drain(gives_back, [&](std::size_t i, const Disk& disk) {
         if (i > 0 && (!glued || gluing.node_stays[p.first_node + i - 1]))
           *to++ = {disk, p.chunk->component, NodeKind::leaf};
       });
@@ -229,7 +234,7 @@ Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::span<const Bridg
       return count_of(gluing.edge_stays, p.first_edge, p.chunk->links.size());
     };
     gather(placed, graph.edges, 0, count, [&](const Placed& p, Edge* to) {
-      p.chunk->links.drain([&](std::size_t i, const Link& link) {
+      p.chunk->links.drain(gives_back, [&](std::size_t i, const Link& link) {
         if (glued && !gluing.edge_stays[p.first_edge + i]) return;
         *to++ = {{number(p.node(link.node[0])), number(p.node(link.node[1]))}, link.site, {}};
       });

@@ -82,14 +82,14 @@ void OpenGraph::add(Task task) {
   const auto first_link = static_cast<std::uint32_t>(graph_.edges.size());
   const auto place = [&](std::uint32_t i) { return i == 0 ? task.node : first_node + i - 1; };
   if (task.node != none) --waiting_[task.node];
-  chunk.nodes.drain([&](std::size_t i, const Disk& disk) {
+  chunk.nodes.drain(true, [&](std::size_t i, const Disk& disk) {
     if (i == 0) return;
     moved_.push_back(static_cast<std::uint32_t>(graph_.nodes.size()));
     graph_.nodes.push_back({disk, chunk.component, NodeKind::leaf});
   });
   number_.resize(graph_.nodes.size(), none);
   waiting_.resize(graph_.nodes.size());
-  chunk.links.drain([&](std::size_t, const Link& link) {
+  chunk.links.drain(true, [&](std::size_t, const Link& link) {
     graph_.edges.push_back({{place(link.node[0]), place(link.node[1])}, link.site, {}});
   });
   for (const BridgeEnd& end : chunk.bridge_ends)

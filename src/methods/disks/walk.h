@@ -49,14 +49,15 @@ class BlockList {
     return block(number)[i - ((least_ << number) - least_)];
   }
   /// Calls take(i, element) for all elements in order and frees each block once it is done.
+  /// `gives_back`: whether the system gets its pages before the allocator has a use for them.
   template <class Take>
-  void drain(Take&& take) {
+  void drain(bool gives_back, Take&& take) {
     std::size_t i = 0;
     for (std::size_t number = 0; i < size_; ++number) {
       const T* element = block(number);
       const std::size_t end = std::min(size_, i + size_of(number));
       for (; i < end; ++i) take(i, *element++);
-      give_back_pages(blocks_[number].get(), size_of(number) * sizeof(T));
+      if (gives_back) give_back_pages(blocks_[number].get(), size_of(number) * sizeof(T));
       blocks_[number].reset();
     }
     *this = BlockList(least_);
