@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/memory.h"
@@ -14,19 +15,30 @@ namespace medial {
 /// all threads, in blocks: small ones where it is slow, so that few numbers still use all of them.
 template <std::size_t block = 1 << 12, class Holds>
 WorkVector<std::uint32_t> numbers_where(std::size_t count, const Holds& holds) {
-  std::vector<std::vector<std::uint32_t>> found((count + block - 1) / block);
-  parallel_for(found.size(), [&](std::size_t i) {
-    std::array<std::uint32_t, block> some;
+  using Block = std::array<std::uint32_t, block>;
+  const auto find = [&](std::size_t begin, Block& some) {
     std::size_t size = 0;
-    for (std::size_t k = i * block; k < std::min(count, (i + 1) * block); ++k) {
+    for (std::size_t k = begin; k < std::min(count, begin + block); ++k) {
       some[size] = static_cast<std::uint32_t>(k);
       size += holds(k) ? 1 : 0;  // without a branch that could be guessed wrong
     }
-    found[i].assign(some.begin(), some.begin() + static_cast<std::ptrdiff_t>(size));
+    return std::span(some).first(size);
+  };
+  WorkVector<std::uint32_t> all;
+  if (count <= block) {  // without lists, which small shapes would notice
+    Block some;
+    const auto numbers = find(0, some);
+    all.assign(numbers.begin(), numbers.end());
+    return all;
+  }
+  std::vector<std::vector<std::uint32_t>> found((count + block - 1) / block);
+  parallel_for(found.size(), [&](std::size_t i) {
+    Block some;
+    const auto numbers = find(i * block, some);
+    found[i].assign(numbers.begin(), numbers.end());
   });
   std::size_t size = 0;
   for (const auto& some : found) size += some.size();
-  WorkVector<std::uint32_t> all;
   all.reserve(size);
   for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
   return all;

@@ -363,6 +363,7 @@ template <class Squared, class LookAt>
   if (!has_arcs_)
     for (const Site* site = sites_.data() + first; first < last; first += 2, site += 2) {
       const std::uint32_t nearer = nearer_of_two(site[0], site[1], c, squared());
+      if (nearer == 0) continue;
       if ((nearer & 1) != 0) look_at(first);
       if ((nearer & 2) != 0) look_at(first + 1);
     }

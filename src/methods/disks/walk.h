@@ -64,7 +64,7 @@ class BlockList {
   }
 
  private:
-  static constexpr std::size_t least = 8, most = least << 9;  // elements of a block
+  static constexpr std::size_t least = 16, most = least << 8;  // elements of a block
   /// Block k begins at least_ * (2^k - 1), up to the one from which all are the largest.
   std::size_t size_of(std::size_t number) const { return least_ << std::min(number, doublings_); }
   T* block(std::size_t number) const { return reinterpret_cast<T*>(blocks_[number].get()); }
