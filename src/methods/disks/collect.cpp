@@ -435,8 +435,13 @@ bool strays_at_centre(const site::Site& left, const site::Site& right, const Dis
 WorkVector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& frame,
                                    std::optional<double> slack, Graph& graph) {
   graph.statistics.largest_residual *= frame.inverse;
+  constexpr std::size_t block = 1 << 12, ahead = 16;
   const auto fill_edge = [&](std::size_t i) {
     Edge& edge = graph.edges[i];
+    // Sites lie far from each other in memory. Edges of the next block may be another thread's.
+    if (i % block + ahead < block && i + ahead < graph.edges.size())
+      for (const std::uint32_t site : graph.edges[i + ahead].site)
+        __builtin_prefetch(&boundary.sites[site]);
     const site::Site &left = boundary.sites[edge.site[0]], &right = boundary.sites[edge.site[1]];
     const Disk &from = graph.nodes[edge.node[0]].disk, &to = graph.nodes[edge.node[1]].disk;
     const site::Control control = site::control_of(left, right, from, to);
@@ -454,7 +459,7 @@ WorkVector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& f
       [&] {
         if (slack) degree = degrees_of(graph);
       },
-      [&] { doubtful = numbers_where(graph.edges.size(), fill_edge); });
+      [&] { doubtful = numbers_where<block>(graph.edges.size(), fill_edge); });
   parallel_ranges(graph.nodes.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Node& node = graph.nodes[i];
