@@ -213,7 +213,6 @@ bool has_right_topology(const Shape& shape, std::span<const Node> nodes, std::sp
   const auto block_of = [&](std::uint32_t node) {
     return static_cast<std::size_t>(share * node) / block;
   };
-  const bool is_one_block = edges.size() <= block;
   DisjointSets parts(nodes.size());
   const auto look_at = [&](std::size_t e, TopologyFindings& found) {
     const auto [from, to] = edges[e].node;
@@ -224,7 +223,7 @@ bool has_right_topology(const Shape& shape, std::span<const Node> nodes, std::sp
         found.edges.emplace_back(component, 0);
       ++found.edges.back().second;
     }
-    if (is_one_block || (block_of(from) == e / block && block_of(to) == e / block))
+    if (edges.size() <= block || (block_of(from) == e / block && block_of(to) == e / block))
       found.joined += parts.join_uncounted(from, to) ? 1 : 0;
     else
       found.others.push_back(static_cast<std::uint32_t>(e));
@@ -239,7 +238,7 @@ bool has_right_topology(const Shape& shape, std::span<const Node> nodes, std::sp
     for (const std::uint32_t e : found.others)
       joined += parts.join_uncounted(edges[e].node[0], edges[e].node[1]) ? 1 : 0;
   };
-  if (is_one_block) {  // without a list, which small shapes would notice
+  if (edges.size() <= block) {  // without a list, which small shapes would notice
     TopologyFindings all;
     for (std::size_t e = 0; e < edges.size(); ++e) look_at(e, all);
     add(all);
