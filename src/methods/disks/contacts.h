@@ -53,6 +53,10 @@ struct WalkContext {
   bool is_cancelled() const { return cancel != nullptr && cancel->load(std::memory_order_relaxed); }
 };
 
+/// A flag at the end of a structure that is copied right after it was written: without the bytes
+/// behind a bool, loads of the copy would overlap, and wait until several stores are done.
+using WideFlag = std::uint64_t;
+
 /// A part of the boundary still to be walked: the sites between `right`, whose foot moves forward,
 /// and `left`, whose foot moves backward, both touched by the disk of `node`.
 struct Span {
@@ -61,7 +65,7 @@ struct Span {
   std::uint32_t node;
   std::uint32_t third = ~std::uint32_t{0};  ///< another site that the node's disk touches, if known
   double error = 0;                         ///< how far the exact disk is from the node's, at most
-  bool is_exact = false;  ///< the node is the one that the shape has for the three sites
+  WideFlag is_exact = false;  ///< the node is the one that the shape has for the three sites
 
   /// Whether a site continues the right one smoothly, or the left one.
   bool continues_right(const Boundary& boundary, std::uint32_t site) const {

@@ -22,7 +22,7 @@ struct Event {
   std::uint32_t site = Contacts::Hit::none;
   Disk disk;
   double position = std::numeric_limits<double>::infinity();
-  bool may_grow = false;  ///< of `far`: no neighbour ends the edge
+  WideFlag may_grow = false;  ///< of `far`: no neighbour ends the edge
 
   /// What its disk touches beside a span's two sites.
   std::uint32_t touched(const Span& span) const {
