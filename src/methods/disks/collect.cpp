@@ -223,8 +223,9 @@ Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::span<const Bridg
     };
     gather(placed, graph.nodes, spare_nodes, count, [&](const Placed& p, Node* to) {
       p.chunk->nodes.drain(gives_back, [&](std::size_t i, const Disk& disk) {
-        if (i > 0 && (!glued || gluing.node_stays[p.first_node + i - 1]))
-          *to++ = {disk, p.chunk->component, NodeKind::leaf};
+        if (i == 0 || (glued && !gluing.node_stays[p.first_node + i - 1])) return;
+        to->disk = disk;  // a leaf, as all are at first
+        to++->component = p.chunk->component;
       });
     });
   };
@@ -236,7 +237,8 @@ Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::span<const Bridg
     gather(placed, graph.edges, 0, count, [&](const Placed& p, Edge* to) {
       p.chunk->links.drain(gives_back, [&](std::size_t i, const Link& link) {
         if (glued && !gluing.edge_stays[p.first_edge + i]) return;
-        *to++ = {{number(p.node(link.node[0])), number(p.node(link.node[1]))}, link.site, {}};
+        to->node = {number(p.node(link.node[0])), number(p.node(link.node[1]))};
+        to++->site = link.site;
       });
     });
   };
