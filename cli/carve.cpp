@@ -197,6 +197,22 @@ Result<CarvedItem> carve_one(Shape shape, const CarveArguments& arguments,
   return item;
 }
 
+Result<std::vector<CarvedItem>> carve_all(Document<ShapeItem>& shapes,
+                                          const CarveArguments& arguments) {
+  const CarveOptions options = carve_options(arguments, shapes.unit);
+  const auto carve_item = [&](std::size_t i, int threads) {
+    return carve_one(std::move(shapes.items[i].shape), arguments, options,
+                     engine_options(arguments.common, threads, shapes.corner_angle), shapes.unit);
+  };
+  std::vector<std::string> left_out;
+  auto carved = map_features<CarvedItem>(shapes, weights_of(shapes), arguments.common.threads,
+                                         carve_item, skips(arguments.input, left_out));
+  if (!carved) return std::move(carved).error();
+  note_left_out(left_out, arguments.input, arguments.common);
+  if (carved->items.empty()) return no_shape(arguments.input.path);
+  return std::move(carved->items);
+}
+
 /// Notes on what the tools do not reach. Errors: empty (the tool fits nowhere).
 Status check_uncut(const std::vector<CarvedItem>& items, const CarveArguments& arguments) {
   const std::string& input = arguments.input.path;
@@ -371,13 +387,8 @@ Result<int> run_carve(const CarveArguments& given) {
   file.crs_wkt.clear();  // a machine has no reference system
   const Vec2 zero = zero_of(shapes->file, arguments.origin);
   if (Status near = check_zero(shapes->file, zero); !near) return std::move(near).error();
-  const CarveOptions options = carve_options(arguments, file.unit);
-  auto items = map_items<CarvedItem>(
-      weights_of(shapes->file), common.threads, [&](std::size_t i, int threads) {
-        return carve_one(std::move(shapes->file.items[i].shape), arguments, options,
-                         engine_options(common, threads, shapes->file.corner_angle), file.unit);
-      });
-  if (!items) return in_feature_of(shapes->file, std::move(items).error());
+  auto items = carve_all(shapes->file, arguments);
+  if (!items) return std::move(items).error();
   if (Status cut = check_uncut(*items, arguments); !cut) return std::move(cut).error();
   std::ranges::move(*items, std::back_inserter(file.items));
   io::place(file, zero);

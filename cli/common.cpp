@@ -222,8 +222,8 @@ void add_input_options(CLI::App& command, InputOptions& input) {
       ->check(CLI::IsMember({"make-valid", "even-odd", "non-zero"}).description(""))
       ->each([&read](const std::string& rule) { read.repair = rules.at(rule); });
   command.add_flag("--skip-invalid", read.skip_invalid,
-                   "Leave out invalid features instead of refusing the file; notes say\n"
-                   "why, and how many.");
+                   "Leave out invalid features, and those that cannot be computed, instead\n"
+                   "of refusing the file; notes say why, and how many.");
   command
       .add_option("--crs", read.crs,
                   "The reference system of the coordinates; overrides the file's own.")

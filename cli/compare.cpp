@@ -198,6 +198,7 @@ Result<int> run_compare(const CompareArguments& arguments) {
   const Document<ShapeItem>& file = loaded->file;
   if (file.items.empty()) return no_shape(input.path);
   bool failed = false;
+  std::vector<std::string> left_out;
   Json features = Json::array();
   std::string text;
   for (std::size_t i = 0; i < file.items.size(); ++i) {
@@ -205,6 +206,7 @@ Result<int> run_compare(const CompareArguments& arguments) {
     auto reference = reference_of(item.shape, file.corner_angle, arguments);
     if (!reference) {
       reference.error().place.feature = file.index_of(i);
+      if (is_left_out(reference.error(), skips(input, left_out))) continue;
       return std::move(reference).error();
     }
     std::vector<Row> rows;
@@ -216,7 +218,7 @@ Result<int> run_compare(const CompareArguments& arguments) {
       failed = failed || row.failed;
       list.push_back(json_of(row));
     }
-    if (i == 0 && !arguments.output.empty()) {
+    if (features.size() == 1 && !arguments.output.empty()) {
       std::vector<Panel> panels;
       for (Row& row : rows)
         if (row.refused.empty())
@@ -226,6 +228,8 @@ Result<int> run_compare(const CompareArguments& arguments) {
       if (!written) return std::move(written).error();
     }
   }
+  note_left_out(left_out, input, common);
+  if (features.empty()) return no_shape(input.path);
   loaded->phases.end("compare");
   return finish(common, {{"features", std::move(features)}}, loaded->phases, text, {},
                 failed ? exit_failed_verdict : exit_success);

@@ -24,15 +24,19 @@ Result<int> run_field(const FieldArguments& arguments) {
   if (!file) return std::move(file).error();
   std::vector<Shape> shapes;
   std::vector<PotentialField> fields;
-  for (ShapeItem& item : file->file.items) {
+  std::vector<std::string> left_out;
+  for (std::size_t i = 0; i < file->file.items.size(); ++i) {
+    ShapeItem& item = file->file.items[i];
     auto field = PotentialField::make(item.shape, arguments.order);
     if (!field) {
-      field.error().place.feature = fields.size();
+      field.error().place.feature = file->file.index_of(i);
+      if (is_left_out(field.error(), skips(arguments.input, left_out))) continue;
       return std::move(field).error();
     }
     fields.push_back(std::move(field).value());
     shapes.push_back(std::move(item.shape));
   }
+  note_left_out(left_out, arguments.input, arguments.common);
   io::FieldPictureOptions picture = arguments.picture;
   picture.y_down = file->file.y_down;
   picture.unit = file->file.unit;

@@ -96,7 +96,12 @@ Result<std::vector<NamedSignature>> signatures_of(const InputOptions& input,
     return NamedSignature{
         each ? fmt::format("{}#{}", input.path, axes->file.index_of(i)) : input.path, *signature};
   };
-  return map_items<NamedSignature>(edge_weights_of(axes->file), common.threads, sign);
+  std::vector<std::string> left_out;
+  auto signatures = map_features<NamedSignature>(axes->file, edge_weights_of(axes->file),
+                                                 common.threads, sign, skips(input, left_out));
+  if (!signatures) return std::move(signatures).error();
+  note_left_out(left_out, input, common);
+  return std::move(signatures->items);
 }
 
 /// The files in a folder and its subfolders, by name.

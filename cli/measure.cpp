@@ -517,7 +517,8 @@ Result<io::MeasuredItems> measure_part(Document<ShapeItem> shapes, int threads, 
     if (wants_disks_alone(arguments)) return without_axes(std::move(shapes));
     Options options =
         engine_options(arguments.common, threads, shapes.corner_angle, arguments.options);
-    return medial::compute_axes(std::move(shapes), std::move(options), &report);
+    return medial::compute_axes(std::move(shapes), std::move(options), &report,
+                                arguments.input.source.read.skip_invalid);
   }();
   if (!file) return std::move(file).error();
   auto measured = measure_all(*file, threads, arguments);
@@ -542,11 +543,10 @@ Result<std::optional<int>> stream_measures(const MeasureArguments& arguments) {
   how.compute = [&](Document<ShapeItem> shapes, int threads,
                     AxesReport& report) -> Result<io::StreamItems> {
     std::vector<Measured> all;
-    const std::uint64_t first = shapes.index_of(0);
     auto made = measure_part(std::move(shapes), threads, report, arguments, all);
     if (!made) return std::move(made).error();
     const std::lock_guard<std::mutex> alone(adding);
-    if (table_wanted) parts[first] = std::move(all);
+    if (table_wanted && !all.empty()) parts[made->second.index_of(0)] = std::move(all);
     return io::StreamItems(std::move(*made));
   };
   how.visit = [&](const io::StreamItems& part) {

@@ -159,27 +159,28 @@ Result<Document<io::OffsetItem>> buffer_all(const OffsetArguments& arguments) {
 
 /// The offset curves of each shape.
 Result<Document<io::OffsetItem>> offset_each(Document<ShapeItem> shapes, int threads,
-                                             const OffsetArguments& arguments) {
-  std::vector<ShapeItem>& items = shapes.items;
-  Document<io::OffsetItem> file{shapes, {}};
+                                             const OffsetArguments& arguments,
+                                             std::vector<std::string>& left_out) {
   const auto offset_item = [&](std::size_t i, int own_threads) -> Result<io::OffsetItem> {
-    auto offsets = offset_one(items[i].shape, arguments,
-                              engine_options(arguments.common, own_threads, file.corner_angle));
+    ShapeItem& item = shapes.items[i];
+    auto offsets = offset_one(item.shape, arguments,
+                              engine_options(arguments.common, own_threads, shapes.corner_angle));
     if (!offsets) return std::move(offsets).error();
-    return io::OffsetItem{std::move(items[i].shape), std::move(offsets).value(),
-                          std::move(items[i].attributes)};
+    return io::OffsetItem{std::move(item.shape), std::move(offsets).value(),
+                          std::move(item.attributes)};
   };
-  auto computed = map_items<io::OffsetItem>(weights_of(shapes), threads, offset_item);
-  if (!computed) return in_feature_of(file, std::move(computed).error());
-  file.items = std::move(computed).value();
-  return file;
+  return map_features<io::OffsetItem>(shapes, weights_of(shapes), threads, offset_item,
+                                      skips(arguments.input, left_out));
 }
 
 Result<Document<io::OffsetItem>> offset_file(const OffsetArguments& arguments) {
   if (arguments.loose) return buffer_all(arguments);
   auto shapes = load_shapes(arguments.input, arguments.common);
   if (!shapes) return std::move(shapes).error();
-  return offset_each(std::move(shapes->file), arguments.common.threads, arguments);
+  std::vector<std::string> left_out;
+  auto file = offset_each(std::move(shapes->file), arguments.common.threads, arguments, left_out);
+  note_left_out(left_out, arguments.input, arguments.common);
+  return file;
 }
 
 /// The same for a file of many features, part by part; nothing if that is impossible.
@@ -189,8 +190,8 @@ Result<std::optional<int>> stream_offsets(const OffsetArguments& arguments) {
   io::StreamOptions how;
   how.none = Document<io::OffsetItem>();
   how.compute = [&](Document<ShapeItem> shapes, int threads,
-                    AxesReport&) -> Result<io::StreamItems> {
-    auto file = offset_each(std::move(shapes), threads, arguments);
+                    AxesReport& report) -> Result<io::StreamItems> {
+    auto file = offset_each(std::move(shapes), threads, arguments, report.left_out);
     if (!file) return std::move(file).error();
     return io::StreamItems(std::move(*file));
   };

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -51,6 +52,7 @@ void print_notes(const Document<Item>& file, const InputOptions& input,
 }
 
 void note_report(const AxesReport& report, const InputOptions& input, const CommonOptions& common) {
+  note_left_out(report.left_out, input, common);
   if (report.by_disks > 0 && !common.quiet)
     say("medial: {}: note: the method disks computed {} instead, with --exact or because rounding "
         "decides there\n",
@@ -212,6 +214,30 @@ Result<LoadedShapes> shapes_of(Document<Feature> features, LoadedShapes out,
 
 }  // namespace
 
+void note_left_out(const std::vector<std::string>& left_out, const InputOptions& input,
+                   const CommonOptions& common) {
+  print_notes(left_out, input, common);
+  if (!left_out.empty() && !common.quiet)
+    say("medial: {}: note: {} could not be computed and {} left out\n", input.path,
+        counted(left_out.size(), "feature"), left_out.size() == 1 ? "was" : "were");
+}
+
+std::size_t keep_features_of(const Document<AxisItem>& axes, const InputOptions& input,
+                             Document<ShapeItem>& shapes) {
+  if (!input.source.read.skip_invalid || shapes.items.size() <= axes.items.size()) return 0;
+  std::set<std::uint64_t> wanted;
+  for (std::size_t i = 0; i < axes.items.size(); ++i) wanted.insert(axes.index_of(i));
+  Document<ShapeItem> kept{shapes, {}};
+  kept.indices.clear();
+  for (std::size_t i = 0; i < shapes.items.size(); ++i) {
+    if (!wanted.contains(shapes.index_of(i))) continue;
+    kept.indices.push_back(shapes.index_of(i));
+    kept.items.push_back(std::move(shapes.items[i]));
+  }
+  std::swap(shapes, kept);
+  return kept.items.size() - shapes.items.size();
+}
+
 InputOptions first_input(InputOptions input, const std::string& second) {
   if (!input.source.text.empty()) return input;
   std::error_code ignored;
@@ -273,8 +299,9 @@ Result<LoadedAxes> compute_axes(LoadedShapes shapes, const InputOptions& input,
   Progress progress("medial axis", error_is_terminal() && !common.quiet);
   options = engine_options(common, common.threads, shapes.file.corner_angle, std::move(options));
   options.progress = progress.callback();
-  auto axes = naming_file(
-      medial::compute_axes(std::move(shapes.file), std::move(options), &out.axes), input);
+  auto axes = naming_file(medial::compute_axes(std::move(shapes.file), std::move(options),
+                                               &out.axes, input.source.read.skip_invalid),
+                          input);
   if (!axes) return std::move(axes).error();
   out.file = std::move(axes).value();
   out.phases.end("axis");
@@ -543,10 +570,11 @@ Result<std::optional<int>> stream_axes(
                     AxesReport& report) -> Result<io::StreamItems> {
     Options own = options;
     own.threads = threads;
-    auto axes = medial::compute_axes(std::move(shapes), std::move(own), &report);
+    auto axes = medial::compute_axes(std::move(shapes), std::move(own), &report,
+                                     input.source.read.skip_invalid);
     if (!axes) return std::move(axes).error();
-    if (Status changed = change ? change(*axes) : success(); !changed)
-      return std::move(changed).error();
+    if (change && !axes->items.empty())
+      if (Status changed = change(*axes); !changed) return std::move(changed).error();
     return io::StreamItems(std::move(*axes));
   };
   how.visit = [&](const io::StreamItems& part) {
@@ -574,14 +602,16 @@ Result<std::optional<int>> finish_in_parts(LoadedShapes& shapes, const FileArgum
   options = engine_options(common, common.threads, shapes.file.corner_angle, std::move(options));
   options.progress = progress.callback();
   const auto visit = [&](std::size_t shape, const AxisPart& part) { parts.add(shape, part); };
-  auto report = naming_file(io::write_in_parts(arguments.output, arguments.format, shapes.file,
-                                               options, write_options(arguments), visit),
-                            input);
+  auto report = naming_file(
+      io::write_in_parts(arguments.output, arguments.format, shapes.file, options,
+                         write_options(arguments), visit, input.source.read.skip_invalid),
+      input);
   if (!report) return std::move(report).error();
   if (!*report) return std::optional<int>();
   out.axes = **report;
   out.axes.statistics.threads = effective_threads(common.threads);
   out.phases.end("axis");
+  note_report(out.axes, input, common);
   AxisSummary summary = parts.finish(shapes.file.items.size(), out.axes.sites);
   summary.deepest_feature = shapes.file.index_of(summary.deepest_feature);
   note_points(parts.points(), arguments);

@@ -32,6 +32,22 @@ struct LoadedAxes {
   Phases phases;  ///< read, shape, axis
 };
 
+/// An error that names an item of a document, in terms of the document's file.
+inline Error in_feature_of(const DocumentInfo& file, Error error) {
+  if (auto& feature = error.place.feature) feature = file.index_of(*feature);
+  return error;
+}
+
+/// How much work each item is, for for_each_item(): by its shape's points, or by its axis's edges.
+template <class Item>
+std::vector<double> weights_of(const Document<Item>& file) {
+  std::vector<double> weights;
+  for (const Item& item : file.items)
+    weights.push_back(static_cast<double>(item.shape.points.size()));
+  return weights;
+}
+std::vector<double> edge_weights_of(const Document<AxisItem>& file);
+
 /// The options of INPUT and of a second file. Where one is of medial's own format or no image, what
 /// does not apply to it is left to the other; what neither can follow is refused. A text is INPUT's
 /// alone.
@@ -46,6 +62,51 @@ Result<LoosePieces> load_loose(const InputOptions& input, const CommonOptions& c
 Status with_planar_graph(const LoosePieces& pieces, const FileArguments& arguments,
                          const std::function<Status(PlanarGraph&)>& use);
 
+/// Where features with an error are left out with --skip-invalid: `left_out`; else null.
+inline std::vector<std::string>* skips(const InputOptions& input,
+                                       std::vector<std::string>& left_out) {
+  return input.source.read.skip_invalid ? &left_out : nullptr;
+}
+/// Notes on features that were left out, and one that counts them.
+void note_left_out(const std::vector<std::string>& left_out, const InputOptions& input,
+                   const CommonOptions& common);
+/// Keeps the results of work(i, threads), which has to stay.
+template <class T>
+std::function<Status(std::size_t i, int threads)> keeping(
+    const std::function<Result<T>(std::size_t i, int threads)>& work, std::vector<T>& results) {
+  return [&](std::size_t i, int threads) -> Status {
+    auto result = work(i, threads);
+    if (!result) return std::move(result).error();
+    results[i] = std::move(result).value();
+    return success();
+  };
+}
+/// The results of for_each_item().
+template <class T>
+Result<std::vector<T>> map_items(std::span<const double> weights, int threads,
+                                 const std::function<Result<T>(std::size_t i, int threads)>& work) {
+  std::vector<T> results(weights.size());
+  Status done = for_each_item(weights, threads, keeping(work, results));
+  return done ? Result<std::vector<T>>(std::move(results)) : std::move(done).error();
+}
+/// The results of for_each_feature(), in a document with the information of `of`.
+template <class T>
+Result<Document<T>> map_features(const DocumentInfo& of, std::span<const double> weights,
+                                 int threads,
+                                 const std::function<Result<T>(std::size_t i, int threads)>& work,
+                                 std::vector<std::string>* left_out) {
+  Document<T> made{of, {}};
+  std::vector<T> items(weights.size());
+  const auto kept = for_each_feature(made, weights, threads, keeping(work, items), left_out);
+  if (!kept) return kept.error();
+  for (const std::size_t i : *kept) made.items.push_back(std::move(items[i]));
+  return made;
+}
+/// With --skip-invalid, leaves out the shapes of features that `axes` have not, which could not be
+/// computed. Returns how many.
+std::size_t keep_features_of(const Document<AxisItem>& axes, const InputOptions& input,
+                             Document<ShapeItem>& shapes);
+
 /// Computes the axes of shapes, with a progress bar where that is wanted. Of `options`, this sets
 /// what the common options hold, and progress. Errors name the file.
 Result<LoadedAxes> compute_axes(LoadedShapes shapes, const InputOptions& input,
@@ -57,27 +118,11 @@ Result<LoadedAxes> compute_axes(LoadedShapes shapes, const InputOptions& input,
 Result<LoadedAxes> load_axes(const InputOptions& input, const CommonOptions& common,
                              double specks = 0, const Options& options = {});
 
-/// An error that names an item of a document, in terms of the document's file.
-inline Error in_feature_of(const DocumentInfo& file, Error error) {
-  if (auto& feature = error.place.feature) feature = file.index_of(*feature);
-  return error;
-}
-
 /// --corner-angle, or what suits the kind of input: Document::corner_angle.
 double corner_angle(const CommonOptions& common, double of_input);
 /// The common options of all engines.
 Options engine_options(const CommonOptions& common, int threads, double of_input,
                        Options options = {});
-
-/// How much work each item is, for for_each_item(): by its shape's points, or by its axis's edges.
-template <class Item>
-std::vector<double> weights_of(const Document<Item>& file) {
-  std::vector<double> weights;
-  for (const Item& item : file.items)
-    weights.push_back(static_cast<double>(item.shape.points.size()));
-  return weights;
-}
-std::vector<double> edge_weights_of(const Document<AxisItem>& file);
 
 /// What axes look like, summed over the features of a file.
 struct AxisSummary {

@@ -43,22 +43,28 @@ InputOptions input_of(const RebuildArguments& arguments) {
 }
 
 /// The axes of the exteriors of a file's shapes, in a rectangle. The shapes go to `before`.
-Result<LoadedAxes> axes_outside(const RebuildArguments& arguments, std::vector<Shape>& before) {
+Result<LoadedAxes> axes_outside(const RebuildArguments& arguments, Document<ShapeItem>& before) {
   const InputOptions input = input_of(arguments);
   const CommonOptions& common = arguments.common;
   auto loaded = load_shapes(input, common);
   if (!loaded) return std::move(loaded).error();
-  for (ShapeItem& item : loaded->file.items) {
-    Shape& shape = item.shape;
-    if (arguments.prune.specks > 0) shape = without_specks(shape, arguments.prune.specks);
-    auto around = surroundings(shape, arguments.options.margin);
-    if (!around) {
-      around.error().place.feature = before.size();
-      return std::move(around).error();
-    }
-    before.push_back(std::exchange(shape, std::move(around).value()));
-  }
-  return compute_axes(std::move(loaded).value(), input, common);
+  before = std::move(loaded->file);
+  const auto around_one = [&](std::size_t i, int) -> Result<ShapeItem> {
+    ShapeItem& item = before.items[i];
+    if (arguments.prune.specks > 0) item.shape = without_specks(item.shape, arguments.prune.specks);
+    auto around = surroundings(item.shape, arguments.options.margin);
+    if (!around) return std::move(around).error();
+    return ShapeItem{std::move(around).value(), std::move(item.attributes)};
+  };
+  std::vector<std::string> left_out;
+  auto around = map_features<ShapeItem>(before, weights_of(before), common.threads, around_one,
+                                        skips(input, left_out));
+  if (!around) return std::move(around).error();
+  note_left_out(left_out, input, common);
+  loaded->file = std::move(around).value();
+  auto axes = compute_axes(std::move(loaded).value(), input, common);
+  if (axes) keep_features_of(axes->file, input, before);
+  return axes;
 }
 
 /// The shape with these surroundings: enclosed by their loops except the rectangle, which reaches
@@ -108,7 +114,7 @@ Result<Rebuilt> rebuild_all(const Document<AxisItem>& file, const RebuildArgumen
 }
 
 /// The largest distances of all features, the sums of their areas.
-Status compare(Rebuilt& rebuilt, const std::vector<Shape>& others, const std::string& path,
+Status compare(Rebuilt& rebuilt, const std::vector<ShapeItem>& others, const std::string& path,
                int threads) {
   const std::vector<Shape>& shapes = rebuilt.shapes;
   if (shapes.size() != others.size()) {
@@ -118,8 +124,9 @@ Status compare(Rebuilt& rebuilt, const std::vector<Shape>& others, const std::st
   }
   std::vector<double> weights;
   for (const Shape& shape : shapes) weights.push_back(static_cast<double>(shape.points.size()));
-  const auto distances = map_items<ShapeDistance>(
-      weights, threads, [&](std::size_t i, int) { return shape_distance(shapes[i], others[i]); });
+  const auto distances = map_items<ShapeDistance>(weights, threads, [&](std::size_t i, int) {
+    return shape_distance(shapes[i], others[i].shape);
+  });
   if (!distances) return distances.error();
   rebuilt.compared_with = path;
   ShapeDistance& sum = rebuilt.distance;
@@ -133,15 +140,15 @@ Status compare(Rebuilt& rebuilt, const std::vector<Shape>& others, const std::st
   return success();
 }
 
-Status compare_with_file(Rebuilt& rebuilt, const RebuildArguments& arguments) {
+Status compare_with_file(Rebuilt& rebuilt, const Document<AxisItem>& axes,
+                         const RebuildArguments& arguments) {
   const InputOptions input = second_input(arguments.input, arguments.against);
   CommonOptions quiet = arguments.common;
   quiet.quiet = true;
   auto loaded = load_shapes(input, quiet);
   if (!loaded) return std::move(loaded).error();
-  std::vector<Shape> others;
-  for (ShapeItem& item : loaded->file.items) others.push_back(std::move(item.shape));
-  return compare(rebuilt, others, input.path, arguments.common.threads);
+  keep_features_of(axes, input, loaded->file);
+  return compare(rebuilt, loaded->file.items, input.path, arguments.common.threads);
 }
 
 Status write_pixels(const Document<AxisItem>& axes, const RebuildArguments& arguments,
@@ -238,7 +245,7 @@ Result<int> run(const RebuildArguments& arguments, bool smooths) {
   const auto options = prune_options(arguments.prune);
   if (!options) return options.error();
   if (Status possible = check(arguments); !possible) return std::move(possible).error();
-  std::vector<Shape> before;
+  Document<ShapeItem> before;
   auto axes = arguments.options.exterior ? axes_outside(arguments, before)
                                          : load_axes(input, common, arguments.prune.specks);
   if (!axes) return std::move(axes).error();
@@ -247,7 +254,7 @@ Result<int> run(const RebuildArguments& arguments, bool smooths) {
   if (!arguments.output.empty()) object["output"] = arguments.output;
   if (smooths) {
     if (!arguments.options.exterior)
-      for (const AxisItem& item : file.items) before.push_back(item.shape);
+      for (const AxisItem& item : file.items) before.items.push_back({item.shape, {}});
     const auto report = prune_all(file, *options, common.threads);
     if (!report) return report.error();
     object["measure"] = name_of(options->measure);
@@ -266,9 +273,9 @@ Result<int> run(const RebuildArguments& arguments, bool smooths) {
   axes->phases.end(smooths ? "smooth" : "rebuild");
   Status done = success();
   if (!arguments.against.empty())
-    done = compare_with_file(*rebuilt, arguments);
+    done = compare_with_file(*rebuilt, file, arguments);
   else if (smooths && (common.json || arguments.output.empty()))
-    done = compare(*rebuilt, before, input.path, common.threads);
+    done = compare(*rebuilt, before.items, input.path, common.threads);
   if (!done) return std::move(done).error();
   add_measures(*rebuilt, object);
   if (!arguments.output.empty()) done = write_rebuilt(*rebuilt, file, arguments);

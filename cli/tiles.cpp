@@ -74,9 +74,8 @@ Result<int> run_tiles(const TilesArguments& arguments) {
   const CommonOptions& common = arguments.common;
   auto shapes = load_shapes(arguments.input, common);
   if (!shapes) return std::move(shapes).error();
-  LoadedAxes axes{{shapes->file, {}}, {}, shapes->report, std::move(shapes->phases)};
   std::vector<TileLevel> levels;
-  for (std::size_t i = 0; i < shapes->file.items.size(); ++i) {
+  const auto compute_one = [&](std::size_t i, int) -> Result<AxisItem> {
     ShapeItem& item = shapes->file.items[i];
     Progress progress("tiles", error_is_terminal() && !common.quiet);
     Options options = engine_options(common, common.threads, shapes->file.corner_angle);
@@ -86,14 +85,21 @@ Result<int> run_tiles(const TilesArguments& arguments) {
                                  options, &rows);
     if (!axis) {
       axis.error().text = in_words_of_the_command(std::move(axis.error().text));
-      axis.error().place.file = arguments.input.path;
-      axis.error().place.feature = i;
-      return in_feature_of(shapes->file, std::move(axis).error());
+      return std::move(axis).error();
     }
     add_to(levels, rows);
-    axes.file.items.push_back(
-        {std::move(item.shape), std::move(axis).value(), std::move(item.attributes)});
+    return AxisItem{std::move(item.shape), std::move(axis).value(), std::move(item.attributes)};
+  };
+  // One shape after another, each on all threads.
+  std::vector<std::string> left_out;
+  auto computed = map_features<AxisItem>(shapes->file, weights_of(shapes->file), 1, compute_one,
+                                         skips(arguments.input, left_out));
+  if (!computed) {
+    computed.error().place.file = arguments.input.path;
+    return std::move(computed).error();
   }
+  note_left_out(left_out, arguments.input, common);
+  LoadedAxes axes{std::move(computed).value(), {}, shapes->report, std::move(shapes->phases)};
   axes.phases.end("tiles");
   Status written =
       write_output(arguments, axes.phases, [&](const std::string& path, const std::string& format) {

@@ -285,6 +285,10 @@ Result<int> run_verify(const VerifyArguments& arguments) {
     if (is_of_pixels(item.axis.method)) source.source.read.smooth_contour = false;
   auto loaded = load_shapes(source, common);
   if (!loaded) return std::move(loaded).error();
+  const std::size_t without_axis = keep_features_of(*stored, input, loaded->file);
+  if (without_axis > 0 && !common.quiet)
+    say("medial: {}: note: it has no axis of {}, left out\n", axis_path,
+        counted(without_axis, "feature"));
   const Document<ShapeItem>& shapes = loaded->file;
   const std::size_t count = shapes.items.size();
   if (stored->items.size() != count) {

@@ -65,7 +65,6 @@ Result<Diagrams> compute_by_lee(const VoronoiArguments& arguments) {
   auto shapes = load_shapes(arguments.input, common);
   if (!shapes) return std::move(shapes).error();
   std::vector<ShapeItem>& items = shapes->file.items;
-  Diagrams out{{shapes->file, {}}, std::move(shapes->phases)};
   const auto compute_one = [&](std::size_t i, int threads) -> Result<io::VoronoiItem> {
     auto diagram =
         voronoi_diagram(items[i].shape, {.tolerance = common.tolerance, .threads = threads});
@@ -73,9 +72,13 @@ Result<Diagrams> compute_by_lee(const VoronoiArguments& arguments) {
     return io::VoronoiItem{
         std::move(items[i].shape), std::move(diagram).value(), std::move(items[i].attributes), {}};
   };
-  auto computed = map_items<io::VoronoiItem>(weights_of(shapes->file), common.threads, compute_one);
+  std::vector<std::string> left_out;
+  auto computed =
+      map_features<io::VoronoiItem>(shapes->file, weights_of(shapes->file), common.threads,
+                                    compute_one, skips(arguments.input, left_out));
   if (!computed) return std::move(computed).error();
-  out.file.items = std::move(computed).value();
+  note_left_out(left_out, arguments.input, common);
+  Diagrams out{std::move(computed).value(), std::move(shapes->phases)};
   out.phases.end("voronoi");
   return out;
 }

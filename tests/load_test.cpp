@@ -262,18 +262,48 @@ TEST(Load, AxesOfManyShapesSumTheirStatistics) {
   EXPECT_EQ(axes->items[0].axis.statistics.seconds, 0);
 }
 
+Status fail_at_some(std::size_t i, int) {
+  if (i % 7 == 5) return Error{ErrorCode::empty, "nothing", {}};
+  return success();
+}
+
 TEST(Load, ItemsRunSideBySideAndTheLowestErrorWins) {
   const std::vector<double> weights(20, 1.0);
-  const auto doubled = map_items<std::size_t>(
-      weights, 4, [](std::size_t i, int) -> Result<std::size_t> { return 2 * i; });
-  ASSERT_TRUE(doubled.ok());
-  for (std::size_t i = 0; i < doubled->size(); ++i) EXPECT_EQ((*doubled)[i], 2 * i);
-  const Status failed = for_each_item(weights, 4, [](std::size_t i, int) -> Status {
-    if (i % 7 == 5) return Error{ErrorCode::empty, "nothing", {}};
+  std::vector<std::size_t> doubled(weights.size());
+  const auto twice = [&](std::size_t i, int) -> Status {
+    doubled[i] = 2 * i;
     return success();
-  });
+  };
+  ASSERT_TRUE(for_each_item(weights, 4, twice).ok());
+  for (std::size_t i = 0; i < doubled.size(); ++i) EXPECT_EQ(doubled[i], 2 * i);
+  const Status failed = for_each_item(weights, 4, fail_at_some);
   ASSERT_FALSE(failed.ok());
   EXPECT_EQ(failed.error().place.feature, 5U);
+}
+
+TEST(Load, FeaturesWithAnErrorOfTheirOwnAreLeftOut) {
+  const std::vector<double> weights(10, 1.0);
+  DocumentInfo file;
+  file.indices = {0, 1, 2, 3, 4, 15, 16, 17, 18, 19};
+  DocumentInfo all = file;
+  const auto none = for_each_feature(all, weights, 4, fail_at_some, nullptr);
+  ASSERT_FALSE(none.ok());
+  EXPECT_EQ(none.error().place.feature, 15U);
+  EXPECT_EQ(all.indices, file.indices);
+
+  std::vector<std::string> left_out;
+  const auto kept = for_each_feature(file, weights, 4, fail_at_some, &left_out);
+  ASSERT_TRUE(kept.ok());
+  EXPECT_EQ(*kept, (std::vector<std::size_t>{0, 1, 2, 3, 4, 6, 7, 8, 9}));
+  EXPECT_EQ(file.indices, (std::vector<std::uint64_t>{0, 1, 2, 3, 4, 16, 17, 18, 19}));
+  EXPECT_EQ(left_out, std::vector<std::string>{"left out: feature 15: nothing [empty]"});
+
+  // What would end all others, too, ends everything.
+  for (const ErrorCode code :
+       {ErrorCode::cancelled, ErrorCode::out_of_memory, ErrorCode::invalid_option}) {
+    const auto stop = [&](std::size_t, int) -> Status { return Error{code, "stop", {}}; };
+    EXPECT_FALSE(for_each_feature(file, weights, 2, stop, &left_out).ok());
+  }
 }
 
 }  // namespace

@@ -15,21 +15,15 @@ Status for_each_item(std::span<const double> weights, int threads,
                      const std::function<Status(std::size_t i, int threads)>& work,
                      const std::atomic<bool>* cancel = nullptr);
 
-/// The results of for_each_item().
-template <class T>
-Result<std::vector<T>> map_items(std::span<const double> weights, int threads,
-                                 const std::function<Result<T>(std::size_t i, int threads)>& work,
-                                 const std::atomic<bool>* cancel = nullptr) {
-  std::vector<T> results(weights.size());
-  const auto keep = [&](std::size_t i, int own_threads) -> Status {
-    Result<T> result = work(i, own_threads);
-    if (!result) return std::move(result).error();
-    results[i] = std::move(result).value();
-    return success();
-  };
-  Status done = for_each_item(weights, threads, keep, cancel);
-  return done ? Result<std::vector<T>>(std::move(results)) : std::move(done).error();
-}
+/// Whether a feature is left out instead of ending everything, as the error is its own: no wrong
+/// option, lack of memory or wish to stop. With `left_out` only, where it becomes a note.
+bool is_left_out(Error error, std::vector<std::string>* left_out);
+/// for_each_item() for the items of a document; errors name features of its file. Returns the items
+/// that is_left_out() does not leave out, and updates `file`.
+Result<std::vector<std::size_t>> for_each_feature(
+    DocumentInfo& file, std::span<const double> weights, int threads,
+    const std::function<Status(std::size_t i, int threads)>& work,
+    std::vector<std::string>* left_out, const std::atomic<bool>* cancel = nullptr);
 
 /// The rule for what is inside where rings cross or overlap.
 enum class RepairRule : std::uint8_t {
@@ -91,11 +85,13 @@ struct AxesReport {
   std::uint32_t pixels = 0;      ///< PixelGrid::pixels that do for all; the largest: none known
   std::uint64_t sites = 0;       ///< of axes in parts
   std::uint64_t by_disks = 0;    ///< axes that `disks` computed instead of the method asked for
+  std::vector<std::string> left_out;  ///< a note on each feature left out
 };
 
 /// The axis of every shape by compute(); `threads`, `progress` and `cancel` apply to all together.
-/// Pixels are Document::pixel by default; statistics have no times. Errors: those of compute().
+/// Pixels are Document::pixel by default; statistics have no times. Errors: those of compute(), but
+/// with `skip_invalid` not those of a feature: is_left_out().
 Result<Document<AxisItem>> compute_axes(Document<ShapeItem> shapes, Options options = {},
-                                        AxesReport* report = nullptr);
+                                        AxesReport* report = nullptr, bool skip_invalid = false);
 
 }  // namespace medial

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -108,19 +109,25 @@ class RowsOfAxes final : public AxisWriter {
 /// Computes the axes of a document's shapes one after another, and hands out their parts.
 class PartsOfAxes {
  public:
-  PartsOfAxes(const Document<ShapeItem>& shapes, const Options& options, const PartVisitor& visit)
-      : shapes_(shapes), options_(options), visit_(visit) {
+  PartsOfAxes(Document<ShapeItem>& shapes, const Options& options, const PartVisitor& visit,
+              bool skip_invalid)
+      : shapes_(shapes), options_(options), visit_(visit), skip_invalid_(skip_invalid) {
     for (const ShapeItem& item : shapes.items)
       all_points_ += static_cast<double>(item.shape.points.size());
   }
 
-  /// Writes all parts. `take_again()` where the walk of one shape restarts, which makes void what
-  /// has been written: then everything is to be written again.
+  /// Writes all parts. `take_again()` where the walk of one shape restarts or ends in an error that
+  /// leaves the shape out, which makes void what has been written: then everything is to be written
+  /// again.
   Status write_all(AxisWriter& writer) {
     done_points_ = 0;
     report_ = {};
-    for (std::size_t i = 0; i < shapes_.items.size(); ++i)
+    for (std::size_t i = 0; i < shapes_.items.size();) {
+      const std::size_t left = shapes_.items.size();
       if (Status written = write_item(i, writer); !written) return written;
+      if (shapes_.items.size() == left) ++i;
+    }
+    report_.left_out = left_out_;
     return writer.finish();
   }
   bool take_again() { return std::exchange(again_, false); }
@@ -133,21 +140,40 @@ class PartsOfAxes {
     bool begun = false;
     const auto take = [&](AxisPart&& part) -> Status {
       if (part.begins && std::exchange(begun, true)) return begin_again(i, std::move(part));
+      if (part.begins)
+        if (Status ready = writer.begin(); !ready) return ready;
       if (visit_) visit_(i, part);
       return writer.add(std::move(part));
     };
-    Status done = writer.begin();
     Statistics statistics;
-    if (const auto whole = whole_.find(i); done && whole != whole_.end()) {
+    Status done = success();
+    if (const auto whole = whole_.find(shapes_.index_of(i)); whole != whole_.end()) {
       statistics = whole->second.axis.statistics;
       done = take(AxisPart(whole->second));
-    } else if (done) {
+    } else {
       done = compute(i, take, statistics);
     }
+    done_points_ += static_cast<double>(shapes_.items[i].shape.points.size());
+    if (own_error_ && is_left_out(*own_error_, skip_invalid_ ? &left_out_ : nullptr)) {
+      own_error_.reset();
+      drop(i);
+      again_ = begun;
+      return begun ? done : success();
+    }
+    if (!done) return done;
     report_.statistics += statistics;
     if (visit_) report_.sites += Problem(shapes_.items[i].shape, options_).numbers().count;
-    done_points_ += static_cast<double>(shapes_.items[i].shape.points.size());
-    return done ? writer.end(statistics) : done;
+    return writer.end(statistics);
+  }
+
+  void drop(std::size_t i) {
+    if (shapes_.indices.empty()) {
+      shapes_.indices.resize(shapes_.items.size());
+      std::iota(shapes_.indices.begin(), shapes_.indices.end(), std::uint64_t{0});
+    }
+    const auto at = static_cast<std::ptrdiff_t>(i);
+    shapes_.indices.erase(shapes_.indices.begin() + at);
+    shapes_.items.erase(shapes_.items.begin() + at);
   }
 
   Status compute(std::size_t i, const AxisSink& take, Statistics& statistics) {
@@ -177,17 +203,19 @@ class PartsOfAxes {
   /// The parts of this shape are void: the new one is the whole axis.
   Status begin_again(std::size_t i, AxisPart&& part) {
     again_ = true;
-    whole_.emplace(i, std::move(part));
+    whole_.emplace(shapes_.index_of(i), std::move(part));
     return Error{ErrorCode::internal, "the walk has restarted: please report this shape", {}};
   }
 
-  const Document<ShapeItem>& shapes_;
+  Document<ShapeItem>& shapes_;
   const Options& options_;
   const PartVisitor& visit_;
+  bool skip_invalid_;
+  std::vector<std::string> left_out_;
   double done_points_ = 0, all_points_ = 0;
   bool again_ = false;
-  std::map<std::size_t, AxisPart> whole_;  ///< axes whose walk has restarted
-  std::optional<Error> own_error_;         ///< of computing
+  std::map<std::uint64_t, AxisPart> whole_;  ///< axes whose walk has restarted, by their features
+  std::optional<Error> own_error_;           ///< of computing
   AxesReport report_;
 };
 
@@ -249,9 +277,9 @@ void take_whole_numbers(AxisPart& part) {
 
 Result<std::optional<AxesReport>> write_in_parts(const Destination& target,
                                                  const std::string& format,
-                                                 const Document<ShapeItem>& shapes,
+                                                 Document<ShapeItem>& shapes,
                                                  const Options& options, const WriteOptions& write,
-                                                 const PartVisitor& visit) {
+                                                 const PartVisitor& visit, bool skip_invalid) {
   constexpr DocumentKind axes = DocumentKind::axes;
   const bool silent = target.path.empty();
   if (!silent) {
@@ -261,7 +289,7 @@ Result<std::optional<AxesReport>> write_in_parts(const Destination& target,
   }
   if (!(write.chord > 0) || !std::isfinite(write.chord))
     return Error{ErrorCode::invalid_option, "chord is not a positive number", {}};
-  PartsOfAxes parts(shapes, options, visit);
+  PartsOfAxes parts(shapes, options, visit, skip_invalid);
   NoAxes none;
   const auto write_file = [&]() -> Status {
     if (silent) return parts.write_all(none);

@@ -297,6 +297,7 @@ class Stream {
     report.axes.unresolved += part.report.unresolved;
     report.axes.by_disks += part.report.by_disks;
     report.axes.pixels = std::max(report.axes.pixels, part.report.pixels);
+    std::ranges::move(part.report.left_out, std::back_inserter(report.axes.left_out));
     std::ranges::move(info_of(part.made).notes, std::back_inserter(report.document.notes));
     if (options_.visit) options_.visit(part.made);
   }

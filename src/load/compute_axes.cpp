@@ -58,7 +58,7 @@ void forget_times(Statistics& statistics) {
 }  // namespace
 
 Result<Document<AxisItem>> compute_axes(Document<ShapeItem> shapes, Options options,
-                                        AxesReport* report) {
+                                        AxesReport* report, bool skip_invalid) {
   std::visit(
       [&](auto& own) {
         if constexpr (requires { own.grid; })
@@ -70,24 +70,27 @@ Result<Document<AxisItem>> compute_axes(Document<ShapeItem> shapes, Options opti
   for (const ShapeItem& item : shapes.items)
     weights.push_back(static_cast<double>(item.shape.points.size()));
   SharedProgress progress(options.progress, std::accumulate(weights.begin(), weights.end(), 0.0));
-  const auto compute_one = [&](std::size_t i, int threads) -> Result<AxisItem> {
+  std::vector<AxisItem> items(shapes.items.size());
+  const auto compute_one = [&](std::size_t i, int threads) -> Status {
     ShapeItem& from = shapes.items[i];
     Options own = options;
     own.threads = threads;
     own.progress = progress.part(weights[i]);
     auto axis = compute(from.shape, own, from.contours);
-    if (!axis) return std::move(axis).error();
     if (own.progress) own.progress(1.0);
-    return AxisItem{std::move(from.shape), std::move(axis).value(), std::move(from.attributes)};
+    if (!axis) return std::move(axis).error();
+    items[i] = {std::move(from.shape), std::move(axis).value(), std::move(from.attributes)};
+    return success();
   };
   // What samples a shape may have much to do with few points.
   const bool sampled = info_of(options.method).sampling != Sampling::curves;
   const int threads = sampled ? options.threads : threads_of(weights, options);
-  auto items = map_items<AxisItem>(weights, threads, compute_one, options.cancel);
-  if (!items) return in_file_of(axes, std::move(items).error());
-  axes.items = std::move(items).value();
-
   AxesReport sum;
+  auto* left_out = skip_invalid ? &sum.left_out : nullptr;
+  auto kept = for_each_feature(axes, weights, threads, compute_one, left_out, options.cancel);
+  if (!kept) return std::move(kept).error();
+  axes.items = items_at(std::move(items), *kept);
+
   const std::string_view asked = name_of(options.method);
   for (AxisItem& item : axes.items) {
     sum.statistics += item.axis.statistics;

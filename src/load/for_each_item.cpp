@@ -3,6 +3,7 @@
 
 #include "base/in_flight.h"
 #include "base/threads.h"
+#include "load/file_index.h"
 #include "medial/load.h"
 
 namespace medial {
@@ -47,6 +48,42 @@ Status for_each_item(std::span<const double> weights, int threads,
   }
   if (lowest_error.load() == count) return success();
   return std::move(*errors[lowest_error.load()]);
+}
+
+bool is_left_out(Error error, std::vector<std::string>* left_out) {
+  using enum ErrorCode;
+  if (left_out == nullptr || error.code == cancelled || error.code == out_of_memory ||
+      error.code == invalid_option)
+    return false;
+  left_out->push_back(note_of_left_out(error));
+  return true;
+}
+
+Result<std::vector<std::size_t>> for_each_feature(
+    DocumentInfo& file, std::span<const double> weights, int threads,
+    const std::function<Status(std::size_t i, int threads)>& work,
+    std::vector<std::string>* left_out, const std::atomic<bool>* cancel) {
+  std::vector<std::vector<std::string>> notes(weights.size());
+  const auto attempt = [&](std::size_t i, int own_threads) -> Status {
+    Status done = work(i, own_threads);
+    if (done) return done;
+    done.error().place.feature = file.index_of(i);
+    return is_left_out(done.error(), left_out ? &notes[i] : nullptr) ? success() : done;
+  };
+  if (Status done = for_each_item(weights, threads, attempt, cancel); !done)
+    return in_file_of(file, std::move(done).error());
+  std::vector<std::size_t> kept;
+  std::vector<std::uint64_t> indices;
+  for (std::size_t i = 0; i < notes.size(); ++i) {
+    if (notes[i].empty()) {
+      kept.push_back(i);
+      indices.push_back(file.index_of(i));
+    } else {
+      left_out->push_back(std::move(notes[i].front()));
+    }
+  }
+  if (kept.size() < notes.size()) file.indices = std::move(indices);
+  return kept;
 }
 
 }  // namespace medial

@@ -184,7 +184,7 @@ void drop_rings_without_area(Feature& feature, std::size_t index, Attempt& attem
     Error error = clean_ring.error();
     error.place.feature = index;
     error.place.ring = i;
-    attempt.notes.push_back("left out: " + to_string(error));
+    attempt.notes.push_back(note_of_left_out(error));
   }
   if (!attempt.notes.empty()) feature.sources.clear();
   feature.rings = std::move(rings);
@@ -245,7 +245,7 @@ Status take_valid(std::vector<Attempt> attempts, const Document<Feature>& featur
       continue;
     }
     attempt.error->place.feature = features.index_of(i);
-    shapes.notes.push_back("left out: " + to_string(*attempt.error));
+    shapes.notes.push_back(note_of_left_out(*attempt.error));
     if (!first) first = std::move(attempt.error);
   }
   const std::size_t dropped = attempts.size() - shapes.items.size();
@@ -281,11 +281,12 @@ Result<Document<ShapeItem>> load_shapes(Document<Feature> features, const LoadOp
   std::vector<double> weights;
   for (const Feature& feature : features.items) weights.push_back(weight_of(feature));
   SharedProgress progress(options.progress, std::accumulate(weights.begin(), weights.end(), 0.0));
-  const auto load = [&](std::size_t i, int threads) -> Result<Attempt> {
+  std::vector<Attempt> attempts(count);
+  const auto load = [&](std::size_t i, int threads) -> Status {
     LoadOptions own = options;
     own.arcs = suited_arcs(own.arcs, features);
     own.arcs.threads = threads;
-    Attempt attempt;
+    Attempt& attempt = attempts[i];
     Feature& feature = features.items[i];
     const bool filled = feature.filled;
     if (options.skip_invalid) drop_rings_without_area(feature, features.index_of(i), attempt);
@@ -295,37 +296,36 @@ Result<Document<ShapeItem>> load_shapes(Document<Feature> features, const LoadOp
                                                  reports[i], attempt)
                            : load_shape(feature, own, reports[i]);
     if (const auto done = progress.part(weights[i])) done(1);
-    if (item) {
-      attempt.item = std::move(item).value();
-      return attempt;
-    }
+    if (item) attempt.item = std::move(item).value();
+    if (item) return success();
     // What a drawing paints may be nothing.
     const bool paints_nothing = filled && item.error().code == ErrorCode::no_area;
     if (!options.skip_invalid && !(paints_nothing && count > 1)) return std::move(item).error();
     attempt.error = std::move(item).error();
-    return attempt;
+    return success();
   };
-  auto items = map_items<Attempt>(weights, threads_of(weights, options), load, options.cancel);
-  if (!items) return in_file_of(features, std::move(items).error());
+  if (Status done = for_each_item(weights, threads_of(weights, options), load, options.cancel);
+      !done)
+    return in_file_of(features, std::move(done).error());
   LoadReport sum;
   std::size_t outlines = 0, places = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const ShapeReport& one = reports[i].shapes;
-    if (const Attempt& attempt = (*items)[i]; one.crossings > 0 && !attempt.error) {
+    if (const Attempt& attempt = attempts[i]; one.crossings > 0 && !attempt.error) {
       if (features.items[i].filled && options.repair == RepairRule::none)
         ++outlines, places += one.crossings;
       else
         shapes.notes.push_back(
             note_of_crossings(features.index_of(i), one, attempt.item.shape.loop_count()));
     }
-    if (reports[i].specks > 0 && !(*items)[i].error)
+    if (reports[i].specks > 0 && !attempts[i].error)
       shapes.notes.push_back(note_of_specks(features.index_of(i), reports[i].specks));
     sum.shapes += one;
     sum.specks += reports[i].specks;
     sum.arcs += reports[i].arcs;
   }
   if (outlines > 0) shapes.notes.push_back(note_of_outlines(outlines, places));
-  if (Status taken = take_valid(std::move(items).value(), features, options, shapes); !taken)
+  if (Status taken = take_valid(std::move(attempts), features, options, shapes); !taken)
     return std::move(taken).error();
   sum.features = count;
   sum.left_out = count - shapes.items.size();

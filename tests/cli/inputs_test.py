@@ -261,6 +261,71 @@ class Inputs(CommandLine):
         self.assertIsNone(report["deepest"])
         self.assertNotIn(b"wide enough", self.succeed("offset", "bad.wkt", "--skip-invalid", "--distance", "1").stderr)
 
+    def refused_in_the_middle(self):
+        """A rectangle, a lens of three arcs that cross by less than rounding, and another rectangle."""
+        def rectangle(x):
+            return {"start": [x, 0], "pieces": [["line", x + 4, 0], ["line", x + 4, 2], ["line", x, 2], ["line", x, 0]]}
+        lens = {"start": [0.032940509962894354, 0.054987505057675821], "pieces": [
+            ["arc", 0.034719762422765081, 0.054750553880832976, 1.0006201698661998],
+            ["arc", 0.034719762422765157, 0.054750553880832893, 0.59602029918473964],
+            ["arc", 0.032940509962894354, 0.054987505057675821, 1]]}  # fmt: skip
+        items = [{"contours": [contour]} for contour in (rectangle(0), lens, rectangle(10))]
+        self.write("lens.json", json.dumps({"medial": 2, "items": items}))
+        return "lens.json"
+
+    def test_features_that_cannot_be_computed_are_left_out(self):
+        lens = self.refused_in_the_middle()
+        self.refuse("crossing", "axis", lens)
+        for command, *more in (["axis"], ["prune"], ["centreline"], ["draw"], ["offset", "--distance", "0.5"],
+                               ["smooth"], ["rebuild"], ["features"], ["measure"]):
+            name = "a.svg" if command == "draw" else "a.json" if command in ("axis", "prune") else "a.geojson"
+            done = self.succeed(command, lens, "--skip-invalid", "-o", name, *more)
+            notes = done.stderr.decode()
+            self.assertIn("left out: feature 1, ring 0", notes, command)
+            self.assertIn("note: 1 feature could not be computed and was left out", notes, command)
+            if name == "a.geojson" and command not in ("rebuild", "smooth"):
+                self.assertEqual({line["properties"]["feature"] for line in json.loads(self.read(name))["features"]},
+                                 {0, 2}, command)  # fmt: skip
+            self.refuse("crossing", command, lens, "-o", name, *more)
+        self.succeed("pack", lens, "--skip-invalid", "-o", "a.mpk")
+        self.succeed("carve", lens, "--skip-invalid", "--angle", "60", "-o", "a.nc")
+        self.succeed("match", lens, lens, "--each", "--skip-invalid")
+        compared = json.loads(self.succeed("compare", lens, "--methods", "disks", "--skip-invalid", "--json").stdout)
+        self.assertEqual(len(compared["features"]), 2)
+
+    def test_what_is_left_of_such_features_is_consistent(self):
+        lens = self.refused_in_the_middle()
+        report = json.loads(self.succeed("axis", lens, "--skip-invalid", "--json", "--stats", "-o", "a.json").stdout)
+        self.assertEqual(report["features"], 2)
+        self.assertEqual(report["sites"], 8)
+        for threads in ("1", "2"):
+            for name, *parts in (["a.csv"], ["p.csv", "--parts"]):
+                done = self.succeed("axis", lens, "--skip-invalid", "--threads", threads, "-o", name, *parts)
+                self.assertIn("1 feature could not be computed", done.stderr.decode())
+                self.write(threads + name, self.read(name))
+        self.assertEqual(self.read("1a.csv"), self.read("2a.csv"))
+        self.assertEqual(self.read("1p.csv"), self.read("2p.csv"))
+        self.assertEqual(sorted(self.read("1a.csv").splitlines()), sorted(self.read("1p.csv").splitlines()))
+        # The axes are those of their features, by number.
+        self.assertIn("it has no axis of 1 feature", self.succeed("verify", lens, "a.json", "--skip-invalid").stderr.decode())
+        self.refuse("malformed", "verify", lens, "a.json")
+        smooth = json.loads(self.succeed("smooth", lens, "--skip-invalid", "--exterior", "--json").stdout)
+        self.assertLess(smooth["against"]["hausdorff"], 1)
+        against = json.loads(self.succeed("rebuild", "a.json", "--against", lens, "--skip-invalid", "--json").stdout)
+        self.assertLess(against["against"]["hausdorff"], 1e-9)
+
+    def test_nothing_may_be_left_to_compute(self):
+        lens = json.loads(self.read(self.refused_in_the_middle()))
+        self.write("alone.json", json.dumps({"medial": 2, "items": lens["items"][1:2]}))
+        for name in self.supported("b.json", "b.geojson", "b.gpkg", "b.csv", "b.svg"):
+            notes = self.succeed("axis", "alone.json", "--skip-invalid", "-o", name).stderr.decode()
+            self.assertIn("1 feature could not be computed and was left out", notes)
+        for command, *more in (["carve", "--angle", "60"], ["compare"], ["pack", "-o", "t.mpk"],
+                               ["match", "b.json"], ["measure", "--from", "0,0", "--to", "1,1"]):  # fmt: skip
+            self.refuse("empty", command, "alone.json", "--skip-invalid", "--quiet", *more)
+        # An option that suits no feature is no feature's fault.
+        self.refuse("invalid_option", "axis", "b.json", "--tolerance", "1", "--skip-invalid")
+
     def test_unclosed_rings_are_noted(self):
         self.write("open.geojson", '{"type":"Polygon","coordinates":[[[0,0],[4,0],[4,2],[0,2]]]}')
         self.assertIn(b"1 ring does not end at its first point", self.succeed("axis", "open.geojson").stderr)

@@ -147,6 +147,39 @@ class Stream(CommandLine):
         self.assert_same("geojson")
 
 
+    def test_features_that_cannot_be_computed_are_left_out_alike(self):
+        """Lenses of arcs that cross by less than rounding."""
+        lens = ("CURVEPOLYGON(CIRCULARSTRING(0.032940509962894354 0.05498750505767582, 0.03371158712941848 "
+                "0.05397885151993905, 0.03471976242276508 0.054750553880832976, 0.03471976242276509 "
+                "0.054750553880832914, 0.03471976242276516 0.05475055388083289, 0.03394861178125122 "
+                "0.05575865569918976, 0.032940509962894354 0.05498750505767582))\n")  # fmt: skip
+        lines = wkt(footprints(9000)).splitlines(keepends=True)
+        lines[:13] = [lens] * 13
+        lines[100] = wkt([[(0, 0), (1, 0), (2, 0), (0, 0)]])
+        text = "".join(lines)
+        for output, command, *more in (("geojson", "axis"), ("csv", "prune"), ("wkt", "offset", "--distance", "1"),
+                                       ("csv", "centreline"), ("csv", "measure", "--samples", "3")):  # fmt: skip
+            status, said = self.both_ways("f.wkt", text, output, "--skip-invalid", *more, command=command)
+            self.assertEqual(status, 0)
+            self.assertIn("left out: feature 0, ring 0", said)
+            self.assertIn("note: 3 more notes like these", said)
+            self.assertIn("note: 1 of 9000 features is invalid and was left out", said)
+            self.assertIn("note: 13 features could not be computed and were left out", said)
+            self.assert_same(output)
+        self.assertIn(" 8986 features, ", self.both_ways("f.wkt", text, "", "--skip-invalid")[1])
+
+    def test_all_features_of_a_part_may_be_left_out(self):
+        """Squares that no grid of such pixels holds."""
+        rings = list(footprints(13000))
+        rings[3000:7000] = [[(0, 0), (4e6, 0), (4e6, 4e6), (0, 4e6), (0, 0)]] * 4000
+        options = ["--skip-invalid", "--method", "ridge", "--resolution", "0.5"]
+        status, said = self.both_ways("f.wkt", wkt(rings), "csv", *options)
+        self.assertEqual(status, 0)
+        self.assertIn("left out: feature 3000: the grid has more than 2^31 pixels", said)
+        self.assertIn("4000 features could not be computed and were left out", said)
+        self.assert_same("csv")
+
+
 class InParts(CommandLine):
     """One shape whose axis is written while it grows."""
 

@@ -65,10 +65,12 @@ Status write_axes(const Destination& target, const std::string& format,
 /// Gets parts of axes, shape by shape; where the first shape's begins, all before are void.
 using PartVisitor = std::function<void(std::size_t shape, const AxisPart& part)>;
 /// Computes axes and writes them as they grow, in the order of parts; without a name nowhere. No
-/// report where the format (formats_of(axes, true)) or a native file's axis has no parts.
+/// report where the format (formats_of(axes, true)) or a native file's axis has no parts. With
+/// `skip_invalid`, drops shapes as compute_axes() does.
 Result<std::optional<AxesReport>> write_in_parts(
-    const Destination& target, const std::string& format, const Document<ShapeItem>& shapes,
-    const Options& options, const WriteOptions& write = {}, const PartVisitor& visit = {});
+    const Destination& target, const std::string& format, Document<ShapeItem>& shapes,
+    const Options& options, const WriteOptions& write = {}, const PartVisitor& visit = {},
+    bool skip_invalid = false);
 
 /// Shapes: .json (native), .svg (up to the shift of its viewport), .dxf (polylines with bulges) and
 /// .wkt (one geometry per line; with arcs a MULTISURFACE) are lossless; .geojson has chords.
