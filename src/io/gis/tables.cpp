@@ -13,6 +13,7 @@
 
 #include "io/gis/gdal_support.h"
 #include "io/gis/make_file.h"
+#include "io/gis/rows.h"
 #include "io/gis/shared_database.h"
 #include "medial/document.h"
 
@@ -39,79 +40,6 @@ OGRwkbGeometryType type_of(GeometryKind kind) {
   return kind == GeometryKind::line ? wkbLineString : wkbPolygon;
 }
 
-/// Some rows of tables, one behind the other in little memory: they are made on any thread and
-/// added to a file on one.
-class Rows {
- public:
-  enum class Kind : std::uint8_t { nothing, whole, real, text };
-  struct Field {
-    Kind kind = Kind::nothing;
-    union {
-      std::int64_t whole = 0;
-      double real;
-      std::size_t text;  ///< where it begins
-    };
-  };
-
-  void put(std::size_t table, std::span<const Value> first, std::span<const Value> rest,
-           std::span<const std::vector<Vec2>> parts) {
-    for (const auto values : {first, rest})
-      for (const Value& value : values) put(value);
-    for (const std::vector<Vec2>& part : parts) {
-      for (const Vec2 p : part) points_.emplace_back(p.x, p.y);
-      ring_ends_.push_back(points_.size());
-    }
-    ends_.push_back({table, fields_.size(), ring_ends_.size()});
-  }
-  void clear() {
-    fields_.clear();
-    texts_.clear();
-    points_.clear();
-    ring_ends_.clear();
-    ends_.clear();
-  }
-  std::size_t size() const { return ends_.size(); }
-  std::size_t table(std::size_t row) const { return ends_[row].table; }
-  std::span<const Field> fields(std::size_t row) const {
-    const std::size_t begin = row == 0 ? 0 : ends_[row - 1].fields;
-    return std::span(fields_).subspan(begin, ends_[row].fields - begin);
-  }
-  const char* text(const Field& field) const { return texts_.c_str() + field.text; }
-  std::size_t ring_count(std::size_t row) const { return ends_[row].rings - first_ring(row); }
-  std::span<const OGRRawPoint> ring(std::size_t row, std::size_t i) const {
-    const std::size_t ring = first_ring(row) + i;
-    const std::size_t begin = ring == 0 ? 0 : ring_ends_[ring - 1];
-    return std::span(points_).subspan(begin, ring_ends_[ring] - begin);
-  }
-
- private:
-  struct End {
-    std::size_t table, fields, rings;
-  };
-
-  void put(const Value& value) {
-    Field& field = fields_.emplace_back();
-    if (const auto* number = std::get_if<std::int64_t>(&value)) {
-      field.kind = Kind::whole;
-      field.whole = *number;
-    } else if (const auto* decimal = std::get_if<double>(&value)) {
-      field.kind = Kind::real;
-      field.real = *decimal;
-    } else if (const auto* words = std::get_if<std::string>(&value)) {
-      field.kind = Kind::text;
-      field.text = texts_.size();
-      texts_.append(words->c_str());  // as far as GDAL reads it
-      texts_.push_back('\0');
-    }
-  }
-  std::size_t first_ring(std::size_t row) const { return row == 0 ? 0 : ends_[row - 1].rings; }
-
-  std::vector<Field> fields_;
-  std::string texts_;
-  std::vector<OGRRawPoint> points_;
-  std::vector<std::size_t> ring_ends_;
-  std::vector<End> ends_;
-};
 constexpr std::size_t rows_together = 256;
 
 void set_points(OGRSimpleCurve& curve, std::span<const OGRRawPoint> points) {
@@ -265,8 +193,9 @@ void set_field(OGRFeature& feature, int number, const Rows& rows, const Rows::Fi
   }
 }
 
-/// A file with a layer for each table. GDAL reports to the thread that calls, so every function
-/// listens by itself.
+/// A file with a layer for each table, which GDAL makes. GDAL also adds the rows, unless another
+/// library is faster at that. It reports to the thread that calls, so every function listens by
+/// itself.
 class GdalFile {
  public:
   GdalFile() = default;
@@ -281,6 +210,7 @@ class GdalFile {
   Status open(const std::string& path, const Target& target, const TableSource& source);
 
   Status add(const Rows& rows) {
+    if (faster_) return faster_->add(rows);
     for (std::size_t row = 0; row < rows.size(); ++row) {
       const Layer& layer = layers_[rows.table(row)];
       OGRFeature& feature = *layer.feature;
@@ -303,9 +233,13 @@ class GdalFile {
     OGRFeatureUniquePtr feature;  ///< each row in turn
   };
 
+  /// Closes the file, whose rows others add.
+  Status hand_over(const std::string& path, const Target& target, bool is_new,
+                   const GdalMessages& messages);
+
   GDALDatasetUniquePtr dataset_;
-  bool transactions_ = false;
   std::vector<Layer> layers_;
+  std::unique_ptr<RowFile> faster_;
 };
 
 Status GdalFile::open(const std::string& path, const Target& target, const TableSource& source) {
@@ -329,14 +263,34 @@ Status GdalFile::open(const std::string& path, const Target& target, const Table
     layers_.push_back({layer, source.tables[static_cast<std::size_t>(i)].kind,
                        OGRFeatureUniquePtr(new OGRFeature(layer->GetLayerDefn()))});
   }
-  transactions_ = dataset_->TestCapability(ODsCTransactions) != 0;
-  if (transactions_) dataset_->StartTransaction();
+  if (target.format != "fgb")
+    if (Status closed = hand_over(path, target, !adds, messages); !closed) return closed;
   return messages.failure().empty() ? success() : cannot_write(messages);
 }
 
+Status GdalFile::hand_over(const std::string& path, const Target& target, bool is_new,
+                           const GdalMessages& messages) {
+  std::vector<EmptyLayer> empty;
+  for (const Layer& layer : layers_) {
+    const OGRFeatureDefn& columns = *layer.layer->GetLayerDefn();
+    EmptyLayer& one = empty.emplace_back(
+        EmptyLayer{layer.layer->GetName(), layer.layer->GetGeometryColumn(), {}, layer.kind});
+    for (int i = 0; i < columns.GetFieldCount(); ++i)
+      one.columns.emplace_back(columns.GetFieldDefn(i)->GetNameRef());
+  }
+  layers_.clear();
+  dataset_.reset();
+  if (!messages.failure().empty()) return cannot_write(messages);
+  auto rows = target.format == "shp" ? rows_of_shapefile(path, empty[0].kind)
+                                     : rows_of_geopackage(path, empty, is_new);
+  if (!rows) return std::move(rows).error();
+  faster_ = std::move(*rows);
+  return success();
+}
+
 Status GdalFile::close() {
+  if (faster_) return faster_->close();
   const GdalMessages messages;
-  if (transactions_) dataset_->CommitTransaction();
   layers_.clear();
   dataset_.reset();
   return messages.failure().empty() ? success() : cannot_write(messages);
