@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstring>
+#include <deque>
 
 #include "io/gis/rows.h"
 
@@ -90,6 +90,123 @@ class GeometryBlob {
   std::vector<char> bytes_;
 };
 
+/// A layer, and the rows on their way to it.
+struct Layer {
+  std::string name;
+  std::size_t number = 0;
+  GeometryKind kind = GeometryKind::point;
+  std::int32_t srs = 0;
+  std::size_t columns = 0;  ///< besides the geometry
+  GeometryBlob blob;
+  const Rows* rows = nullptr;
+  Statement insert;
+  std::int64_t count = 0;
+
+  /// The first of the rows from `row` on that belongs to this layer; or their number.
+  std::size_t own_from(std::size_t row) const {
+    while (row < rows->size() && rows->table(row) != number) ++row;
+    return row;
+  }
+};
+
+/// A layer's rows as a table of SQLite's, so that one statement inserts many of them. SQLite calls
+/// these functions by pointers.
+struct RowTable : sqlite3_vtab {
+  Layer* layer;
+};
+struct RowCursor : sqlite3_vtab_cursor {
+  std::size_t row;
+};
+
+/// No exception passes through SQLite.
+template <class Work>
+int guarded(const Work& work) {
+  try {
+    return work();
+  } catch (...) {
+    return SQLITE_NOMEM;
+  }
+}
+
+int connect(sqlite3* database, void* layer, int, const char* const*, sqlite3_vtab** made, char**) {
+  return guarded([&] {
+    auto table = std::make_unique<RowTable>();
+    table->layer = static_cast<Layer*>(layer);
+    std::string columns = "geometry";
+    for (std::size_t i = 0; i < table->layer->columns; ++i) columns += fmt::format(", c{}", i);
+    *made = table.release();
+    return sqlite3_declare_vtab(database, fmt::format("CREATE TABLE x({})", columns).c_str());
+  });
+}
+int disconnect(sqlite3_vtab* table) {
+  delete static_cast<RowTable*>(table);
+  return SQLITE_OK;
+}
+int choose_index(sqlite3_vtab*, sqlite3_index_info*) { return SQLITE_OK; }
+int open_cursor(sqlite3_vtab*, sqlite3_vtab_cursor** cursor) {
+  *cursor = new (std::nothrow) RowCursor{};
+  return *cursor != nullptr ? SQLITE_OK : SQLITE_NOMEM;
+}
+int close_cursor(sqlite3_vtab_cursor* cursor) {
+  delete static_cast<RowCursor*>(cursor);
+  return SQLITE_OK;
+}
+Layer& layer_of(sqlite3_vtab_cursor* cursor) {
+  return *static_cast<RowTable*>(cursor->pVtab)->layer;
+}
+int first_row(sqlite3_vtab_cursor* cursor, int, const char*, int, sqlite3_value**) {
+  static_cast<RowCursor*>(cursor)->row = layer_of(cursor).own_from(0);
+  return SQLITE_OK;
+}
+int next_row(sqlite3_vtab_cursor* cursor) {
+  std::size_t& row = static_cast<RowCursor*>(cursor)->row;
+  row = layer_of(cursor).own_from(row + 1);
+  return SQLITE_OK;
+}
+int is_at_end(sqlite3_vtab_cursor* cursor) {
+  return static_cast<RowCursor*>(cursor)->row == layer_of(cursor).rows->size() ? 1 : 0;
+}
+int row_number(sqlite3_vtab_cursor* cursor, sqlite3_int64* number) {
+  *number = static_cast<sqlite3_int64>(static_cast<RowCursor*>(cursor)->row);
+  return SQLITE_OK;
+}
+/// Nothing is copied: a row is in the file before the next one is asked for.
+int give_value(sqlite3_vtab_cursor* cursor, sqlite3_context* to, int column) {
+  Layer& layer = layer_of(cursor);
+  const Rows& rows = *layer.rows;
+  const std::size_t row = static_cast<RowCursor*>(cursor)->row;
+  if (column == 0) {
+    return guarded([&] {
+      const std::span<const char> blob = layer.blob.make(layer.kind, layer.srs, rows, row);
+      sqlite3_result_blob64(to, blob.data(), blob.size(), SQLITE_STATIC);
+      return SQLITE_OK;
+    });
+  }
+  const Rows::Field& field = rows.fields(row)[static_cast<std::size_t>(column) - 1];
+  if (field.kind == Rows::Kind::whole)
+    sqlite3_result_int64(to, field.whole);
+  else if (field.kind == Rows::Kind::real)
+    sqlite3_result_double(to, field.real);
+  else if (field.kind == Rows::Kind::text)
+    sqlite3_result_text(to, rows.text(field), -1, SQLITE_STATIC);
+  return SQLITE_OK;
+}
+
+const sqlite3_module* row_module() {
+  static sqlite3_module module{};
+  module.xConnect = connect;
+  module.xDisconnect = disconnect;
+  module.xBestIndex = choose_index;
+  module.xOpen = open_cursor;
+  module.xClose = close_cursor;
+  module.xFilter = first_row;
+  module.xNext = next_row;
+  module.xEof = is_at_end;
+  module.xColumn = give_value;
+  module.xRowid = row_number;
+  return &module;
+}
+
 class GeoPackageRows final : public RowFile {
  public:
   Status open(const std::string& path, std::span<const EmptyLayer> layers, bool is_new) {
@@ -111,16 +228,12 @@ class GeoPackageRows final : public RowFile {
   }
 
   Status add(const Rows& rows) override {
-    for (std::size_t row = 0; row < rows.size(); ++row) {
-      Layer& layer = layers_[rows.table(row)];
-      sqlite3_stmt* insert = layer.insert.get();
-      const std::span<const char> blob = layer.blob.make(layer.kind, layer.srs, rows, row);
-      sqlite3_bind_blob64(insert, 1, blob.data(), blob.size(), SQLITE_STATIC);
-      int number = 1;
-      for (const Rows::Field& field : rows.fields(row)) bind(insert, ++number, rows, field);
-      if (sqlite3_step(insert) != SQLITE_DONE) return failure();
-      sqlite3_reset(insert);
-      ++layer.count;
+    for (Layer& layer : layers_) {
+      layer.rows = &rows;
+      if (layer.own_from(0) == rows.size()) continue;
+      if (sqlite3_step(layer.insert.get()) != SQLITE_DONE) return failure();
+      layer.count += sqlite3_changes(database_.get());
+      sqlite3_reset(layer.insert.get());
     }
     return success();
   }
@@ -136,15 +249,6 @@ class GeoPackageRows final : public RowFile {
   }
 
  private:
-  struct Layer {
-    std::string name;
-    GeometryKind kind = GeometryKind::point;
-    std::int32_t srs = 0;
-    Statement insert;
-    GeometryBlob blob;
-    std::int64_t count = 0;
-  };
-
   Error failure() const {
     return {ErrorCode::unwritable,
             fmt::format("cannot write: {}",
@@ -167,38 +271,23 @@ class GeoPackageRows final : public RowFile {
   Status prepare(const EmptyLayer& of) {
     Layer& layer = layers_.emplace_back();
     layer.name = of.name;
+    layer.number = layers_.size() - 1;
     layer.kind = of.kind;
+    layer.columns = of.columns.size();
     const Statement srs =
         statement("SELECT srs_id FROM gpkg_geometry_columns WHERE table_name = ?");
     if (!srs) return failure();
     bind_text(srs, 1, of.name);
     if (sqlite3_step(srs.get()) != SQLITE_ROW) return failure();
     layer.srs = sqlite3_column_int(srs.get(), 0);
-    std::string names = quoted(of.geometry), values = "?";
-    for (const std::string& column : of.columns) {
-      names += ", " + quoted(column);
-      values += ", ?";
-    }
-    layer.insert =
-        statement(fmt::format("INSERT INTO {} ({}) VALUES ({})", quoted(of.name), names, values));
+    std::string names = quoted(of.geometry);
+    for (const std::string& column : of.columns) names += ", " + quoted(column);
+    const std::string from = fmt::format("medial_rows_{}", layer.number);
+    if (sqlite3_create_module(database_.get(), from.c_str(), row_module(), &layer) != SQLITE_OK)
+      return failure();
+    layer.insert = statement(
+        fmt::format("INSERT INTO {} ({}) SELECT * FROM {}", quoted(of.name), names, from));
     return layer.insert ? success() : Status(failure());
-  }
-
-  static void bind(sqlite3_stmt* insert, int number, const Rows& rows, const Rows::Field& field) {
-    switch (field.kind) {
-      case Rows::Kind::nothing:
-        sqlite3_bind_null(insert, number);
-        return;
-      case Rows::Kind::whole:
-        sqlite3_bind_int64(insert, number, field.whole);
-        return;
-      case Rows::Kind::real:
-        sqlite3_bind_double(insert, number, field.real);
-        return;
-      case Rows::Kind::text:
-        sqlite3_bind_text(insert, number, rows.text(field), -1, SQLITE_STATIC);
-        return;
-    }
   }
 
   /// The extent and the number of rows.
@@ -222,7 +311,7 @@ class GeoPackageRows final : public RowFile {
   }
 
   Database database_;
-  std::vector<Layer> layers_;  ///< their statements go before the database
+  std::deque<Layer> layers_;  ///< their statements go before the database
 };
 
 }  // namespace

@@ -302,16 +302,26 @@ class GdalTables final : public TableSink {
   GdalTables(Target& target, std::vector<Rows>& rows, GdalFile* file = nullptr)
       : TableSink(target), rows_(rows), file_(file) {}
 
+  /// Puts the last rows into the file.
+  Status finish() {
+    if (rows_.empty()) return success();
+    Status added = file_->add(rows_.back());
+    rows_.back().clear();
+    return added;
+  }
+
  private:
   Status put(std::size_t table, std::span<const Value> first, std::span<const Value> rest,
              std::span<std::vector<Vec2>> parts) override {
-    if (rows_.empty() || rows_.back().size() == rows_together) rows_.emplace_back();
-    Rows& last = rows_.back();
-    last.put(table, first, rest, parts);
-    if (file_ == nullptr) return success();
-    Status added = file_->add(last);
-    last.clear();
-    return added;
+    if (rows_.empty()) rows_.emplace_back();
+    if (rows_.back().size() == rows_together) {
+      if (file_ == nullptr)
+        rows_.emplace_back();
+      else if (Status added = finish(); !added)
+        return added;
+    }
+    rows_.back().put(table, first, rest, parts);
+    return success();
   }
 
   std::vector<Rows>& rows_;
@@ -333,7 +343,11 @@ Status make_dataset(const std::string& path, Target& target, const TableSource& 
   if (Status opened = file.open(path, target, source); !opened) return opened;
   std::vector<Rows> rows;
   GdalTables tables(target, rows, &file);
-  if (Status filled = heard([&] { return source.fill(tables); }); !filled) return filled;
+  const auto fill = [&]() -> Status {
+    Status filled = source.fill(tables);
+    return filled ? tables.finish() : filled;
+  };
+  if (Status filled = heard(fill); !filled) return filled;
   return file.close();
 }
 
