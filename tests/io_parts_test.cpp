@@ -96,7 +96,7 @@ std::vector<Line> edges_of(const std::string& csv) {
 }
 
 TEST_F(InParts, EdgesAreThoseOfTheWhole) {
-  const auto file = shapes();
+  auto file = shapes();
   std::string expected, text;
   ASSERT_TRUE(write_axes(&expected, "csv", whole(file)));
   std::vector<std::size_t> parts(file.items.size());
@@ -110,7 +110,7 @@ TEST_F(InParts, EdgesAreThoseOfTheWhole) {
 }
 
 TEST_F(InParts, BranchesAreWhole) {
-  const auto file = shapes();
+  auto file = shapes();
   for (const char* format : {"geojson", "fgb"}) {
     const std::string one = path(std::string("whole.") + format);
     const std::string other = path(std::string("parts.") + format);
@@ -289,7 +289,7 @@ TEST_F(InParts, WaitInAFileKindByKind) {
 }
 
 TEST_F(InParts, OfOtherFormatsAndPipesThereAreNone) {
-  const auto file = shapes();
+  auto file = shapes();
   for (const char* name : {"a.gpkg", "a.svg", "a.wkt", "-"}) {
     const auto written = write_in_parts(name == std::string("-") ? name : path(name), "", file, {});
     ASSERT_TRUE(written) << name;
@@ -301,7 +301,7 @@ TEST_F(InParts, OfOtherFormatsAndPipesThereAreNone) {
 }
 
 TEST_F(InParts, BrokenOnesLeaveWhatWasThere) {
-  const auto file = shapes();
+  auto file = shapes();
   for (const char* format : {"csv", "geojson", "fgb", "json", "safetensors"}) {
     const std::string name = write(std::string("a.") + format, "as it was");
     std::atomic<bool> cancel = false;

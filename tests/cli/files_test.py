@@ -5,6 +5,7 @@ import gzip
 import json
 import os
 import sqlite3
+import struct
 import subprocess
 
 from support import FRAME, GEOGRAPHIC, PROGRAM, RECTANGLE, CommandLine
@@ -200,6 +201,77 @@ class Files(CommandLine):
         self.succeed("axis", "b.wkt", "-o", "a.shp")
         self.assertEqual([name for name in self.files() if name.startswith("a.")],
                          ["a.cpg", "a.dbf", "a.geojson", "a.shp", "a.shx"])
+
+    def odd_attributes(self):
+        """Squares with a hole and attributes that need more than the usual room, or none."""
+        odd = [("plain", 1, 1.5), ("it's \"quoted\"\t\n", -5, -2.25), ("\u2603" * 40, 10**18, 1e-20), (None, None, None),
+               ("y" * 300, -(10**18), 1e8 + 0.125), ("\u00fc" * 140, 2**62, 1e20), ("", 0, 0.5)]  # fmt: skip
+        self.write("odd.geojson", json.dumps({"type": "FeatureCollection", "features": [
+            {"type": "Feature", "properties": {"name": name, "n": n, "x": x}, "geometry": {"type": "Polygon", "coordinates": [
+                [[20 * i, 0], [20 * i + 9, 0], [20 * i + 9, 9], [20 * i, 9], [20 * i, 0]],
+                [[20 * i + 4, 4], [20 * i + 4, 5], [20 * i + 5, 5], [20 * i + 5, 4], [20 * i + 4, 4]]]}}
+            for i, (name, n, x) in enumerate(odd)]}))  # fmt: skip
+        return odd
+
+    def test_shapefiles_have_room_for_all_values(self):
+        odd = self.odd_attributes()
+        self.succeed("offset", "odd.geojson", "--distance", "0.25", "-o", "o.shp")
+        table, shapes, index = (self.read("o." + part) for part in ("dbf", "shp", "shx"))
+        count, head, size = struct.unpack("<IHH", table[4:12])
+        self.assertEqual((count, len(table)), (len(odd), head + count * size + 1))
+        columns = {}
+        at = 1
+        for field in range(32, head - 1, 32):
+            columns[table[field:field + 11].rstrip(b"\0").decode()] = (at, at + table[field + 16])
+            at += table[field + 16]
+        self.assertEqual(at, size)
+        for i, (name, n, x) in enumerate(odd):
+            row = table[head + i * size:head + (i + 1) * size]
+            text, whole, real = (row[slice(*columns[column])] for column in ("name", "n", "x"))
+            self.assertEqual(text.decode().rstrip(" "), (name or "").encode()[:254].decode(errors="ignore"))
+            if n is None:
+                self.assertEqual((set(whole), set(real)), ({ord("*")}, {ord("*")}))
+                continue
+            self.assertEqual(int(whole), n)
+            self.assertAlmostEqual(float(real) / x if x > 1e-15 else 1, 1, 12)
+        # Each record begins where the index says, with an outer ring clockwise and a hole the other way.
+        self.assertEqual((len(shapes), len(index)), (2 * int.from_bytes(shapes[24:28], "big"), 100 + 8 * count))
+        for i in range(count):
+            begin, length = (2 * number for number in struct.unpack(">II", index[100 + 8 * i:108 + 8 * i]))
+            number, again = struct.unpack(">II", shapes[begin:begin + 8])
+            self.assertEqual((number, 2 * again), (i + 1, length))
+            parts, points, first, second = struct.unpack("<4I", shapes[begin + 44:begin + 60])
+            self.assertEqual((parts, first), (2, 0))
+            xy = list(struct.iter_unpack("<2d", shapes[begin + 60:begin + 8 + length]))
+            self.assertEqual(len(xy), points)
+            areas = []
+            for ring in (xy[:second], xy[second:]):
+                self.assertEqual(ring[0], ring[-1])
+                areas.append(sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(ring, ring[1:])) / 2)
+            self.assertAlmostEqual(areas[0], -(8.5**2), 9)
+            self.assertGreater(areas[1], 1)
+
+    def test_geopackages_count_what_they_hold(self):
+        odd = self.odd_attributes()
+        self.succeed("offset", "odd.geojson", "--distance", "0.25", "-o", "t.gpkg")
+        self.succeed("axis", "odd.geojson", "-o", "t.gpkg")
+        with sqlite3.connect(self.path("t.gpkg")) as database:
+            rows = database.execute("SELECT name, n, x FROM offsets ORDER BY fid").fetchall()
+            self.assertEqual([(name, n) for name, n, _ in rows], [(name, n) for name, n, _ in odd])
+            for (_, _, x), (_, _, expected) in zip(rows, odd):
+                self.assertEqual(x, expected)
+            for table in ("offsets", "axis", "nodes"):
+                count = database.execute(f"SELECT count(*), max(fid) FROM {table}").fetchone()
+                told = database.execute("SELECT feature_count FROM gpkg_ogr_contents WHERE table_name = ?", [table])
+                self.assertEqual((told.fetchone()[0],) * 2, count)
+            extent = database.execute("SELECT min_x, min_y, max_x, max_y FROM gpkg_contents WHERE table_name = 'axis'")
+            self.assertEqual(extent.fetchone(), (0, 0, 20 * len(odd) - 11, 9))
+            # A row that another program adds or removes counts, too.
+            database.execute("DELETE FROM offsets WHERE fid = 1")
+            told = database.execute("SELECT feature_count FROM gpkg_ogr_contents WHERE table_name = 'offsets'")
+            self.assertEqual(told.fetchone()[0], len(odd) - 1)
+        self.assertEqual(json.loads(self.succeed("info", "t.gpkg", "--layer", "offsets", "--json").stdout)["features"],
+                         len(odd) - 1)  # fmt: skip
 
     def test_features_keep_their_numbers(self):
         """Tables name a feature as notes do, also behind one that is left out."""
