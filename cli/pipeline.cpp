@@ -520,9 +520,15 @@ Result<std::optional<LoadedAxes>> stream(const FileArguments& arguments, const I
   stream.write = write_options(arguments);
   stream.threads = common.threads;
   stream.progress = progress.counting_callback();
-  auto report =
-      naming_file(io::stream(input.path, arguments.output, arguments.format, stream), input);
-  if (!report) return with_cure(std::move(report).error(), input, false);
+  // Only shapes have a cure: other errors name a file already.
+  stream.compute = [&input, compute = std::move(stream.compute)](Document<ShapeItem> shapes,
+                                                                 int threads, AxesReport& axes) {
+    return naming_file(compute(std::move(shapes), threads, axes), input);
+  };
+  auto report = io::stream(input.path, arguments.output, arguments.format, stream);
+  if (!report && report.error().place.file.empty())
+    return with_cure(naming_file(std::move(report), input).error(), input, false);
+  if (!report) return std::move(report).error();
   if (!*report) return std::optional<LoadedAxes>();
   out.phases.end("stream");
   io::StreamReport& done = **report;

@@ -167,6 +167,10 @@ class Stream(CommandLine):
             self.assertIn("note: 13 features could not be computed and were left out", said)
             self.assert_same(output)
         self.assertIn(" 8986 features, ", self.both_ways("f.wkt", text, "", "--skip-invalid")[1])
+        status, said = self.both_ways("f.wkt", text.replace(lines[100], lines[99]), "csv")
+        self.assertEqual((status, said.count("\n")), (2, 1))
+        self.assertIn("feature 0, ring 0", said)
+        self.assertNotIn("--repair", said)
 
     def test_all_features_of_a_part_may_be_left_out(self):
         """Squares that no grid of such pixels holds."""

@@ -18,11 +18,11 @@ struct Finalize {
   void operator()(sqlite3* database) const { sqlite3_close_v2(database); }
   void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
 };
-using Database = std::unique_ptr<sqlite3, Finalize>;
+using Connection = std::unique_ptr<sqlite3, Finalize>;
 using Statement = std::unique_ptr<sqlite3_stmt, Finalize>;
 
 /// An SQL name.
-std::string quoted(const std::string& name) {
+std::string sql_name(const std::string& name) {
   std::string text = "\"";
   for (const char c : name) text += c == '"' ? "\"\"" : std::string(1, c);
   return text + '"';
@@ -91,7 +91,7 @@ class GeometryBlob {
 };
 
 /// A layer, and the rows on their way to it.
-struct Layer {
+struct FilledLayer {
   std::string name;
   std::size_t number = 0;
   GeometryKind kind = GeometryKind::point;
@@ -112,7 +112,7 @@ struct Layer {
 /// A layer's rows as a table of SQLite's, so that one statement inserts many of them. SQLite calls
 /// these functions by pointers.
 struct RowTable : sqlite3_vtab {
-  Layer* layer;
+  FilledLayer* layer;
 };
 struct RowCursor : sqlite3_vtab_cursor {
   std::size_t row;
@@ -120,7 +120,7 @@ struct RowCursor : sqlite3_vtab_cursor {
 
 /// No exception passes through SQLite.
 template <class Work>
-int guarded(const Work& work) {
+int without_exceptions(const Work& work) {
   try {
     return work();
   } catch (...) {
@@ -128,17 +128,18 @@ int guarded(const Work& work) {
   }
 }
 
-int connect(sqlite3* database, void* layer, int, const char* const*, sqlite3_vtab** made, char**) {
-  return guarded([&] {
+int connect_rows(sqlite3* database, void* layer, int, const char* const*, sqlite3_vtab** made,
+                 char**) {
+  return without_exceptions([&] {
     auto table = std::make_unique<RowTable>();
-    table->layer = static_cast<Layer*>(layer);
+    table->layer = static_cast<FilledLayer*>(layer);
     std::string columns = "geometry";
     for (std::size_t i = 0; i < table->layer->columns; ++i) columns += fmt::format(", c{}", i);
     *made = table.release();
     return sqlite3_declare_vtab(database, fmt::format("CREATE TABLE x({})", columns).c_str());
   });
 }
-int disconnect(sqlite3_vtab* table) {
+int disconnect_rows(sqlite3_vtab* table) {
   delete static_cast<RowTable*>(table);
   return SQLITE_OK;
 }
@@ -151,7 +152,7 @@ int close_cursor(sqlite3_vtab_cursor* cursor) {
   delete static_cast<RowCursor*>(cursor);
   return SQLITE_OK;
 }
-Layer& layer_of(sqlite3_vtab_cursor* cursor) {
+FilledLayer& layer_of(sqlite3_vtab_cursor* cursor) {
   return *static_cast<RowTable*>(cursor->pVtab)->layer;
 }
 int first_row(sqlite3_vtab_cursor* cursor, int, const char*, int, sqlite3_value**) {
@@ -172,11 +173,11 @@ int row_number(sqlite3_vtab_cursor* cursor, sqlite3_int64* number) {
 }
 /// Nothing is copied: a row is in the file before the next one is asked for.
 int give_value(sqlite3_vtab_cursor* cursor, sqlite3_context* to, int column) {
-  Layer& layer = layer_of(cursor);
+  FilledLayer& layer = layer_of(cursor);
   const Rows& rows = *layer.rows;
   const std::size_t row = static_cast<RowCursor*>(cursor)->row;
   if (column == 0) {
-    return guarded([&] {
+    return without_exceptions([&] {
       const std::span<const char> blob = layer.blob.make(layer.kind, layer.srs, rows, row);
       sqlite3_result_blob64(to, blob.data(), blob.size(), SQLITE_STATIC);
       return SQLITE_OK;
@@ -194,8 +195,8 @@ int give_value(sqlite3_vtab_cursor* cursor, sqlite3_context* to, int column) {
 
 const sqlite3_module* row_module() {
   static sqlite3_module module{};
-  module.xConnect = connect;
-  module.xDisconnect = disconnect;
+  module.xConnect = connect_rows;
+  module.xDisconnect = disconnect_rows;
   module.xBestIndex = choose_index;
   module.xOpen = open_cursor;
   module.xClose = close_cursor;
@@ -219,7 +220,7 @@ class GeoPackageRows final : public RowFile {
     if (Status set = run("PRAGMA locking_mode = EXCLUSIVE"); !set) return set;
     if (is_new)
       if (Status set = run("PRAGMA journal_mode = OFF"); !set) return set;
-    // Triggers count rows one by one; close() tells what they would.
+    // Triggers count rows one by one; close() states what they would.
     sqlite3_db_config(opened, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
     if (Status begun = run("BEGIN"); !begun) return begun;
     for (const EmptyLayer& layer : layers)
@@ -228,7 +229,7 @@ class GeoPackageRows final : public RowFile {
   }
 
   Status add(const Rows& rows) override {
-    for (Layer& layer : layers_) {
+    for (FilledLayer& layer : layers_) {
       layer.rows = &rows;
       if (layer.own_from(0) == rows.size()) continue;
       if (sqlite3_step(layer.insert.get()) != SQLITE_DONE) return failure();
@@ -239,7 +240,7 @@ class GeoPackageRows final : public RowFile {
   }
 
   Status close() override {
-    for (Layer& layer : layers_) {
+    for (FilledLayer& layer : layers_) {
       layer.insert.reset();
       if (layer.count == 0) continue;
       if (Status told = tell(layer); !told) return told;
@@ -269,7 +270,7 @@ class GeoPackageRows final : public RowFile {
   }
 
   Status prepare(const EmptyLayer& of) {
-    Layer& layer = layers_.emplace_back();
+    FilledLayer& layer = layers_.emplace_back();
     layer.name = of.name;
     layer.number = layers_.size() - 1;
     layer.kind = of.kind;
@@ -280,18 +281,18 @@ class GeoPackageRows final : public RowFile {
     bind_text(srs, 1, of.name);
     if (sqlite3_step(srs.get()) != SQLITE_ROW) return failure();
     layer.srs = sqlite3_column_int(srs.get(), 0);
-    std::string names = quoted(of.geometry);
-    for (const std::string& column : of.columns) names += ", " + quoted(column);
+    std::string names = sql_name(of.geometry);
+    for (const std::string& column : of.columns) names += ", " + sql_name(column);
     const std::string from = fmt::format("medial_rows_{}", layer.number);
     if (sqlite3_create_module(database_.get(), from.c_str(), row_module(), &layer) != SQLITE_OK)
       return failure();
     layer.insert = statement(
-        fmt::format("INSERT INTO {} ({}) SELECT * FROM {}", quoted(of.name), names, from));
+        fmt::format("INSERT INTO {} ({}) SELECT * FROM {}", sql_name(of.name), names, from));
     return layer.insert ? success() : Status(failure());
   }
 
   /// The extent and the number of rows.
-  Status tell(const Layer& layer) {
+  Status tell(const FilledLayer& layer) {
     const Statement extent = statement(
         "UPDATE gpkg_contents SET min_x = ?, min_y = ?, max_x = ?, max_y = ?, "
         "last_change = strftime('%Y-%m-%dT%H:%M:%fZ', 'now') WHERE table_name = ?");
@@ -310,8 +311,8 @@ class GeoPackageRows final : public RowFile {
     return success();
   }
 
-  Database database_;
-  std::deque<Layer> layers_;  ///< their statements go before the database
+  Connection database_;
+  std::deque<FilledLayer> layers_;  ///< their statements go before the database
 };
 
 }  // namespace

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Error cannot_write(const std::string& what) {
+Error shapefile_error(const std::string& what) {
   return {ErrorCode::unwritable, "cannot write: " + what, {}};
 }
 
@@ -53,7 +53,7 @@ std::string beside(const fs::path& path, const std::string& extension) {
 Result<std::string> content_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::string bytes(std::istreambuf_iterator<char>(file), {});
-  return file.bad() || bytes.empty() ? Result<std::string>(cannot_write("a part is missing"))
+  return file.bad() || bytes.empty() ? Result<std::string>(shapefile_error("a part is missing"))
                                      : bytes;
 }
 
@@ -63,7 +63,7 @@ Status patch(const std::string& path, std::uint64_t at, const std::string& bytes
   file.seekp(static_cast<std::streamoff>(at));
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.close();
-  return file ? success() : Status(cannot_write("the disk may be full"));
+  return file ? success() : Status(shapefile_error("the disk may be full"));
 }
 
 /// The table of attributes (.dbf): records of texts of fixed widths.
@@ -75,7 +75,7 @@ class AttributeTable {
     if (!head) return std::move(head).error();
     head_ = std::move(*head);
     const auto byte = [this](std::size_t i) { return static_cast<unsigned char>(head_[i]); };
-    if (head_.size() < record_begin) return cannot_write("a part is damaged");
+    if (head_.size() < record_begin) return shapefile_error("a part is damaged");
     head_.resize(std::min(head_.size(), byte(8) + std::size_t{256} * byte(9)));
     for (std::size_t at = field_begin; at + field_size <= head_.size(); at += field_size)
       fields_.push_back({head_[at + 11], byte(at + 16), byte(at + 17)});
@@ -118,7 +118,7 @@ class AttributeTable {
       head_[field_begin + field_size * i + 16] = static_cast<char>(fields_[i].width);
     }
     if (record > std::numeric_limits<std::uint16_t>::max())
-      return cannot_write("a row of a shapefile has 65,535 bytes at most");
+      return shapefile_error("a row of a shapefile has 65,535 bytes at most");
     head_[10] = static_cast<char>(record & 0xff);
     head_[11] = static_cast<char>(record >> 8);
     auto out = OutputStream::open(path_);
@@ -137,7 +137,8 @@ class AttributeTable {
     if (Status done = finish(); !done) return done;
     std::ifstream file(path_, std::ios::binary);
     std::error_code problem;
-    if (!fs::remove(path_, problem)) return cannot_write(problem.message());  // it stays readable
+    if (!fs::remove(path_, problem))
+      return shapefile_error(problem.message());  // it stays readable
     std::size_t begin = 1, size = 1;
     for (std::size_t i = 0; i < fields_.size(); ++i) {
       if (i == field) begin = size;
@@ -151,7 +152,7 @@ class AttributeTable {
     std::string record(size, ' ');
     for (std::uint32_t i = 0; i < count_; ++i) {
       if (!file.read(record.data(), static_cast<std::streamsize>(size)))
-        return cannot_write("a part cannot be read again");
+        return shapefile_error("a part cannot be read again");
       const bool is_nothing = !is_text && record[begin] == '*';
       const std::string filling(more, is_nothing ? '*' : ' ');
       const std::string_view all = record;
@@ -222,7 +223,7 @@ class GeometryFile {
       file->path = *name;
       auto head = content_of(*name);
       if (!head) return std::move(head).error();
-      if (head->size() != head_size) return cannot_write("a part is damaged");
+      if (head->size() != head_size) return shapefile_error("a part is damaged");
       auto out = OutputStream::open(*name);
       if (!out) return std::move(out).error();
       file->out.emplace(std::move(*out));
@@ -235,7 +236,7 @@ class GeometryFile {
     make(kind, rows, row);
     constexpr std::uint64_t most = std::uint64_t{std::numeric_limits<std::int32_t>::max()} * 2;
     if (shapes_.size + content_.size() + 8 > most)
-      return cannot_write("a shapefile has 4 GB at most; .gpkg and .fgb have no such limit");
+      return shapefile_error("a shapefile has 4 GB at most; .gpkg and .fgb have no such limit");
     head_.clear();
     put_big_endian(head_, shapes_.size / 2);
     put_big_endian(head_, content_.size() / 2);
