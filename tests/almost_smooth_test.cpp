@@ -238,6 +238,39 @@ TEST(AlmostSmoothJoint, AnEdgeDoesNotBeginBeyondTheEndOfItsArc) {
           0.11267210695363125}}}});
 }
 
+/// Offsets of two arcs. One disk touches both ends of the shortest arc, which another one fills:
+/// a leaf that was taken for a tie with the first.
+TEST(AlmostSmoothJoint, ALeafStandsForAnArcBetweenItsFeet) {
+  expect_verified({{{{4.6017678485507947e-05, 0.00048943403256450173},
+                     {4.6018023901626974e-05, 0.00048943406198837522},
+                     {-3.0798232455939377e-05, 0.002021181402610454},
+                     {-6.090893258449645e-05, 0.00048780473705128035},
+                     {-6.0908895629463395e-05, 0.00048780473503503934}},
+                    RingRole::any,
+                    {-1.7691898541425504e-07, 0.96572326337102854, 0.96572326337102854,
+                     -1.8887777904979492e-08, 0.034884971235807936}}});
+  expect_verified({{{{6.7137161967517433e-05, -1.728507665880929e-05},
+                     {7.5820156380879901e-05, 1.4919978407587214e-05},
+                     {7.5820156319180733e-05, 1.4919981859561929e-05},
+                     {-4.2282481010405795e-05, 2.9489286487171454e-05},
+                     {6.7137135011046848e-05, -1.7285121165451934e-05}},
+                    RingRole::any,
+                    {0.14154686267881447, -1.0842453915735248e-08, 0.86842105497154909,
+                     0.86842105497154909, -1.6340835337921076e-07}}});
+}
+
+/// The edge between two half circles, whose centres are 1e-9 of the size apart, has the radius of a
+/// hyperbola that bends there: its pole needs twice the digits.
+TEST(AlmostSmoothJoint, AnEdgeBendsBetweenTwoCentres) {
+  expect_verified({{{{-122.40713171176839, -2.6384655902695562e-08},
+                     {122.40713171176839, -2.6494378422810442e-08},
+                     {122.40713171176839, 1.9728539227872353e-08},
+                     {-122.40713171176839, 1.9838259632503273e-08}},
+                    RingRole::any,
+                    {0.99999999930764505, 4.1510757127520516e-10, 0.99999999903192438,
+                     4.1510755185315565e-10}}});
+}
+
 TEST(AlmostSmoothJoint, IsLeftToDisksByLee) {
   Options options{.method = method::Lee{}, .threads = 1};
   expect_verified({{{{5.259379083290482e-07, 0},
