@@ -322,8 +322,10 @@ void remove_spurs(const Boundary& boundary, std::span<const std::uint32_t> names
       return false;
     const bool is_end = leaf == edge.node[1];
     const Node& root = graph.nodes[edge.node[is_end ? 0 : 1]];
+    // What an event took for touched may be a little further away as it is measured here.
+    constexpr double share = 1.25;
     return touches_all_between(boundary, boundary.runs[root.component], root.disk,
-                               is_end ? right : left, is_end ? left : right, tolerance);
+                               is_end ? right : left, is_end ? left : right, share * tolerance);
   };
   std::vector<std::uint32_t> edges, nodes;
   for (std::uint32_t i = 0; i < graph.nodes.size(); ++i)
