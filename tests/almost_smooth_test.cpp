@@ -259,6 +259,18 @@ TEST(AlmostSmoothJoint, ALeafStandsForAnArcBetweenItsFeet) {
                      0.86842105497154909, -1.6340835337921076e-07}}});
 }
 
+/// Two half circles and a side between them, on which one disk touches all three: the largest disk
+/// lies in the centre of the circles, towards their smooth joint.
+TEST(AlmostSmoothJoint, AnEdgeLeadsOnToTheCentreOfBothArcs) {
+  expect_verified({{{{0.80902516217694309, -1.9245393781800335e-30},
+                     {0.80902516217694331, -9.9277058029814072e-09},
+                     {2.0905342597773053, 5.3863690104171028e-14},
+                     {0.80902516217694331, 9.9277058029814072e-09}},
+                    RingRole::any,
+                    {-6.9087206044116606e-09, 0.99999999225276459, 0.99999999225306468,
+                     -6.9087206044116606e-09}}});
+}
+
 /// The edge between two half circles, whose centres are 1e-9 of the size apart, has the radius of a
 /// hyperbola that bends there: its pole needs twice the digits.
 TEST(AlmostSmoothJoint, AnEdgeBendsBetweenTwoCentres) {

@@ -349,11 +349,11 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
     return along >= 0 && along <= squared_norm(chord);
   };
   const Control straight{middle_of(from, to), 1};
-  // A curve that leads another way around a focus is no better than a line that strays no further
-  // than the ends do, beside joints that are smooth but for some tolerances. Nor is one that hardly
-  // leaves its chord, as from where two sites are seen as one: how far it does so is rounding. Nor
-  // than one so short that it need not be measured: as distances change by no more than the place,
-  // it strays by half its length at most, and 2^-47 is less than verify() allows a size of one.
+  // A line that strays no further than the ends do is as good as a curve that leads another way
+  // around a focus, beside joints that are smooth but for some tolerances; and as a curve that
+  // hardly leaves its chord, as where two sites are seen as one: how far it does so is rounding. A
+  // line so short need not be measured: as distances change by no more than the place, it strays by
+  // half its length at most, and 2^-47 is less than verify() allows a size of one.
   const bool leads_between = is_between(best.point.center);
   if (!leads_between && length <= short_line) return straight;
   const double beside = best.weight * std::abs(cross(chord, best.point.center - from.center));

@@ -304,6 +304,11 @@ class Slices {
     const bool is_open = angle >= whole - std::min(open, std::numbers::pi);
     return is_open && goes_on_around(node) ? angle - whole : angle;
   }
+  /// Where a swept area begins.
+  struct Begin {
+    std::size_t place;
+    Vec2 foot;
+  };
   /// Whether, from each foot at which a swept area ends, the boundary goes on to one at which an
   /// area begins, in one place as seen from the node.
   bool goes_on_around(std::uint32_t node) const {
@@ -324,11 +329,6 @@ class Slices {
     });
     return goes_on;
   }
-  /// Where a swept area begins.
-  struct Begin {
-    std::size_t place;
-    Vec2 foot;
-  };
   /// Whether the boundary leads from a foot to one of some others near it, past vertices near it.
   /// Vertices and the edges that begin there are numbered in turn.
   bool goes_on_from(std::size_t place, Vec2 foot, double near,

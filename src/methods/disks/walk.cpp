@@ -397,8 +397,8 @@ class Walker {
     chunk_.links.push_back({{from, to}, {span.left, span.right}});
   }
 
-  /// Between two blunt joints, an edge either leads towards both or is none: what was found on the
-  /// way to one of them need not be the largest disk.
+  /// An edge between two blunt joints leads towards both, or is left out: what was found on the way
+  /// to one of them need not be the largest disk.
   void end_at_blunt_joint(const Span& span) {
     const auto leaf = blunt_leaf(span.right, span.left, chunk_.nodes[span.node]);
     const bool begins_at_joint = starts_blunt_ && span.node == 0;
@@ -407,11 +407,13 @@ class Walker {
   }
 
   /// Where an edge ends that leads from a node towards the joint of two edges, if that is blunt and
-  /// the edge is not left out. The node of a run that begins there is the joint.
+  /// the edge is not left out. The node of a run that begins there is the joint. In 256 bits also
+  /// towards a smooth joint: two arcs of nearly one circle have their largest disk on the way.
   std::optional<Disk> blunt_leaf(std::uint32_t before, std::uint32_t after,
                                  const Disk& node) const {
-    if (element(before) != Element::edge || element(after) != Element::edge ||
-        boundary_.joint(before) != site::Joint::blunt)
+    if (element(before) != Element::edge || element(after) != Element::edge) return std::nullopt;
+    const site::Joint joint = boundary_.joint(before);
+    if (joint != site::Joint::blunt && !(decider_.is_exact && joint == site::Joint::smooth))
       return std::nullopt;
     const Disk end = end_toward_joint(context_, before, after, node);
     return coincide(node, end) ? std::nullopt : std::optional(end);
