@@ -31,6 +31,16 @@ Error cannot_write(const GdalMessages& messages) {
   return {ErrorCode::unwritable, "cannot write: " + messages.failure(), {}};
 }
 
+/// Runs work(), with GDAL's words for what it could not write.
+template <class Work>
+Status heard(const Work& work) {
+  const GdalMessages messages;
+  Status done = work();
+  if (messages.failure().empty() || (!done && done.error().code != ErrorCode::unwritable))
+    return done;
+  return cannot_write(messages);
+}
+
 OGRFieldType type_of(ColumnType type) {
   return type == ColumnType::whole ? OFTInteger64 : type == ColumnType::real ? OFTReal : OFTString;
 }
@@ -203,6 +213,7 @@ class GdalFile {
   GdalFile& operator=(const GdalFile&) = delete;
   ~GdalFile() {
     const GdalMessages unheard;
+    faster_.reset();
     layers_.clear();
     dataset_.reset();
   }
@@ -234,13 +245,32 @@ class GdalFile {
   };
 
   /// Closes the file, whose rows others add.
-  Status hand_over(const std::string& path, const Target& target, bool is_new,
-                   const GdalMessages& messages);
+  template <class OpenRows>
+  Status hand_over(const GdalMessages& messages, const OpenRows& open_rows);
 
   GDALDatasetUniquePtr dataset_;
   std::vector<Layer> layers_;
   std::unique_ptr<RowFile> faster_;
 };
+
+template <class OpenRows>
+Status GdalFile::hand_over(const GdalMessages& messages, const OpenRows& open_rows) {
+  std::vector<EmptyLayer> empty;
+  for (const Layer& layer : layers_) {
+    const OGRFeatureDefn& columns = *layer.layer->GetLayerDefn();
+    EmptyLayer& one = empty.emplace_back(
+        EmptyLayer{layer.layer->GetName(), layer.layer->GetGeometryColumn(), {}, layer.kind});
+    for (int i = 0; i < columns.GetFieldCount(); ++i)
+      one.columns.emplace_back(columns.GetFieldDefn(i)->GetNameRef());
+  }
+  layers_.clear();
+  dataset_.reset();
+  if (!messages.failure().empty()) return cannot_write(messages);
+  auto rows = open_rows(empty);
+  if (!rows) return std::move(rows).error();
+  faster_ = std::move(*rows);
+  return success();
+}
 
 Status GdalFile::open(const std::string& path, const Target& target, const TableSource& source) {
   register_gdal();
@@ -263,33 +293,23 @@ Status GdalFile::open(const std::string& path, const Target& target, const Table
     layers_.push_back({layer, source.tables[static_cast<std::size_t>(i)].kind,
                        OGRFeatureUniquePtr(new OGRFeature(layer->GetLayerDefn()))});
   }
-  if (target.format != "fgb")
-    if (Status closed = hand_over(path, target, !adds, messages); !closed) return closed;
+  Status handed = success();
+  if (target.format == "gpkg")
+    handed = hand_over(messages, [&](std::span<const EmptyLayer> layers) {
+      return rows_of_geopackage(path, layers, !adds);
+    });
+#ifdef MEDIAL_SHAPELIB
+  if (target.format == "shp")
+    handed = hand_over(messages, [&](std::span<const EmptyLayer> layers) {
+      return rows_of_shapefile(path, layers[0].kind);
+    });
+#endif
+  if (!handed) return handed;
   return messages.failure().empty() ? success() : cannot_write(messages);
 }
 
-Status GdalFile::hand_over(const std::string& path, const Target& target, bool is_new,
-                           const GdalMessages& messages) {
-  std::vector<EmptyLayer> empty;
-  for (const Layer& layer : layers_) {
-    const OGRFeatureDefn& columns = *layer.layer->GetLayerDefn();
-    EmptyLayer& one = empty.emplace_back(
-        EmptyLayer{layer.layer->GetName(), layer.layer->GetGeometryColumn(), {}, layer.kind});
-    for (int i = 0; i < columns.GetFieldCount(); ++i)
-      one.columns.emplace_back(columns.GetFieldDefn(i)->GetNameRef());
-  }
-  layers_.clear();
-  dataset_.reset();
-  if (!messages.failure().empty()) return cannot_write(messages);
-  auto rows = target.format == "shp" ? rows_of_shapefile(path, empty[0].kind)
-                                     : rows_of_geopackage(path, empty, is_new);
-  if (!rows) return std::move(rows).error();
-  faster_ = std::move(*rows);
-  return success();
-}
-
 Status GdalFile::close() {
-  if (faster_) return faster_->close();
+  if (faster_) return heard([this] { return faster_->close(); });
   const GdalMessages messages;
   layers_.clear();
   dataset_.reset();
@@ -327,16 +347,6 @@ class GdalTables final : public TableSink {
   std::vector<Rows>& rows_;
   GdalFile* file_;
 };
-
-/// Runs work(), with GDAL's words for what it could not write.
-template <class Work>
-Status heard(const Work& work) {
-  const GdalMessages messages;
-  Status done = work();
-  if (messages.failure().empty() || (!done && done.error().code != ErrorCode::unwritable))
-    return done;
-  return cannot_write(messages);
-}
 
 Status make_dataset(const std::string& path, Target& target, const TableSource& source) {
   GdalFile file;
