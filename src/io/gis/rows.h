@@ -112,6 +112,6 @@ class RowFile {
 Result<std::unique_ptr<RowFile>> rows_of_geopackage(const std::string& path,
                                                     std::span<const EmptyLayer> layers,
                                                     bool is_new);
-Result<std::unique_ptr<RowFile>> rows_of_shapefile(const std::string& path, GeometryKind kind);
+Result<std::unique_ptr<RowFile>> rows_of_shapefile(const std::string& path);
 
 }  // namespace medial::io

@@ -3,6 +3,7 @@
 
 #include <cpl_error.h>
 #include <cpl_vsi.h>
+#include <fmt/format.h>
 #include <shapefil.h>
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <limits>
@@ -74,12 +74,16 @@ SAHooks files_of_gdal() {
 
 class ShapefileRows final : public RowFile {
  public:
-  Status open(const std::string& path, GeometryKind kind) {
-    kind_ = kind;
+  Status open(const std::string& path) {
     SAHooks hooks = files_of_gdal();
     shapes_.reset(SHPOpenLL(path.c_str(), "rb+", &hooks));
     table_.reset(DBFOpenLL(path.c_str(), "rb+", &hooks));
     if (!shapes_ || !table_) return shapefile_error("a part is missing or damaged");
+    columns_.resize(static_cast<std::size_t>(DBFGetFieldCount(table_.get())));
+    for (int i = 0; Column & column : columns_) {
+      DBFGetFieldInfo(table_.get(), i, column.name.data(), &column.width, &column.decimals);
+      column.type = DBFGetNativeFieldType(table_.get(), i++);
+    }
     DBFSetWriteEndOfFileChar(table_.get(), 0);  // after each row: shapelib then goes back over it
     return success();
   }
@@ -106,7 +110,12 @@ class ShapefileRows final : public RowFile {
   struct Close {
     void operator()(SHPInfo* shapes) const { SHPClose(shapes); }
     void operator()(DBFInfo* table) const { DBFClose(table); }
-    void operator()(SHPObject* shape) const { SHPDestroyObject(shape); }
+  };
+
+  struct Column {
+    std::array<char, XBASE_FLDNAME_LEN_READ + 1> name;
+    char type;
+    int width, decimals;
   };
 
   Status add_geometry(const Rows& rows, std::size_t row) {
@@ -117,16 +126,20 @@ class ShapefileRows final : public RowFile {
       starts_.push_back(static_cast<int>(x_.size()));
       put_ring(rows.ring(row, i), i == 0);
     }
-    const int type = kind_ == GeometryKind::point  ? SHPT_POINT
-                     : kind_ == GeometryKind::line ? SHPT_ARC
-                                                   : SHPT_POLYGON;
     constexpr std::uint64_t most = std::uint64_t{std::numeric_limits<std::int32_t>::max()} * 2;
     if (shapes_->nFileSize + 52 + 4 * starts_.size() + 16 * x_.size() > most)
       return shapefile_error("a shapefile has 4 GB at most; .gpkg and .fgb have no such limit");
-    const std::unique_ptr<SHPObject, Close> shape(
-        SHPCreateObject(type, -1, static_cast<int>(starts_.size()), starts_.data(), nullptr,
-                        static_cast<int>(x_.size()), x_.data(), y_.data(), nullptr, nullptr));
-    return shape && SHPWriteObject(shapes_.get(), -1, shape.get()) >= 0
+    zeros_.resize(x_.size());
+    SHPObject shape{};
+    shape.nSHPType = shapes_->nShapeType;
+    shape.nParts = static_cast<int>(starts_.size());
+    shape.panPartStart = starts_.data();
+    shape.nVertices = static_cast<int>(x_.size());
+    shape.padfX = x_.data();
+    shape.padfY = y_.data();
+    shape.padfZ = shape.padfM = zeros_.data();
+    SHPComputeExtents(&shape);
+    return SHPWriteObject(shapes_.get(), -1, &shape) >= 0
                ? success()
                : Status(shapefile_error("a shape cannot be added"));
   }
@@ -138,7 +151,7 @@ class ShapefileRows final : public RowFile {
       x_.push_back(p.x);
       y_.push_back(p.y);
     }
-    if (kind_ != GeometryKind::polygon) return;
+    if (shapes_->nShapeType != SHPT_POLYGON) return;
     if (ring.size() > 1 && (ring.front().x != ring.back().x || ring.front().y != ring.back().y)) {
       x_.push_back(ring.front().x);
       y_.push_back(ring.front().y);
@@ -158,31 +171,29 @@ class ShapefileRows final : public RowFile {
   /// Makes room in the columns for the longest texts and whole numbers; numbers with decimals get
   /// what there is.
   Status widen(const Rows& rows) {
-    std::vector<int> widths(static_cast<std::size_t>(DBFGetFieldCount(table_.get())));
+    std::vector<int> wanted(columns_.size());
     for (std::size_t row = 0; row < rows.size(); ++row)
       for (std::size_t i = 0; const Rows::Field& value : rows.fields(row)) {
-        widths[i] = std::max(widths[i], wanted_width(rows, value));
+        wanted[i] = std::max(wanted[i], wanted_width(rows, value));
         ++i;
       }
-    for (int i = 0; const int wanted : widths) {
-      std::array<char, XBASE_FLDNAME_LEN_READ + 1> name{};
-      int width = 0, decimals = 0;
-      DBFGetFieldInfo(table_.get(), i, name.data(), &width, &decimals);
-      if (table_->nRecordLength + std::max(wanted - width, 0) > longest_row)
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      Column& column = columns_[i];
+      if (wanted[i] <= column.width) continue;
+      if (table_->nRecordLength + wanted[i] - column.width > longest_row)
         return shapefile_error("a row of a shapefile has 65,535 bytes at most");
-      const char type = DBFGetNativeFieldType(table_.get(), i);
-      if (wanted > width &&
-          !DBFAlterFieldDefn(table_.get(), i, name.data(), type, wanted, decimals))
+      column.width = wanted[i];
+      if (!DBFAlterFieldDefn(table_.get(), static_cast<int>(i), column.name.data(), column.type,
+                             column.width, column.decimals))
         return shapefile_error("a column cannot be widened");
-      ++i;
     }
     return success();
   }
   static int wanted_width(const Rows& rows, const Rows::Field& value) {
     if (value.kind == Rows::Kind::text) return static_cast<int>(cut(rows.text(value)).size());
-    if (value.kind != Rows::Kind::whole || std::abs(value.whole) < 100'000'000'000'000'000)
-      return 0;
-    return static_cast<int>(std::to_string(value.whole).size());
+    if (value.kind == Rows::Kind::whole)
+      return static_cast<int>(fmt::formatted_size("{}", value.whole));
+    return 0;
   }
   /// As much of a text as fits, without a part of a character.
   static std::string_view cut(std::string_view text) {
@@ -194,51 +205,50 @@ class ShapefileRows final : public RowFile {
   bool add_attributes(const Rows& rows, std::size_t row) {
     const int record = DBFGetRecordCount(table_.get());
     for (int i = 0; const Rows::Field& value : rows.fields(row)) {
-      int width = 0, decimals = 0;
-      DBFGetFieldInfo(table_.get(), i, nullptr, &width, &decimals);
-      const bool added = value.kind == Rows::Kind::nothing ||
-                                 (value.kind == Rows::Kind::real && !std::isfinite(value.real))
-                             ? DBFWriteNULLAttribute(table_.get(), record, i)
-                             : DBFWriteAttributeDirectly(table_.get(), record, i,
-                                                         set_text(rows, value, i, width, decimals));
-      if (!added) return false;
+      const bool is_nothing = value.kind == Rows::Kind::nothing ||
+                              (value.kind == Rows::Kind::real && !std::isfinite(value.real));
+      if (!is_nothing) set_text(columns_[static_cast<std::size_t>(i)], rows, value);
+      if (!(is_nothing ? DBFWriteNULLAttribute(table_.get(), record, i)
+                       : DBFWriteAttributeDirectly(table_.get(), record, i, text_.data())))
+        return false;
       ++i;
     }
     return true;
   }
-  /// A value as a text; numbers are on the right.
-  char* set_text(const Rows& rows, const Rows::Field& value, int column, int width, int decimals) {
-    std::array<char, 512> digits;  // shapelib takes doubles, and 15 digits of them
-    char* const begin = digits.data();
+  /// The text of a value; shapelib's own of numbers has 15 digits, or fewer, and takes longer.
+  void set_text(const Column& column, const Rows& rows, const Rows::Field& value) {
+    std::array<char, 512> digits;
+    char *const begin = digits.data(), *const last = begin + digits.size();
     std::string_view text;
     if (value.kind == Rows::Kind::text) {
       text = cut(rows.text(value));
     } else {
-      char* const last = begin + digits.size();
       const char* end =
           value.kind == Rows::Kind::whole
               ? std::to_chars(begin, last, value.whole).ptr
-              : std::to_chars(begin, last, value.real, std::chars_format::fixed, decimals).ptr;
-      text = {begin, std::min(static_cast<std::size_t>(end - begin), std::size_t(width))};
+              : std::to_chars(begin, last, value.real, std::chars_format::fixed, column.decimals)
+                    .ptr;
+      text = {begin, static_cast<std::size_t>(end - begin)};
     }
-    const bool is_number = DBFGetNativeFieldType(table_.get(), column) != 'C';
-    text_.assign(is_number ? static_cast<std::size_t>(width) - text.size() : 0, ' ');
-    return text_.append(text).data();
+    const auto width = static_cast<std::size_t>(column.width);
+    text = text.substr(0, width);
+    text_.assign(column.type == 'C' ? 0 : width - text.size(), ' ');
+    text_.append(text);
   }
 
-  GeometryKind kind_ = GeometryKind::point;
   std::unique_ptr<SHPInfo, Close> shapes_;
   std::unique_ptr<DBFInfo, Close> table_;
+  std::vector<Column> columns_;
   std::vector<int> starts_;  ///< of rings
-  std::vector<double> x_, y_;
+  std::vector<double> x_, y_, zeros_;
   std::string text_;
 };
 
 }  // namespace
 
-Result<std::unique_ptr<RowFile>> rows_of_shapefile(const std::string& path, GeometryKind kind) {
+Result<std::unique_ptr<RowFile>> rows_of_shapefile(const std::string& path) {
   auto file = std::make_unique<ShapefileRows>();
-  if (Status opened = file->open(path, kind); !opened) return std::move(opened).error();
+  if (Status opened = file->open(path); !opened) return std::move(opened).error();
   return std::unique_ptr<RowFile>(std::move(file));
 }
 

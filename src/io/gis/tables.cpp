@@ -300,9 +300,7 @@ Status GdalFile::open(const std::string& path, const Target& target, const Table
     });
 #ifdef MEDIAL_SHAPELIB
   if (target.format == "shp")
-    handed = hand_over(messages, [&](std::span<const EmptyLayer> layers) {
-      return rows_of_shapefile(path, layers[0].kind);
-    });
+    handed = hand_over(messages, [&](auto) { return rows_of_shapefile(path); });
 #endif
   if (!handed) return handed;
   return messages.failure().empty() ? success() : cannot_write(messages);
