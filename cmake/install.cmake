@@ -23,6 +23,9 @@ endif()
 if(MEDIAL_MESH)
   set(MEDIAL_PKGCONFIG_MESH " assimp")
 endif()
+if(SHAPELIB_FOUND)
+  set(MEDIAL_PKGCONFIG_SHAPELIB " shapelib")
+endif()
 
 # Relative, so that the installed tree may be moved.
 file(RELATIVE_PATH MEDIAL_PREFIX_FROM_PKGCONFIG

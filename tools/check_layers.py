@@ -35,7 +35,7 @@ SHARED_WITH_VERIFY = ("base/", "shape/", "axis/", "verify/", "medial/", "site/jo
 # Of src/io, what needs a library that neither Python nor browsers have; the rest is the layer `text`.
 BEYOND_TEXT = re.compile(r"io/(gis/|pictures/|formats/(dxf|font|pack|assimp))")
 LIBRARIES_OF_TEXT = re.compile(r"(svgpp|libxml|simdjson|nlohmann/|zlib\.h)")
-IO_ONLY = re.compile(r"(gdal|ogr|cpl_|geos|cairo|png\.h|svgpp|libxml|dl_|ft2build|simdjson|nlohmann/|CLI/|zlib\.h|assimp)", re.IGNORECASE)
+IO_ONLY = re.compile(r"(gdal|ogr|cpl_|geos|cairo|png\.h|svgpp|libxml|dl_|ft2build|simdjson|nlohmann/|CLI/|zlib\.h|assimp|shapefil\.h)", re.IGNORECASE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 
 

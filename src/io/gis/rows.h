@@ -108,7 +108,8 @@ class RowFile {
   virtual Status close() = 0;
 };
 
-/// GDAL needs several times as long for rows as these.
+/// GDAL needs several times as long for rows as these, by SQLite and by shapelib; what fails of a
+/// shapefile is an error of GDAL's.
 Result<std::unique_ptr<RowFile>> rows_of_geopackage(const std::string& path,
                                                     std::span<const EmptyLayer> layers,
                                                     bool is_new);

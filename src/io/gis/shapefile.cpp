@@ -215,25 +215,21 @@ class ShapefileRows final : public RowFile {
     }
     return true;
   }
-  /// The text of a value; shapelib's own of numbers has 15 digits, or fewer, and takes longer.
+  /// shapelib itself would print whole numbers as doubles.
   void set_text(const Column& column, const Rows& rows, const Rows::Field& value) {
     std::array<char, 512> digits;
-    char *const begin = digits.data(), *const last = begin + digits.size();
-    std::string_view text;
-    if (value.kind == Rows::Kind::text) {
-      text = cut(rows.text(value));
-    } else {
-      const char* end =
-          value.kind == Rows::Kind::whole
-              ? std::to_chars(begin, last, value.whole).ptr
-              : std::to_chars(begin, last, value.real, std::chars_format::fixed, column.decimals)
-                    .ptr;
-      text = {begin, static_cast<std::size_t>(end - begin)};
-    }
+    const auto put = [&](auto... number) {
+      text_.assign(digits.data(), std::to_chars(digits.begin(), digits.end(), number...).ptr);
+    };
+    if (value.kind == Rows::Kind::text)
+      text_ = cut(rows.text(value));
+    else if (value.kind == Rows::Kind::whole)
+      put(value.whole);
+    else
+      put(value.real, std::chars_format::fixed, column.decimals);
     const auto width = static_cast<std::size_t>(column.width);
-    text = text.substr(0, width);
-    text_.assign(column.type == 'C' ? 0 : width - text.size(), ' ');
-    text_.append(text);
+    text_.resize(std::min(text_.size(), width));
+    if (column.type != 'C') text_.insert(0, width - text_.size(), ' ');
   }
 
   std::unique_ptr<SHPInfo, Close> shapes_;
