@@ -121,6 +121,8 @@ class Files(CommandLine):
         self.assertEqual([name for name in self.files() if name.startswith("S.")],
                          ["S.SHP", "S.cpg", "S.dbf", "S.shx"])
         self.assertEqual(self.read("S.SHP")[:4], b"\x00\x00\x27\x0a")
+        self.succeed("axis", "a.wkt", "-o", "R.Shp")
+        self.assertEqual(self.read("R.Shp"), self.read("S.SHP"))
 
     def test_links_and_permissions(self):
         self.write("a.wkt", RECTANGLE)
