@@ -327,12 +327,28 @@ std::optional<Control> control_at_common_centre(const Site& a, const Site& b, co
                  std::max(1.0, distance(from.center, to.center) / rounding)};
 }
 
+/// The control point of the parabola through the disk halfway along an edge.
+Control through_halfway(const Site& a, const Site& b, const Disk& from, const Disk& to) {
+  const Bisector bisector(b, a);
+  const double middle = 0.5 * (bisector.position(from.center) + bisector.position(to.center));
+  const Disk halfway = bisector.disk_at(middle, from), straight = middle_of(from, to);
+  return {{2 * halfway.center - straight.center, 2 * halfway.radius - straight.radius}, 1};
+}
+
+/// Whether a curve leads beside its chord by less than 2^-26 of that.
+bool hardly_leaves_chord(const Control& control, const Disk& from, const Disk& to) {
+  constexpr double hardly = 0x1p-26;
+  const Vec2 chord = to.center - from.center;
+  const double beside = control.weight * std::abs(cross(chord, control.point.center - from.center));
+  return beside <= hardly * (1 + control.weight) * squared_norm(chord);
+}
+
 /// The control point of an edge with an arc: the pole, or where that strays or turns back, the
 /// meeting of tangents. An edge for which neither helps is so nearly straight that a parabola
 /// through the disk halfway does better, or turns around a focus: there the pole with twice the
 /// digits does, which sites that are nearly tangent would leave open.
 Control control_with_arc(const Site& a, const Site& b, const Disk& from, const Disk& to) {
-  constexpr double long_enough = 0x1p-7, curved = 0x1p-3, short_line = 0x1p-46, hardly = 0x1p-26;
+  constexpr double long_enough = 0x1p-7, curved = 0x1p-3, short_line = 0x1p-46;
   Control best = pole_of_chord(a, b, from, to);
   const double length = distance(from.center, to.center);
   const double focal =
@@ -356,9 +372,7 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
   // half its length at most, and 2^-47 is less than verify() allows a size of one.
   const bool leads_between = is_between(best.point.center);
   if (!leads_between && length <= short_line) return straight;
-  const double beside = best.weight * std::abs(cross(chord, best.point.center - from.center));
-  const bool is_doubtful =
-      !leads_between || beside <= hardly * (1 + best.weight) * squared_norm(chord);
+  const bool is_doubtful = !leads_between || hardly_leaves_chord(best, from, to);
   const double enough = few_roundings + (is_doubtful ? ends_stray(a, b, from, to) : 0);
   if ((strays > few_roundings || is_doubtful) &&
       deviation(straight, a, b, from, to, near_focus) <= enough)
@@ -382,12 +396,8 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
   if (is_good()) return best;
   if (const auto meeting = meeting_of_tangents(a, b, from, to)) take_if_better(*meeting);
   if (is_good()) return best;
-  const Bisector bisector(b, a);
-  const Disk halfway =
-      bisector.disk_at(0.5 * (bisector.position(from.center) + bisector.position(to.center)), from);
-  const Disk bent{2 * halfway.center - straight.point.center,
-                  2 * halfway.radius - straight.point.radius};
-  if (is_between(bent.center)) take_if_better({bent, 1});
+  if (const Control bent = through_halfway(a, b, from, to); is_between(bent.point.center))
+    take_if_better(bent);
   take_if_better(straight);
   // An end that a tie has moved would be followed across the edge. One that is only rounded may be
   // off by some roundings, and what measures it by as many.
