@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "axis/sites.h"
+#include "base/local_frame.h"
 #include "base/numbers.h"
 #include "site/bisector.h"
 #include "site/site.h"
@@ -27,7 +28,20 @@ site::Control control_over_arc(Vec2 from, Vec2 to, double bulge, const Disk& fir
   // A mirror image turns the other way: the same arc backward.
   const site::Site image =
       site::reversed({mirrored(arc.point), direction, arc.length, -arc.curvature});
-  return site::control_of(arc, image, first, last);
+  Box box = Box::nothing();
+  for (const Vec2 p : {arc.point, image.point, first.center, last.center}) box.add(p);
+  const LocalFrame frame = frame_of(box);
+  const auto local = [&](const site::Site& s) -> site::Site {
+    return {frame.to_local(s.point), s.direction, frame.scale * s.length,
+            frame.inverse * s.curvature};
+  };
+  const auto local_disk = [&](const Disk& disk) -> Disk {
+    return {frame.to_local(disk.center), frame.scale * disk.radius};
+  };
+  site::Control control =
+      site::control_of(local(arc), local(image), local_disk(first), local_disk(last));
+  control.point = {frame.to_input(control.point.center), frame.inverse * control.point.radius};
+  return control;
 }
 
 }  // namespace
