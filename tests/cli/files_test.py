@@ -109,6 +109,18 @@ class Files(CommandLine):
             self.write(name + ".geojson", GEOGRAPHIC.replace('"rank"', f'"{name}"'))
             self.succeed("axis", name + ".geojson", "-o", "own.gpkg", "--overwrite")
 
+    def test_a_geopackage_without_tables_of_gdal(self):
+        self.write("a.wkt", RECTANGLE)
+        self.succeed("features", "a.wkt", "-o", "t.gpkg")
+        with self.open_elsewhere("delete") as data:
+            triggers = data.execute("SELECT name FROM sqlite_master WHERE type = 'trigger' "
+                                    "AND sql LIKE '%gpkg_ogr_contents%'").fetchall()
+            for (name,) in triggers:
+                data.execute(f'DROP TRIGGER "{name}"')
+            data.execute("DROP TABLE gpkg_ogr_contents")
+        self.succeed("axis", "a.wkt", "-o", "t.gpkg")
+        self.assertEqual(self.rows("axis"), 5)
+
     def test_extensions_in_capitals(self):
         self.write("a.wkt", RECTANGLE)
         self.succeed("axis", "a.wkt", "-o", "T.GPKG")

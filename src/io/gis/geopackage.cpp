@@ -240,6 +240,7 @@ class GeoPackageRows final : public RowFile {
   }
 
   Status close() override {
+    sqlite3_db_config(database_.get(), SQLITE_DBCONFIG_ENABLE_TRIGGER, 1, nullptr);
     for (FilledLayer& layer : layers_) {
       layer.insert.reset();
       if (layer.count == 0) continue;
@@ -296,19 +297,24 @@ class GeoPackageRows final : public RowFile {
     const Statement extent = statement(
         "UPDATE gpkg_contents SET min_x = ?, min_y = ?, max_x = ?, max_y = ?, "
         "last_change = strftime('%Y-%m-%dT%H:%M:%fZ', 'now') WHERE table_name = ?");
-    const Statement count =
-        statement("UPDATE gpkg_ogr_contents SET feature_count = ? WHERE table_name = ?");
-    if (!extent || !count) return failure();
+    if (!extent) return failure();
     const Box& box = layer.blob.extent;
     int number = 0;
     for (const double bound : {box.low.x, box.low.y, box.high.x, box.high.y})
       sqlite3_bind_double(extent.get(), ++number, bound);
     bind_text(extent, ++number, layer.name);
+    if (sqlite3_step(extent.get()) != SQLITE_DONE) return failure();
+    // A table of GDAL's own, which other programs' files lack.
+    const Statement counts =
+        statement("SELECT 1 FROM sqlite_master WHERE name = 'gpkg_ogr_contents'");
+    if (!counts) return failure();
+    if (sqlite3_step(counts.get()) != SQLITE_ROW) return success();
+    const Statement count =
+        statement("UPDATE gpkg_ogr_contents SET feature_count = ? WHERE table_name = ?");
+    if (!count) return failure();
     sqlite3_bind_int64(count.get(), 1, layer.count);
     bind_text(count, 2, layer.name);
-    for (const Statement* update : {&extent, &count})
-      if (sqlite3_step(update->get()) != SQLITE_DONE) return failure();
-    return success();
+    return sqlite3_step(count.get()) == SQLITE_DONE ? success() : Status(failure());
   }
 
   Connection database_;
