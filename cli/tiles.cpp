@@ -12,6 +12,7 @@
 #include "cli/common.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
+#include "medial/threads.h"
 
 namespace medial::cli {
 namespace {
@@ -75,10 +76,12 @@ Result<int> run_tiles(const TilesArguments& arguments) {
   auto shapes = load_shapes(arguments.input, common);
   if (!shapes) return std::move(shapes).error();
   std::vector<TileLevel> levels;
+  // One shape after another, each on all threads.
+  const int threads = effective_threads(common.threads);
   const auto compute_one = [&](std::size_t i, int) -> Result<AxisItem> {
     ShapeItem& item = shapes->file.items[i];
     Progress progress("tiles", error_is_terminal() && !common.quiet);
-    Options options = engine_options(common, common.threads, shapes->file.corner_angle);
+    Options options = engine_options(common, threads, shapes->file.corner_angle);
     options.progress = progress.callback();
     std::vector<TileLevel> rows;
     auto axis = compute_in_tiles(item.shape, levels_for(arguments.tiles, item.shape.points.size()),
@@ -90,7 +93,6 @@ Result<int> run_tiles(const TilesArguments& arguments) {
     add_to(levels, rows);
     return AxisItem{std::move(item.shape), std::move(axis).value(), std::move(item.attributes)};
   };
-  // One shape after another, each on all threads.
   std::vector<std::string> left_out;
   auto computed = map_features<AxisItem>(shapes->file, weights_of(shapes->file), 1, compute_one,
                                          skips(arguments.input, left_out));

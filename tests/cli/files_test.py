@@ -173,6 +173,17 @@ class Files(CommandLine):
         self.succeed("measure", "a.wkt", "-o", "t.gpkg", "--transects", "4", "--output-layer", "widths", "--overwrite")
         self.assertEqual(self.rows("widths"), 4)
         self.refuse("invalid_option", "axis", "a.wkt", "-o", "a.wkt", "--output-layer", "roads")
+        # Any name of a layer, and any other tables beside it, such as one with as many columns.
+        def rows(file, layer):
+            with sqlite3.connect(self.path(file)) as database:
+                return [database.execute(f'SELECT * FROM "{name}"').fetchall() for name in (layer, layer + "_nodes")]
+        self.succeed("axis", "a.wkt", "-o", "u.gpkg", "--output-layer", "plain")
+        expected = rows("u.gpkg", "plain")
+        columns = ["7"] * (len(expected[1][0]) - 1)
+        with sqlite3.connect(self.path("t.gpkg")) as database:
+            database.execute("CREATE TABLE medial_rows_1 AS SELECT " + ",".join(columns))
+        self.succeed("axis", "a.wkt", "-o", "t.gpkg", "--output-layer", "medial_rows_0")
+        self.assertEqual(rows("t.gpkg", "medial_rows_0"), expected)
 
     def test_no_input_is_overwritten(self):
         self.write("a.wkt", RECTANGLE)

@@ -38,6 +38,9 @@ class Tiles(CommandLine):
         self.assertEqual([line.split()[0] for line in table[1:]], ["1", "0"])
         one = json.loads(self.succeed("tiles", "star.wkt", "--threads", "1", "-o", "-").stdout)["items"]
         two = json.loads(self.succeed("tiles", "star.wkt", "--threads", "2", "-o", "-").stdout)["items"]
+        # As many threads as for other commands, unless --threads says otherwise.
+        done = json.loads(self.succeed("tiles", "star.wkt", "--json", "--stats", "-o", "all.json").stdout)
+        self.assertEqual(json.loads(self.read("all.json"))["items"][0]["axis"]["statistics"]["threads"], done["threads"])
         for items in (one, two):
             del items[0]["axis"]["statistics"]
         self.assertEqual(one, two)

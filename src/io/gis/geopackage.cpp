@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 #include <deque>
+#include <utility>
 
 #include "io/gis/rows.h"
 
@@ -107,6 +108,11 @@ struct FilledLayer {
     while (row < rows->size() && rows->table(row) != number) ++row;
     return row;
   }
+  std::size_t own_count() const {
+    std::size_t own = 0;
+    for (std::size_t row = 0; row < rows->size(); ++row) own += rows->table(row) == number ? 1 : 0;
+    return own;
+  }
 };
 
 /// A layer's rows as a table of SQLite's, so that one statement inserts many of them. SQLite calls
@@ -135,8 +141,10 @@ int connect_rows(sqlite3* database, void* layer, int, const char* const*, sqlite
     table->layer = static_cast<FilledLayer*>(layer);
     std::string columns = "geometry";
     for (std::size_t i = 0; i < table->layer->columns; ++i) columns += fmt::format(", c{}", i);
-    *made = table.release();
-    return sqlite3_declare_vtab(database, fmt::format("CREATE TABLE x({})", columns).c_str());
+    const std::string sql = fmt::format("CREATE TABLE x({})", columns);
+    const int code = sqlite3_declare_vtab(database, sql.c_str());
+    if (code == SQLITE_OK) *made = table.release();
+    return code;
   });
 }
 int disconnect_rows(sqlite3_vtab* table) {
@@ -194,17 +202,20 @@ int give_value(sqlite3_vtab_cursor* cursor, sqlite3_context* to, int column) {
 }
 
 const sqlite3_module* row_module() {
-  static sqlite3_module module{};
-  module.xConnect = connect_rows;
-  module.xDisconnect = disconnect_rows;
-  module.xBestIndex = choose_index;
-  module.xOpen = open_cursor;
-  module.xClose = close_cursor;
-  module.xFilter = first_row;
-  module.xNext = next_row;
-  module.xEof = is_at_end;
-  module.xColumn = give_value;
-  module.xRowid = row_number;
+  static const sqlite3_module module = [] {
+    sqlite3_module made{};
+    made.xCreate = made.xConnect = connect_rows;
+    made.xDestroy = made.xDisconnect = disconnect_rows;
+    made.xBestIndex = choose_index;
+    made.xOpen = open_cursor;
+    made.xClose = close_cursor;
+    made.xFilter = first_row;
+    made.xNext = next_row;
+    made.xEof = is_at_end;
+    made.xColumn = give_value;
+    made.xRowid = row_number;
+    return made;
+  }();
   return &module;
 }
 
@@ -216,7 +227,7 @@ class GeoPackageRows final : public RowFile {
     const int code = sqlite3_open_v2(path.c_str(), &opened, flags, nullptr);
     database_.reset(opened);
     if (code != SQLITE_OK) return failure();
-    // No other program knows the file yet. A new one goes away where anything fails.
+    // No other program knows the file yet. A new file is deleted on failure.
     if (Status set = run("PRAGMA locking_mode = EXCLUSIVE"); !set) return set;
     if (is_new)
       if (Status set = run("PRAGMA journal_mode = OFF"); !set) return set;
@@ -231,9 +242,15 @@ class GeoPackageRows final : public RowFile {
   Status add(const Rows& rows) override {
     for (FilledLayer& layer : layers_) {
       layer.rows = &rows;
-      if (layer.own_from(0) == rows.size()) continue;
+      const std::size_t own = layer.own_count();
+      if (own == 0) continue;
       if (sqlite3_step(layer.insert.get()) != SQLITE_DONE) return failure();
-      layer.count += sqlite3_changes(database_.get());
+      const int added = sqlite3_changes(database_.get());
+      if (!std::cmp_equal(added, own))
+        return Error{ErrorCode::unwritable,
+                     fmt::format("cannot write: {} of {} rows were added", added, own),
+                     {}};
+      layer.count += added;
       sqlite3_reset(layer.insert.get());
     }
     return success();
@@ -284,11 +301,15 @@ class GeoPackageRows final : public RowFile {
     layer.srs = sqlite3_column_int(srs.get(), 0);
     std::string names = sql_name(of.geometry);
     for (const std::string& column : of.columns) names += ", " + sql_name(column);
-    const std::string from = fmt::format("medial_rows_{}", layer.number);
-    if (sqlite3_create_module(database_.get(), from.c_str(), row_module(), &layer) != SQLITE_OK)
+    // Nothing of the file has this name: the schema `temp` belongs to this connection.
+    const std::string module = fmt::format("medial_rows_{}", layer.number), from = "temp." + module;
+    if (sqlite3_create_module(database_.get(), module.c_str(), row_module(), &layer) != SQLITE_OK)
       return failure();
+    if (Status made = run(fmt::format("CREATE VIRTUAL TABLE {} USING {}", from, module).c_str());
+        !made)
+      return made;
     layer.insert = statement(
-        fmt::format("INSERT INTO {} ({}) SELECT * FROM {}", sql_name(of.name), names, from));
+        fmt::format("INSERT INTO main.{} ({}) SELECT * FROM {}", sql_name(of.name), names, from));
     return layer.insert ? success() : Status(failure());
   }
 

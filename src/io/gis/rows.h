@@ -108,8 +108,8 @@ class RowFile {
   virtual Status close() = 0;
 };
 
-/// GDAL needs several times as long for rows as these, by SQLite and by shapelib; what fails of a
-/// shapefile is an error of GDAL's.
+/// Adding rows this way, by SQLite and by shapelib, is several times faster than through GDAL. What
+/// fails in a shapefile is an error of GDAL's.
 Result<std::unique_ptr<RowFile>> rows_of_geopackage(const std::string& path,
                                                     std::span<const EmptyLayer> layers,
                                                     bool is_new);
