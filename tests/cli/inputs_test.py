@@ -262,13 +262,13 @@ class Inputs(CommandLine):
         self.assertNotIn(b"wide enough", self.succeed("offset", "bad.wkt", "--skip-invalid", "--distance", "1").stderr)
 
     def refused_in_the_middle(self):
-        """A rectangle, a lens of three arcs that cross by less than rounding, and another rectangle."""
+        """A rectangle, a disk whose arcs cross by less than rounding next to a tiny one, and another rectangle."""
         def rectangle(x):
             return {"start": [x, 0], "pieces": [["line", x + 4, 0], ["line", x + 4, 2], ["line", x, 2], ["line", x, 0]]}
-        lens = {"start": [0.032940509962894354, 0.054987505057675821], "pieces": [
-            ["arc", 0.034719762422765081, 0.054750553880832976, 1.0006201698661998],
-            ["arc", 0.034719762422765157, 0.054750553880832893, 0.59602029918473964],
-            ["arc", 0.032940509962894354, 0.054987505057675821, 1]]}  # fmt: skip
+        lens = {"start": [59.779820511429911, 16.864666909415433], "pieces": [
+            ["arc", 59.779820512203585, 16.864666920592896, 82960947.97596328],
+            ["arc", 57.784594458571199, 17.002771934645651, 0.9999999971989485],
+            ["arc", 59.779820511429911, 16.864666909415433, 0.9999999971989485]]}  # fmt: skip
         items = [{"contours": [contour]} for contour in (rectangle(0), lens, rectangle(10))]
         self.write("lens.json", json.dumps({"medial": 2, "items": items}))
         return "lens.json"
