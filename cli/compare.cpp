@@ -85,7 +85,9 @@ Row measure(const ShapeItem& item, const Reference& reference, const Method& met
   row.seconds = watch.seconds();
   if (!axis) {
     row.refused = axis.error().text;
-    row.failed = axis.error().code != ErrorCode::unsupported || !reference.lenient;
+    const ErrorCode code = axis.error().code;
+    const bool untaken = code == ErrorCode::unsupported || code == ErrorCode::invalid_option;
+    row.failed = !untaken || !reference.lenient;
     return row;
   }
   row.axis = std::move(axis).value();
@@ -206,7 +208,7 @@ Result<int> run_compare(const CompareArguments& arguments) {
     auto reference = reference_of(item.shape, file.corner_angle, arguments);
     if (!reference) {
       reference.error().place.feature = file.index_of(i);
-      if (is_left_out(reference.error(), skips(input, left_out))) continue;
+      if (leave_out_feature(reference.error(), skips(input, left_out))) continue;
       return std::move(reference).error();
     }
     std::vector<Row> rows;

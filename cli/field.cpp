@@ -30,7 +30,7 @@ Result<int> run_field(const FieldArguments& arguments) {
     auto field = PotentialField::make(item.shape, arguments.order);
     if (!field) {
       field.error().place.feature = file->file.index_of(i);
-      if (is_left_out(field.error(), skips(arguments.input, left_out))) continue;
+      if (leave_out_feature(field.error(), skips(arguments.input, left_out))) continue;
       return std::move(field).error();
     }
     fields.push_back(std::move(field).value());

@@ -169,7 +169,7 @@ TEST(BrushfireMethod, RefusesWhatItCannot) {
   EXPECT_EQ(compute(*square, options).error().code, ErrorCode::cancelled);
   options.cancel = nullptr;
   options.exterior = true;
-  EXPECT_EQ(compute(*square, options).error().code, ErrorCode::unsupported);
+  EXPECT_EQ(compute(*square, options).error().code, ErrorCode::invalid_option);
 }
 
 }  // namespace

@@ -706,7 +706,7 @@ TEST(LeeArcs, ASmallDiskNextToASmallArcIsLeftToDisks) {
 TEST(LeeRefuses, DiagramsWithArcs) {
   const auto diagram = voronoi_diagram(built({circle({0, 0}, 1)}));
   ASSERT_FALSE(diagram.ok());
-  EXPECT_EQ(diagram.error().code, ErrorCode::unsupported);
+  EXPECT_EQ(diagram.error().code, ErrorCode::invalid_option);
 }
 
 TEST(LeeRefuses, ShapesThatNobodyBuilt) {

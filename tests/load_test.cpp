@@ -300,10 +300,21 @@ TEST(Load, FeaturesWithAnErrorOfTheirOwnAreLeftOut) {
 
   // What would end all others, too, ends everything.
   for (const ErrorCode code :
-       {ErrorCode::cancelled, ErrorCode::out_of_memory, ErrorCode::invalid_option}) {
+       {ErrorCode::cancelled, ErrorCode::out_of_memory, ErrorCode::invalid_option,
+        ErrorCode::internal}) {
     const auto stop = [&](std::size_t, int) -> Status { return Error{code, "stop", {}}; };
     EXPECT_FALSE(for_each_feature(file, weights, 2, stop, &left_out).ok());
   }
+}
+
+TEST(Load, NoFeatureIsLeftOutWithoutATrace) {
+  const Document<ShapeItem> empty{{}, {ShapeItem{}}};
+  AxesReport report;
+  const auto axes = compute_axes(empty, {}, &report, true);
+  ASSERT_TRUE(axes.ok());
+  EXPECT_TRUE(axes->items.empty());
+  EXPECT_EQ(report.left_out.size(), 1U);
+  EXPECT_EQ(compute_axes(empty, {}, nullptr, true).error().code, ErrorCode::empty);
 }
 
 }  // namespace

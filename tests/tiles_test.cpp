@@ -135,7 +135,7 @@ TEST(Tiles, RefuseWhatTheyDoNotTake) {
   EXPECT_EQ(code(compute_in_tiles({}, 2)), "empty");
   Ring lens = test::ring_of({{0, 0}, {1, 0}});
   lens.bulges = {0.5, 0.5};
-  EXPECT_EQ(code(compute_in_tiles(shape_of({lens}), 1)), "unsupported");
+  EXPECT_EQ(code(compute_in_tiles(shape_of({lens}), 1)), "invalid_option");
   const Shape wide = shape_of(test::comb(2000, 1, 4000));  // 4000 edges through 1024 rows
   const auto too_many = compute_in_tiles(wide, TileGrid::most_levels);
   EXPECT_EQ(code(too_many), "invalid_option");

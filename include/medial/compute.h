@@ -34,11 +34,11 @@ struct Options {
 /// which are the shape's unless it is only a few pixels wide. Methods that follow smooth boundaries
 /// use `contours`, which the shape approximates, or, without contours, the shape's edges.
 ///
-/// Errors: invalid_option; cancelled; empty; too_large (2^29 vertices; ridge: 2^31 pixels,
-/// 2^23 crossings with them; brushfire: a diagonal of 2^16 pixels); unsupported (a coordinate above
-/// 1e100, or nonzero but below 1e-100 in size or as a share of the largest; what the method does
-/// not support, see MethodInfo; pixels as fine as the coordinates; a place so narrow that rounding
-/// could join its sides); crossing (of arcs, by less than build_shape() can see); malformed (arrays
+/// Errors: invalid_option (also what the method does not take: MethodInfo); cancelled; empty;
+/// too_large (2^29 vertices; ridge: 2^31 pixels, 2^23 crossings with them; brushfire: a diagonal of
+/// 2^16 pixels); unsupported (a coordinate above 1e100, or nonzero but below 1e-100 in size or as a
+/// share of the largest; what the method cannot follow; pixels as fine as the coordinates; a place
+/// so narrow that rounding could join its sides); crossing (of arcs, by less than build_shape() can see); malformed (arrays
 /// that it cannot have made); out_of_memory; internal.
 Result<MedialAxis> compute(const Shape& shape, const Options& options = {},
                            std::span<const Contour> contours = {});

@@ -27,7 +27,7 @@ enum class ErrorCode : std::uint8_t {
   malformed,       ///< the content of a file violates its format
   unsupported,     ///< a format, geometry or option that this build or command lacks
   unwritable,      ///< an output cannot be written
-  invalid_option,  ///< an option's value is out of its range
+  invalid_option,  ///< an option is out of its range, or not for such an input
   cancelled,       ///< the caller asked to stop
   out_of_memory,   ///< memory ran out
   internal,        ///< a bug of the library: please report it

@@ -15,11 +15,12 @@ Status for_each_item(std::span<const double> weights, int threads,
                      const std::function<Status(std::size_t i, int threads)>& work,
                      const std::atomic<bool>* cancel = nullptr);
 
-/// Whether a feature is left out instead of ending everything, as the error is its own: no wrong
-/// option, lack of memory or wish to stop. With `left_out` only, where it becomes a note.
-bool is_left_out(Error error, std::vector<std::string>* left_out);
+/// Whether an error is a feature's own: no wrong option, lack of memory, wish to stop or bug.
+bool is_of_feature(const Error& error);
+/// Leaves a feature out with a note if there is `left_out` and the error is the feature's own.
+bool leave_out_feature(const Error& error, std::vector<std::string>* left_out);
 /// for_each_item() for the items of a document; errors name features of its file. Returns the items
-/// that is_left_out() does not leave out, and updates `file`.
+/// that leave_out_feature() does not leave out, and updates `file`.
 Result<std::vector<std::size_t>> for_each_feature(
     DocumentInfo& file, std::span<const double> weights, int threads,
     const std::function<Status(std::size_t i, int threads)>& work,
@@ -90,7 +91,7 @@ struct AxesReport {
 
 /// The axis of every shape by compute(); `threads`, `progress` and `cancel` apply to all together.
 /// Pixels are Document::pixel by default; statistics have no times. Errors: those of compute(), but
-/// with `skip_invalid` not those of a feature: is_left_out().
+/// with `skip_invalid` not those of a feature if there is a report, which names it.
 Result<Document<AxisItem>> compute_axes(Document<ShapeItem> shapes, Options options = {},
                                         AxesReport* report = nullptr, bool skip_invalid = false);
 

@@ -10,8 +10,8 @@ struct TileLevel {
 };
 
 /// Like compute() for straight edges, by 4^levels independent tiles (docs/tiles.md); the order of
-/// nodes and edges differs. `report` gets one row per level, root first. Errors: also unsupported
-/// (arcs), invalid_option (levels outside [0, 10]; tiles as small as some tolerances; options other
+/// nodes and edges differs. `report` gets one row per level, root first. Errors: also
+/// invalid_option (arcs; levels outside [0, 10]; tiles as small as some tolerances; options other
 /// than tolerance, threads, progress and cancel).
 Result<MedialAxis> compute_in_tiles(const Shape& shape, int levels, const Options& options = {},
                                     std::vector<TileLevel>* report = nullptr);

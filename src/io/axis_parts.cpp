@@ -154,7 +154,7 @@ class PartsOfAxes {
       done = compute(i, take, statistics);
     }
     done_points_ += static_cast<double>(shapes_.items[i].shape.points.size());
-    if (own_error_ && is_left_out(*own_error_, skip_invalid_ ? &left_out_ : nullptr)) {
+    if (own_error_ && leave_out_feature(*own_error_, skip_invalid_ ? &left_out_ : nullptr)) {
       own_error_.reset();
       drop(i);
       again_ = begun;

@@ -86,7 +86,7 @@ Result<Document<AxisItem>> compute_axes(Document<ShapeItem> shapes, Options opti
   const bool sampled = info_of(options.method).sampling != Sampling::curves;
   const int threads = sampled ? options.threads : threads_of(weights, options);
   AxesReport sum;
-  auto* left_out = skip_invalid ? &sum.left_out : nullptr;
+  auto* left_out = skip_invalid && report != nullptr ? &sum.left_out : nullptr;
   auto kept = for_each_feature(axes, weights, threads, compute_one, left_out, options.cancel);
   if (!kept) return std::move(kept).error();
   axes.items = items_at(std::move(items), *kept);

@@ -50,11 +50,14 @@ Status for_each_item(std::span<const double> weights, int threads,
   return std::move(*errors[lowest_error.load()]);
 }
 
-bool is_left_out(Error error, std::vector<std::string>* left_out) {
+bool is_of_feature(const Error& error) {
   using enum ErrorCode;
-  if (left_out == nullptr || error.code == cancelled || error.code == out_of_memory ||
-      error.code == invalid_option)
-    return false;
+  return error.code != cancelled && error.code != out_of_memory && error.code != invalid_option &&
+         error.code != internal;
+}
+
+bool leave_out_feature(const Error& error, std::vector<std::string>* left_out) {
+  if (left_out == nullptr || !is_of_feature(error)) return false;
   left_out->push_back(note_of_left_out(error));
   return true;
 }
@@ -68,7 +71,7 @@ Result<std::vector<std::size_t>> for_each_feature(
     Status done = work(i, own_threads);
     if (done) return done;
     done.error().place.feature = file.index_of(i);
-    return is_left_out(done.error(), left_out ? &notes[i] : nullptr) ? success() : done;
+    return leave_out_feature(done.error(), left_out ? &notes[i] : nullptr) ? success() : done;
   };
   if (Status done = for_each_item(weights, threads, attempt, cancel); !done)
     return in_file_of(file, std::move(done).error());

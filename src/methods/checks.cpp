@@ -75,7 +75,7 @@ std::optional<Error> refuse_untaken(const Options& options) {
             takes.name,
         {}};
   if (takes.exterior || !options.exterior) return std::nullopt;
-  return Error{ErrorCode::unsupported,
+  return Error{ErrorCode::invalid_option,
                std::string("the method ") + takes.name +
                    " does not compute the exterior: use the method disks",
                {}};

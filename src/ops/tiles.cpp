@@ -148,7 +148,7 @@ std::optional<Error> refuse_tiles(const Shape& shape, const TileGrid& grid,
                                   const Options& options) {
   if (auto error = refuse(shape, options)) return error;
   if (has_arcs(shape))
-    return Error{ErrorCode::unsupported,
+    return Error{ErrorCode::invalid_option,
                  "tiles take straight edges only: replace the arcs by chords first",
                  {}};
   return refuse_grid(grid, options);

@@ -140,7 +140,7 @@ Result<VoronoiDiagram> voronoi_diagram(const Shape& shape, const Options& option
     if (auto error = refuse(shape, own)) return std::move(*error);
     if (has_arcs(shape))
       return Error{
-          ErrorCode::unsupported,
+          ErrorCode::invalid_option,
           "the diagrams of lee take no arcs: use the method disks, which computes one within "
           "an enclosure",
           {}};

@@ -48,7 +48,7 @@ class Tiles(CommandLine):
     def test_errors(self):
         """Arcs, and numbers of tiles out of range; gaps may be as narrow as doubles are."""
         self.write("half.svg", '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0H20A10 10 0 0 1 0 0Z"/></svg>')
-        self.assertIn("medial rebuild", self.refuse("unsupported", "tiles", "half.svg", "-o", "x.json"))
+        self.assertIn("medial rebuild", self.refuse("invalid_option", "tiles", "half.svg", "--skip-invalid", "-o", "x.json"))
         self.write("narrow.wkt", "POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0), (1e-14 1, 1 8, 1 1, 1e-14 1))")
         self.succeed("tiles", "narrow.wkt", "-o", "x.json")
         self.succeed("verify", "narrow.wkt", "x.json")

@@ -30,7 +30,7 @@ class Voronoi(CommandLine):
         report = json.loads(self.succeed("voronoi", "ring.wkt", "--method", "lee", "--json").stdout)
         self.assertEqual(report["edges"], 2 * (report["segments"] + report["reflex_vertices"]))
         self.write("half.svg", '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0H20A10 10 0 0 1 0 0Z"/></svg>')
-        self.refuse("unsupported", "voronoi", "half.svg", "--method", "lee", "-o", "x.json")
+        self.refuse("invalid_option", "voronoi", "half.svg", "--method", "lee", "--skip-invalid", "-o", "x.json")
         self.refuse("[a-z_]+", "voronoi", "teeth.wkt", "--method", "magic")
 
     def test_voronoi_of_pieces_a_few_roundings_apart(self):
