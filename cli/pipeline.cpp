@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -222,20 +221,52 @@ void note_left_out(const std::vector<std::string>& left_out, const InputOptions&
         counted(left_out.size(), "feature"), left_out.size() == 1 ? "was" : "were");
 }
 
-std::size_t keep_features_of(const Document<AxisItem>& axes, const InputOptions& input,
-                             Document<ShapeItem>& shapes) {
-  if (!input.source.read.skip_invalid || shapes.items.size() <= axes.items.size()) return 0;
-  std::set<std::uint64_t> wanted;
-  for (std::size_t i = 0; i < axes.items.size(); ++i) wanted.insert(axes.index_of(i));
-  Document<ShapeItem> kept{shapes, {}};
+Result<Document<ShapeItem>> without_axis(const Document<AxisItem>& axes, const InputOptions& input,
+                                         Document<ShapeItem>& shapes) {
+  Document<ShapeItem> kept{shapes, {}}, rest{shapes, {}};
+  if (!input.source.read.skip_invalid) return rest;
   kept.indices.clear();
-  for (std::size_t i = 0; i < shapes.items.size(); ++i) {
-    if (!wanted.contains(shapes.index_of(i))) continue;
-    kept.indices.push_back(shapes.index_of(i));
-    kept.items.push_back(std::move(shapes.items[i]));
+  rest.indices.clear();
+  std::map<std::uint64_t, ShapeItem*> by_number;
+  for (std::size_t i = 0; i < shapes.items.size(); ++i)
+    by_number.emplace(shapes.index_of(i), &shapes.items[i]);
+  const auto move_to = [](Document<ShapeItem>& to, std::uint64_t number, ShapeItem& item) {
+    to.indices.push_back(number);
+    to.items.push_back(std::move(item));
+  };
+  for (std::size_t i = 0; i < axes.items.size(); ++i) {
+    const auto found = by_number.extract(axes.index_of(i));
+    if (!found)
+      return error_at(ErrorCode::malformed, input.path,
+                      fmt::format("holds no shape of feature {}", axes.index_of(i)));
+    move_to(kept, found.key(), *found.mapped());
   }
-  std::swap(shapes, kept);
-  return kept.items.size() - shapes.items.size();
+  for (const auto& [number, item] : by_number) move_to(rest, number, *item);
+  shapes = std::move(kept);
+  return rest;
+}
+
+Result<std::size_t> refused_without_axis(const Document<AxisItem>& axes,
+                                         const std::string& axes_path, const InputOptions& input,
+                                         const CommonOptions& common, Document<ShapeItem>& shapes) {
+  auto rest = without_axis(axes, input, shapes);
+  if (!rest) return std::move(rest).error();
+  const std::size_t count = rest->items.size();
+  if (count == 0) return count;
+  Options options;
+  options.exterior =
+      std::ranges::any_of(axes.items, [](const AxisItem& item) { return item.axis.exterior > 0; });
+  options = engine_options(common, common.threads, shapes.corner_angle, std::move(options));
+  AxesReport refused;
+  const auto computed = medial::compute_axes(std::move(*rest), std::move(options), &refused, true);
+  if (!computed) return computed.error();
+  if (!computed->items.empty())
+    return error_at(ErrorCode::malformed, axes_path,
+                    fmt::format("has no axis of feature {} of {}, which has one",
+                                computed->index_of(0), input.path));
+  if (!common.quiet)
+    say("medial: {}: note: it has no axis of {}, left out\n", axes_path, counted(count, "feature"));
+  return count;
 }
 
 InputOptions first_input(InputOptions input, const std::string& second) {

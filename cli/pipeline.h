@@ -102,10 +102,15 @@ Result<Document<T>> map_features(const DocumentInfo& of, std::span<const double>
   for (const std::size_t i : *kept) made.items.push_back(std::move(items[i]));
   return made;
 }
-/// With --skip-invalid, leaves out the shapes of features that `axes` have not, which could not be
-/// computed. Returns how many.
-std::size_t keep_features_of(const Document<AxisItem>& axes, const InputOptions& input,
-                             Document<ShapeItem>& shapes);
+/// With --skip-invalid, takes those shapes out of `shapes` whose features have none of the axes, and
+/// puts the others in the axes' order, by number. Errors: malformed (an axis without its shape).
+Result<Document<ShapeItem>> without_axis(const Document<AxisItem>& axes, const InputOptions& input,
+                                         Document<ShapeItem>& shapes);
+/// The same for the axes of another file, with a note; returns the number of those shapes. Errors:
+/// also malformed (one of them has an axis, which the file lacks).
+Result<std::size_t> refused_without_axis(const Document<AxisItem>& axes,
+                                         const std::string& axes_path, const InputOptions& input,
+                                         const CommonOptions& common, Document<ShapeItem>& shapes);
 
 /// Computes the axes of shapes, with a progress bar where that is wanted. Of `options`, this sets
 /// what the common options hold, and progress. Errors name the file.

@@ -34,6 +34,7 @@ struct Rebuilt {
   std::vector<Shape> shapes;
   std::uint64_t medial_points = 0, crossings = 0;  ///< summed over the features
   std::string compared_with;                       ///< a file
+  std::size_t left_out = 0;                        ///< its features without an axis
   ShapeDistance distance;
 };
 
@@ -63,7 +64,8 @@ Result<LoadedAxes> axes_outside(const RebuildArguments& arguments, Document<Shap
   note_left_out(left_out, input, common);
   loaded->file = std::move(around).value();
   auto axes = compute_axes(std::move(loaded).value(), input, common);
-  if (axes) keep_features_of(axes->file, input, before);
+  if (!axes) return axes;
+  if (auto rest = without_axis(axes->file, input, before); !rest) return std::move(rest).error();
   return axes;
 }
 
@@ -147,7 +149,10 @@ Status compare_with_file(Rebuilt& rebuilt, const Document<AxisItem>& axes,
   quiet.quiet = true;
   auto loaded = load_shapes(input, quiet);
   if (!loaded) return std::move(loaded).error();
-  keep_features_of(axes, input, loaded->file);
+  const auto left_out =
+      refused_without_axis(axes, arguments.input.path, input, arguments.common, loaded->file);
+  if (!left_out) return left_out.error();
+  rebuilt.left_out = *left_out;
   return compare(rebuilt, loaded->file.items, input.path, arguments.common.threads);
 }
 
@@ -186,6 +191,7 @@ void add_measures(const Rebuilt& rebuilt, Json& object) {
   if (rebuilt.compared_with.empty()) return;
   const ShapeDistance& distance = rebuilt.distance;
   object["against"] = {{"input", rebuilt.compared_with},
+                       {"without_axis", rebuilt.left_out},
                        {"area", distance.other_area},
                        {"area_error", distance.area - distance.other_area},
                        {"hausdorff", distance.hausdorff()},

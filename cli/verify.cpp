@@ -285,10 +285,8 @@ Result<int> run_verify(const VerifyArguments& arguments) {
     if (is_of_pixels(item.axis.method)) source.source.read.smooth_contour = false;
   auto loaded = load_shapes(source, common);
   if (!loaded) return std::move(loaded).error();
-  const std::size_t without_axis = keep_features_of(*stored, input, loaded->file);
-  if (without_axis > 0 && !common.quiet)
-    say("medial: {}: note: it has no axis of {}, left out\n", axis_path,
-        counted(without_axis, "feature"));
+  const auto left_out = refused_without_axis(*stored, axis_path, input, common, loaded->file);
+  if (!left_out) return left_out.error();
   const Document<ShapeItem>& shapes = loaded->file;
   const std::size_t count = shapes.items.size();
   if (stored->items.size() != count) {
@@ -312,7 +310,8 @@ Result<int> run_verify(const VerifyArguments& arguments) {
         "that they were made with, such as --fit, --pixel-outline or --repair, or check them "
         "against the shapes that they hold: medial verify {0} {0}\n",
         axis_path);
-  Json object = {{"input", input.path}, {"axis", axis_path}, {"features", count}};
+  Json object = {
+      {"input", input.path}, {"axis", axis_path}, {"features", count}, {"without_axis", *left_out}};
   const Kind kind = kind_of(*stored);
   object["part"] = kind.part;
   object["exterior"] = kind.exterior;
@@ -344,7 +343,9 @@ Command make_verify_command(CLI::App& program) {
   command->footer(
       "The axis is not computed again: the stored disks are measured against the shapes by\n"
       "code that shares nothing with the engine. Features and axes are matched by their\n"
-      "order. The report gives the largest |distance to the boundary - radius|, the largest\n"
+      "order; with --skip-invalid by their numbers, and what has no axis in the file must\n"
+      "have none when it is computed now. The report gives the largest |distance to the boundary - "
+      "radius|, the largest\n"
       "intrusion of the boundary into a disk, whether the graph is connected with one\n"
       "cycle per hole, whether every convex corner has its leaf and every boundary point\n"
       "its disk, and both areas. Lengths are in the units of the input. For an axis that was\n"

@@ -308,11 +308,28 @@ class Inputs(CommandLine):
         self.assertEqual(sorted(self.read("1a.csv").splitlines()), sorted(self.read("1p.csv").splitlines()))
         # The axes are those of their features, by number.
         self.assertIn("it has no axis of 1 feature", self.succeed("verify", lens, "a.json", "--skip-invalid").stderr.decode())
+        verified = json.loads(self.succeed("verify", lens, "a.json", "--skip-invalid", "--json").stdout)
+        self.assertEqual((verified["features"], verified["without_axis"]), (2, 1))
         self.refuse("malformed", "verify", lens, "a.json")
         smooth = json.loads(self.succeed("smooth", lens, "--skip-invalid", "--exterior", "--json").stdout)
         self.assertLess(smooth["against"]["hausdorff"], 1)
         against = json.loads(self.succeed("rebuild", "a.json", "--against", lens, "--skip-invalid", "--json").stdout)
         self.assertLess(against["against"]["hausdorff"], 1e-9)
+        self.assertEqual(against["against"]["without_axis"], 1)
+        # What can be computed must be there.
+        whole = json.loads(self.read("a.json"))
+        for kept, missing in (whole["items"][:1], 2), (whole["items"][1:], 0), ([], 0):
+            self.write("less.json", json.dumps({**whole, "items": kept}))
+            for command in (["verify", lens, "less.json"], ["rebuild", "less.json", "--against", lens]):
+                text = self.refuse("malformed", *command, "--skip-invalid")
+                self.assertIn(f"less.json: has no axis of feature {missing} of lens.json", text)
+        # Nor may there be more; the order does not count.
+        self.write("turned.json", json.dumps({**whole, "items": whole["items"][::-1]}))
+        self.succeed("verify", lens, "turned.json", "--skip-invalid")
+        shapes = json.loads(self.read(lens))
+        self.write("fewer.json", json.dumps({**shapes, "items": shapes["items"][:2]}))
+        for command in (["verify", "fewer.json", "a.json"], ["rebuild", "a.json", "--against", "fewer.json"]):
+            self.assertIn("fewer.json: holds no shape of feature 2", self.refuse("malformed", *command, "--skip-invalid"))
 
     def test_nothing_may_be_left_to_compute(self):
         lens = json.loads(self.read(self.refused_in_the_middle()))
