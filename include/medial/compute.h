@@ -38,8 +38,8 @@ struct Options {
 /// too_large (2^29 vertices; ridge: 2^31 pixels, 2^23 crossings with them; brushfire: a diagonal of
 /// 2^16 pixels); unsupported (a coordinate above 1e100, or nonzero but below 1e-100 in size or as a
 /// share of the largest; what the method cannot follow; pixels as fine as the coordinates; a place
-/// so narrow that rounding could join its sides); crossing (of arcs, by less than build_shape() can see); malformed (arrays
-/// that it cannot have made); out_of_memory; internal.
+/// so narrow that rounding could join its sides); crossing (of arcs, by less than build_shape() can
+/// see); malformed (arrays that it cannot have made); out_of_memory; internal.
 Result<MedialAxis> compute(const Shape& shape, const Options& options = {},
                            std::span<const Contour> contours = {});
 
