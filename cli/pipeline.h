@@ -102,8 +102,9 @@ Result<Document<T>> map_features(const DocumentInfo& of, std::span<const double>
   for (const std::size_t i : *kept) made.items.push_back(std::move(items[i]));
   return made;
 }
-/// With --skip-invalid, takes those shapes out of `shapes` whose features have none of the axes, and
-/// puts the others in the axes' order, by number. Errors: malformed (an axis without its shape).
+/// With --skip-invalid, takes those shapes out of `shapes` whose features have none of the axes,
+/// and puts the others in the axes' order, by number. Errors: malformed (an axis without its
+/// shape).
 Result<Document<ShapeItem>> without_axis(const Document<AxisItem>& axes, const InputOptions& input,
                                          Document<ShapeItem>& shapes);
 /// The same for the axes of another file, with a note; returns the number of those shapes. Errors:

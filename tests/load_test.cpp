@@ -299,9 +299,8 @@ TEST(Load, FeaturesWithAnErrorOfTheirOwnAreLeftOut) {
   EXPECT_EQ(left_out, std::vector<std::string>{"left out: feature 15: nothing [empty]"});
 
   // What would end all others, too, ends everything.
-  for (const ErrorCode code :
-       {ErrorCode::cancelled, ErrorCode::out_of_memory, ErrorCode::invalid_option,
-        ErrorCode::internal}) {
+  for (const ErrorCode code : {ErrorCode::cancelled, ErrorCode::out_of_memory,
+                               ErrorCode::invalid_option, ErrorCode::internal}) {
     const auto stop = [&](std::size_t, int) -> Status { return Error{code, "stop", {}}; };
     EXPECT_FALSE(for_each_feature(file, weights, 2, stop, &left_out).ok());
   }
