@@ -321,7 +321,9 @@ class Merger {
     std::vector<Touch> contacts;
     const std::span<const std::uint32_t> ends = ends_at(node);
     const auto is_between = [&](std::uint32_t site) {
-      return ends.size() == 1 && !ranges::count(graph_.edges[ends[0] / 2].site, site);
+      if (ends.size() != 1) return false;
+      const auto& own = graph_.edges[ends[0] / 2].site;
+      return site != own[0] && site != own[1];
     };
     all_contacts(node, [&](std::uint32_t site) {
       add_contact(site, graph_.nodes[node].disk, is_between(site), contacts);
