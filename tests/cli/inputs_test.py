@@ -324,7 +324,8 @@ class Inputs(CommandLine):
                 text = self.refuse("malformed", *command, "--skip-invalid")
                 self.assertIn(f"less.json: has no axis of feature {missing} of lens.json", text)
         # Nor may there be more; the order does not count.
-        self.write("turned.json", json.dumps({**whole, "items": whole["items"][::-1]}))
+        turned = [{**item, "feature": number} for item, number in zip(whole["items"][::-1], (2, 0))]
+        self.write("turned.json", json.dumps({**whole, "items": turned}))
         self.succeed("verify", lens, "turned.json", "--skip-invalid")
         shapes = json.loads(self.read(lens))
         self.write("fewer.json", json.dumps({**shapes, "items": shapes["items"][:2]}))
