@@ -143,7 +143,14 @@ TEST(BoundaryTree, FindsTheNearestOfWindings) {
         near.push_back(i);
         if (i >= first && i <= last) least = std::min(least, squared);
       }
-      EXPECT_EQ(tree.nearest(c, reach, first, last).squared_distance, least);
+      const auto hit = tree.nearest(c, reach, first, last);
+      EXPECT_EQ(hit.squared_distance, least);
+      for (const std::uint32_t i : near) {
+        if (i >= first && i <= last && squared_distance(sites[i], c) == least) {
+          EXPECT_EQ(hit.site, i);
+          break;
+        }
+      }
       EXPECT_NEAR(tree.nearest_facing(c, reach, first, last).squared_distance, least, 1e-13);
       if (least > 0) {
         EXPECT_FALSE(tree.nearest(c, std::sqrt(least) * (1 - 1e-14), first, last));
@@ -156,7 +163,7 @@ TEST(BoundaryTree, FindsTheNearestOfWindings) {
         const auto nearest = *std::min_element(near.begin(), near.end(), [&](auto a, auto b) {
           return squared_distance(sites[a], c) < squared_distance(sites[b], c);
         });
-        EXPECT_EQ(tree.nearest_lowest(c, reach).site, nearest);
+        EXPECT_EQ(tree.nearest(c, reach).site, nearest);
       }
       tree.within(c, reach, first, last, found);
       near.erase(std::upper_bound(near.begin(), near.end(), last), near.end());

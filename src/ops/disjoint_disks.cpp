@@ -62,7 +62,7 @@ class Region {
   /// c, the clearance has the Lipschitz constant 1. O(log n) expected, and one step for each disk
   /// taken.
   Room room(Vec2 c, double at_most) const {
-    const auto hit = tree_.nearest_lowest(c, at_most * (1 + 0x1p-40) + finest);
+    const auto hit = tree_.nearest(c, at_most * (1 + 0x1p-40) + finest);
     const double distance = std::sqrt(hit.squared_distance);
     Room room{is_inside(hit, c) ? distance : -distance, site::foot(edges_[hit.site], c), distance};
     for (const Disk& disk : taken_) {

@@ -297,9 +297,15 @@ template <BoundaryTree::Order order, class Visit>
   };
   float limit = squared_reach();
 
-  // Start at the lowest node over the whole range; in the plane, at the root.
-  const std::uint32_t first_block = in_plane_.empty() ? first / block_size : 0;
-  const std::uint32_t last_block = (in_plane_.empty() ? last : last_of_all()) / block_size;
+  // In the boundary's order, the ends of a range lie next to a disk's two feet, where most is near:
+  // they are visited at once. Then the lowest node over what is left; in the plane, the root.
+  std::uint32_t first_block = in_plane_.empty() ? first / block_size : 0;
+  std::uint32_t last_block = (in_plane_.empty() ? last : last_of_all()) / block_size;
+  if (order == Order::nearest_first && in_plane_.empty()) {
+    visit(first, first_block++ * block_size + block_size - 1);
+    visit(last_block-- * block_size, last);
+    limit = squared_reach();
+  }
   const auto common = static_cast<std::uint32_t>(std::bit_width(first_block ^ last_block) + 1) / 2;
   const auto chord_count = static_cast<std::uint32_t>(chords_.size());
 
@@ -362,10 +368,10 @@ template <class Squared, class LookAt>
                                                               const LookAt& look_at) const {
   if (!has_arcs_)
     for (const Site* site = sites_.data() + first; first < last; first += 2, site += 2) {
-      const std::uint32_t nearer = nearer_of_two(site[0], site[1], c, squared());
-      if (nearer == 0) continue;
-      if ((nearer & 1) != 0) look_at(first);
-      if ((nearer & 2) != 0) look_at(first + 1);
+      const std::uint32_t reached = reached_of_two(site[0], site[1], c, squared());
+      if (reached == 0) continue;
+      if ((reached & 1) != 0) look_at(first);
+      if ((reached & 2) != 0) look_at(first + 1);
     }
   for (; first <= last; ++first) look_at(first);
 }
@@ -373,13 +379,14 @@ template <class Squared, class LookAt>
 MEDIAL_WIDE BoundaryTree::Hit BoundaryTree::nearest(Vec2 c, double reach, std::uint32_t first,
                                                     std::uint32_t last) const {
   Hit hit;
-  if (first > last || !(reach > 0)) return hit;
+  if (first > last || sites_.empty() || !(reach > 0)) return hit;
   hit.squared_distance = reach * reach;
   const auto look_at = [&](std::uint32_t i) {
     const Site& site = sites_[i];
     if (has_arcs_ && is_out_of_reach(site, c, reach)) return;
     const double squared = site::squared_distance(site, c);
-    if (squared < hit.squared_distance) hit = {i, squared};
+    if (squared < hit.squared_distance || (squared == hit.squared_distance && i < hit.site))
+      hit = {i, squared};
   };
   visit_blocks<Order::nearest_first>(
       c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
@@ -423,33 +430,6 @@ BoundaryTree::Hit BoundaryTree::nearest_facing(Vec2 c, double reach, std::uint32
   if (!front) return back;
   return std::sqrt(front.squared_distance) <= std::sqrt(back.squared_distance) + rounding ? front
                                                                                           : back;
-}
-
-BoundaryTree::Hit BoundaryTree::nearest_lowest(Vec2 c, double reach) const {
-  Hit hit;
-  if (sites_.empty() || !(reach > 0)) return hit;
-  // Boxes at the distance of the best so far must still be looked into.
-  constexpr double a_little_more = 1 + 0x1p-40;
-  double squared = reach * reach;
-  reach *= a_little_more;
-  const auto look_at = [&](std::uint32_t i) {
-    const double d = site::squared_distance(sites_[i], c);
-    if (d < squared || (d == squared && i < hit.site)) {
-      squared = d;
-      hit = {i, d};
-    }
-  };
-  const auto or_equal = [&] {
-    return a_little_more * squared + std::numeric_limits<double>::min();
-  };
-  visit_blocks<Order::nearest_first>(c, reach, 0, last_of_all(),
-                                     [&](std::uint32_t from, std::uint32_t to) {
-                                       const double before = squared;
-                                       look_at_each(c, from, to, or_equal, look_at);
-                                       if (squared < before)
-                                         reach = a_little_more * std::sqrt(squared);
-                                     });
-  return hit;
 }
 
 MEDIAL_WIDE void BoundaryTree::within(Vec2 c, double reach, std::uint32_t first, std::uint32_t last,

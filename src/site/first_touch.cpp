@@ -162,7 +162,7 @@ void FirstTouch::search_block(std::uint32_t block, Search& search) const {
   const auto limit = [&] { return (search.radius + looked_at) * (search.radius + looked_at); };
   if (!has_arcs_) {
     for (; i + 1 < end; i += 2) {
-      if (nearer_of_two(entries_[i].site, entries_[i + 1].site, search.center, limit()) == 0)
+      if (reached_of_two(entries_[i].site, entries_[i + 1].site, search.center, limit()) == 0)
         continue;
       look_at(entries_[i]);
       look_at(entries_[i + 1]);

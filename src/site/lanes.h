@@ -63,15 +63,15 @@ inline std::uint32_t nearer(const Boxes& boxes, float x, float y, float limit, L
   return bits_of(squared < limit);
 }
 
-/// Which of two segments or vertices are nearer to c than the root of `squared`, as
+/// Which of two segments or vertices are no farther from c than the root of `squared`, as
 /// squared_distance() has it; as bits.
-inline std::uint32_t nearer_of_two(const Site& a, const Site& b, Vec2 c, double squared) {
+inline std::uint32_t reached_of_two(const Site& a, const Site& b, Vec2 c, double squared) {
   const Pair x = c.x - Pair{a.point.x, b.point.x}, y = c.y - Pair{a.point.y, b.point.y};
   const Pair along_x{a.direction.x, b.direction.x}, along_y{a.direction.y, b.direction.y};
   const Pair foot = along_x * x + along_y * y;
   const Pair s = smaller(larger(foot, Pair{}), Pair{a.length, b.length});
   const Pair dx = x - s * along_x, dy = y - s * along_y;
-  return bits_of(dx * dx + dy * dy < squared);
+  return bits_of(dx * dx + dy * dy <= squared);
 }
 
 /// carrier_distance() of two points from an arc, and squared_distance().

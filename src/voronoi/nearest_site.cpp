@@ -77,7 +77,7 @@ NearestSite SiteLocator::nearest(Vec2 p) const {
     for (std::uint32_t i = 0; i < index.pieces.size(); ++i) take(i);
     return result;
   }
-  const auto hit = index.tree->nearest_lowest(c, 2 * near * near);
+  const auto hit = index.tree->nearest(c, 2 * near * near);
   if (!hit) return result;
   // Of those at equal distance, up to rounding, the lowest of the diagram's.
   constexpr double rounding = 0x1p-50;

@@ -138,8 +138,8 @@ class Tree final : public NearestEdges {
     constexpr double beyond_all = 8;  // local coordinates are below 2
     constexpr double a_little_more = 1 + 0x1p-40;
     const double reach = hint == no_edge ? beyond_all : a_little_more * distance_to(hint, c);
-    auto hit = tree_.nearest_lowest(c, reach);
-    if (!hit) hit = tree_.nearest_lowest(c, beyond_all);  // c lies on the edge of the hint
+    auto hit = tree_.nearest(c, reach);
+    if (!hit) hit = tree_.nearest(c, beyond_all);  // c lies on the edge of the hint
     return {hit.site, std::sqrt(hit.squared_distance)};
   }
 
