@@ -370,10 +370,10 @@ template <class Squared, class LookAt>
     for (const Site* site = sites_.data() + first; first < last; first += 2, site += 2) {
       const std::uint32_t reached = reached_of_two(site[0], site[1], c, squared());
       if (reached == 0) continue;
-      if ((reached & 1) != 0) look_at(first);
-      if ((reached & 2) != 0) look_at(first + 1);
+      if ((reached & 1) != 0) look_at(first, true);
+      if ((reached & 2) != 0) look_at(first + 1, true);
     }
-  for (; first <= last; ++first) look_at(first);
+  for (; first <= last; ++first) look_at(first, false);
 }
 
 MEDIAL_WIDE BoundaryTree::Hit BoundaryTree::nearest(Vec2 c, double reach, std::uint32_t first,
@@ -381,7 +381,7 @@ MEDIAL_WIDE BoundaryTree::Hit BoundaryTree::nearest(Vec2 c, double reach, std::u
   Hit hit;
   if (first > last || sites_.empty() || !(reach > 0)) return hit;
   hit.squared_distance = reach * reach;
-  const auto look_at = [&](std::uint32_t i) {
+  const auto look_at = [&](std::uint32_t i, bool) {
     const Site& site = sites_[i];
     if (has_arcs_ && is_out_of_reach(site, c, reach)) return;
     const double squared = site::squared_distance(site, c);
@@ -411,7 +411,7 @@ BoundaryTree::Hit BoundaryTree::nearest_facing(Vec2 c, double reach, std::uint32
     const double s = site::carrier_parameter(site, c);
     return site::carrier_distance(site, c) > 0 && s >= 0 && s <= site.length;
   };
-  const auto look_at = [&](std::uint32_t i) {
+  const auto look_at = [&](std::uint32_t i, bool) {
     const double squared = site::squared_distance(sites_[i], c);
     if (!(squared < limit)) return;
     Hit& hit = faces(sites_[i]) ? front : back;
@@ -440,8 +440,8 @@ MEDIAL_WIDE void BoundaryTree::within(Vec2 c, double reach, std::uint32_t first,
   visit_blocks<Order::in_turn>(c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
     look_at_each(
         c, from, to, [&] { return squared; },
-        [&](std::uint32_t i) {
-          if (site::squared_distance(sites_[i], c) < squared) found.push_back(i);
+        [&](std::uint32_t i, bool is_reached) {
+          if (is_reached || site::squared_distance(sites_[i], c) <= squared) found.push_back(i);
         });
   });
   if (!in_plane_.empty()) std::sort(found.begin(), found.end());

@@ -52,7 +52,7 @@ class BoundaryTree {
   /// The same of all sites.
   Hit nearest(Vec2 c, double reach) const { return nearest(c, reach, 0, last_of_all()); }
 
-  /// All sites among first..last nearer than `reach`, by increasing index.
+  /// All sites among first..last no farther away than `reach`, by increasing index.
   void within(Vec2 c, double reach, std::uint32_t first, std::uint32_t last,
               std::vector<std::uint32_t>& found) const;
 
@@ -99,8 +99,9 @@ class BoundaryTree {
   static std::size_t span_of(std::size_t level) { return std::size_t{block_size} << (2 * level); }
   std::uint32_t last_of_all() const { return static_cast<std::uint32_t>(sites_.size() - 1); }
 
-  /// Calls look_at(i) for the sites first..last that may be nearer to c than the root of squared():
-  /// without arcs two at a time, of which rarely one is.
+  /// Calls look_at(i, is_reached) for the sites first..last that may be no farther from c than the
+  /// root of squared(), with whether that is known: without arcs two at a time, of which rarely one
+  /// is.
   template <class Squared, class LookAt>
   void look_at_each(Vec2 c, std::uint32_t first, std::uint32_t last, const Squared& squared,
                     const LookAt& look_at) const;

@@ -162,10 +162,11 @@ void FirstTouch::search_block(std::uint32_t block, Search& search) const {
   const auto limit = [&] { return (search.radius + looked_at) * (search.radius + looked_at); };
   if (!has_arcs_) {
     for (; i + 1 < end; i += 2) {
-      if (reached_of_two(entries_[i].site, entries_[i + 1].site, search.center, limit()) == 0)
-        continue;
-      look_at(entries_[i]);
-      look_at(entries_[i + 1]);
+      const std::uint32_t reached =
+          reached_of_two(entries_[i].site, entries_[i + 1].site, search.center, limit());
+      if (reached == 0) continue;
+      if ((reached & 1) != 0) look_at(entries_[i]);
+      if ((reached & 2) != 0) look_at(entries_[i + 1]);
     }
   }
   for (; i < end; ++i)

@@ -100,7 +100,8 @@ bool Certainty::fits(std::uint32_t i, double tolerance) const {
 
 bool Certainty::touches(std::uint32_t third, double slack) const {
   for (const std::uint32_t i : {span_.right, third, span_.left})
-    if (!(std::abs(contact(i).residual) <= slack && is_near(i, 2 * slack))) return false;
+    if (!(std::abs(contact(i).residual) <= slack && (site(i).is_vertex() || is_near(i, 2 * slack))))
+      return false;
   return slack <= small_tolerance * to_.radius;
 }
 

@@ -177,31 +177,9 @@ const std::vector<std::uint32_t>& Contacts::touched_between(const Span& span, co
   return touched_;
 }
 
-double Contacts::beyond_end(std::uint32_t i, bool at_end, Vec2 center) const {
-  const site::Site& own = site(i);
-  if (!own.is_vertex()) {
-    const double s = site::carrier_parameter(own, center);
-    return at_end ? s - own.length : -s;
-  }
-  if (at_end ? i + 1 >= boundary_.sites.size() : i == 0) return 0;  // where a run begins
-  const std::uint32_t beside = at_end ? i + 1 : i - 1;
-  const Vec2 to = center - own.point;
-  if (element(beside) != Element::bridge) return -beyond_end(beside, !at_end, center);
-  const Vec2 bound = bridge_direction(i, beside);
+double Contacts::beyond_bridge(std::uint32_t i, bool at_end, Vec2 center) const {
+  const Vec2 to = center - site(i).point, bound = bridge_direction(i, at_end ? i + 1 : i - 1);
   return (at_end ? cross(to, bound) : cross(bound, to)) / norm(bound);
-}
-
-bool Contacts::is_beside(std::uint32_t i, Vec2 center, const Boundary::SiteRange& run, double clear,
-                         const std::array<double, 2>& beyond) const {
-  if (element(i) == Element::bridge) return true;
-  // From behind, at the tip of a needle, the end of an edge is touched, which is a vertex.
-  const bool is_straight = !site(i).is_vertex() && !site(i).is_arc();
-  if (is_straight && site::carrier_distance(site(i), center) < -clear) return true;
-  const auto [at_start, at_end] = beyond;
-  if (!(std::max(at_start, at_end) > clear)) return false;
-  if (site(i).is_vertex()) return true;
-  return at_end > at_start ? i < run.last && boundary_.is_smooth(i)
-                           : i > run.first && boundary_.is_smooth(i - 1);
 }
 
 const std::vector<Contacts::Neighbor>& Contacts::around(const Span& span, const Disk& disk) {
@@ -214,12 +192,12 @@ const std::vector<Contacts::Neighbor>& Contacts::around(const Span& span, const 
   context.tree.within(disk.center, disk.radius + around_reach_, run.first, run.last, within_);
   near_.clear();
   for (const std::uint32_t i : within_) {
-    const double distance = std::sqrt(site::squared_distance(site(i), disk.center));
-    if (!(distance < disk.radius + clearance())) continue;
     const auto beyond = beyond_each(i, disk.center);
-    if (is_beside(i, disk.center, run, clearance(), beyond) || !faces(i, disk.center)) continue;
+    if (is_beside(i, disk.center, run, clearance(), beyond)) continue;
+    const double distance = std::sqrt(site::squared_distance(site(i), disk.center));
+    if (!(distance < disk.radius + clearance()) || !faces(i, disk.center)) continue;
     near_.push_back({i, distance - disk.radius, std::max(beyond[0], beyond[1]),
-                     site::foot(site(i), disk.center)});
+                     site::foot(site(i), disk.center), site::outward(site(i), disk.center)});
   }
   constexpr std::size_t many = 32;
   if (within_.size() > many + 2 * near_.size()) further_ = std::max(1.0, further_ / 2);
@@ -237,16 +215,24 @@ double Contacts::spread_of(const std::vector<Neighbor>& sites, const Span& span,
                here * here;
       }))
     return 1;
-  const Vec2 first = site::outward(site(sites[0].site), center);
-  const auto turned = [&](const Neighbor& near) {
-    return site::outward(site(near.site), center) - first;
-  };
+  const Vec2 first = sites[0].toward;
   Vec2 ab, ac;
-  for (const Neighbor& near : sites)
-    if (const Vec2 to = turned(near); squared_norm(to) > squared_norm(ab)) ab = to;
-  for (const Neighbor& near : sites)
-    if (const Vec2 to = turned(near); std::abs(cross(ab, to)) > std::abs(cross(ab, ac))) ac = to;
-  return 1 + 2 * (norm(ab) + norm(ac)) / std::abs(cross(ab, ac));
+  double furthest = 0, widest = 0;
+  for (const Neighbor& near : sites) {
+    const Vec2 to = near.toward - first;
+    if (const double away = squared_norm(to); away > furthest) {
+      furthest = away;
+      ab = to;
+    }
+  }
+  for (const Neighbor& near : sites) {
+    const Vec2 to = near.toward - first;
+    if (const double wide = std::abs(cross(ab, to)); wide > widest) {
+      widest = wide;
+      ac = to;
+    }
+  }
+  return 1 + 2 * (norm(ab) + norm(ac)) / widest;
 }
 
 bool Contacts::may_touch(std::uint32_t i, const Span& span, const Disk& disk, double times) const {
@@ -296,7 +282,7 @@ bool Contacts::is_clean_tie(const Span& span, const Disk& disk, std::uint32_t su
     const double apart = touching_ / beside;
     return site(before).is_vertex() && site(i).is_vertex() && squared > apart * apart;
   };
-  for (const auto& [i, away, beyond, foot] : sites) {
+  for (const auto& [i, away, beyond, foot, toward] : sites) {
     const bool at_joint = beyond > -clearance() * spread;
     if (std::abs(away) > touching_ || beyond > context.tolerance ||
         (at_joint && (spread > well_placed || beyond < -context.tolerance)))
@@ -325,7 +311,7 @@ bool Contacts::is_alone(const std::vector<Neighbor>& tie, const Span& span, cons
     const std::uint32_t i = near.site;
     if (!sites.empty() && sites.back() + 1 == i && boundary_.is_smooth(sites.back())) continue;
     sites.push_back(i);
-    toward.push_back(site::outward(site(i), disk.center));
+    toward.push_back(near.toward);
   }
   const std::size_t count = sites.size();
   if (count < 3) return true;

@@ -138,8 +138,8 @@ class Contacts {
   /// Whether a disk touches both the site and its carrier: as touches(), but where the foot is next
   /// to an end, on either side, as far as the disk can tell.
   bool touches_carrier(std::uint32_t i, const Disk& disk, double slack) const {
-    return std::abs(away(i, disk)) <= slack &&
-           std::abs(site::carrier_distance(site(i), disk.center) - disk.radius) <= slack;
+    return std::abs(site::carrier_distance(site(i), disk.center) - disk.radius) <= slack &&
+           (site(i).is_vertex() || std::abs(away(i, disk)) <= slack);
   }
 
   /// Whether a disk touches all of an arc: it is the arc's circle, as far as the arc can tell.
@@ -250,11 +250,25 @@ class Contacts {
                     const Disk& disk) const;
   /// The same for each end, and for one.
   std::array<double, 2> beyond_each(std::uint32_t i, Vec2 center) const {
-    if (site(i).is_vertex()) return {beyond_end(i, false, center), beyond_end(i, true, center)};
+    if (site(i).is_vertex())
+      return {beyond_vertex(i, false, center), beyond_vertex(i, true, center)};
     const double s = site::carrier_parameter(site(i), center);
     return {-s, s - site(i).length};
   }
-  double beyond_end(std::uint32_t i, bool at_end, Vec2 center) const;
+  double beyond_end(std::uint32_t i, bool at_end, Vec2 center) const {
+    return site(i).is_vertex() ? beyond_vertex(i, at_end, center) : beyond_edge(i, at_end, center);
+  }
+  double beyond_edge(std::uint32_t i, bool at_end, Vec2 center) const {
+    const double s = site::carrier_parameter(site(i), center);
+    return at_end ? s - site(i).length : -s;
+  }
+  double beyond_vertex(std::uint32_t i, bool at_end, Vec2 center) const {
+    if (at_end ? i + 1 >= boundary_.sites.size() : i == 0) return 0;  // where a run begins
+    const std::uint32_t beside = at_end ? i + 1 : i - 1;
+    return element(beside) == Element::bridge ? beyond_bridge(i, at_end, center)
+                                              : -beyond_edge(beside, !at_end, center);
+  }
+  double beyond_bridge(std::uint32_t i, bool at_end, Vec2 center) const;
   /// How far a site is from a disk: negative where the disk reaches over it.
   double away(std::uint32_t i, const Disk& disk) const { return site::gap(site(i), disk); }
   const Boundary::SiteRange& run_of(const Span& span) const {
@@ -270,13 +284,24 @@ class Contacts {
   }
   /// The same by what beyond_each() says.
   bool is_beside(std::uint32_t i, Vec2 center, const Boundary::SiteRange& run, double clear,
-                 const std::array<double, 2>& beyond) const;
+                 const std::array<double, 2>& beyond) const {
+    if (element(i) == Element::bridge) return true;
+    const site::Site& own = site(i);
+    const bool is_vertex = own.is_vertex();
+    // From behind, at the tip of a needle, the end of an edge is touched, which is a vertex.
+    if (!is_vertex && !own.is_arc() && site::carrier_distance(own, center) < -clear) return true;
+    const auto [at_start, at_end] = beyond;
+    if (!(std::max(at_start, at_end) > clear)) return false;
+    if (is_vertex) return true;
+    return at_end > at_start ? i < run.last && boundary_.is_smooth(i)
+                             : i > run.first && boundary_.is_smooth(i - 1);
+  }
   /// A site that a disk touches or is near to.
   struct Neighbor {
     std::uint32_t site;
     double away;    ///< how far it is from the disk
     double beyond;  ///< see beyond_ends()
-    Vec2 foot;
+    Vec2 foot, toward;  ///< the latter from there to the disk's centre, of length 1
   };
   /// Whether no disk that touches three sites of a tie, and reaches over no other one of it, each
   /// within `touching_`, touches anything else.

@@ -208,20 +208,18 @@ class Walker {
   bool passes_certainly(const Step& tie) {
     // A longer chain would be proposed again for each of its steps.
     constexpr std::size_t longest = 16;
-    Ahead next{tie, {}};
-    while (next.step.joins_node && ahead_.size() < longest) {
-      const Step& step = next.step;
-      Step after, none;
-      if (divide(step.span, step.event, step.error, true, after.span, none.span) != 1) break;
-      if (!contacts_.needs_walk(after.span)) break;
-      next.from = step.event.disk;
-      decider_.propose(after, next.from);
-      if (!after.is_certain) {
+    const Step* step = &tie;
+    while (step->joins_node && ahead_.size() < longest) {
+      Span after, none;
+      if (divide(step->span, step->event, step->error, true, after, none) != 1) break;
+      if (!contacts_.needs_walk(after)) break;
+      Ahead& next = ahead_.emplace_back(Ahead{{after}, step->event.disk});
+      decider_.propose(next.step, next.from);
+      if (!next.step.is_certain) {
         ahead_.clear();
         return false;
       }
-      next.step = after;
-      ahead_.push_back(next);
+      step = &next.step;
     }
     std::reverse(ahead_.begin(), ahead_.end());
     return true;
