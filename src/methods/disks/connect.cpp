@@ -100,9 +100,10 @@ class Connector {
   /// Prepares for these holes.
   void begin(std::span<const std::uint32_t> holes) {
     if (!found_.empty()) {
-      const auto middle = found_.begin() + static_cast<std::ptrdiff_t>(found_.size() / 2);
-      std::nth_element(found_.begin(), middle, found_.end());
-      expected_ = 2 * *middle;
+      constexpr double a_little_more = 1.0625;
+      const auto most = found_.begin() + static_cast<std::ptrdiff_t>(found_.size() * 7 / 8);
+      std::nth_element(found_.begin(), most, found_.end());
+      expected_ = a_little_more * *most;
     }
     found_.clear();
     site::Extent around;
@@ -230,7 +231,7 @@ class Connector {
   const ExactSites& exact_;
   const std::vector<bool>& in_precise_;
   site::FirstTouch::Region region_;
-  double expected_ = 0;        ///< radius: twice the middle one of the last run; 0 before the first
+  double expected_ = 0;        ///< radius: above most of the last run; 0 before the first
   std::vector<double> found_;  ///< radii of the run under way
 };
 
