@@ -100,8 +100,8 @@ bool Contacts::touches_all(std::uint32_t i, const Disk& disk) const {
          std::abs(cross(normal, to)) <= beside * disk.radius;
 }
 
-bool Contacts::is_reflex_chain(const Span& span) const {
-  if (span.left - span.right > longest_flat_chain || site(span.right).curvature > 0) return false;
+bool Contacts::is_short_reflex_chain(const Span& span) const {
+  if (site(span.right).curvature > 0) return false;
   for (std::uint32_t i = span.right; i < span.left; ++i)
     if (!boundary_.is_smooth(i) || site(i + 1).curvature > 0) return false;
   constexpr double almost_half = 3;  // of a turn: pi, less room for rounding

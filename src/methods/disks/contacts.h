@@ -161,7 +161,9 @@ class Contacts {
   /// Whether the span is a short chain of smooth joints, nowhere convex, that turns by less than
   /// half a turn: no disk touches such a chain in two places. Rounding may ask for one where the
   /// chain is flat.
-  bool is_reflex_chain(const Span& span) const;
+  bool is_reflex_chain(const Span& span) const {
+    return span.left - span.right <= longest_flat_chain && is_short_reflex_chain(span);
+  }
 
   /// Whether nothing but a bridge lies between the two sites.
   bool is_at_bridge(const Span& span) const {
@@ -229,6 +231,7 @@ class Contacts {
 
  private:
   bool has_both_sides() const { return boundary_.sides == Sides::both; }
+  bool is_short_reflex_chain(const Span& span) const;
   bool faces_side(std::uint32_t i, Vec2 c) const;
   std::uint32_t owner_on_sides(std::uint32_t i, Vec2 center, const Span& span) const;
   /// From a vertex towards the centre of the bridge beside it.

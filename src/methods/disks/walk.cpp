@@ -318,6 +318,11 @@ class Walker {
   /// Whether a walk is needed; where the two sites are neighbours, ends the axis there. What is
   /// known of a proposed step is not asked again.
   bool is_open(const Span& span, bool is_proposed = false) {
+    const bool is_long = span.left - span.right > 2;
+    if (is_long && (is_proposed || !contacts_.is_reflex_chain(span))) return true;
+    return !ends_at_once(span, is_proposed);
+  }
+  bool ends_at_once(const Span& span, bool is_proposed) {
     const std::uint32_t between = span.left - span.right;
     const bool at_bridge = contacts_.is_at_bridge(span);
     const bool ends =
@@ -333,14 +338,14 @@ class Walker {
         end_at_blunt_joint(span);
       }
       finished(2);
-      return false;
+      return true;
     }
     if (at_bridge) {
       end_at_bridge(span);
       finished(2);
-      return false;
+      return true;
     }
-    return !ends;
+    return ends;
   }
 
   /// A bridge's disk is a node where a hole begins and ends at a smooth joint: its two sides touch
