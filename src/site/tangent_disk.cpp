@@ -109,17 +109,21 @@ std::optional<Disk> tangent_disk_in_high_precision(const Site& a, const Site& b,
   return disk;
 }
 
+constexpr double none = std::numeric_limits<double>::infinity();
+
+/// tangent_radius() of a point.
+double radius_to_point(Vec2 foot, Vec2 normal, Vec2 point) {
+  const Vec2 d = point - foot;
+  const double ahead = 2 * medial::dot(normal, d);
+  return ahead > 0 ? squared_norm(d) / ahead : none;
+}
+
 }  // namespace
 
 double tangent_radius(Vec2 foot, Vec2 normal, const Site& site) {
-  constexpr double none = std::numeric_limits<double>::infinity();
   // Rounding turns unit normals by up to this: nothing is known of those that differ by less.
   constexpr double parallel = 0x1p-51;
-  if (site.is_vertex()) {
-    const Vec2 d = site.point - foot;
-    const double ahead = 2 * medial::dot(normal, d);
-    return ahead > 0 ? squared_norm(d) / ahead : none;
-  }
+  if (site.is_vertex()) return radius_to_point(foot, normal, site.point);
   const Vec2 d = foot - site.point;
   double height = medial::cross(site.direction, d);
   double closing = 0.5 * squared_norm(normal - site.normal());
@@ -154,14 +158,16 @@ double tangent_radius(Vec2 foot, Vec2 normal, const Site& site) {
 
 double touching_radius(Vec2 foot, Vec2 normal, const Site& site) {
   if (site.is_vertex()) return tangent_radius(foot, normal, site);
-  double radius = std::min(tangent_radius(foot, normal, make_vertex(site.point)),
-                           tangent_radius(foot, normal, make_vertex(site.end())));
-  for (const Site& facing : {site, reversed(site)}) {
+  double radius = std::min(radius_to_point(foot, normal, site.point),
+                           radius_to_point(foot, normal, site.end()));
+  const auto look_at = [&](const Site& facing) {
     const double on_carrier = tangent_radius(foot, normal, facing);
-    if (!(on_carrier < radius)) continue;
+    if (!(on_carrier < radius)) return;
     const double s = carrier_parameter(facing, foot + on_carrier * normal);
     if (s >= 0 && s <= facing.length) radius = on_carrier;
-  }
+  };
+  look_at(site);
+  look_at(reversed(site));
   return radius;
 }
 
