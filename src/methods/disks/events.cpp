@@ -125,8 +125,10 @@ std::optional<EventSearch::JointDisk> EventSearch::disk_at_joint(bool on_right) 
   const auto [foot, normal] = boundary_.smooth_place(std::min(own, next), std::max(own, next));
   const double radius = site::tangent_radius(foot, normal, site(other));
   if (!(radius <= context_.radius_limit)) return std::nullopt;
-  const double largest = std::max(site(own).curvature, site(next).curvature);
-  return JointDisk{{foot + radius * normal, radius}, radius * largest <= 1 + widest_window};
+  const bool fits =
+      !boundary_.has_arcs ||
+      radius * std::max(site(own).curvature, site(next).curvature) <= 1 + widest_window;
+  return JointDisk{{foot + radius * normal, radius}, fits};
 }
 
 std::optional<Disk> EventSearch::circle_of_apex(std::uint32_t next, std::uint32_t other) const {
