@@ -211,7 +211,7 @@ bool has_right_topology(const Shape& shape, std::span<const Node> nodes, std::sp
   // Each component has a node more than edges, so that numbers drift apart.
   const double share = static_cast<double>(edges.size()) / static_cast<double>(nodes.size());
   const auto block_of = [&](std::uint32_t node) {
-    return static_cast<std::size_t>(share * node) / block;
+    return static_cast<std::uint32_t>(share * node) / block;
   };
   DisjointSets parts(nodes.size());
   const auto look_at = [&](std::size_t e, TopologyFindings& found) {

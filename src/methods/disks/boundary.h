@@ -133,9 +133,9 @@ struct Boundary {
   }
   /// Whether a disk can touch i and i + 1 in one point: an edge and a vertex, or a smooth joint.
   bool is_smooth(std::uint32_t i) const {
-    if (elements[i] == Element::bridge || elements[i + 1] == Element::bridge) return false;
-    if (elements[i] != elements[i + 1]) return true;
-    return elements[i] == Element::edge && joint(i) == site::Joint::smooth;
+    const Element own = elements[i], next = elements[i + 1];
+    if (own != next) return own != Element::bridge && next != Element::bridge;
+    return own == Element::edge && joint(i) == site::Joint::smooth;
   }
   const Bridge& bridge_at(std::uint32_t place) const { return bridges[originals[place]]; }
   /// What stands on the other side of the bridge at a place, next to which a site stands: another

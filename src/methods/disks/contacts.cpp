@@ -73,9 +73,8 @@ std::uint32_t Contacts::owner(std::uint32_t i, Vec2 center, const Span& span) co
   return copy > span.right && copy < span.left ? copy : i;
 }
 
-bool Contacts::touches(std::uint32_t i, const Disk& disk, double slack) const {
-  if (std::abs(away(i, disk)) > slack) return false;
-  if (site(i).is_vertex() || touches_all(i, disk)) return true;
+bool Contacts::touches_inside(std::uint32_t i, const Disk& disk) const {
+  if (touches_all(i, disk)) return true;
   const double s = site::foot_parameter(site(i), disk.center);
   if (s > 0 && s < site(i).length) return true;
   // At a smooth joint both touch, but for an arc whose own circle is smaller: see owner().

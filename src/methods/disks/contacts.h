@@ -133,7 +133,10 @@ class Contacts {
 
   /// Whether a disk that reaches site i from inside touches it there: not in the end of an edge,
   /// where its neighbour would be nearer.
-  bool touches(std::uint32_t i, const Disk& disk, double slack) const;
+  bool touches(std::uint32_t i, const Disk& disk, double slack) const {
+    return !(std::abs(away(i, disk)) > slack) &&
+           (site(i).is_vertex() || touches_inside(i, disk));
+  }
 
   /// Whether a disk touches both the site and its carrier: as touches(), but where the foot is next
   /// to an end, on either side, as far as the disk can tell.
@@ -230,6 +233,7 @@ class Contacts {
   }
 
  private:
+  bool touches_inside(std::uint32_t edge, const Disk& disk) const;
   bool has_both_sides() const { return boundary_.sides == Sides::both; }
   bool is_short_reflex_chain(const Span& span) const;
   bool faces_side(std::uint32_t i, Vec2 c) const;
