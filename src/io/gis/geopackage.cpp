@@ -1,7 +1,6 @@
 // Rows of GeoPackages, put in by SQLite itself: GDAL's features take several times as long.
 
 #include <fmt/format.h>
-#include <sqlite3.h>
 
 #include <algorithm>
 #include <array>
@@ -10,17 +9,11 @@
 #include <utility>
 
 #include "io/gis/rows.h"
+#include "io/gis/sqlite.h"
 
 namespace medial::io {
 
 namespace {
-
-struct Finalize {
-  void operator()(sqlite3* database) const { sqlite3_close_v2(database); }
-  void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
-};
-using Connection = std::unique_ptr<sqlite3, Finalize>;
-using Statement = std::unique_ptr<sqlite3_stmt, Finalize>;
 
 /// An SQL name.
 std::string sql_name(const std::string& name) {
@@ -338,7 +331,7 @@ class GeoPackageRows final : public RowFile {
     return sqlite3_step(count.get()) == SQLITE_DONE ? success() : Status(failure());
   }
 
-  Connection database_;
+  Database database_;
   std::deque<FilledLayer> layers_;  ///< their statements go before the database
 };
 

@@ -2,6 +2,7 @@
 
 // Rows of tables on their way into a file of GIS.
 
+#include <gdal_priv.h>
 #include <ogr_geometry.h>
 
 #include <memory>
@@ -87,14 +88,14 @@ class Rows {
   std::vector<End> ends_;
 };
 
-/// A layer of a file that GDAL has made, without rows, and closed.
+/// A layer of a file that GDAL has made, without rows.
 struct EmptyLayer {
   std::string name, geometry;        ///< of the layer and its column of geometries
   std::vector<std::string> columns;  ///< as GDAL named them
   GeometryKind kind;
 };
 
-/// Puts rows into the layers of a file.
+/// Puts rows into the layers of a file. Errors: unwritable, unless GDAL reports what failed.
 class RowFile {
  public:
   RowFile() = default;
@@ -102,17 +103,19 @@ class RowFile {
   RowFile& operator=(const RowFile&) = delete;
   virtual ~RowFile() = default;
 
-  /// Errors: unwritable.
   virtual Status add(const Rows& rows) = 0;
-  /// There are no more. Errors: unwritable.
+  /// There are no more.
   virtual Status close() = 0;
 };
 
-/// Adding rows this way, by SQLite and by shapelib, is several times faster than through GDAL. What
-/// fails in a shapefile is an error of GDAL's.
+std::unique_ptr<RowFile> rows_of_gdal(GDALDatasetUniquePtr dataset,
+                                      std::span<const EmptyLayer> layers);
+/// Of a closed file. Adding rows this way, by SQLite and by shapelib, is several times faster than
+/// through GDAL.
 Result<std::unique_ptr<RowFile>> rows_of_geopackage(const std::string& path,
                                                     std::span<const EmptyLayer> layers,
                                                     bool is_new);
-Result<std::unique_ptr<RowFile>> rows_of_shapefile(const std::string& path);
+Result<std::unique_ptr<RowFile>> rows_of_shapefile(const std::string& path,
+                                                   std::span<const EmptyLayer> layers, bool is_new);
 
 }  // namespace medial::io

@@ -16,6 +16,7 @@
 #include <limits>
 
 #include "io/format_name.h"
+#include "io/gis/gdal_support.h"
 #include "io/gis/rows.h"
 
 namespace medial::io {
@@ -74,6 +75,11 @@ SAHooks files_of_gdal() {
 
 class ShapefileRows final : public RowFile {
  public:
+  ~ShapefileRows() override {
+    const GdalMessages unheard;
+    shapes_.reset();
+    table_.reset();
+  }
   Status open(const std::string& path) {
     SAHooks hooks = files_of_gdal();
     shapes_.reset(SHPOpenLL(path.c_str(), "rb+", &hooks));
@@ -242,7 +248,8 @@ class ShapefileRows final : public RowFile {
 
 }  // namespace
 
-Result<std::unique_ptr<RowFile>> rows_of_shapefile(const std::string& path) {
+Result<std::unique_ptr<RowFile>> rows_of_shapefile(const std::string& path,
+                                                   std::span<const EmptyLayer>, bool) {
   auto file = std::make_unique<ShapefileRows>();
   if (Status opened = file->open(path); !opened) return std::move(opened).error();
   return std::unique_ptr<RowFile>(std::move(file));

@@ -1,22 +1,15 @@
 #include "io/gis/shared_database.h"
 
 #include <fmt/format.h>
-#include <sqlite3.h>
 
 #include <utility>
 
+#include "io/gis/sqlite.h"
 #include "io/output.h"
 
 namespace medial::io {
 
 namespace {
-
-struct Close {
-  void operator()(sqlite3* database) const { sqlite3_close(database); }
-  void operator()(sqlite3_backup* backup) const { sqlite3_backup_finish(backup); }
-};
-using Database = std::unique_ptr<sqlite3, Close>;
-using Backup = std::unique_ptr<sqlite3_backup, Close>;
 
 Error unwritable(int code) {
   const int kind = code & 0xff;  // without the details

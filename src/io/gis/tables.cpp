@@ -52,34 +52,6 @@ OGRwkbGeometryType type_of(GeometryKind kind) {
 
 constexpr std::size_t rows_together = 256;
 
-void set_points(OGRSimpleCurve& curve, std::span<const OGRRawPoint> points) {
-  curve.setPoints(static_cast<int>(points.size()), points.data());
-}
-
-/// Gives a feature the geometry of a row. Points and lines stay the same objects, row after row.
-void set_geometry(OGRFeature& feature, GeometryKind kind, const Rows& rows, std::size_t row) {
-  if (kind == GeometryKind::polygon) {
-    auto polygon = std::make_unique<OGRPolygon>();
-    for (std::size_t i = 0; i < rows.ring_count(row); ++i) {
-      auto ring = std::make_unique<OGRLinearRing>();
-      set_points(*ring, rows.ring(row, i));
-      ring->closeRings();
-      polygon->addRingDirectly(ring.release());
-    }
-    feature.SetGeometryDirectly(polygon.release());
-    return;
-  }
-  if (feature.GetGeometryRef() == nullptr) {
-    if (kind == GeometryKind::point) feature.SetGeometryDirectly(new OGRPoint);
-    if (kind == GeometryKind::line) feature.SetGeometryDirectly(new OGRLineString);
-  }
-  const std::span<const OGRRawPoint> points = rows.ring(row, 0);
-  if (kind == GeometryKind::line)
-    return set_points(*feature.GetGeometryRef()->toLineString(), points);
-  feature.GetGeometryRef()->toPoint()->setX(points[0].x);
-  feature.GetGeometryRef()->toPoint()->setY(points[0].y);
-}
-
 /// What a layer is called: of formats with one layer like the file.
 std::string layer_name(const Target& target, const Table& table, bool first) {
   if (target.format != "gpkg") return target.name;
@@ -117,9 +89,9 @@ void complete_triggers(GDALDataset& dataset, OGRLayer& layer) {
 
 /// Removes layers of the same name as a table, if that was asked for: the first one, which the user
 /// named, and of the others those that have our columns.
-Status make_room(GDALDataset& dataset, const Target& target, const TableSource& source) {
-  for (const Table& table : source.tables) {
-    const bool first = &table == source.tables.data();
+Status make_room(GDALDataset& dataset, const Target& target, std::span<const Table> tables) {
+  for (const Table& table : tables) {
+    const bool first = &table == tables.data();
     const std::string name = layer_name(target, table, first);
     for (int i = dataset.GetLayerCount(); i-- > 0;) {
       OGRLayer& layer = *dataset.GetLayer(i);
@@ -164,115 +136,51 @@ std::unique_ptr<OGRSpatialReference> reference_of(const OutputCrs& crs, bool is_
   return reference;
 }
 
-Status create_layers(GDALDataset& dataset, const Target& target, const TableSource& source,
-                     const GdalMessages& messages) {
+Result<std::vector<EmptyLayer>> create_layers(GDALDataset& dataset, const Target& target,
+                                              std::span<const Table> tables, bool in_parts,
+                                              const GdalMessages& messages) {
   // An index is left to who reads: row by row it takes three times as long as all else, and that of
   // a FlatGeobuf needs memory for all rows.
-  const bool unindexed =
-      target.format == "gpkg" || (target.columns != nullptr && target.format == "fgb");
-  std::array<char, 17> no_index{"SPATIAL_INDEX=NO"};
-  std::array<char, 15> letters{"ENCODING=UTF-8"};  // of shapefiles, which says a .cpg beside them
-  std::array<char*, 2> options{unindexed                ? no_index.data()
-                               : target.format == "shp" ? letters.data()
-                                                        : nullptr,
-                               nullptr};
+  const bool unindexed = target.format == "gpkg" || (in_parts && target.format == "fgb");
+  CPLStringList options;
+  if (unindexed) options.SetNameValue("SPATIAL_INDEX", "NO");
+  if (target.format == "shp") options.SetNameValue("ENCODING", "UTF-8");  // a .cpg says it
   const auto reference = reference_of(target.crs, target.format == "gpkg");
-  for (const Table& table : source.tables) {
-    const std::string name = layer_name(target, table, &table == source.tables.data());
+  std::vector<EmptyLayer> layers;
+  for (const Table& table : tables) {
+    const std::string name = layer_name(target, table, &table == tables.data());
     OGRLayer* layer =
-        dataset.CreateLayer(name.c_str(), reference.get(), type_of(table.kind), options.data());
+        dataset.CreateLayer(name.c_str(), reference.get(), type_of(table.kind), options.List());
     if (layer == nullptr) return cannot_write(messages);
     for (const Column& column : table.columns) {
       OGRFieldDefn field(column.name.c_str(), type_of(column.type));
       if (layer->CreateField(&field) != OGRERR_NONE) return cannot_write(messages);
     }
-  }
-  return success();
-}
-
-void set_field(OGRFeature& feature, int number, const Rows& rows, const Rows::Field& field) {
-  switch (field.kind) {
-    case Rows::Kind::nothing:
-      return feature.SetFieldNull(number);
-    case Rows::Kind::whole:
-      return feature.SetField(number, static_cast<GIntBig>(field.whole));
-    case Rows::Kind::real:
-      return feature.SetField(number, field.real);
-    case Rows::Kind::text:
-      return feature.SetField(number, rows.text(field));
-  }
-}
-
-/// A file with a layer for each table, which GDAL makes. GDAL also adds the rows, unless another
-/// library is faster at that. It reports to the thread that calls, so every function listens by
-/// itself.
-class GdalFile {
- public:
-  GdalFile() = default;
-  GdalFile(const GdalFile&) = delete;
-  GdalFile& operator=(const GdalFile&) = delete;
-  ~GdalFile() {
-    const GdalMessages unheard;
-    faster_.reset();
-    layers_.clear();
-    dataset_.reset();
-  }
-
-  Status open(const std::string& path, const Target& target, const TableSource& source);
-
-  Status add(const Rows& rows) {
-    if (faster_) return faster_->add(rows);
-    for (std::size_t row = 0; row < rows.size(); ++row) {
-      const Layer& layer = layers_[rows.table(row)];
-      OGRFeature& feature = *layer.feature;
-      feature.SetFID(OGRNullFID);
-      int number = 0;
-      for (const Rows::Field& field : rows.fields(row)) set_field(feature, number++, rows, field);
-      set_geometry(feature, layer.kind, rows, row);
-      if (layer.layer->CreateFeature(&feature) != OGRERR_NONE)
-        return Error{ErrorCode::unwritable, "cannot write", {}};
-    }
-    return success();
-  }
-  /// Closing writes, too.
-  Status close();
-
- private:
-  struct Layer {
-    OGRLayer* layer;
-    GeometryKind kind;
-    OGRFeatureUniquePtr feature;  ///< each row in turn
-  };
-
-  /// Closes the file, whose rows others add.
-  template <class OpenRows>
-  Status hand_over(const GdalMessages& messages, const OpenRows& open_rows);
-
-  GDALDatasetUniquePtr dataset_;
-  std::vector<Layer> layers_;
-  std::unique_ptr<RowFile> faster_;
-};
-
-template <class OpenRows>
-Status GdalFile::hand_over(const GdalMessages& messages, const OpenRows& open_rows) {
-  std::vector<EmptyLayer> empty;
-  for (const Layer& layer : layers_) {
-    const OGRFeatureDefn& columns = *layer.layer->GetLayerDefn();
-    EmptyLayer& one = empty.emplace_back(
-        EmptyLayer{layer.layer->GetName(), layer.layer->GetGeometryColumn(), {}, layer.kind});
+    EmptyLayer& made = layers.emplace_back(
+        EmptyLayer{layer->GetName(), layer->GetGeometryColumn(), {}, table.kind});
+    OGRFeatureDefn& columns = *layer->GetLayerDefn();
     for (int i = 0; i < columns.GetFieldCount(); ++i)
-      one.columns.emplace_back(columns.GetFieldDefn(i)->GetNameRef());
+      made.columns.emplace_back(columns.GetFieldDefn(i)->GetNameRef());
   }
-  layers_.clear();
-  dataset_.reset();
-  if (!messages.failure().empty()) return cannot_write(messages);
-  auto rows = open_rows(empty);
-  if (!rows) return std::move(rows).error();
-  faster_ = std::move(*rows);
-  return success();
+  return layers;
 }
 
-Status GdalFile::open(const std::string& path, const Target& target, const TableSource& source) {
+using OpenRows = Result<std::unique_ptr<RowFile>> (*)(const std::string& path,
+                                                      std::span<const EmptyLayer> layers,
+                                                      bool is_new);
+
+/// Null: no library.
+OpenRows faster_than_gdal(const std::string& format) {
+#ifdef MEDIAL_SHAPELIB
+  if (format == "shp") return rows_of_shapefile;
+#endif
+  return format == "gpkg" ? rows_of_geopackage : nullptr;
+}
+
+/// Lets GDAL make a file with a layer for each table, or add them to a file, and opens it for rows
+/// by the library that is fastest.
+Result<std::unique_ptr<RowFile>> open_rows(const std::string& path, const Target& target,
+                                           std::span<const Table> tables, bool in_parts) {
   register_gdal();
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(driver_of(target.format));
   if (driver == nullptr)
@@ -281,43 +189,28 @@ Status GdalFile::open(const std::string& path, const Target& target, const Table
   const GdalMessages messages;
   std::error_code ignored;
   const bool adds = std::filesystem::exists(path, ignored);  // a copy of what is there
-  dataset_.reset(adds ? GDALDataset::Open(path.c_str(),
-                                          GDAL_OF_VECTOR | GDAL_OF_UPDATE | GDAL_OF_VERBOSE_ERROR)
-                      : driver->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
-  if (!dataset_) return cannot_write(messages);
-  if (Status room = adds ? make_room(*dataset_, target, source) : success(); !room) return room;
-  if (Status created = create_layers(*dataset_, target, source, messages); !created) return created;
-  const int count = dataset_->GetLayerCount(), own = static_cast<int>(source.tables.size());
-  for (int i = 0; i < own; ++i) {
-    OGRLayer* layer = dataset_->GetLayer(count - own + i);
-    layers_.push_back({layer, source.tables[static_cast<std::size_t>(i)].kind,
-                       OGRFeatureUniquePtr(new OGRFeature(layer->GetLayerDefn()))});
-  }
-  Status handed = success();
-  if (target.format == "gpkg")
-    handed = hand_over(messages, [&](std::span<const EmptyLayer> layers) {
-      return rows_of_geopackage(path, layers, !adds);
-    });
-#ifdef MEDIAL_SHAPELIB
-  if (target.format == "shp")
-    handed = hand_over(messages, [&](auto) { return rows_of_shapefile(path); });
-#endif
-  if (!handed) return handed;
-  return messages.failure().empty() ? success() : cannot_write(messages);
-}
-
-Status GdalFile::close() {
-  if (faster_) return heard([this] { return faster_->close(); });
-  const GdalMessages messages;
-  layers_.clear();
-  dataset_.reset();
-  return messages.failure().empty() ? success() : cannot_write(messages);
+  GDALDatasetUniquePtr dataset(
+      adds
+          ? GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE | GDAL_OF_VERBOSE_ERROR)
+          : driver->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+  if (!dataset) return cannot_write(messages);
+  if (Status room = adds ? make_room(*dataset, target, tables) : success(); !room)
+    return std::move(room).error();
+  auto layers = create_layers(*dataset, target, tables, in_parts, messages);
+  if (!layers) return std::move(layers).error();
+  const OpenRows open_faster = faster_than_gdal(target.format);
+  if (open_faster == nullptr) return rows_of_gdal(std::move(dataset), *layers);
+  dataset.reset();
+  if (!messages.failure().empty()) return cannot_write(messages);
+  auto rows = open_faster(path, *layers, !adds);
+  if (rows && !messages.failure().empty()) return cannot_write(messages);
+  return rows;
 }
 
 /// Takes rows, which go into a file if there is one.
-class GdalTables final : public TableSink {
+class RowSink final : public TableSink {
  public:
-  GdalTables(Target& target, std::vector<Rows>& rows, GdalFile* file = nullptr)
+  RowSink(Target& target, std::vector<Rows>& rows, RowFile* file = nullptr)
       : TableSink(target), rows_(rows), file_(file) {}
 
   /// Puts the last rows into the file.
@@ -343,20 +236,24 @@ class GdalTables final : public TableSink {
   }
 
   std::vector<Rows>& rows_;
-  GdalFile* file_;
+  RowFile* file_;
 };
 
+Status close(RowFile& file) {
+  return heard([&file] { return file.close(); });
+}
+
 Status make_dataset(const std::string& path, Target& target, const TableSource& source) {
-  GdalFile file;
-  if (Status opened = file.open(path, target, source); !opened) return opened;
+  auto file = open_rows(path, target, source.tables, false);
+  if (!file) return std::move(file).error();
   std::vector<Rows> rows;
-  GdalTables tables(target, rows, &file);
+  RowSink sink(target, rows, file->get());
   const auto fill = [&]() -> Status {
-    Status filled = source.fill(tables);
-    return filled ? tables.finish() : filled;
+    Status filled = source.fill(sink);
+    return filled ? sink.finish() : filled;
   };
   if (Status filled = heard(fill); !filled) return filled;
-  return file.close();
+  return close(**file);
 }
 
 Status copy_to(OutputStream& out, const std::string& path) {
@@ -393,18 +290,18 @@ class GdalParts final : public PartWriter {
  public:
   static Result<std::unique_ptr<PartWriter>> make(Target& target, const PartOutput& none) {
     std::unique_ptr<GdalParts> parts(new GdalParts(target));
-    const TableSource source = source_of(none, target);
+    TableSource source = source_of(none, target);
     if (Status possible = check_tables(target, source); !possible)
       return std::move(possible).error();
-    std::string path = target.path;
+    parts->tables_ = std::move(source.tables);
+    parts->path_ = target.path;
     if (target.out != nullptr) {
       Result<PendingFile> made = temporary_file(target);
       if (!made) return std::move(made).error();
-      path = made->path();
+      parts->path_ = made->path();
       parts->temporary_.emplace(std::move(*made));
     }
-    if (Status opened = parts->file_.open(path, target, source); !opened)
-      return std::move(opened).error();
+    if (Status opened = parts->open(true); !opened) return std::move(opened).error();
     return std::unique_ptr<PartWriter>(std::move(parts));
   }
 
@@ -413,8 +310,8 @@ class GdalParts final : public PartWriter {
     Target own = target_.of_part(part);
     std::unique_lock<std::mutex> alone(projecting_, std::defer_lock);
     if (own.crs.changes_points()) alone.lock();
-    GdalTables tables(own, *rows);
-    Status filled = heard([&] { return source_of(output, own).fill(tables); });
+    RowSink sink(own, *rows);
+    Status filled = heard([&] { return source_of(output, own).fill(sink); });
     if (!filled) return std::move(filled).error();
     return std::shared_ptr<void>(std::move(rows));
   }
@@ -422,25 +319,40 @@ class GdalParts final : public PartWriter {
   Status add(void* prepared) override {
     return heard([&]() -> Status {
       for (const Rows& rows : *static_cast<const std::vector<Rows>*>(prepared))
-        if (Status added = file_.add(rows); !added) return added;
+        if (Status added = file_->add(rows); !added) return added;
       return success();
     });
   }
 
   Status finish() override {
-    if (Status closed = file_.close(); !closed || !temporary_) return closed;
-    return copy_to(*target_.out, temporary_->path());
+    if (Status closed = close(*file_); !closed) return closed;
+    // GDAL leaves a FlatGeobuf empty that has neither features nor an index.
+    std::error_code problem;
+    if (std::filesystem::is_empty(path_, problem)) {
+      std::filesystem::remove(path_, problem);
+      if (Status opened = open(false); !opened) return opened;
+      if (Status closed = close(*file_); !closed) return closed;
+    }
+    return temporary_ ? copy_to(*target_.out, path_) : success();
   }
 
  private:
   explicit GdalParts(Target& target) : target_(target) {}
+  Status open(bool in_parts) {
+    auto opened = open_rows(path_, target_, tables_, in_parts);
+    if (!opened) return std::move(opened).error();
+    file_ = std::move(*opened);
+    return success();
+  }
   static TableSource source_of(const PartOutput& output, const Target& target) {
     return std::visit([&](const auto& own) { return tables_of(own, target); }, output);
   }
 
   Target& target_;
+  std::vector<Table> tables_;
+  std::string path_;
   std::optional<PendingFile> temporary_;
-  GdalFile file_;
+  std::unique_ptr<RowFile> file_;
   std::mutex projecting_;
 };
 
