@@ -124,11 +124,11 @@ int main(int count, char** words) {
     if (!axis) return std::puts(medial::to_string(axis.error()).c_str()), 1;
     edges = axis->edges.size();
   } else {
-    const auto visit = [&](std::size_t, const medial::AxisPart& part) {
+    const auto visit = [&](std::size_t, std::uint64_t, const medial::AxisPart& part) {
       ++parts;
       edges += part.axis.edges.size();
     };
-    const auto done = medial::io::write_in_parts(output, "", file, options, {}, visit);
+    const auto done = medial::io::write_in_parts(output, "", std::move(file), {options}, {}, visit);
     if (!done) return std::puts(medial::to_string(done.error()).c_str()), 1;
   }
   const double seconds = medial::bench::processor_seconds() - begin;

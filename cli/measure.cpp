@@ -431,11 +431,11 @@ Result<std::vector<Measured>> measure_all(const Document<AxisItem>& file, int th
   if (wants_disks_alone(arguments)) return measure_disks(file, threads, arguments);
   auto paths = choose_paths(file, arguments.path, threads);
   if (!paths) return std::move(paths).error();
-  auto all = map_items<Measured>(
-      std::vector<double>(paths->size(), 1.0), threads,
-      [&](std::size_t i, int) { return measure(file.items[i], (*paths)[i], arguments); });
-  if (!all) return in_feature_of(file, std::move(all).error());
-  return all;
+  auto all = map_features<Measured>(
+      file, std::vector<double>(paths->size(), 1.0), threads,
+      [&](std::size_t i, int) { return measure(file.items[i], (*paths)[i], arguments); }, nullptr);
+  if (!all) return std::move(all).error();
+  return std::move(all->items);
 }
 
 /// Without an output file, the result is the table.
@@ -517,8 +517,8 @@ Result<io::MeasuredItems> measure_part(Document<ShapeItem> shapes, int threads, 
     if (wants_disks_alone(arguments)) return without_axes(std::move(shapes));
     Options options =
         engine_options(arguments.common, threads, shapes.corner_angle, arguments.options);
-    return medial::compute_axes(std::move(shapes), std::move(options), &report,
-                                arguments.input.source.read.skip_invalid);
+    return medial::compute_axes(
+        std::move(shapes), {std::move(options), arguments.input.source.read.skip_invalid}, &report);
   }();
   if (!file) return std::move(file).error();
   auto measured = measure_all(*file, threads, arguments);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <memory>
 #include <numbers>
 
@@ -21,12 +22,50 @@ struct NestArguments : FileArguments {
   bool no_mirror = false;
 };
 
-/// The first feature of a file.
-Result<ShapeItem> first_shape(const InputOptions& input, const CommonOptions& common) {
-  auto loaded = load_shapes(input, common);
-  if (!loaded) return std::move(loaded).error();
-  if (loaded->file.items.empty()) return no_shape(input.path);
-  return std::move(loaded->file.items.front());
+/// A file, whose features are tried in order.
+struct Candidates {
+  InputOptions input;
+  Document<ShapeItem> file = {};
+  std::vector<std::string> left_out = {};
+
+  const Shape& shape() const { return file.items[left_out.size()].shape; }
+  Status load(const CommonOptions& common) {
+    auto loaded = load_shapes(input, common);
+    if (!loaded) return std::move(loaded).error();
+    file = std::move(loaded->file);
+    return file.items.empty() ? Status(no_shape(input.path)) : success();
+  }
+  /// An error of the first shape.
+  Error named(Error error) const {
+    error.place.file = input.path;
+    error.place.feature = file.index_of(left_out.size());
+    return error;
+  }
+  /// Leaves the first shape out if its error and the options allow that, and there is another one.
+  Status leave_out(Error error, const CommonOptions& common) {
+    error.place.feature = file.index_of(left_out.size());
+    if (!leave_out_feature(error, skips(input, left_out))) return named(std::move(error));
+    if (left_out.size() < file.items.size()) return success();
+    note_left_out(left_out, input, common);
+    return no_shape(input.path);
+  }
+};
+
+/// Placements of the first shapes that have axes.
+Result<std::vector<Placement>> place(std::array<Candidates, 2>& files,
+                                     const NestArguments& arguments) {
+  while (true) {
+    auto found = nest(files[0].shape(), files[1].shape(), arguments.gap, !arguments.no_mirror,
+                      arguments.best);
+    if (!found && found.error().place.feature) {
+      Candidates& refused = files[*found.error().place.feature];
+      if (Status next = refused.leave_out(found.error(), arguments.common); !next)
+        return std::move(next).error();
+      continue;
+    }
+    for (const Candidates& one : files) note_left_out(one.left_out, one.input, arguments.common);
+    return found;
+  }
 }
 
 /// The fixed shape with the axis of its bays, and the other one in its place with its own axis.
@@ -69,13 +108,11 @@ Result<int> run_nest(const NestArguments& arguments) {
     writable = check_output(arguments.output, arguments.format, formats, arguments.other, false);
   if (!writable) return std::move(writable).error();
   const auto& [input, other, common] = std::tie(arguments.input, arguments.other, arguments.common);
-  const auto fixed = first_shape(first_input(input, other), common);
-  if (!fixed) return fixed.error();
-  const auto moving = first_shape(second_input(input, other), common);
-  if (!moving) return moving.error();
+  std::array files{Candidates{first_input(input, other)}, Candidates{second_input(input, other)}};
+  for (Candidates& one : files)
+    if (Status loaded = one.load(common); !loaded) return std::move(loaded).error();
   phases.end("read");
-  const auto found =
-      nest(fixed->shape, moving->shape, arguments.gap, !arguments.no_mirror, arguments.best);
+  const auto found = place(files, arguments);
   if (!found) return found.error();
   phases.end("nest");
   if (found->empty())
@@ -91,8 +128,8 @@ Result<int> run_nest(const NestArguments& arguments) {
   }
   const Status written =
       write_output(arguments, phases, [&](const std::string& path, const std::string& format) {
-        const auto file = picture_of(fixed->shape, moving->shape, found->front());
-        if (!file) return Status(file.error());
+        const auto file = picture_of(files[0].shape(), files[1].shape(), found->front());
+        if (!file) return Status(files[1].named(file.error()));
         return io::write_axes(path, format, *file, write_options(arguments));
       });
   if (!written) return written.error();
@@ -110,10 +147,12 @@ Command make_nest_command(CLI::App& program) {
   auto arguments = std::make_shared<NestArguments>();
   CLI::App* command =
       program.add_subcommand("nest", "Place a shape so that it interlocks with another one.");
-  add_input_options(*command, arguments->input, "OTHER",
-                    "A file with the shape that is rotated and moved. Both files contribute their\n"
-                    "first feature, which must be connected.",
-                    arguments->other);
+  add_input_options(
+      *command, arguments->input, "OTHER",
+      "A file with the shape that is rotated and moved. Both files contribute their\n"
+      "first feature, which must be connected; with --skip-invalid the first that is\n"
+      "and has an axis.",
+      arguments->other);
   add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::axes));
   add_picture_options(*command, arguments->write);
   add_value(*command, "--gap", arguments->gap, "D", in_range(0, 1e300, true),

@@ -258,7 +258,8 @@ Result<std::size_t> refused_without_axis(const Document<AxisItem>& axes,
       std::ranges::any_of(axes.items, [](const AxisItem& item) { return item.axis.exterior > 0; });
   options = engine_options(common, common.threads, shapes.corner_angle, std::move(options));
   AxesReport refused;
-  const auto computed = medial::compute_axes(std::move(*rest), std::move(options), &refused, true);
+  const auto computed =
+      medial::compute_axes(std::move(*rest), {std::move(options), true}, &refused);
   if (!computed) return computed.error();
   if (!computed->items.empty())
     return error_at(ErrorCode::malformed, axes_path,
@@ -330,9 +331,10 @@ Result<LoadedAxes> compute_axes(LoadedShapes shapes, const InputOptions& input,
   Progress progress("medial axis", error_is_terminal() && !common.quiet);
   options = engine_options(common, common.threads, shapes.file.corner_angle, std::move(options));
   options.progress = progress.callback();
-  auto axes = naming_file(medial::compute_axes(std::move(shapes.file), std::move(options),
-                                               &out.axes, input.source.read.skip_invalid),
-                          input);
+  auto axes = naming_file(
+      medial::compute_axes(std::move(shapes.file),
+                           {std::move(options), input.source.read.skip_invalid}, &out.axes),
+      input);
   if (!axes) return std::move(axes).error();
   out.file = std::move(axes).value();
   out.phases.end("axis");
@@ -442,7 +444,7 @@ void add_to(AxisSummary& summary, const Document<AxisItem>& more) {
   }
 }
 
-void PartsSummary::add(std::size_t shape, const AxisPart& part) {
+void PartsSummary::add(std::size_t shape, std::uint64_t number, const AxisPart& part) {
   if (part.begins) {
     if (shape == 0) *this = {};
     end_shape();
@@ -459,7 +461,7 @@ void PartsSummary::add(std::size_t shape, const AxisPart& part) {
   nodes_ += axis.nodes.size() - part.known;
   edges_ += axis.edges.size();
   summary_.length += total_length(axis);
-  take_deepest(summary_, axis, shape);
+  take_deepest(summary_, axis, number);
 }
 
 void PartsSummary::end_shape() {
@@ -607,8 +609,8 @@ Result<std::optional<int>> stream_axes(
                     AxesReport& report) -> Result<io::StreamItems> {
     Options own = options;
     own.threads = threads;
-    auto axes = medial::compute_axes(std::move(shapes), std::move(own), &report,
-                                     input.source.read.skip_invalid);
+    auto axes = medial::compute_axes(std::move(shapes),
+                                     {std::move(own), input.source.read.skip_invalid}, &report);
     if (!axes) return std::move(axes).error();
     if (change && !axes->items.empty())
       if (Status changed = change(*axes); !changed) return std::move(changed).error();
@@ -638,19 +640,22 @@ Result<std::optional<int>> finish_in_parts(LoadedShapes& shapes, const FileArgum
   Progress progress("medial axis", error_is_terminal() && !common.quiet);
   options = engine_options(common, common.threads, shapes.file.corner_angle, std::move(options));
   options.progress = progress.callback();
-  const auto visit = [&](std::size_t shape, const AxisPart& part) { parts.add(shape, part); };
-  auto report = naming_file(
-      io::write_in_parts(arguments.output, arguments.format, shapes.file, options,
-                         write_options(arguments), visit, input.source.read.skip_invalid),
-      input);
+  const auto visit = [&](std::size_t shape, std::uint64_t number, const AxisPart& part) {
+    parts.add(shape, number, part);
+  };
+  const std::size_t features = shapes.file.items.size();
+  auto report =
+      naming_file(io::write_in_parts(arguments.output, arguments.format, std::move(shapes.file),
+                                     {std::move(options), input.source.read.skip_invalid},
+                                     write_options(arguments), visit),
+                  input);
   if (!report) return std::move(report).error();
   if (!*report) return std::optional<int>();
   out.axes = **report;
   out.axes.statistics.threads = effective_threads(common.threads);
   out.phases.end("axis");
   note_report(out.axes, input, common);
-  AxisSummary summary = parts.finish(shapes.file.items.size(), out.axes.sites);
-  summary.deepest_feature = shapes.file.index_of(summary.deepest_feature);
+  const AxisSummary summary = parts.finish(features - out.axes.left_out.size(), out.axes.sites);
   note_points(parts.points(), arguments);
   if (!is_talkative(arguments)) return std::optional<int>(exit_success);
   auto printed = print_summary(out, summary, arguments);

@@ -32,12 +32,6 @@ struct LoadedAxes {
   Phases phases;  ///< read, shape, axis
 };
 
-/// An error that names an item of a document, in terms of the document's file.
-inline Error in_feature_of(const DocumentInfo& file, Error error) {
-  if (auto& feature = error.place.feature) feature = file.index_of(*feature);
-  return error;
-}
-
 /// How much work each item is, for for_each_item(): by its shape's points, or by its axis's edges.
 template <class Item>
 std::vector<double> weights_of(const Document<Item>& file) {
@@ -72,8 +66,8 @@ void note_left_out(const std::vector<std::string>& left_out, const InputOptions&
                    const CommonOptions& common);
 /// Keeps the results of work(i, threads), which has to stay.
 template <class T>
-std::function<Status(std::size_t i, int threads)> keeping(
-    const std::function<Result<T>(std::size_t i, int threads)>& work, std::vector<T>& results) {
+ItemWork keeping(const std::function<Result<T>(std::size_t i, int threads)>& work,
+                 std::vector<T>& results) {
   return [&](std::size_t i, int threads) -> Status {
     auto result = work(i, threads);
     if (!result) return std::move(result).error();
@@ -95,11 +89,10 @@ Result<Document<T>> map_features(const DocumentInfo& of, std::span<const double>
                                  int threads,
                                  const std::function<Result<T>(std::size_t i, int threads)>& work,
                                  std::vector<std::string>* left_out) {
-  Document<T> made{of, {}};
-  std::vector<T> items(weights.size());
-  const auto kept = for_each_feature(made, weights, threads, keeping(work, items), left_out);
+  Document<T> made{of, std::vector<T>(weights.size())};
+  const auto kept = for_each_feature(of, weights, threads, keeping(work, made.items), left_out);
   if (!kept) return kept.error();
-  for (const std::size_t i : *kept) made.items.push_back(std::move(items[i]));
+  made.keep(*kept);
   return made;
 }
 /// With --skip-invalid, takes those shapes out of `shapes` whose features have none of the axes,
@@ -150,7 +143,7 @@ void add_to(AxisSummary& summary, const Document<AxisItem>& more);
 /// Sums up axes that come in parts, shape by shape.
 class PartsSummary {
  public:
-  void add(std::size_t shape, const AxisPart& part);
+  void add(std::size_t shape, std::uint64_t number, const AxisPart& part);
   /// There are no more parts of so many shapes with so many sites.
   AxisSummary finish(std::size_t shapes, std::uint64_t sites);
   std::uint64_t points() const { return points_; }  ///< axes of one point, at the end

@@ -34,7 +34,7 @@ class InParts : public test::ScratchFolder {
     return file;
   }
   static Document<AxisItem> whole(const Document<ShapeItem>& file) {
-    return compute_axes(file, {}).value();
+    return compute_axes(file).value();
   }
 
   /// The lines of a table, begun at their lower end, with what their rows say.
@@ -100,8 +100,9 @@ TEST_F(InParts, EdgesAreThoseOfTheWhole) {
   std::string expected, text;
   ASSERT_TRUE(write_axes(&expected, "csv", whole(file)));
   std::vector<std::size_t> parts(file.items.size());
-  const auto written = write_in_parts(&text, "csv", file, {}, {},
-                                      [&](std::size_t i, const AxisPart&) { ++parts[i]; });
+  const auto written =
+      write_in_parts(&text, "csv", shapes(), {}, {},
+                     [&](std::size_t i, std::uint64_t, const AxisPart&) { ++parts[i]; });
   ASSERT_TRUE(written && *written);
   EXPECT_GT(parts[0], 2U);
   EXPECT_EQ(parts[1], 1U);
@@ -115,7 +116,7 @@ TEST_F(InParts, BranchesAreWhole) {
     const std::string one = path(std::string("whole.") + format);
     const std::string other = path(std::string("parts.") + format);
     ASSERT_TRUE(write_axes(one, format, whole(file)));
-    const auto written = write_in_parts(other, format, file, {});
+    const auto written = write_in_parts(other, format, Document(file), {});
     ASSERT_TRUE(written && *written) << format;
     const auto expected = rows_of(one), rows = rows_of(other);
     ASSERT_FALSE(expected.empty()) << format;
@@ -168,7 +169,7 @@ TEST_F(InParts, GraphsAreThoseOfTheWhole) {
     const std::string one = path(std::string("whole.") + format);
     const std::string other = path(std::string("parts.") + format);
     ASSERT_TRUE(write_axes(one, format, whole_file)) << format;
-    const auto written = write_in_parts(other, format, file, {});
+    const auto written = write_in_parts(other, format, Document(file), {});
     ASSERT_TRUE(written && *written) << format;
     const auto expected = read_native(one), read = read_native(other);
     ASSERT_TRUE(expected && read) << format;
@@ -197,7 +198,8 @@ TEST_F(InParts, OfWholeGraphsWithArcsThereAreNone) {
   Document<ShapeItem> file;
   file.items.push_back({test::shape_of(test::Rings{test::gear(5, 0.7)}), {}});
   for (const char* format : {"json", "safetensors"}) {
-    const auto written = write_in_parts(path(std::string("arcs.") + format), "", file, {});
+    const auto written =
+        write_in_parts(path(std::string("arcs.") + format), "", Document(file), {});
     ASSERT_TRUE(written) << format;
     EXPECT_FALSE(*written) << format;
   }
@@ -245,9 +247,10 @@ TEST_F(InParts, BeginAgainWhereTheWalkLosesItsWay) {
     const std::string other = path(std::string("parts.") + format);
     ASSERT_TRUE(write_axes(one, format, whole_file));
     std::array<std::vector<bool>, 3> begins;
-    const auto written = write_in_parts(
-        other, format, file, {}, {},
-        [&](std::size_t i, const AxisPart& part) { begins[i].push_back(part.begins); });
+    const auto written = write_in_parts(other, format, Document(file), {}, {},
+                                        [&](std::size_t i, std::uint64_t, const AxisPart& part) {
+                                          begins[i].push_back(part.begins);
+                                        });
     ASSERT_TRUE(written && *written) << format;
     EXPECT_EQ(begins[0], (std::vector{true, true}));
     EXPECT_EQ(begins[1], (std::vector{true, true})) << "the walk finds its way: take another shape";
@@ -291,11 +294,12 @@ TEST_F(InParts, WaitInAFileKindByKind) {
 TEST_F(InParts, OfOtherFormatsAndPipesThereAreNone) {
   auto file = shapes();
   for (const char* name : {"a.gpkg", "a.svg", "a.wkt", "-"}) {
-    const auto written = write_in_parts(name == std::string("-") ? name : path(name), "", file, {});
+    const auto written =
+        write_in_parts(name == std::string("-") ? name : path(name), "", Document(file), {});
     ASSERT_TRUE(written) << name;
     EXPECT_FALSE(*written) << name;
   }
-  const auto silent = write_in_parts("", "", file, {});
+  const auto silent = write_in_parts("", "", Document(file), {});
   ASSERT_TRUE(silent && *silent);
   EXPECT_GT((*silent)->statistics.queries, 0U);
 }
@@ -307,8 +311,8 @@ TEST_F(InParts, BrokenOnesLeaveWhatWasThere) {
     std::atomic<bool> cancel = false;
     Options options;
     options.cancel = &cancel;
-    const auto stop = [&](std::size_t, const AxisPart&) { cancel = true; };
-    const auto written = write_in_parts(name, format, file, options, {}, stop);
+    const auto stop = [&](std::size_t, std::uint64_t, const AxisPart&) { cancel = true; };
+    const auto written = write_in_parts(name, format, Document(file), {options}, {}, stop);
     ASSERT_FALSE(written) << format;
     EXPECT_EQ(written.error().code, ErrorCode::cancelled);
     EXPECT_EQ(content(std::string("a.") + format), "as it was");

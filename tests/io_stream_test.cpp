@@ -48,7 +48,7 @@ class Stream : public test::ScratchFolder {
                         AxesReport& report) -> Result<StreamItems> {
       Options how;
       how.threads = own;
-      auto axes = compute_axes(std::move(shapes), how, &report);
+      auto axes = compute_axes(std::move(shapes), {how}, &report);
       if (!axes) return std::move(axes).error();
       return StreamItems(std::move(*axes));
     };

@@ -254,12 +254,11 @@ TEST(Load, AxesOfManyShapesSumTheirStatistics) {
   auto shapes = load({feature_of({square(0, 2)}), feature_of({square(0, 6), square(1, 5)})});
   ASSERT_TRUE(shapes.ok());
   AxesReport report;
-  const auto axes = compute_axes(std::move(*shapes), {.threads = 2}, &report);
+  const auto axes = compute_axes(std::move(*shapes), {{.threads = 2}}, &report);
   ASSERT_TRUE(axes.ok()) << to_string(axes.error());
   EXPECT_EQ(branch_count(axes->items[0].axis), 4U);
   EXPECT_EQ(report.unresolved, 0U);
   EXPECT_GE(report.statistics.bridges, 1U);
-  EXPECT_EQ(axes->items[0].axis.statistics.seconds, 0);
 }
 
 Status fail_at_some(std::size_t i, int) {
@@ -309,11 +308,11 @@ TEST(Load, FeaturesWithAnErrorOfTheirOwnAreLeftOut) {
 TEST(Load, NoFeatureIsLeftOutWithoutATrace) {
   const Document<ShapeItem> empty{{}, {ShapeItem{}}};
   AxesReport report;
-  const auto axes = compute_axes(empty, {}, &report, true);
+  const auto axes = compute_axes(empty, {{}, true}, &report);
   ASSERT_TRUE(axes.ok());
   EXPECT_TRUE(axes->items.empty());
   EXPECT_EQ(report.left_out.size(), 1U);
-  EXPECT_EQ(compute_axes(empty, {}, nullptr, true).error().code, ErrorCode::empty);
+  EXPECT_EQ(compute_axes(empty, {{}, true}).error().code, ErrorCode::empty);
 }
 
 }  // namespace

@@ -49,6 +49,14 @@ struct DocumentInfo {
 template <class T>
 struct Document : DocumentInfo {
   std::vector<T> items;
+  /// Leaves out all items but these, which are in order and keep their numbers in the file.
+  void keep(const std::vector<std::size_t>& kept) {
+    if (kept.size() == items.size()) return;
+    Document all = std::exchange(*this, {*this, {}});
+    indices.clear();
+    for (const std::size_t i : kept) indices.push_back(all.index_of(i));
+    for (const std::size_t i : kept) items.push_back(std::move(all.items[i]));
+  }
 };
 
 /// A feature's properties besides its geometry: names and values as text, in order.

@@ -15,7 +15,6 @@ struct AxisChange {
 /// the graph of compute(); an edit repairs it where it changes, in O(k log n) for k changed edges.
 /// Vertices keep their numbers; so do sites, nodes and edges, unless AxisChange::everything is set.
 /// A new editor numbers vertices as the shape does.
-///
 /// An edit that fails changes nothing. Errors: crossing (with the place, and an edge's first
 /// vertex), not_finite, too_few_points (of a loop), invalid_option (an unknown vertex), those of
 /// build_shape() and compute(). All is computed again if arcs or many edges begin or cease to

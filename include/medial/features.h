@@ -140,7 +140,7 @@ Result<Shape> placed(const Shape& shape, const Placement& at);  ///< errors: see
 
 /// Placements of `moving` in which the shapes interlock: pairs bays of each (branches of its
 /// exterior's axis) with peninsulas of the other. Returns at most `best` that save area, best
-/// first. Errors: those of compute(); invalid_option (gap); unsupported (several components).
+/// first. Errors: invalid_option (gap); of feature 0 or 1 those of compute(), and unsupported.
 Result<std::vector<Placement>> nest(const Shape& fixed, const Shape& moving, double gap = 0,
                                     bool mirror = true, std::size_t best = 5);
 

@@ -7,24 +7,22 @@
 
 namespace medial {
 
+using ItemWork = std::function<Status(std::size_t i, int threads)>;
 /// Runs work(i, threads) for every item i, on at most `threads` threads in all: first items of
 /// large weight one after another on all threads, then small ones side by side on one thread each.
 /// If work(i) depends on i alone, so does the outcome. Errors: that of the lowest failing item, as
 /// an error of feature i; cancelled (`cancel` was set before the last item began).
-Status for_each_item(std::span<const double> weights, int threads,
-                     const std::function<Status(std::size_t i, int threads)>& work,
+Status for_each_item(std::span<const double> weights, int threads, const ItemWork& work,
                      const std::atomic<bool>* cancel = nullptr);
 
-/// Whether an error is a feature's own: no wrong option, lack of memory, wish to stop or bug.
-bool is_of_feature(const Error& error);
 /// Leaves a feature out with a note if there is `left_out` and the error is the feature's own.
 bool leave_out_feature(const Error& error, std::vector<std::string>* left_out);
-/// for_each_item() for the items of a document; errors name features of its file. Returns the items
-/// that leave_out_feature() does not leave out, and updates `file`.
-Result<std::vector<std::size_t>> for_each_feature(
-    DocumentInfo& file, std::span<const double> weights, int threads,
-    const std::function<Status(std::size_t i, int threads)>& work,
-    std::vector<std::string>* left_out, const std::atomic<bool>* cancel = nullptr);
+/// for_each_item() of a document; errors name features of its file. Returns what is not left out.
+Result<std::vector<std::size_t>> for_each_feature(const DocumentInfo& file,
+                                                  std::span<const double> weights, int threads,
+                                                  const ItemWork& work,
+                                                  std::vector<std::string>* left_out,
+                                                  const std::atomic<bool>* cancel = nullptr);
 
 /// The rule for what is inside where rings cross or overlap.
 enum class RepairRule : std::uint8_t {
@@ -89,10 +87,12 @@ struct AxesReport {
   std::vector<std::string> left_out;  ///< a note on each feature left out
 };
 
+struct AxesOptions : Options {
+  bool skip_invalid = false;  ///< leaves out features whose axis fails, if there is a report
+};
 /// The axis of every shape by compute(); `threads`, `progress` and `cancel` apply to all together.
-/// Pixels are Document::pixel by default; statistics have no times. Errors: those of compute(), but
-/// with `skip_invalid` not those of a feature if there is a report, which names it.
-Result<Document<AxisItem>> compute_axes(Document<ShapeItem> shapes, Options options = {},
-                                        AxesReport* report = nullptr, bool skip_invalid = false);
+/// Pixels are Document::pixel by default. Errors: those of compute().
+Result<Document<AxisItem>> compute_axes(Document<ShapeItem> shapes, AxesOptions options = {},
+                                        AxesReport* report = nullptr);
 
 }  // namespace medial

@@ -109,10 +109,9 @@ class RowsOfAxes final : public AxisWriter {
 /// Computes the axes of a document's shapes one after another, and hands out their parts.
 class PartsOfAxes {
  public:
-  PartsOfAxes(Document<ShapeItem>& shapes, const Options& options, const PartVisitor& visit,
-              bool skip_invalid)
-      : shapes_(shapes), options_(options), visit_(visit), skip_invalid_(skip_invalid) {
-    for (const ShapeItem& item : shapes.items)
+  PartsOfAxes(Document<ShapeItem> shapes, const AxesOptions& options, const PartVisitor& visit)
+      : shapes_(std::move(shapes)), options_(options), visit_(visit) {
+    for (const ShapeItem& item : shapes_.items)
       all_points_ += static_cast<double>(item.shape.points.size());
   }
 
@@ -133,6 +132,7 @@ class PartsOfAxes {
   bool take_again() { return std::exchange(again_, false); }
   const std::optional<Error>& own_error() const { return own_error_; }
   const AxesReport& report() const { return report_; }
+  const Document<ShapeItem>& shapes() const { return shapes_; }  ///< those that are not left out
 
  private:
   Status write_item(std::size_t i, AxisWriter& writer) {
@@ -142,7 +142,7 @@ class PartsOfAxes {
       if (part.begins && std::exchange(begun, true)) return begin_again(i, std::move(part));
       if (part.begins)
         if (Status ready = writer.begin(); !ready) return ready;
-      if (visit_) visit_(i, part);
+      if (visit_) visit_(i, shapes_.index_of(i), part);
       return writer.add(std::move(part));
     };
     Statistics statistics;
@@ -154,7 +154,8 @@ class PartsOfAxes {
       done = compute(i, take, statistics);
     }
     done_points_ += static_cast<double>(shapes_.items[i].shape.points.size());
-    if (own_error_ && leave_out_feature(*own_error_, skip_invalid_ ? &left_out_ : nullptr)) {
+    if (own_error_ &&
+        leave_out_feature(*own_error_, options_.skip_invalid ? &left_out_ : nullptr)) {
       own_error_.reset();
       drop(i);
       again_ = begun;
@@ -167,13 +168,10 @@ class PartsOfAxes {
   }
 
   void drop(std::size_t i) {
-    if (shapes_.indices.empty()) {
-      shapes_.indices.resize(shapes_.items.size());
-      std::iota(shapes_.indices.begin(), shapes_.indices.end(), std::uint64_t{0});
-    }
-    const auto at = static_cast<std::ptrdiff_t>(i);
-    shapes_.indices.erase(shapes_.indices.begin() + at);
-    shapes_.items.erase(shapes_.items.begin() + at);
+    std::vector<std::size_t> others(shapes_.items.size());
+    std::iota(others.begin(), others.end(), std::size_t{0});
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    shapes_.keep(others);
   }
 
   Status compute(std::size_t i, const AxisSink& take, Statistics& statistics) {
@@ -207,10 +205,9 @@ class PartsOfAxes {
     return Error{ErrorCode::internal, "the walk has restarted: please report this shape", {}};
   }
 
-  Document<ShapeItem>& shapes_;
-  const Options& options_;
+  Document<ShapeItem> shapes_;
+  const AxesOptions& options_;
   const PartVisitor& visit_;
-  bool skip_invalid_;
   std::vector<std::string> left_out_;
   double done_points_ = 0, all_points_ = 0;
   bool again_ = false;
@@ -275,11 +272,9 @@ void take_whole_numbers(AxisPart& part) {
                    axis.nodes.begin() + static_cast<std::ptrdiff_t>(part.known));
 }
 
-Result<std::optional<AxesReport>> write_in_parts(const Destination& target,
-                                                 const std::string& format,
-                                                 Document<ShapeItem>& shapes,
-                                                 const Options& options, const WriteOptions& write,
-                                                 const PartVisitor& visit, bool skip_invalid) {
+Result<std::optional<AxesReport>> write_in_parts(
+    const Destination& target, const std::string& format, Document<ShapeItem>&& shapes,
+    const AxesOptions& options, const WriteOptions& write, const PartVisitor& visit) {
   constexpr DocumentKind axes = DocumentKind::axes;
   const bool silent = target.path.empty();
   if (!silent) {
@@ -289,16 +284,17 @@ Result<std::optional<AxesReport>> write_in_parts(const Destination& target,
   }
   if (!(write.chord > 0) || !std::isfinite(write.chord))
     return Error{ErrorCode::invalid_option, "chord is not a positive number", {}};
-  PartsOfAxes parts(shapes, options, visit, skip_invalid);
+  const DocumentInfo info = shapes;
+  PartsOfAxes parts(std::move(shapes), options, visit);
   NoAxes none;
   const auto write_file = [&]() -> Status {
     if (silent) return parts.write_all(none);
     Result<std::string> folder = folder_of(target);
     if (!folder) return std::move(folder).error();
-    const GrowingFrame frame{shapes, options, *std::move(folder)};
+    const GrowingFrame frame{parts.shapes(), options, *std::move(folder)};
     return write_target(
         target, format,
-        {axes, "json", "medial", shapes.crs_wkt, shapes.unit, write.overwrite, write.layer},
+        {axes, "json", "medial", info.crs_wkt, info.unit, write.overwrite, write.layer},
         [&](Target& to, const Format& chosen) {
           return write_once(parts, to, chosen, frame, write);
         });

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/counted.h"
+#include "load/left_out.h"
 
 namespace medial::io {
 
@@ -61,35 +62,21 @@ Status check_finite(const Feature& feature, std::size_t index) {
   return *error;
 }
 
-/// Leaves the other features out; those that stay keep their numbers in the file. Returns how many
-/// went.
-std::size_t keep(Document<Feature>& document, const std::vector<bool>& kept) {
-  const auto staying = static_cast<std::size_t>(std::ranges::count(kept, true));
-  const std::size_t before = document.items.size();
-  if (staying == before) return 0;
-  std::vector<Feature> items;
-  std::vector<std::uint64_t> indices;
-  for (std::size_t i = 0; i < before; ++i) {
-    if (!kept[i]) continue;
-    indices.push_back(document.index_of(i));
-    items.push_back(std::move(document.items[i]));
-  }
-  document.items = std::move(items);
-  document.indices = std::move(indices);
-  return before - staying;
-}
-
 /// Leaves out what fails, with a note each if that may be skipped. Returns how many went.
 Result<std::size_t> keep_valid(Document<Feature>& document, bool skip_invalid,
                                const std::function<Status(Feature&, std::uint64_t)>& check) {
-  std::vector<bool> valid;
-  for (std::size_t i = 0; i < document.items.size(); ++i) {
+  const std::size_t before = document.items.size();
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < before; ++i) {
     const Status status = check(document.items[i], document.index_of(i));
     if (!status && !skip_invalid) return status.error();
-    valid.push_back(status.ok());
-    if (!status) document.notes.push_back("left out: " + to_string(status.error()));
+    if (status)
+      kept.push_back(i);
+    else
+      document.notes.push_back(note_of_left_out(status.error()));
   }
-  return keep(document, valid);
+  document.keep(kept);
+  return before - kept.size();
 }
 
 /// Whether any feature is left, with a note on how many went.
@@ -132,10 +119,12 @@ Status FeatureChecks::check(Document<Feature>& part) {
   const Result<std::size_t> dropped = keep_valid(part, options_.skip_invalid, check_finite);
   if (!dropped) return dropped.error();
   invalid_ += *dropped;
-  std::vector<bool> kept;
-  for (const Feature& feature : part.items) kept.push_back(!is_empty(feature));
-  empty_ += keep(part, kept);
-  left_ += part.items.size();
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < part.items.size(); ++i)
+    if (!is_empty(part.items[i])) kept.push_back(i);
+  empty_ += part.items.size() - kept.size();
+  part.keep(kept);
+  left_ += kept.size();
   for (const Feature& feature : part.items) unclosed_ += unclosed_rings(feature);
   return success();
 }

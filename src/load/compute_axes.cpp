@@ -9,7 +9,6 @@
 #include "axis/statistics.h"
 #include "base/disjoint_sets.h"
 #include "base/threads.h"
-#include "load/file_index.h"
 #include "load/progress.h"
 #include "load/threads_of.h"
 #include "medial/load.h"
@@ -48,29 +47,21 @@ std::uint32_t pixels_for(const AxisItem& item) {
   return pixels > 0 ? pixels : std::numeric_limits<std::uint32_t>::max();
 }
 
-/// Documents hold nothing that differs from run to run.
-void forget_times(Statistics& statistics) {
-  statistics.threads = 1;
-  statistics.seconds_sites = statistics.seconds_tree = statistics.seconds_connect = 0;
-  statistics.seconds_walk = statistics.seconds_collect = statistics.seconds = 0;
-}
-
 }  // namespace
 
-Result<Document<AxisItem>> compute_axes(Document<ShapeItem> shapes, Options options,
-                                        AxesReport* report, bool skip_invalid) {
+Result<Document<AxisItem>> compute_axes(Document<ShapeItem> shapes, AxesOptions options,
+                                        AxesReport* report) {
   std::visit(
       [&](auto& own) {
         if constexpr (requires { own.grid; })
           if (own.grid.resolution == 0 && own.grid.pixels == 0) own.grid.resolution = shapes.pixel;
       },
       options.method);
-  Document<AxisItem> axes{shapes, {}};
   std::vector<double> weights;
   for (const ShapeItem& item : shapes.items)
     weights.push_back(static_cast<double>(item.shape.points.size()));
   SharedProgress progress(options.progress, std::accumulate(weights.begin(), weights.end(), 0.0));
-  std::vector<AxisItem> items(shapes.items.size());
+  Document<AxisItem> axes{shapes, std::vector<AxisItem>(shapes.items.size())};
   const auto compute_one = [&](std::size_t i, int threads) -> Status {
     ShapeItem& from = shapes.items[i];
     Options own = options;
@@ -79,17 +70,17 @@ Result<Document<AxisItem>> compute_axes(Document<ShapeItem> shapes, Options opti
     auto axis = compute(from.shape, own, from.contours);
     if (own.progress) own.progress(1.0);
     if (!axis) return std::move(axis).error();
-    items[i] = {std::move(from.shape), std::move(axis).value(), std::move(from.attributes)};
+    axes.items[i] = {std::move(from.shape), std::move(axis).value(), std::move(from.attributes)};
     return success();
   };
   // What samples a shape may have much to do with few points.
   const bool sampled = info_of(options.method).sampling != Sampling::curves;
   const int threads = sampled ? options.threads : threads_of(weights, options);
   AxesReport sum;
-  auto* left_out = skip_invalid && report != nullptr ? &sum.left_out : nullptr;
-  auto kept = for_each_feature(axes, weights, threads, compute_one, left_out, options.cancel);
-  if (!kept) return std::move(kept).error();
-  axes.items = items_at(std::move(items), *kept);
+  auto* left_out = options.skip_invalid && report != nullptr ? &sum.left_out : nullptr;
+  const auto kept = for_each_feature(axes, weights, threads, compute_one, left_out, options.cancel);
+  if (!kept) return kept.error();
+  axes.keep(*kept);
 
   const std::string_view asked = name_of(options.method);
   for (AxisItem& item : axes.items) {
@@ -98,7 +89,6 @@ Result<Document<AxisItem>> compute_axes(Document<ShapeItem> shapes, Options opti
     const std::uint64_t unresolved = unresolved_in(item);
     sum.unresolved += unresolved;
     if (unresolved > 0 && report != nullptr) sum.pixels = std::max(sum.pixels, pixels_for(item));
-    forget_times(item.axis.statistics);
   }
   sum.statistics.threads = effective_threads(options.threads);
   if (report != nullptr) *report = sum;

@@ -3,13 +3,12 @@
 
 #include "base/in_flight.h"
 #include "base/threads.h"
-#include "load/file_index.h"
+#include "load/left_out.h"
 #include "medial/load.h"
 
 namespace medial {
 
-Status for_each_item(std::span<const double> weights, int threads,
-                     const std::function<Status(std::size_t, int)>& work,
+Status for_each_item(std::span<const double> weights, int threads, const ItemWork& work,
                      const std::atomic<bool>* cancel) {
   const std::size_t count = weights.size();
   std::vector<std::optional<Error>> errors(count);
@@ -50,22 +49,20 @@ Status for_each_item(std::span<const double> weights, int threads,
   return std::move(*errors[lowest_error.load()]);
 }
 
-bool is_of_feature(const Error& error) {
-  using enum ErrorCode;
-  return error.code != cancelled && error.code != out_of_memory && error.code != invalid_option &&
-         error.code != internal;
-}
-
 bool leave_out_feature(const Error& error, std::vector<std::string>* left_out) {
-  if (left_out == nullptr || !is_of_feature(error)) return false;
+  using enum ErrorCode;
+  if (left_out == nullptr || error.code == cancelled || error.code == out_of_memory ||
+      error.code == invalid_option || error.code == internal)
+    return false;
   left_out->push_back(note_of_left_out(error));
   return true;
 }
 
-Result<std::vector<std::size_t>> for_each_feature(
-    DocumentInfo& file, std::span<const double> weights, int threads,
-    const std::function<Status(std::size_t i, int threads)>& work,
-    std::vector<std::string>* left_out, const std::atomic<bool>* cancel) {
+Result<std::vector<std::size_t>> for_each_feature(const DocumentInfo& file,
+                                                  std::span<const double> weights, int threads,
+                                                  const ItemWork& work,
+                                                  std::vector<std::string>* left_out,
+                                                  const std::atomic<bool>* cancel) {
   std::vector<std::vector<std::string>> notes(weights.size());
   const auto attempt = [&](std::size_t i, int own_threads) -> Status {
     Status done = work(i, own_threads);
@@ -73,19 +70,17 @@ Result<std::vector<std::size_t>> for_each_feature(
     done.error().place.feature = file.index_of(i);
     return leave_out_feature(done.error(), left_out ? &notes[i] : nullptr) ? success() : done;
   };
-  if (Status done = for_each_item(weights, threads, attempt, cancel); !done)
-    return in_file_of(file, std::move(done).error());
-  std::vector<std::size_t> kept;
-  std::vector<std::uint64_t> indices;
-  for (std::size_t i = 0; i < notes.size(); ++i) {
-    if (notes[i].empty()) {
-      kept.push_back(i);
-      indices.push_back(file.index_of(i));
-    } else {
-      left_out->push_back(std::move(notes[i].front()));
-    }
+  if (Status done = for_each_item(weights, threads, attempt, cancel); !done) {
+    std::size_t& feature = *done.error().place.feature;
+    feature = file.index_of(feature);
+    return std::move(done).error();
   }
-  if (kept.size() < notes.size()) file.indices = std::move(indices);
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < notes.size(); ++i)
+    if (notes[i].empty())
+      kept.push_back(i);
+    else
+      left_out->push_back(std::move(notes[i].front()));
   return kept;
 }
 

@@ -8,7 +8,7 @@
 #include "base/counted.h"
 #include "curve/bezier.h"
 #include "curve/fit.h"
-#include "load/file_index.h"
+#include "load/left_out.h"
 #include "load/progress.h"
 #include "load/suited_arcs.h"
 #include "load/threads_of.h"
@@ -234,27 +234,27 @@ Result<ShapeItem> load_valid_polygons(Feature left, std::size_t index, const Loa
 /// all.
 Status take_valid(std::vector<Attempt> attempts, const Document<Feature>& features,
                   const LoadOptions& options, Document<ShapeItem>& shapes) {
-  std::vector<std::uint64_t> indices;
+  std::vector<std::size_t> kept;
   std::optional<Error> first;
   for (std::size_t i = 0; i < attempts.size(); ++i) {
     Attempt& attempt = attempts[i];
     std::move(attempt.notes.begin(), attempt.notes.end(), std::back_inserter(shapes.notes));
+    shapes.items.push_back(std::move(attempt.item));
     if (!attempt.error) {
-      shapes.items.push_back(std::move(attempt.item));
-      indices.push_back(features.index_of(i));
+      kept.push_back(i);
       continue;
     }
     attempt.error->place.feature = features.index_of(i);
     shapes.notes.push_back(note_of_left_out(*attempt.error));
     if (!first) first = std::move(attempt.error);
   }
-  const std::size_t dropped = attempts.size() - shapes.items.size();
+  const std::size_t dropped = attempts.size() - kept.size();
   if (dropped == 0) return success();
+  shapes.keep(kept);
   if (shapes.items.empty() && !options.part && !options.skip_invalid) {
     first->text += "; no feature is valid, so nothing is left";
     return *first;
   }
-  shapes.indices = std::move(indices);
   if (options.part) return success();
   shapes.notes.push_back(invalid_left_out(dropped, attempts.size()) +
                          (is_tangled(*first) ? "; --repair repairs such rings" : ""));
@@ -304,9 +304,9 @@ Result<Document<ShapeItem>> load_shapes(Document<Feature> features, const LoadOp
     attempt.error = std::move(item).error();
     return success();
   };
-  if (Status done = for_each_item(weights, threads_of(weights, options), load, options.cancel);
-      !done)
-    return in_file_of(features, std::move(done).error());
+  const auto loaded = for_each_feature(features, weights, threads_of(weights, options), load,
+                                       nullptr, options.cancel);
+  if (!loaded) return loaded.error();
   LoadReport sum;
   std::size_t outlines = 0, places = 0;
   for (std::size_t i = 0; i < count; ++i) {

@@ -301,9 +301,13 @@ Result<std::vector<Placement>> nest(const Shape& fixed, const Shape& moving, dou
                                     bool mirror, std::size_t best) {
   if (!(gap >= 0) || !std::isfinite(gap))
     return Error{ErrorCode::invalid_option, "the gap must be finite and not negative", {}};
-  const auto one = part_of(fixed), two = part_of(moving);
-  if (!one) return one.error();
-  if (!two) return two.error();
+  std::array parts{part_of(fixed), part_of(moving)};
+  for (std::size_t i = 0; i < 2; ++i)
+    if (!parts[i]) {
+      parts[i].error().place.feature = i;
+      return parts[i].error();
+    }
+  const auto& [one, two] = parts;
   // Disks that are sampled leave dents.
   const Nesting nesting(*one, *two, gap + 1e-4 * std::min(one->size, two->size));
   std::vector<Placement> found;

@@ -332,14 +332,35 @@ class Inputs(CommandLine):
         for command in (["verify", "fewer.json", "a.json"], ["rebuild", "a.json", "--against", "fewer.json"]):
             self.assertIn("fewer.json: holds no shape of feature 2", self.refuse("malformed", *command, "--skip-invalid"))
 
+    def test_nest_takes_the_first_features_that_can_be_computed(self):
+        lens = json.loads(self.read(self.refused_in_the_middle()))
+        def polygon(*points):
+            return {"contours": [{"start": points[0], "pieces": [["line", *p] for p in (*points[1:], points[0])]}]}
+        slot = polygon((0, 0), (60, 0), (60, 40), (42, 40), (38, 12), (22, 12), (18, 40), (0, 40))
+        tee = polygon((0, 0), (14, 0), (17, 30), (45, 33), (45, 47), (-28, 47), (-28, 33), (-3, 30))
+        self.write("tee.json", json.dumps({"medial": 2, "items": [tee]}))
+        self.write("slot.json", json.dumps({"medial": 2, "items": [slot]}))
+        self.write("late.json", json.dumps({"medial": 2, "items": [lens["items"][1], slot]}))
+        nest = lambda *files: json.loads(self.succeed("nest", *files, "--skip-invalid", "--json").stdout)["placements"]
+        self.assertEqual(nest("late.json", "tee.json"), nest("slot.json", "tee.json"))
+        self.assertEqual(nest("tee.json", "late.json"), nest("tee.json", "slot.json"))
+        done = self.succeed("nest", "late.json", "tee.json", "--skip-invalid")
+        self.assertIn("late.json: note: 1 feature could not be computed", done.stderr.decode())
+        self.assertIn("late.json: feature 0, ring 0", self.refuse("crossing", "nest", "tee.json", "late.json"))
+
     def test_nothing_may_be_left_to_compute(self):
         lens = json.loads(self.read(self.refused_in_the_middle()))
         self.write("alone.json", json.dumps({"medial": 2, "items": lens["items"][1:2]}))
         for name in self.supported("b.json", "b.geojson", "b.gpkg", "b.csv", "b.svg"):
             notes = self.succeed("axis", "alone.json", "--skip-invalid", "-o", name).stderr.decode()
             self.assertIn("1 feature could not be computed and was left out", notes)
+        for name in self.supported("b.fgb", "b.geojson"):
+            self.succeed("axis", "alone.json", "--skip-invalid", "--quiet", "-o", name)
+            whole = self.read(name)
+            self.succeed("axis", "alone.json", "--skip-invalid", "--quiet", "--parts", "-o", name)
+            self.assertEqual(self.read(name), whole, name)
         for command, *more in (["carve", "--angle", "60"], ["compare"], ["pack", "-o", "t.mpk"],
-                               ["match", "b.json"], ["measure", "--from", "0,0", "--to", "1,1"]):  # fmt: skip
+                               ["match", "b.json"], ["nest", "alone.json"], ["measure", "--from", "0,0", "--to", "1,1"]):  # fmt: skip
             self.refuse("empty", command, "alone.json", "--skip-invalid", "--quiet", *more)
         # An option that suits no feature is no feature's fault.
         self.refuse("invalid_option", "axis", "b.json", "--tolerance", "1", "--skip-invalid")

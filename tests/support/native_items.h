@@ -69,8 +69,6 @@ inline AxisItem rectangle() {
   add(3, 4, 2, 3);
   add(4, 5, 2, 0);
   axis.statistics.queries = 12;
-  axis.statistics.seconds = 0.1;
-  axis.statistics.threads = 2;
   return item;
 }
 
@@ -138,8 +136,6 @@ inline void expect_same(const AxisItem& a, const AxisItem& b) {
     EXPECT_TRUE(same_bits(a.axis.edges[i].weight, b.axis.edges[i].weight));
   }
   EXPECT_EQ(a.axis.statistics.queries, b.axis.statistics.queries);
-  EXPECT_EQ(a.axis.statistics.threads, b.axis.statistics.threads);
-  EXPECT_TRUE(same_bits(a.axis.statistics.seconds, b.axis.statistics.seconds));
 }
 
 /// One triangle of longitudes and latitudes.

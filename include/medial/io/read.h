@@ -15,8 +15,7 @@ struct ImageOptions {
   /// (128 for 8 bits, 0.5 for real numbers and 32 bits, any set bit for 1 bit); for 0 and 1, 1.
   std::optional<double> threshold;
   bool invert = false;  ///< pixels below the threshold are foreground instead
-  /// read_document(): makes a feature of each value except 0, with the attribute `value`.
-  bool labels = false;
+  bool labels = false;  ///< read_document(): makes a feature of each `value` (attribute) but 0
 };
 
 struct ReadOptions {
@@ -24,9 +23,8 @@ struct ReadOptions {
   std::string where;  ///< attribute filter of OGR SQL; empty: all
   /// make_valid repairs polygons of straight edges by GEOS; load_shapes() repairs the rest.
   RepairRule repair = RepairRule::none;
-  /// Leaves out features that cannot be read, repaired or made a shape, with a note each.
-  bool skip_invalid = false;
-  std::string crs;  ///< "EPSG:n" or WKT; overrides the file's own; empty: the file's
+  bool skip_invalid = false;  ///< leaves out what cannot be read, repaired, or made a shape
+  std::string crs;            ///< "EPSG:n" or WKT; overrides the file's own; empty: the file's
   /// Projects degrees, and plane coordinates whose lengths are off by 1 %, to metres, all alike: up
   /// to 300 km from their middle by transverse Mercator (conformal: disks stay disks), else by
   /// azimuthal equal-area. Without a reference system, what can be degrees counts as WGS 84.
@@ -92,8 +90,7 @@ bool is_voronoi(const std::string& path);
 Result<Document<VoronoiItem>> read_voronoi(const std::string& path);
 struct ImageFile : PlacedImage, DocumentInfo {};
 bool is_image(const std::string& path);  ///< whether read_image() reads it, by its first bytes
-/// The image that a ROS map refers to, which is read with it; empty for other files.
-std::string image_of_map(const std::string& path);
+std::string image_of_map(const std::string& path);  ///< that a ROS map refers to; or empty
 
 /// A binary image: PBM (set bits are the foreground) and PGM, gzipped or not, or PNG, JPEG, BMP,
 /// WebP, GIF, TIFF and GeoTIFF through GDAL, or a ROS map's free cells. Colours count by luminance
@@ -126,8 +123,7 @@ Result<Document<AxisItem>> native_of(const PackFile& file,
 struct BuildInfo {
   Attributes libraries;    ///< names and versions loaded, which may be newer than at build time
   std::string extensions;  ///< read without GDAL, such as ".json .svg"
-  /// GDAL's names of the formats that it reads as features, and as images.
-  std::vector<std::string> vectors, rasters;
+  std::vector<std::string> vectors, rasters;  ///< GDAL's names of what it reads: features, images
   bool projections = false;  ///< whether PROJ finds its database, which --project needs
 };
 BuildInfo build_info();

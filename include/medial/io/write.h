@@ -62,15 +62,13 @@ struct WriteOptions {
 Status write_axes(const Destination& target, const std::string& format,
                   const Document<AxisItem>& file, const WriteOptions& options = {});
 
-/// Gets parts of axes, shape by shape; where the first shape's begins, all before are void.
-using PartVisitor = std::function<void(std::size_t shape, const AxisPart& part)>;
-/// Computes axes and writes them as they grow, in the order of parts; without a name nowhere. No
-/// report where the format (formats_of(axes, true)) or a native file's axis has no parts. With
-/// `skip_invalid`, drops shapes as compute_axes() does.
+/// Gets parts of axes, shape by numbered shape; where the first one's begins, all before are void.
+using PartVisitor = std::function<void(std::size_t shape, std::uint64_t number, const AxisPart&)>;
+/// compute_axes(), written as the axes grow; without a name nowhere. No report, and `shapes` as it
+/// was, where the format (formats_of(axes, true)) or a native file's axis has no parts.
 Result<std::optional<AxesReport>> write_in_parts(
-    const Destination& target, const std::string& format, Document<ShapeItem>& shapes,
-    const Options& options, const WriteOptions& write = {}, const PartVisitor& visit = {},
-    bool skip_invalid = false);
+    const Destination& target, const std::string& format, Document<ShapeItem>&& shapes,
+    const AxesOptions& options, const WriteOptions& write = {}, const PartVisitor& visit = {});
 
 /// Shapes: .json (native), .svg (up to the shift of its viewport), .dxf (polylines with bulges) and
 /// .wkt (one geometry per line; with arcs a MULTISURFACE) are lossless; .geojson has chords.
@@ -135,8 +133,7 @@ struct CutReport {
 };
 CutReport report_of(const Document<CarveItem>& file, const MachineOptions& machine);
 
-/// Moves the point `zero` of the drawing to the origin, and makes y point up.
-void place(Document<CarveItem>& file, Vec2 zero);
+void place(Document<CarveItem>& file, Vec2 zero);  ///< moves `zero` to the origin, y upwards
 
 /// Tool paths: .nc .gcode .ngc (G-code: G0 G1 G2 G3, absolute, G20 in inches and G21 otherwise, XY
 /// plane, arcs by I and J, six decimals), .csv (path, kind, x, y, z), .dxf (space polylines on a

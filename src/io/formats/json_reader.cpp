@@ -126,10 +126,7 @@ void read_statistics(json::value value, Statistics& statistics) {
     json::value content = field.value();
     for (const auto& [name, count] : statistics_counts)
       if (key == name) statistics.*count = integer<std::uint64_t>(content);
-    for (const auto& [name, seconds] : statistics_times)
-      if (key == name) statistics.*seconds = number(content);
     if (key == "largest_residual") statistics.largest_residual = number(content);
-    if (key == "threads") statistics.threads = integer<int>(content);
   }
 }
 

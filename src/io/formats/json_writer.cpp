@@ -131,20 +131,17 @@ void put_edge(OutputStream& out, const Edge& edge, bool plain) {
   }
 }
 
+/// Counts only: a file holds nothing that differs from run to run.
 void put_statistics(OutputStream& out, const Statistics& statistics) {
   out.put(",\n\"statistics\":{");
-  const auto member = [&](const char* name, auto value) {
-    put_quoted(out, name);
-    out.put(':');
-    out.put(value);
-    out.put(',');
-  };
   for (const auto& [name, count] : statistics_counts)
-    if (statistics.*count != 0 || !std::string_view(name).starts_with("exact_"))
-      member(name, statistics.*count);
-  member("largest_residual", statistics.largest_residual);
-  for (const auto& [name, seconds] : statistics_times) member(name, statistics.*seconds);
-  put_member(out, "\"threads\":", statistics.threads);
+    if (statistics.*count != 0 || !std::string_view(name).starts_with("exact_")) {
+      put_quoted(out, name);
+      out.put(':');
+      out.put(statistics.*count);
+      out.put(',');
+    }
+  put_member(out, "\"largest_residual\":", statistics.largest_residual);
   out.put('}');
 }
 
