@@ -282,19 +282,20 @@ TEST(Load, ItemsRunSideBySideAndTheLowestErrorWins) {
 
 TEST(Load, FeaturesWithAnErrorOfTheirOwnAreLeftOut) {
   const std::vector<double> weights(10, 1.0);
-  DocumentInfo file;
+  Document<int> file;
   file.indices = {0, 1, 2, 3, 4, 15, 16, 17, 18, 19};
-  DocumentInfo all = file;
-  const auto none = for_each_feature(all, weights, 4, fail_at_some, nullptr);
+  file.items = {0, 10, 20, 30, 40, 50, 60, 70, 80, 90};
+  const auto none = for_each_feature(file, weights, 4, fail_at_some, nullptr);
   ASSERT_FALSE(none.ok());
   EXPECT_EQ(none.error().place.feature, 15U);
-  EXPECT_EQ(all.indices, file.indices);
 
   std::vector<std::string> left_out;
   const auto kept = for_each_feature(file, weights, 4, fail_at_some, &left_out);
   ASSERT_TRUE(kept.ok());
   EXPECT_EQ(*kept, (std::vector<std::size_t>{0, 1, 2, 3, 4, 6, 7, 8, 9}));
+  file.keep(*kept);
   EXPECT_EQ(file.indices, (std::vector<std::uint64_t>{0, 1, 2, 3, 4, 16, 17, 18, 19}));
+  EXPECT_EQ(file.items, (std::vector<int>{0, 10, 20, 30, 40, 60, 70, 80, 90}));
   EXPECT_EQ(left_out, std::vector<std::string>{"left out: feature 15: nothing [empty]"});
 
   // What would end all others, too, ends everything.
@@ -303,6 +304,15 @@ TEST(Load, FeaturesWithAnErrorOfTheirOwnAreLeftOut) {
     const auto stop = [&](std::size_t, int) -> Status { return Error{code, "stop", {}}; };
     EXPECT_FALSE(for_each_feature(file, weights, 2, stop, &left_out).ok());
   }
+}
+
+TEST(Load, WhereAllStayThereAreNoNumbers) {
+  Document<int> file{{}, {1, 2}};
+  file.keep({0, 1});
+  EXPECT_TRUE(file.indices.empty());
+  file.keep({1});
+  EXPECT_EQ(file.indices, std::vector<std::uint64_t>{1});
+  EXPECT_EQ(file.items, std::vector<int>{2});
 }
 
 TEST(Load, NoFeatureIsLeftOutWithoutATrace) {

@@ -107,6 +107,12 @@ TEST(Nest, HolesDoNotHidePeninsulas) {
 TEST(Nest, RefusesWhatCannotBe) {
   for (const double gap : {-1.0, std::nan(""), HUGE_VAL})
     EXPECT_EQ(nest(slotted(), tee(), gap).error().code, ErrorCode::invalid_option) << gap;
+  std::vector<Ring> rings(2);
+  rings[0].points = {{0, 0}, {1, 0}, {0, 1}};
+  rings[1].points = {{5, 0}, {6, 0}, {5, 1}};
+  const Shape two = *build_shape(rings);
+  EXPECT_EQ(nest(two, tee()).error().place.feature, 0U);
+  EXPECT_EQ(nest(tee(), two).error().place.feature, 1U);
   Placement far;
   far.move = {1e120, 0};
   EXPECT_FALSE(placed(tee(), far).ok());  // all of it is one point there
