@@ -199,9 +199,9 @@ Result<std::unique_ptr<RowFile>> open_rows(const std::string& path, const Target
   auto layers = create_layers(*dataset, target, tables, in_parts, messages);
   if (!layers) return std::move(layers).error();
   const OpenRows open_faster = faster_than_gdal(target.format);
-  if (open_faster == nullptr) return rows_of_gdal(std::move(dataset), *layers);
-  dataset.reset();
+  if (open_faster != nullptr) dataset.reset();
   if (!messages.failure().empty()) return cannot_write(messages);
+  if (open_faster == nullptr) return rows_of_gdal(std::move(dataset), *layers);
   auto rows = open_faster(path, *layers, !adds);
   if (rows && !messages.failure().empty()) return cannot_write(messages);
   return rows;
@@ -318,8 +318,10 @@ class GdalParts final : public PartWriter {
 
   Status add(void* prepared) override {
     return heard([&]() -> Status {
-      for (const Rows& rows : *static_cast<const std::vector<Rows>*>(prepared))
+      for (const Rows& rows : *static_cast<const std::vector<Rows>*>(prepared)) {
+        is_empty_ = is_empty_ && rows.size() == 0;
         if (Status added = file_->add(rows); !added) return added;
+      }
       return success();
     });
   }
@@ -328,7 +330,7 @@ class GdalParts final : public PartWriter {
     if (Status closed = close(*file_); !closed) return closed;
     // GDAL leaves a FlatGeobuf empty that has neither features nor an index.
     std::error_code problem;
-    if (std::filesystem::is_empty(path_, problem)) {
+    if (is_empty_ && std::filesystem::is_empty(path_, problem)) {
       std::filesystem::remove(path_, problem);
       if (Status opened = open(false); !opened) return opened;
       if (Status closed = close(*file_); !closed) return closed;
@@ -353,6 +355,7 @@ class GdalParts final : public PartWriter {
   std::string path_;
   std::optional<PendingFile> temporary_;
   std::unique_ptr<RowFile> file_;
+  bool is_empty_ = true;
   std::mutex projecting_;
 };
 
