@@ -134,8 +134,7 @@ class Contacts {
   /// Whether a disk that reaches site i from inside touches it there: not in the end of an edge,
   /// where its neighbour would be nearer.
   bool touches(std::uint32_t i, const Disk& disk, double slack) const {
-    return !(std::abs(away(i, disk)) > slack) &&
-           (site(i).is_vertex() || touches_inside(i, disk));
+    return !(std::abs(away(i, disk)) > slack) && (site(i).is_vertex() || touches_inside(i, disk));
   }
 
   /// Whether a disk touches both the site and its carrier: as touches(), but where the foot is next
@@ -306,8 +305,8 @@ class Contacts {
   /// A site that a disk touches or is near to.
   struct Neighbor {
     std::uint32_t site;
-    double away;    ///< how far it is from the disk
-    double beyond;  ///< see beyond_ends()
+    double away;        ///< how far it is from the disk
+    double beyond;      ///< see beyond_ends()
     Vec2 foot, toward;  ///< the latter from there to the disk's centre, of length 1
   };
   /// Whether no disk that touches three sites of a tie, and reaches over no other one of it, each
