@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/arc.h"
+#include "base/compat.h"
 #include "base/disjoint_sets.h"
 #include "base/threads.h"
 #include "base/tolerance.h"
@@ -169,14 +170,21 @@ std::vector<std::size_t> tiny_edges(const Problem& problem) {
   return found;
 }
 
-std::vector<AlmostSmooth> almost_smooth_joints(const Problem& problem,
-                                               const site::SiteNumbers& numbers) {
-  std::vector<AlmostSmooth> found;
+AlmostSmooth almost_smooth_joints(const Problem& problem, const site::SiteNumbers& numbers) {
+  AlmostSmooth found;
   for_each_joint(problem, [&](std::size_t point, const BulgeArc& before, const BulgeArc& after) {
     const double share =
         doubtful_share(numbers.joints[point], before, after, problem.fine_tolerance);
-    if (share > 0) found.push_back({point, share});
+    if (!(share > 0)) return;
+    found.points.push_back(point);
+    for (const BulgeArc& arc : {before, after}) {
+      if (!(arc.bulge > 0)) continue;
+      const double radius = 1 / curvature(arc);
+      const Vec2 center = arc.start + radius * left_of(start_tangent(arc));
+      found.circles.push_back({{center, radius}, share * radius});
+    }
   });
+  ranges::sort(found.circles, {}, [](const AlmostSmooth::Circle& c) { return c.disk.radius; });
   return found;
 }
 

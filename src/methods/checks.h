@@ -41,13 +41,18 @@ double doubtful_share(site::Joint joint, const BulgeArc& before, const BulgeArc&
 /// The points of a shape with arcs at which tiny edges begin: next to these double may be wrong
 /// about what a disk touches. O(n).
 std::vector<std::size_t> tiny_edges(const Problem& problem);
-/// A point at which edges meet almost smoothly.
+/// Where edges of a shape with arcs meet almost smoothly.
 struct AlmostSmooth {
-  std::size_t point;
-  double share;  ///< doubtful_share()
+  /// The circle of a convex arc that begins or ends there, in local units.
+  struct Circle {
+    Disk disk;
+    double near;  ///< a disk this far away, or nearer, may be wrong: see doubtful_share()
+  };
+  std::vector<std::size_t> points;
+  std::vector<Circle> circles;  ///< by radius
 };
-std::vector<AlmostSmooth> almost_smooth_joints(const Problem& problem,
-                                               const site::SiteNumbers& numbers);
+/// O(n log n).
+AlmostSmooth almost_smooth_joints(const Problem& problem, const site::SiteNumbers& numbers);
 
 /// The options that every exact computation has: the tolerance and the number of threads.
 std::optional<Error> refuse(const Options& options);

@@ -41,7 +41,8 @@ std::function<void(std::uint64_t)> reporter(const Problem& problem, int attempts
 struct Way {
   std::vector<bool> in_precise = {};  ///< of each component: double is never asked; empty: it is
   bool merges_ties = true;
-  int attempts = 0;  ///< before this one
+  int attempts = 0;                                    ///< before this one
+  std::span<const AlmostSmooth::Circle> circles = {};  ///< disks near these may be wrong
 };
 
 /// Connects the holes of the boundary, walks it, and joins what the walk finds. Nothing where the
@@ -81,6 +82,7 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   if (boundary.has_arcs) {
     remove_spurs(boundary, names, problem.local_tolerance(), graph);
     find_doubts(boundary, tree, problem.local_tolerance(), graph);
+    find_overlooked(boundary, tree, way.circles, problem.local_tolerance(), graph);
   }
   return graph;
 }
@@ -229,47 +231,6 @@ std::vector<bool> components_of(const Shape& shape, const SiteNumbers& numbers,
   return marked;
 }
 
-/// Whether a disk of an axis nearly is the circle of a convex arc that begins or ends at one of
-/// these joints. There feet move far along the arc while the centre hardly moves. O(n log n).
-bool fills_arcs_beside(const Shape& shape, const SiteNumbers& numbers,
-                       const std::vector<AlmostSmooth>& joints, const MedialAxis& axis) {
-  if (axis.sites.empty()) return false;  // cancelled
-  struct Circle {
-    Disk disk;
-    double near;  ///< a disk this far away, or nearer, nearly is the circle
-  };
-  std::vector<Circle> circles;
-  double largest_share = 0;
-  const auto add = [&](std::size_t point, double share) {
-    const medial::Site& edge = axis.sites[numbers.edge[point]];
-    const BulgeArc arc{edge.start, edge.end, edge.bulge};
-    if (!(arc.bulge > 0)) return;
-    const double radius = 1 / curvature(arc);
-    circles.push_back({{arc.start + radius * left_of(start_tangent(arc)), radius}, share * radius});
-    largest_share = std::max(largest_share, share);
-  };
-  for (const auto [point, share] : joints) {
-    const auto loop = std::upper_bound(shape.loop_begin.begin(), shape.loop_begin.end(), point) - 1;
-    add(point, share);
-    add(point > *loop ? point - 1 : loop[1] - 1, share);
-  }
-  if (circles.empty()) return false;
-  const auto radius_of = [](const Circle& circle) { return circle.disk.radius; };
-  ranges::sort(circles, {}, radius_of);
-  constexpr std::size_t looks = 64;  // of each node on average; where there are more, it is likely
-  std::size_t budget = looks * (axis.nodes.size() + circles.size());
-  for (const auto& [disk, component, kind] : axis.nodes) {
-    const double most = disk.radius * (1 + largest_share);
-    for (auto circle =
-             ranges::lower_bound(circles, disk.radius * (1 - largest_share), {}, radius_of);
-         circle != circles.end() && radius_of(*circle) <= most; ++circle)
-      if (budget-- == 0 || (std::abs(radius_of(*circle) - disk.radius) <= circle->near &&
-                            distance(circle->disk.center, disk.center) <= circle->near))
-        return true;
-  }
-  return false;
-}
-
 /// Turns to the next way after one whose axis is refused. False after the last.
 bool turn_to_next(const Problem& problem, const SiteNumbers& numbers,
                   const std::vector<std::size_t>& doubtful, std::vector<std::uint32_t> lost,
@@ -290,21 +251,20 @@ Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbe
   const bool with_arcs = has_arcs(problem.shape);
   std::vector<std::size_t> doubtful = tiny_edges(problem);
   const bool has_tiny_edges = !doubtful.empty();
-  const std::vector<AlmostSmooth> joints = almost_smooth_joints(problem, numbers);
-  for (const auto [point, share] : joints) doubtful.push_back(point);
+  const AlmostSmooth joints = almost_smooth_joints(problem, numbers);
+  doubtful.insert(doubtful.end(), joints.points.begin(), joints.points.end());
   // Next to arcs, a walk that merges nothing, or far more than rounding, is measured, too.
   constexpr double coarse = 8;
   const bool is_coarse = problem.tolerance > coarse * problem.joint_tolerance;
   const bool is_measured = with_arcs && (problem.options.exact || has_tiny_edges || is_coarse);
   std::optional<Error> error;
-  Way way{{}, !problem.options.exact, attempts};
+  Way way{{}, !problem.options.exact, attempts, joints.circles};
   std::vector<std::uint32_t> lost;
   do {
     lost.clear();
     auto axis = axis_by(problem, numbers, way, lost);
     const bool is_precise = !way.in_precise.empty();
-    const bool is_certain = lost.empty() && !(with_arcs && is_precise) && !is_measured && axis &&
-                            !fills_arcs_beside(problem.shape, numbers, joints, *axis);
+    const bool is_certain = lost.empty() && !(with_arcs && is_precise) && !is_measured && axis;
     if (axis && (is_certain || problem.is_cancelled())) return axis;
     // A polygon in which the walk lost its way is measured only if another walk takes seconds.
     if (with_arcs || is_precise || takes_long(problem.shape)) {
