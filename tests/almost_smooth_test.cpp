@@ -319,6 +319,24 @@ TEST(AlmostSmoothJoint, IsLeftToDisksByLee) {
       options);
 }
 
+/// At the ends of a bar both feet pass a joint that is smooth up to rounding at once. By their own
+/// normals either would pass first, so that 256 bits find no event; but nothing is wrong there.
+TEST(AlmostSmoothJoint, BothFeetPassOneAtOnce) {
+  const auto shape =
+      build_shape(Rings{{{{-0.49705264205858701, 0.92766852018209212},
+                          {-1.3078149018068912, -0.23106551235851772},
+                          {-0.1490808692662815, -1.0418277721068221},
+                          {0.4970526420585869, -0.92766852018209212},
+                          {0.14908086926628161, 1.0418277721068221}},
+                         RingRole::any,
+                         {0.41421356237224288, 0.41421356237365514, 0, 0.99999999999976852, 0}}});
+  ASSERT_TRUE(shape) << to_string(shape.error());
+  const auto axis = compute(*shape, {.threads = 1});
+  ASSERT_TRUE(axis) << to_string(axis.error());
+  EXPECT_EQ(axis->statistics.exact_changes, 0U);
+  EXPECT_TRUE(verify(*shape, *axis, {.threads = 1}).passed);
+}
+
 /// A row of circles that are joined by necks from 1e-9 to 1e-2 of their radius. Each of them
 /// consists of two arcs, above and below, of one circle up to rounding.
 /// `turn`: by how much the boundary turns to the left where the last one's arcs meet.

@@ -76,6 +76,10 @@ bool Decider::decide_exactly(Step& step, const Disk& from) {
   const auto found = next_exactly(context_, asked, from, event.touched(span), from_exact);
   count(found);
   if (!found) {
+    // Where both feet pass a joint that is smooth up to rounding, either seems to pass first.
+    if (!is_exact && boundary_.has_arcs && contacts_.passes_at(span, event.disk, span.right + 1) &&
+        contacts_.passes_at(span, event.disk, span.left - 1))
+      return false;
     if (is_exact) event = event_in_double(span, from);
     lose(span, event.site);
     return is_exact;
