@@ -20,7 +20,7 @@ ROOT = HERE.parent.parent
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^)\s]+)\)")
 REFERENCE = "axes editor arrays parts lines offsets features voronoi images files geopandas spark errors".split()
 MADE = {"medial.1": "manual.md", "../include/medial/": "headers.md"}  # by write_reference()
-PROJECT = ["docs/*.md", "bench/RESULTS.md", "CHANGELOG.md", "KNOWN_ISSUES.md", "ARCHITECTURE.md"]
+PROJECT = ["docs/*.md", "bench/RESULTS.md", "bench/results/*.md", "CHANGELOG.md", "KNOWN_ISSUES.md", "ARCHITECTURE.md"]
 
 
 def copy_pages(gallery, pages):
@@ -116,7 +116,7 @@ nav:
       - Changelog: CHANGELOG.md
       - Known issues: KNOWN_ISSUES.md
       - Measurements: bench/RESULTS.md
-"""
+{listed("bench/results/*.md")}"""
 
 
 def main():
