@@ -385,7 +385,7 @@ MEDIAL_WIDE BoundaryTree::Hit BoundaryTree::nearest(Vec2 c, double reach, std::u
     const Site& site = sites_[i];
     if (has_arcs_ && is_out_of_reach(site, c, reach)) return;
     const double squared = site::squared_distance(site, c);
-    if (squared < hit.squared_distance || (squared == hit.squared_distance && i < hit.site))
+    if (squared < hit.squared_distance || (hit && squared == hit.squared_distance && i < hit.site))
       hit = {i, squared};
   };
   visit_blocks<Order::nearest_first>(
@@ -436,7 +436,7 @@ MEDIAL_WIDE void BoundaryTree::within(Vec2 c, double reach, std::uint32_t first,
                                       std::vector<std::uint32_t>& found) const {
   found.clear();
   if (first > last || !(reach > 0)) return;
-  const double squared = reach * reach;
+  const double squared = std::nextafter(reach * reach, 0);  // nearer than the reach: up to this
   visit_blocks<Order::in_turn>(c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
     look_at_each(
         c, from, to, [&] { return squared; },

@@ -41,8 +41,8 @@ class BoundaryTree {
     explicit operator bool() const { return site != none; }
   };
 
-  /// The site nearest to c among the sites first..last, both included, if one is no farther away
-  /// than `reach`; of sites at equal distance the first. O(log n) expected.
+  /// The site nearest to c among the sites first..last, both included, if one is nearer than
+  /// `reach`; of sites at equal distance the first. O(log n) expected.
   Hit nearest(Vec2 c, double reach, std::uint32_t first, std::uint32_t last) const;
 
   /// The same where sites may lie upon each other: of those at equal distance, up to rounding, one
@@ -52,7 +52,7 @@ class BoundaryTree {
   /// The same of all sites.
   Hit nearest(Vec2 c, double reach) const { return nearest(c, reach, 0, last_of_all()); }
 
-  /// All sites among first..last no farther away than `reach`, by increasing index.
+  /// All sites among first..last nearer than `reach`, by increasing index.
   void within(Vec2 c, double reach, std::uint32_t first, std::uint32_t last,
               std::vector<std::uint32_t>& found) const;
 
