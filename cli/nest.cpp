@@ -23,7 +23,7 @@ struct NestArguments : FileArguments {
 };
 
 /// A file, whose features are tried in order.
-struct Candidates {
+struct ShapesInTurn {
   InputOptions input;
   Document<ShapeItem> file = {};
   std::vector<std::string> left_out = {};
@@ -52,35 +52,35 @@ struct Candidates {
 };
 
 /// Placements of the first shapes that have axes.
-Result<std::vector<Placement>> place(std::array<Candidates, 2>& files,
+Result<std::vector<Placement>> place(std::array<ShapesInTurn, 2>& files,
                                      const NestArguments& arguments) {
   while (true) {
     auto found = nest(files[0].shape(), files[1].shape(), arguments.gap, !arguments.no_mirror,
                       arguments.best);
     if (!found && found.error().place.feature) {
-      Candidates& refused = files[*found.error().place.feature];
+      ShapesInTurn& refused = files[*found.error().place.feature];
       if (Status next = refused.leave_out(found.error(), arguments.common); !next)
         return std::move(next).error();
       continue;
     }
-    for (const Candidates& one : files) note_left_out(one.left_out, one.input, arguments.common);
+    for (const ShapesInTurn& one : files) note_left_out(one.left_out, one.input, arguments.common);
     return found;
   }
 }
 
 /// The fixed shape with the axis of its bays, and the other one in its place with its own axis.
-Result<Document<AxisItem>> picture_of(const Shape& fixed, const Shape& moving,
+Result<Document<AxisItem>> picture_of(const std::array<ShapesInTurn, 2>& files,
                                       const Placement& at) {
   Options around;
   around.exterior = true;
-  auto outer = compute(fixed, around);
-  if (!outer) return std::move(outer).error();
-  auto moved = placed(moving, at);
-  if (!moved) return std::move(moved).error();
+  auto outer = compute(files[0].shape(), around);
+  if (!outer) return files[0].named(std::move(outer).error());
+  auto moved = placed(files[1].shape(), at);
+  if (!moved) return files[1].named(std::move(moved).error());
   auto inner = compute(*moved);
-  if (!inner) return std::move(inner).error();
+  if (!inner) return files[1].named(std::move(inner).error());
   Document<AxisItem> file;
-  file.items.push_back({fixed, std::move(outer).value(), {}});
+  file.items.push_back({files[0].shape(), std::move(outer).value(), {}});
   file.items.push_back({std::move(moved).value(), std::move(inner).value(), {}});
   return file;
 }
@@ -108,8 +108,9 @@ Result<int> run_nest(const NestArguments& arguments) {
     writable = check_output(arguments.output, arguments.format, formats, arguments.other, false);
   if (!writable) return std::move(writable).error();
   const auto& [input, other, common] = std::tie(arguments.input, arguments.other, arguments.common);
-  std::array files{Candidates{first_input(input, other)}, Candidates{second_input(input, other)}};
-  for (Candidates& one : files)
+  std::array files{ShapesInTurn{first_input(input, other)},
+                   ShapesInTurn{second_input(input, other)}};
+  for (ShapesInTurn& one : files)
     if (Status loaded = one.load(common); !loaded) return std::move(loaded).error();
   phases.end("read");
   const auto found = place(files, arguments);
@@ -128,8 +129,8 @@ Result<int> run_nest(const NestArguments& arguments) {
   }
   const Status written =
       write_output(arguments, phases, [&](const std::string& path, const std::string& format) {
-        const auto file = picture_of(files[0].shape(), files[1].shape(), found->front());
-        if (!file) return Status(files[1].named(file.error()));
+        const auto file = picture_of(files, found->front());
+        if (!file) return Status(file.error());
         return io::write_axes(path, format, *file, write_options(arguments));
       });
   if (!written) return written.error();

@@ -58,6 +58,31 @@ TEST(BoundaryTree, FindsTheNearestOfFewAndOfMany) {
   }
 }
 
+// Points at the distances 5 and 13 of the origin, which integers state exactly, in many blocks.
+TEST(BoundaryTree, OfEqualDistancesFindsTheFirstAndNoneAtTheReach) {
+  constexpr double unit = 0x1p-6;
+  const std::vector<Vec2> near{{3, 4}, {-4, 3}, {0, -5}, {5, 0}}, far{{5, 12}, {-12, 5}, {0, 13}};
+  for (const std::size_t first : {0U, 5U, 40U, 99U, 300U}) {
+    std::vector<Site> sites;
+    for (std::size_t i = 0; i < 400; ++i) {
+      const bool is_near = i >= first && (i - first) % 50 == 0;
+      const std::vector<Vec2>& some = is_near ? near : far;
+      sites.push_back(make_vertex(unit * some[i % some.size()]));
+    }
+    const BoundaryTree tree(sites);
+    EXPECT_EQ(tree.nearest({0, 0}, 1).site, first);
+    EXPECT_EQ(tree.nearest({0, 0}, 1).squared_distance, 25 * unit * unit);
+    EXPECT_FALSE(tree.nearest({0, 0}, 5 * unit));
+    EXPECT_EQ(tree.nearest({0, 0}, std::nextafter(5 * unit, 1)).site, first);
+    std::vector<std::uint32_t> found;
+    tree.within({0, 0}, 5 * unit, 0, 399, found);
+    EXPECT_TRUE(found.empty());
+    tree.within({0, 0}, 13 * unit, 0, 399, found);
+    ASSERT_EQ(found.size(), (399 - first) / 50 + 1);
+    EXPECT_EQ(found.front(), first);
+  }
+}
+
 // Boxes along a row of holes lie in double precision at what disks all but touch that are far
 // larger.
 TEST(BoundaryTree, FindsTheNearestInRowsOfHolesFromFarAway) {

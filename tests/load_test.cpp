@@ -134,6 +134,17 @@ TEST(Load, ErrorsNameTheFeatureOfTheFileWhereSomeWereLeftOut) {
   EXPECT_EQ(axes.error().place.feature, 8U);
 }
 
+TEST(Load, ErrorsOfNoFeatureNameNone) {
+  DocumentInfo file;
+  file.indices = {3, 8};
+  const std::vector<double> weights(2, 1.0);
+  const auto kept = for_each_feature(
+      file, weights, 1, [](std::size_t, int) -> Status { throw std::bad_alloc(); }, nullptr);
+  ASSERT_FALSE(kept.ok());
+  EXPECT_EQ(kept.error().code, ErrorCode::out_of_memory);
+  EXPECT_FALSE(kept.error().place.feature);
+}
+
 TEST(Load, CurvesBecomeArcsWithinTheTolerance) {
   Feature feature;
   feature.contours = {test::ellipse(2, 1)};

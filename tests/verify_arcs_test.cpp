@@ -762,4 +762,30 @@ TEST(DistanceTreeOfArcs, StopsAtZero) {
 }
 
 }  // namespace
+/// Two arcs that meet in reflex vertices, with a disk's centre in the middle of both: one arc ends
+/// where the other's centre is as far away as the vertices, which are touched instead.
+TEST(VerifyArcs, AnEdgeThatTouchesAVertexIsNotNamedAfterItsArc) {
+  for (const double y : {0.0, 1e-3, -25444.357876001024}) {
+    for (const bool upper : {true, false}) {
+      const auto shape = build_shape(
+          {{{{{1, y}, {-1, y}}, RingRole::any, {upper ? 1.0001586 : 1, upper ? 1 : 1.0001586}}}});
+      ASSERT_TRUE(shape);
+      auto axis = compute(*shape, {.threads = 1});
+      ASSERT_TRUE(axis);
+      EXPECT_TRUE(verify(*shape, *axis, {.threads = 1}).passed);
+      ASSERT_EQ(axis->edges.size(), 1U);
+      for (std::uint32_t& side : axis->edges[0].site) {
+        const std::uint32_t vertex = side;
+        ASSERT_EQ(axis->sites[vertex].kind(), SiteKind::vertex);
+        for (std::uint32_t other = 0; other < axis->sites.size(); ++other) {
+          if (axis->sites[other].kind() != SiteKind::arc) continue;
+          side = other;
+          EXPECT_FALSE(verify(*shape, *axis, {.threads = 1}).passed) << y << upper << other;
+        }
+        side = vertex;
+      }
+    }
+  }
+}
+
 }  // namespace medial

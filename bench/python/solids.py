@@ -6,7 +6,7 @@ how much of the solid its balls cover, parts, tunnels and cavities.
 
 MEDIAL is the command line program, a MESH an .obj or .off file. Needs numpy, scipy and scikit-image, whose thinning is
 that of Lee, Kashyap and Chu (1994); kimimaro (curves by TEASAR, Sato et al. 2000), medialaxis3d (thinning in the order
-of distances) and, for the picture, matplotlib where they are installed. Prints the table of bench/RESULTS.md. Times are
+of distances) and, for the picture, matplotlib where they are installed. Prints the table of bench/results/voxels.md. Times are
 processor seconds: of medial's whole run, from the file; of the others from the voxels on.
 """
 

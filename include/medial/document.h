@@ -52,10 +52,11 @@ struct Document : DocumentInfo {
   /// Leaves out all items but these, which are in order and keep their numbers in the file.
   void keep(const std::vector<std::size_t>& kept) {
     if (kept.size() == items.size()) return;
-    Document all = std::exchange(*this, {*this, {}});
-    indices.clear();
-    for (const std::size_t i : kept) indices.push_back(all.index_of(i));
-    for (const std::size_t i : kept) items.push_back(std::move(all.items[i]));
+    std::vector<T> all = std::exchange(items, {});
+    std::vector<std::uint64_t> numbers;
+    for (const std::size_t i : kept) numbers.push_back(index_of(i));
+    indices = std::move(numbers);
+    for (const std::size_t i : kept) items.push_back(std::move(all[i]));
   }
 };
 

@@ -17,7 +17,7 @@ Status for_each_item(std::span<const double> weights, int threads, const ItemWor
 
 /// Leaves a feature out with a note if there is `left_out` and the error is the feature's own.
 bool leave_out_feature(const Error& error, std::vector<std::string>* left_out);
-/// for_each_item() of a document; errors name features of its file. Returns what is not left out.
+/// for_each_item() of a document; its work's errors name features of its file. Returns what stays.
 Result<std::vector<std::size_t>> for_each_feature(const DocumentInfo& file,
                                                   std::span<const double> weights, int threads,
                                                   const ItemWork& work,

@@ -71,8 +71,8 @@ Result<std::vector<std::size_t>> for_each_feature(const DocumentInfo& file,
     return leave_out_feature(done.error(), left_out ? &notes[i] : nullptr) ? success() : done;
   };
   if (Status done = for_each_item(weights, threads, attempt, cancel); !done) {
-    std::size_t& feature = *done.error().place.feature;
-    feature = file.index_of(feature);
+    if (auto& feature = done.error().place.feature)
+      feature = file.index_of(static_cast<std::size_t>(*feature));
     return std::move(done).error();
   }
   std::vector<std::size_t> kept;

@@ -44,13 +44,13 @@ class BoundaryTree {
   /// The site nearest to c among the sites first..last, both included, if one is nearer than
   /// `reach`; of sites at equal distance the first. O(log n) expected.
   Hit nearest(Vec2 c, double reach, std::uint32_t first, std::uint32_t last) const;
-
-  /// The same where sites may lie upon each other: of those at equal distance, up to rounding, one
-  /// that has c on its left and over its inside, if there is any; vertices count as such.
-  Hit nearest_facing(Vec2 c, double reach, std::uint32_t first, std::uint32_t last) const;
-
-  /// The same of all sites.
+  /// The same among all sites.
   Hit nearest(Vec2 c, double reach) const { return nearest(c, reach, 0, last_of_all()); }
+
+  /// The nearest of first..last where sites may lie upon each other: of those at equal distance, up
+  /// to rounding, one that has c on its left and over its inside, if there is any; vertices count
+  /// as such.
+  Hit nearest_facing(Vec2 c, double reach, std::uint32_t first, std::uint32_t last) const;
 
   /// All sites among first..last nearer than `reach`, by increasing index.
   void within(Vec2 c, double reach, std::uint32_t first, std::uint32_t last,

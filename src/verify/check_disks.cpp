@@ -64,15 +64,27 @@ double turned_by(const Problem& problem, const Edge& edge, const Curve& curve, V
   return -cross(tangent, chord) / speed;
 }
 
-/// By how much a disk misses the lines of its segments: where its foot lies beyond the end of one,
-/// the vertex there is touched instead. Not of arcs: next to the centre of one, the foot may be
-/// anywhere, and it may have a smooth joint at its end.
+/// Whether a foot on an arc may be anywhere, as next to its centre; or is at its end where that
+/// joins the next edge smoothly, so that either may have the foot.
+bool has_open_foot(const Problem& problem, std::uint32_t site, const BoundaryEdge& arc,
+                   Vec2 center) {
+  constexpr double few = 64;
+  const std::uint32_t place = problem.place[site];
+  if (place == no_index) return true;
+  const bool at_start = squared_norm(center - arc.start) < squared_norm(center - arc.end);
+  return problem.joint[at_start ? place : problem.next[place]] != Joint::reflex ||
+         few * problem.arcs[place].foot_slack(center, problem.tolerance) >= length_of(arc);
+}
+
+/// By how much a disk misses the carriers of its segments and arcs: where its foot lies beyond the
+/// end of one, the vertex there is touched instead.
 double missed_beyond_ends(const Problem& problem, const Edge& edge, Vec2 center) {
   double most = 0;
   for (const std::uint32_t i : edge.site) {
     const Site& site = problem.axis.sites[i];
-    if (site.kind() != SiteKind::segment) continue;
+    if (site.kind() == SiteKind::vertex) continue;
     const BoundaryEdge whole = edge_of(site);
+    if (site.kind() == SiteKind::arc && has_open_foot(problem, i, whole, center)) continue;
     most = std::max(most,
                     distance_to_edge(center, whole) - std::abs(distance_to_carrier(center, whole)));
   }

@@ -223,8 +223,7 @@ class GeoPackageRows final : public RowFile {
     // No other program knows the file yet. A new file is deleted on failure.
     if (Status set = run("PRAGMA locking_mode = EXCLUSIVE"); !set) return set;
     if (is_new)
-      for (const char* less : {"PRAGMA journal_mode = OFF", "PRAGMA synchronous = OFF"})
-        if (Status set = run(less); !set) return set;
+      if (Status set = run("PRAGMA journal_mode = OFF"); !set) return set;
     // Triggers count rows one by one; close() states what they would.
     sqlite3_db_config(opened, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
     if (Status begun = run("BEGIN"); !begun) return begun;

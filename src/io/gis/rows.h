@@ -95,7 +95,8 @@ struct EmptyLayer {
   GeometryKind kind;
 };
 
-/// Puts rows into the layers of a file. Errors: unwritable, unless GDAL reports what failed.
+/// Puts rows into the layers of a file. Errors: unwritable. Some failures are only reported through
+/// GDAL: callers listen with GdalMessages.
 class RowFile {
  public:
   RowFile() = default;

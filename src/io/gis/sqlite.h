@@ -9,7 +9,7 @@
 namespace medial::io {
 
 struct CloseSqlite {
-  /// Waits for the statements and backups of the database.
+  /// The database itself is closed with the last of its statements and backups.
   void operator()(sqlite3* database) const { sqlite3_close_v2(database); }
   void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
   void operator()(sqlite3_backup* backup) const { sqlite3_backup_finish(backup); }

@@ -432,7 +432,7 @@ void find_overlooked(const Boundary& boundary, const site::BoundaryTree& tree,
   constexpr std::size_t looks = 64;  // of each node on average; where there are more, it is likely
   std::size_t budget = looks * (graph.nodes.size() + circles.size());
   const auto is_near = [&](const Disk& disk) {
-    const double most = disk.radius * (1 + share);
+    const double most = share < 1 ? disk.radius / (1 - share) : infinity;
     for (auto circle = ranges::lower_bound(circles, disk.radius * (1 - share), {}, radius_of);
          circle != circles.end() && radius_of(*circle) <= most; ++circle) {
       if (budget == 0) return true;

@@ -56,7 +56,7 @@ void find_doubts(const Boundary& boundary, const site::BoundaryTree& tree, doubl
 /// ends in a disk that nearly is one of these circles. There feet move far along the arc while the
 /// centre hardly moves, so that rounding may decide which of the edges that meet at the arc's end a
 /// disk touches first: if it has decided wrongly, by more than the tolerance, a disk reaches over
-/// the other one. O(n log n).
+/// the other one. Looks at five disks of each edge, for two tolerances. O(n log n).
 void find_overlooked(const Boundary& boundary, const site::BoundaryTree& tree,
                      std::span<const AlmostSmooth::Circle> circles, double tolerance, Graph& graph);
 

@@ -101,9 +101,7 @@ class Connector {
   void begin(std::span<const std::uint32_t> holes) {
     if (!found_.empty()) {
       constexpr double a_little_more = 1.0625;
-      const auto most = found_.begin() + static_cast<std::ptrdiff_t>(found_.size() * 7 / 8);
-      std::nth_element(found_.begin(), most, found_.end());
-      expected_ = a_little_more * *most;
+      expected_ = a_little_more * *std::max_element(found_.begin(), found_.end());
     }
     found_.clear();
     site::Extent around;
@@ -231,7 +229,7 @@ class Connector {
   const ExactSites& exact_;
   const std::vector<bool>& in_precise_;
   site::FirstTouch::Region region_;
-  double expected_ = 0;        ///< radius: above most of the last run; 0 before the first
+  double expected_ = 0;        ///< radius: above those of the last run; 0 before the first
   std::vector<double> found_;  ///< radii of the run under way
 };
 

@@ -77,7 +77,9 @@ bool Decider::decide_exactly(Step& step, const Disk& from) {
   count(found);
   if (!found) {
     // Where both feet pass a joint that is smooth up to rounding, either seems to pass first.
-    if (!is_exact && boundary_.has_arcs && contacts_.passes_at(span, event.disk, span.right + 1) &&
+    const bool passes_on = event.kind == Kind::pass_right || event.kind == Kind::pass_left;
+    if (passes_on && !is_exact && boundary_.has_arcs &&
+        contacts_.passes_at(span, event.disk, span.right + 1) &&
         contacts_.passes_at(span, event.disk, span.left - 1))
       return false;
     if (is_exact) event = event_in_double(span, from);

@@ -322,6 +322,8 @@ class Walker {
     if (is_long && (is_proposed || !contacts_.is_reflex_chain(span))) return true;
     return !ends_at_once(span, is_proposed);
   }
+  /// Ends the axis where the two sites are neighbours, or nothing but a bridge or a chain that no
+  /// disk touches lies between them.
   bool ends_at_once(const Span& span, bool is_proposed) {
     const std::uint32_t between = span.left - span.right;
     const bool at_bridge = contacts_.is_at_bridge(span);
