@@ -118,24 +118,20 @@ bool is_tiny_edge(const BulgeArc& local) {
          std::abs(curvature(local)) * smallest > 1;
 }
 
-double doubtful_share(site::Joint joint, const BulgeArc& before, const BulgeArc& after,
+bool is_almost_smooth(site::Joint joint, const BulgeArc& before, const BulgeArc& after,
                       double tolerance) {
-  constexpr double near = 0x1p-10;
-  if (before.bulge == 0 && after.bulge == 0) return 0;
+  if (before.bulge == 0 && after.bulge == 0) return false;
   const Vec2 arriving = end_tangent(before), leaving = start_tangent(after);
-  if (!(dot(arriving, leaving) > 0)) return 0;
+  if (!(dot(arriving, leaving) > 0)) return false;
   const double turn = cross(arriving, leaving), sine = std::abs(turn);
   const double curved = std::max(std::abs(curvature(before)), std::abs(curvature(after)));
   if (joint == site::Joint::smooth) {
     const double bend = std::abs(curvature(before) - curvature(after));
     const double reach = sine * sine / (2 * tolerance);
-    const bool reaches = turn < 0 && 2 * reach > bend && curved + reach > 1;  // no disk is larger
-    return reaches ? reach / curved : 0;
+    return turn < 0 && 2 * reach > bend && curved + reach > 1;  // no disk is larger
   }
-  const bool is_almost_smooth =
-      sine * sine <= 2 * tolerance * curved ||
-      sine * std::min(norm(before.chord()), norm(after.chord())) <= tolerance;
-  return is_almost_smooth ? near : 0;
+  return sine * sine <= 2 * tolerance * curved ||
+         sine * std::min(norm(before.chord()), norm(after.chord())) <= tolerance;
 }
 
 namespace {
@@ -170,21 +166,13 @@ std::vector<std::size_t> tiny_edges(const Problem& problem) {
   return found;
 }
 
-AlmostSmooth almost_smooth_joints(const Problem& problem, const site::SiteNumbers& numbers) {
-  AlmostSmooth found;
+std::vector<std::size_t> almost_smooth_joints(const Problem& problem,
+                                              const site::SiteNumbers& numbers) {
+  std::vector<std::size_t> found;
   for_each_joint(problem, [&](std::size_t point, const BulgeArc& before, const BulgeArc& after) {
-    const double share =
-        doubtful_share(numbers.joints[point], before, after, problem.fine_tolerance);
-    if (!(share > 0)) return;
-    found.points.push_back(point);
-    for (const BulgeArc& arc : {before, after}) {
-      if (!(arc.bulge > 0)) continue;
-      const double radius = 1 / curvature(arc);
-      const Vec2 center = arc.start + radius * left_of(start_tangent(arc));
-      found.circles.push_back({{center, radius}, share * radius});
-    }
+    if (is_almost_smooth(numbers.joints[point], before, after, problem.fine_tolerance))
+      found.push_back(point);
   });
-  ranges::sort(found.circles, {}, [](const AlmostSmooth::Circle& c) { return c.disk.radius; });
   return found;
 }
 

@@ -27,32 +27,22 @@ bool has_arcs(const Shape& shape);
 /// disk reaches over that by half the square. A disk that touches a longer arc within rounding has
 /// its feet anywhere on a tiny edge beside that. In local units.
 bool is_tiny_edge(const BulgeArc& local);
-/// How near a disk must come to the circle of an arc for double to be wrong about what it touches
-/// where the arc meets another edge almost smoothly: a share of the arc's radius, 0 where double is
-/// never wrong. In local units.
+/// Whether an arc meets another edge almost smoothly, so that double may be wrong about what a disk
+/// touches there that nearly is the arc's circle. In local units.
 ///
-/// A joint is almost smooth if a disk of the arc's radius reaches over a straight edge there by at
+/// That is so if a disk of the arc's radius reaches over a straight edge there by at
 /// most the tolerance, or if the shorter edge rises by no more: a blunt joint has no leaf, though
 /// disks lead towards it, and rounding decides in which order disks touch a reflex vertex and its
 /// edges. A reflex joint that counts as smooth, since an edge is short, is almost smooth as well: a
 /// disk reaches over it by half the square of its angle over the difference of the curvatures.
-double doubtful_share(site::Joint joint, const BulgeArc& before, const BulgeArc& after,
+bool is_almost_smooth(site::Joint joint, const BulgeArc& before, const BulgeArc& after,
                       double tolerance);
 /// The points of a shape with arcs at which tiny edges begin: next to these double may be wrong
 /// about what a disk touches. O(n).
 std::vector<std::size_t> tiny_edges(const Problem& problem);
-/// Where edges of a shape with arcs meet almost smoothly.
-struct AlmostSmooth {
-  /// The circle of a convex arc that begins or ends there, in local units.
-  struct Circle {
-    Disk disk;
-    double near;  ///< a disk this far away, or nearer, may be wrong: see doubtful_share()
-  };
-  std::vector<std::size_t> points;
-  std::vector<Circle> circles;  ///< by radius
-};
-/// O(n log n).
-AlmostSmooth almost_smooth_joints(const Problem& problem, const site::SiteNumbers& numbers);
+/// The points of a shape with arcs at which edges meet almost smoothly. O(n).
+std::vector<std::size_t> almost_smooth_joints(const Problem& problem,
+                                              const site::SiteNumbers& numbers);
 
 /// The options that every exact computation has: the tolerance and the number of threads.
 std::optional<Error> refuse(const Options& options);

@@ -422,47 +422,6 @@ void find_doubts(const Boundary& boundary, const site::BoundaryTree& tree, doubl
   if (boundary.sides == Sides::one) find_backward(boundary, 4 * tolerance, graph);
 }
 
-void find_overlooked(const Boundary& boundary, const site::BoundaryTree& tree,
-                     std::span<const AlmostSmooth::Circle> circles, double tolerance,
-                     Graph& graph) {
-  if (circles.empty()) return;
-  const auto radius_of = [](const AlmostSmooth::Circle& circle) { return circle.disk.radius; };
-  double share = 0;
-  for (const auto& [disk, near] : circles) share = std::max(share, near / disk.radius);
-  constexpr std::size_t looks = 64;  // of each node on average; where there are more, it is likely
-  std::size_t budget = looks * (graph.nodes.size() + circles.size());
-  const auto is_near = [&](const Disk& disk) {
-    const double most = share < 1 ? disk.radius / (1 - share) : infinity;
-    for (auto circle = ranges::lower_bound(circles, disk.radius * (1 - share), {}, radius_of);
-         circle != circles.end() && radius_of(*circle) <= most; ++circle) {
-      if (budget == 0) return true;
-      --budget;
-      if (std::abs(radius_of(*circle) - disk.radius) <= circle->near &&
-          distance(circle->disk.center, disk.center) <= circle->near)
-        return true;
-    }
-    return false;
-  };
-  std::vector<bool> near(graph.nodes.size());
-  for (std::size_t i = 0; i < near.size(); ++i) near[i] = is_near(graph.nodes[i].disk);
-  const double slack = 2 * tolerance;
-  for (const Edge& edge : graph.edges) {
-    if (!near[edge.node[0]] && !near[edge.node[1]]) continue;
-    const auto& [from, component, kind] = graph.nodes[edge.node[0]];
-    const Disk& to = graph.nodes[edge.node[1]].disk;
-    const site::Control control =
-        site::control_of(boundary.sites[edge.site[0]], boundary.sites[edge.site[1]], from, to);
-    const Curve curve(from, control.point, to, control.weight);
-    const Boundary::SiteRange& run = boundary.runs[component];
-    for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-      const Disk disk = curve.at(t);
-      if (disk.radius <= slack) continue;
-      if (const auto hit = tree.nearest(disk.center, disk.radius - slack, run.first, run.last))
-        graph.lost.push_back(hit.site);
-    }
-  }
-}
-
 bool strays_at_centre(const site::Site& left, const site::Site& right, const Disk& from,
                       const Disk& to, double slack) {
   constexpr double near = 4;  // lengths

@@ -8,7 +8,6 @@
 
 #include "base/memory.h"
 #include "medial/axis.h"
-#include "methods/checks.h"
 #include "methods/disks/boundary.h"
 #include "methods/disks/walk.h"
 #include "site/boundary_tree.h"
@@ -51,14 +50,6 @@ void remove_spurs(const Boundary& boundary, std::span<const std::uint32_t> names
 /// sites, and where edges may run backward. O(n log n).
 void find_doubts(const Boundary& boundary, const site::BoundaryTree& tree, double tolerance,
                  Graph& graph);
-
-/// Notes among a graph's lost sites those that the disks of an edge reach over, if it begins or
-/// ends in a disk that nearly is one of these circles. There feet move far along the arc while the
-/// centre hardly moves, so that rounding may decide which of the edges that meet at the arc's end a
-/// disk touches first: if it has decided wrongly, by more than the tolerance, a disk reaches over
-/// the other one. Looks at five disks of each edge, for two tolerances. O(n log n).
-void find_overlooked(const Boundary& boundary, const site::BoundaryTree& tree,
-                     std::span<const AlmostSmooth::Circle> circles, double tolerance, Graph& graph);
 
 /// Whether an edge that comes within four of its lengths of the centre of a convex arc does not
 /// touch its sites at a quarter of its way, give or take `slack`: next to the centre, rounding of

@@ -41,8 +41,7 @@ std::function<void(std::uint64_t)> reporter(const Problem& problem, int attempts
 struct Way {
   std::vector<bool> in_precise = {};  ///< of each component: double is never asked; empty: it is
   bool merges_ties = true;
-  int attempts = 0;                                    ///< before this one
-  std::span<const AlmostSmooth::Circle> circles = {};  ///< disks near these may be wrong
+  int attempts = 0;  ///< before this one
 };
 
 /// Connects the holes of the boundary, walks it, and joins what the walk finds. Nothing where the
@@ -82,7 +81,6 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   if (boundary.has_arcs) {
     remove_spurs(boundary, names, problem.local_tolerance(), graph);
     find_doubts(boundary, tree, problem.local_tolerance(), graph);
-    find_overlooked(boundary, tree, way.circles, problem.local_tolerance(), graph);
   }
   return graph;
 }
@@ -251,14 +249,13 @@ Result<MedialAxis> run_in_place(const Problem& problem, const SiteNumbers& numbe
   const bool with_arcs = has_arcs(problem.shape);
   std::vector<std::size_t> doubtful = tiny_edges(problem);
   const bool has_tiny_edges = !doubtful.empty();
-  const AlmostSmooth joints = almost_smooth_joints(problem, numbers);
-  doubtful.insert(doubtful.end(), joints.points.begin(), joints.points.end());
+  for (const std::size_t point : almost_smooth_joints(problem, numbers)) doubtful.push_back(point);
   // Next to arcs, a walk that merges nothing, or far more than rounding, is measured, too.
   constexpr double coarse = 8;
   const bool is_coarse = problem.tolerance > coarse * problem.joint_tolerance;
   const bool is_measured = with_arcs && (problem.options.exact || has_tiny_edges || is_coarse);
   std::optional<Error> error;
-  Way way{{}, !problem.options.exact, attempts, joints.circles};
+  Way way{{}, !problem.options.exact, attempts};
   std::vector<std::uint32_t> lost;
   do {
     lost.clear();

@@ -105,8 +105,8 @@ class Repairer {
       return {rings_.local(v), rings_.local(rings_.corner_after(v)), rings_[v].bulge};
     };
     const auto is_doubtful = [&](std::uint32_t v) {
-      return doubtful_share(rings_[v].joint, edge(rings_.corner_before(v)), edge(v),
-                            measures_.fine_tolerance) > 0;
+      return is_almost_smooth(rings_[v].joint, edge(rings_.corner_before(v)), edge(v),
+                              measures_.fine_tolerance);
     };
     return std::any_of(window_.names.begin(), window_.names.end(), [&](std::uint32_t name) {
       const std::uint32_t vertex = name / 2;

@@ -109,7 +109,7 @@ std::optional<MedialAxis> axis_in_double(const Problem& problem, std::vector<Lev
 Result<MedialAxis> run(const Problem& problem, std::vector<Level>* levels) {
   Stopwatch all;
   const bool in_double = !has_short_sides(problem) && tiny_edges(problem).empty() &&
-                         almost_smooth_joints(problem, problem.numbers()).points.empty();
+                         almost_smooth_joints(problem, problem.numbers()).empty();
   auto decided = in_double ? axis_in_double(problem, levels) : std::nullopt;
   auto axis =
       decided ? Result<MedialAxis>(std::move(*decided)) : disks::run(problem, in_double ? 1 : 0);
