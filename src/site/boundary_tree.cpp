@@ -281,6 +281,14 @@ template <class Visit>
     if (i >= first && i <= last) visit(i, i);
 }
 
+[[gnu::always_inline]] inline bool BoundaryTree::is_beyond(std::uint32_t level, std::uint32_t index,
+                                                           Vec2 c, double reach) const {
+  if (reach < little_room || level < level_of_many || level >= chords_.size() ||
+      chords_[level].boxes.empty())
+    return false;
+  return (chords_[level].boxes[index / fan].beyond(c, reach) >> index % fan & 1U) != 0;
+}
+
 template <BoundaryTree::Order order, class Visit>
 [[gnu::always_inline]] inline void BoundaryTree::visit_blocks(Vec2 c, double& reach,
                                                               std::uint32_t first,
@@ -334,18 +342,10 @@ template <BoundaryTree::Order order, class Visit>
         continue;
       }
     }
-    // What was near may be out of reach since: of many sites, that is worth asking again.
-    const auto is_beyond = [&] {
-      if (reach < little_room || top.level < level_of_many || top.level >= chord_count ||
-          chords_[top.level].boxes.empty())
-        return false;
-      const ChordBoxes& boxes = chords_[top.level].boxes[top.index / fan];
-      return (boxes.beyond(c, reach) >> top.index % fan & 1U) != 0;
-    };
     do {
       if (size == 0) return;
       top = stack[--size];
-    } while (!(top.squared < limit) || is_beyond());
+    } while (!(top.squared < limit) || is_beyond(top.level, top.index, c, reach));
   }
 }
 

@@ -111,6 +111,8 @@ class BoundaryTree {
   template <class Visit>
   void visit_block(std::uint32_t index, std::uint32_t first, std::uint32_t last,
                    Visit&& visit) const;
+  /// Whether a node that was near is out of reach since: of many sites, that is worth asking again.
+  bool is_beyond(std::uint32_t level, std::uint32_t index, Vec2 c, double reach) const;
   template <Order order, class Visit>
   void visit_blocks(Vec2 c, double& reach, std::uint32_t first, std::uint32_t last,
                     Visit&& visit) const;

@@ -63,6 +63,15 @@ bool Decider::decide(Step& step, const Disk& from) {
   return decide_exactly(step, from);
 }
 
+/// Whether both feet pass a joint at once that is smooth up to rounding, so that by 256 bits either
+/// seems to pass first.
+bool Decider::both_pass(const Span& span, const Event& event) const {
+  const std::uint32_t touched = event.touched(span);
+  return boundary_.has_arcs && (touched == span.right + 1 || touched + 1 == span.left) &&
+         contacts_.passes_at(span, event.disk, span.right + 1) &&
+         contacts_.passes_at(span, event.disk, span.left - 1);
+}
+
 /// By 256 bits. Where these find nothing, double's event is taken and noted.
 bool Decider::decide_exactly(Step& step, const Disk& from) {
   using Kind = Event::Kind;
@@ -76,12 +85,7 @@ bool Decider::decide_exactly(Step& step, const Disk& from) {
   const auto found = next_exactly(context_, asked, from, event.touched(span), from_exact);
   count(found);
   if (!found) {
-    // Where both feet pass a joint that is smooth up to rounding, either seems to pass first.
-    const bool passes_on = event.kind == Kind::pass_right || event.kind == Kind::pass_left;
-    if (passes_on && !is_exact && boundary_.has_arcs &&
-        contacts_.passes_at(span, event.disk, span.right + 1) &&
-        contacts_.passes_at(span, event.disk, span.left - 1))
-      return false;
+    if (!is_exact && both_pass(span, event)) return false;
     if (is_exact) event = event_in_double(span, from);
     lose(span, event.site);
     return is_exact;

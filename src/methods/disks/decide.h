@@ -56,6 +56,7 @@ class Decider {
   }
   bool is_taken(const Step& step, const Disk& from, const Certainty& certainty);
   void take(Step& step);
+  bool both_pass(const Span& span, const Event& event) const;
   bool decide_exactly(Step& step, const Disk& from);
   void count(const std::optional<ExactEvent>& found) {
     ++(found && !found->in_precise ? chunk_.statistics.exact_twofold
