@@ -331,10 +331,11 @@ Result<std::vector<Placement>> nest(const Shape& fixed, const Shape& moving, dou
   for (Placement& at : found) nesting.improve(at);
   std::stable_sort(found.begin(), found.end(), more);
   std::vector<Placement> kept;
+  const double size = two->size;
   for (Placement& at : found) {
     if (kept.size() == best || !(at.saved > 0)) break;
     if (std::any_of(kept.begin(), kept.end(),
-                    [&](const Placement& other) { return is_near(at, other, two->size); }))
+                    [&](const Placement& other) { return is_near(at, other, size); }))
       continue;
     at.gap = nesting.distance_at(at);
     kept.push_back(at);
