@@ -267,8 +267,9 @@ void add_layer_options(CLI::App& command, io::WriteOptions& write) {
                   "The name of the layer in a .gpkg; others are called NAME_nodes and so on.")
       ->check(a_name())
       ->option_text("NAME");
-  command.add_flag("--overwrite", write.overwrite,
-                   "Replace layers of the same name in an existing .gpkg; other layers stay.");
+  command.add_flag(
+      "--overwrite", write.overwrite,
+      "Replace medial's layers of the same name in a .gpkg, or that of --output-layer.");
 }
 
 void add_output_options(CLI::App& command, FileArguments& arguments, const std::string& formats,

@@ -31,8 +31,8 @@ class Files(CommandLine):
         with contextlib.closing(sqlite3.connect(self.path("t.gpkg"))) as data:
             return data.execute(f"SELECT count(*) FROM {layer}").fetchone()[0]
 
-    def open_elsewhere(self, mode):
-        data = sqlite3.connect(self.path("t.gpkg"), isolation_level=None)
+    def open_elsewhere(self, mode, name="t.gpkg"):
+        data = sqlite3.connect(self.path(name), isolation_level=None)
         data.execute(f"PRAGMA journal_mode={mode}")
         return contextlib.closing(data)
 
@@ -104,6 +104,15 @@ class Files(CommandLine):
                          "VALUES ('nodes', 'attributes', 'nodes')")
         self.assertIn("other columns", self.refuse("unwritable", "axis", "a.wkt", "-o", "t.gpkg", "--overwrite"))
         self.assertEqual(self.rows("nodes WHERE name = 'mine'"), 1)
+        # Nor does the default name make a layer medial's own.
+        self.succeed("features", "a.wkt", "-o", "plain.gpkg")
+        with self.open_elsewhere("delete", "plain.gpkg") as data:
+            data.execute("CREATE TABLE axis (fid INTEGER PRIMARY KEY, name TEXT)")
+            data.execute("INSERT INTO gpkg_contents (table_name, data_type, identifier) "
+                         "VALUES ('axis', 'attributes', 'axis')")
+        overwrite = ("axis", "a.wkt", "-o", "plain.gpkg", "--overwrite")
+        self.assertIn("other columns", self.refuse("unwritable", *overwrite))
+        self.succeed(*overwrite, "--output-layer", "axis")
         # Layers of another input, with other attributes, are medial's own.
         for name in ("first", "second"):
             self.write(name + ".geojson", GEOGRAPHIC.replace('"rank"', f'"{name}"'))

@@ -87,11 +87,11 @@ void complete_triggers(GDALDataset& dataset, OGRLayer& layer) {
         nullptr, nullptr);
 }
 
-/// Removes layers of the same name as a table, if that was asked for: the first one, which the user
-/// named, and of the others those that have our columns.
+/// Removes layers of the same name as a table, if that was asked for: one that the user named, and
+/// of the others those that have our columns.
 Status make_room(GDALDataset& dataset, const Target& target, std::span<const Table> tables) {
   for (const Table& table : tables) {
-    const bool first = &table == tables.data();
+    const bool first = &table == tables.data(), is_named = first && !target.layer.empty();
     const std::string name = layer_name(target, table, first);
     for (int i = dataset.GetLayerCount(); i-- > 0;) {
       OGRLayer& layer = *dataset.GetLayer(i);
@@ -102,7 +102,7 @@ Status make_room(GDALDataset& dataset, const Target& target, std::span<const Tab
                                  "--output-layer gives the new one another name",
                                  name),
                      {}};
-      if (!first && !has_columns_of(layer, table))
+      if (!is_named && !has_columns_of(layer, table))
         return Error{ErrorCode::unwritable,
                      fmt::format("the file has a layer '{}' with other columns, which --overwrite "
                                  "leaves alone; --output-layer gives the new one another name",
