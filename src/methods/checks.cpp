@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "base/arc.h"
-#include "base/compat.h"
 #include "base/disjoint_sets.h"
 #include "base/threads.h"
 #include "base/tolerance.h"

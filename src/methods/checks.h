@@ -30,11 +30,11 @@ bool is_tiny_edge(const BulgeArc& local);
 /// Whether an arc meets another edge almost smoothly, so that double may be wrong about what a disk
 /// touches there that nearly is the arc's circle. In local units.
 ///
-/// That is so if a disk of the arc's radius reaches over a straight edge there by at
-/// most the tolerance, or if the shorter edge rises by no more: a blunt joint has no leaf, though
-/// disks lead towards it, and rounding decides in which order disks touch a reflex vertex and its
-/// edges. A reflex joint that counts as smooth, since an edge is short, is almost smooth as well: a
-/// disk reaches over it by half the square of its angle over the difference of the curvatures.
+/// That is so if a disk of the arc's radius reaches over a straight edge there by at most the
+/// tolerance, or if the shorter edge rises by no more: a blunt joint has no leaf, though disks lead
+/// towards it, and rounding decides in which order disks touch a reflex vertex and its edges. A
+/// reflex joint that counts as smooth, since an edge is short, is almost smooth as well: a disk
+/// reaches over it by half the square of its angle over the difference of the curvatures.
 bool is_almost_smooth(site::Joint joint, const BulgeArc& before, const BulgeArc& after,
                       double tolerance);
 /// The points of a shape with arcs at which tiny edges begin: next to these double may be wrong

@@ -62,7 +62,7 @@ struct WriteOptions {
 Status write_axes(const Destination& target, const std::string& format,
                   const Document<AxisItem>& file, const WriteOptions& options = {});
 
-/// Gets parts of axes, shape by numbered shape; where the first one's begins, all before are void.
+/// Gets parts of axes, with each shape's number; where the first one's begins, all before are void.
 using PartVisitor = std::function<void(std::size_t shape, std::uint64_t number, const AxisPart&)>;
 /// compute_axes(), written as the axes grow; without a name nowhere. No report, and `shapes` as it
 /// was, where the format (formats_of(axes, true)) or a native file's axis has no parts.

@@ -307,7 +307,7 @@ class Contacts {
     std::uint32_t site;
     double away;        ///< how far it is from the disk
     double beyond;      ///< see beyond_ends()
-    Vec2 foot, toward;  ///< the latter from there to the disk's centre, of length 1
+    Vec2 foot, toward;  ///< the unit vector from there to the disk's centre
   };
   /// Whether no disk that touches three sites of a tie, and reaches over no other one of it, each
   /// within `touching_`, touches anything else.
