@@ -326,15 +326,16 @@ bool Contacts::is_alone(const std::vector<Neighbor>& tie, const Span& span, cons
     ++statistics.queries;
     context.tree.within(disk.center, disk.radius + furthest, run.first, run.last, touched_);
   }
-  // By how many times the residuals of three contacts, from `first` on, a disk may be off in
+  // By how many times the residuals of three contacts, from each of them on, a disk may be off in
   // another direction: that is so far from each of these.
   const auto apart = [&](std::size_t i, std::size_t j) {
     return distance(toward[i % count], toward[j % count]);
   };
-  const auto shares_of = [&](std::size_t i) {
+  shares_.clear();
+  for (std::size_t i = 0; i < count; ++i) {
     const double a = apart(i, i + 1), b = apart(i + 1, i + 2), c = apart(i, i + 2);
-    return std::array{1 / (a * c), 1 / (a * b), 1 / (b * c)};
-  };
+    shares_.push_back({1 / (a * c), 1 / (a * b), 1 / (b * c)});
+  }
   return ranges::all_of(known ? within_ : touched_, [&](std::uint32_t i) {
     const double gap = away(i, disk);
     if (!(gap < furthest) || ranges::binary_search(tie, i, {}, &Neighbor::site) ||
@@ -347,7 +348,7 @@ bool Contacts::is_alone(const std::vector<Neighbor>& tie, const Span& span, cons
     for (std::size_t k = 0; k < away_from.size(); ++k)
       away_from[k] = distance(to, toward[(begin + k) % count]);
     for (std::size_t k = 0; k < 4; ++k) {
-      const auto [first, second, third] = shares_of((begin + k) % count);
+      const auto [first, second, third] = shares_[(begin + k) % count];
       const double factor = first * away_from[k + 1] * away_from[k + 2] +
                             second * away_from[k] * away_from[k + 2] +
                             third * away_from[k] * away_from[k + 1];

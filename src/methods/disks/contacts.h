@@ -353,6 +353,7 @@ class Contacts {
   std::vector<Neighbor> near_;      ///< of those within clearance(), what is not beside the disk
   std::vector<std::uint32_t> tie_;  ///< of is_alone()
   std::vector<Vec2> toward_;
+  std::vector<std::array<double, 3>> shares_;
 };
 
 }  // namespace medial::disks

@@ -17,6 +17,8 @@ using Hit = Contacts::Hit;
 
 /// How many disks are tried for each early start: most touch what is near along the boundary.
 constexpr int most_tries = 12;
+/// Places at which a run has to have none before it gets none. On a coast no disk touches two edges.
+constexpr std::size_t enough_in_vain = 4;
 /// How many tolerances away everything else is. The disk is off by four at most, and disks of the
 /// same edge nearer to where the walk comes from reach no further beyond the two feet.
 constexpr double clear_tolerances = 256;
@@ -38,10 +40,15 @@ class Finder {
 
   /// Adds some, each with `least` sites between its two and beside them.
   void find(std::uint32_t least, std::vector<EarlyStart>& starts) {
+    bool has_some = false;
+    std::size_t places = 0;
     for (std::uint64_t place = run_.first + std::uint64_t{least};
-         place + least < run_.last && !is_crowded_; place += 2 * std::uint64_t{least})
-      if (const auto start = near(static_cast<std::uint32_t>(place), least))
+         place + least < run_.last && !is_crowded_ && (has_some || places < enough_in_vain);
+         place += 2 * std::uint64_t{least}, ++places)
+      if (const auto start = near(static_cast<std::uint32_t>(place), least)) {
         starts.push_back(*start);
+        has_some = true;
+      }
   }
 
  private:

@@ -41,7 +41,8 @@ ContactOf<double> contact_of(const TieSites& sites, const Touch& i, const DiskOf
   return disks::contact_of(i.seen_from(sites.sites, own.center), own);
 }
 
-/// By how much the nearest point of what is to be touched is nearer or further than the radius.
+/// By how much the nearest point of what is to be touched is nearer or further than the radius:
+/// more than contact_of() has where a foot is beyond a site's end.
 double residual_of(const TieSites& sites, const Touch& i, const DiskOf<double>& disk) {
   const Disk own = rounded(disk);
   return std::abs(site::gap(
@@ -99,8 +100,10 @@ class Exchange {
         disk = measured;
         return Verdict::open;
       }
-      const bool is_settled = level_ > high && size_of(Real(level_ - before)) <= level_ / 64;
-      if (is_settled || has_strayed()) return Verdict::no;
+      // No disk does better than the level.
+      const Real change = size_of(Real(level_ - before));
+      if ((level_ > high && change <= level_ / 64) || has_strayed()) return Verdict::no;
+      if (level_ > low && level_ <= high && change <= Real(bound.noise)) return Verdict::open;
       before = level_;
     }
     measure(contacts);
@@ -143,14 +146,12 @@ class Exchange {
   }
   Real residual(const Touch& i) {
     if constexpr (std::is_same_v<Real, double>)
-      return residual_of(sites_, i, disk);
-    else
-      return size_of(contact(i).residual);
+      if (sites_.exact == nullptr) return residual_of(sites_, i, disk);
+    return size_of(contact(i).residual);
   }
 
   void measure(std::span<const Touch> contacts) {
     are_few_ = contacts.size() <= known_.size();
-    known_count_ = 0;
     worst = 0;
     furthest_ = contacts[0];
     for (const Touch& i : contacts) {
@@ -254,10 +255,24 @@ class Exchange {
     const Real area = cross(b, c);
     if (area == 0) return false;
     const Vector<Real> step{(db * c.y - dc * b.y) / area, (b.x * dc - c.x * db) / area};
-    known_count_ = 0;
+    const Real growth = dot(contact[0].toward, step) - a_change;
     disk.center = disk.center + step;
-    disk.radius += dot(contact[0].toward, step) - a_change;
+    disk.radius += growth;
+    keep_contacts(step, growth);
     return disk.radius > 0;
+  }
+
+  /// Contacts with segments change by how far a move leads along their normals; others are worked
+  /// out again. In double, so are all: the residual would miss how the centre is rounded.
+  void keep_contacts(const Vector<Real>& step, const Real& growth) {
+    std::size_t kept = 0;
+    for (std::size_t k = 0; !std::is_same_v<Real, double> && k < known_count_; ++k) {
+      auto& [touch, contact] = known_[k];
+      if (sites_.sites[touch.site].is_vertex() || sites_.sites[touch.site].is_arc()) continue;
+      contact.residual += dot(contact.toward, step) - growth;
+      known_[kept++] = known_[k];
+    }
+    known_count_ = kept;
   }
 
   const TieSites& sites_;
