@@ -547,7 +547,13 @@ class Merger {
       const double furthest = std::max(distance(site.point, a), distance(site.point, b));
       return cross(b - site.point, a - site.point) >= -slack * furthest;
     };
-    return moves_forward(right, from, to) && moves_forward(left, to, from) &&
+    // From both ends to the pole, too: between sites that are nearly parallel, an end that is off
+    // the bisector by rounding may turn the curve so far that a foot first goes back.
+    const Vec2 pole = control.point.center;
+    const auto moves_all_along = [&](const Site& site, Vec2 a, Vec2 b) {
+      return moves_forward(site, a, pole) && moves_forward(site, pole, b);
+    };
+    return moves_all_along(right, from, to) && moves_all_along(left, to, from) &&
            name_advances(edge.site[1], from, to) && name_advances(edge.site[0], to, from);
   }
   /// The same of the edge that the axis names in place of a vertex, which may be touched elsewhere.
