@@ -283,6 +283,19 @@ TEST(AlmostSmoothJoint, AnEdgeBendsBetweenTwoCentres) {
                      4.1510755185315565e-10}}});
 }
 
+/// Two half circles end beside two tiny arcs of less than half their radius. The disks between them
+/// touch the end that the tiny arcs share: `verify` took them to be behind the arc, as they reach
+/// beyond its circle.
+TEST(AlmostSmoothJoint, DisksTouchTheEndOfARounderArc) {
+  expect_verified({{{{-1.1989262604383191, -2.4198579878015125e-08},
+                     {1.1989262604383191, -3.8616796808319945e-14},
+                     {-1.1989262604383188, 2.4198502560220071e-08},
+                     {-1.1989262604383186, 1.1277193356156377e-31}},
+                    RingRole::any,
+                    {0.9999999974245809, 0.99999999742473944, 1.2409562221274473e-08,
+                     1.2409601871661355e-08}}});
+}
+
 TEST(AlmostSmoothJoint, IsLeftToDisksByLee) {
   Options options{.method = method::Lee{}, .threads = 1};
   expect_verified({{{{5.259379083290482e-07, 0},

@@ -547,6 +547,17 @@ TEST(BoundaryEdge, IsTouchedInTheNearerEndNextToItsCentre) {
   }
 }
 
+/// A disk that touches an arc's end may be larger than its circle: it is on the left of the tangent
+/// there, whichever side of the far half of the circle its centre is on.
+TEST(BoundaryEdge, IsTouchedFromTheLeftBeyondItsCircle) {
+  for (const double bulge : {0.05, -0.05})
+    for (const double side : {1, -1}) {
+      const verify_detail::Arc arc(BoundaryEdge{{0, 0}, {0.1, 0}, bulge});
+      const Vec2 place = 3 * turned(arc.start_tangent(), -0.1, side);
+      EXPECT_DOUBLE_EQ(arc.signed_distance(place), side * norm(place)) << bulge;
+    }
+}
+
 TEST(BoundaryEdge, IsAsFarFromTwoPlacesAsFromEach) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> unit(-1, 1);

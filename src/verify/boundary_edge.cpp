@@ -20,10 +20,11 @@ Arc::Arc(const BoundaryEdge& edge) : edge_(edge), chord_length_(norm(edge.chord(
 
 double Arc::signed_distance(Vec2 p) const {
   const Vec2 from = from_center(p);
-  const double carrier = carrier_distance(p, from);
-  if (is_beside(p, from)) return carrier;
-  const double end = std::min(medial::distance(p, edge_.start), medial::distance(p, edge_.end));
-  return carrier < 0 ? -end : end;
+  if (is_beside(p, from)) return carrier_distance(p, from);
+  const Vec2 u = p - edge_.start, v = p - edge_.end;
+  const bool first = squared_norm(u) <= squared_norm(v);
+  return std::copysign(norm(first ? u : v),
+                       first ? cross(start_tangent_, u) : cross(end_tangent_, v));
 }
 
 MEDIAL_WIDE Pair Arc::signed_distances(const Pair& x, const Pair& y) const {
@@ -42,7 +43,9 @@ MEDIAL_WIDE Pair Arc::signed_distances(const Pair& x, const Pair& y) const {
                           (end_tangent_.x * vx + end_tangent_.y * vy <= 0) &
                           (chord_.x * from_y - chord_.y * from_x <= 0);
   if (all(beside)) return carrier;
-  return beside ? carrier : with_sign_of(root_of(smaller(to_start, to_end)), carrier);
+  const Pair ahead = first ? start_tangent_.x * uy - start_tangent_.y * ux
+                           : end_tangent_.x * vy - end_tangent_.y * vx;
+  return beside ? carrier : with_sign_of(root_of(smaller(to_start, to_end)), ahead);
 }
 
 /// tan(a / 4) with the angle a, in (-pi, pi], turned up to the point of the circle nearest to p.
