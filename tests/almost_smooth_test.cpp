@@ -296,6 +296,36 @@ TEST(AlmostSmoothJoint, DisksTouchTheEndOfARounderArc) {
                      1.2409601871661355e-08}}});
 }
 
+/// An edge between the centres of two half circles: its disks touch the ends that these share, one
+/// smooth, one reflex, and are equally near to both. `verify` chose the wrong one by rounding.
+TEST(AlmostSmoothJoint, BothEndsOfAHalfCircleAreTouched) {
+  expect_verified(
+      {{{{-1.1385444648010161, -0.42067208876490825},
+         {1.1385444648016685, 0.42067208876314294},
+         {-0.42067208877089812, 1.1385444648173406},
+         {-1.1385444726197911, -0.42067206760347459}},
+        RingRole::any,
+        {0.9999999999992335, 0.41421356237773604, 0.41421355693347245, 2.6382577509475805e-08}}});
+}
+
+/// Two nearly flat corners opposite each other are one tie within the tolerance. Its disk is so far
+/// off the bisector of either that the branch to a corner would first lead back.
+TEST(AlmostSmoothJoint, ATieDoesNotTurnABranchBack) {
+  expect_verified({{{{35504317.94391398, -25831789.523438103},
+                     {35504317.73310418, -25831789.772232216},
+                     {35504317.59321891, -25831790.0666326},
+                     {35504317.5336342, -25831790.387288403},
+                     {35504317.77955919, -25831790.661482815},
+                     {35504318.05371929, -25831790.415537506},
+                     {35504318.088817775, -25831790.227546837},
+                     {35504318.17093985, -25831790.05469622},
+                     {35504318.29448985, -25831789.90874007}},
+                    RingRole::any,
+                    {0.06493273088789875, 0.0649239854181691, 0.06493761757203981,
+                     0.41423352162707167, 0.41417293114767467, -0.0649376387091748,
+                     -0.06493500639266044, -0.06492636838275224, 0.9999807811085283}}});
+}
+
 TEST(AlmostSmoothJoint, IsLeftToDisksByLee) {
   Options options{.method = method::Lee{}, .threads = 1};
   expect_verified({{{{5.259379083290482e-07, 0},

@@ -64,15 +64,19 @@ double turned_by(const Problem& problem, const Edge& edge, const Curve& curve, V
   return -cross(tangent, chord) / speed;
 }
 
-/// Whether a foot on an arc may be anywhere, as next to its centre; or is at its end where that
-/// joins the next edge smoothly, so that either may have the foot.
+/// Whether a foot on an arc may be anywhere, as next to its centre; or may be at an end that joins
+/// the next edge smoothly, so that either may have the foot. In the centre of half a circle, both
+/// ends are equally near.
 bool has_open_foot(const Problem& problem, std::uint32_t site, const BoundaryEdge& arc,
                    Vec2 center) {
   constexpr double few = 64;
   const std::uint32_t place = problem.place[site];
   if (place == no_index) return true;
-  const bool at_start = squared_norm(center - arc.start) < squared_norm(center - arc.end);
-  return problem.joint[at_start ? place : problem.next[place]] != Joint::reflex ||
+  const double start = distance(center, arc.start), end = distance(center, arc.end);
+  const auto may_pass_on = [&](double away, double other, std::uint32_t at) {
+    return away <= other + problem.tolerance && problem.joint[at] != Joint::reflex;
+  };
+  return may_pass_on(start, end, place) || may_pass_on(end, start, problem.next[place]) ||
          few * problem.arcs[place].foot_slack(center, problem.tolerance) >= length_of(arc);
 }
 
