@@ -153,13 +153,6 @@ class Contacts {
     return site::squared_distance(site(i), disk.center) <= reach * reach;
   }
 
-  /// The next site in the span after the right one or before the left one, across a bridge if need
-  /// be.
-  std::uint32_t neighbor(const Span& span, bool of_right) const {
-    if (of_right) return span.right + (element(span.right + 1) == Element::bridge ? 2 : 1);
-    return span.left - (element(span.left - 1) == Element::bridge ? 2 : 1);
-  }
-
   /// Whether the span is a short chain of smooth joints, nowhere convex, that turns by less than
   /// half a turn: no disk touches such a chain in two places. Rounding may ask for one where the
   /// chain is flat.

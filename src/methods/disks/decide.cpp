@@ -19,6 +19,7 @@ void Decider::propose(Step& step, const Disk& from) {
   EventSearch search(contacts_, span, from);
   step.event = found != nullptr ? search.next(found->event) : search.next();
   ahead_.note(chunk_.statistics.queries - queries <= 1);
+  if (step.event.kind == Event::Kind::none) return;
   const Certainty certainty(boundary_, context_.tolerance, span, from, step.event);
   step.error = certainty.error();
   if (is_taken(step, from, certainty)) take(step);
@@ -45,7 +46,7 @@ void Decider::take(Step& step) {
 bool Decider::decide(Step& step, const Disk& from) {
   Event& event = step.event;
   if (contacts_.is_polygon() && context_.joins_ties && !is_exact &&
-      event.kind == Event::Kind::contact) {
+      event.kind != Event::Kind::at_node && event.site < step.span.left) {
     // Contacts that are near to each other leave open where they meet: in a tie of the node's own
     // disk, there; but where one only passes on to the next, that may be anywhere.
     const bool passes = step.span.continues_right(boundary_, event.site) ||
@@ -72,7 +73,7 @@ bool Decider::both_pass(const Span& span, const Event& event) const {
          contacts_.passes_at(span, event.disk, span.left - 1);
 }
 
-/// By 256 bits. Where these find nothing, double's event is taken and noted.
+/// By 256 bits. What these do not find is noted, and double's event taken, if there is one.
 bool Decider::decide_exactly(Step& step, const Disk& from) {
   using Kind = Event::Kind;
   Event& event = step.event;
@@ -84,21 +85,12 @@ bool Decider::decide_exactly(Step& step, const Disk& from) {
   const bool from_exact = is_exact || (span.is_exact && !boundary_.has_arcs);
   const auto found = next_exactly(context_, asked, from, event.touched(span), from_exact);
   count(found);
-  if (!found) {
-    if (!is_exact && both_pass(span, event)) return false;
-    if (is_exact) event = event_in_double(span, from);
-    lose(span, event.site);
-    return is_exact;
-  }
-  // Between sites that are all but parallel, double's disk is as good as any that is so near.
-  const bool is_tie = event.kind == Kind::at_node && !context_.joins_ties;
-  const double apart = distance(event.disk.center, found->disk.center) +
-                       std::abs(event.disk.radius - found->disk.radius);
-  if (!found->is_well_known() && event.site == found->site && !is_tie &&
-      apart <= found->error + spread * context_.tolerance)
-    return false;
   // What 256 bits leave open is measured in the end.
-  if (!(found->error <= context_.tolerance)) lose(span, found->site);
+  if (!found || !(found->error <= context_.tolerance)) {
+    if (both_pass(span, event)) return false;
+    lose(span, event.site);
+  }
+  if (!found) return false;
   Span ahead = span;
   stay_on_pieces(asked, found->disk.center, ahead);
   const bool passes = ahead.right != span.right || ahead.left != span.left;

@@ -51,9 +51,6 @@ class Decider {
  private:
   const site::Site& site(std::uint32_t i) const { return boundary_.sites[i]; }
   Element element(std::uint32_t i) const { return boundary_.elements[i]; }
-  Event event_in_double(const Span& span, const Disk& from) {
-    return EventSearch(contacts_, span, from).next();
-  }
   bool is_taken(const Step& step, const Disk& from, const Certainty& certainty);
   void take(Step& step);
   bool both_pass(const Span& span, const Event& event) const;

@@ -14,10 +14,7 @@ using Hit = Contacts::Hit;
 
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 
-/// Halving an interval of doubles more often than this cannot change it.
-constexpr int bracket_steps = 128;
-/// Of growing or shrinking a disk by closed forms before the bracket takes over; some three are
-/// usual.
+/// Of growing or shrinking a disk by closed forms before that is left open; some three are usual.
 constexpr int most_rounds = 200;
 /// From this round on, one that shortens the way by less than half is followed by a part of the
 /// way.
@@ -216,17 +213,11 @@ Event EventSearch::far_event(double radius) const {
 }
 
 std::optional<Event> EventSearch::plain(const Event& by_neighbors) {
-  Event event = by_neighbors;
-  if (event.kind == Event::Kind::far || span_.left - span_.right == 2 || is_in_point(event))
+  if (by_neighbors.kind == Event::Kind::far || span_.left - span_.right == 2 ||
+      is_in_point(by_neighbors) ||
+      (by_neighbors.kind == Event::Kind::contact && is_at_node(by_neighbors.site)))
     return std::nullopt;
-  if (event.kind == Event::Kind::contact) {
-    if (is_at_node(event.site)) return std::nullopt;
-    event.site = contacts_.owner(event.site, event.disk.center, span_);
-    if (!reaches(event)) return std::nullopt;
-  }
-  if (!contacts_.reaches(span_.right, event.disk) || !contacts_.reaches(span_.left, event.disk))
-    return std::nullopt;
-  return event;
+  return of_empty_disk(by_neighbors);
 }
 
 Event EventSearch::next(const Event& event) {
@@ -249,13 +240,12 @@ Event EventSearch::at_node(std::uint32_t touched) const {
 }
 
 Event EventSearch::first_contact(Event event) {
-  Event intruded = event;
   double empty = low_;  // position up to which disks are known to be empty
   bool look_beyond = true, is_slow = false;
   // Every round comes earlier, but one that looked beyond and those that grow; rounding could make
   // rounds repeat.
   for (int round = 0; round < most_rounds; ++round) {
-    if (is_in_point(event)) event = short_of_point(event);
+    if (is_in_point(event)) break;
     const bool is_contact = event.kind == Event::Kind::contact;
     const bool asks_part = std::exchange(is_slow, false) && is_contact;
     Event asked = asks_part                   ? part_of_way(empty, event)
@@ -271,11 +261,12 @@ Event EventSearch::first_contact(Event event) {
         Event further = far_event(event.disk.radius);
         if (!(further.position > event.position)) further = far_event(0);
         if (further.position > event.position) {
-          event = intruded = further;
+          event = further;
           continue;
         }
       }
-      return of_empty_disk(event, intruded);
+      const auto found = of_empty_disk(event);
+      return found ? *found : left_open(event);
     }
     const std::uint32_t intruder = contacts_.owner(hit.site, asked.disk.center, span_);
     if (is_at_node(intruder)) return at_node(intruder);
@@ -283,28 +274,20 @@ Event EventSearch::first_contact(Event event) {
     const std::optional<Event> earlier = contact_before(asked);
     if (!earlier || !(earlier->position < asked.position)) {
       if (asks_part) continue;
-      intruded = asked;
       // A disk that is empty, and touched by what is beyond it, will do.
-      if (is_contact && look_beyond) {
-        look_beyond = false;
-        continue;
-      }
-      return bracket(from_, asked);
+      if (!is_contact || !look_beyond) break;
+      look_beyond = false;
+      continue;
     }
-    intruded = asked;
     // The intruder's end touches the node's disk: a tie, not a later contact. (Next to arcs, that
     // does not tell.)
     if (contacts_.is_polygon() && is_at_node(earlier->site)) return at_node(earlier->site);
-    // A disk too far ahead may reach a point whose other copy was touched before.
-    if (element(earlier->site) == Element::vertex && earlier->position <= low_ + slack() &&
-        !contacts_.faces(earlier->site, earlier->disk.center))
-      return bracket(from_, asked);
     is_slow = !asks_part && round >= slow_round &&
               earlier->position - empty > 0.5 * (asked.position - empty);
     look_beyond = earlier->position < event.position;
     event = *earlier;
   }
-  return bracket(from_, intruded);
+  return left_open(event);
 }
 
 bool EventSearch::is_in_point(const Event& event) const {
@@ -312,30 +295,16 @@ bool EventSearch::is_in_point(const Event& event) const {
          span_.left - span_.right > 2 && from_.radius > 0;
 }
 
-Event EventSearch::short_of_point(const Event& event) {
-  double way = event.position - low_;
-  for (int step = 0; step < bracket_steps; ++step) {
-    way *= 0.5;
-    const double position = event.position - way;
-    if (!(low_ < position && position < event.position)) break;
-    const Disk disk = bisector_.disk_at(position, from_);
-    if (contacts_.nearest(disk, span_)) return {Event::Kind::far, Hit::none, disk, position};
-  }
-  return event;
-}
-
-Event EventSearch::of_empty_disk(Event event, const Event& intruded) {
-  if (event.kind == Event::Kind::contact)
+std::optional<Event> EventSearch::of_empty_disk(Event event) const {
+  if (event.kind == Event::Kind::contact) {
     event.site = contacts_.owner(event.site, event.disk.center, span_);
-  // Only the carrier was touched, short of the site.
-  if (event.kind == Event::Kind::contact && !reaches(event)) return bracket(event.disk, intruded);
-  // The disk at a corner, where the neighbour is too short to reach into it.
-  const bool at_corner = event.kind == Event::Kind::far && event.site != Hit::none;
-  if (at_corner && reaches(event)) event.kind = Event::Kind::contact;
+    // Only the carrier was touched, short of the site, or a point whose other copy was before.
+    if (!reaches(event) || !contacts_.faces(event.site, event.disk.center)) return std::nullopt;
+  }
   // A foot has left its site: events on flat corners come in doubtful order.
   if (event.kind == Event::Kind::far || !contacts_.reaches(span_.right, event.disk) ||
       !contacts_.reaches(span_.left, event.disk))
-    return bracket(from_, event);
+    return std::nullopt;
   return event;
 }
 
@@ -394,55 +363,15 @@ std::optional<Event> EventSearch::contact_before(const Event& intruded) {
   return on_place ? on_place : contact;
 }
 
-std::uint32_t EventSearch::obstacle(const Disk& disk) {
-  if (!(disk.radius <= context_.radius_limit)) return contacts_.neighbor(span_, true);
-  const Hit hit = contacts_.nearest(disk, span_);
-  if (hit) return contacts_.owner(hit.site, disk.center, span_);
-  if (!contacts_.reaches(span_.right, disk)) return contacts_.neighbor(span_, true);
-  if (!contacts_.reaches(span_.left, disk)) return contacts_.neighbor(span_, false);
-  return Hit::none;
-}
-
-std::optional<Event> EventSearch::pass_at_node() const {
-  if (!(from_.radius > 0)) return std::nullopt;
+Event EventSearch::left_open(Event event) const {
   for (const bool on_right : {true, false}) {
     const auto [own, next, other] = side(on_right);
-    if (boundary_.is_smooth(std::min(own, next)) &&
+    if (from_.radius > 0 && boundary_.is_smooth(std::min(own, next)) &&
         contacts_.touches_carrier(next, from_, context_.tolerance))
-      return Event{on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, from_,
-                   low_};
+      return {on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, from_, low_};
   }
-  return std::nullopt;
-}
-
-Event EventSearch::bracket(const Disk& start, const Event& event) {
-  if (const auto passed = pass_at_node()) return *passed;
-  ++contacts_.statistics.brackets;
-  Event found{Event::Kind::contact, event.site, start, bisector_.position(start.center)};
-  if (found.site == Hit::none || found.site <= span_.right || found.site >= span_.left)
-    found.site = contacts_.neighbor(span_, true);
-  double high = event.position;
-  for (int step = 0; step < bracket_steps; ++step) {
-    const double middle = 0.5 * (found.position + high);
-    if (!(found.position < middle && middle < high)) break;
-    const Disk disk = bisector_.disk_at(middle, start);
-    const std::uint32_t site = obstacle(disk);
-    if (site == Hit::none) {
-      found.position = middle;
-      found.disk = disk;
-    } else {
-      high = middle;
-      found.site = site;
-    }
-  }
-  Event polished = found;
-  polish(polished.disk, site(found.site));
-  polished.position = bisector_.position(polished.disk.center);
-  const bool holds = polished.position >= bisector_.position(start.center) && reaches(polished) &&
-                     contacts_.reaches(span_.right, polished.disk) &&
-                     contacts_.reaches(span_.left, polished.disk) &&
-                     !contacts_.nearest(polished.disk, span_);
-  return holds ? polished : found;
+  event.kind = Event::Kind::none;
+  return event;
 }
 
 }  // namespace medial::disks

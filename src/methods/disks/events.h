@@ -47,7 +47,8 @@ class EventSearch {
 
   /// The first event that the two sites and their neighbours alone tell.
   Event by_neighbors();
-  /// What that comes to; never `none` or `far`.
+  /// What that comes to; never `far`. `none` where closed forms leave it open, with the last
+  /// contact that they had.
   Event next(const Event& by_neighbors);
   Event next() { return next(by_neighbors()); }
   /// What next() makes of such an event if asked_disk() is empty, and if that is all it asks for.
@@ -123,22 +124,21 @@ class EventSearch {
   /// Brings a disk's residual below the tolerance: by Newton's method, and where that fails in
   /// higher precision.
   void polish(Disk& disk, const site::Site& third);
-  /// Where the node's disk touches the smooth neighbour of one of the two sites as well, within the
-  /// tolerance: the foot may pass on to it at once.
-  std::optional<Event> pass_at_node() const;
+  /// What closed forms leave open: none, unless the node's disk touches the smooth neighbour of one
+  /// of the two sites as well, within the tolerance. Then the foot may pass on to it at once.
+  Event left_open(Event event) const;
   bool is_at_node(std::uint32_t touched) const;
   Event at_node(std::uint32_t touched) const;
   /// Shortens the way to `event` until the disk there is empty: each intruder gives a disk
   /// that comes earlier.
   Event first_contact(Event event);
-  /// What the event of an empty disk comes to; `intruded` comes after it.
-  Event of_empty_disk(Event event, const Event& intruded);
+  /// What the event of an empty disk comes to, if it is one.
+  std::optional<Event> of_empty_disk(Event event) const;
   /// A disk on the way from an empty one to an event. Between two rows of vertices that approach
   /// each other, what intrudes most on a disk far ahead lets it come but one vertex earlier.
   Event part_of_way(double empty, const Event& event) const;
   /// Where edges of a planar graph meet, a disk of no radius touches them all, and those between
-  /// the two sites reach into the disks before. Such an event becomes one of those disks.
-  Event short_of_point(const Event& event);
+  /// the two sites reach into the disks before.
   bool is_in_point(const Event& event) const;
   /// The disk a little further, where the touched site intrudes by half of the tolerance. A flat
   /// contact leaves its position open: many neighbours on a circle are touched by one disk within
@@ -150,12 +150,6 @@ class EventSearch {
   /// A contact with the intruder of a disk that comes earlier: with its carrier, with its neighbour
   /// where the carrier is touched short of it, or with a point of it.
   std::optional<Event> contact_before(const Event& intruded);
-  /// The site that keeps a disk of the bisector from being a maximal one: an intruder, or the
-  /// neighbour to which a foot has passed on. None for a maximal disk.
-  std::uint32_t obstacle(const Disk& disk);
-  /// Where closed forms fail: halves the way from the node's disk, which is maximal, to that of
-  /// `event`, which is not, until nothing is left in between. Always ends.
-  Event bracket(const Disk& start, const Event& event);
   std::optional<Event> contact_with(std::uint32_t third, double high) {
     return contact_with(site(third), third, high);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -60,8 +61,9 @@ class Search {
       if (!candidates.empty()) continue;
       if (!all_around) {
         if (!are_all_seen()) candidates = reached_before();
-        if (candidates.empty()) return std::nullopt;
-        continue;
+        if (!candidates.empty()) continue;
+        if (!best_) return std::nullopt;
+        return ExactEvent{site_, rounded(*best_), std::numeric_limits<double>::infinity(), {}};
       }
       // Of disks that grow in one place, the best one reaches over all that the others touch.
       if (best_ || !(reach <= furthest)) return std::nullopt;

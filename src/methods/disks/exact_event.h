@@ -24,7 +24,8 @@ struct ExactEvent {
 /// The site in a span that a disk touches together with the span's two, and its disk, which keeps
 /// clear of all sites in the span. `from`: about the disk of the span's node; `hint`: a site to
 /// begin with, if it lies in the span; `is_exact`: whether the node is the one of its three sites.
-/// None where the span has no such disk.
+/// Where all disks of that kind reach over something, the first one, with an infinite error; none
+/// where the span has none.
 std::optional<ExactEvent> next_exactly(const WalkContext& context, const Span& span,
                                        const Disk& from, std::uint32_t hint, bool is_exact);
 

@@ -171,8 +171,9 @@ std::optional<Triple<Number>> solve_round(const std::array<Form<Number>, 3>& for
   const Number root = root_of(discriminant);
   const bool upper = scale_sign < 0;  // the root (-first + sqrt(discriminant)) / second
   // It is better written as zeroth / (-first - sqrt(discriminant)).
-  const bool cancels = upper ? near(first) > 0 : near(first) < 0;
-  const int divisor = cancels ? -sign_of(first) : sign_of(second);
+  const int middle = (upper ? near(first) > 0 : near(first) < 0) ? sign_of(first) : 0;
+  const bool cancels = middle != 0;
+  const int divisor = cancels ? -middle : sign_of(second);
   if (divisor == 0) return std::nullopt;
   // The disk is smaller than the own circles: (constant + lambda factor) / scale is positive.
   for (const Form<Number>& f : forms) {
