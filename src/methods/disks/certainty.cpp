@@ -30,11 +30,11 @@ Certainty::Certainty(const Boundary& boundary, const Span& span, const Disk& fro
 Certainty::Certainty(const Boundary& boundary, double tolerance, const Span& span, const Disk& from,
                      const Event& event)
     : Certainty(boundary, span, from, event) {
-  const bool ties = tolerance <= small_tolerance * to_.radius;
   if (event.kind == Event::Kind::at_node) {
     error_ = span.error;
     tie_ = true;
-    certain_ = ties && is_near(span.right, tolerance) && is_near(span.left, tolerance) &&
+    certain_ = tolerance <= small_tolerance * to_.radius && is_near(span.right, tolerance) &&
+               is_near(span.left, tolerance) &&
                (!boundary.has_arcs || (has_place(fourth_) && touches_own_arc(tolerance)));
     return;
   }
@@ -62,12 +62,8 @@ Certainty::Certainty(const Boundary& boundary, double tolerance, const Span& spa
   if (boundary.has_arcs)
     for (const std::uint32_t i : {span.right, fourth, span.left})
       if (!fits(i, tolerance)) return;
-  certain_ = error_ <= well_known * to_.radius || touches(fourth, tolerance);
-  if (!certain_ || moves_forward() || comes_before(fourth)) return;
-  tie_ = true;
-  // Else four contacts may leave open where they are, or where the node is.
-  const bool known = error_ + span.error <= tolerance;
-  certain_ = boundary.has_arcs && ties && known && is_one_tie(0.5 * tolerance);
+  const bool known = error_ <= well_known * to_.radius || touches(fourth, tolerance);
+  certain_ = known && (moves_forward() || comes_before(fourth));
 }
 
 Certainty::Contact Certainty::contact_of_arc(const site::Site& arc, const Disk& disk) {
@@ -103,14 +99,6 @@ bool Certainty::touches(std::uint32_t third, double slack) const {
     if (!(std::abs(contact(i).residual) <= slack && (site(i).is_vertex() || is_near(i, 2 * slack))))
       return false;
   return slack <= small_tolerance * to_.radius;
-}
-
-bool Certainty::is_one_tie(double slack) const {
-  if (span_.third >= boundary_.sites.size()) return false;
-  // Where a foot has just passed a joint, any disk that touches there touches both sites.
-  if (span_.third + 1 == span_.right || span_.third == span_.left + 1) return false;
-  const Contact other = contact(span_.third);
-  return std::abs(other.residual) + other.unsure <= slack;
 }
 
 bool Certainty::has_place(std::uint32_t third) const {

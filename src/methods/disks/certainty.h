@@ -91,8 +91,6 @@ class Certainty {
   /// Whether the node's disk, which touches `third` of the span, is before that of the event,
   /// which touches `fourth`: seen by the four contacts of one disk.
   bool comes_before(std::uint32_t fourth) const;
-  /// Whether the event's disk touches what the node's does: the two become one in the end.
-  bool is_one_tie(double slack) const;
 
   const Boundary& boundary_;
   const Span& span_;

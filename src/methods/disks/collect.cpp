@@ -296,8 +296,8 @@ bool touches_all_between(const Boundary& boundary, const Boundary::SiteRange& ru
 
 }  // namespace
 
-void remove_spurs(const Boundary& boundary, std::span<const std::uint32_t> names, double tolerance,
-                  Graph& graph, std::span<const std::uint32_t> borders) {
+void remove_spurs(const Boundary& boundary, double tolerance, Graph& graph,
+                  std::span<const std::uint32_t> borders) {
   // Of each node, how many edges end there, and the exclusive or of their numbers: the one edge of
   // a leaf.
   std::vector<std::array<std::uint32_t, 2>> ends(graph.nodes.size());
@@ -307,13 +307,8 @@ void remove_spurs(const Boundary& boundary, std::span<const std::uint32_t> names
       ends[node][1] ^= e;
     }
   for (const std::uint32_t node : borders) ++ends[node][0];
-  const auto name = [&](std::uint32_t i) {
-    const std::uint32_t own = boundary.originals[i];
-    return names.empty() ? own : names[own];
-  };
   const auto is_spur = [&](const Edge& edge, std::uint32_t leaf) {
     const auto [left, right] = edge.site;
-    if (!names.empty() && name(left) == name(right)) return true;
     // Most leaves are corners.
     if (boundary.sides == Sides::both || !(graph.nodes[leaf].disk.radius > 0)) return false;
     const Disk& end = graph.nodes[leaf].disk;

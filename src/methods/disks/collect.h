@@ -38,13 +38,11 @@ WorkVector<std::uint8_t> degrees_of(const Graph& graph);
 Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::span<const Bridge> bridges,
               std::size_t spare_nodes, bool with_passages);
 
-/// Takes edges to leaves out of the graph: where joints are taken as the doubles have them and
-/// sites have other `names` in the result, those with one site on both sides, which bound no cell;
-/// and in a shape those towards a joint where an axis has no leaf, if the disk at which they begin
-/// touches all that lies between their sites there within the tolerance. `borders`: nodes at which
-/// the axis goes on.
-void remove_spurs(const Boundary& boundary, std::span<const std::uint32_t> names, double tolerance,
-                  Graph& graph, std::span<const std::uint32_t> borders = {});
+/// Takes edges to leaves out of a shape's graph that lead towards a joint where an axis has no
+/// leaf, if the disk at which they begin touches all that lies between their sites there within the
+/// tolerance. `borders`: nodes at which the axis goes on.
+void remove_spurs(const Boundary& boundary, double tolerance, Graph& graph,
+                  std::span<const std::uint32_t> borders = {});
 
 /// Notes among a graph's lost sites where it may be wrong next to arcs: where disks reach over
 /// sites, and where edges may run backward. O(n log n).

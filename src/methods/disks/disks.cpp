@@ -67,19 +67,15 @@ std::optional<Graph> graph_of(const Problem& problem, const SiteNumbers& numbers
   context.cancel = problem.options.cancel;
   context.finished_sites = reporter(problem, way.attempts, boundary, finished);
   context.joins_ties = way.merges_ties;
-  std::span<const std::uint32_t> names;
-  if (parted != nullptr) {
-    names = parted->names;
-    if (boundary.sides == Sides::one) context.ends_smooth = &parted->ends_smooth;
-  }
+  if (parted != nullptr && boundary.sides == Sides::one) context.ends_smooth = &parted->ends_smooth;
   auto chunks = walk(context);
   statistics.seconds_walk = watch.lap();
   if (problem.is_cancelled()) return std::nullopt;
 
   Graph graph = collect(chunks, boundary.bridges, spare_nodes, boundary.has_arcs);
-  if (way.merges_ties) merge_ties(tree, sites, problem.local_tolerance(), graph, names);
+  if (way.merges_ties) merge_ties(tree, sites, problem.local_tolerance(), graph);
   if (boundary.has_arcs) {
-    remove_spurs(boundary, names, problem.local_tolerance(), graph);
+    remove_spurs(boundary, problem.local_tolerance(), graph);
     find_doubts(boundary, tree, problem.local_tolerance(), graph);
   }
   return graph;

@@ -49,14 +49,12 @@ struct Group {
 
 class Merger {
  public:
-  Merger(const site::BoundaryTree& tree, const ExactSites& exact, double tolerance, Graph& graph,
-         std::span<const std::uint32_t> names)
+  Merger(const site::BoundaryTree& tree, const ExactSites& exact, double tolerance, Graph& graph)
       : boundary_(exact.boundary),
         tree_(tree),
         exact_(exact),
         tie_sites_{boundary_.sites, &exact},
         tolerance_(tolerance),
-        names_(names),
         graph_(graph) {}
 
   void merge() {
@@ -553,23 +551,7 @@ class Merger {
     const auto moves_all_along = [&](const Site& site, Vec2 a, Vec2 b) {
       return moves_forward(site, a, pole) && moves_forward(site, pole, b);
     };
-    return moves_all_along(right, from, to) && moves_all_along(left, to, from) &&
-           name_advances(edge.site[1], from, to) && name_advances(edge.site[0], to, from);
-  }
-  /// The same of the edge that the axis names in place of a vertex, which may be touched elsewhere.
-  bool name_advances(std::uint32_t i, Vec2 from, Vec2 to) const {
-    if (names_.empty() || boundary_.elements[i] != Element::vertex) return true;
-    for (const std::uint32_t beside : {i - 1, i + 1}) {
-      if (beside >= boundary_.sites.size() || boundary_.elements[beside] != Element::edge ||
-          names_[boundary_.originals[beside]] != names_[boundary_.originals[i]])
-        continue;
-      const Site& named = boundary_.sites[beside];
-      const double size =
-          std::min(site::view_of_arc(named, from).size, site::view_of_arc(named, to).size);
-      return (site::foot_parameter(named, to) - site::foot_parameter(named, from)) * size >=
-             -4 * tolerance_;
-    }
-    return true;
+    return moves_all_along(right, from, to) && moves_all_along(left, to, from);
   }
 
   /// Takes the contracted edges and the nodes that became others out of the graph; the last ones
@@ -603,7 +585,6 @@ class Merger {
   const ExactSites& exact_;
   TieSites tie_sites_;
   double tolerance_;
-  std::span<const std::uint32_t> names_;
   Graph& graph_;
   /// Of each node, where its ends begin in `ends_`, which has those of short edges' nodes only.
   WorkVector<std::uint32_t> ends_begin_, ends_;
@@ -617,13 +598,13 @@ class Merger {
 }  // namespace
 
 void merge_ties(const site::BoundaryTree& tree, const ExactSites& exact, double tolerance,
-                Graph& graph, std::span<const std::uint32_t> names) {
-  Merger(tree, exact, tolerance, graph, names).merge();
+                Graph& graph) {
+  Merger(tree, exact, tolerance, graph).merge();
 }
 
 std::vector<std::uint32_t> tie_candidates(const site::BoundaryTree& tree, const ExactSites& exact,
                                           double tolerance, Graph& graph) {
-  return Merger(tree, exact, tolerance, graph, {}).candidates();
+  return Merger(tree, exact, tolerance, graph).candidates();
 }
 
 }  // namespace medial::disks

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <span>
-
 #include "methods/disks/collect.h"
 #include "methods/disks/exact_sites.h"
 #include "site/boundary_tree.h"
@@ -35,14 +33,11 @@ namespace medial::disks {
 /// the sine of half of the angle between the edge's contacts, or over 1 - cos of half of the arc's
 /// angle.
 ///
-/// `names`: what the axis calls each original, if not the same. An edge leads forward if it does so
-/// on the sites that it is said to have.
-///
 /// Every contraction takes one edge and one node, and none closes a cycle: the graph keeps its
 /// Euler number and its cycles. O(n), and O(m log m) for the m edges that four of their ends'
 /// contacts do not rule out, with the edges of their nodes.
 void merge_ties(const site::BoundaryTree& tree, const ExactSites& exact, double tolerance,
-                Graph& graph, std::span<const std::uint32_t> names = {});
+                Graph& graph);
 
 /// The edges of which merge_ties() may take some out of a graph.
 std::vector<std::uint32_t> tie_candidates(const site::BoundaryTree& tree, const ExactSites& exact,

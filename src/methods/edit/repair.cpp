@@ -85,7 +85,7 @@ class Repairer {
     find_moved(part, nodes, doubtful);
     if (!doubtful.empty()) return std::nullopt;
     if (boundary_.has_arcs) {
-      disks::remove_spurs(boundary_, {}, measures_.tolerance, part, nodes);
+      disks::remove_spurs(boundary_, measures_.tolerance, part, nodes);
       disks::find_doubts(boundary_, tree, measures_.tolerance, part);
       if (!part.lost.empty()) return std::nullopt;  // compute() measures, and may walk again
     }
