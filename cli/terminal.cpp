@@ -35,6 +35,13 @@ extern "C" void end_quietly(int signal_number) {
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, wipe_line, sizeof wipe_line - 1);
   }
   io::remove_partial_files();
+  // By the signal itself, so that a shell ends its loops, too.
+  signal(signal_number, SIG_DFL);
+  sigset_t own;
+  sigemptyset(&own);
+  sigaddset(&own, signal_number);
+  pthread_sigmask(SIG_UNBLOCK, &own, nullptr);
+  raise(signal_number);
   _exit(128 + signal_number);
 }
 

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sched.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -14,6 +15,7 @@
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "io/format_name.h"
 #include "io/guarded.h"
@@ -79,6 +81,66 @@ Result<fs::path> through_links(const std::string& path) {
   return resolved;
 }
 
+/// Locks a hidden folder. The descriptor that holds the lock; or -1 with errno: EWOULDBLOCK where a
+/// process that lives holds it, ENOENT where there is no such folder any more, EPERM where it is not
+/// this user's alone.
+int lock_folder(const std::string& folder) {
+  const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (lock < 0) return -1;
+  const auto problem = [&]() -> int {
+    struct stat locked {}, there{};
+    if (flock(lock, LOCK_EX | LOCK_NB) != 0 || fstat(lock, &locked) != 0 ||
+        lstat(folder.c_str(), &there) != 0)
+      return errno;
+    if (locked.st_ino != there.st_ino || locked.st_dev != there.st_dev) return ENOENT;
+    return locked.st_uid == geteuid() && (locked.st_mode & 0077U) == 0 ? 0 : EPERM;
+  }();
+  if (problem == 0) return lock;
+  ::close(lock);
+  errno = problem;
+  return -1;
+}
+
+/// Removes a hidden folder that a process of this machine left when it was killed; whether it did.
+bool remove_dead_folder(const std::string& folder) {
+  const int lock = lock_folder(folder);
+  if (lock < 0) return false;
+  std::error_code code;
+  fs::remove_all(folder, code);
+  ::close(lock);
+  return !code;
+}
+
+/// How the names of hidden folders begin. Locks of other machines may not be known here.
+std::string folder_prefix() {
+  std::array<char, 256> machine{};
+  gethostname(machine.data(), machine.size() - 1);
+  std::ranges::replace(machine, '/', '-');
+  return fmt::format(".medial-{}-", machine.data());
+}
+
+struct HiddenFolder {
+  std::string path;
+  int lock;  ///< a descriptor, as long as the folder is in use; -1 where folders cannot be locked
+};
+
+/// Makes the first hidden folder in `parent` that nobody uses. Nothing with errno: impossible.
+std::optional<HiddenFolder> make_hidden_folder(const fs::path& parent) {
+  const std::string prefix = (parent / folder_prefix()).string();
+  for (int number = 0;;) {
+    const std::string path = prefix + std::to_string(number);
+    if (mkdir(path.c_str(), 0700) == 0) {
+      const int lock = lock_folder(path);
+      if (lock >= 0 || (errno != EWOULDBLOCK && errno != ENOENT)) return HiddenFolder{path, lock};
+      ++number;  // another process took it for a dead one
+    } else if (errno != EEXIST) {
+      return std::nullopt;
+    } else if (!remove_dead_folder(path)) {
+      ++number;
+    }
+  }
+}
+
 /// Gives a new file the permissions, and if it may the owner, of the one that it replaces.
 void inherit_permissions(const fs::path& file, const fs::path& replaced) {
   struct stat status {};
@@ -124,12 +186,13 @@ Result<PendingFile> PendingFile::create(const std::string& target) {
     return unwritable(target, EISDIR);
   file.target_ = resolved.string();
   const fs::path parent = resolved.has_parent_path() ? resolved.parent_path() : fs::path(".");
-  std::string directory = (parent / ".medial-XXXXXX").string();
   const Uninterrupted uninterrupted;
-  if (mkdtemp(directory.data()) == nullptr) return unwritable(target, errno);
-  file.directory_ = directory;
-  file.path_ = (fs::path(directory) / resolved.filename()).string();
-  file.slot_ = remember(partial_names(file.path_, directory));
+  const auto folder = make_hidden_folder(parent);
+  if (!folder) return unwritable(target, errno);
+  file.directory_ = folder->path;
+  file.lock_ = folder->lock;
+  file.path_ = (fs::path(file.directory_) / resolved.filename()).string();
+  file.slot_ = remember(partial_names(file.path_, file.directory_));
   return file;
 }
 
@@ -137,13 +200,16 @@ PendingFile::PendingFile(PendingFile&& other) noexcept
     : target_(std::move(other.target_)),
       directory_(std::exchange(other.directory_, {})),
       path_(std::move(other.path_)),
+      lock_(std::exchange(other.lock_, -1)),
       slot_(std::exchange(other.slot_, -1)) {}
 
 PendingFile::~PendingFile() {
   if (directory_.empty()) return;
+  const Uninterrupted uninterrupted;  // once it is gone, another process may make one of that name
   std::error_code ignored;
   fs::remove_all(directory_, ignored);
   forget(slot_);
+  if (lock_ >= 0) ::close(lock_);
 }
 
 Status PendingFile::commit() {

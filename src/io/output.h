@@ -39,7 +39,9 @@ Error changed_meanwhile();
 
 /// A new file that appears under its name all at once. It grows in a hidden directory beside the
 /// target, under the target's own file name (which some formats want), with whatever companions the
-/// format has; commit() moves everything to its place. Without commit() nothing remains.
+/// format has; commit() moves everything to its place. Without commit() nothing remains. What a
+/// killed process left is removed by the next one that writes beside it: a lock tells whether the
+/// owner of a hidden directory lives.
 class PendingFile {
  public:
   /// Errors: unwritable.
@@ -63,6 +65,7 @@ class PendingFile {
   std::string target_;     ///< symbolic links resolved
   std::string directory_;  ///< the hidden one; empty: nothing to clean up
   std::string path_;
+  int lock_ = -1;  ///< a descriptor that keeps the directory locked
   int slot_ = -1;  ///< in the table that remove_partial_files() reads
 };
 
