@@ -109,9 +109,10 @@ Result<int> summarize_polygons(const FileArguments& arguments) {
   return finish(arguments.common, std::move(object), phases, table.text());
 }
 
-/// The value if all axes agree, else "differs by feature".
+/// The value if all axes agree, else "differs by feature"; empty where there are none.
 template <class Get>
 std::string common_value(const Document<AxisItem>& file, Get get) {
+  if (file.items.empty()) return {};
   const std::string first = get(file.items.front().axis);
   const bool same = std::all_of(file.items.begin(), file.items.end(),
                                 [&](const auto& item) { return get(item.axis) == first; });
@@ -136,8 +137,6 @@ Result<int> summarize_axes(const FileArguments& arguments) {
   const auto file = io::read_native(arguments.input.path, arguments.input.source.read);
   if (!file) return file.error();
   phases.end("read");
-  if (file->items.empty())
-    return error_at(ErrorCode::empty, arguments.input.path, "contains no axis");
   // Shapes and contours, whose axes are still to be computed.
   if (std::ranges::any_of(file->items, [](const auto& item) {
         return !item.contours.empty() || item.axis.method.empty();
@@ -170,7 +169,7 @@ Result<int> summarize_axes(const FileArguments& arguments) {
 
   Rows table(20);
   table.add("medial axes", axes.features);
-  table.add("method", method);
+  if (!method.empty()) table.add("method", method);
   table.add("tolerance", fmt::format("{:.3g}", tolerance));
   if (resolution > 0) table.add("resolution", fmt::format("{:.3g}", resolution));
   table.add("sites", axes.sites);

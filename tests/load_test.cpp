@@ -198,8 +198,13 @@ TEST(Load, SourcesOfAFeatureReplaceThoseOfItsRings) {
   }
 }
 
-TEST(Load, NothingAndCancelledAreErrors) {
-  EXPECT_EQ(load({}).error().code, ErrorCode::empty);
+TEST(Load, NothingStaysNothing) {
+  const auto nothing = load({});
+  ASSERT_TRUE(nothing.ok());
+  EXPECT_TRUE(nothing->items.empty());
+}
+
+TEST(Load, CancelledIsAnError) {
   const std::atomic<bool> cancel = true;
   LoadOptions options;
   options.cancel = &cancel;

@@ -226,7 +226,6 @@ nb::object write_axis(const AxisOf& self, const Given& attributes, const std::op
   return output.result(without_lock([&] {
     Document<AxisItem> file;
     file.items.push_back({*self.shape, self.axis, attributes_of(attributes), {}, self.part});
-    file.items.front().axis.statistics = {};  // the same axis makes the same file
     return io::write_axes(output.destination(), format, file, options);
   }));
 }

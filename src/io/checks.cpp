@@ -132,7 +132,8 @@ Status FeatureChecks::check(Document<Feature>& part) {
 Status FeatureChecks::finish(Document<Feature>& document) const {
   std::vector<std::string>& notes = document.notes;
   if (Status valid = note_invalid(invalid_, before_, notes); !valid) return valid;
-  if (left_ == 0)
+  if (before_ == 0) notes.emplace_back(no_feature);
+  if (left_ == 0 && before_ > 0)
     return Error{ErrorCode::empty,
                  options_.loose ? "the file contains no geometry" : "there is no polygon",
                  {}};

@@ -14,6 +14,9 @@ namespace medial::io {
 Status check_each(Document<Feature>& document, bool skip_invalid,
                   const std::function<Status(Feature&, std::uint64_t index)>& check);
 
+/// The note on a document of nothing.
+constexpr const char* no_feature = "the file holds no feature";
+
 /// Leaves out what is empty, not finite if it may be skipped, and counts what notes are made of.
 /// The features of a file may come in several parts.
 class FeatureChecks {
@@ -22,7 +25,7 @@ class FeatureChecks {
 
   /// Errors: not_finite.
   Status check(Document<Feature>& part);
-  /// Adds the notes on all parts. Errors: empty.
+  /// Adds the notes on all parts. Errors: empty, where nothing is left of what was there.
   Status finish(Document<Feature>& document) const;
 
  private:

@@ -277,6 +277,7 @@ Result<Document<AxisItem>> read_axes(TextSource& source) {
   if (axes->crs_wkt.starts_with("EPSG:")) describe_crs(*axes);
   if (Status plane = check_plane(*axes, ErrorCode::unsupported); !plane) return plane.error();
   axes->geographic = axes->crs_wkt.starts_with("GEOG");  // GEOGCRS, in WKT 1 GEOGCS
+  if (axes->items.empty()) axes->notes.emplace_back(no_feature);
   return axes;
 }
 

@@ -275,7 +275,6 @@ LoadReport& LoadReport::operator+=(const LoadReport& part) {
 Result<Document<ShapeItem>> load_shapes(Document<Feature> features, const LoadOptions& options,
                                         LoadReport* report) {
   const std::size_t count = features.items.size();
-  if (count == 0) return Error{ErrorCode::empty, "there is no polygon", {}};
   Document<ShapeItem> shapes{features, {}};
   std::vector<LoadReport> reports(count);
   std::vector<double> weights;

@@ -73,8 +73,6 @@ std::vector<BranchTip> tips_of(const MedialAxis& axis, double size, bool bays) {
 }
 
 Result<Part> part_of(const Shape& shape) {
-  if (shape.component_count() != 1)
-    return Error{ErrorCode::unsupported, "only single parts can be nested", {}};
   const auto inner = compute(shape);
   if (!inner) return inner.error();
   Options around;
@@ -301,13 +299,17 @@ Result<std::vector<Placement>> nest(const Shape& fixed, const Shape& moving, dou
                                     bool mirror, std::size_t best) {
   if (!(gap >= 0) || !std::isfinite(gap))
     return Error{ErrorCode::invalid_option, "the gap must be finite and not negative", {}};
-  std::array parts{part_of(fixed), part_of(moving)};
-  for (std::size_t i = 0; i < 2; ++i)
-    if (!parts[i]) {
-      parts[i].error().place.feature = i;
-      return parts[i].error();
-    }
-  const auto& [one, two] = parts;
+  const auto error_of = [](std::size_t feature, Error error) {
+    error.place.feature = feature;
+    return error;
+  };
+  for (const std::size_t i : {0U, 1U})
+    if ((i == 0 ? fixed : moving).component_count() != 1)
+      return error_of(i, {ErrorCode::unsupported, "only single parts can be nested", {}});
+  const auto one = part_of(fixed);
+  if (!one) return error_of(0, one.error());
+  const auto two = part_of(moving);
+  if (!two) return error_of(1, two.error());
   // Disks that are sampled leave dents.
   const Nesting nesting(*one, *two, gap + 1e-4 * std::min(one->size, two->size));
   std::vector<Placement> found;

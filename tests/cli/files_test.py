@@ -182,6 +182,18 @@ class Files(CommandLine):
         self.succeed("measure", "a.wkt", "-o", "t.gpkg", "--transects", "4", "--output-layer", "widths", "--overwrite")
         self.assertEqual(self.rows("widths"), 4)
         self.refuse("invalid_option", "axis", "a.wkt", "-o", "a.wkt", "--output-layer", "roads")
+        for name in ("sqlite_x", "SQLite_X", "gpkg_x", "GPKG_contents", "rtree_roads_geom", " ", "\udcff"):
+            for file in ("t.gpkg", "new.gpkg"):
+                said = self.refuse("invalid_option", "axis", "a.wkt", "-o", file, "--output-layer", name)
+                self.assertNotIn("CREATE", said)
+        self.assertNotIn("new.gpkg", self.files())
+        self.assertIn("layer 'roads' already",
+                      self.refuse("unwritable", "axis", "a.wkt", "-o", "t.gpkg", "--output-layer", "ROADS"))
+        with sqlite3.connect(self.path("t.gpkg")) as database:
+            database.execute("CREATE INDEX \"Place's\" ON roads (length)")
+        for overwrite in ([], ["--overwrite"]):
+            self.assertIn("something else called 'Place's'",
+                          self.refuse("unwritable", "axis", "a.wkt", "-o", "t.gpkg", "--output-layer", "place's", *overwrite))
         # Any name of a layer, and any other tables beside it, such as one with as many columns.
         def rows(file, layer):
             with sqlite3.connect(self.path(file)) as database:

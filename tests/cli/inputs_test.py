@@ -7,7 +7,7 @@ import math
 import os
 import re
 
-from support import BOW_TIE, GEOGRAPHIC, CommandLine
+from support import BOW_TIE, GEOGRAPHIC, RECTANGLE, CommandLine
 
 
 class Inputs(CommandLine):
@@ -256,7 +256,7 @@ class Inputs(CommandLine):
             self.refuse("empty", command[0], "bad.wkt", "--skip-invalid", "--quiet", *command[1:])
         self.write("one.wkt", "POLYGON((0 0,4 0,4 2,0 2,0 0))")
         self.refuse("empty", "nest", "one.wkt", "bad.wkt", "--skip-invalid", "--quiet")
-        self.refuse("empty", "prune", "bad.json", "--preview", "-o", "t.svg")
+        self.refuse("empty", "prune", "bad.json", "--preview", "-o", "t.svg", "--quiet")
         report = json.loads(self.succeed("axis", "bad.wkt", "--skip-invalid", "--json").stdout)
         self.assertIsNone(report["deepest"])
         self.assertNotIn(b"wide enough", self.succeed("offset", "bad.wkt", "--skip-invalid", "--distance", "1").stderr)
@@ -321,7 +321,7 @@ class Inputs(CommandLine):
         for kept, missing in (whole["items"][:1], 2), (whole["items"][1:], 0), ([], 0):
             self.write("less.json", json.dumps({**whole, "items": kept}))
             for command in (["verify", lens, "less.json"], ["rebuild", "less.json", "--against", lens]):
-                text = self.refuse("malformed", *command, "--skip-invalid")
+                text = self.refuse("malformed", *command, "--skip-invalid", "--quiet")
                 self.assertIn(f"less.json: has no axis of feature {missing} of lens.json", text)
         # Nor may there be more; the order does not count.
         turned = [{**item, "feature": number} for item, number in zip(whole["items"][::-1], (2, 0))]
@@ -440,6 +440,31 @@ class Inputs(CommandLine):
         self.assertIn("--text", self.refuse("unsupported", "axis", self.write("a.ttf", b"\0\1\0\0" + bytes(60))))
         self.write("shape.txt", "POLYGON((0 0,4 0,4 2,0 2,0 0))")
         self.assertEqual(json.loads(self.succeed("axis", "shape.txt", "--json").stdout)["sites"], 4)
+
+    def test_nothing_stays_nothing(self):
+        """What commands write of no features, they read again."""
+        self.write("a.wkt", RECTANGLE)
+        for name in self.supported("n.geojson", "n.gpkg", "n.fgb", "n.shp", "n.wkt"):
+            self.succeed("offset", "a.wkt", "--distance", "9", "-o", name)
+            self.assertIn("the file holds no feature", self.succeed("info", name).stderr.decode())
+            self.succeed("axis", name, "--project", "-o", "n.json")
+        self.succeed("axis", "n.json", "-o", "n.safetensors")
+        for name in ("n.json", "n.safetensors"):
+            self.assertEqual(json.loads(self.succeed("verify", name, name, "--json").stdout)["passed"], True)
+            self.assertIn(b"medial axes         0", self.succeed("info", name).stdout)
+            for command, *more in (["axis"], ["prune"], ["smooth"], ["rebuild"], ["features"], ["offset", "--distance", "1"],
+                                   ["centreline"], ["draw"], ["measure"], ["axis", "--parts"],
+                                   ["axis", "--method", "ridge"]):  # fmt: skip
+                output = "b.svg" if command == "draw" else "b.geojson"
+                said = self.succeed(command, name, *more, "-o", output).stderr.decode()
+                self.assertEqual(said.count("the file holds no feature"), 1, (command, said))
+                if command != "draw":
+                    self.assertEqual(json.loads(self.read(output))["features"], [])
+            for command, *more in (["match", name], ["nest", name], ["compare"], ["carve", "--angle", "60"], ["voronoi"]):
+                self.refuse("empty", command, name, "--quiet", *more)
+        self.assertIn("no feature with a geometry", self.refuse("empty", "axis", self.write("none.geojson",
+            '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{},"geometry":null}]}')))  # fmt: skip
+        self.assertIn("no polygon", self.refuse("empty", "axis", self.write("none.wkt", "POLYGON EMPTY")))
 
     def test_nothing_is_written_beside_inputs(self):
         text = gzip.compress(GEOGRAPHIC.encode())

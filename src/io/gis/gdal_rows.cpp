@@ -1,15 +1,16 @@
-#include <gdal_priv.h>
+#include "io/gis/gdal_rows.h"
+
 #include <ogrsf_frmts.h>
 
 #include "io/gis/gdal_support.h"
-#include "io/gis/rows.h"
 
 namespace medial::io {
 
 namespace {
 
-void set_points(OGRSimpleCurve& curve, std::span<const OGRRawPoint> points) {
-  curve.setPoints(static_cast<int>(points.size()), points.data());
+void set_points(OGRSimpleCurve& curve, std::span<const Vec2> points) {
+  curve.setNumPoints(static_cast<int>(points.size()), FALSE);
+  for (int i = 0; const Vec2 p : points) curve.setPoint(i++, p.x, p.y);
 }
 
 /// Gives a feature the geometry of a row. Points and lines stay the same objects, row after row.
@@ -29,7 +30,7 @@ void set_geometry(OGRFeature& feature, GeometryKind kind, const Rows& rows, std:
     if (kind == GeometryKind::point) feature.SetGeometryDirectly(new OGRPoint);
     if (kind == GeometryKind::line) feature.SetGeometryDirectly(new OGRLineString);
   }
-  const std::span<const OGRRawPoint> points = rows.ring(row, 0);
+  const std::span<const Vec2> points = rows.ring(row, 0);
   if (kind == GeometryKind::line)
     return set_points(*feature.GetGeometryRef()->toLineString(), points);
   feature.GetGeometryRef()->toPoint()->setX(points[0].x);

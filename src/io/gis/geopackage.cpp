@@ -30,7 +30,7 @@ class GeometryBlob {
   /// The bytes of a row's geometry, which stay until the next one.
   std::span<const char> make(GeometryKind kind, std::int32_t srs, const Rows& rows,
                              std::size_t row) {
-    static_assert(std::endian::native == std::endian::little && sizeof(OGRRawPoint) == 16);
+    static_assert(std::endian::native == std::endian::little && sizeof(Vec2) == 16);
     const bool is_point = kind == GeometryKind::point;
     bytes_.clear();
     const char flags = is_point ? 1 : 3;  // little-endian, with an envelope unless it is a point
@@ -59,19 +59,16 @@ class GeometryBlob {
   static Box box_of(const Rows& rows, std::size_t row) {
     Box box = Box::nothing();
     for (std::size_t i = 0; i < rows.ring_count(row); ++i)
-      for (const OGRRawPoint& p : rows.ring(row, i)) box.add(Vec2{p.x, p.y});
+      for (const Vec2 p : rows.ring(row, i)) box.add(p);
     return box;
   }
   template <class Number>
   void put(Number number) {
     append(&number, sizeof number);
   }
-  void put_points(std::span<const OGRRawPoint> points) {
-    append(points.data(), points.size_bytes());
-  }
-  void put_closed(std::span<const OGRRawPoint> ring) {
-    const OGRRawPoint &first = ring.front(), &last = ring.back();
-    const bool is_open = ring.size() > 1 && (first.x != last.x || first.y != last.y);
+  void put_points(std::span<const Vec2> points) { append(points.data(), points.size_bytes()); }
+  void put_closed(std::span<const Vec2> ring) {
+    const bool is_open = ring.front() != ring.back();
     put(static_cast<std::uint32_t>(ring.size() + (is_open ? 1 : 0)));
     put_points(ring);
     if (is_open) put_points(ring.first(1));

@@ -2,9 +2,6 @@
 
 // Rows of tables on their way into a file of GIS.
 
-#include <gdal_priv.h>
-#include <ogr_geometry.h>
-
 #include <memory>
 #include <span>
 #include <string>
@@ -33,7 +30,7 @@ class Rows {
     for (const auto values : {first, rest})
       for (const Value& value : values) put(value);
     for (const std::vector<Vec2>& part : parts) {
-      for (const Vec2 p : part) points_.emplace_back(p.x, p.y);
+      points_.insert(points_.end(), part.begin(), part.end());
       ring_ends_.push_back(points_.size());
     }
     ends_.push_back({table, fields_.size(), ring_ends_.size()});
@@ -53,7 +50,7 @@ class Rows {
   }
   const char* text(const Field& field) const { return texts_.c_str() + field.text; }
   std::size_t ring_count(std::size_t row) const { return ends_[row].rings - first_ring(row); }
-  std::span<const OGRRawPoint> ring(std::size_t row, std::size_t i) const {
+  std::span<const Vec2> ring(std::size_t row, std::size_t i) const {
     const std::size_t ring = first_ring(row) + i;
     const std::size_t begin = ring == 0 ? 0 : ring_ends_[ring - 1];
     return std::span(points_).subspan(begin, ring_ends_[ring] - begin);
@@ -83,7 +80,7 @@ class Rows {
 
   std::vector<Field> fields_;
   std::string texts_;
-  std::vector<OGRRawPoint> points_;
+  std::vector<Vec2> points_;
   std::vector<std::size_t> ring_ends_;
   std::vector<End> ends_;
 };
@@ -109,8 +106,6 @@ class RowFile {
   virtual Status close() = 0;
 };
 
-std::unique_ptr<RowFile> rows_of_gdal(GDALDatasetUniquePtr dataset,
-                                      std::span<const EmptyLayer> layers);
 /// Of a closed file. Adding rows this way, by SQLite and by shapelib, is several times faster than
 /// through GDAL.
 Result<std::unique_ptr<RowFile>> rows_of_geopackage(const std::string& path,

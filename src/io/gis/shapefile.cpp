@@ -151,14 +151,14 @@ class ShapefileRows final : public RowFile {
   }
 
   /// Those of polygons are closed; outer ones run clockwise, holes the other way.
-  void put_ring(std::span<const OGRRawPoint> ring, bool is_outer) {
+  void put_ring(std::span<const Vec2> ring, bool is_outer) {
     const auto begin = static_cast<std::ptrdiff_t>(x_.size());
-    for (const OGRRawPoint& p : ring) {
+    for (const Vec2 p : ring) {
       x_.push_back(p.x);
       y_.push_back(p.y);
     }
     if (shapes_->nShapeType != SHPT_POLYGON) return;
-    if (ring.size() > 1 && (ring.front().x != ring.back().x || ring.front().y != ring.back().y)) {
+    if (ring.front() != ring.back()) {
       x_.push_back(ring.front().x);
       y_.push_back(ring.front().y);
     }
@@ -166,11 +166,11 @@ class ShapefileRows final : public RowFile {
     std::reverse(x_.begin() + begin, x_.end());
     std::reverse(y_.begin() + begin, y_.end());
   }
-  static double twice_area(std::span<const OGRRawPoint> ring) {
+  static double twice_area(std::span<const Vec2> ring) {
     double sum = 0;
-    const OGRRawPoint& o = ring[0];
+    const Vec2 o = ring[0];
     for (std::size_t i = 2; i < ring.size(); ++i)
-      sum += (ring[i - 1].x - o.x) * (ring[i].y - o.y) - (ring[i].x - o.x) * (ring[i - 1].y - o.y);
+      sum += cross(ring[i - 1] - o, ring[i] - o);
     return sum;
   }
 

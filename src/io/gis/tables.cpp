@@ -11,9 +11,10 @@
 #include <optional>
 #include <sstream>
 
+#include "io/format_name.h"
+#include "io/gis/gdal_rows.h"
 #include "io/gis/gdal_support.h"
 #include "io/gis/make_file.h"
-#include "io/gis/rows.h"
 #include "io/gis/shared_database.h"
 #include "medial/document.h"
 
@@ -66,23 +67,48 @@ bool has_columns_of(OGRLayer& layer, const Table& table) {
   });
 }
 
+bool is_geopackage(GDALDataset& dataset) {
+  return dataset.GetDriver() != nullptr && EQUAL(dataset.GetDriver()->GetDescription(), "GPKG");
+}
+
+/// A text in SQL, between such quotes.
+std::string quoted(const std::string& text, char quote) {
+  std::ostringstream out;
+  out << std::quoted(text, quote, quote);
+  return out.str();
+}
+
+/// Whether the name of a new layer is free among what is no layer: indices, views and so on.
+Status check_free(GDALDataset& dataset, const std::string& name) {
+  if (!is_geopackage(dataset)) return success();
+  const std::string sql =
+      fmt::format("SELECT type, name FROM sqlite_master WHERE name = {} COLLATE NOCASE",
+                  quoted(name, '\''));
+  OGRLayer* found = dataset.ExecuteSQL(sql.c_str(), nullptr, nullptr);
+  if (found == nullptr) return success();
+  const OGRFeatureUniquePtr row(found->GetNextFeature());
+  Status free = success();
+  if (row)
+    free = Error{ErrorCode::unwritable,
+                 fmt::format("the file has something else called '{}' (of type {}); "
+                             "--output-layer gives the new layer another name",
+                             row->GetFieldAsString(1), row->GetFieldAsString(0)),
+                 {}};
+  dataset.ReleaseResultSet(found);
+  return free;
+}
+
 /// GDAL before 3.7 removes the triggers of a spatial index by names that newer GDALs no longer give
 /// them: adds those that are missing. With the layer, SQLite removes all.
 void complete_triggers(GDALDataset& dataset, OGRLayer& layer) {
-  if (dataset.GetDriver() == nullptr || !EQUAL(dataset.GetDriver()->GetDescription(), "GPKG") ||
-      layer.TestCapability(OLCFastSpatialFilter) == 0)
-    return;
-  const auto quoted = [](const std::string& name) {
-    std::ostringstream text;
-    text << std::quoted(name, '"', '"');
-    return text.str();
-  };
+  if (!is_geopackage(dataset) || layer.TestCapability(OLCFastSpatialFilter) == 0) return;
   for (const char* trigger : {"insert", "update1", "update2", "update3", "update4", "delete"})
     dataset.ExecuteSQL(
         fmt::format("CREATE TRIGGER IF NOT EXISTS {} AFTER DELETE ON {} BEGIN SELECT 1; END",
                     quoted(fmt::format("rtree_{}_{}_{}", layer.GetName(), layer.GetGeometryColumn(),
-                                       trigger)),
-                    quoted(layer.GetName()))
+                                       trigger),
+                           '"'),
+                    quoted(layer.GetName(), '"'))
             .c_str(),
         nullptr, nullptr);
 }
@@ -100,19 +126,20 @@ Status make_room(GDALDataset& dataset, const Target& target, std::span<const Tab
         return Error{ErrorCode::unwritable,
                      fmt::format("the file has a layer '{}' already; --overwrite replaces it, "
                                  "--output-layer gives the new one another name",
-                                 name),
+                                 layer.GetName()),
                      {}};
       if (!is_named && !has_columns_of(layer, table))
         return Error{ErrorCode::unwritable,
                      fmt::format("the file has a layer '{}' with other columns, which --overwrite "
                                  "leaves alone; --output-layer gives the new one another name",
-                                 name),
+                                 layer.GetName()),
                      {}};
       complete_triggers(dataset, layer);
       if (dataset.DeleteLayer(i) != OGRERR_NONE)
         return Error{
             ErrorCode::unwritable, fmt::format("the layer '{}' cannot be replaced", name), {}};
     }
+    if (Status is_free = check_free(dataset, name); !is_free) return is_free;
   }
   return success();
 }
@@ -271,6 +298,24 @@ Result<PendingFile> temporary_file(const Target& target) {
   return PendingFile::create(fmt::format("{}/{}.{}", *folder, target.name, target.format));
 }
 
+/// Whether a GeoPackage can have a layer of the name that the user gave.
+Status check_layer_name(const Target& target) {
+  const std::string& name = target.layer;
+  if (target.format != "gpkg" || name.empty()) return success();
+  const auto refuse = [](std::string text) {
+    return Error{ErrorCode::invalid_option, std::move(text), {}};
+  };
+  for (const std::string_view prefix : {"sqlite_", "gpkg", "rtree_"})
+    if (lower_case(name).starts_with(prefix))
+      return refuse(fmt::format("no layer can be called '{}': a GeoPackage keeps names that begin "
+                                "with '{}' for itself",
+                                name, prefix));
+  if (name.find_first_not_of(" \t\r\n") == name.npos)
+    return refuse("the name of a layer cannot be blank");
+  if (CPLIsUTF8(name.c_str(), -1) == FALSE) return refuse("the name of the layer is not UTF-8");
+  return success();
+}
+
 /// Whether the format can hold the content.
 Status check_tables(const Target& target, const TableSource& source) {
   if (source.tables.size() != 1 && target.tables != TableRoom::several)
@@ -282,7 +327,7 @@ Status check_tables(const Target& target, const TableSource& source) {
   if (target.out != nullptr && target.format == "shp")
     return Error{
         ErrorCode::unsupported, "a shapefile is several files and cannot go to a stream", {}};
-  return success();
+  return check_layer_name(target);
 }
 
 /// A document in parts, whose rows are made on all threads.
