@@ -139,6 +139,7 @@ TEST_F(Io, ErrorsOfTextsNameTheLine) {
   EXPECT_EQ(refused("a.wkt", "POLYGON((0 0,1 0,1 1)))").code, ErrorCode::malformed);
   EXPECT_EQ(refused("a.wkt", "SRID=x;POLYGON((0 0,1 0,1 1))").code, ErrorCode::malformed);
   EXPECT_EQ(refused("a.wkt", "LINESTRING(0 0,1 0,1 1)").code, ErrorCode::unsupported);
+  EXPECT_EQ(refused("a.wkt", "").code, ErrorCode::empty);
   EXPECT_EQ(refused("a.wkt", "POLYGON EMPTY").code, ErrorCode::empty);
   EXPECT_EQ(refused("a.wkt", std::string("\0\x01\xff", 3)).code, ErrorCode::malformed);
 

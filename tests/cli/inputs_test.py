@@ -444,7 +444,7 @@ class Inputs(CommandLine):
     def test_nothing_stays_nothing(self):
         """What commands write of no features, they read again."""
         self.write("a.wkt", RECTANGLE)
-        for name in self.supported("n.geojson", "n.gpkg", "n.fgb", "n.shp", "n.wkt"):
+        for name in self.supported("n.geojson", "n.gpkg", "n.fgb", "n.shp"):
             self.succeed("offset", "a.wkt", "--distance", "9", "-o", name)
             self.assertIn("the file holds no feature", self.succeed("info", name).stderr.decode())
             self.succeed("axis", name, "--project", "-o", "n.json")
@@ -465,6 +465,7 @@ class Inputs(CommandLine):
         self.assertIn("no feature with a geometry", self.refuse("empty", "axis", self.write("none.geojson",
             '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{},"geometry":null}]}')))  # fmt: skip
         self.assertIn("no polygon", self.refuse("empty", "axis", self.write("none.wkt", "POLYGON EMPTY")))
+        self.assertIn("no geometry", self.refuse("empty", "axis", self.write("none.wkt", "")))
 
     def test_nothing_is_written_beside_inputs(self):
         text = gzip.compress(GEOGRAPHIC.encode())

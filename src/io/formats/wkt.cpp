@@ -403,7 +403,10 @@ Result<std::unique_ptr<FeatureReader>> open_wkt(const Input& input, const ReadOp
 
 Result<Document<Feature>> read_wkt(const Input& input, const ReadOptions& options) {
   WktReader reader(input.source, options.loose);
-  return read_to_end(reader);
+  auto document = read_to_end(reader);
+  if (document && document->items.empty())  // it may have been cut off
+    return input.source->error(ErrorCode::empty, "there is no geometry");
+  return document;
 }
 
 // Writing.
