@@ -35,13 +35,11 @@ constexpr double widest_picture = 8000;  // what medial::io draws
 
 /// What Options::tolerance takes.
 CLI::Validator a_tolerance() {
-  return CLI::Validator(
-      [](const std::string& text) {
-        double value = 0;
-        const bool inside =
-            CLI::detail::lexical_cast(text, value) && value > 0 && value <= largest_tolerance;
-        return inside ? std::string()
-                      : fmt::format("{} is not in (0, {:g}]", text, largest_tolerance);
+  return a_number(
+      [](double value) {
+        return value > 0 && value <= largest_tolerance
+                   ? std::string()
+                   : fmt::format(" is not in (0, {:g}]", largest_tolerance);
       },
       fmt::format("(0 - {:g}]", largest_tolerance));
 }

@@ -82,13 +82,14 @@ Result<fs::path> through_links(const std::string& path) {
 }
 
 /// Locks a hidden folder. The descriptor that holds the lock; or -1 with errno: EWOULDBLOCK where a
-/// process that lives holds it, ENOENT where there is no such folder any more, EPERM where it is not
-/// this user's alone.
+/// process that lives holds it, ENOENT where there is no such folder any more, EPERM where it is
+/// not this user's alone.
 int lock_folder(const std::string& folder) {
   const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (lock < 0) return -1;
   const auto problem = [&]() -> int {
-    struct stat locked {}, there{};
+    struct stat locked {
+    }, there{};
     if (flock(lock, LOCK_EX | LOCK_NB) != 0 || fstat(lock, &locked) != 0 ||
         lstat(folder.c_str(), &there) != 0)
       return errno;

@@ -40,7 +40,7 @@ Error changed_meanwhile();
 /// A new file that appears under its name all at once. It grows in a hidden directory beside the
 /// target, under the target's own file name (which some formats want), with whatever companions the
 /// format has; commit() moves everything to its place. Without commit() nothing remains. What a
-/// killed process left is removed by the next one that writes beside it: a lock tells whether the
+/// killed process left is removed by the next one that writes beside it: a lock says whether the
 /// owner of a hidden directory lives.
 class PendingFile {
  public:

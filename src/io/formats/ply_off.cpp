@@ -8,6 +8,8 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <iterator>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -185,15 +187,8 @@ std::string rest_of_line(TextSource& source) {
 }
 
 std::vector<std::string> words_of(const std::string& line) {
-  std::vector<std::string> words(1);
-  for (const char c : line) {
-    if (c != ' ' && c != '\t')
-      words.back() += c;
-    else if (!words.back().empty())
-      words.emplace_back();
-  }
-  if (words.back().empty()) words.pop_back();
-  return words;
+  std::istringstream words(line);
+  return {std::istream_iterator<std::string>(words), {}};
 }
 
 // ---- PLY.

@@ -325,8 +325,7 @@ class GdalReader final : public FeatureReader {
                                                   "among {}",
                                                   none.text, layer_names(*source_)));
       }
-      if (!options_.where.empty())
-        return error(ErrorCode::empty, "no feature passes the filter");
+      if (!options_.where.empty()) return error(ErrorCode::empty, "no feature passes the filter");
       if (without_geometry_ > 0) return error(ErrorCode::empty, "no feature with a geometry");
     }
     if (counts_.others > 0) common_.notes.push_back(note_of_others(counts_.others));

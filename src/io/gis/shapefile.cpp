@@ -169,8 +169,7 @@ class ShapefileRows final : public RowFile {
   static double twice_area(std::span<const Vec2> ring) {
     double sum = 0;
     const Vec2 o = ring[0];
-    for (std::size_t i = 2; i < ring.size(); ++i)
-      sum += cross(ring[i - 1] - o, ring[i] - o);
+    for (std::size_t i = 2; i < ring.size(); ++i) sum += cross(ring[i - 1] - o, ring[i] - o);
     return sum;
   }
 

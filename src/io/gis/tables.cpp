@@ -81,9 +81,8 @@ std::string quoted(const std::string& text, char quote) {
 /// Whether the name of a new layer is free among what is no layer: indices, views and so on.
 Status check_free(GDALDataset& dataset, const std::string& name) {
   if (!is_geopackage(dataset)) return success();
-  const std::string sql =
-      fmt::format("SELECT type, name FROM sqlite_master WHERE name = {} COLLATE NOCASE",
-                  quoted(name, '\''));
+  const std::string sql = fmt::format(
+      "SELECT type, name FROM sqlite_master WHERE name = {} COLLATE NOCASE", quoted(name, '\''));
   OGRLayer* found = dataset.ExecuteSQL(sql.c_str(), nullptr, nullptr);
   if (found == nullptr) return success();
   const OGRFeatureUniquePtr row(found->GetNextFeature());
@@ -307,9 +306,10 @@ Status check_layer_name(const Target& target) {
   };
   for (const std::string_view prefix : {"sqlite_", "gpkg", "rtree_"})
     if (lower_case(name).starts_with(prefix))
-      return refuse(fmt::format("no layer can be called '{}': a GeoPackage keeps names that begin "
-                                "with '{}' for itself",
-                                name, prefix));
+      return refuse(
+          fmt::format("no layer can be called '{}': a GeoPackage keeps names that begin "
+                      "with '{}' for itself",
+                      name, prefix));
   if (name.find_first_not_of(" \t\r\n") == name.npos)
     return refuse("the name of a layer cannot be blank");
   if (CPLIsUTF8(name.c_str(), -1) == FALSE) return refuse("the name of the layer is not UTF-8");
