@@ -55,7 +55,7 @@ struct AxisArguments : FileArguments {
   const CLI::App* command = nullptr;
 };
 
-/// Prunes the axes of an image to what a person would draw, with a note.
+/// Prunes the axes of an image to the branches that a person would draw. Prints a note.
 Status prune_image(LoadedAxes& axes, const AxisArguments& arguments) {
   if (axes.file.items.empty() || is_of_pixels(axes.file.items[0].axis.method)) return success();
   const auto options = image_pruning(axes.file, arguments.input);
@@ -71,7 +71,7 @@ Status prune_image(LoadedAxes& axes, const AxisArguments& arguments) {
   return success();
 }
 
-/// Refuses options of other methods; their groups are named "... (--method NAME, NAME)".
+/// Refuses options of other methods. Their groups are called "... (--method NAME, NAME)".
 Status check_method_options(const CLI::App& command, std::string_view method) {
   constexpr std::string_view before = "(--method ";
   for (const CLI::Option* option : command.get_options()) {
@@ -86,13 +86,13 @@ Status check_method_options(const CLI::App& command, std::string_view method) {
   return success();
 }
 
-/// Shapes of more vertices are computed and written in parts, which other commands do not need.
+/// Shapes with more vertices are computed and written in parts. Other commands have no such limit.
 constexpr std::uint64_t most_points = std::uint64_t{1} << 22;
 
 std::string growing_formats() { return io::formats_of(io::DocumentKind::axes, true); }
 
-/// Whether axes may be written in parts: nothing has to be done with the whole, and both the method
-/// and the format go part by part.
+/// Whether axes can be written in parts: no step needs a whole axis, and both the method and the
+/// format support parts.
 bool allows_parts(const AxisArguments& arguments, const Options& options) {
   const std::string& path = arguments.output;
   return (path.empty() || (path != "-" && has_extension(path, growing_formats()))) &&
@@ -203,8 +203,8 @@ void add_grid_options(CLI::App& command, MethodArguments& arguments) {
       ->option_text("A");
   add_choice<bool>(command, "--ridge-search", ridge.sorted_list,
                    {{"tree", false}, {"sorted-list", true}},
-                   "How the nearest edges are found: tree (default) or sorted-list, as in the\n"
-                   "report. The pixels are the same.");
+                   "The search for nearest edges: tree (default), or sorted-list, as published.\n"
+                   "Both give the same pixels.");
   add_choice<RidgeRule>(
       command, "--ridge-rule", ridge.rule,
       {{"crossing", RidgeRule::crossing}, {"difference", RidgeRule::difference}},
@@ -221,7 +221,7 @@ void add_potential_options(CLI::App& command, method::Potential& options) {
   const OptionGroup group(command, "Potential fields (--method potential)");
   command
       .add_option("--order", options.order,
-                  "The n of the potential 1 / r^n; 0 (default) chooses it for each point.")
+                  "The exponent n of the potential 1 / r^n; 0 (default) chooses it for each point.")
       ->option_text("N");
   command
       .add_option("--base-order", options.base_order,
@@ -240,7 +240,7 @@ void add_potential_options(CLI::App& command, method::Potential& options) {
       [&options](const std::vector<double>& xy) {
         options.from = Vec2{xy[0], xy[1]};
       },
-      "Only the branch to which the force leads from this place, in units of the\n"
+      "Compute only the branch that the force line from this point reaches, in units of the\n"
       "input.")
       ->option_text("X,Y");
   add_list_option(
@@ -248,7 +248,7 @@ void add_potential_options(CLI::App& command, method::Potential& options) {
       [&options](const std::vector<double>& box) {
         options.within = Box{{box[0], box[1]}, {box[2], box[3]}};
       },
-      "Only the part in this box: low x, low y, high x, high y, in units of the\n"
+      "Compute only the part in this box: min x, min y, max x, max y, in units of the\n"
       "input.")
       ->option_text("X,Y,X,Y");
   command
@@ -258,8 +258,8 @@ void add_potential_options(CLI::App& command, method::Potential& options) {
       ->option_text("SHARE");
   command
       .add_option("--coarse", options.coarse,
-                  "Leave out small bumps and notches: take the axis of a polygon within this\n"
-                  "distance of the boundary, and refine it step by step. A share of the longer\n"
+                  "Ignore small bumps and notches: compute the axis of a polygon within this\n"
+                  "distance of the boundary, then refine it step by step. A share of the longer\n"
                   "side of the bounding box.")
       ->option_text("SHARE");
 }
@@ -289,11 +289,11 @@ Command make_axis_command(CLI::App& program) {
       "Images: write a mask of pixels (" + io::formats_of(io::DocumentKind::image) + ").");
   command->add_flag(
       "--parts", arguments->parts,
-      "Write files of these formats while the axis grows, which takes less memory:\n" +
+      "Write the file while the axis is being computed, which takes less memory. Formats:\n" +
           growing_formats() +
           ".\n"
-          "Always done for shapes of more than 4 million vertices. Edges come in\n"
-          "another order.");
+          "Always done for shapes of more than 4 million vertices. Changes the order\n"
+          "of edges.");
   add_method_options(*command, arguments->methods);
   add_exterior_options(
       *command, arguments->options,
@@ -312,7 +312,7 @@ Command make_axis_command(CLI::App& program) {
       "Each feature gets its own axis, with its attributes. Coordinates, radii and\n"
       "lengths are in the units of the input, or in metres with --project.\n"
       "\n"
-      "Formats: .json is medial's own: lossless, and read by every command. .safetensors holds\n"
+      "Formats: .json is medial's own: lossless, and every command reads it. .safetensors holds\n"
       "the same as binary columns: smaller and three times as fast. .geojson, .gpkg, .shp and\n"
       ".fgb hold one line per branch with its nodes and the radius at both ends. .graphml,\n"
       ".nodelink (JSON) and .edgelist hold the graph of branches, for networkx. .csv has the\n"

@@ -24,7 +24,7 @@
 namespace medial::cli {
 namespace {
 
-/// In millimetres: usual tools do not cut deeper, so the input's unit is hardly the millimetre.
+/// In millimetres. Common tools do not cut deeper; a deeper cut suggests a wrong unit.
 constexpr double unlikely_depth = 50;
 constexpr char gcode_formats[] = ".nc .gcode .ngc .tap .cnc";
 
@@ -87,7 +87,7 @@ Vec2 zero_of(const Document<ShapeItem>& file, const std::string& origin) {
   return box.low + Vec2{named.across * size.x, up * size.y};
 }
 
-/// Refuses an origin that would cost the drawing its six decimals.
+/// Refuses an origin so far away that coordinates could not have six decimals.
 Status check_zero(const Document<ShapeItem>& file, Vec2 zero) {
   constexpr double most = 1e9;
   for (const ShapeItem& item : file.items)
@@ -138,7 +138,7 @@ Result<Tabs> tabs_for(const Shape& shape, const MedialAxis& axis, const CarveArg
   return Tabs{std::move(lines).value(), arguments.tabs.width.value_or(6 * one), bottom - height};
 }
 
-/// All shapes as one: the exterior of each alone would contain its neighbours.
+/// Merges all shapes into one, because the exterior of a single shape would contain its neighbours.
 Status unite(std::vector<ShapeItem>& items) {
   std::vector<Ring> rings;
   for (const ShapeItem& item : items)
@@ -213,7 +213,7 @@ Result<std::vector<CarvedItem>> carve_all(Document<ShapeItem>& shapes,
   return std::move(carved->items);
 }
 
-/// Notes on what the tools do not reach. Errors: empty (the tool fits nowhere).
+/// Prints notes on parts that the tools do not reach. Errors: empty (the tool fits nowhere).
 Status check_uncut(const std::vector<CarvedItem>& items, const CarveArguments& arguments) {
   const std::string& input = arguments.input.path;
   const CarveOptions& tool = arguments.carve;
@@ -324,7 +324,7 @@ Status read_post(std::string& post) {
   return success();
 }
 
-/// Refuses a distance between passes at which the tool does not reach from one to the next.
+/// Refuses a --step so large that the tool does not reach from one pass to the next.
 Status check_step(const CarveOptions& carve) {
   const bool mill = carve.angle == 0;
   const double flat = mill ? carve.tool : carve.tip;
@@ -438,12 +438,12 @@ void add_tool_options(CLI::App& command, CarveArguments& arguments) {
             "The steepest angle of ramps into the material, in degrees (default: 20;\n"
             "90: straight down).");
   add_length(command, "--step", carve.step, "S",
-             "The distance between passes that clear a flat bottom (default: half of the tip's\n"
-             "diameter, which leaves nothing; for a pointed tool, 1/20 of its radius at the\n"
-             "bottom, which leaves ridges); at most the tool's diameter.");
+             "The distance between passes that clear a flat bottom, at most the tool's diameter\n"
+             "(default: half of the tip's diameter, which clears all; for a pointed tool, 1/20 of\n"
+             "its radius at the bottom, which leaves ridges).");
   add_length(command, "--path-tolerance", carve.chord, "T",
-             "The largest error of straight moves: above the axis's curves (default: 1e-5 of\n"
-             "the diagonal), and in .csv inside arcs (default: 1e-6 of the tool's radius at\n"
+             "The largest error of straight moves that replace curves of the axis (default:\n"
+             "1e-5 of the diagonal), and in .csv arcs (default: 1e-6 of the tool's radius at\n"
              "the bottom).");
 }
 
@@ -554,8 +554,8 @@ Command make_carve_command(CLI::App& program) {
   command->footer(
       "The tip of the tool follows the axis at the depth where the tool is as wide as the\n"
       "disk, so walls begin at the boundary and corners are sharp. Nothing outside is\n"
-      "touched. Flat bottoms are cleared from the inside out, without lifting where that is\n"
-      "safe. Lengths are millimetres, or inches with --output-units in, except --font-size,\n"
+      "touched. Flat bottoms are cleared from the inside out, without lifting the tool if that\n"
+      "is safe. Lengths are millimetres, or inches with --output-units in, except --font-size,\n"
       "which is in --units (default: millimetres). For an SVG, the physical size applies,\n"
       "or 96 pixels per inch. z is 0 on the surface.\n"
       "\n"

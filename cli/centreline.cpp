@@ -1,4 +1,4 @@
-// medial centreline: shapes in; their main paths, widest paths or wide parts out.
+// medial centreline: the main paths, widest paths or wide parts of shapes.
 
 #include "medial/centreline.h"
 
@@ -41,7 +41,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using Paths = std::vector<std::vector<AxisPath>>;
 
-/// The pieces of all paths of a shape together, as some functions take O(shape) time.
+/// The pieces of all paths of a shape, for functions that take O(shape) time per call.
 AxisPath all_of(const std::vector<AxisPath>& paths) {
   AxisPath all;
   for (const AxisPath& path : paths)
@@ -95,8 +95,8 @@ double narrowest_between(const MedialAxis& lines, const Branch& branch,
   }
 }
 
-/// What the lines along paths measure, as paths without pieces: lengths with extensions, smallest
-/// radii without them.
+/// The lengths of the lines along paths, with extensions, and their smallest radii, without
+/// extensions; as paths without pieces.
 std::vector<AxisPath> measured(const MedialAxis& lines, const MedialAxis& axis,
                                const std::vector<AxisPath>& paths,
                                const CentreLineOptions& options) {
@@ -116,7 +116,7 @@ std::vector<AxisPath> measured(const MedialAxis& lines, const MedialAxis& axis,
   return out;
 }
 
-/// Replaces the axes of a file by lines along the paths. Returns what these measure.
+/// Replaces the axes of a file by lines along the paths. Returns their lengths and smallest radii.
 Result<Paths> make_lines(Document<AxisItem>& file, const Paths& paths,
                          const CentrelineArguments& arguments, int threads) {
   const auto make = [&](std::size_t i, int) -> Result<std::vector<AxisPath>> {
@@ -157,7 +157,8 @@ Status make_networks(Document<AxisItem>& file, const CentrelineArguments& argume
   });
 }
 
-/// The lines of some features as they are written, and the lengths that main paths leave out.
+/// The lines of some features as they are written, and the lengths of paths that are not part of
+/// the main paths.
 struct LineSums {
   std::uint64_t features = 0, lines = 0;
   double length = 0, narrowest = infinity;
@@ -180,7 +181,7 @@ void add_sizes(const Paths& written, LineSums& sums) {
     for (const AxisPath& line : of_item) sums += {0, 1, line.length, line.narrowest};
 }
 
-/// The lengths of the paths and of what main paths leave out, for a note.
+/// Sums up the lengths of the paths, and of the network and channels outside them, for a note.
 Result<LineSums> what_is_left_out(const Document<AxisItem>& file, const Paths& paths,
                                   const CentrelineArguments& arguments, int threads) {
   LineSums sums{paths.size()};
@@ -203,8 +204,8 @@ Result<LineSums> what_is_left_out(const Document<AxisItem>& file, const Paths& p
   return sums;
 }
 
-/// Notes on features without a line, and on what main paths leave out of the networks and of the
-/// paths around holes.
+/// Prints notes on features without a line, and on network edges and paths around holes outside the
+/// main paths.
 void note_what_is_left_out(const LineSums& sums, const CentrelineArguments& arguments) {
   const double whole = sums.network, channels = sums.channels, chosen = sums.chosen;
   constexpr double worth_a_note = 0.01;
@@ -395,7 +396,7 @@ void note_if_empty(bool any, const CentrelineArguments& arguments) {
       arguments.input.path);
 }
 
-/// The same for a file of many features, part by part; nothing if that is impossible.
+/// The same for a file of many features, part by part; nothing if the file cannot be streamed.
 Result<std::optional<int>> stream_centreline(const CentrelineArguments& arguments) {
   if (arguments.collapse > 0 || arguments.path.between_places() || arguments.common.json)
     return std::optional<int>();
@@ -490,8 +491,8 @@ CLI::Option* add_line_options(CLI::App& command, CentrelineArguments& arguments)
       .add_option_function<std::string>(
           "--loops",
           [&arguments](const std::string& what) { arguments.keep_loops = what == "keep"; },
-          "Other paths around holes that leave the line and come back to it, such as a\n"
-          "river's side channels (not its tributaries): keep, or drop (default).")
+          "Paths around holes that leave the line and return to it, such as a river's side\n"
+          "channels (not its tributaries): keep, or drop (default).")
       ->check(CLI::IsMember({"keep", "drop"}))
       ->option_text("WHAT")
       ->excludes(all);
@@ -531,8 +532,8 @@ Command make_centreline_command(CLI::App& program) {
   add_common_options(*command, arguments->common);
   command->footer(
       "The main path of a shape joins the two ends of its axis that are farthest apart,\n"
-      "measured along the axis. Each part of a feature has one; that of a ring without dead\n"
-      "ends is closed. Lines get the attributes of their features.\n"
+      "measured along the axis. Each part of a feature has one. The main path of a ring\n"
+      "without dead ends is closed. Lines get the attributes of their features.\n"
       "\n"
       "Formats are those of `medial axis`: exact curves in .json, .dxf and .svg, lines\n"
       "with the radii of both ends in .geojson, .gpkg, .shp and .fgb, samples with radii in .csv.\n"

@@ -33,7 +33,7 @@ constexpr int most_disks = 1'000'000;
 constexpr double narrowest_picture = 16;
 constexpr double widest_picture = 8000;  // what medial::io draws
 
-/// What Options::tolerance takes.
+/// Checks a value for Options::tolerance.
 CLI::Validator a_tolerance() {
   return a_number(
       [](double value) {
@@ -98,7 +98,7 @@ void add_curve_options(CLI::App& command, InputOptions& input) {
       ->option_text("TEXT");
   command.add_option("--font", input.font, "The font file of --text.")->option_text("FILE");
   add_value(command, "--font-size", input.source.font_size, "S", a_positive_number(),
-            "The size of the letters: their em, in --units (default: font units).")
+            "The em size of the letters, in --units (default: font units).")
       ->needs("--font");
   ArcOptions& arcs = input.source.load.arcs;
   add_value(command, "--arc-tolerance", arcs.tolerance, "T",
@@ -153,7 +153,7 @@ void add_unit_options(CLI::App& command, UnitOptions& units) {
             "Scale the input by this factor (default: 1).");
   add_value(command, "--pixel-size", units.pixel_size, "L", a_positive_number(),
             "Images: the side of a pixel, in --units (default: 1, or with --output-units\n"
-            "by the file's dots per inch).");
+            "derived from the file's dots per inch).");
 }
 
 void add_outline_options(CLI::App& command, InputOptions& input) {
@@ -188,7 +188,7 @@ void add_input_options(CLI::App& command, InputOptions& input, const std::string
 }
 
 void add_input_options(CLI::App& command, InputOptions& input) {
-  // Report words that no option takes first.
+  // Let CLI11 report unknown words before a missing INPUT.
   command.parse_complete_callback([&command, &input] {
     if (command.remaining_size() == 0) settle_input(input, {}, nullptr);
   });
@@ -305,14 +305,15 @@ void add_common_options(CLI::App& command, CommonOptions& common) {
   add_value(command, "--tolerance", common.tolerance, "T", a_tolerance(),
             "The largest distance between a disk and a site that it touches, as a fraction\n"
             "of the diagonal of the bounding box, at most 1e-3 (default: 4e-15, in verify\n"
-            "1e-14, or what the spacing of coordinates allows; by default small\n"
-            "components of a polygon have one of their own size).");
+            "1e-14, or more if the coordinates are not that precise; by default, a small\n"
+            "component of a polygon uses a tolerance for its own size).");
   add_value(command, "--corner-angle", common.corner_angle, "A", in_range(0, 10),
-            "Convex joints with an arc are smooth, not corners, below this angle, in\n"
-            "degrees, at most 10 (default: 4 for fonts, 1 for .svg, else 0.01).");
+            "Treat a convex joint with an arc as smooth, not as a corner, if it turns by less\n"
+            "than this angle, in degrees, at most 10 (default: 4 for fonts, 1 for .svg, else\n"
+            "0.01).");
   add_value(command, "--chord", common.chord, "C", in_range(smallest_chord, 1),
-            "Where curves are written as points: the largest distance of chords from the\n"
-            "curve, as a fraction of the diagonal of the bounding box (default: 1e-3).");
+            "In formats that store curves as points, the largest distance between a chord and\n"
+            "its curve, as a fraction of the diagonal of the bounding box (default: 1e-3).");
   add_report_options(command, common);
 }
 
@@ -343,9 +344,8 @@ void add_fit_option(CLI::App& command, InputOptions& input) {
 
 void add_simplify_option(CLI::App& command, io::WriteOptions& write) {
   add_value(command, "--simplify", write.simplify, "E", a_positive_number(),
-            "Lines in GIS formats, .wkt and graphs: leave out points as long as the line\n"
-            "stays within E of the axis, in units of the input (default: see --chord). Their\n"
-            "ends stay.");
+            "Simplify lines in GIS formats, .wkt and graphs to within E of the axis, in units\n"
+            "of the input (default: see --chord). End points do not move.");
 }
 
 CLI::Option* add_exterior_options(CLI::App& command, Options& options, const std::string& help) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// What the commands share: their arguments, and how errors and objects are printed.
+// Shared by the commands: arguments, and printing of errors and objects.
 
 #include <CLI/CLI.hpp>
 #include <functional>
@@ -40,11 +40,11 @@ struct InputOptions {
   io::SourceOptions source;
 };
 
-/// What every command takes.
+/// Options of every command.
 struct CommonOptions {
   int threads = 0;                     ///< 0: all of the machine
   double tolerance = 0;                ///< relative to the diagonal; 0: the library's default
-  std::optional<double> corner_angle;  ///< degrees; nothing: what suits the kind of input
+  std::optional<double> corner_angle;  ///< degrees; nothing: Document::corner_angle
   double chord = io::WriteOptions{}.chord;
   bool stats = false;
   bool json = false;
@@ -60,15 +60,14 @@ struct FileArguments {
   io::WriteOptions write;
 };
 
-/// Each adds its options to a command; what they refer to must live as long as the command.
-/// `second` is the name of a second file that the command requires after INPUT, with the string
-/// that it fills.
+/// Each function adds options to a command. The variables that the options fill must outlive the
+/// command. `second` receives the path of a second file, which the command requires after INPUT.
 void add_input_options(CLI::App& command, InputOptions& input);
 void add_input_options(CLI::App& command, InputOptions& input, const std::string& second_name,
                        const std::string& second_help, std::string& second);
 void add_common_options(CLI::App& command, CommonOptions& common);
-/// -o and --format, for outputs of `formats`; without -o such a command prints its summary only.
-/// `piped` says which format -o - has.
+/// -o and --format, for outputs in `formats`. Without -o, such a command prints only its summary.
+/// `piped` is the help's remark on the format of -o -.
 void add_output_options(CLI::App& command, FileArguments& arguments, const std::string& formats,
                         const std::string& piped = "default: json");
 /// --output-layer and --overwrite.
@@ -85,9 +84,9 @@ void add_image_options(CLI::App& command, io::ImageOptions& options);
 void add_picture_options(CLI::App& command, io::WriteOptions& write);
 /// --simplify, for commands that write axes as lines.
 void add_simplify_option(CLI::App& command, io::WriteOptions& write);
-/// --width alone. Its help gives the default, which is what `width` holds.
+/// --width alone. The default in its help is the value of `width`.
 void add_width_option(CLI::App& command, double& width);
-/// --fit, which replaces boundaries by smooth curves as they are read.
+/// --fit, which replaces boundaries by smooth curves when they are read.
 void add_fit_option(CLI::App& command, InputOptions& input);
 /// --exterior, with this help, and --margin. Returns the former.
 CLI::Option* add_exterior_options(CLI::App& command, Options& options, const std::string& help);
@@ -96,13 +95,13 @@ CLI::Option* add_exterior_options(CLI::App& command, Options& options, const std
 CLI::Validator in_range(double low, double high, bool quiet = false);
 /// A finite number above 0.
 CLI::Validator a_positive_number();
-/// A number about which `complaint` has nothing to say; what it says follows the number in the
-/// error.
+/// A number for which `complaint` returns an empty string. Otherwise, the error is the number
+/// followed by that string.
 CLI::Validator a_number(std::function<std::string(double)> complaint,
                         const std::string& range = {});
-/// What the name of a file must be: not empty.
+/// A file name that is not empty.
 CLI::Validator a_name();
-/// Digits that make a 64-bit number; CLI11 by itself takes -1 for the largest.
+/// A 64-bit number of digits only. CLI11 alone would accept -1 as the largest number.
 CLI::Validator a_whole_number();
 
 /// Adds an option with one value, which help texts call `value`.
@@ -135,7 +134,7 @@ CLI::Option* add_list_option(CLI::App& command, const std::string& name, std::si
 inline constexpr std::string_view input_group = "Input", curve_group = "Curves",
                                   picture_group = "Pictures", common_group = "Common options";
 
-/// The options that are added while it lives form a group of help texts.
+/// Puts the options that are added during its lifetime into one group of the help.
 class OptionGroup {
  public:
   OptionGroup(CLI::App& command, std::string_view name);
@@ -148,20 +147,20 @@ class OptionGroup {
   CLI::OptionDefaults before_;
 };
 
-/// Checks that `path` can be written later, before any long work: a known format, a directory that
-/// takes files, nothing there but a regular file that may be replaced, and not the input itself.
-/// An empty path is no output, which is always possible. With `json` standard output is taken.
-/// `known_formats` lists extensions, separated by anything that is neither letter nor digit.
+/// Checks before any long work that `path` can be written later: the format is known, the directory
+/// is writable, and an existing file is regular, writable and not the input. An empty path (no
+/// output) always passes. With `json`, standard output is in use already. `known_formats` lists
+/// extensions, separated by characters that are neither letters nor digits.
 Status check_output(const std::string& path, const std::string& format,
                     const std::string& known_formats, const std::string& input, bool json);
 Status check_output(const FileArguments& arguments, const std::string& known_formats);
 bool has_extension(const std::string& path, const std::string& known_formats);
-/// Whether what is written has one of these formats.
+/// Whether the output is in one of these formats.
 bool writes_one_of(const FileArguments& arguments, const std::string& known_formats);
 
 /// Whether two paths name one file, which need not exist.
 bool name_one_file(const std::string& path, const std::string& other);
-/// Options for writing: --chord is a common one.
+/// The options for writing, with --chord from the common options.
 io::WriteOptions write_options(const FileArguments& arguments);
 
 /// An error of a file as a whole.
@@ -170,9 +169,9 @@ Error error_at(ErrorCode code, const std::string& file, std::string text);
 /// The formats of images in black and white.
 inline constexpr char image_formats[] = ".png .tif .pbm";
 
-/// The error of a command line that asks for something impossible.
+/// An invalid_option error.
 Error invalid_option(std::string text);
-/// That a file holds no shape, for commands that need one: --skip-invalid may leave none.
+/// The error for a file without a shape, for commands that need one. --skip-invalid can remove all.
 Error no_shape(const std::string& file);
 
 /// {"error": {"code": ..., "text": ..., "place": {...}}}
@@ -185,12 +184,11 @@ Json to_json(const Box& box);
 /// Returns exit_error.
 int report_error(const Error& error, bool json, const std::string& hint = {});
 
-/// Prints to standard output. An output that takes no more is an error (unwritable).
+/// Prints to standard output. Errors: unwritable, for example on a full device.
 Status print(const std::string& text);
 Status print(const Json& object);
 
-/// The members of an object as a table, one on each line; objects inside are indented. Names and
-/// values say it all: "seconds", "precision_retries", "peak_bytes".
+/// The members of an object as a table, one per line; members of nested objects are indented.
 std::string table(const Json& object);
 /// Lines of a name and a value.
 class Rows {
@@ -205,10 +203,10 @@ class Rows {
   std::string text_;
 };
 
-/// The phases of a run, by the clock and by the processor.
+/// The duration of each phase of a run, in wall-clock and processor time.
 class Phases {
  public:
-  /// Ends a phase, which began with the end of the one before.
+  /// Ends the current phase, which began when the previous one ended.
   void end(const std::string& name);
   /// The seconds of all phases, or of one.
   double seconds() const;
@@ -222,16 +220,16 @@ class Phases {
   Json seconds_ = Json::object(), processor_ = Json::object();
 };
 
-/// The end of a command: prints the object for --json, or the text on standard output unless it is
-/// empty. --stats adds the costs, which are seconds by phase, threads, memory and `more`: as
-/// members of the object, or as a table on standard error. Returns the status.
+/// Ends a command: prints the object with --json, or else the text, on standard output. With
+/// --stats, adds the costs (seconds by phase, threads, memory and `more`): as members of the
+/// object, or as a table on standard error. Returns the status.
 Result<int> finish(const CommonOptions& common, Json object, const Phases& phases,
                    const std::string& text, const Json& more = {}, int status = exit_success);
-/// The same for a command that writes a file, with a line that ends with the seconds of all phases:
-/// on standard output where there is no other output, and else only on a terminal.
+/// The same for a command that writes a file. Adds the seconds of all phases to the line, and
+/// prints it on standard output if there is no output file, or else on a terminal.
 Result<int> finish(const FileArguments& arguments, Json object, const Phases& phases,
                    const std::string& line, const Json& more = {});
-/// Whether that would print anything.
+/// Whether finish() would print anything.
 bool is_talkative(const FileArguments& arguments);
 
 /// {name: value, ...}
@@ -239,16 +237,16 @@ Json to_json(const Attributes& attributes);
 /// {"x": ..., "y": ..., "r": ...}
 Json to_json(const Disk& disk);
 
-/// What build_shape() mended, as "2 repeated points, 1 reversed ring"; empty if nothing.
+/// The corrections of build_shape(), such as "2 repeated points, 1 reversed ring"; empty if none.
 std::string describe(const ShapeReport& report);
-/// "2 points, 1 ring" of the counts that are not 0, each with its noun and plural.
+/// Lists the counts that are not 0: "2 points, 1 ring".
 struct CountedNoun {
   std::uint64_t count;
   const char *noun, *plural = "";
 };
 std::string enumerate(std::span<const CountedNoun> counts);
 
-/// "1 edge", "2 edges"; `plural` where an s does not do.
+/// "1 edge", "2 edges". Pass `plural` for a noun whose plural is not formed by an s.
 std::string counted(std::uint64_t count, const std::string& noun, const std::string& plural = {});
 
 /// The name of a coordinate reference system given as WKT: "WGS 84"; empty for none.

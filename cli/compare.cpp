@@ -130,7 +130,7 @@ Json json_of(const Row& row) {
           {"failure", row.failure}};
 }
 
-/// What verify() checked, and how far the axis is from the reference, which it does not check.
+/// The checks of verify(), and the distance to the reference, which verify() does not measure.
 std::string verdict_of(const Row& row) {
   const bool exact = row.axis.resolution == 0;
   const char* checked = exact ? "disks, graph, cover" : "radii, graph";
@@ -256,11 +256,11 @@ Command make_compare_command(CLI::App& program) {
                        "holes.");
   add_common_options(*command, arguments->common);
   command->footer(
-      "Each method runs on one thread. Distances are to the axis of the method disks, by\n"
-      "samples; Hausdorff is the larger of both directions. A method that does not support\n"
-      "the input says why. For a sampled axis, verification covers the radii and the graph\n"
-      "but not the position; the distance shows the position. An axis of pixels is\n"
-      "unresolved if its grid is too coarse for parts or holes of the shape. Exit status 1:\n"
+      "Each method runs on one thread. Distances are measured at samples, to the axis of the\n"
+      "method disks; Hausdorff is the larger of both directions. For a method that does not\n"
+      "support the input, the table says why. For a sampled axis, verification covers the\n"
+      "radii and the graph but not the position, which the distance shows. An axis of pixels\n"
+      "is unresolved if its grid is too coarse for parts or holes of the shape. Exit status 1:\n"
       "an axis is wrong in another way, a method failed, or a method named by --methods does\n"
       "not support the input.\n"
       "\n"

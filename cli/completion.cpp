@@ -1,4 +1,4 @@
-// medial completion: scripts that complete command lines, made from what the commands take.
+// medial completion: makes completion scripts for shells from the commands' options.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,7 +13,7 @@
 namespace medial::cli {
 namespace {
 
-/// What shells need to know of an option.
+/// The properties of an option that completion scripts use.
 struct Flag {
   std::vector<std::string> names;    ///< with their dashes
   std::string help;                  ///< a few words
@@ -26,7 +26,7 @@ struct Completions {
   std::vector<Flag> flags;
 };
 
-/// The first clause of a text, without what shells could misread.
+/// The first clause of a text, without characters that are special in shells.
 std::string summary_of(const std::string& text) {
   std::string summary = text.substr(0, text.find_first_of(".(;:["));
   for (char& c : summary)

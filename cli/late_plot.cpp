@@ -1,4 +1,4 @@
-// Stands in for plot.cpp in the program: it is in the module of pictures, as it draws by Cairo.
+// Replaces plot.cpp in the program. plot.cpp draws by Cairo and is in the module of pictures.
 
 #include <dlfcn.h>
 

@@ -1,4 +1,4 @@
-// medial legal: whether curves with radii can be medial axes; and the boundary's curvature.
+// medial legal: checks whether curves with radii can be medial axes; boundary curvature.
 
 #include <fmt/format.h>
 
@@ -104,7 +104,7 @@ std::string text_of(const Verdict& verdict, const Document<AxisItem>& file) {
       rows.add("within", fmt::format("{:.6g}, the error of the pack", item.axis.resolution));
   rows.add("verdict", !verdict.offences.empty() ? "ILLEGAL"
                       : verdict.judged > 0      ? "legal"
-                                                : "legal, as far as is known");
+                                                : "legal, but no branch could be judged");
   return rows.text();
 }
 
@@ -213,8 +213,8 @@ Command make_legal_command(CLI::App& program) {
       ->required()
       ->option_text("REQUIRED");
   add_value(*command, "--slack", arguments->slack, "S", in_range(0, largest_slack),
-            "The largest violation of the conditions, dimensionless (default: 1e-9; larger\n"
-            "for samples, whose derivatives are differences).");
+            "The largest violation of the conditions to accept, dimensionless (default: 1e-9).\n"
+            "Sampled axes, whose derivatives are finite differences, need more.");
   add_value(*command, "--curvature", arguments->curvature, "FILE", a_name(),
             "Write the boundary's curvature at the foot points of disks, and its derivative\n"
             "along the boundary: as numbers (.csv), or as a comb of lines:\n" +
@@ -225,7 +225,8 @@ Command make_legal_command(CLI::App& program) {
       "A curve with a radius function is the medial axis of some shape only if the radius\n"
       "changes no faster than the arc length, |R'| <= 1, and the curve does not bend too\n"
       "sharply, 1 - R'^2 - R R'' >= |K| R sqrt(1 - R'^2) (Shaked and Bruckstein 1996,\n"
-      "(9) and (10)). If both hold strictly, it is one locally. No shape is needed.\n"
+      "(9) and (10)). If both hold strictly, each short piece is the axis of its own disks'\n"
+      "union. No shape is needed.\n"
       "Branches are ordered by their lowest edge in the native format. In an unpacked\n"
       "axis, only violations that its error cannot explain are illegal.\n"
       "\n"

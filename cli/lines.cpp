@@ -99,7 +99,7 @@ std::size_t feature_of(const Document<AxisItem>& file, const NamedPlace& place) 
   return best;
 }
 
-/// As they were given.
+/// The places as the user wrote them.
 std::vector<std::string> places_of(const PathOptions& arguments) {
   std::vector<std::string> texts = arguments.widest;
   for (const std::string& text : {arguments.from, arguments.to})
@@ -162,8 +162,8 @@ void add_path_options(CLI::App& command, PathOptions& arguments) {
                     "The path around holes: roomy (default), where a passage twice as wide may\n"
                     "be twice as long; or shortest.");
   add_value(command, "--trim", arguments.path.trim, "RADII", in_range(0, 1e6),
-            "Keep ends out of corners: cut what protrudes from a disk by at most this\n"
-            "many of its radii (default: 1, corners of 60 degrees and more; 0\n"
+            "Keep ends out of corners: cut an end that protrudes from a disk by at most\n"
+            "this many radii (default: 1, corners of 60 degrees and more; 0\n"
             "cuts nothing).");
 }
 

@@ -21,15 +21,15 @@ struct PathOptions {
 /// --from, --to, --widest, --route, --trim.
 void add_path_options(CLI::App& command, PathOptions& arguments);
 
-/// The paths of every feature: the main paths, or the one between the named places, in the feature
-/// where the first of them lies. Errors name the feature.
+/// The paths of every feature: the main paths, or the path between the named places in the feature
+/// that contains the first place. Errors name the feature.
 Result<std::vector<std::vector<AxisPath>>> choose_paths(const Document<AxisItem>& file,
                                                         const PathOptions& arguments, int threads);
 
-/// Refuses places X,Y in what is projected: nobody knows its coordinates before it is read.
+/// Refuses places X,Y with --project, because projected coordinates are not known in advance.
 Status check_places(const PathOptions& arguments, const InputOptions& input);
 
-/// Notes on named places: each that lies in no shape, and in which of several features the line is.
+/// Prints notes on named places that lie in no shape, and on the feature that contains the line.
 void note_places(const Document<AxisItem>& file, const PathOptions& arguments,
                  const FileArguments& files);
 

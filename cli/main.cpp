@@ -1,4 +1,4 @@
-// The command line: parses, calls the library, prints. One file for each command.
+// The command line: parses, calls the library, prints. Each command has its own file.
 
 #include <algorithm>
 #include <array>
@@ -28,7 +28,7 @@ int requested_threads(const CLI::App& command) {
 struct Maker {
   std::string_view name;
   MakeCommand* make;
-  bool needs_others = false;  ///< the command looks at all that the program has
+  bool needs_others = false;  ///< the command inspects all other commands
 };
 /// In the order of the help.
 constexpr Maker makers[] = {{"axis", make_axis_command},
@@ -87,7 +87,7 @@ void give_default_values(CLI::App& program, std::vector<std::string>& words) {
   }
 }
 
-/// What the words ask of a program with these commands; nothing where it is not `whole` and the
+/// Parses the words with a program of these commands. Nothing if the program is not `whole` and the
 /// words do not parse.
 std::optional<int> run_with(std::span<const Maker> parts, std::vector<std::string> words, bool json,
                             bool whole) {
@@ -121,7 +121,7 @@ int run(std::vector<std::string> words, bool json) {
   if (!words.empty() &&
       (words[0] == "-h" || words[0].starts_with("--help")))  // of the command that follows
     std::rotate(words.begin(), words.begin() + 1, words.end());
-  // The options of all commands take longer to make than most axes, and more memory.
+  // Building the options of all commands takes longer than most axes, and more memory.
   for (const Maker& maker : makers)
     if (!words.empty() && words[0] == maker.name && !maker.needs_others)
       if (const auto status = run_with({&maker, 1}, words, json, false)) return *status;
@@ -134,7 +134,7 @@ int run(std::vector<std::string> words, bool json) {
 int main(int argc, char** argv) {
   using namespace medial;
   cli::occupy_standard_descriptors();
-  // Find out whether errors should be JSON even if the line cannot be parsed.
+  // Look for --json before parsing, so that parse errors are JSON, too.
   const bool json =
       std::any_of(argv, argv + argc, [](const char* word) { return !std::strcmp(word, "--json"); });
   cli::install_signal_handlers();

@@ -80,7 +80,7 @@ class Peeling {
   std::priority_queue<std::pair<std::uint32_t, std::uint64_t>> border_;
 };
 
-/// The pixels of lines in the image, and those needed to be as connected as the image.
+/// The pixels of lines in the image, and the pixels that connect them as the image is connected.
 Result<Image> lines_in(Image image, const Image& drawn) {
   Image lines(image.width(), image.height()), beside = lines;
   for (std::uint32_t y = 0; y < image.height(); ++y)
@@ -92,7 +92,7 @@ Result<Image> lines_in(Image image, const Image& drawn) {
   return thin(image);
 }
 
-/// Whether an axis is what a brushfire leaves of the image's own pixels, which are lines already.
+/// Whether an axis comes from a brushfire on the image's own pixels, so that it is thin already.
 bool is_of_own_pixels(const MedialAxis& axis, double pixel) {
   constexpr double rounding = 1e-9;
   return axis.method == "brushfire" && std::abs(axis.resolution - pixel) < rounding * pixel;

@@ -7,12 +7,11 @@
 
 namespace medial::cli {
 
-/// Whether the options go with a mask. Errors: invalid_option.
+/// Checks that the options can be combined with --mask. Errors: invalid_option.
 Status check_mask(const FileArguments& arguments);
 
-/// The axes as lines one pixel wide, in an image like the one that they are of: pixels of its
-/// foreground, with as many components and holes; but of the axes of labels, and of an exterior,
-/// the pixels that they pass through.
+/// The axes as lines one pixel wide, in an image of the same size as the input: foreground pixels
+/// with as many components and holes. For labels and for an exterior, the pixels on the axes.
 Status write_mask(const Document<AxisItem>& axes, const FileArguments& arguments, bool exterior);
 
 }  // namespace medial::cli

@@ -1,4 +1,4 @@
-// medial match: how similar shapes are.
+// medial match: ranks shapes by similarity.
 
 #include <fmt/format.h>
 
@@ -136,7 +136,7 @@ Result<Candidates> candidates_of(const MatchArguments& arguments) {
     auto found = signatures_of(own, common, arguments.each);
     if (found) {
       std::ranges::move(*found, std::back_inserter(out.shapes));
-    } else if (folder) {  // other files are not at fault
+    } else if (folder) {  // a folder may hold other files
       ++out.refused;
     } else {
       return std::move(found).error();

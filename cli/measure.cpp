@@ -40,7 +40,7 @@ struct MeasureArguments : FileArguments {
   double widening = 1.1;
   std::uint64_t disks = 0;
   Options options;
-  std::vector<const CLI::Option*> of_widths;  ///< each asks for more than disks
+  std::vector<const CLI::Option*> of_widths;  ///< options that need a line, not only disks
 };
 
 /// A centre line and the widths along it.
@@ -64,14 +64,14 @@ bool has_layers(const MeasureArguments& arguments) {
   return !arguments.output.empty() && !is_profile(arguments);
 }
 
-/// Whether nothing is asked for that needs an axis.
+/// Whether no option needs an axis.
 bool wants_disks_alone(const MeasureArguments& arguments) {
   return arguments.disks > 0 && !is_profile(arguments) &&
          std::none_of(arguments.of_widths.begin(), arguments.of_widths.end(),
                       [](const CLI::Option* option) { return option->count() > 0; });
 }
 
-/// `count` + 1 lengths from 0 to the whole.
+/// `count` + 1 evenly spaced lengths from 0 to the whole.
 std::vector<double> even_lengths(double whole, std::uint64_t count) {
   std::vector<double> at(count + 1);
   for (std::uint64_t i = 0; i <= count; ++i)
@@ -223,7 +223,7 @@ Json json_of(const Measured& measured, std::size_t necks_wanted) {
   return object;
 }
 
-/// A coordinate, 0 where it is nothing but the rounding of a centre beside the radius.
+/// A coordinate to print: 0 if it is only a rounding error relative to the radius.
 double shown(double x, double radius) { return std::abs(x) < 1e-10 * radius ? 0 : x; }
 std::string place(const Disk& disk) {
   const auto [c, r] = std::pair(disk.center, disk.radius);
@@ -444,7 +444,7 @@ bool prints_table(const MeasureArguments& arguments) {
          (!arguments.common.quiet || (arguments.output.empty() && arguments.plot.empty()));
 }
 
-/// Refuses options for what is not written or printed.
+/// Refuses options for results that are neither written nor printed.
 Status check_used(const MeasureArguments& arguments) {
   const bool table = prints_table(arguments) && !is_profile(arguments);
   if (arguments.samples > 0 && !is_profile(arguments) && arguments.plot.empty())
@@ -461,7 +461,7 @@ Status check_used(const MeasureArguments& arguments) {
   return success();
 }
 
-/// Refuses what the table of several features does not hold.
+/// Refuses options whose results do not fit into the table of several features.
 Status check_table(const MeasureArguments& arguments, std::uint64_t features) {
   const bool lists = arguments.necks > 0 || arguments.disks > 0;
   if (features <= 1 || !lists || has_layers(arguments) || arguments.common.json ||
@@ -474,7 +474,7 @@ Status check_table(const MeasureArguments& arguments, std::uint64_t features) {
       arguments.disks > 0 ? "; --disks alone has a table of its own" : ""));
 }
 
-/// The table of a stream, in a temporary file until the end: errors print nothing.
+/// The table of a stream, kept in a temporary file until the end, so that an error prints nothing.
 class LateTable {
  public:
   explicit LateTable(bool disks_alone) : disks_alone_(disks_alone) {}
@@ -529,7 +529,7 @@ Result<io::MeasuredItems> measure_part(Document<ShapeItem> shapes, int threads, 
   return out;
 }
 
-/// Measures a file of many features part by part; nothing if that is impossible.
+/// Measures a file of many features part by part; nothing if the file cannot be streamed.
 Result<std::optional<int>> stream_measures(const MeasureArguments& arguments) {
   const CommonOptions& common = arguments.common;
   if (!arguments.plot.empty() || common.json || arguments.path.between_places())
@@ -537,7 +537,7 @@ Result<std::optional<int>> stream_measures(const MeasureArguments& arguments) {
   const bool table_wanted = prints_table(arguments);
   LateTable table(wants_disks_alone(arguments));
   std::mutex adding;
-  std::map<std::uint64_t, std::vector<Measured>> parts;  // on their way, by their first features
+  std::map<std::uint64_t, std::vector<Measured>> parts;  // not printed yet, by first feature
   io::StreamOptions how;
   how.none = io::MeasuredItems{layers_of({}, {}, arguments), {}};
   how.compute = [&](Document<ShapeItem> shapes, int threads,
@@ -650,9 +650,9 @@ void add_width_options(CLI::App& command, MeasureArguments& arguments) {
             "Transects at this distance from each other, in units of the input.")
       ->excludes(transects);
   add_value(command, "--necks", arguments.necks, "K", in_range(1, most_transects, true),
-            "The K necks that open most on both sides.");
+            "The K necks that widen most on both sides.");
   add_value(command, "--widening", arguments.widening, "FACTOR", in_range(1 + 1e-9, 1e9),
-            "A neck opens on both sides to at least this many times its width (default: 1.1).");
+            "A neck widens on both sides to at least this many times its width (default: 1.1).");
   add_path_options(command, arguments.path);
   const std::vector<CLI::Option*> all = command.get_options();
   arguments.of_widths.assign(all.begin() + before, all.end());
@@ -684,7 +684,7 @@ Command make_measure_command(CLI::App& program) {
   add_common_options(*command, arguments->common);
   command->footer(
       "Widths are diameters of maximal disks along the centre line (medial centreline).\n"
-      "`mean width by length` is their mean along the line, `by area` the mean over the\n"
+      "`mean width by length` is their mean along the line; `by area` is the mean over the\n"
       "points of the shape, each with the width at its place on the line. A neck is narrower\n"
       "than both of its sides; `narrowest` is the smallest width on the line, ends included.\n"
       "With --project, printed coordinates are those of the projection.\n"

@@ -1,6 +1,6 @@
 #pragma once
 
-// Which point, segment or arc of a file is nearest to a place.
+// Finds the point, segment or arc of a file that is nearest to a place.
 
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace medial::cli {
 
-/// What is asked for.
+/// The places to search from.
 struct NearestArguments {
   std::vector<Vec2> places;
   std::string queries;  ///< a file of more places; empty for none
@@ -19,8 +19,8 @@ struct NearestArguments {
 /// --nearest and --queries.
 void add_nearest_options(CLI::App& command, NearestArguments& nearest);
 
-/// Answers for all places, the option's before the file's: as .csv or .json to the output, or to
-/// standard output. No diagram is computed. Returns the exit status.
+/// Finds the nearest site for all places: first those of --nearest, then those of the file. Writes
+/// .csv or .json to the output or to standard output. Computes no diagram. Returns the exit status.
 Result<int> run_nearest(const FileArguments& arguments, const NearestArguments& asked);
 
 }  // namespace medial::cli

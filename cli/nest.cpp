@@ -1,4 +1,4 @@
-// medial nest: how two shapes interlock.
+// medial nest: places a shape so that it interlocks with another one.
 
 #include <fmt/format.h>
 
@@ -68,7 +68,7 @@ Result<std::vector<Placement>> place(std::array<ShapesInTurn, 2>& files,
   }
 }
 
-/// The fixed shape with the axis of its bays, and the other one in its place with its own axis.
+/// The fixed shape with the axis of its bays, and the other shape, placed, with its own axis.
 Result<Document<AxisItem>> picture_of(const std::array<ShapesInTurn, 2>& files,
                                       const Placement& at) {
   Options around;
@@ -150,8 +150,8 @@ Command make_nest_command(CLI::App& program) {
       program.add_subcommand("nest", "Place a shape so that it interlocks with another one.");
   add_input_options(
       *command, arguments->input, "OTHER",
-      "A file with the shape that is rotated and moved. Both files contribute their\n"
-      "first feature, which must be connected; with --skip-invalid the first that is\n"
+      "A file with the shape to rotate and move. Both files contribute their first\n"
+      "feature, which must be connected; with --skip-invalid, the first that is connected\n"
       "and has an axis.",
       arguments->other);
   add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::axes));

@@ -97,7 +97,7 @@ Result<int> finish_offsets(const OffsetSums& sums, const OffsetArguments& argume
                 {{"seconds", seconds}});
 }
 
-/// Keeps those attributes of a region that another feature of it has, too.
+/// Keeps only the attributes of a region that another of its features has, too.
 void keep_common(io::BufferSource& of, const io::BufferSource& more) {
   if (of.features.empty())
     of.attributes = more.attributes;
@@ -108,8 +108,8 @@ void keep_common(io::BufferSource& of, const io::BufferSource& more) {
   of.features.insert(of.features.end(), more.features.begin(), more.features.end());
 }
 
-/// The features in each region of buffers. A whole chain lies in one region: that of its first
-/// point, or of the piece that this point touches and was merged into. O(n log n) expected.
+/// The features in each region of buffers. A chain is in one region: the region of its first point,
+/// or of the piece that this point touches and was merged into. O(n log n) expected.
 std::vector<io::BufferSource> sources_of(const LoosePieces& file, const PlanarGraph& planar_graph,
                                          const Offsets& offsets) {
   const SiteLocator locator(sites_of(planar_graph));
@@ -183,7 +183,7 @@ Result<Document<io::OffsetItem>> offset_file(const OffsetArguments& arguments) {
   return file;
 }
 
-/// The same for a file of many features, part by part; nothing if that is impossible.
+/// The same for a file of many features, part by part; nothing if the file cannot be streamed.
 Result<std::optional<int>> stream_offsets(const OffsetArguments& arguments) {
   if (arguments.loose) return std::optional<int>();
   OffsetSums sums;
@@ -209,7 +209,7 @@ Result<int> run_offset(const OffsetArguments& arguments) {
   if (arguments.distances.empty() == (arguments.step == 0))
     return invalid_option("give either --distance or --step");
   if (arguments.exterior && arguments.step > 0 && !std::isfinite(arguments.last))
-    return invalid_option("outward passes never end: give --until a distance");
+    return invalid_option("outward passes never end: --until needs a distance");
   if (arguments.loose && (arguments.step > 0 || arguments.exterior))
     return invalid_option("--loose needs --distance, not --step");
   if (arguments.write.chords && !writes_one_of(arguments, "wkt"))
@@ -272,11 +272,11 @@ Command make_offset_command(CLI::App& program) {
   command->footer(
       "A region is a connected part of all points farther than D from the boundary\n"
       "(inside), or of the shape grown by D (outside): an outer ring, then its holes. Rings\n"
-      "are lines and arcs; all distances are found in one walk along the axis. Regions of\n"
+      "are lines and arcs; one walk along the axis finds all distances. Regions of\n"
       "successive distances nest: .json and .geojson name each one's parent. .dxf has\n"
       "closed polylines with bulges, one layer per distance; .wkt exact circular strings;\n"
       ".geojson chords. For buffers (--loose), .json and .geojson list the features in each\n"
-      "region, and the attributes on which all of them agree.\n"
+      "region, and the attributes that all of them share.\n"
       "\n"
       "Examples:\n"
       "  medial offset plan.wkt --distance 0.5,1,2 -o plan.svg\n"

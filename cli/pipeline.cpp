@@ -18,7 +18,7 @@
 namespace medial::cli {
 namespace {
 
-/// Prints notes, of those that differ in numbers only the first ones.
+/// Prints notes; of notes that differ only in their numbers, the first ten.
 void print_notes(const std::vector<std::string>& notes, const InputOptions& input,
                  const CommonOptions& common) {
   if (common.quiet) return;
@@ -70,8 +70,8 @@ Result<T> naming_file(Result<T> result, const InputOptions& input) {
   return result;
 }
 
-/// The error of an invalid shape, with a remedy. Whether the file is an image is known by then: a
-/// pipe cannot be asked once it is read.
+/// The error of an invalid shape, with a remedy. The caller knows whether the file is an image; a
+/// pipe that has been read cannot tell.
 Error with_cure(Error error, const InputOptions& input, bool of_image,
                 const char* by_repair = "repairs such rings") {
   using enum ErrorCode;
@@ -92,7 +92,7 @@ Error with_cure(Error error, const InputOptions& input, bool of_image,
   return error;
 }
 
-/// The entries of --stats that not every command has.
+/// The entries of --stats for commands that compute axes.
 Json statistics_of(const LoadedAxes& axes, const AxisSummary& summary) {
   const Statistics& counted = axes.axes.statistics;
   const ShapeReport& cleaned = axes.report.shapes;
@@ -127,7 +127,7 @@ Json statistics_of(const LoadedAxes& axes, const AxisSummary& summary) {
   return object;
 }
 
-/// " mm", or nothing where the unit is unknown.
+/// " mm", or nothing if the unit is unknown.
 std::string in_units(Unit unit) {
   const std::string name = name_of(unit);
   return name.empty() ? name : " " + name;
@@ -183,7 +183,8 @@ Status check_image_options(const InputOptions& input) {
       (input.path == "-" ? "standard input" : input.path) + " is not");
 }
 
-/// medial's own format has no layers and no rings to repair, and other files than images no pixels.
+/// Resets options that do not apply to a file: `choices` for medial's own format, which has no
+/// layers and no rings to repair; `pixels` for files other than images.
 void leave_out(io::ReadOptions& read, bool choices, bool pixels) {
   const io::ReadOptions given = read;
   if (choices) {
@@ -344,7 +345,7 @@ Result<LoadedAxes> compute_axes(LoadedShapes shapes, const InputOptions& input,
 
 namespace {
 
-/// The axes of a native file, or those of its shapes where it does not hold the requested ones.
+/// The axes of a native file, or axes computed from its shapes if it lacks the requested ones.
 Result<LoadedAxes> load_stored(const InputOptions& input, const CommonOptions& common,
                                const Options& options) {
   if (Status suited = check_image_options(input); !suited) return std::move(suited).error();
@@ -553,7 +554,7 @@ Result<std::optional<LoadedAxes>> stream(const FileArguments& arguments, const I
   stream.write = write_options(arguments);
   stream.threads = common.threads;
   stream.progress = progress.counting_callback();
-  // Only shapes have a cure: other errors name a file already.
+  // Only errors of shapes have a remedy; other errors name a file already.
   stream.compute = [&input, compute = std::move(stream.compute)](Document<ShapeItem> shapes,
                                                                  int threads, AxesReport& axes) {
     return naming_file(compute(std::move(shapes), threads, axes), input);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Plots with logarithmic or even axes, drawn by Cairo.
+// Plots with logarithmic or linear axes, drawn by Cairo.
 
 #include <string>
 #include <utility>
@@ -23,14 +23,14 @@ struct Plot {
   std::string x_label;
   std::string y_label;
   std::vector<Series> series;
-  bool logarithmic = true;  ///< both axes; otherwise even ones, y from 0
+  bool logarithmic = true;  ///< both axes; otherwise linear axes, with y from 0
 };
 
 /// Writes the plots, two in a row, as one SVG, or by the extension as .png or .pdf. Errors:
 /// unwritable.
 Status write_plots(const std::string& path, const std::vector<Plot>& plots);
 
-/// What the program asks the module of pictures for (late_plot.cpp).
+/// The functions that late_plot.cpp loads from the module of pictures.
 struct PlotModule {
   const char* stamp;  ///< see cmake/stamp.cmake
   decltype(&cli::write_plots) write_plots;

@@ -17,7 +17,7 @@ namespace medial::cli {
 
 namespace {
 
-/// What each measure judges, in the order of PruneMeasure.
+/// The help of each measure, in the order of PruneMeasure.
 constexpr std::array measure_helps = {
     "Branches by the geometric mean of --significance and --erosion",
     "Branches by how far the shape reaches beyond the disk where they\n"
@@ -71,7 +71,7 @@ void add_prune_options(CLI::App& command, PruneArguments& arguments) {
   command.add_flag("--tips", arguments.tips,
                    "Extend the ends of what is kept to the tips, along the paths that\n"
                    "reach farthest.");
-  // A flag that carries a value, as --repair is one.
+  // A flag with an optional value, like --repair.
   command
       .add_flag(
           fmt::format("--specks{{{}}}", speck_share), arguments.speck_share,

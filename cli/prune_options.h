@@ -22,11 +22,12 @@ struct PruneArguments {
 
 /// The threshold of prominence for images: that of prune_measures() loses knobs of a key.
 constexpr double image_prominence = 0.15;
-/// What a person would draw of an image, unless options choose; of other documents nothing.
+/// The default pruning of an image, to the branches that a person would draw; nothing for other
+/// documents, or if the options select a pruning.
 std::optional<PruneOptions> image_pruning(const Document<AxisItem>& file,
                                           const InputOptions& input);
 
-/// A note on the specks of images, which --specks leaves out.
+/// Prints a note on the specks of an image, which --specks would remove.
 void note_specks(const Document<AxisItem>& file, const InputOptions& input,
                  const CommonOptions& common);
 
@@ -34,7 +35,7 @@ void note_specks(const Document<AxisItem>& file, const InputOptions& input,
 void add_prune_options(CLI::App& command, PruneArguments& arguments);
 /// Errors: invalid_option.
 Result<PruneOptions> prune_options(const PruneArguments& arguments);
-/// Prunes all axes of a file; the report is summed, the threshold the largest.
+/// Prunes all axes of a file. The report holds sums, and the largest threshold.
 Result<PruneReport> prune_all(Document<AxisItem>& file, const PruneOptions& options, int threads);
 
 }  // namespace medial::cli

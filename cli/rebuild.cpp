@@ -43,7 +43,7 @@ InputOptions input_of(const RebuildArguments& arguments) {
   return against.empty() ? arguments.input : first_input(arguments.input, against);
 }
 
-/// The axes of the exteriors of a file's shapes, in a rectangle. The shapes go to `before`.
+/// The axes of the exteriors of a file's shapes, in a rectangle. Moves the shapes to `before`.
 Result<LoadedAxes> axes_outside(const RebuildArguments& arguments, Document<ShapeItem>& before) {
   const InputOptions input = input_of(arguments);
   const CommonOptions& common = arguments.common;
@@ -69,8 +69,8 @@ Result<LoadedAxes> axes_outside(const RebuildArguments& arguments, Document<Shap
   return axes;
 }
 
-/// The shape with these surroundings: enclosed by their loops except the rectangle, which reaches
-/// furthest to the left.
+/// The shape with these surroundings: bounded by their loops without the rectangle, which is the
+/// loop that reaches furthest to the left.
 Result<Shape> inside_surroundings(const Shape& around) {
   std::vector<Ring> rings = rings_of(around);
   const auto leftmost = [](const Ring& ring) {
@@ -209,7 +209,7 @@ Status write_rebuilt(Rebuilt& rebuilt, Document<AxisItem>& axes,
   return io::write_shapes(arguments.output, arguments.format, file, write);
 }
 
-/// What is printed, with the place of the Hausdorff distance in its row.
+/// The printed table, with the place of the Hausdorff distance in its row.
 std::string rows_of(Json object) {
   if (const auto against = object.find("against"); against != object.end()) {
     Json& rows = *against;
@@ -296,7 +296,7 @@ Result<int> run_smooth(const RebuildArguments& arguments) { return run(arguments
 void add_rebuild_options(CLI::App& command, RebuildArguments& arguments) {
   CLI::Option* tangents =
       command.add_flag("--tangents", arguments.tangents,
-                       "Make polygons from tangents of disks instead, as for smooth sampled axes.");
+                       "Make polygons from tangents of disks instead (for smooth sampled axes).");
   add_value(command, "--points", arguments.points, "N", in_range(3, 10'000'000),
             "With --tangents: the approximate number of points on the axis (default:\n"
             "the samples, or 1000 on an exact axis).");
@@ -333,9 +333,9 @@ Command make_rebuild_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("rebuild", "Rebuild the shape of an axis.");
   add_options(*command, *arguments, false);
   command->footer(
-      "An exact axis gives back its boundary exactly, as segments and arcs; where it was\n"
-      "pruned, arcs of the last disks close it. Sampled axes give polygons. INPUT is medial's\n"
-      "own .json or .safetensors with axes, or shapes, whose axes are computed first.\n"
+      "From an exact axis, rebuilds the exact boundary of segments and arcs; where the axis was\n"
+      "pruned, arcs of the last disks close the boundary. Sampled axes give polygons. INPUT is\n"
+      "medial's own .json or .safetensors with axes, or shapes, whose axes are computed first.\n"
       "\n"
       "Examples:\n"
       "  medial rebuild plan.json -o again.svg --against plan.geojson\n"

@@ -50,8 +50,8 @@ extern "C" void end_quietly(int signal_number) {
 void install_signal_handlers() {
   for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
     struct sigaction action {};
-    // Signals that the parent ignores (nohup, background jobs) stay ignored, except for a closed
-    // pipe: it must end the process, or else a long output would be computed in vain.
+    // Signals that the parent ignores (nohup, background jobs) stay ignored, except SIGPIPE: a
+    // closed pipe must end the process, which would otherwise compute a long output in vain.
     if (sigaction(signal_number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN &&
         signal_number != SIGPIPE) {
       continue;

@@ -1,6 +1,6 @@
 #pragma once
 
-// The process's surroundings: signals, the terminal, clocks and memory.
+// Signals, the terminal, clocks and memory of the process.
 
 #include <fmt/format.h>
 
@@ -16,22 +16,22 @@
 
 namespace medial::cli {
 
-/// From here on, SIGINT, SIGTERM, SIGHUP and SIGPIPE remove what is half written and end the
-/// process with 128 + the signal's number, without a word. Writing beyond the limit of file sizes
-/// becomes an error instead of a signal.
+/// Installs signal handlers: SIGINT, SIGTERM, SIGHUP and SIGPIPE remove unfinished files and end
+/// the process silently with status 128 + the signal's number. Makes writing beyond the file size
+/// limit an error instead of a signal.
 void install_signal_handlers();
 
-/// Occupies descriptors 0 to 2 where the parent closed them: else the next file opened would get
-/// one of them, and messages end up in it. Reading or writing there fails as before.
+/// Occupies those of the descriptors 0 to 2 that the parent closed. Otherwise the next file opened
+/// would get one of them, and messages would end up in it. Reading and writing there still fail.
 void occupy_standard_descriptors();
 
 bool error_is_terminal();
 
-/// Standard error takes what it can: a full device or a closed descriptor there changes nothing.
+/// Writes to standard error. Ignores failures, such as a full device or a closed descriptor.
 void say_text(const std::string& text);
 
-/// One line of UTF-8, whatever names and bytes a file has brought into it, and nothing that a
-/// terminal obeys. Only the last line end stays.
+/// The text as one line of valid UTF-8 without control characters, whatever bytes file names
+/// contain. Keeps only the last line end.
 std::string one_line(const std::string& text);
 
 template <typename... Arguments>
@@ -39,16 +39,16 @@ void say(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
   say_text(one_line(fmt::format(format, std::forward<Arguments>(arguments)...)));
 }
 
-/// From here on no Activity shows itself.
+/// Disables every later Activity.
 void be_quiet();
 
-/// The largest memory this process has held, in bytes.
+/// The peak memory of this process, in bytes.
 std::uint64_t peak_bytes();
 
 /// Seconds of processor time of this process, all threads together.
 double processor_seconds();
 
-/// Seconds since it was made.
+/// Measures the seconds since its construction.
 class Stopwatch {
  public:
   double seconds() const {
@@ -59,8 +59,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// A progress bar on standard error. It shows itself once work has lasted a second, and is wiped
-/// when destroyed.
+/// A progress bar on standard error. Appears after one second of work; the destructor wipes it.
 class Progress {
  public:
   /// A bar that is not `shown` costs nothing.
@@ -85,11 +84,12 @@ class Progress {
   double next_draw_ = 1.0;  ///< in seconds; guarded by drawing_
 };
 
-/// A line on standard error while a file is read or written: it shows itself once that has lasted a
-/// second, and is wiped when destroyed. Nobody knows how long it will take, so it counts seconds.
+/// A line on standard error that counts seconds while a file is read or written. Appears after one
+/// second; the destructor wipes it.
 class Activity {
  public:
-  /// "reading", "writing". Costs nothing where standard error is no terminal, and after be_quiet().
+  /// `doing`: "reading" or "writing". Does nothing if standard error is not a terminal, or after
+  /// be_quiet().
   Activity(const std::string& doing, const std::string& path);
   ~Activity();
   Activity(const Activity&) = delete;

@@ -30,7 +30,7 @@ int levels_for(std::uint64_t tiles, std::size_t edges) {
   return levels;
 }
 
-/// Adds the rows of one shape to those of the shapes before, level by level from the root.
+/// Adds the rows of one shape to the totals, level by level from the root.
 void add_to(std::vector<TileLevel>& sum, const std::vector<TileLevel>& rows) {
   if (sum.size() < rows.size()) sum.resize(rows.size());
   for (std::size_t level = 0; level < rows.size(); ++level) {
@@ -41,7 +41,7 @@ void add_to(std::vector<TileLevel>& sum, const std::vector<TileLevel>& rows) {
   }
 }
 
-/// An error of the library about levels or arcs, in terms of tiles and commands.
+/// Rewords an error of the library about levels or arcs in terms of --tiles and commands.
 std::string in_words_of_the_command(std::string text) {
   constexpr std::string_view levels = "use fewer levels";
   if (const std::size_t at = text.find(levels); at != std::string::npos)

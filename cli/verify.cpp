@@ -1,4 +1,4 @@
-// medial verify: whether a stored axis belongs to these shapes.
+// medial verify: checks a stored axis against its shapes.
 
 #include "medial/verify.h"
 
@@ -24,8 +24,8 @@ struct VerifyArguments : FileArguments {
 constexpr int most_samples = 1000;
 constexpr std::size_t most_failures_shown = 20;
 
-/// Calls visit(name, number, is_sum) for every number of a Certificate. `is_sum`: a file has the
-/// sum over its features, else the largest.
+/// Calls visit(name, number, is_sum) for every number of a Certificate. `is_sum`: a file reports
+/// the sum over its features, or else the largest value.
 template <class Visit>
 void each_number(const Visit& visit) {
   using C = Certificate;
@@ -74,7 +74,7 @@ Certificate merge(const std::vector<Certificate>& certificates, const DocumentIn
   return all;
 }
 
-/// `whole`: the axis is not a part and not of the exterior. What is not checked is null.
+/// `whole`: the axis is neither a part nor of the exterior. Values that are not checked are null.
 Json json_of(const Certificate& c, bool whole) {
   Json object = {{"passed", c.passed}, {"failures", c.failures}};
   each_number([&](const char* name, auto number, bool) { object[name] = c.*number; });
@@ -188,15 +188,15 @@ std::string verdict_table(const VoronoiCertificate& c) {
   return rows.text();
 }
 
-/// Reads the stored file, with a line on the terminal if that takes long.
+/// Reads the stored file. Shows a line on the terminal if reading takes long.
 template <class Read>
 auto read_stored(const std::string& path, Read read) {
   const Activity shown("reading", path);
   return read(path);
 }
 
-/// The planar graph of a diagram. Things that rounding could not separate touched: takes the graph
-/// with as many sites as the diagram, or else the last one.
+/// The planar graph of a diagram. If pieces had to touch because rounding could not separate them,
+/// returns the graph with as many sites as the diagram, or else the last one tried.
 Result<PlanarGraph> graph_of(const LoosePieces& pieces, const VoronoiDiagram& diagram,
                              const VerifyArguments& arguments) {
   std::optional<PlanarGraph> found;
@@ -261,7 +261,7 @@ Result<std::vector<Certificate>> verify_all(const Document<ShapeItem>& shapes,
   return map_items<Certificate>(weights_of(shapes), common.threads, verify_one);
 }
 
-/// Whether the axes are of other shapes, such as other reading options would make.
+/// Whether the axes belong to other shapes, for example because of different input options.
 bool are_other_shapes(const Document<AxisItem>& stored, const Document<ShapeItem>& shapes) {
   for (std::size_t i = 0; i < shapes.items.size(); ++i)
     if (stored.items[i].shape.points != shapes.items[i].shape.points) return true;
@@ -306,9 +306,9 @@ Result<int> run_verify(const VerifyArguments& arguments) {
   loaded->phases.end("verify");
   const Certificate all = merge(*certificates, shapes);
   if (!all.passed && !common.quiet && are_other_shapes(*stored, shapes))
-    say("medial: {0}: note: its axes are of other shapes than the input; give verify the options "
-        "that they were made with, such as --fit, --pixel-outline or --repair, or check them "
-        "against the shapes that they hold: medial verify {0} {0}\n",
+    say("medial: {0}: note: its axes belong to other shapes than the input; repeat the options "
+        "of the command that made them, such as --fit, --pixel-outline or --repair, or check them "
+        "against the shapes stored with them: medial verify {0} {0}\n",
         axis_path);
   Json object = {
       {"input", input.path}, {"axis", axis_path}, {"features", count}, {"without_axis", *left_out}};
@@ -341,23 +341,24 @@ Command make_verify_command(CLI::App& program) {
             fmt::format("Points to check inside every edge (default: {}).", arguments->samples));
   add_common_options(*command, arguments->common);
   command->footer(
-      "The axis is not computed again: the stored disks are measured against the shapes by\n"
-      "code that shares nothing with the engine. Features and axes are matched by their\n"
-      "order; with --skip-invalid by their numbers, and what has no axis in the file must\n"
-      "have none when it is computed now. The report gives the largest |distance to the boundary - "
-      "radius|, the largest\n"
-      "intrusion of the boundary into a disk, whether the graph is connected with one\n"
-      "cycle per hole, whether every convex corner has its leaf and every boundary point\n"
-      "its disk, and both areas. Lengths are in the units of the input. For an axis that was\n"
-      "pruned, cut or smoothed, it checks what holds for every part: disks, contacts, and no\n"
-      "more cycles than holes. For an axis of the exterior, which lacks the edges at the\n"
-      "enclosure, it checks disks and contacts.\n"
-      "For a diagram of `medial voronoi`: samples of every edge against the nearest of all\n"
-      "sites, faces closed and oriented consistently, and their areas against that of the\n"
-      "enclosure.\n"
-      "Give the options that say which shape is read, as for the axis: --fit, --repair,\n"
-      "--pixel-outline, --layer, --project and the like. Where specks were removed, or to\n"
-      "check a file by itself, give AXIS as INPUT, too: it holds its shapes.\n"
+      "Does not compute the axis again, but measures the stored disks against the shapes, by\n"
+      "code that shares nothing with the engine. Matches axes to features by order, or with\n"
+      "--skip-invalid by number; then a feature without a stored axis must be one whose axis\n"
+      "cannot be computed.\n"
+      "\n"
+      "The report gives the largest |distance to the boundary - radius|, the largest intrusion\n"
+      "of the boundary into a disk, and both areas. It says whether the graph is connected and\n"
+      "has one cycle per hole, and whether every convex corner has a leaf and every boundary\n"
+      "point a disk. Lengths are in the units of the input. An axis that was pruned, cut or\n"
+      "smoothed is checked for disks, contacts, and no more cycles than holes; an axis of the\n"
+      "exterior, which lacks the edges at the enclosure, for disks and contacts. In a diagram\n"
+      "of `medial voronoi`, samples of each edge are checked against the nearest of all sites;\n"
+      "faces must be closed and oriented consistently, and their areas add up to the\n"
+      "enclosure's.\n"
+      "\n"
+      "Repeat the options that selected the shapes when the axis was computed: --fit,\n"
+      "--repair, --pixel-outline, --layer, --project and the like. If specks were removed, or\n"
+      "to check a file by itself, give AXIS as INPUT, too: it stores its shapes.\n"
       "\n"
       "Exit status: 0 passed, 1 failed, 2 an error.\n"
       "\n"

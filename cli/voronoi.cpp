@@ -158,7 +158,7 @@ Command make_voronoi_command(CLI::App& program) {
   add_list_option(
       *command, "--enclosure,--frame", 4,
       [arguments](const std::vector<double>& box) { arguments->enclosure = box; },
-      "The enclosure itself: low x, low y, high x, high y, in units of the input. It must\n"
+      "The enclosure itself: min x, min y, max x, max y, in units of the input. It must\n"
       "contain the input.")
       ->excludes("--margin")
       ->option_text("X,Y,X,Y");
@@ -168,7 +168,7 @@ Command make_voronoi_command(CLI::App& program) {
   command->footer(
       "Every point, and every segment and arc without its ends, has a face: the points\n"
       "nearer to it than to all others, bounded by exact curves and by the enclosure. Edges\n"
-      "may meet in ends; where they cross, --repair splits them. In plain text, blocks\n"
+      "may meet at ends; --repair splits edges that cross. In plain text, blocks\n"
       "between blank lines are chains, and a single block is a list of points.\n"
       "\n"
       "With --method lee, polygons without arcs: every segment and every reflex vertex has a\n"

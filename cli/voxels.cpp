@@ -1,4 +1,4 @@
-// medial voxels: a closed mesh in, its medial axis on a grid of voxels out.
+// medial voxels: the medial axis of a closed mesh on a grid of voxels.
 
 #include <fmt/format.h>
 
@@ -99,7 +99,7 @@ std::string counts_of(const VoxelTopology& topology) {
                      counted(topology.cavities, "cavity", "cavities"));
 }
 
-/// Notes on what was repaired, and whether the grid is too coarse.
+/// Prints notes on repairs of the mesh, and on a grid that is too coarse.
 void print_notes(const VoxelArguments& arguments, const Outcome& outcome) {
   if (arguments.common.quiet) return;
   const std::string& input = arguments.input.path;
@@ -177,9 +177,9 @@ void add_own_options(CLI::App& command, VoxelArguments& arguments) {
             "Instead: the edge length of a voxel, in units of the input.")
       ->excludes(voxels);
   add_value(command, "--angle", options.angle, "A", in_range(1.0, 120.0, true),
-            "The least angle between two foot points, seen from a voxel, that count as\n"
-            "two, 1 to 120 degrees (default: 30). Small angles give the axis of the flat\n"
-            "faces; meshes of curved surfaces need larger ones.");
+            "The smallest angle between two foot points, seen from a voxel, that count as\n"
+            "distinct, 1 to 120 degrees (default: 30). Small angles give the axis of the flat\n"
+            "faces; meshes of curved surfaces need larger angles.");
   CLI::Option* thin =
       add_choice<Thinning>(
           command, "--thin", options.thinning,

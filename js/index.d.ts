@@ -60,7 +60,7 @@ export interface AxisOptions extends ShapeOptions {
   seed?: number;
   /** For `potential`. */
   order?: number;
-  /** Only the branch to which the force leads from `start`; only the part in a box. */
+  /** Compute only the branch that the force line from `start` reaches; or only the part in a box. */
   start?: [number, number];
   within?: [number, number, number, number];
   baseOrder?: number;

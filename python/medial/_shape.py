@@ -111,7 +111,7 @@ class Shape:
 
     @property
     def bounds(self) -> tuple[float, float, float, float]:
-        """The bounding box, arcs included: low x, low y, high x, high y."""
+        """The bounding box, arcs included: min x, min y, max x, max y."""
         x0, y0, x1, y1 = self._core.bounds()
         return x0, y0, x1, y1
 

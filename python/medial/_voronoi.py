@@ -56,7 +56,7 @@ class Voronoi:
 
     @property
     def frame(self) -> tuple[float, float, float, float]:
-        """The enclosure: low x, low y, high x, high y."""
+        """The enclosure: min x, min y, max x, max y."""
         a, b, c, d = self._core.frame()
         return a, b, c, d
 
@@ -186,7 +186,7 @@ def voronoi(
     method : {"disks", "lee"}
         ``"disks"``: of all points and lines, within an enclosure; ``"lee"``: inside a polygon.
         Where rounding decides, `disks` computes that, too.
-    enclosure : (low x, low y, high x, high y), optional
+    enclosure : (min x, min y, max x, max y), optional
         The rectangle that bounds the diagram, in units of the input. `frame` is an alias.
     margin : float
         Without an enclosure: its distance from the input; 0: half of the longer side.
@@ -210,6 +210,6 @@ def voronoi(
     own = None if bulges is None else np.ascontiguousarray(numbers_of(bulges, "bulges must be numbers"))
     box = None if frame is None else numbers_of(frame, "an enclosure must be four numbers").tolist()
     if box is not None and np.shape(box) != (4,):
-        raise MedialError("an enclosure must be four numbers: low x, low y, high x, high y")
+        raise MedialError("an enclosure must be four numbers: min x, min y, max x, max y")
     computed = computing("disks", threads=threads, margin=margin)
     return Voronoi(_core.voronoi_of(coordinates, begin, closed, own, node_crossings, box, computed))
