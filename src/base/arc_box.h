@@ -6,8 +6,8 @@
 
 namespace medial {
 
-/// A box around an arc: no point of at most half a circle is farther from the chord than its
-/// height, none of a circle farther than its diameter.
+/// A box around an arc. No point of at most a half circle is farther from the chord than the arc's
+/// height; no point of a longer arc is farther than the diameter.
 inline Box box_around(const BulgeArc& arc) {
   Box box{arc.start, arc.start};
   box.add(arc.end);

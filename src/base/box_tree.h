@@ -13,15 +13,16 @@
 
 namespace medial {
 
-/// From a point to the nearest place of a box; infinite if it is nothing.
+/// The squared distance from a point to a box; infinite for the empty box.
 inline double squared_distance(const Box& box, Vec2 p) {
   const double dx = std::max({box.low.x - p.x, p.x - box.high.x, 0.0});
   const double dy = std::max({box.low.y - p.y, p.y - box.high.y, 0.0});
   return dx * dx + dy * dy;
 }
 
-/// Bounds of `fan_out` leaves each, then of `fan_out` of these, level by level up to one.
-/// `bound_of` gives the bound of a leaf by its number; a bound can add() another one. O(n).
+/// The levels of a tree: bounds of `fan_out` leaves each, then of `fan_out` of these bounds, up to
+/// a single bound. `bound_of` gives the bound of a leaf by its number. A bound has add(bound).
+/// O(n).
 template <class BoundOf>
 auto bound_levels(std::size_t count, std::size_t fan_out, const BoundOf& bound_of) {
   using Bound = std::decay_t<decltype(bound_of(0))>;
@@ -43,14 +44,15 @@ auto bound_levels(std::size_t count, std::size_t fan_out, const BoundOf& bound_o
   return levels;
 }
 
-/// Boxes in a tree, for the search of those that meet another one.
+/// A tree of boxes that finds the boxes that meet another box.
 class BoxTree {
  public:
   /// O(n log n).
   explicit BoxTree(std::span<const Box> boxes)
       : BoxTree(boxes, spatial_order(places_of(boxes), fan_out)) {}
 
-  /// The boxes' own order, or one along a curve, makes a tree sooner that is less tight. O(n).
+  /// Uses a given order, such as the boxes' own or one along a curve. Faster to build, but less
+  /// tight. O(n).
   BoxTree(std::span<const Box> boxes, std::vector<std::uint32_t> order) : order_(std::move(order)) {
     std::vector<Box>& leaves = levels_.emplace_back();
     leaves.reserve(boxes.size());
@@ -61,21 +63,21 @@ class BoxTree {
       levels_.push_back(std::move(level));
   }
 
-  /// Calls visit(i) for each box i that meets `query`, which `visit` may shrink. O(log n) for each
-  /// box that is found, of boxes that are small or do not overlap much.
+  /// Calls visit(i) for each box i that meets `query`, which `visit` may shrink. O(log n) per box
+  /// found if boxes are small or overlap little.
   template <class Visit>
   void find(const Box& query, const Visit& visit) const {
     if (!order_.empty()) find_below(levels_.size() - 1, 0, query, visit);
   }
 
-  /// Calls visit(i, j) once for each pair of boxes that meet. O(n + k) for k pairs, of boxes as
-  /// above.
+  /// Calls visit(i, j) once for each pair of boxes that meet. O(n + k) for k pairs if boxes are
+  /// small or overlap little.
   template <class Visit>
   void find_pairs(const Visit& visit) const {
     if (!order_.empty()) pairs_within(levels_.size() - 1, 0, visit);
   }
 
-  /// The boxes' middles.
+  /// The centres of the boxes.
   static std::vector<Vec2> places_of(std::span<const Box> boxes) {
     std::vector<Vec2> places;
     places.reserve(boxes.size());
@@ -112,7 +114,7 @@ class BoxTree {
     }
   }
 
-  /// Of a node and another one of the same level.
+  /// Visits the pairs below two nodes of one level.
   template <class Visit>
   void pairs_between(std::size_t level, std::size_t i, std::size_t j, const Visit& visit) const {
     const Box &a = levels_[level][i], &b = levels_[level][j];

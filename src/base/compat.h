@@ -1,6 +1,7 @@
 #pragma once
 
-// What the core uses of C++20 that libc++ 13 (emscripten 3.1, clang 14) or 32-bit targets lack.
+// Parts of C++20 that the core uses and that libc++ 13 (emscripten 3.1, clang 14) or 32-bit targets
+// lack.
 
 #include <algorithm>
 #include <array>
@@ -89,7 +90,7 @@ void copy(Range&& range, Out out) {
   std::copy(std::begin(range), std::end(range), out);
 }
 
-/// Compares what `key` makes of two elements.
+/// Compares two elements by their keys.
 template <class Less, class Key>
 auto by_key(Less less, Key key) {
   return [less, key](const auto& a, const auto& b) {

@@ -7,8 +7,8 @@
 
 namespace medial {
 
-/// The convex hull of some points, counter-clockwise, without points in straight lines (Andrew's
-/// monotone chain). O(n log n).
+/// The convex hull of points, counter-clockwise, without collinear points (Andrew's monotone
+/// chain). O(n log n).
 inline std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
   std::sort(points.begin(), points.end(),
             [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });

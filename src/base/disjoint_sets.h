@@ -14,7 +14,7 @@ class DisjointSets {
   explicit DisjointSets(std::size_t size = 0) : parent_(size), count_(size) {
     std::iota(parent_.begin(), parent_.end(), 0U);
   }
-  /// How many sets there are.
+  /// The number of sets.
   std::size_t count() const { return count_; }
   std::uint32_t add() {
     parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
@@ -25,13 +25,13 @@ class DisjointSets {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  /// Whether the two were in different sets until now.
+  /// Joins two sets. Returns whether they were different.
   bool join(std::uint32_t i, std::uint32_t j) {
     if (!join_uncounted(i, j)) return false;
     --count_;
     return true;
   }
-  /// The same without a change of count(), for threads that join numbers of their own.
+  /// The same without updating count(), for threads that join disjoint ranges of numbers.
   bool join_uncounted(std::uint32_t i, std::uint32_t j) {
     i = find(i);
     j = find(j);

@@ -53,7 +53,7 @@ std::string to_string(const Error& error) {
   append(where, "vertex", place.vertex);
   append(where, "face", place.face);
   if (place.point) {
-    // Of an edge that starts at the vertex, it is where that crosses another.
+    // For a crossing, the point is where the edge that starts at the vertex crosses another edge.
     const bool is_beside = error.code == ErrorCode::crossing &&
                            error.text.find("starts at this vertex") != std::string::npos;
     if (!where.empty()) where += is_beside ? ", crossing " : " ";

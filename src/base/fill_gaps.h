@@ -6,8 +6,8 @@
 
 namespace medial {
 
-/// Removes the elements in `gone`, increasing: the last ones take their places. Calls
-/// moved(from, to) for each that does.
+/// Removes the elements at the increasing indices `gone`. Moves the last elements to their places,
+/// and calls moved(from, to) for each move.
 template <class T, class Gone, class Moved>
 void fill_gaps(std::vector<T>& elements, const Gone& gone, Moved&& moved) {
   const std::size_t kept = elements.size() - gone.size();

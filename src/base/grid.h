@@ -9,24 +9,24 @@
 
 namespace medial::raster {
 
-/// Where a pixel stands: columns count along x, rows along y, both from 0.
+/// The place of a pixel: its column along x and its row along y, from 0.
 struct Pixel {
   std::uint32_t column = 0;
   std::uint32_t row = 0;
   friend constexpr bool operator==(Pixel, Pixel) = default;
-  /// By increasing x within increasing y.
+  /// Orders by row, then by column.
   friend constexpr bool operator<(Pixel a, Pixel b) {
     return a.row != b.row ? a.row < b.row : a.column < b.column;
   }
 };
 
-/// Pixels first..last of a row, which belong to one set.
+/// The pixels first..last of a row, all in one set.
 struct PixelRun {
   std::uint32_t row = 0, first = 0, last = 0;
   std::uint32_t set = 0;
 };
 
-/// A grid of square pixels, in units of the input: how pixels lie in the plane.
+/// A grid of square pixels in the plane, in units of the input.
 struct Grid {
   Vec2 origin;      ///< centre of pixel (0, 0)
   double step = 1;  ///< side of a pixel
@@ -35,11 +35,11 @@ struct Grid {
 
   std::uint64_t size() const { return std::uint64_t{columns} * rows; }
   Vec2 center(Pixel p) const { return {origin.x + step * p.column, origin.y + step * p.row}; }
-  /// Row after row: pixels in the order of increasing x within increasing y.
+  /// The index of a pixel in row-major order.
   std::uint64_t index(Pixel p) const { return std::uint64_t{p.row} * columns + p.column; }
 };
 
-/// One bit for each pixel of a grid; a row begins at a whole word.
+/// One bit per pixel of a grid. Every row begins at a whole word.
 class BitMap {
  public:
   BitMap(std::uint32_t columns, std::uint32_t rows)
@@ -56,7 +56,7 @@ class BitMap {
   bool at(Pixel p) const { return (words_[word(p)] >> (p.column & 63)) & 1; }
   void set(Pixel p) { words_[word(p)] |= std::uint64_t{1} << (p.column & 63); }
   void clear(Pixel p) { words_[word(p)] &= ~(std::uint64_t{1} << (p.column & 63)); }
-  /// Sets the bit; whether it was set before.
+  /// Sets the bit. Returns whether it was set before.
   bool test_and_set(Pixel p) {
     std::uint64_t& w = words_[word(p)];
     const std::uint64_t bit = std::uint64_t{1} << (p.column & 63);

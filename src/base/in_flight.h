@@ -4,12 +4,11 @@
 
 namespace medial {
 
-/// The error that the exception in flight becomes at the library's surface: out_of_memory, or
-/// internal with the exception's words. Requires a handler: catch (...) { return error_in_flight();
-/// }.
+/// Turns the current exception into an error for the public functions: out_of_memory, or internal
+/// with the exception's text. Call it in a handler: catch (...) { return error_in_flight(); }.
 Error error_in_flight();
 
-/// What work() returns, or the error that it throws.
+/// Returns the result of work(), or an error if it throws.
 template <class Work>
 auto guarded(const Work& work) -> decltype(work()) {
   try {

@@ -8,9 +8,9 @@
 
 namespace medial {
 
-/// A local frame in which a shape is about one unit large and close to the origin. Going there is
-/// exact (a subtraction that does not round, then a power of two), and so is coming back for every
-/// point of the input.
+/// A local frame in which a shape is about one unit large and close to the origin. Mapping a point
+/// of the input to the frame is exact (a subtraction that does not round, then a power of two), and
+/// so is mapping it back.
 struct LocalFrame {
   Vec2 origin;
   double scale = 1;    ///< local units per input unit: a power of two
@@ -21,8 +21,8 @@ struct LocalFrame {
 };
 
 namespace detail {
-/// An origin for one axis: subtracting it from any number in [low, high] is exact. By Sterbenz's
-/// lemma that holds where high <= 2 low (or mirrored); otherwise the origin stays at zero.
+/// An origin for one axis such that subtracting it from any number in [low, high] is exact. By
+/// Sterbenz's lemma, this holds if high <= 2 low (or mirrored); otherwise the origin is zero.
 inline double exact_origin(double low, double high) {
   if (low > 0 && high <= 2 * low) return low;
   if (high < 0 && low >= 2 * high) return high;
@@ -30,8 +30,8 @@ inline double exact_origin(double low, double high) {
 }
 }  // namespace detail
 
-/// The frame for a box: its larger side has a local length in [1, 2) where the box is away from
-/// zero, and otherwise the largest local coordinate is in [1, 2).
+/// The frame for a box. If the box is away from zero, its larger side has a local length in [1, 2);
+/// otherwise, the largest local coordinate is in [1, 2).
 inline LocalFrame frame_of(const Box& box) {
   LocalFrame frame;
   frame.origin = {detail::exact_origin(box.low.x, box.high.x),
@@ -48,9 +48,9 @@ inline LocalFrame frame_of(const Box& box) {
   return frame;
 }
 
-/// No disk inside the shape has a larger radius: half of the box's smaller side, with room for
-/// rounding, and for the spacing of the coordinates, by which the furthest place of an arc on each
-/// side may be off.
+/// An upper bound of the radii of all disks inside the shape: half of the box's smaller side, plus
+/// an allowance for rounding and for the spacing of the coordinates, by which the extreme point of
+/// an arc on each side may be off.
 inline double radius_limit(const Box& box, const LocalFrame& frame) {
   const double width = box.high.x - box.low.x, height = box.high.y - box.low.y;
   return frame.scale * (0.5 * std::min(width, height) * (1 + 0x1p-20) + spacing_in(box));

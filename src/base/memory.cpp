@@ -13,7 +13,7 @@ namespace medial {
 
 namespace {
 
-/// Gives advice about the whole pages of an array.
+/// Calls madvise() for the whole pages of an array.
 void advise(const void* begin, std::size_t bytes, int advice) {
   const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
   const auto address = reinterpret_cast<std::uintptr_t>(begin);
@@ -21,7 +21,7 @@ void advise(const void* begin, std::size_t bytes, int advice) {
   const std::uintptr_t last = (address + bytes) / page * page;
   if (first >= last) return;
   void* const whole_pages = const_cast<char*>(static_cast<const char*>(begin)) + (first - address);
-  // If the system ignores the advice, nothing is lost.
+  // The advice may be ignored.
   static_cast<void>(::madvise(whole_pages, last - first, advice));
 }
 

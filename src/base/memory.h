@@ -8,20 +8,20 @@
 
 namespace medial {
 
-/// Asks the system to back an array that nobody has touched yet with large pages, if it is large:
-/// it then takes a fraction of the time to fill for the first time. Advice only.
+/// Advises the system to back a large, untouched array by large pages, which makes the first writes
+/// several times faster.
 void prefer_large_pages(const void* begin, std::size_t bytes);
 
-/// Informs the system that the content of an array is not needed any more: its pages can be used
-/// for other arrays before it is freed, and where the allocator would keep it. Advice only; the
-/// content is lost.
+/// Advises the system that the content of an array is no longer needed, and loses the content.
+/// Other arrays can use the pages even before the array is freed, or if the allocator would keep
+/// them.
 void give_back_pages(void* begin, std::size_t bytes);
 
-/// Makes the system provide the pages of unused memory now. Of a vector, that lies beyond its size.
+/// Makes the system provide the pages of unused memory now, such as a vector's reserved memory.
 void touch_pages(void* begin, std::size_t bytes);
 
-/// The same on all threads, of reserved elements: the system clears memory on the thread that
-/// touches it first.
+/// The same for reserved elements, on all threads: the system clears memory on the thread that
+/// first touches it.
 template <class T, class Allocator>
 void touch_in_parallel(std::vector<T, Allocator>& elements, std::size_t begin, std::size_t end) {
   constexpr std::size_t grain = (std::size_t{1} << 18) / sizeof(T);
@@ -37,14 +37,14 @@ void reserve_large(std::vector<T>& elements, std::size_t count) {
   prefer_large_pages(elements.data(), count * sizeof(T));
 }
 
-/// Frees all memory of a vector: to assign {} only clears it.
+/// Frees the memory of a vector; assigning {} would only clear it.
 template <class T, class Allocator>
 void free_memory(std::vector<T, Allocator>& elements) {
   std::vector<T, Allocator>().swap(elements);
 }
 
-/// Asks for large pages, and gives those of large arrays back as they are freed: smaller ones are
-/// used again sooner than the system could clear others.
+/// An allocator that asks for large pages and returns those of large arrays to the system. Small
+/// arrays are reused, which is faster than clearing new pages.
 template <class T>
 struct WorkAllocator : std::allocator<T> {
   using std::allocator<T>::allocator;
@@ -64,8 +64,8 @@ struct WorkAllocator : std::allocator<T> {
   }
 };
 
-/// A vector that is freed before the result is whole. An ordinary one would leave its memory with
-/// the allocator, and the result would need more in addition.
+/// A vector that is freed before the result is complete. The allocator would keep the memory of a
+/// std::vector, so the result would need additional memory.
 template <class T>
 using WorkVector = std::vector<T, WorkAllocator<T>>;
 

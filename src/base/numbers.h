@@ -1,16 +1,15 @@
 #pragma once
 
-// Values that mean "nothing" or "beyond everything".
+// Sentinel values.
 
 #include <cstdint>
 #include <limits>
 
 namespace medial {
 
-/// Farther, dearer and larger than all that is finite.
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The index of no node, edge, site, ...
+/// The index of a missing node, edge or site.
 inline constexpr std::uint32_t none = ~std::uint32_t{0};
 
 }  // namespace medial

@@ -11,8 +11,9 @@
 
 namespace medial {
 
-/// The numbers below `count` for which `holds` is true, increasing. It is asked once for each, on
-/// all threads, in blocks: small ones where it is slow, so that few numbers still use all of them.
+/// The increasing numbers below `count` for which `holds` is true. Calls `holds` once per number,
+/// on all threads, in blocks. Choose small blocks if `holds` is slow, so that few numbers still use
+/// all threads.
 template <std::size_t block = 1 << 12, class Holds>
 WorkVector<std::uint32_t> numbers_where(std::size_t count, const Holds& holds) {
   using Block = std::array<std::uint32_t, block>;
@@ -20,12 +21,12 @@ WorkVector<std::uint32_t> numbers_where(std::size_t count, const Holds& holds) {
     std::size_t size = 0;
     for (std::size_t k = begin; k < std::min(count, begin + block); ++k) {
       some[size] = static_cast<std::uint32_t>(k);
-      size += holds(k) ? 1 : 0;  // without a branch that could be guessed wrong
+      size += holds(k) ? 1 : 0;  // without a branch to mispredict
     }
     return std::span(some).first(size);
   };
   WorkVector<std::uint32_t> all;
-  if (count <= block) {  // without lists, which small shapes would notice
+  if (count <= block) {  // no lists: they would slow down small shapes
     Block some;
     const auto numbers = find(0, some);
     all.assign(numbers.begin(), numbers.end());

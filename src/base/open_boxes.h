@@ -12,10 +12,11 @@
 
 namespace medial {
 
-/// Things in boxes, in a tree of boxes around those that are left; finds the nearest.
+/// A set of items with boxes, for finding the nearest item. A tree holds boxes around the remaining
+/// items.
 class OpenBoxes {
  public:
-  /// At first all are left. O(n log n).
+  /// Starts with all items. O(n log n).
   explicit OpenBoxes(std::vector<Box> boxes)
       : boxes_(std::move(boxes)), left_(boxes_.size(), true) {
     const std::vector<Vec2> places = BoxTree::places_of(boxes_);
@@ -26,7 +27,8 @@ class OpenBoxes {
       levels_ = bound_levels(order_.size(), fan_out, [this](std::size_t k) { return leaf(k); });
   }
   bool empty() const { return levels_.empty() || levels_.back().front().is_nothing(); }
-  /// What is left of the least number. Requires one. O(n), and in all, if nothing is put back.
+  /// The remaining item with the lowest number. Requires one. O(n); if no item is inserted again,
+  /// all calls together take O(n).
   std::uint32_t first() {
     while (!left_[first_]) ++first_;
     return first_;
@@ -35,9 +37,9 @@ class OpenBoxes {
   void insert(std::uint32_t i) { put(i, true); }
   void erase(std::uint32_t i) { put(i, false); }
 
-  /// What is left that is nearest to p by `squared_distance_to(i)`, which no box is farther than:
-  /// the one of the least number where several are as near. Requires one. O(log n) where the others
-  /// are farther.
+  /// The remaining item nearest to p by `squared_distance_to(i)`, which is at least the squared
+  /// distance of its box; of equally near items, the lowest number. Requires one. O(log n) if the
+  /// other items are farther away.
   template <class SquaredDistanceTo>
   std::uint32_t nearest(Vec2 p, const SquaredDistanceTo& squared_distance_to) const {
     Nearest best{infinity, 0};
@@ -46,11 +48,11 @@ class OpenBoxes {
   }
 
  private:
-  using Nearest = std::pair<double, std::uint32_t>;  ///< a squared distance, and what has it
+  using Nearest = std::pair<double, std::uint32_t>;  ///< a squared distance and its item
   static constexpr std::size_t fan_out = 8;
 
   Box leaf(std::size_t k) const { return left_[order_[k]] ? boxes_[order_[k]] : Box::nothing(); }
-  /// Of the parts of box i of a level: places below the first one.
+  /// The end of the children of box i of a level.
   std::size_t end_of(std::size_t level, std::size_t i) const {
     return std::min((i + 1) * fan_out, level == 0 ? order_.size() : levels_[level - 1].size());
   }
@@ -66,7 +68,7 @@ class OpenBoxes {
         box.add(level > 0 ? levels_[level - 1][k] : leaf(k));
     }
   }
-  /// Below box i of a level: the nearest boxes first. Their distances may round up.
+  /// Searches below box i of a level, nearest boxes first. Distances of boxes may be rounded up.
   template <class SquaredDistanceTo>
   void search(std::size_t level, std::size_t i, Vec2 p,
               const SquaredDistanceTo& squared_distance_to, Nearest& best) const {

@@ -10,10 +10,10 @@
 
 namespace medial {
 
-/// Two numbers, or four of single precision, worked on at once where the machine can.
+/// Vectors of two doubles, or of four floats, for SIMD instructions.
 using Pair = double __attribute__((vector_size(16)));
 using Lanes = float __attribute__((vector_size(16)));
-using Pairwise = decltype(Pair{} < Pair{});  // -1 where it holds
+using Pairwise = decltype(Pair{} < Pair{});  // -1 for true
 using Lanewise = decltype(Lanes{} < Lanes{});
 
 inline Pair both(double value) { return Pair{value, value}; }
@@ -23,13 +23,13 @@ inline Pair pair_at(const double* place) {
   return pair;
 }
 
-// A compiler makes several instructions of the plain forms.
+// Compilers turn the plain forms into several instructions.
 #ifdef __SSE2__
 inline Pair larger(Pair a, Pair b) { return _mm_max_pd(a, b); }
 inline Pair smaller(Pair a, Pair b) { return _mm_min_pd(a, b); }
 inline Lanes larger(Lanes a, Lanes b) { return _mm_max_ps(a, b); }
 inline Pair root_of(Pair a) { return _mm_sqrt_pd(a); }
-/// Where it holds, as bits.
+/// The true lanes as bits.
 inline std::uint32_t bits_of(Pairwise what) {
   return static_cast<std::uint32_t>(_mm_movemask_pd(reinterpret_cast<Pair>(what)));
 }
@@ -49,7 +49,7 @@ inline std::uint32_t bits_of(Lanewise what) {
 inline bool all(Pairwise what) { return bits_of(what) == 3; }
 inline bool any(Pairwise what) { return bits_of(what) != 0; }
 inline Pair size_of(Pair a) { return larger(a, -a); }
-/// Negative where the other one is below 0.
+/// `size`, negated in the lanes where `other` is below 0.
 inline Pair with_sign_of(Pair size, Pair other) { return other < 0 ? -size : size; }
 
 }  // namespace medial

@@ -8,7 +8,7 @@
 #include "base/bounded.h"
 #include "base/whole.h"
 
-// g++ 12 warns, wrongly, of limbs inside cpp_int where its moves are inlined here.
+// g++ 12 gives false warnings about limbs inside cpp_int when its moves are inlined here.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
@@ -18,8 +18,8 @@ namespace {
 
 int sign(double value) { return (value > 0) - (value < 0); }
 
-/// Whether products of two such numbers, and their rounding errors, neither overflow nor underflow:
-/// an error term is a multiple of 2^(2 (-480 - 52)) = 2^-1064, a product at most 2^960.
+/// Whether products of two such numbers and their error terms neither overflow nor underflow: an
+/// error term is a multiple of 2^(2 (-480 - 52)) = 2^-1064, and a product is at most 2^960.
 bool is_moderate(double value) {
   const double magnitude = std::abs(value);
   return magnitude == 0 || (magnitude >= 0x1p-480 && magnitude <= 0x1p480);
@@ -75,7 +75,7 @@ int in_circle_in_integers(const std::array<double, 8>& coordinates, int lowest) 
 
 int exact_in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 p) {
   const std::array<double, 8> coordinates{a.x, a.y, b.x, b.y, c.x, c.y, p.x, p.y};
-  // On grids the differences are exact, and multiples of a unit that they have a few bits of.
+  // On grids, the differences are exact and small multiples of one unit.
   std::array<double, 6> differences;
   bool exact = true;
   double largest = 0;
@@ -86,7 +86,7 @@ int exact_in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 p) {
     largest = std::max(largest, std::abs(difference.value));
   }
   if (exact && largest > 0x1p-900 && largest < 0x1p900) {
-    // With 30 bits each, the sum has at most 2 + 3 * 61 bits less one: below 2^124.
+    // With 30 bits each, the sum is below 2^124.
     int exponent = 0;
     std::frexp(largest, &exponent);
     const double scale = std::ldexp(1.0, 30 - exponent);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Decisions about points that are exact for all finite coordinates.
+// Exact predicates on points, for all finite coordinates.
 
 #include <cmath>
 #include <limits>
@@ -9,21 +9,21 @@
 
 namespace medial {
 
-/// The order of the plane sweep: by x, and by y where x is equal.
+/// The order of the plane sweep: by x, then by y.
 constexpr bool lexicographic_less(Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
 
-/// Requires a, b and p on one line. Whether p lies strictly between a and b.
+/// Whether p lies strictly between a and b. Requires collinear points.
 constexpr bool strictly_between(Vec2 a, Vec2 p, Vec2 b) {
   return (lexicographic_less(a, p) && lexicographic_less(p, b)) ||
          (lexicographic_less(b, p) && lexicographic_less(p, a));
 }
 
-/// The part of orientation() that rounding errors cannot be excluded from. Same result.
+/// The slow path of orientation(), for points whose sign double precision does not decide.
 int exact_orientation(Vec2 a, Vec2 b, Vec2 c);
 
 /// The sign of the area of the triangle a, b, c: +1 if c lies to the left of a -> b, -1 to the
-/// right, 0 on the line. Exact for all finite coordinates, those whose differences or products
-/// overflow or underflow included.
+/// right, 0 on the line. Exact for all finite coordinates, even if differences or products overflow
+/// or underflow.
 inline int orientation(Vec2 a, Vec2 b, Vec2 c) {
   const double left = (a.x - c.x) * (b.y - c.y);
   const double right = (a.y - c.y) * (b.x - c.x);
@@ -40,10 +40,10 @@ inline int orientation(Vec2 a, Vec2 b, Vec2 c) {
   return exact_orientation(a, b, c);
 }
 
-/// The part of in_circle() that rounding errors cannot be excluded from. Same result.
+/// The slow path of in_circle(), for points whose sign double precision does not decide.
 int exact_in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 p);
 
-/// Where p lies to the circle through a, b and c, which come counter-clockwise: +1 inside, -1
+/// The position of p relative to the circle through a, b and c (counter-clockwise): +1 inside, -1
 /// outside, 0 on it. Exact for all finite coordinates.
 inline int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 p) {
   const Vec2 u = a - p, v = b - p, w = c - p;
@@ -53,9 +53,9 @@ inline int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 p) {
   const double sum = uu * (vw - wv) + vv * (wu - uw) + ww * (uv - vu);
   const double sizes = uu * (std::abs(vw) + std::abs(wv)) + vv * (std::abs(wu) + std::abs(uw)) +
                        ww * (std::abs(uv) + std::abs(vu));
-  // Each term has a difference rounded in each of four factors, two roundings in the square, two in
-  // the minor, one product and at most two sums: 11 units. An underflow is at most as large as the
-  // smallest normal number times what it is multiplied by; an overflow makes the comparison false.
+  // Each term has a rounded difference in each of four factors, two roundings in the square, two in
+  // the minor, one product and at most two sums: 11 units. The error of an underflow is at most the
+  // smallest normal number times the other factor; an overflow makes the comparison false.
   constexpr double unit = std::numeric_limits<double>::epsilon() / 2;
   constexpr double relative = (12 + 128 * unit) * unit;
   constexpr double underflow = std::numeric_limits<double>::min();

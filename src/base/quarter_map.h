@@ -8,7 +8,7 @@
 
 namespace medial {
 
-/// A mirror image, or one turned by quarters: commits no rounding.
+/// A reflection or a rotation by quarter turns. Does not round.
 struct QuarterMap {
   bool swaps = false, negates_x = false, negates_y = false;
 

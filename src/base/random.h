@@ -17,9 +17,9 @@ class Random {
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
     return z ^ (z >> 31);
   }
-  /// In [0, 1).
+  /// A random number in [0, 1).
   double share() { return static_cast<double>(next() >> 11) * 0x1p-53; }
-  /// One of 0 .. count - 1, each as likely as another to within count / 2^32.
+  /// A random number in [0, count), uniform to within count / 2^32.
   std::uint32_t below(std::uint32_t count) {
     return static_cast<std::uint32_t>(((next() >> 32) * count) >> 32);
   }

@@ -23,7 +23,7 @@ void for_each_run(std::span<const std::uint64_t> row, std::int64_t width, const 
         visit(begin, x);
         begin = -1;
       }
-      // From here on the other value is a change.
+      // From here on, search for the opposite value.
       changes = ~changes & (~std::uint64_t{0} << bit);
     }
   }

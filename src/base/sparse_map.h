@@ -9,8 +9,8 @@
 
 namespace medial::raster {
 
-/// A value for some pixels of a grid, all others have `absent`. Kept in tiles of 8 x 8 pixels that
-/// exist only where a value was set: memory for the pixels used, and four bytes for each tile.
+/// Values for some pixels of a grid; all other pixels have `absent`. Stores tiles of 8 x 8 pixels,
+/// only where a value was set, plus four bytes for each tile of the grid.
 template <class Value>
 class SparseMap {
  public:
@@ -23,7 +23,7 @@ class SparseMap {
     const std::uint32_t tile = directory_[tile_of(p)];
     return tile == 0 ? absent_ : tiles_[tile - 1][place_of(p)];
   }
-  /// The value to be changed.
+  /// The value, for assignment.
   Value& operator[](Pixel p) {
     std::uint32_t& tile = directory_[tile_of(p)];
     if (tile == 0) {
@@ -41,7 +41,7 @@ class SparseMap {
 
   Value absent_;
   std::uint32_t tiles_per_row_;
-  std::vector<std::uint32_t> directory_;  ///< one more than the tile's place; 0: none
+  std::vector<std::uint32_t> directory_;  ///< the tile's index plus one; 0: no tile
   std::deque<std::array<Value, 64>> tiles_;
 };
 

@@ -8,7 +8,7 @@
 namespace medial {
 namespace {
 
-/// The bits of `value` at the even places of the result.
+/// Moves the bits of `value` to the even places of the result.
 std::uint64_t spread(std::uint32_t value) {
   std::uint64_t bits = value;
   bits = (bits | (bits << 16)) & 0x0000FFFF0000FFFF;
@@ -26,8 +26,8 @@ struct Cell {
   }
 };
 
-/// Distributes by the highest bits of the keys, enough that points spread evenly are alone there,
-/// and compares what has them in common.
+/// Distributes cells by so many of the highest bits of their keys that evenly spread points would
+/// be alone, and sorts cells with equal bits by comparison.
 void sort(std::vector<Cell>& cells) {
   constexpr unsigned digit = 11, key_bits = 64;
   unsigned digits = 1;
@@ -108,8 +108,8 @@ void sort_by_place(std::vector<std::uint64_t>& keys) {
   }
 }
 
-/// Puts points in the order of a Hilbert curve through their box, and those of one cell in that of
-/// a curve through theirs, where they are more than a few.
+/// Sorts points along a Hilbert curve through their box; if a cell has more than a few points,
+/// sorts these along a curve through their own box.
 void sort_along_curve(std::span<const Vec2> points, std::span<std::uint32_t> order) {
   Box box = Box::nothing();
   for (const std::uint32_t i : order) box.add(points[i]);

@@ -16,16 +16,16 @@
 namespace medial {
 
 namespace detail {
-/// How many of so many elements come first where they are halved, so that both parts hold whole
-/// nodes of a tree: a multiple of the largest power of the fan-out below the count.
+/// The size of the first half of `count` elements, such that both halves fill whole nodes of a
+/// tree: a multiple of the largest power of the fan-out below the count.
 inline std::size_t whole_half(std::size_t count, std::size_t fan_out) {
   std::size_t whole = fan_out;
   while (whole * fan_out < count) whole *= fan_out;
   return ((count + whole - 1) / whole / 2) * whole;
 }
 
-/// Halves indices by their places, across the longer side of these, and returns how many come
-/// first.
+/// Splits indices into halves across the longer side of their places. Returns the size of the first
+/// half.
 template <class Place>
 std::size_t halve_by_place(std::span<std::uint32_t> order, const Place& place,
                            std::size_t fan_out) {
@@ -51,8 +51,8 @@ inline void order_by_place(std::span<std::uint32_t> order, std::span<const Vec2>
 }
 }  // namespace detail
 
-/// The indices of points in an order in which each aligned run of fan_out^k of them lies close
-/// together, k = 1, 2, ...: the leaves of a tree without pointers. O(n log n).
+/// An order of points in which each aligned run of fan_out^k points is spatially compact, for k =
+/// 1, 2, ...: the leaves of an implicit tree. O(n log n).
 inline std::vector<std::uint32_t> spatial_order(std::span<const Vec2> points, std::size_t fan_out) {
   std::vector<std::uint32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -60,14 +60,14 @@ inline std::vector<std::uint32_t> spatial_order(std::span<const Vec2> points, st
   return order;
 }
 
-/// Two perpendicular directions. Their lengths weigh distances along each: pieces are divided where
-/// they are farthest apart by these.
+/// Two perpendicular directions whose lengths weight distances. Pieces are split along the
+/// direction in which they are farthest apart.
 struct Axes {
   Vec2 along, across;
 };
 
-/// The main direction of the pieces' chords, and the one across. The first has the length root of
-/// (spread across / spread along); the second is of unit length.
+/// The main direction of the pieces' chords, with the length sqrt(spread across / spread along),
+/// and the perpendicular direction, of unit length.
 template <class Chord>
 Axes axes_of(std::span<const std::uint32_t> pieces, const Chord& chord) {
   constexpr double least = 0x1p-40;
@@ -81,7 +81,7 @@ Axes axes_of(std::span<const std::uint32_t> pieces, const Chord& chord) {
   const double difference = 0.5 * (xx - yy), half = 0.5 * (xx + yy);
   const double size = std::hypot(difference, xy);
   if (!(size > 0)) return {{1, 0}, {0, 1}};
-  const double c = difference / size, s = xy / size;  // of twice the angle
+  const double c = difference / size, s = xy / size;  // cosine and sine of twice the angle
   Vec2 along = c > 0 ? Vec2{c + 1, s} : Vec2{s, 1 - c};
   along = (1 / norm(along)) * along;
   const double longer = half + size, shorter = std::max(half - size, least * longer);
@@ -89,7 +89,7 @@ Axes axes_of(std::span<const std::uint32_t> pieces, const Chord& chord) {
 }
 
 namespace detail {
-/// Orders pieces by halves, which keep their order. `middle` and `chord` give a piece's.
+/// Orders pieces by repeated stable halving. `middle` and `chord` give those of a piece.
 template <class Middle, class Chord>
 class Halver {
  public:
@@ -113,7 +113,7 @@ class Halver {
  private:
   struct Key {
     double place, beside;
-    std::uint32_t at;  ///< among the pieces; so no two keys are equal, whatever sorts them
+    std::uint32_t at;  ///< index of the piece; makes all keys different, so any sort is stable
     friend bool operator<(const Key& a, const Key& b) {
       return std::tie(a.place, a.beside, a.at) < std::tie(b.place, b.beside, b.at);
     }
@@ -157,22 +157,22 @@ class Halver {
 };
 }  // namespace detail
 
-/// Puts overlapping pieces in an order in which each aligned run of fan_out^k of
-/// them lies close together: halved across their main direction, unless they are farther apart
-/// along it than they are long. `middle` and `chord` give a piece's. O(n log n).
+/// Orders overlapping pieces such that each aligned run of fan_out^k pieces is spatially compact.
+/// Halves them across their main direction, unless they are farther apart along it than they are
+/// long. `middle` and `chord` give those of a piece. O(n log n).
 template <class Middle, class Chord>
 void order_overlapping(std::span<std::uint32_t> order, const Middle& middle, const Chord& chord,
                        std::size_t fan_out) {
   detail::Halver<Middle, Chord>(middle, chord, fan_out).order(order);
 }
 
-/// The indices of points along a Z-curve through their bounding box (Morton 1966), 2^32 cells wide
-/// on each side: neighbours in the order lie close together, mostly. Points of one cell keep their
-/// order. Several times faster than spatial_order(), and less tight. O(n).
+/// The indices of points along a Z-order curve (Morton 1966) through their bounding box, with 2^32
+/// cells per side. Points of one cell keep their order. Several times faster than spatial_order(),
+/// and less compact. O(n).
 std::vector<std::uint32_t> z_order(std::span<const Vec2> points);
 
-/// The same along a Hilbert curve (Hilbert 1891), which never jumps, and within a cell that holds
-/// many points along another one, so that clusters of any size are in order, too.
+/// The same along a Hilbert curve (Hilbert 1891), which never jumps. A cell with many points has a
+/// curve of its own, so clusters of any size are ordered, too.
 std::vector<std::uint32_t> hilbert_order(std::span<const Vec2> points);
 
 }  // namespace medial

@@ -12,16 +12,16 @@
 
 #include "medial/threads.h"
 
-/// All that the project knows of threads. threads_tbb.cpp implements it with oneTBB;
-/// threads_pool.cpp with the standard library's threads, where the library is built with
-/// MEDIAL_TBB=OFF; threads_serial.cpp without threads, with MEDIAL_THREADS=OFF. No
-/// result depends on which, nor on the number of threads. An exception ends the work and reaches
-/// the caller.
+/// The threads of the whole project. threads_tbb.cpp implements them with oneTBB, threads_pool.cpp
+/// with std::thread (MEDIAL_TBB=OFF), threads_serial.cpp without threads (MEDIAL_THREADS=OFF).
+/// Results depend neither on the implementation nor on the number of threads. An exception ends the
+/// work and reaches the caller.
 namespace medial {
 
 namespace threads {
 
-/// A function that outlives the call that it is passed to; std::function would allocate.
+/// A reference to a function that outlives the call it is passed to. Unlike std::function, it does
+/// not allocate.
 template <class... Arguments>
 class FunctionRef {
  public:
@@ -43,8 +43,8 @@ void run_on(int requested, FunctionRef<> work);
 
 }  // namespace threads
 
-/// Calls work(begin, end) for ranges that together are [0, count), each at least about half of
-/// `grain` long where there are several.
+/// Calls work(begin, end) for ranges that partition [0, count). If there are several, each has at
+/// least about `grain` / 2 elements.
 template <class Work>
 void parallel_ranges(std::size_t count, std::size_t grain, const Work& work) {
   threads::run_ranges(count, grain, work);
@@ -58,8 +58,9 @@ void parallel_for(std::size_t count, const Work& work) {
   });
 }
 
-/// Calls work(i, findings) for each i below `count` and returns the findings of each block of
-/// `block` numbers, in order: what is made of them does not depend on the number of threads.
+/// Calls work(i, findings) for each i below `count`, with one `findings` per block of `block`
+/// numbers. Returns the findings of all blocks in order, so the result does not depend on the
+/// number of threads.
 template <class Findings, class Work>
 std::vector<Findings> in_blocks(std::size_t count, std::size_t block, const Work& work) {
   std::vector<Findings> findings((count + block - 1) / block);
@@ -70,7 +71,7 @@ std::vector<Findings> in_blocks(std::size_t count, std::size_t block, const Work
   return findings;
 }
 
-/// Calls both.
+/// Calls both functions, possibly at the same time.
 template <class First, class Second>
 void in_parallel(const First& first, const Second& second) {
   threads::run_both(first, second);
@@ -88,8 +89,8 @@ auto on_threads(int requested, Work&& work) {
   }
 }
 
-/// Tasks that may add others to their group. Without threads they wait in a list, so that many
-/// tasks within tasks do not use up the stack.
+/// Tasks that may add further tasks to their group. Without threads, tasks wait in a list, so that
+/// deeply nested tasks do not use up the stack.
 class TaskGroup {
  public:
   TaskGroup();
@@ -98,7 +99,7 @@ class TaskGroup {
   TaskGroup& operator=(const TaskGroup&) = delete;
 
   void run(std::function<void()> task);
-  /// Returns when all tasks have ended. Must be called before the group ends.
+  /// Waits for all tasks. Must be called before the group is destroyed.
   void wait();
 
  private:
@@ -106,11 +107,11 @@ class TaskGroup {
   std::unique_ptr<Tasks> tasks_;
 };
 
-/// Objects for tasks to work with: one for each task that runs at the same time.
+/// A pool of work objects: one for each task that runs at the same time.
 template <class T>
 class Pool {
  public:
-  /// Calls work(object) with an object that nobody else uses meanwhile.
+  /// Calls work(object) with an object that no other task is using.
   template <class Work>
   void with_one(const Work& work) {
     T& object = take();
@@ -118,7 +119,7 @@ class Pool {
     const std::scoped_lock lock(mutex_);
     unused_.push_back(&object);
   }
-  /// All objects; no task may run.
+  /// All objects. No task may be running.
   const std::deque<T>& all() const { return all_; }
 
  private:

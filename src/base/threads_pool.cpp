@@ -10,16 +10,16 @@
 #include "base/pipeline.h"
 #include "base/threads.h"
 
-// Threads of the standard library, for where there is no oneTBB: in browsers. A thread that waits
-// runs tasks meanwhile, so the work ends however late the others start, or if none starts.
+// A thread pool of the standard library, for platforms without oneTBB, such as browsers. A waiting
+// thread runs tasks, so the work ends even if the other threads start late or not at all.
 
 namespace medial {
 namespace {
 
-/// Tasks that somebody waits for.
+/// Tasks with a common waiter.
 struct Batch {
   std::size_t open = 0;      ///< those that have not ended
-  std::exception_ptr error;  ///< the first; tasks that have not begun are left out then
+  std::exception_ptr error;  ///< the first one; tasks that have not begun are then skipped
 };
 
 struct Task {
@@ -27,7 +27,7 @@ struct Task {
   Batch* batch;
 };
 
-/// Work for at most so many threads at the same time.
+/// Work for a limited number of threads at a time.
 struct Arena {
   explicit Arena(int threads) : most(threads) {}
   const int most;
@@ -35,10 +35,10 @@ struct Arena {
   std::deque<Task> tasks{};
 };
 
-/// Set in a process that is forked from one that has threads: there it has none of them.
+/// Set in a process forked from a process with threads, because fork() copies only one thread.
 std::atomic<bool> forked{false};
 
-/// Whose tasks this thread runs.
+/// The arena whose tasks this thread runs.
 thread_local Arena* current = nullptr;
 
 class Threads {
@@ -48,8 +48,8 @@ class Threads {
     add_up_to(static_cast<int>(std::thread::hardware_concurrency()));
   }
 
-  /// Starts threads until, with the caller, there are `count`, or the system refuses one: then it
-  /// is not asked for more, unless `again`.
+  /// Starts threads until there are `count`, including the caller, or the system refuses one. After
+  /// a refusal, does not ask for more unless `again`.
   void add_up_to(int count, bool again = false) {
     const std::scoped_lock lock(mutex_);
     if (again) is_refused_ = false;
@@ -61,13 +61,13 @@ class Threads {
   }
   int count() const { return count_; }
 
-  /// Of work that names no number of threads.
+  /// The arena for work without an explicit number of threads.
   Arena& common() { return common_; }
   void open(Arena& arena) {
     const std::scoped_lock lock(mutex_);
     arenas_.push_back(&arena);
   }
-  /// Returns when no other thread knows the arena.
+  /// Waits until no other thread refers to the arena.
   void close(Arena& arena) {
     std::unique_lock lock(mutex_);
     arenas_.erase(std::find(arenas_.begin(), arenas_.end(), &arena));
@@ -95,7 +95,8 @@ class Threads {
     end(arena, batch, error);
     if (batch.error) std::rethrow_exception(batch.error);
   }
-  /// Returns when no task of the batch is left; after an error those that have not begun never do.
+  /// Waits until all tasks of the batch have ended. After an error, tasks that have not begun are
+  /// dropped.
   void end(Arena& arena, Batch& batch, const std::exception_ptr& error) {
     std::unique_lock lock(mutex_);
     if (error && !batch.error) batch.error = error;
@@ -110,7 +111,7 @@ class Threads {
   }
 
  private:
-  /// What every thread but the callers' does.
+  /// The loop of every pool thread.
   [[noreturn]] void serve() {
     std::unique_lock lock(mutex_);
     while (true) {
@@ -125,7 +126,7 @@ class Threads {
       current = &arena;
       ++arena.working;
       while (!arena.tasks.empty()) {
-        Task oldest = std::move(arena.tasks.front());  // in halves of halves, the largest
+        Task oldest = std::move(arena.tasks.front());  // the largest, as work is halved repeatedly
         arena.tasks.pop_front();
         run(lock, std::move(oldest));
       }
@@ -133,7 +134,7 @@ class Threads {
     }
   }
 
-  /// Runs the task without the lock.
+  /// Runs the task with the lock released.
   void run(std::unique_lock<std::mutex>& lock, Task task) {
     std::exception_ptr error = task.batch->error;
     if (!error) {
@@ -143,7 +144,7 @@ class Threads {
       } catch (...) {
         error = std::current_exception();
       }
-      task.work = nullptr;  // what it holds ends before the batch
+      task.work = nullptr;  // destroy captured objects before the batch ends
       lock.lock();
     }
     if (error && !task.batch->error) task.batch->error = error;
@@ -151,8 +152,8 @@ class Threads {
   }
 
   std::mutex mutex_;
-  std::condition_variable more_;     ///< for threads without work: there is some
-  std::condition_variable changed_;  ///< for those who wait: there is some, or theirs has ended
+  std::condition_variable more_;     ///< wakes idle threads: there is work
+  std::condition_variable changed_;  ///< wakes waiters: there is work, or their batch has ended
   std::atomic<int> count_{1};
   bool is_refused_ = false;
   Arena common_{INT_MAX};
@@ -161,17 +162,17 @@ class Threads {
 };
 
 Threads& pool() {
-  static Threads* const threads = new Threads;  // never deleted: its threads sleep to the end
+  static Threads* const threads = new Threads;  // never deleted: its threads sleep until exit
   return *threads;
 }
 Arena& arena_here() { return current != nullptr ? *current : pool().common(); }
-/// How many threads there are for the work of this one.
+/// The number of threads available to this thread's work.
 int threads_here() {
   if (forked || arena_here().most == 1) return 1;
   return std::min(arena_here().most, pool().count());
 }
 
-/// The arena of the caller's work, as long as it lives.
+/// Provides the arena of the caller's work during its lifetime.
 class Scope {
  public:
   explicit Scope(int threads) : arena_(threads) {
@@ -206,7 +207,7 @@ namespace threads {
 
 void run_ranges(std::size_t count, std::size_t grain, FunctionRef<std::size_t, std::size_t> work) {
   if (count == 0) return;
-  constexpr std::size_t pieces_each = 8;  // threads that have less to do take more of them
+  constexpr std::size_t pieces_each = 8;  // several pieces per thread balance the load
   const auto threads = static_cast<std::size_t>(threads_here());
   const std::size_t pieces = threads == 1 ? 1 : std::min(count / grain, threads * pieces_each);
   if (pieces <= 1) return work(0, count);
@@ -257,7 +258,7 @@ struct TaskGroup::Tasks {
   Arena& arena = arena_here();
   bool is_shared = threads_here() > 1;
   Batch batch{};
-  std::vector<std::function<void()>> waiting{};  ///< where it is not shared
+  std::vector<std::function<void()>> waiting{};  ///< used if work is not shared
 };
 
 TaskGroup::TaskGroup() = default;

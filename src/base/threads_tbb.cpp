@@ -21,12 +21,12 @@ namespace {
 
 using Allowed = tbb::global_control;
 
-/// Whether this thread works for run_on(1): then oneTBB, whose arenas and tasks take longer than
-/// the axis of a rectangle, is left out.
+/// Whether this thread works for run_on(1). Then oneTBB is not used, because its arenas and tasks
+/// take longer than the axis of a rectangle.
 thread_local bool alone = false;
 
-/// Set in a process that is forked from one that has used oneTBB: its threads are not there, and
-/// oneTBB waits for them for ever.
+/// Set in a process forked from a process that used oneTBB: oneTBB would wait forever for threads
+/// that the new process does not have.
 std::atomic<bool> forked{false};
 
 /// Whether to share work with other threads.
@@ -37,7 +37,7 @@ bool shared() {
   return true;
 }
 
-/// Sets `alone` as long as it lives.
+/// Sets `alone` during its lifetime.
 class Alone {
  public:
   explicit Alone(bool now) : before_(std::exchange(alone, now)) {}
@@ -49,9 +49,9 @@ class Alone {
   bool before_;
 };
 
-/// An arena for so many threads in which no other call works. Arenas are kept, as oneTBB 2021 loses
-/// 7 KB with each one in which tasks were: as many as there were calls at once. They are never
-/// deleted, as other threads may outlive main().
+/// An arena for a number of threads, used by one call at a time. Arenas are reused, because oneTBB
+/// 2021 leaks 7 KB for each arena that ran tasks; there are as many as simultaneous calls. They are
+/// never deleted, because other threads may outlive main().
 class Arena {
  public:
   explicit Arena(int threads) {
@@ -77,7 +77,7 @@ class Arena {
     static auto* const one = new std::mutex;
     return *one;
   }
-  /// By threads, the first one of a list.
+  /// By number of threads: the head of a list.
   static std::map<int, Kept*>& unused() {
     static auto* const all = new std::map<int, Kept*>;
     return *all;
@@ -87,7 +87,7 @@ class Arena {
   Kept* kept_;
 };
 
-/// How many threads, at most `wanted`, the system starts at the same time.
+/// The number of threads, at most `wanted`, that the system can run at the same time.
 std::size_t startable_threads(std::size_t wanted) {
   std::vector<std::thread> threads;
   std::mutex all_started;
@@ -115,8 +115,8 @@ int effective_threads(int requested) {
 void allow_startable_threads(int requested) {
   const auto wanted = static_cast<std::size_t>(effective_threads(requested)) - 1;
   const std::size_t started = startable_threads(wanted);
-  // Never deleted: it holds until the program ends. The C library keeps some of the tried threads'
-  // stacks for those to come.
+  // Never deleted: the limit holds until the program ends. The C library keeps some stacks of the
+  // tried threads for later threads.
   if (started == wanted) return;
   static const Allowed* const fewer = new Allowed(Allowed::max_allowed_parallelism, started + 1);
   static_cast<void>(fewer);
@@ -143,7 +143,7 @@ void run_on(int requested, FunctionRef<> work) {
   const int threads = effective_threads(requested);
   const Alone scope(threads == 1);
   if (!shared()) return work();
-  // Without leave oneTBB gives no more threads than the machine has, and prints a warning.
+  // Without this, oneTBB gives no more threads than the machine has, and prints a warning.
   std::optional<Allowed> leave;
   if (threads > tbb::this_task_arena::max_concurrency())
     leave.emplace(Allowed::max_allowed_parallelism, static_cast<std::size_t>(threads));

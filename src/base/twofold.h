@@ -1,7 +1,7 @@
 #pragma once
 
-// Numbers of twice the digits of double, and the bounds of their errors: what decides most of what
-// double leaves open, at a tenth of the time of 256 bits.
+// Double-double numbers with error bounds. They make most of the decisions that double cannot make,
+// in a tenth of the time of 256 bits.
 
 #include <algorithm>
 #include <cmath>
@@ -14,16 +14,16 @@
 
 namespace medial {
 
-/// The sum of two doubles of which `high` is the nearest to it: 106 bits or more, the same on every
-/// platform. Requires round to nearest, as Bounded does.
+/// The unevaluated sum of two doubles, `high` and `low`, where `high` is the double nearest to the
+/// sum: at least 106 bits, identical on every platform. Requires round to nearest, like Bounded.
 ///
-/// *Lemma.* What an operation loses is at most what it writes to `lost`, up to a factor `widen`.
-/// *Proof.* A sum of two doubles is exactly its rounding and a rest that is a double, and so is a
-/// product (Knuth, Dekker); `split()` is exact therefore. Of a sum only two roundings remain: those
-/// of `lows` and of `rest`, each at most 2^-53 of its result, and none where one of the two
-/// summands is zero. A product also rounds `first`, `second` and `cross`, and leaves out low times
-/// low; of two doubles it is exact. Where a product is so small that its rest, or one of the terms,
-/// is no normal number, 2^-1000 is more than all of that. ∎
+/// *Lemma.* The error of an operation is at most the value that it writes to `lost`, up to a factor
+/// `widen`. *Proof.* A sum of two doubles equals its rounding plus an error term that is a double,
+/// and so does a product (Knuth, Dekker); therefore `split()` is exact. A sum has only two further
+/// roundings: those of `lows` and of `rest`, each at most 2^-53 of its result, and none if one of
+/// the two summands is zero. A product also rounds `first`, `second` and `cross`, and omits low
+/// times low; a product of two doubles is exact. If a product is so small that its error term, or
+/// one of the terms, is not a normal number, 2^-1000 exceeds all of these errors. ∎
 struct Twofold {
   double high = 0, low = 0;
 
@@ -63,7 +63,7 @@ struct Twofold {
     double lost;
     return product(a, b, lost);
   }
-  /// Two digits of a long division, and two steps of Newton's method for a root.
+  /// A long division of two digits; the root takes one Newton step from the root in double.
   friend Twofold operator/(const Twofold& a, const Twofold& b) {
     const double first = a.high / b.high;
     return split(first, (a - Twofold(first) * b).high / b.high);
@@ -88,8 +88,8 @@ struct Twofold {
   }
 };
 
-/// What a quotient and a root lose follows from what is left over: a / b - q is
-/// (a - q b) / b, and the root of a differs from w by (a - w w) / (root + w).
+/// The error of a quotient and of a root follows from the remainder: a / b - q is (a - q b) / b,
+/// and the root of a differs from w by (a - w w) / (root + w).
 template <>
 struct Bounded<Twofold> {
   Twofold value;
@@ -99,8 +99,8 @@ struct Bounded<Twofold> {
   explicit Bounded(double exact) : value(exact) {}
   Bounded(const Twofold& approximate, double bound) : value(approximate), error(bound) {}
 
-  /// How many signs this thread has asked for in vain: of what depends on none of these, all signs
-  /// are known.
+  /// The number of signs on this thread that the bound could not decide. If it has not changed
+  /// during a computation, all signs of that computation were certain.
   static inline constinit thread_local std::uint64_t open_signs = 0;
 
   std::optional<int> sign() const {
@@ -146,8 +146,8 @@ struct Bounded<Twofold> {
   }
 
  private:
-  /// Bounds are sums and products of positive numbers with less than sixteen roundings each, of
-  /// numbers that differ from their high part by 2^-53 of it.
+  /// Error bounds are sums and products of positive numbers with less than sixteen roundings each.
+  /// The numbers differ from their high parts by at most 2^-53 of these.
   static constexpr double widen = Rounding::widen;
 };
 

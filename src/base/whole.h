@@ -1,6 +1,6 @@
 #pragma once
 
-// Finite numbers as whole multiples of one power of two, for exact arithmetic with integers.
+// Finite doubles as integer multiples of one power of two, for exact integer arithmetic.
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace medial {
 
-/// All numbers are multiples of 2^lowest and less than 2^highest in size.
+/// All numbers are multiples of 2^lowest, and their absolute values are less than 2^highest.
 struct BinaryRange {
   int lowest = 2000, highest = -2000;
 };
