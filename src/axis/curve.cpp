@@ -12,10 +12,10 @@
 namespace medial {
 namespace {
 
-/// Most samples of one edge, whatever the caller asks for.
+/// The largest number of samples of one edge.
 constexpr double most_pieces = 100000;
 
-/// The Bernstein polynomials with the weights 1, w, 1, normalised to the sum 1.
+/// The rational Bernstein basis with the weights 1, w, 1; its sum is 1.
 struct Basis {
   double b0, b1, b2;
   Basis(double t, double weight) : Basis(1 - t, t, weight) {}
@@ -28,7 +28,7 @@ struct Basis {
   }
 };
 
-/// The integral of |velocity(t)| over [0, 1] by Gauss and Legendre's rule of eight points.
+/// The integral of |velocity(t)| over [0, 1] by the eight-point Gauss-Legendre rule.
 template <class Velocity>
 double gauss_sum(const Velocity& velocity) {
   double sum = 0;
@@ -40,12 +40,12 @@ double gauss_sum(const Velocity& velocity) {
   return 0.5 * sum;
 }
 
-/// Length of the parabola's arc with derivative 2 (a + t b), t in [0, 1].
+/// Length of the arc of a parabola with derivative 2 (a + t b), t in [0, 1].
 ///
-/// Along b, with u the coordinate in its direction and h the distance of a from it, this is the
-/// integral of 2 sqrt(u^2 + h^2) / |b| over an interval of width |b|. Its closed form divides a
-/// difference by |b|, so a nearly straight arc (|b| <= |a| / 4) takes Gauss-Legendre's rule
-/// instead: the integrand's singularities lie at least 6 half widths away, where the error of eight
+/// With the coordinate u along b and the distance h of a from the line of b, this is the integral
+/// of 2 sqrt(u^2 + h^2) / |b| over an interval of width |b|. The closed form divides a difference
+/// by |b|, so a nearly straight arc (|b| <= |a| / 4) is integrated by the Gauss-Legendre rule
+/// instead. The integrand's singularities are at least 6 half widths away, so the error of eight
 /// points is below 12^-16.
 double arc_length(Vec2 a, Vec2 b) {
   const double size = std::hypot(b.x, b.y);
@@ -82,9 +82,9 @@ struct Conic {
   }
 };
 
-/// Length of a conic: halved until the velocity hardly changes along a piece, where eight points of
-/// Gauss's rule are exact to rounding. A half has the weight sqrt((1 + w) / 2) and half the angle,
-/// so some ten halvings do for any conic.
+/// Length of a conic. Halves it until the velocity hardly changes along a piece, where the
+/// eight-point rule is exact up to rounding. A half has the weight sqrt((1 + w) / 2) and half the
+/// angle, so about ten halvings suffice for any conic.
 double conic_length(const Conic& conic) {
   constexpr double calm = 0.25;
   constexpr int deepest = 40;
@@ -112,7 +112,7 @@ double conic_length(const Conic& conic) {
   return sum;
 }
 
-/// The quartic of a curve's nearest points in Bernstein's form, on a part of [0, 1].
+/// The quartic of a curve's nearest points in Bernstein form, on a part of [0, 1].
 using Quartic = std::array<double, 5>;
 
 std::array<Quartic, 2> halves_of(Quartic f) {
@@ -132,13 +132,13 @@ std::pair<double, double> value_of(Quartic f, double t) {
   return {(1 - t) * f[0] + t * f[1], 4 * (f[1] - f[0])};
 }
 
-/// A root of `f` in [low, high], where it changes its sign; by Newton's steps kept in the bracket.
+/// A root of `f` in [low, high], at whose ends it has different signs, by bracketed Newton steps.
 /// `f` returns the value and the derivative.
 template <class Function>
 double bracketed_root(Function f, double low, double high) {
   const bool rising = f(low).first < 0;
   double t = 0.5 * (low + high);
-  // Every second step halves the bracket at least when Newton's steps do not converge.
+  // If Newton's method does not converge, at least every second step halves the bracket.
   for (int i = 0; i < 120 && low < high; ++i) {
     const auto [value, slope] = f(t);
     if (value == 0) return t;
@@ -162,7 +162,7 @@ std::size_t piece_count(double count) {
 Vec2 Curve::offset(double t) const {
   if (t == 1) return p2;
   const Basis basis(t, weight);
-  // Relative to the nearer end: the result is exact there and its error shrinks towards it.
+  // Computed relative to the nearer end, where the result is exact; the error shrinks towards it.
   if (t <= 0.5) return basis.b1 * p1 + basis.b2 * p2;
   return p2 - (basis.b0 * p2 + basis.b1 * (p2 - p1));
 }
@@ -190,7 +190,7 @@ Curve::Derivatives Curve::derivatives(double t) const {
   const double d_first = 2 * (weight - 1) * (s - t);
   const double d_second = 4 * (1 - weight);
   const Basis basis(t, weight);
-  // Radii relative to the first one, as the centres are.
+  // Radii are relative to the first one, like the centres.
   const double q1 = r1 - r0, q2 = r2 - r0;
   const double q = basis.b1 * q1 + basis.b2 * q2;
   Derivatives out;
@@ -219,8 +219,7 @@ std::pair<Disk, double> Curve::control_between(double t0, double t1) const {
 }
 
 bool Curve::straight() const {
-  // Control points of straight edges are rounded like others; what is flatter than that is
-  // straight.
+  // The control points of straight edges are rounded, so an edge flatter than that is straight.
   if (weight == 1) return cross(p1, p2) == 0;
   constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
   return std::abs(cross(p1, p2)) <= rounding * (squared_norm(p1) + squared_norm(p2));
@@ -235,7 +234,7 @@ double Curve::length(double t) const {
   constexpr double high = 1e-7;
   if (!(std::abs(cross(piece.p1, piece.p2)) > high * squared_norm(piece.p2))) {
     constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
-    const auto size = [](Vec2 v) { return std::hypot(v.x, v.y); };  // of the tiniest shapes, too
+    const auto size = [](Vec2 v) { return std::hypot(v.x, v.y); };  // does not underflow
     const double chord = size(piece.p2);
     if (size(piece.p1) + size(piece.p2 - piece.p1) <= (1 + rounding) * chord) return chord;
   }
@@ -274,7 +273,7 @@ double Curve::nearest(Vec2 p) const {
     }
   };
   consider(1);
-  // Halved until the coefficients change their sign once at most: then there is one root at most.
+  // Halve until the coefficients change sign at most once; then there is at most one root.
   struct Part {
     Quartic f;
     double begin, end;
@@ -303,10 +302,11 @@ double Curve::nearest(Vec2 p) const {
 }
 
 double Curve::area_beside_chord() const {
-  // The area is cross(p1, p2) w times the integral of t^2 / D^2, D = 1 + 2 (w - 1) t (1 - t), which
-  // comes down to atanh(sqrt z) / sqrt z, z = (w - 1) / (w + 1): the arc tangent for an ellipse.
-  // Near z = 0 its series: sum z^k / (2 k + 1), and for the other term 2 z^k / ((2 k + 1) (2 k +
-  // 3)).
+  // The area is cross(p1, p2) w times the integral of t^2 / D^2, with D = 1 + 2 (w - 1) t (1 - t).
+  // The integral contains atanh(sqrt z) / sqrt z, z = (w - 1) / (w + 1), which is an arc tangent
+  // for an ellipse. Near z = 0, use the series: sum z^k / (2 k + 1), and for the other term 2 z^k /
+  // ((2 k
+  // + 1) (2 k + 3)).
   constexpr double small = 0.0625, nothing = 0x1p-60;
   const double z = (weight - 1) / (weight + 1);
   const double rest = 2 / (weight + 1);  // 1 - z, also where z rounds to 1
@@ -347,7 +347,7 @@ Vec2 foot_on_arc(const BulgeArc& arc, Vec2 p) {
   const BulgeArc seen = by_start ? arc : arc.reversed();
   const Vec2 to = by_start ? from_start : from_end, tangent = start_tangent(seen);
   if (dot(tangent, to) <= 0 || dot(end_tangent(seen), p - seen.end) >= 0) return seen.start;
-  // The unit vector from the centre, times the sign of the curvature, turns with the foot.
+  // The direction of round * (p - centre) turns with the foot.
   const double round = curvature(seen);
   const double half =
       0.5 * std::atan2(round * dot(tangent, to), 1 - round * dot(left_of(tangent), to));
@@ -363,7 +363,7 @@ Vec2 foot(const Site& site, Vec2 p) {
   if (!(size > 0)) return site.start;
   if (site.bulge != 0) return foot_on_arc({site.start, site.end, site.bulge}, p);
   const double t = dot(p - site.start, d) / size;
-  // From the nearer end, so that the foot at an end is that end exactly.
+  // Computed from the nearer end, so that the foot at an end is exactly that end.
   if (t <= 0) return site.start;
   if (t >= 1) return site.end;
   return t <= 0.5 ? site.start + t * d : site.end - (1 - t) * d;
@@ -372,7 +372,7 @@ Vec2 foot(const Site& site, Vec2 p) {
 double length(const MedialAxis& axis, const Edge& edge) { return curve_of(axis, edge).length(); }
 
 double total_length(const MedialAxis& axis) {
-  // Compensated (Neumaier), so that millions of edges do not add up their roundings.
+  // Compensated summation (Neumaier), so that rounding errors of millions of edges do not add up.
   double sum = 0, lost = 0;
   for (const Edge& edge : axis.edges) {
     const double term = length(axis, edge);
@@ -391,23 +391,24 @@ std::vector<Disk> sample_by_chord(const MedialAxis& axis, const Edge& edge, doub
   const double bend = std::max(norm(curve.p2 - 2 * curve.p1),
                                std::abs((curve.r2 - curve.r1) - (curve.r1 - curve.r0)));
   if (w == 1) {
-    // A chord over a range dt of t departs from a polynomial by its second difference * dt^2 / 4.
+    // Over a range dt of t, a quadratic deviates from its chord by its second difference * dt^2
+    // / 4.
     pieces = std::sqrt(bend / (4 * chord));
   } else if (w > 1 && curve.straight()) {
-    // Along the straight line of centres, at h, the radius is a hyperbola: h = d sinh u and
-    // r = d cosh u, and the weight is the cosh of `angle`, half the range of u. A chord over a
-    // range of 2 v departs from it by d (cosh v - 1) = 2 d sinh^2(v / 2) at most.
+    // Along the straight line of centres, with the coordinate h, the radius is a hyperbola: h = d
+    // sinh u and r = d cosh u. The weight is the cosh of `angle`, half the range of u. Over a range
+    // of 2 v, it deviates from its chord by at most d (cosh v - 1) = 2 d sinh^2(v / 2).
     const double sinh_angle = std::sqrt((w - 1) * (w + 1));
     const double run = norm(curve.p2), rise = std::abs(curve.r2 - curve.r0);
     const double d = std::sqrt(std::max(0.0, run - rise) * (run + rise)) / (2 * sinh_angle);
     angle = std::acosh(w);
     pieces = angle / (2 * std::asinh(std::sqrt(chord / (2 * d))));
   } else {
-    // A conic is an affine image of a circle or a hyperbola, and the weight the cos or cosh of
-    // `angle`, half the range of u. Over a range of 2 v a chord departs from it by 2 sin^2(v / 2),
-    // or 2 sinh^2(v / 2), times the radius conjugate to it; the radius of the whole chord is `bend`
-    // w / (2 |1 - w^2|), and no other one is larger than it and half of the chord together, on a
-    // hyperbola times w.
+    // A conic is an affine image of a circle or a hyperbola, and the weight is the cos or cosh of
+    // `angle`, half the range of u. Over a range of 2 v, it deviates from its chord by 2 sin^2(v /
+    // 2) or 2 sinh^2(v / 2), times the radius conjugate to the chord. That radius is `bend` w / (2
+    // |1 - w^2|) for the whole chord; for other chords it is at most this plus half of the whole
+    // chord, on a hyperbola times w.
     const double half_chord = 0.5 * std::max(norm(curve.p2), std::abs(curve.r2 - curve.r0));
     const double radius = 0.5 * bend * w / (std::abs(1 - w) * (1 + w));
     const double largest = w > 1 ? w * radius + half_chord : radius + half_chord;

@@ -7,8 +7,8 @@
 
 namespace medial {
 
-/// An edge of the axis as a curve, with its control points relative to its first one: coordinates
-/// are subtracted before anything is multiplied, so far from the origin no digits are lost.
+/// An edge of the axis as a curve, with control points relative to the first one. Coordinates are
+/// subtracted before anything is multiplied, so no digits are lost far from the origin.
 struct Curve {
   Vec2 origin;  ///< centre of the first disk
   Vec2 end;     ///< of the last disk
@@ -27,11 +27,11 @@ struct Curve {
         r2(to.radius),
         weight(control_weight) {}
 
-  /// The disk at t in [0, 1]; the end disks exactly at 0 and 1. Error: a few units in the last
-  /// place of the control polygon's size, and the rounding of the centre's coordinates.
+  /// The disk at t in [0, 1], which is exact at 0 and 1. Error: a few units in the last place of
+  /// the control polygon's size, plus the rounding of the centre's coordinates.
   Disk at(double t) const { return at(1 - t, t); }
-  /// The same from both shares, s = 1 - t and t. Of a large weight, most of the curve is next to
-  /// its ends, and a t that is a quotient has lost the digits of s at one of them.
+  /// The same from both s = 1 - t and t. If the weight is large, most of the curve is at parameters
+  /// next to 0 and 1, and 1 - t would be inaccurate there.
   Disk at(double s, double t) const;
   /// at(t).center - origin, without the rounding of the addition.
   Vec2 offset(double t) const;
@@ -53,12 +53,12 @@ struct Curve {
   };
   Derivatives derivatives(double t) const;
 
-  /// Whether the centres run along a straight line, to rounding: two segments or two vertices, and
-  /// some cases with arcs. All others run on conics.
+  /// Whether the centres lie on a straight line, up to rounding: for two segments or two vertices,
+  /// and in some cases with arcs. Otherwise, they lie on a conic.
   bool straight() const;
 
-  /// Length in the plane from 0 to t. Closed forms for a line and for a parabola's arc; Gauss's
-  /// rule for an ellipse or a hyperbola. Relative error below 1e-13.
+  /// Length in the plane from 0 to t. Closed forms for a line and for a parabola, Gauss quadrature
+  /// for an ellipse or a hyperbola. Relative error below 1e-13.
   double length(double t = 1) const;
   /// The t at which length(t) == s, for s in [0, length()].
   double at_length(double s) const;
@@ -66,7 +66,7 @@ struct Curve {
   /// The t in [0, 1] of the point nearest to p in the plane.
   double nearest(Vec2 p) const;
 
-  /// The area between the curve and its chord, positive where the control point lies on the right.
+  /// The area between the curve and its chord, positive if the control point is on the right.
   double area_beside_chord() const;
 };
 

@@ -8,7 +8,7 @@ namespace medial {
 
 std::vector<Disk> sample_by_chord(const VoronoiDiagram& diagram, const VoronoiEdge& edge,
                                   double chord) {
-  MedialAxis one;  // what samples an edge asks for
+  MedialAxis one;  // for sample_by_chord()
   one.nodes = {diagram.nodes[edge.node[0]], diagram.nodes[edge.node[1]]};
   Edge own = edge;
   own.node = {0, 1};
@@ -21,7 +21,7 @@ std::vector<Vec2> face_outline(const VoronoiDiagram& diagram, std::size_t site, 
     const VoronoiEdge& edge = diagram.edges[e];
     std::vector<Disk> line = sample_by_chord(diagram, edge, chord);
     if (edge.site[1] != site) ranges::reverse(line);
-    // Each ends where the next one begins.
+    // Each edge ends where the next one begins.
     for (std::size_t i = 0; i + 1 < line.size(); ++i) outline.push_back(line[i].center);
   }
   ranges::reverse(outline);

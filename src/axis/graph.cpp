@@ -24,7 +24,7 @@ Incidence::Incidence(const MedialAxis& axis)
   for (const Edge& edge : axis.edges)
     for (const std::uint32_t node : edge.node) ++begin_[node];
   for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
-  // From the last edge to the first, so that a node's part is filled from its end to its begin.
+  // From the last edge to the first, which fills the range of each node from its end.
   for (std::size_t i = axis.edges.size(); i-- > 0;)
     for (const std::uint32_t node : axis.edges[i].node)
       edges_[--begin_[node]] = static_cast<std::uint32_t>(i);

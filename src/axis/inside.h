@@ -7,13 +7,13 @@
 
 namespace medial {
 
-/// Whether places lie inside a shape. Keeps its edges, not the shape.
+/// Tests whether points are inside a shape. Keeps a copy of its edges, not the shape.
 class Inside {
  public:
   /// O(n log n).
   explicit Inside(const Shape& shape);
-  /// Whether clearance() is above 0; on the boundary itself either answer. O(log n) for each edge
-  /// on the way to the right.
+  /// Whether clearance() is above 0. On the boundary, either answer. O(log n) for each edge that a
+  /// ray to the right meets.
   bool holds(Vec2 p) const;
 
  private:

@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::size_t fan_out = 8;
 
-/// A box that holds the edge: by its weights, a curve stays in the hull of its control points.
+/// A box around the edge. As its weights are positive, a curve lies in the hull of its control
+/// points.
 Box box_of(const MedialAxis& axis, const Edge& edge) {
   const Vec2 a = axis.nodes[edge.node[0]].disk.center;
   const Vec2 b = edge.control.center;
@@ -52,7 +53,7 @@ struct AxisLocator::Index {
       for (std::size_t i = index * fan_out; i < end; ++i) {
         const Curve curve = curve_of(*axis, axis->edges[order[i]]);
         const double t = curve.nearest(p);
-        // From the curve's own origin, where the point is not yet rounded.
+        // Relative to the curve's origin, before the point is rounded.
         const double d = norm(curve.offset(t) - (p - curve.origin));
         if (d < best.distance || (d == best.distance && order[i] < best.edge))
           best = {{{order[i], t}, curve.at(t)}, d};
@@ -82,14 +83,14 @@ AxisPoint AxisLocator::nearest(Vec2 p) const {
 
 namespace {
 
-/// Whether p changes sides at an edge: a ray to the right crosses it, or p lies between an arc and
-/// its chord.
+/// Whether an edge changes whether p counts as inside: either a ray from p to the right crosses the
+/// edge's chord, or p lies between an arc and its chord.
 bool is_crossed(Vec2 a, Vec2 b, double bulge, Vec2 p) {
-  // By the half-open rule the ray crosses upward edges that have p on the left.
+  // By the half-open rule, the ray crosses an upward edge that has p on the left.
   bool crossed = (a.y <= p.y) != (b.y <= p.y) && (orientation(a, b, p) > 0) == (a.y <= p.y);
   if (bulge != 0) {
-    // On the chord itself, that counts p to the right of it; to the left only where it runs in the
-    // ray's direction.
+    // A point on the chord itself counts as on the right; on the left only if the chord points in
+    // the ray's direction.
     const Vec2 half = half_angle(bulge), d = b - a;
     const double power = half.y * dot(p - a, p - b) - half.x * cross(d, p - a);  // to the circle
     const int turn = orientation(a, b, p);
@@ -141,7 +142,7 @@ double clearance(const Shape& shape, Vec2 p) {
     for (std::size_t j = 0; j < loop.size(); ++j) {
       const Vec2 a = loop[j], b = loop[j + 1 < loop.size() ? j + 1 : 0];
       const Vec2 d = b - a, q = p - a;
-      // The distance to the segment: perpendicular where p lies beside it, else to the nearer end.
+      // The distance to the segment: perpendicular, or to the nearer end.
       const double size = norm(d), along = dot(d, q);
       double distance_to_edge = std::abs(cross(d, q)) / size;
       if (along <= 0) distance_to_edge = norm(q);

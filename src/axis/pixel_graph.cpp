@@ -6,7 +6,7 @@
 namespace medial {
 namespace {
 
-/// Two sites in the order in which they lie beside the way from a point to another.
+/// Orders two sites: first the one on the left of the line from one point to another.
 std::array<std::uint32_t, 2> sites_beside(const MedialAxis& axis, std::array<std::uint32_t, 2> site,
                                           Vec2 from, Vec2 to) {
   if (site[0] == no_site || site[1] == no_site) return {no_site, no_site};
@@ -16,13 +16,13 @@ std::array<std::uint32_t, 2> sites_beside(const MedialAxis& axis, std::array<std
   return first >= second ? site : std::array{site[1], site[0]};
 }
 
-/// The pixels of one row, with a place that only moves forward.
+/// The pixels of one row, with a cursor that moves forward.
 class Row {
  public:
   Row(std::span<const MedialPixel> pixels, std::size_t begin, std::size_t end)
       : pixels_(pixels), at_(begin), end_(end) {}
   static constexpr std::size_t none = ~std::size_t{0};
-  /// The pixel in this column; columns asked for may fall back by two.
+  /// Finds the pixel in this column. Successive columns may decrease by at most two.
   std::size_t find(std::int64_t column) {
     while (at_ < end_ && pixels_[at_].pixel.column + std::int64_t{2} < column) ++at_;
     for (std::size_t i = at_; i < end_ && pixels_[i].pixel.column <= column; ++i)

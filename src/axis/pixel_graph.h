@@ -21,24 +21,21 @@ struct MedialPixel {
 /// and the edges between neighbours to `axis`, and sets its resolution. The sites of an edge are
 /// those of its first node, the one on the left first; `axis.sites` must hold them already.
 ///
-/// The pixels must be sorted by increasing column within increasing row, each once. Of the links
-/// between pixels among each other's eight neighbours, two kinds are left out, so that only real
-/// holes make cycles:
-///  - a diagonal one beside a pixel that is a neighbour of both: the way round is there already;
-///  - of four pixels in a square, the link of the lower two. Each square has its own lower link,
-///  and
-///    what the square above it loses was not needed by the one below: row by row from the top,
-///    every square opens towards the row beneath it.
-/// So the graph is connected where the pixels are, as a set with eight neighbours each, and has one
-/// independent cycle for each bounded part of the rest with four neighbours each.
+/// The pixels must be distinct and sorted by row, then by column. Of the links between
+/// 8-neighbours, two kinds are omitted, so that only real holes make cycles:
+///  - a diagonal link, if a pixel is a neighbour of both ends, because a detour exists;
+///  - of four pixels in a square, the link of the lower two. Each square has its own lower link, so
+///    a square does not need the link that the square above it loses.
+/// So the graph is connected if the pixels are 8-connected, and has one independent cycle for each
+/// bounded 4-connected component of the other pixels.
 ///
-/// A diagonal is also left out where `barrier`, if it is given, holds both pixels beside it: a
-/// contour passes between. O(pixels).
+/// A diagonal link is also omitted if `barrier` is given and holds both pixels beside it, because a
+/// contour passes between them. O(pixels).
 void link_pixels(const raster::Grid& grid, std::span<const MedialPixel> pixels,
                  const raster::BitMap* barrier, MedialAxis& axis);
 
-/// Appends the straight edge between two nodes of a sampled axis, beside it two sites that the disk
-/// of the first touches, in any order, or none.
+/// Appends a straight edge between two nodes of a sampled axis. `site`: two sites that the disk of
+/// the first node touches, in any order, or none.
 void add_link(MedialAxis& axis, std::uint32_t from, std::uint32_t to,
               std::array<std::uint32_t, 2> sites);
 

@@ -92,7 +92,7 @@ std::size_t point_of(const SiteNumbers& numbers, std::uint32_t site, std::size_t
   const auto at = [&](std::size_t i) { return edge.begin() + static_cast<std::ptrdiff_t>(i); };
   const auto point =
       static_cast<std::size_t>(std::lower_bound(at(low), at(high), site) - edge.begin());
-  // A lone point has no edge: the next point's sites begin with that number.
+  // A lone point has no edge, so this is also the first number of the next point.
   const std::size_t after = point + 1;
   const bool is_of_next =
       after < edge.size() && edge[point] == site && numbers.first(after) == site;
@@ -145,7 +145,7 @@ std::vector<medial::Site> result_sites(const Shape& shape, const SiteNumbers& nu
 namespace medial {
 namespace {
 
-/// A site of the result in a frame; of an arc in two pieces the one that is nearer to a disk.
+/// A site of the result in a frame. For an arc in two pieces, the piece nearer to `center`.
 site::Site local_site(const Site& own, const LocalFrame& frame, Vec2 center) {
   if (own.kind() == SiteKind::vertex) return site::make_vertex(frame.to_local(own.start));
   const site::Pieces pieces =

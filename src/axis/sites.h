@@ -11,12 +11,12 @@
 #include "site/joint.h"
 #include "site/site.h"
 
-// From a shape's loops to sites: what all engines that return exact axes begin with, so that they
-// number their sites alike.
+// Makes sites from a shape's loops. All engines with exact axes start with these functions, so they
+// number sites in the same way.
 
 namespace medial::site {
 
-/// An edge of the shape as one site, or two where an arc is longer than a quarter of a circle.
+/// An edge of the shape as one site, or as two if it is an arc of more than a quarter of a circle.
 struct Pieces {
   std::array<Site, 2> site;
   std::size_t count = 1;
@@ -41,8 +41,8 @@ class LoopEdges {
   Vec2 point(std::uint32_t i) const { return shape_.points[begin_ + i]; }
   Vec2 local(std::uint32_t i) const { return frame_.to_local(point(i)); }
   double bulge(std::uint32_t i) const { return shape_.bulge(begin_ + i); }
-  /// Whether the loop goes back there on the edge that it came on: a point, or an open end, of a
-  /// planar graph (see shape/around.h).
+  /// Whether the loop returns there along the same edge: at a point or an open end of a planar
+  /// graph (see shape/around.h).
   bool turns_back(std::uint32_t i) const {
     return point(before(i)) == point(next(i)) && bulge(before(i)) == -bulge(i);
   }
@@ -58,7 +58,7 @@ class LoopEdges {
 std::vector<site::Site> edge_sites(const Shape& shape, const LocalFrame& frame);
 
 /// Which vertices are sites, and how the result numbers its sites: in the order of the shape's
-/// points, the vertex before the segment that starts there. A loop of one point has no segment.
+/// points, the vertex before the edge that starts there. A loop of one point has no edge.
 struct SiteNumbers {
   std::vector<std::uint32_t> edge;  ///< of each point; the vertex's number is one less
   std::vector<Joint> joints;        ///< at each point
@@ -70,17 +70,17 @@ struct SiteNumbers {
 /// `tolerance` in units of the input, `corner_angle` in degrees; see Options.
 SiteNumbers number_sites(const Shape& shape, const LocalFrame& frame, double tolerance,
                          double corner_angle);
-/// Numbers the sites again, by other joints.
+/// Numbers the sites again after a change of the joints.
 void count_sites(const Shape& shape, SiteNumbers& numbers);
 
-/// The point at which a site of the result begins, which is found fast near to another point.
+/// The point at which a site of the result begins. Fast if it is close to the point `near`.
 std::size_t point_of(const SiteNumbers& numbers, std::uint32_t site, std::size_t near);
 
-/// The result's site of that number, which begins at that point, in units of the input.
+/// The result's site with this number, which begins at this point, in units of the input.
 medial::Site result_site(const Shape& shape, const SiteNumbers& numbers, std::uint32_t site,
                          std::size_t point);
 
-/// The result's sites, in units of the input; or those of the points [first, last).
+/// The result's sites, in units of the input: all, or those of the points [first, last).
 std::vector<medial::Site> result_sites(const Shape& shape, const SiteNumbers& numbers);
 std::vector<medial::Site> result_sites(const Shape& shape, const SiteNumbers& numbers,
                                        std::size_t first, std::size_t last);

@@ -4,7 +4,7 @@
 
 namespace medial {
 
-/// Adds the counts and times of another part of the work; `threads` stays.
+/// Adds the counts and times of another part of the work. Does not change `threads`.
 Statistics& operator+=(Statistics& sum, const Statistics& part);
 
 /// A number of Statistics and its name in files.
@@ -14,7 +14,7 @@ struct StatisticsField {
   Number Statistics::*number;
 };
 
-/// All counts and all times, in their order. largest_residual and threads are neither.
+/// All counts and all times, in order of declaration; not largest_residual and threads.
 inline constexpr StatisticsField<std::uint64_t> statistics_counts[] = {
     {"queries", &Statistics::queries},
     {"apollonius", &Statistics::apollonius},

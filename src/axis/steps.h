@@ -1,6 +1,6 @@
 #pragma once
 
-// Edges and chains of edges seen from their ends.
+// Traversal of edges and chains of edges.
 
 #include <algorithm>
 #include <cstdint>
@@ -41,7 +41,7 @@ inline Step next_step(const MedialAxis& axis, const Incidence& incidence, Step s
   const std::uint32_t node = head_of(axis, step);
   const auto around = incidence.edges(node);
   const std::uint32_t edge = around[0] == step.edge ? around[1] : around[0];
-  if (edge == step.edge) return step;  // an edge from the node to itself
+  if (edge == step.edge) return step;  // a loop edge
   return {edge, axis.edges[edge].node[0] == node};
 }
 
@@ -52,7 +52,7 @@ void walk_branches(const MedialAxis& axis, Take take) {
   std::vector<bool> used(axis.edges.size(), false);
   for (std::uint32_t lowest = 0; lowest < axis.edges.size(); ++lowest) {
     if (used[lowest]) continue;
-    // Back to where the branch starts, or once around.
+    // Go back to the start of the branch, or once around a closed chain.
     Step step{lowest, false};
     while (incidence.degree(head_of(axis, step)) == 2) {
       const Step next = next_step(axis, incidence, step);
@@ -68,13 +68,13 @@ void walk_branches(const MedialAxis& axis, Take take) {
   }
 }
 
-/// Turns a chain of steps around.
+/// Reverses a chain of steps.
 inline void reverse(std::vector<Step>& steps) {
   std::reverse(steps.begin(), steps.end());
   for (Step& step : steps) step.forward = !step.forward;
 }
 
-/// Around the disks of all nodes.
+/// The box around the disks of all nodes.
 inline Box box_of_disks(const MedialAxis& axis) {
   Box box = Box::nothing();
   for (const Node& node : axis.nodes) {
@@ -84,7 +84,7 @@ inline Box box_of_disks(const MedialAxis& axis) {
   return box;
 }
 
-/// A straight edge between two nodes, along which the radius changes evenly.
+/// A straight edge between two nodes, along which the radius is linear.
 inline Edge straight_edge(const MedialAxis& axis, std::uint32_t from, std::uint32_t to,
                           std::uint32_t site = no_site) {
   const Disk &a = axis.nodes[from].disk, &b = axis.nodes[to].disk;

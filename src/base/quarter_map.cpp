@@ -17,7 +17,7 @@ std::vector<QuarterMap> quarter_maps() {
   return maps;
 }
 
-/// Keeps the maps with the least key.
+/// Keeps the maps with the smallest key.
 template <class Key>
 void keep_least(std::vector<QuarterMap>& maps, const Key& key) {
   std::vector<std::pair<double, double>> keys;

@@ -25,13 +25,13 @@ struct QuarterMap {
   }
 };
 
-/// The maps by which the image has the lowest first point, and the lowest one inside its box, as
-/// the box may be a frame around all else: mostly one. All images of the points under such maps
-/// have the same images under their own best ones.
+/// The maps, usually one, whose image has the lexicographically lowest point and, on a tie, the
+/// lowest point inside the box (the box may be a frame around all other points). The result does
+/// not depend on how the points are turned or mirrored: all their images have the same best images.
 std::vector<QuarterMap> best_maps(std::span<const Vec2> points);
 
-/// Of the best maps of an outline's vertices, the one by which the image's edges, sorted, come
-/// first, whichever way they run: where there is another such map, the outline is its own image.
+/// Of the best maps of an outline's vertices, the map whose image has the lowest sorted list of
+/// edges, ignoring their directions. If several maps tie, the outline is symmetric.
 QuarterMap best_map(std::span<const BulgeArc> edges);
 
 }  // namespace medial

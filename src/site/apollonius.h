@@ -11,7 +11,7 @@
 // tangent_disks().
 namespace medial::site::apollonius {
 
-/// The arithmetic of all numbers.
+/// Arithmetic for all number types.
 template <class Real>
 struct Vector {
   Real x, y;
@@ -39,7 +39,7 @@ struct Carrier {
   bool vertex;
 };
 
-/// A stable sort of three, in place.
+/// Sorts three elements in place; stable.
 template <class T, class Before>
 void sort_three(std::array<T, 3>& three, Before&& before) {
   if (before(three[1], three[0])) std::swap(three[0], three[1]);
@@ -59,7 +59,7 @@ struct Solutions {
   std::size_t count = 0;
 };
 
-/// The real roots of a l l + 2 half_b l + c, both without cancellation.
+/// The real roots of a l l + 2 half_b l + c, computed without cancellation.
 template <class Real>
 struct Roots {
   std::array<Real, 2> root{};
@@ -68,7 +68,7 @@ struct Roots {
   Roots(const Real& a, const Real& half_b, const Real& c) {
     using std::sqrt;
     Real discriminant = half_b * half_b - a * c;
-    // A double root that rounding moved off the real axis.
+    // A double root that rounding has moved off the real axis.
     const Real noise = Real(16) * std::numeric_limits<Real>::epsilon();
     if (discriminant < Real(0)) {
       if (discriminant < -noise * half_b * half_b) return;
@@ -81,7 +81,8 @@ struct Roots {
   }
 };
 
-/// Centres origin + l * along with radii radius + l * slope: where two contact equations hold.
+/// The disks for which two contact equations hold: centres origin + l * along, radii radius + l *
+/// slope.
 template <class Real>
 struct LineOfCenters {
   Vector<Real> origin, along;
@@ -89,7 +90,8 @@ struct LineOfCenters {
   Real one_minus_slope_squared;
 };
 
-/// The line's disks that touch a carrier; the line's origin is relative to the carrier's point.
+/// The disks of the line that touch a carrier. The line's origin is relative to the carrier's
+/// point.
 template <class Real>
 Solutions<Real> disks_on(const LineOfCenters<Real>& line, const Carrier<Real>& carrier) {
   Real a = line.one_minus_slope_squared;
@@ -119,7 +121,7 @@ struct Plane {
   Real s, h;
 };
 
-/// The disks that two linear equations leave; none where the two are parallel.
+/// The disks that satisfy two linear equations; none if the equations are parallel.
 template <class Real>
 std::optional<LineOfCenters<Real>> line_of(const Plane<Real>& a, const Plane<Real>& b) {
   using std::sqrt;
@@ -207,9 +209,9 @@ Solutions<Real> three_vertices(const Carrier<Real>& u, const Carrier<Real>& v,
   return result;
 }
 
-/// Two segments that meet in a corner: their disks' centres lie on the line through the corner
-/// along the sum of the normals, which keeps its digits however flat the corner is, or along their
-/// difference turned, which does however sharp it is.
+/// The disks of two segments that meet in a corner. Their centres lie on the line through the
+/// corner along the sum of the normals, which is accurate for flat corners, or along the rotated
+/// difference of the normals, which is accurate for sharp corners.
 template <class Real>
 Solutions<Real> corner_and_site(const Vector<Real>& corner, const Vector<Real>& before,
                                 const Vector<Real>& after, const Carrier<Real>& c) {
@@ -231,7 +233,7 @@ Solutions<Real> corner_and_site(const Vector<Real>& corner, const Vector<Real>& 
   return disks_on(line, c);
 }
 
-/// The centre of an arc's circle and its signed radius, as it stands in the contact equation.
+/// The centre of an arc's circle, and its signed radius as in the contact equation.
 template <class Real>
 struct Circle {
   explicit Circle(const Carrier<Real>& arc)
@@ -240,8 +242,8 @@ struct Circle {
   Vector<Real> center;
 };
 
-/// Whether two arcs are nearly of one circle, so that seen from their points most digits of
-/// their difference are lost.
+/// Whether two arcs lie almost on one circle, so that relative to their points most digits of their
+/// difference cancel.
 template <class Real>
 bool nearly_concentric(const Carrier<Real>& a, const Carrier<Real>& b) {
   if (a.vertex || b.vertex || !(a.round * b.round > Real(0))) return false;
@@ -252,7 +254,7 @@ bool nearly_concentric(const Carrier<Real>& a, const Carrier<Real>& b) {
   return dot(apart, apart) < reach * reach;
 }
 
-/// Whether the own circle of an arc is nearly tangent to another carrier.
+/// Whether an arc's circle is nearly tangent to another carrier.
 template <class Real>
 bool nearly_touches(const Circle<Real>& own, const Carrier<Real>& other) {
   using std::abs;
@@ -264,11 +266,12 @@ bool nearly_touches(const Circle<Real>& own, const Carrier<Real>& other) {
   return abs(error) < Real(near) * scale;
 }
 
-/// Three carriers, the first one an arc to which another one is nearly concentric. Seen from the
-/// arc's centre, x = c - q and s = rho - r, its own equation is x.x = s s, and that of another one
-/// round (x + D).(x + D) - round (rho - s)^2 = 2 flat (n.(x + D) - rho + s), with D = q - point.
-/// Their difference is linear, and for an arc with the centre q + u and the radius rho + e it is
-/// u.x + e s = (u.u - e e) / 2, which is as exact as u and e are.
+/// The disks of three carriers, of which the first is an arc and another is nearly concentric to
+/// it. Relative to the arc's centre, with x = c - q and s = rho - r, the arc's equation is x.x = s
+/// s. The equation of another carrier is round (x + D).(x + D) - round (rho - s)^2 = 2 flat (n.(x +
+/// D) - rho
+/// + s), with D = q - point. Their difference is linear; for an arc with the centre q + u and the
+/// radius rho + e it is u.x + e s = (u.u - e e) / 2, which is as accurate as u and e.
 template <class Real>
 Solutions<Real> about_center(const Carrier<Real>& arc,
                              const std::array<const Carrier<Real>*, 2>& others) {
@@ -309,8 +312,9 @@ Solutions<Real> about_center(const Carrier<Real>& arc,
   return result;
 }
 
-/// Three carriers, one of which is an arc: the equation of the roundest eliminates the quadric from
-/// the other two, which leaves two planes in (x, y, r); their line meets the roundest.
+/// The disks of three carriers of which at least one is an arc. The equation of the roundest
+/// carrier eliminates the quadric from the other two. This leaves two planes in (x, y, r), whose
+/// common line meets the roundest carrier.
 template <class Real>
 Solutions<Real> three_carriers(std::array<const Carrier<Real>*, 3> carriers) {
   using std::abs;
@@ -322,9 +326,9 @@ Solutions<Real> three_carriers(std::array<const Carrier<Real>*, 3> carriers) {
         return about_center<Real>(*carriers[i], {carriers[j], carriers[3 - i - j]});
   std::size_t first_arc = 0;
   while (carriers[first_arc]->vertex) ++first_arc;
-  // A disk in the shape may be nearly the arc's own circle only if that is no larger than the
-  // frame. Seen from the centre of a larger one, near places lose their digits, and all seem to
-  // touch it.
+  // A disk in the shape can be nearly equal to the arc's circle only if the circle is not larger
+  // than the frame. Relative to the centre of a larger circle, nearby points lose their digits, and
+  // all seem to touch it.
   if (Real(2) * carriers[first_arc]->round > carriers[first_arc]->flat) {
     const auto &arc = *carriers[first_arc], &b = *carriers[(first_arc + 1) % 3],
                &c = *carriers[(first_arc + 2) % 3];

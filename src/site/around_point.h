@@ -8,11 +8,12 @@
 
 namespace medial::site {
 
-/// The disks that touch a point and a site, by the way around the point from where they pass
-/// between the two, counter-clockwise. Inside an arc's circle the centres are an ellipse, whose own
-/// parameter F is an angle as well: tan(F / 2) = flatness * tan(direction / 2). On its far half,
-/// where the ellipse is flat, directions are the same up to rounding; on its near end parameters
-/// are. Elsewhere the two are one.
+/// The disks that touch a point and a site, parametrised by the direction of the centre from the
+/// point: counter-clockwise, from the direction in which the disk lies between the two. Inside an
+/// arc's circle, the centres form an ellipse, whose parameter F is an angle, too: tan(F / 2) =
+/// flatness * tan(direction / 2). If the ellipse is flat, directions are equal up to rounding on
+/// its far half, and parameters at its near end. On other curves, parameter and direction are
+/// equal.
 struct AroundPoint {
   AroundPoint(const Site& site, Vec2 point) : own(site), place(point) {
     if (!site.is_arc()) {
@@ -42,40 +43,41 @@ struct AroundPoint {
     const double half = 0.5 * direction;
     return 2 * std::atan2(flatness * std::sin(half), std::cos(half));
   }
-  /// How far the foot on the arc has turned at a parameter, seen from the arc's centre.
+  /// The angle by which the foot on the arc has turned about the arc's centre at a parameter.
   double foot_at(double parameter) const { return parameter_at(parameter); }
-  /// Of a centre. On the far half the way along the ellipse decides, as a node may lie anywhere
-  /// across it within the tolerance: that decides the sign only.
+  /// The parameter of a centre. On the far half, it follows from the coordinate along the long
+  /// axis; the coordinate across it, in which a node may be off by the tolerance, decides only the
+  /// sign.
   double parameter(Vec2 center) const {
     if (!is_far(center)) return parameter_at(direction(center));
     const double along = dot(near, center - place), across = cross(near, center - place);
-    const double below = own.curvature * (0.5 * gap - along);  // against the whole axis
+    const double below = own.curvature * (0.5 * gap - along);  // relative to the long axis
     const double half = std::atan2(std::sqrt(below), std::sqrt(std::max(1 - below, 0.0)));
     return std::copysign(2 * half, across);
   }
-  /// How far a centre on the far half lies beside the ellipse; 0 elsewhere.
+  /// The distance of a centre on the far half from the ellipse, across its long axis; otherwise 0.
   double misfit(Vec2 center) const {
     if (!is_far(center)) return 0;
     const double half_width = 0.5 * flatness * (1 + focus) / own.curvature;
     return std::abs(std::abs(cross(near, center - place)) -
                     half_width * std::abs(std::sin(parameter(center))));
   }
-  /// By how much the parameter is off of a centre that is off by so much.
+  /// The error of the parameter if the centre is off by `off`.
   double rounding(Vec2 center, double off) const {
     const double half = 0.5 * direction_at(parameter(center));
     const double s = flatness * std::sin(half), c = std::cos(half);
     return flatness * off / ((s * s + c * c) * distance(center, place));
   }
-  /// Of infinite radius where there is none.
+  /// The disk in a direction; its radius is infinite if there is none.
   Disk disk_at(double direction) const {
     const double c = std::cos(direction), s = std::sin(direction);
     const Vec2 to = c * near + s * left_of(near);
     const double radius = tangent_radius(place, to, own);
     return {place + radius * to, radius};
   }
-  /// The control point of an edge of the ellipse, at most half of it, between two parameters. It
-  /// keeps the digits that the pole of its chord loses on the far half, where centre and radius
-  /// change alike.
+  /// The control point of an edge between two parameters, at most half of the ellipse. More
+  /// accurate than the pole of its chord on the far half, where centre and radius change at the
+  /// same rate.
   Control control(double from, double to) const {
     const double cosine = std::cos(0.5 * (to - from));
     const double whole_axis = 1 / (own.curvature * cosine);
@@ -88,7 +90,9 @@ struct AroundPoint {
   const Site& own;
   Vec2 place, near;
   double flatness = 1;
-  double gap = 0, focus = 0;  ///< of an ellipse: between point and arc; against the arc's radius
+  /// Of an ellipse: the distance from the point to the arc; the distance between its foci, relative
+  /// to the arc's radius.
+  double gap = 0, focus = 0;
 };
 
 }  // namespace medial::site

@@ -18,7 +18,7 @@ Disk disk_over(const Site& s, double at, Vec2 vertex) {
   return {foot + r * s.normal(), r};
 }
 
-/// A difference of disks, and the product that contact equations are made of.
+/// A difference of disks, with the inner product of the contact equations.
 struct DiskVector {
   Vec2 c;
   double r;
@@ -29,10 +29,10 @@ Disk middle_of(const Disk& from, const Disk& to) {
   return {midpoint(from.center, to.center), 0.5 * (from.radius + to.radius)};
 }
 
-/// The control point of an edge between two vertices. Along the line of centres the radius is a
-/// hyperbola: with h measured from the middle of the vertices, r = d cosh u and h = d sinh u, and
-/// the shoulder point lies at the mean u. Its weight is cosh of half the difference of u, which the
-/// two e^u = (r + h) / d = d / (r - h) tell without cancellation.
+/// The control point of an edge between two vertices. Along the line of centres, the radius is a
+/// hyperbola: with h measured from the midpoint of the vertices, r = d cosh u and h = d sinh u. The
+/// shoulder point lies at the mean u. Its weight is cosh of half the difference of u, which follows
+/// without cancellation from e^u = (r + h) / d = d / (r - h) at both ends.
 Control control_of_vertices(Vec2 a, Vec2 b, const Disk& from, const Disk& to) {
   const Disk middle = middle_of(from, to);
   const Vec2 foot = midpoint(a, b), across = 0.5 * (b - a);
@@ -49,16 +49,18 @@ Control control_of_vertices(Vec2 a, Vec2 b, const Disk& from, const Disk& to) {
           std::sqrt(weight_squared)};
 }
 
-/// The control point of an edge between a segment and a vertex, a parabola: polynomial in the
-/// foot's parameter, so it is the blossom at both ends. With x and y the vertex seen from the
-/// segment, r(s) = ((s - x)^2 + y^2) / (2 y) has the blossom ((s - x)(t - x) + y^2) / (2 y).
+/// The control point of an edge between a segment and a vertex, a parabola. The curve is polynomial
+/// in the foot's parameter, so the control point is its blossom at the parameters of both ends. If
+/// the vertex has the coordinates x and y relative to the segment, r(s) = ((s - x)^2 + y^2) / (2 y)
+/// has the blossom ((s - x)(t - x) + y^2) / (2 y).
 Control control_of_parabola(const Site& segment, Vec2 vertex, const Disk& from, const Disk& to) {
   const double y = cross(segment.direction, vertex - segment.point);
   const double s = dot(segment.direction, from.center - vertex);
   const double t = dot(segment.direction, to.center - vertex);
   if (!(y > 0)) return {middle_of(from, to), 1};
-  // Far from a vertex that is next to the segment, the radius knows better how far, as (s - x)^2 +
-  // y^2 = 2 y r: what is lost in y then cancels. The feet stay between those of the ends.
+  // Far from a vertex that is close to the segment, the distance from the vertex follows more
+  // accurately from the radius, by (s - x)^2 + y^2 = 2 y r, because the error of y then cancels.
+  // The feet stay between those of the ends.
   constexpr double next_to = 0x1p-4;
   const auto by_radius = [&](double way, double radius) {
     return y < next_to * std::abs(way) ? std::copysign(std::sqrt(y * (2 * radius - y)), way) : way;
@@ -70,14 +72,14 @@ Control control_of_parabola(const Site& segment, Vec2 vertex, const Disk& from, 
 }
 
 /// The control point of an edge with an arc. With P(u, v) = u.v - u_r v_r, a contact equation is
-/// round P(d, d) = 2 flat (n.d - r) for the disk seen from the site's point, and its polar form at
-/// both ends holds for the control point, the pole of the edge's chord: it lies in the plane of the
-/// edge, P-perpendicular to the chord over its middle. Of the two sites the rounder one gives the
-/// height over the chord and the weight.
+/// round P(d, d) = 2 flat (n.d - r) for the disk relative to the site's point. Its polar form at
+/// both ends holds for the control point, which is the pole of the edge's chord: it lies in the
+/// plane of the edge, P-perpendicular to the chord above its midpoint. The rounder of the two sites
+/// gives the height above the chord and the weight.
 Control pole_of_chord(const Site& a, const Site& b, const Disk& from, const Disk& to) {
   const Disk middle = middle_of(from, to);
-  // An edge this short against its radius, its arcs' and the distances to their centres (its foci)
-  // is straight to rounding; its plane would be lost.
+  // An edge this short relative to its radius, the radii of its arcs, and the distances to their
+  // centres (its foci) is straight up to rounding; its plane would be inaccurate.
   constexpr double straight = 1e-8;
   double size = middle.radius;
   for (const Site* s : {&a, &b})
@@ -86,7 +88,7 @@ Control pole_of_chord(const Site& a, const Site& b, const Disk& from, const Disk
           std::min({size, 1 / std::abs(s->curvature), std::abs(1 / s->curvature - middle.radius)});
   size *= straight;
   if (squared_norm(to.center - from.center) <= size * size) return {middle, 1};
-  // Scaled so that round and flat add up to one in size.
+  // Scaled such that |round| + |flat| = 1.
   const auto flat_of = [](const Site& s) {
     return s.is_vertex() ? 0 : 1 / (1 + std::abs(s.curvature));
   };
@@ -96,7 +98,7 @@ Control pole_of_chord(const Site& a, const Site& b, const Disk& from, const Disk
   const bool by_a = std::abs(round_of(a)) >= std::abs(round_of(b));
   const Site &site = by_a ? a : b, &other = by_a ? b : a;
   const double round = round_of(site), flat = flat_of(site), ratio = round_of(other) / round;
-  // The plane of the edge: g.c + s r = constant. Points seen from the middle keep their digits.
+  // The plane of the edge: g.c + s r = constant. Points relative to the middle are accurate.
   const Vec2 p = site.point - middle.center, q = other.point - middle.center;
   const Vec2 g =
       round_of(other) * (q - p) + flat_of(other) * other.normal() - (ratio * flat) * site.normal();
@@ -117,18 +119,18 @@ Control pole_of_chord(const Site& a, const Site& b, const Disk& from, const Disk
           std::sqrt(weight_squared)};
 }
 
-/// The distance of a disk of a site from the centre of an arc, or from a vertex.
+/// The distance of a disk's centre from the centre of an arc, or from a vertex.
 double focal_distance(const Site& s, const Disk& disk) {
   return s.is_vertex() ? disk.radius
          : s.is_arc()  ? std::abs(1 / s.curvature - disk.radius)
                        : std::numeric_limits<double>::infinity();
 }
-/// The least one of an edge's ends.
+/// The smaller distance of an edge's two ends.
 double focal_distance(const Site& s, const Disk& from, const Disk& to) {
   return std::min(focal_distance(s, from), focal_distance(s, to));
 }
 
-/// A disk seen from the apex of the cone of all disks that touch an arc or a vertex.
+/// A disk relative to the apex of the cone of all disks that touch an arc or a vertex.
 struct ConeVector {
   Twofold x, y, r;
 };
@@ -136,7 +138,7 @@ Twofold product(const ConeVector& u, const ConeVector& v) {
   return u.x * v.x + u.y * v.y - u.r * v.r;
 }
 
-/// The left normal of a site, of unit length to twice the digits.
+/// The left unit normal of a site, in twofold precision.
 ConeVector unit_normal(const Site& s) {
   const Vec2 n = s.normal();
   if (s.is_vertex()) return {0.0, 0.0, 0.0};
@@ -144,13 +146,13 @@ ConeVector unit_normal(const Site& s) {
   return {Twofold(n.x) / size, Twofold(n.y) / size, 0.0};
 }
 
-/// The pole with twice the digits, of an edge that is not short against its distance from a focus.
-/// With d = (c - q, rho - r), q the arc's centre and rho its signed radius, the disks that touch
-/// the arc are a cone, P(d, d) = 0. So the pole is P-perpendicular to both ends, which gives its
-/// direction, and how far away it is follows from the plane of the edge, in which the other site's
-/// equation is linear. Each end is off the cone by its own rounding against its distance from the
-/// apex, and so is the curve near to it: from the mean of both ends, the near one would get what
-/// the far one is off. None where the equations leave it open.
+/// The pole in twofold precision, for an edge that is not short relative to its distance from a
+/// focus. Let d = (c - q, rho - r), with the arc's centre q and its signed radius rho. The disks
+/// that touch the arc form a cone, P(d, d) = 0. So the pole is P-perpendicular to both ends, which
+/// gives its direction; its distance follows from the plane of the edge, in which the other site's
+/// equation is linear. Each end is off the cone by its rounding relative to its distance from the
+/// apex, and so is the curve near this end. Using the mean of both ends would give the near end the
+/// error of the far one. None if the equations do not determine the pole.
 std::optional<Control> pole_of_cone(const Site& a, const Site& b, const Disk& from,
                                     const Disk& to) {
   const bool by_a = focal_distance(a, from, to) <= focal_distance(b, from, to);
@@ -164,7 +166,7 @@ std::optional<Control> pole_of_cone(const Site& a, const Site& b, const Disk& fr
   const ConeVector first = seen(from), last = seen(to);
   const ConeVector way{first.y * last.r - first.r * last.y, first.r * last.x - first.x * last.r,
                        first.y * last.x - first.x * last.y};
-  // flat (m.d - r) = round P(d, d) / 2 of the other site, seen from q.
+  // The other site's equation relative to q: flat (m.d - r) = round P(d, d) / 2.
   const Twofold flat = other.is_vertex() ? 0.0 : 1.0;
   const Twofold round = other.is_vertex() ? 1.0 : other.curvature;
   const Twofold ex = qx - other.point.x, ey = qy - other.point.y;
@@ -184,8 +186,9 @@ std::optional<Control> pole_of_cone(const Site& a, const Site& b, const Disk& fr
   return Control{pole, std::sqrt(weight_squared)};
 }
 
-/// How far the edge with this control point strays from touching both sites: in its middle, and
-/// next to its ends, where it may be bent most; next to a focus, on all scales down to rounding.
+/// The largest distance by which the edge with this control point fails to touch its sites.
+/// Measured in the middle and next to the ends, where it may be bent most; near a focus, on all
+/// scales down to rounding.
 double deviation(const Control& control, const Site& a, const Site& b, const Disk& from,
                  const Disk& to, bool near_focus) {
   Pair worst{};
@@ -199,7 +202,7 @@ double deviation(const Control& control, const Site& a, const Site& b, const Dis
     const Pair x = mean(from.center.x, point.center.x, to.center.x);
     const Pair y = mean(from.center.y, point.center.y, to.center.y);
     const Pair radius = mean(from.radius, point.radius, to.radius);
-    worst = larger(-radius, worst);  // what is no number is passed over
+    worst = larger(-radius, worst);  // ignores NaN
     for (const Site* s : {&a, &b})
       worst = larger(size_of(carrier_distances(*s, x, y) - radius), worst);
   };
@@ -210,8 +213,8 @@ double deviation(const Control& control, const Site& a, const Site& b, const Dis
   return std::max(worst[0], worst[1]);
 }
 
-/// The unit tangent (x, y) at a disk of the bisector of a and b, with the growth of the radius
-/// along it; in either direction.
+/// The unit tangent (x, y), in either direction, of the bisector of a and b at a disk, with the
+/// rate of the radius along it.
 DiskVector tangent_at(const Site& a, const Site& b, const Disk& disk) {
   const Vec2 to_a = outward(a, disk.center), to_b = outward(b, disk.center);
   const Vec2 sum = to_a + to_b, difference = left_of(to_a - to_b);
@@ -220,17 +223,17 @@ DiskVector tangent_at(const Site& a, const Site& b, const Disk& disk) {
   return {unit, 0.5 * dot(sum, unit)};
 }
 
-/// The same control point, where the tangents at both ends meet. Their parts up to there, u and v,
-/// have one product P(u, u) = P(v, v), and the weight is the square root of P(chord, chord) /
-/// (4 P(v, v)). That keeps the digits that the pole loses where centre and radius change almost
-/// alike. None where an end is the centre of an arc, or the tangents are nearly
+/// The same control point as the intersection of the tangents at both ends. The vectors u and v
+/// from the ends to the intersection satisfy P(u, u) = P(v, v), and the weight is the square root
+/// of P(chord, chord) / (4 P(v, v)). More accurate than the pole if centre and radius change at
+/// almost the same rate. None if an end is the centre of an arc, or if the tangents are nearly
 /// parallel.
 std::optional<Control> meeting_of_tangents(const Site& a, const Site& b, const Disk& from,
                                            const Disk& to) {
   const DiskVector first = tangent_at(a, b, from), last = tangent_at(a, b, to);
   const DiskVector chord{to.center - from.center, to.radius - from.radius};
-  // The common perpendicular of the two tangents is short: least squares, in each case without the
-  // part along the other tangent, which is where digits would cancel.
+  // The common perpendicular of the two tangents is short. Solve by least squares, each time
+  // without the component along the other tangent, in which digits would cancel.
   const auto inner = [](const DiskVector& u, const DiskVector& v) {
     return dot(u.c, v.c) + u.r * v.r;
   };
@@ -251,17 +254,17 @@ std::optional<Control> meeting_of_tangents(const Site& a, const Site& b, const D
   const double way = from_first ? s : t;
   const double weight_squared =
       product(chord, chord) / (4 * way * way * ((1 - along.r) * (1 + along.r)));
-  // On the way from the one end to the other.
+  // The intersection must lie between the ends.
   const bool between = s * ca > 0 && t * cb < 0;
   if (!(between && weight_squared > 0 && std::isfinite(weight_squared))) return std::nullopt;
   return Control{{end.center + way * along.c, end.radius + way * along.r},
                  std::sqrt(weight_squared)};
 }
 
-/// Whether the edge with this control point turns around a vertex, or an arc's centre, against its
-/// chord, or its foot on a segment turns back, by more than rounding. Where the other site all but
-/// passes through the vertex, or touches the circle or the line, disks touch both wherever they lie
-/// across the edge: how far it strays does not tell.
+/// Whether the edge with this control point turns around a vertex or an arc's centre in the
+/// direction opposite to its chord, or its foot on a segment moves back, by more than rounding.
+/// deviation() does not detect this if the other site almost passes through the vertex, or almost
+/// touches the circle or the line: then disks touch both sites wherever they lie across the edge.
 bool turns_back(const Control& control, const Site& a, const Site& b, const Disk& from,
                 const Disk& to) {
   constexpr double rounding = 0x1p-50;
@@ -278,9 +281,9 @@ bool turns_back(const Control& control, const Site& a, const Site& b, const Disk
     const Vec2 focus = focus_of(*s);
     const Vec2 first = from.center - focus, last = to.center - focus;
     const Vec2 between = control.point.center - focus;
-    // Opposite ends as seen from the focus leave open on which side the edge passes it.
+    // If the ends are opposite as seen from the focus, the edge may pass it on either side.
     if (s->is_arc() && !(dot(first, last) > 0)) continue;
-    // What rounding of centres, or of a focus far away, leaves open of their products.
+    // The error of the products by rounding of the centres, or of a distant focus.
     const double longest = std::sqrt(std::max(squared_norm(first), squared_norm(last)));
     const double size = longest * std::max(1.0, longest);
     const auto differ = [&](double u, double v, double least) {
@@ -294,7 +297,7 @@ bool turns_back(const Control& control, const Site& a, const Site& b, const Disk
   return false;
 }
 
-/// How far an edge's ends are from touching both sites.
+/// The largest distance by which the ends of an edge fail to touch its sites.
 double ends_stray(const Site& a, const Site& b, const Disk& from, const Disk& to) {
   const Pair x{from.center.x, to.center.x}, y{from.center.y, to.center.y};
   const Pair radius{from.radius, to.radius};
@@ -304,13 +307,13 @@ double ends_stray(const Site& a, const Site& b, const Disk& from, const Disk& to
   return std::max(worst[0], worst[1]);
 }
 
-/// How far an edge may stray from its sites: some roundings of local coordinates.
+/// The deviation that an edge may have: a few roundings of local coordinates.
 constexpr double few_roundings = 0x1p-50;
 
-/// The control point of an edge of two convex arcs that lie on one circle up to some roundings. The
-/// edge is a hyperbola whose foci are that far apart, so it leads straight along a line from the
-/// centre; or to the centre and away from it in another direction, turning closer to the centre
-/// than rounding. Empty for other edges, which leave digits to find the control point by.
+/// The control point of an edge of two convex arcs that lie on one circle up to a few roundings.
+/// The edge is a hyperbola with foci at that small distance: either a straight line from the
+/// centre, or a line to the centre and another one away from it, with a bend closer to the centre
+/// than rounding. Empty for other edges, whose control point can be computed accurately.
 std::optional<Control> control_at_common_centre(const Site& a, const Site& b, const Disk& from,
                                                 const Disk& to) {
   constexpr double rounding = 0x1p-52;
@@ -335,7 +338,7 @@ Control through_halfway(const Site& a, const Site& b, const Disk& from, const Di
   return {{2 * halfway.center - straight.center, 2 * halfway.radius - straight.radius}, 1};
 }
 
-/// Whether a curve leads beside its chord by less than 2^-26 of that.
+/// Whether a curve stays within 2^-26 of its chord's length from the chord.
 bool hardly_leaves_chord(const Control& control, const Disk& from, const Disk& to) {
   constexpr double hardly = 0x1p-26;
   const Vec2 chord = to.center - from.center;
@@ -343,10 +346,10 @@ bool hardly_leaves_chord(const Control& control, const Disk& from, const Disk& t
   return beside <= hardly * (1 + control.weight) * squared_norm(chord);
 }
 
-/// The control point of an edge with an arc: the pole, or where that strays or turns back, the
-/// meeting of tangents. An edge for which neither helps is so nearly straight that a parabola
-/// through the disk halfway does better, or turns around a focus: there the pole with twice the
-/// digits does, which sites that are nearly tangent would leave open.
+/// The control point of an edge with an arc: the pole, or if this deviates or turns back, the
+/// intersection of tangents. If neither is accurate, the edge is either almost straight, for which
+/// a parabola through the disk halfway is better, or turns around a focus, for which the pole in
+/// twofold precision is better (sites that are nearly tangent would not determine that pole).
 Control control_with_arc(const Site& a, const Site& b, const Disk& from, const Disk& to) {
   constexpr double long_enough = 0x1p-7, curved = 0x1p-3, short_line = 0x1p-46;
   Control best = pole_of_chord(a, b, from, to);
@@ -357,19 +360,19 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
   if (const auto control = control_at_common_centre(a, b, from, to)) return *control;
   const bool near_focus = focal < curved * length;
   double strays = deviation(best, a, b, from, to, near_focus);
-  // Where the sites are nearly tangent, all disks beyond the ends touch both as well, and so do
-  // those of negative radius.
+  // If the sites are nearly tangent, all disks beyond the ends touch both as well, including those
+  // of negative radius.
   const Vec2 chord = to.center - from.center;
   const auto is_between = [&](Vec2 center) {
     const double along = dot(center - from.center, chord);
     return along >= 0 && along <= squared_norm(chord);
   };
   const Control straight{middle_of(from, to), 1};
-  // A line that strays no further than the ends do is as good as a curve that leads another way
-  // around a focus, beside joints that are smooth but for some tolerances; and as a curve that
-  // hardly leaves its chord, as where two sites are seen as one: how far it does so is rounding. A
-  // line so short need not be measured: as distances change by no more than the place, it strays by
-  // half its length at most, and 2^-47 is less than verify() allows a size of one.
+  // A line that deviates no more than the ends do is as good as a curve that passes a focus on the
+  // other side, next to joints that are smooth up to a few tolerances; and as good as a curve that
+  // hardly leaves its chord, for example if two sites are almost one, because its deviation is only
+  // rounding. A very short line need not be measured: distances change by at most the displacement,
+  // so it deviates by at most half its length, and 2^-47 is less than verify() allows for size one.
   const bool leads_between = is_between(best.point.center);
   if (!leads_between && length <= short_line) return straight;
   const bool is_doubtful = !leads_between || hardly_leaves_chord(best, from, to);
@@ -378,9 +381,9 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
       deviation(straight, a, b, from, to, near_focus) <= enough)
     return straight;
   bool is_lost = turns_back(best, a, b, from, to);
-  // A candidate that does not turn back is better than one that does, unless it strays further than
-  // that and than a line may between ends off by so much, or by more than verify() allows: around
-  // the tip of a slit narrower than rounding, edges turn back.
+  // A candidate that does not turn back is better than one that does, unless it deviates by more
+  // than that one and than a line may between such ends, or by more than verify() allows: around
+  // the tip of a slit narrower than rounding, edges do turn back.
   const double of_line = is_lost ? 2 * ends_stray(a, b, from, to) + few_roundings : 0;
   const auto take_if_better = [&](const Control& control) {
     const double now = deviation(control, a, b, from, to, near_focus);
@@ -399,8 +402,8 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
   if (const Control bent = through_halfway(a, b, from, to); is_between(bent.point.center))
     take_if_better(bent);
   take_if_better(straight);
-  // An end that a tie has moved would be followed across the edge. One that is only rounded may be
-  // off by some roundings, and what measures it by as many.
+  // The edge would follow an end that a tie has moved. An end that is only rounded may be off by a
+  // few roundings, and its measured distance by as many.
   if (is_good() || ends_stray(a, b, from, to) > 4 * few_roundings) return best;
   if (const auto exact = pole_of_cone(a, b, from, to)) take_if_better(*exact);
   return best;
@@ -440,7 +443,7 @@ double Bisector::last_position(const Disk& near, double limit) const {
     const double end = reference == &right ? scale * right.length : 0;
     double low = position(near.center), high = end;
     if (!(low < high) || disk_at(end, near).radius <= limit) return end;
-    constexpr int halvings = 40;  // what is left of the interval is no matter
+    constexpr int halvings = 40;  // the remaining interval is negligible
     for (int i = 0; i < halvings; ++i) {
       const double middle = 0.5 * (low + high);
       (disk_at(middle, near).radius <= limit ? low : high) = middle;
@@ -455,13 +458,13 @@ double Bisector::last_position(const Disk& near, double limit) const {
   if (right.is_vertex() || left.is_vertex()) {
     const Site& segment = right.is_vertex() ? left : right;
     const Vec2 vertex = right.is_vertex() ? right.point : left.point;
-    // Over the segment's line, a vertex at height y is reached by r = (x^2 + y^2) / (2 y).
+    // A disk over the segment's line touches a vertex at height y if r = (x^2 + y^2) / (2 y).
     const double y = cross(segment.direction, vertex - segment.point);
     const double x = std::sqrt(std::max(0.0, (2 * limit - y) * y));
     return dot(direction, vertex) + x;
   }
-  // Two segments: the radius is linear along the bisector, and so are the feet, which leave their
-  // segments in the end.
+  // Two segments: the radius and the feet are linear along the bisector, and the feet eventually
+  // leave their segments.
   const double slope = dot(right.normal(), direction);
   const double drift = std::abs(dot(right.direction, direction));
   double reach = (right.length + left.length) / drift;
@@ -477,7 +480,7 @@ Control control_of(const Site& a, const Site& b, const Disk& from, const Disk& t
                               ? control_of_vertices(a.point, b.point, from, to)
                           : a.is_vertex() ? control_of_parabola(b, a.point, from, to)
                                           : control_of_parabola(a, b.point, from, to);
-  // Between sites that no double lies between, the radii are rounding.
+  // If no double lies between the sites, the radii are only rounding errors.
   const Disk& point = control.point;
   return std::isfinite(point.center.x + point.center.y + point.radius + control.weight) &&
                  control.weight > 0

@@ -16,32 +16,34 @@ namespace {
 
 using site::Site;
 
-/// What single precision (u = 2^-24) may add to the distance from a box, for local coordinates
-/// below 2 and distances below 4. Along each axis: the query's centre rounded, 2 u; the difference,
-/// below 4, rounded, 4 u; the box is rounded outward, which is the safe side. Both axes together: 6
-/// sqrt(2) u < 8.5 u. The squares and their sum round by 2 u of the squared distance, u of the
-/// distance: 4 u; the limit's square by half of that. In all less than 14.5 u; this is 16 u.
+/// A bound for the error of single precision (u = 2^-24) in the distance from a box, for local
+/// coordinates below 2 and distances below 4. Along each axis, the query's centre rounds by 2 u,
+/// and the difference, below 4, by 4 u; boxes are rounded outward, which is safe. Both axes
+/// together: 6 sqrt(2) u < 8.5 u. The squares and their sum round by 2 u of the squared distance,
+/// which is u of the distance: 4 u; the limit's square rounds by half of that. The sum is
+/// below 14.5 u; the constant is 16 u.
 constexpr double single_precision_slack = 0x1p-20;
 
-/// Boxes along chords are on the levels of nodes of 8 to 512 sites: larger ones are few.
+/// Nodes of 8 to 512 sites have boxes along chords; there are few larger nodes.
 constexpr std::size_t chord_levels = 4;
-/// Those of many sites in little room pay for searches that reach far, whatever their height.
+/// From this level on, boxes of many sites in a small place pay off for long-range searches,
+/// whatever their height.
 constexpr std::uint32_t level_of_many = 2;
 static_assert(many_sites == std::size_t{8} << (2 * level_of_many));
-/// A level has them where at least one node in so many has one. Boxes of 8 sites take more memory
-/// than all others.
+/// A level stores chord boxes if at least one of this many nodes has one. Boxes of 8 sites take
+/// more memory than all others.
 constexpr std::size_t rare_of(std::uint32_t level) { return level == 0 ? 2 : 16; }
 
-/// Sites are ordered in the plane where boxes have together more than so many times the area of the
-/// box of all of them.
+/// Sites are ordered in the plane if the boxes together have more than this many times the area of
+/// the box around them.
 constexpr double least_overlap_in_plane = 8;
-/// So many levels up, a lane stands for 64 boxes.
+/// This many levels up, a lane covers 64 boxes.
 constexpr std::size_t levels_above = 3;
 
 double area(const Boxes& boxes, std::size_t lane) {
   const double width = boxes.high_x[lane] - boxes.low_x[lane],
                height = boxes.high_y[lane] - boxes.low_y[lane];
-  return width > 0 && height > 0 ? width * height : 0;  // of nothing, too
+  return width > 0 && height > 0 ? width * height : 0;  // also for the empty box
 }
 
 struct Waiting {
@@ -98,8 +100,7 @@ void BoundaryTree::build_boxes() {
   }
 }
 
-/// Whether boxes overlap, on any level that searches go through, in a good part of the
-/// boundary.
+/// Whether boxes overlap in a large part of the boundary, on any level that searches visit.
 bool BoundaryTree::boxes_overlap(std::uint32_t lowest) const {
   for (std::size_t level = lowest;
        level + levels_above < levels_.size() && span_of(level + levels_above) <= longest_range_;
@@ -126,7 +127,7 @@ bool BoundaryTree::boxes_overlap_on(std::size_t level) const {
   return overlapping * good_part * span_of(above) > sites_.size();
 }
 
-/// The areas of a node's four lanes together: the smaller one of each one's boxes.
+/// The sum of the areas of a node's four lanes, each with the smaller one of its boxes.
 double BoundaryTree::areas_of(std::size_t level, std::size_t node) const {
   const bool has_chords = level < chords_.size() && !chords_[level].boxes.empty();
   double sum = 0;
@@ -137,8 +138,8 @@ double BoundaryTree::areas_of(std::size_t level, std::size_t node) const {
   return sum;
 }
 
-/// Where boxes along chords overlap, those along the sites of a node may not, as around needles; if
-/// these do, too, orders sites in the plane.
+/// If boxes along chords overlap, uses boxes along the sites of a node, which may not overlap, as
+/// around needles. If these overlap, too, orders sites in the plane.
 void BoundaryTree::build_boxes_along(std::uint32_t lowest) {
   chords_.clear();
   in_plane_.resize(sites_.size());
@@ -181,7 +182,7 @@ void BoundaryTree::build_chord_boxes(std::uint32_t lowest) {
       return lanes * rare_of(level) * span_of(level) < sites_.size();
     };
     WorkVector<ChordBoxes>& boxes = chords_[level].boxes;
-    // Where few of a sample fit, the level takes no memory.
+    // If few nodes of a sample have a box, the level stores none.
     constexpr std::size_t sampled = 16;
     if (nodes > sampled * sampled) {
       std::atomic<std::size_t> lanes = 0;
@@ -223,8 +224,8 @@ void BoundaryTree::set_chord_boxes(std::size_t level, std::size_t node, ChordBox
 
 namespace {
 
-/// Of the four children from `child` on, as bits, those in [first, last]; without branches, which
-/// nobody could predict.
+/// Of the four children from `child` on, those in [first, last], as bits. Branchless, because the
+/// branches would be unpredictable.
 inline std::uint32_t children_within(std::uint32_t child, std::uint32_t first, std::uint32_t last) {
   const auto skipped = [](std::uint32_t from, std::uint32_t to) {
     return std::max(static_cast<std::int32_t>(to - from), 0);
@@ -234,8 +235,8 @@ inline std::uint32_t children_within(std::uint32_t child, std::uint32_t first, s
 
 using Stack = std::array<Waiting, 4 * 16 + 4>;
 
-/// The nearest of the children in `mask`, at least one; the others wait, the farthest at the
-/// bottom.
+/// Returns the nearest of the children in `mask` (at least one), and pushes the others, the
+/// farthest at the bottom.
 [[gnu::always_inline]] inline Waiting take_nearest(std::uint32_t mask, std::uint32_t child,
                                                    std::uint32_t level, const Lanes& squared,
                                                    Stack& stack, std::size_t& size) {
@@ -253,7 +254,8 @@ using Stack = std::array<Waiting, 4 * 16 + 4>;
   return top;
 }
 
-/// The first of the children in `mask`, at least one; the others wait, the last at the bottom.
+/// Returns the first of the children in `mask` (at least one), and pushes the others, the last at
+/// the bottom.
 [[gnu::always_inline]] inline Waiting take_first(std::uint32_t mask, std::uint32_t child,
                                                  std::uint32_t level, const Lanes& squared,
                                                  Stack& stack, std::size_t& size) {
@@ -305,8 +307,9 @@ template <BoundaryTree::Order order, class Visit>
   };
   float limit = squared_reach();
 
-  // In the boundary's order, the ends of a range lie next to a disk's two feet, where most is near:
-  // they are visited at once. Then the lowest node over what is left; in the plane, the root.
+  // In boundary order, the ends of a range are next to a disk's two feet, where most nearby sites
+  // are, so these blocks are visited first. Then comes the lowest node over the rest; in the
+  // plane's order, the root.
   std::uint32_t first_block = in_plane_.empty() ? first / block_size : 0;
   std::uint32_t last_block = (in_plane_.empty() ? last : last_of_all()) / block_size;
   if (order == Order::nearest_first && in_plane_.empty()) {
@@ -351,8 +354,8 @@ template <BoundaryTree::Order order, class Visit>
 
 namespace {
 
-/// Whether a site is surely not nearer to c than `reach`, whatever rounding does: none is longer
-/// than its parameter.
+/// Whether a site is certainly not nearer to c than `reach`, in spite of rounding. A site is not
+/// longer than the parameter of its end.
 inline bool is_out_of_reach(const Site& site, Vec2 c, double reach) {
   constexpr double a_little_more = 1 + 0x1p-40;
   const double far = a_little_more * (reach + site.length);
@@ -402,7 +405,7 @@ BoundaryTree::Hit BoundaryTree::nearest_facing(Vec2 c, double reach, std::uint32
                                                std::uint32_t last) const {
   Hit front, back;
   if (first > last || !(reach > 0)) return front;
-  // What two distances to one place may differ by.
+  // The difference that rounding may cause between two distances to one place.
   constexpr double rounding = 0x1p-48;
   front.squared_distance = back.squared_distance = reach * reach;
   double limit = reach * reach;
@@ -436,7 +439,7 @@ MEDIAL_WIDE void BoundaryTree::within(Vec2 c, double reach, std::uint32_t first,
                                       std::vector<std::uint32_t>& found) const {
   found.clear();
   if (first > last || !(reach > 0)) return;
-  const double squared = std::nextafter(reach * reach, 0);  // nearer than the reach: up to this
+  const double squared = std::nextafter(reach * reach, 0);  // the largest that is nearer
   visit_blocks<Order::in_turn>(c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
     look_at_each(
         c, from, to, [&] { return squared; },
@@ -458,7 +461,7 @@ bool BoundaryTree::few_within(Vec2 c, double reach, std::size_t most,
                                          if (site::squared_distance(sites_[from], c) < squared)
                                            found.push_back(from);
                                        if (found.size() > most)
-                                         reach = -single_precision_slack;  // nothing is that near
+                                         reach = -single_precision_slack;  // ends the search
                                      });
   return found.size() <= most;
 }

@@ -9,18 +9,19 @@
 namespace medial::site {
 namespace {
 
-/// What rounding (u = 2^-53) may do to a height above a chord, or to a position along it. A sum of
-/// two products with a local point below 2 in both coordinates: 4 sqrt(2) u < 6 u, once for the
-/// boundary's point and once for the query's centre; the end of a site, 4 roundings below 2, or the
-/// next one's start instead, up to 8 u away in both coordinates: 12 u; a direction that is a unit
-/// vector up to 3 u, times a distance below 4: 12 u. That makes 36 u; this is 64 u.
+/// A bound for the rounding error (u = 2^-53) of a height above a chord, or of a position along it.
+/// A sum of two products with a local point whose coordinates are below 2: 4 sqrt(2) u < 6 u, once
+/// for the boundary's point and once for the query's centre. The end of a site, 4 roundings below
+/// 2, or the next site's start in its place, up to 8 u away in both coordinates: 12 u. A direction
+/// that is a unit vector up to 3 u, times a distance below 4: 12 u. The sum is 36 u; the constant
+/// is 64 u.
 constexpr double chord_rounding = 0x1p-47;
-/// Chord boxes pay where the boundary strays from the chord by no more than this share of it.
+/// Chord boxes pay off if the boundary is within this share of the chord's length from the chord.
 constexpr double flat_enough = 1.0 / 16;
 
-/// The normal of the line that a boundary shows to what lies on its left, through the highest
-/// points of its first and of its last third; that of its chord where these are near to each other.
-/// Of a staircase, or of a row of holes, no box in another direction keeps as clear.
+/// The normal of the line through the highest points (to the left) of the first and of the last
+/// third of a boundary, or of its chord if these points are close together. For a staircase or a
+/// row of holes, a box in this direction is tightest on the left.
 Vec2 facing_normal(std::span<const Site> sites, Vec2 begin, Vec2 chord) {
   const auto highest = [&](std::span<const Site> some, Vec2 so_far) {
     double height = 0;
@@ -39,7 +40,7 @@ Vec2 facing_normal(std::span<const Site> sites, Vec2 begin, Vec2 chord) {
   return left_of((1 / norm(along)) * along);
 }
 
-/// A box of no point yet, which grows.
+/// A box that grows, empty at first.
 struct GrowingBox {
   ChordBox box;
 
@@ -72,7 +73,7 @@ std::optional<ChordBox> chord_box(std::span<const Site> sites) {
   constexpr double shortest = 0x1p-500;  // a unit vector needs its square
   if (!(length > shortest)) return std::nullopt;
   const bool may_be_high = sites.size() >= many_sites && length <= little_room;
-  // Most that do not fit are recognised by a few of their points.
+  // A few points suffice to reject most boundaries.
   for (std::size_t i = 1; i < 4 && !may_be_high; ++i) {
     const Site& site = sites[i * sites.size() / 4];
     if (!is_inside(site) || std::abs(cross(chord, site.point - begin)) > highest * length)

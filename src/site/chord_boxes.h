@@ -12,20 +12,20 @@
 
 namespace medial::site {
 
-/// Beyond this a site belongs to no box: cuts, as bridges leave them, lie there.
+/// A site beyond this belongs to no box. The cuts of bridges are stored there.
 constexpr double outside = 64;
 inline bool is_inside(const Site& site) { return std::abs(site.point.x) <= outside; }
 
-/// A box in any direction around some sites: all their points p have normal . p in [low, high] and,
-/// with `along` the normal turned to the right, along . p in [begin, end].
+/// An oriented box around sites. All their points p have normal . p in [low, high] and along . p in
+/// [begin, end], where `along` is the normal turned to the right.
 struct ChordBox {
   Vec2 normal;
   double low, high, begin, end;
-  bool is_flat = false;  ///< the sites stray little from their chord
+  bool is_flat = false;  ///< the sites are close to their chord
 };
 
-/// Boxes in any direction of a node's four lanes, in double precision: next to large disks the
-/// boundary is all but touched. A lane without such a box has infinite bounds.
+/// The oriented boxes of a node's four lanes. In double precision, because a large disk may almost
+/// touch the boundary. A lane without such a box has infinite bounds.
 struct alignas(64) ChordBoxes {
   static constexpr std::uint32_t fan = 4;
   std::array<Pair, fan / 2> normal_x, normal_y, low, high, begin, end;
@@ -49,20 +49,20 @@ struct alignas(64) ChordBoxes {
   }
 };
 
-/// The box along the chord of a piece of a boundary. None where the boundary strays from it, but
-/// for many sites in little room, whatever their height: next to disks that are much larger, all
-/// teeth of a comb, and all holes in a row, are all but touched. O(n).
+/// The box along the chord of a piece of a boundary. None if the boundary is far from its chord,
+/// unless it has many sites in a small place: a much larger disk almost touches all teeth of a
+/// comb, or all holes in a row. O(n).
 std::optional<ChordBox> chord_box(std::span<const Site> sites);
 constexpr std::size_t many_sites = 128;
 constexpr double little_room = 0x1p-8;
 
-/// From a site's start to its end; nothing of a cut.
+/// From a site's start to its end; zero for a cut.
 inline Vec2 chord_of(const Site& site) {
   return is_inside(site) ? site.end() - site.point : Vec2{};
 }
 
-/// The box of some sites, which need not follow each other, along the main direction of their
-/// chords; none of cuts alone. O(n).
+/// The box of sites, which need not be consecutive, along the main direction of their chords; none
+/// if all are cuts. O(n).
 std::optional<ChordBox> box_along(std::span<const Site> sites,
                                   std::span<const std::uint32_t> indices);
 

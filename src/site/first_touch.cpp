@@ -16,19 +16,20 @@ using site::Site;
 
 constexpr double rounding = FirstTouch::distance_rounding;
 
-/// A radius that is further off is not known. A disk's distance from a site changes by up to twice
-/// as much as its radius: sites that are so near to it are looked at as well.
+/// A radius with a larger error counts as unknown. The distance of a disk from a site changes by up
+/// to twice as much as the radius, so sites within twice this distance are examined as well.
 constexpr double largest_error = 0x1p-40;
 constexpr double looked_at = rounding + 2 * largest_error;
 
-/// What single precision (u = 2^-24) may add to the distance of a disk's centre from a box or a
-/// slab, for radii below 4. The centre lies below 8 and rounds by 4 u in each coordinate; the
-/// difference to a box by 8 u: for both axes together 17 u. The squares, their sum and the limit
-/// add 3 u of a distance below 4: 12 u. A slab's normal is what its bounds were computed with;
-/// centre, products, sum and difference add less than 6 u + 16 u + 8 u. This is 64 u.
+/// A bound for the error of single precision (u = 2^-24) in the distance of a disk's centre from a
+/// box or a slab, for radii below 4. The centre's coordinates are below 8 and round by 4 u each;
+/// the differences to a box round by 8 u: for both axes together 17 u. The squares, their sum and
+/// the limit add 3 u of a distance below 4: 12 u. A slab's bounds were computed with the same
+/// rounded normal; centre, products, sum and difference add less than 6 u + 16 u + 8 u. The
+/// constant is 64 u.
 constexpr double single_precision_reach = 0x1p-18;
 
-/// Sets of more sites get no slab: it would be about as wide as the box.
+/// Larger sets get no slab, because it would be about as wide as the box.
 constexpr std::size_t largest_slab = 512;
 
 }  // namespace
@@ -100,7 +101,7 @@ void FirstTouch::build_level(std::size_t run) {
   levels_.push_back(std::move(level));
 }
 
-/// The lanes whose slabs are further from (x, y) than the reach, as bits.
+/// The lanes whose slabs are farther from (x, y) than the reach, as bits.
 std::uint32_t FirstTouch::beside(const Slabs& slabs, float x, float y, float reach) {
   const Lanes height = slabs.normal_x * x + slabs.normal_y * y;
   return bits_of(larger(slabs.low - height, height - slabs.high) >= reach);
@@ -110,7 +111,7 @@ bool FirstTouch::Search::is_within(const Entry& entry, double reach) const {
   return site::squared_distance(entry.site, center) < (radius + reach) * (radius + reach);
 }
 
-/// Shrinks the disk to one that a site touches, and notes the sites that it may touch.
+/// Shrinks the disk if it reaches over the site, and records the sites that it may touch.
 void FirstTouch::Search::look_at(const Entry& entry) {
   const double smaller = site::touching_radius(foot, direction, entry.site);
   if (smaller < radius) {
@@ -128,10 +129,10 @@ void FirstTouch::Search::look_at(const Entry& entry) {
   count = std::min(count + 1, many + 1);
 }
 
-/// While the disk grows, its distance from the site falls at the rate 1 - cos(angle), the angle
-/// between its directions of growth and of contact. So the radius is off by the rounding of the
-/// distance divided by that rate. To second order this holds where the error is a small part of the
-/// radius, and of how far the centre is from that of an arc.
+/// While the disk grows, its distance from the site falls at the rate 1 - cos(angle), where the
+/// angle is between its directions of growth and of contact. So the error of the radius is the
+/// rounding error of the distance divided by this rate. To second order, this holds if the error is
+/// small relative to the radius and to the distance between the centres of the disk and of an arc.
 std::optional<FirstTouch::Touch> FirstTouch::Search::touch() const {
   if (found == nullptr) return std::nullopt;
   constexpr double part = 0x1p-6;
@@ -151,7 +152,7 @@ std::optional<FirstTouch::Touch> FirstTouch::Search::touch() const {
   return touch;
 }
 
-/// Shrinks the disk until it keeps clear of the sites of a block.
+/// Shrinks the disk until it does not reach over any site of a block.
 void FirstTouch::search_block(std::uint32_t block, Search& search) const {
   const auto look_at = [&](const Entry& entry) {
     if (entry.index >= search.first && entry.index <= search.last) return;
@@ -183,7 +184,7 @@ MEDIAL_WIDE std::optional<FirstTouch::Touch> FirstTouch::find(Vec2 foot, Vec2 di
     std::uint32_t level, index;
     float from_foot;
   };
-  // Three brothers wait on each of at most 16 levels.
+  // Three siblings wait on each of at most 16 levels.
   std::array<Waiting, 3UL * 16 + fan> stack;
   std::size_t size = 0;
   stack[size++] = {static_cast<std::uint32_t>(levels_.size()), 0, 0};
@@ -201,7 +202,7 @@ MEDIAL_WIDE std::optional<FirstTouch::Touch> FirstTouch::find(Vec2 foot, Vec2 di
     nearer(bounds.boxes, foot_x, foot_y, 0, from_foot);
     std::uint32_t mask =
         nearer(bounds.boxes, x, y, reach * reach, from_center) & ~beside(bounds.slabs, x, y, reach);
-    // The one nearest to the foot goes on top: there the disk shrinks most.
+    // The node nearest to the foot goes on top, because it shrinks the disk most.
     const std::size_t bottom = size;
     for (; mask != 0; mask &= mask - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(mask));
@@ -271,7 +272,7 @@ MEDIAL_WIDE std::optional<FirstTouch::Touch> FirstTouch::find(Vec2 foot, Vec2 di
       waiting.push_back({node * static_cast<std::uint32_t>(fan) + lane, from_foot[lane]});
     }
   }
-  // Nearest to the foot first: there the disk shrinks most.
+  // The blocks nearest to the foot come first, because they shrink the disk most.
   std::sort(waiting.begin(), waiting.end(), [](const Region::Block& a, const Region::Block& b) {
     return a.from_foot < b.from_foot;
   });

@@ -12,12 +12,12 @@
 
 namespace medial::site {
 
-/// Answers: which site does a disk reach first that touches a given point and grows away from it?
+/// Finds the site that a disk reaches first which touches a given point and grows away from it.
 ///
-/// A box tree over the sites in spatial order: the boxes of loops that are nested in each other all
-/// overlap in boundary order, and every search would have to look into each of them. Smaller disks
-/// of the family lie inside larger ones, so one descent finds the answer: what is beyond a disk
-/// stays beyond while it shrinks. O(n) to build, O(log n) expected for each answer.
+/// A box tree over the sites in spatial order. In boundary order, the boxes of nested loops would
+/// all overlap, and every search would visit each of them. The smaller disks of such a family lie
+/// inside the larger ones, so one descent suffices: a site beyond a disk stays beyond it while the
+/// disk shrinks. O(n) to build, O(log n) expected per search.
 class FirstTouch {
  public:
   /// A tree of the sites with the given indices; site i belongs to group groups[i]. Sites must lie
@@ -28,25 +28,25 @@ class FirstTouch {
   struct Touch {
     std::uint32_t site = 0;
     double radius = 0;
-    double error = 0;         ///< how far the radius may be from that of the exact disk
-    std::uint32_t count = 1;  ///< of edges that the exact disk may touch: the two sides of one once
+    double error = 0;         ///< bound on the error of the radius
+    std::uint32_t count = 1;  ///< edges that the exact disk may touch; both sides of one count once
   };
-  /// What rounding may add to the distance of a disk's centre from a site, for local coordinates
-  /// below 2 and distances below 4, and to the end of a site.
+  /// A bound for the rounding error of the distance of a disk's centre from a site, for local
+  /// coordinates below 2 and distances below 4, and of the end of a site.
   static constexpr double distance_rounding = 0x1p-48;
-  static constexpr std::uint32_t many = 8;  ///< the count where double cannot tell
+  static constexpr std::uint32_t many = 8;  ///< the count if double cannot decide
   /// The first site that the disk of radius r around foot + r direction reaches, from either side,
-  /// while r grows from 0 to `largest`, of all sites of the group but those from first to last,
-  /// both included; none where it reaches none. Of sites that it reaches at the same radius, any.
-  /// The foot must lie in the local frame, `largest` be below 4.
+  /// while r grows from 0 to `largest`, if any. Considers the sites of the group except first..last
+  /// (inclusive). Of sites reached at the same radius, returns any. The foot must lie in the local
+  /// frame, and `largest` must be below 4.
   std::optional<Touch> find(Vec2 foot, Vec2 direction, double largest, std::uint32_t group,
                             std::uint32_t first, std::uint32_t last) const;
 
-  /// The lowest nodes of the tree whose boxes meet a region: one descent for many searches in it.
-  /// Of a region with very many of them, none.
+  /// The lowest nodes of the tree whose boxes meet a region, which many searches in it then share.
+  /// Empty if the region has very many such nodes.
   class Region {
    public:
-    /// Whether all of a disk lies in the region, so that a search may begin here.
+    /// Whether the region contains a disk, so that its search may begin here.
     bool holds(Vec2 center, double radius) const {
       return center.x - radius >= box_.low.x && center.y - radius >= box_.low.y &&
              center.x + radius <= box_.high.x && center.y + radius <= box_.high.y;
@@ -58,12 +58,12 @@ class FirstTouch {
       std::uint32_t index;
       float from_foot;
     };
-    Extent box_;  ///< of nothing where there are too many nodes
+    Extent box_;  ///< empty if there are too many nodes
     std::vector<std::uint32_t> nodes_;
-    std::vector<Block> waiting_;  ///< of the search under way
+    std::vector<Block> waiting_;  ///< of the current search
   };
   void look_around(const Extent& box, Region& region) const;
-  /// find() of a disk that the region holds.
+  /// find() for a disk that the region holds.
   std::optional<Touch> find(Vec2 foot, Vec2 direction, double largest, std::uint32_t group,
                             std::uint32_t first, std::uint32_t last, Region& region) const;
 
@@ -79,9 +79,9 @@ class FirstTouch {
     site::Site site;
     std::uint32_t index;
   };
-  /// Of four sets of sites side by side: slabs low <= normal . p <= high along each set's longest
-  /// segment, which hold slanted segments tighter than boxes do, in single precision. Without a
-  /// normal, a slab is everything.
+  /// The slabs low <= normal . p <= high of four sets of sites, along each set's longest segment,
+  /// in single precision. They bound slanted segments more tightly than boxes. A slab without a
+  /// normal is the whole plane.
   struct alignas(64) Slabs {
     Lanes normal_x{}, normal_y{}, low = -all_endless, high = all_endless;
   };
@@ -90,7 +90,7 @@ class FirstTouch {
     Slabs slabs;
   };
 
-  /// A search under way: the disk so far, the site that it touches, and those near to it.
+  /// The state of a search: the current disk, the site that it touches, and the sites near it.
   struct Search {
     Vec2 foot, direction;
     std::uint32_t group, first, last;
@@ -98,7 +98,7 @@ class FirstTouch {
     Vec2 center;
     const Entry* found = nullptr;
     std::array<const Entry*, many> near = {};
-    std::uint32_t count = 0;  ///< of those in `near`; beyond that, they were too many
+    std::uint32_t count = 0;  ///< of the sites in `near`; above its size, there were too many
 
     void look_at(const Entry& entry);
     std::optional<Touch> touch() const;

@@ -13,21 +13,22 @@ namespace medial::site {
 enum class Joint : std::uint8_t {
   corner,  ///< at a convex angle: a leaf of the axis
   blunt,   ///< at a convex angle below the corner angle: no leaf
-  smooth,  ///< with one tangent: a disk may touch both edges there
+  smooth,  ///< with a common tangent: a disk may touch both edges there
   reflex,  ///< at a reflex angle: the vertex is a site
 };
 
-/// The joint where `before` ends and `after` begins; at least one is an arc.
+/// The joint where `before` ends and `after` begins. At least one of them is an arc.
 ///
-/// Directions count as one below the angle that rounding of the coordinates leaves open: 1e-12
-/// (alone at a cusp), and four times `tolerance` (that of the coordinates, in their units) against
-/// the chords; but no more than 1e-7, where a disk as large as the shape that touches one edge
-/// reaches over the other by 1e-14 of its size. At a cusp the interior is inside or around it as
-/// the edges lie next to each other where they are further apart, at the end of the shorter one or
-/// halfway: as build_shape() does for their pieces. It is a cusp as well where they cross again
-/// before they are `tolerance` apart: s from it, they are (sine - (sum of the curvatures) s / 2) s
-/// apart, which is at most sine^2 / (2 (sum of the curvatures)), and nothing at the end of the
-/// chord 2 sine / (sum of the curvatures). `corner_angle` in radians.
+/// Two directions count as equal if their angle is below the uncertainty that rounding of the
+/// coordinates causes: 1e-12 (only this at a cusp), and four times `tolerance` (of the coordinates,
+/// in their units) relative to the chords; but at most 1e-7, at which a disk as large as the shape
+/// that touches one edge reaches over the other by 1e-14 of its size. At a cusp, the interior is
+/// inside or around it; this follows from the relative position of the edges where they are farther
+/// apart, at the end of the shorter one or halfway, as in build_shape(). A joint also counts as a
+/// cusp if the edges cross again before they are `tolerance` apart: at distance s from it, they are
+/// (sine - (sum of the curvatures) s / 2) s apart, which is at most sine^2 / (2 (sum of the
+/// curvatures)), and zero at the end of the chord 2 sine / (sum of the curvatures). `corner_angle`
+/// is in radians.
 inline Joint joint_of(const BulgeArc& before, const BulgeArc& after, double tolerance,
                       double corner_angle) {
   constexpr double least = 1e-12, most = 1e-7;

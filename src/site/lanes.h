@@ -9,7 +9,7 @@
 #include "medial/geometry.h"
 #include "site/site.h"
 
-// Four boxes or two sites side by side: what both trees do all the time.
+// SIMD kernels of both trees: tests of four boxes or two sites at a time.
 
 namespace medial::site {
 
@@ -17,7 +17,7 @@ constexpr float endless = std::numeric_limits<float>::infinity();
 constexpr Lanes all_endless{endless, endless, endless, endless};
 inline float least_of(Lanes v) { return std::min({v[0], v[1], v[2], v[3]}); }
 
-/// A box under way.
+/// A box under construction.
 struct Extent : Box {
   Extent() : Box(nothing()) {}
   using Box::add;
@@ -28,14 +28,14 @@ struct Extent : Box {
   }
 };
 
-/// The nearest numbers of single precision that are not above, or below, v.
+/// The nearest float that is not above (rounded_down) or not below (rounded_up) v.
 inline float rounded_down(double v) {
   const auto f = static_cast<float>(v);
   return static_cast<double>(f) <= v ? f : std::nextafter(f, -endless);
 }
 inline float rounded_up(double v) { return -rounded_down(-v); }
 
-/// The boxes of a node's four children; of nothing, nothing is near.
+/// The boxes of a node's four children. Nothing is near an empty box.
 struct alignas(64) Boxes {
   Lanes low_x = all_endless, low_y = all_endless, high_x = -all_endless, high_y = -all_endless;
 
@@ -45,7 +45,7 @@ struct alignas(64) Boxes {
     high_x[lane] = rounded_up(extent.high.x);
     high_y[lane] = rounded_up(extent.high.y);
   }
-  /// Makes a lane the box of all four of another node.
+  /// Sets a lane to the box around all four boxes of another node.
   void set(std::size_t lane, const Boxes& all) {
     low_x[lane] = least_of(all.low_x);
     low_y[lane] = least_of(all.low_y);
@@ -54,8 +54,8 @@ struct alignas(64) Boxes {
   }
 };
 
-/// Sets squared[i] to the squared distance of (x, y) from box i, and returns the set of the lanes
-/// where it is below `limit`, as bits.
+/// Sets squared[i] to the squared distance of (x, y) from box i. Returns the lanes where it is
+/// below `limit`, as bits.
 inline std::uint32_t nearer(const Boxes& boxes, float x, float y, float limit, Lanes& squared) {
   const Lanes dx = larger(larger(boxes.low_x - x, x - boxes.high_x), Lanes{});
   const Lanes dy = larger(larger(boxes.low_y - y, y - boxes.high_y), Lanes{});
@@ -63,8 +63,8 @@ inline std::uint32_t nearer(const Boxes& boxes, float x, float y, float limit, L
   return bits_of(squared < limit);
 }
 
-/// Which of two segments or vertices are no farther from c than the root of `squared`, as
-/// squared_distance() has it; as bits.
+/// Which of two segments or vertices are no farther from c than the root of `squared`, as bits.
+/// Consistent with squared_distance().
 inline std::uint32_t reached_of_two(const Site& a, const Site& b, Vec2 c, double squared) {
   const Pair x = c.x - Pair{a.point.x, b.point.x}, y = c.y - Pair{a.point.y, b.point.y};
   const Pair along_x{a.direction.x, b.direction.x}, along_y{a.direction.y, b.direction.y};
@@ -92,7 +92,7 @@ inline TwoDistances distances_from_arc(const Site& arc, Pair x, Pair y) {
   return {distance, faces ? distance * distance : smaller(from_start, from_end)};
 }
 
-/// The same of two points from any carrier.
+/// The same for any carrier.
 inline Pair carrier_distances(const Site& site, Pair x, Pair y) {
   if (site.is_arc()) return distances_from_arc(site, x, y).carrier;
   const Pair dx = x - site.point.x, dy = y - site.point.y;

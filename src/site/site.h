@@ -8,22 +8,23 @@
 
 namespace medial::site {
 
-/// A site as the kernels see it: a curve of constant curvature with the interior on its left, or a
-/// vertex. It starts at `point` in the unit direction `direction` and is measured by the parameter
+/// A site for the kernels: a curve of constant curvature with the interior on its left, or a
+/// vertex. It starts at `point` in the unit direction `direction`. Its parameter is
 ///
 ///     s = (2 / curvature) tan(phi / 2),
 ///
-/// where phi is the angle by which it has turned to the left: the arc length on a segment, a
-/// rational parametrisation on an arc, well-conditioned in between. Positive curvature is convex as
-/// seen from the interior. An arc turns by at most a quarter of a circle.
+/// where phi is the angle by which the curve has turned to the left. This is the arc length on a
+/// segment and a rational parametrisation on an arc, and it is well-conditioned in between.
+/// Positive curvature is convex as seen from the interior. An arc turns by at most a quarter of a
+/// circle.
 ///
 /// A disk of centre c and radius r touches the carrier (the whole line or circle) from inside if,
 /// with d = c - point and the left normal n,
 ///
 ///     n.d - r = curvature (d.d - r r) / 2.
 ///
-/// Multiplied by its radius, an arc becomes a vertex in the limit of radius 0: one formula for all
-/// sites, linear in (c, r) and the common quadric d.d - r r.
+/// If the equation of an arc is multiplied by its radius, the limit of radius 0 is the equation of
+/// a vertex. So one formula covers all sites; it is linear in (c, r) and the quadric d.d - r r.
 struct Site {
   Vec2 point;
   Vec2 direction;     ///< unit length, or (0, 0) for a vertex
@@ -46,7 +47,8 @@ struct Site {
     return scale * ((1 - tau * tau) * normal() - (2 * tau) * direction);
   }
   Vec2 end() const { return at(length); }
-  /// Where the tangents at both ends meet: an edge lies in the triangle of its ends and its apex.
+  /// The intersection of the tangents at both ends. The site lies in the triangle of its ends and
+  /// its apex.
   Vec2 apex() const { return point + (0.5 * length) * direction; }
   Vec2 end_normal() const { return normal_at(length); }
 };
@@ -73,7 +75,7 @@ inline Site make_arc(Vec2 start, Vec2 end, double bulge) {
           4 * bulge / (chord * (1 + squared))};
 }
 
-/// The part of a segment or arc from parameter `from` to `to`; never of length 0.
+/// The part of a segment or arc from parameter `from` to `to`. Its length is never 0.
 inline Site part_of(const Site& site, double from, double to) {
   const double half = 0.5 * site.curvature;
   const double length = (to - from) / (1 + (half * from) * (half * to));
@@ -86,7 +88,7 @@ inline Site reversed(const Site& site) {
   return {site.end(), left_of(site.end_normal()), site.length, -site.curvature};
 }
 
-/// Whether the end of an edge is this point. An end is off by less than four roundings of a local
+/// Whether the end of an edge is this point. The error of an end is below four roundings of a local
 /// coordinate.
 inline bool is_same_place(Vec2 end, Vec2 point) {
   constexpr double same_point = 0x1p-50;
@@ -94,7 +96,7 @@ inline bool is_same_place(Vec2 end, Vec2 point) {
   return std::abs(gap.x) <= same_point && std::abs(gap.y) <= same_point;
 }
 
-/// Whether two edges are surely the two sides of one: their lengths are equal to the last bit.
+/// Whether two edges are certainly the two sides of one edge, with bitwise equal lengths.
 inline bool are_two_sides(const Site& a, const Site& b) {
   return a.length == b.length && a.curvature == -b.curvature && is_same_place(a.point, b.end()) &&
          is_same_place(a.end(), b.point);
@@ -105,7 +107,7 @@ inline bool meets(const Site& before, const Site& after) {
   return is_same_place(before.end(), after.point);
 }
 
-/// How a point c lies to the carrier of an arc.
+/// The position of a point c relative to the carrier of an arc.
 struct ArcView {
   Vec2 toward;      ///< (1 - curvature * distance) times the unit normal at the foot
   double size;      ///< |toward|
@@ -119,8 +121,8 @@ inline ArcView view_of_arc(const Site& arc, Vec2 c) {
   return {toward, size, 2 * height / (1 + size)};
 }
 
-/// Parameter of the carrier's point nearest to c, unbounded; infinite opposite to the start of an
-/// arc's circle. Not for a vertex.
+/// The parameter, not clamped, of the carrier's point nearest to c; infinite opposite to the start
+/// on an arc's circle. Not for a vertex.
 inline double carrier_parameter(const Site& site, Vec2 c) {
   const Vec2 d = c - site.point;
   const double along = dot(site.direction, d);
@@ -128,18 +130,18 @@ inline double carrier_parameter(const Site& site, Vec2 c) {
   const Vec2 toward = site.normal() - site.curvature * d;
   const double size = norm(toward), forward = dot(site.normal(), toward);
   if (forward >= 0) return 2 * along / (size + forward);
-  // Beyond a quarter turn the other form of the half angle's tangent keeps its digits.
+  // Beyond a quarter turn, the other formula for tan(phi / 2) is accurate.
   const double squared = site.curvature * site.curvature;
   return 2 * (size - forward) / (squared * along);
 }
 
-/// Whether the foot on a site moves forward from one disk to another, as seen from their centres,
-/// but for `slack`.
+/// Whether the foot on a site moves forward, up to `slack`, from a disk with the centre `from` to
+/// one with the centre `to`.
 inline bool foot_advances(const Site& site, Vec2 from, Vec2 to, double slack) {
-  // Round a vertex, normals turn to the right.
+  // Around a vertex, normals turn to the right.
   if (site.is_vertex())
     return cross(to - site.point, from - site.point) >= -slack * distance(site.point, from);
-  // Next to an arc's centre, feet are less certain than centres.
+  // Close to an arc's centre, feet are less accurate than centres.
   const double size = std::min(view_of_arc(site, from).size, view_of_arc(site, to).size);
   return (carrier_parameter(site, to) - carrier_parameter(site, from)) * size >= -slack;
 }
@@ -149,14 +151,15 @@ inline double foot_parameter(const Site& site, Vec2 c) {
   if (!site.is_arc()) return std::clamp(dot(site.direction, c - site.point), 0.0, site.length);
   const double s = carrier_parameter(site, c);
   if (s >= 0 && s <= site.length) return s;
-  // The nearer end, by the side of the chord's middle: distances may be equal up to rounding.
+  // Choose the nearer end by the side of the chord's midpoint; distances may be equal up to
+  // rounding.
   const Vec2 end = site.end();
   return dot(end - site.point, (c - site.point) + (c - end)) <= 0 ? 0 : site.length;
 }
 
 inline Vec2 foot(const Site& site, Vec2 c) { return site.at(foot_parameter(site, c)); }
 
-/// squared_distance() for an arc; apart, so that searches among segments stay small.
+/// squared_distance() for an arc. Not inline, to keep the code of searches among segments small.
 double squared_distance_to_arc(const Site& arc, Vec2 c);
 
 /// Distance from c to the closed site. Error: about two units in the last place of |c - point|.
@@ -167,19 +170,20 @@ inline double squared_distance(const Site& site, Vec2 c) {
   return squared_norm(d - s * site.direction);
 }
 
-/// How far a disk is from the closed site: negative where it reaches over it.
+/// The distance of a disk from the closed site; negative if the disk reaches over it.
 inline double gap(const Site& site, const Disk& disk) {
   return std::sqrt(squared_distance(site, disk.center)) - disk.radius;
 }
 
-/// Distance to the site's carrier: the whole line or circle, positive on its left, or the vertex.
+/// Signed distance to the site's carrier (the whole line or circle, or the vertex), positive on its
+/// left.
 inline double carrier_distance(const Site& site, Vec2 c) {
   if (site.is_vertex()) return norm(c - site.point);
   return site.is_arc() ? view_of_arc(site, c).distance : cross(site.direction, c - site.point);
 }
 
-/// The gradient of carrier_distance(): the unit vector from the foot to c. For a vertex c must not
-/// be the vertex itself.
+/// The gradient of carrier_distance(): the unit vector from the foot to c. c must not be a vertex
+/// site itself.
 inline Vec2 outward(const Site& site, Vec2 c) {
   if (site.is_vertex()) {
     const Vec2 d = c - site.point;

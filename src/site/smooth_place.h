@@ -8,12 +8,11 @@
 
 namespace medial::site {
 
-/// Of two sites, one after the other, that join smoothly, whether the normal of the second one
-/// counts for both.
+/// Whether the normal at the joint of two sites that join smoothly is taken from the second one.
 inline bool by_second(const Site& first, const Site& second) {
-  // Of two edges the longer one knows its direction better, and its disks reach over the shorter
-  // one by turn * length at most. The rounder one's reach over the flatter one by turn^2 / (2 bend)
-  // at most: its normal counts where that is less.
+  // The longer edge has the more accurate direction; its disks reach over the shorter edge by at
+  // most turn * length. The disks of the rounder edge reach over the flatter one by at most turn^2
+  // / (2 bend); if that is less, its normal is used.
   const double a = first.curvature, b = second.curvature, bend = std::abs(a - b);
   const bool edges = !first.is_vertex() && !second.is_vertex();
   const double shorter = std::min(first.length, second.length);
@@ -22,7 +21,7 @@ inline bool by_second(const Site& first, const Site& second) {
   return by_rounder ? b > a : second.length > first.length;
 }
 
-/// Where two sites, one after the other, join smoothly: the point and the inward unit normal.
+/// The smooth joint of two consecutive sites: the point and the inward unit normal.
 struct SmoothPlace {
   Vec2 point;
   Vec2 normal;

@@ -13,7 +13,7 @@ namespace medial::site {
 namespace {
 using namespace apollonius;
 
-/// The flattest pair among three sites of a segment that ends where another one begins.
+/// Of the pairs of consecutive segments among three sites, the one with the flattest corner.
 struct Corner {
   std::size_t before, after;
 };
@@ -57,14 +57,14 @@ Carrier<Real> carrier(const Site& site) {
   return result;
 }
 
-/// Whether a disk that touches the carriers of arcs from inside could also touch the arcs: a larger
-/// one than the arc's circle contains it.
+/// Whether a disk that touches an arc's carrier could also touch the arc from inside; a disk larger
+/// than the circle of a convex arc contains the arc.
 bool fits_into(double radius, const Site& site) {
   constexpr double slack = 0x1p-20;
   return radius * site.curvature <= 1 + slack;
 }
 
-/// One Newton step towards contact with three carriers; the same disk where the step is singular.
+/// One Newton step towards contact with three carriers; the same disk if the step is singular.
 Disk improved(const Disk& disk, const Site& a, const Site& b, const Site& c) {
   const auto error = [&](const Site& s) { return carrier_distance(s, disk.center) - disk.radius; };
   const Vec2 ga = outward(a, disk.center);
@@ -78,12 +78,12 @@ Disk improved(const Disk& disk, const Site& a, const Site& b, const Site& c) {
   return usable ? better : disk;
 }
 
-/// Numbers of 113 bits: the compiler's own, where it has them.
+/// Numbers of 113 bits: the compiler's type, if there is one.
 using Quad = std::conditional_t<std::numeric_limits<long double>::digits == 113, long double,
                                 boost::multiprecision::cpp_bin_float_quad>;
 
-/// tangent_disks() in 113-bit arithmetic, rounded to double: of its disks the one nearest to
-/// `near`, if there is one.
+/// The disk of tangent_disks() in 113-bit arithmetic that is nearest to `near`, rounded to double,
+/// if there is one.
 std::optional<Disk> tangent_disk_in_high_precision(const Site& a, const Site& b, const Site& c,
                                                    const Disk& near) {
   using Real = Quad;
@@ -98,7 +98,7 @@ std::optional<Disk> tangent_disk_in_high_precision(const Site& a, const Site& b,
     const auto& s = solved.disk[i];
     const Disk candidate{{static_cast<double>(s.center.x), static_cast<double>(s.center.y)},
                          static_cast<double>(s.radius)};
-    // The circle of an arc is touched from its other side at the same place; the residual decides.
+    // The disk may touch an arc's circle from its other side there; the residual decides.
     const double off =
         std::max(distance(candidate.center, near.center), residual(candidate, a, b, c));
     if (off < best) {
@@ -111,7 +111,7 @@ std::optional<Disk> tangent_disk_in_high_precision(const Site& a, const Site& b,
 
 constexpr double none = std::numeric_limits<double>::infinity();
 
-/// tangent_radius() of a point.
+/// tangent_radius() for a point.
 double radius_to_point(Vec2 foot, Vec2 normal, Vec2 point) {
   const Vec2 d = point - foot;
   const double ahead = 2 * medial::dot(normal, d);
@@ -121,7 +121,7 @@ double radius_to_point(Vec2 foot, Vec2 normal, Vec2 point) {
 }  // namespace
 
 double tangent_radius(Vec2 foot, Vec2 normal, const Site& site) {
-  // Rounding turns unit normals by up to this: nothing is known of those that differ by less.
+  // Rounding turns unit normals by up to this, so a smaller difference means nothing.
   constexpr double parallel = 0x1p-51;
   if (site.is_vertex()) return radius_to_point(foot, normal, site.point);
   const Vec2 d = foot - site.point;
@@ -133,11 +133,11 @@ double tangent_radius(Vec2 foot, Vec2 normal, const Site& site) {
   }
   if (!(height >= 0 && closing > 0.5 * parallel * parallel)) return none;
   double radius = height / closing;
-  // Where the disk is nearly the arc's own circle, the contact equation is its residual times
-  // 1 - radius * curvature: Newton's method on the distance itself wins the digits back, in a step
-  // or two unless the centres are very close. Distance less radius falls and is concave in the
-  // radius: a step may lead too far, from where the next ones come back, and at the arc's own
-  // radius it is far enough.
+  // If the disk is nearly equal to the arc's circle, the contact equation is its residual times 1 -
+  // radius * curvature. Newton's method on the distance restores the digits, in one or two steps
+  // unless the centres are very close. Distance minus radius decreases and is concave in the
+  // radius, so a step may overshoot, and the next steps return. No step goes beyond the arc's own
+  // radius.
   constexpr double nearly = 0.25;
   constexpr int most_steps = 32;
   if (!site.is_arc() || !(std::abs(1 - radius * site.curvature) < nearly))
