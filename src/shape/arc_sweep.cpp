@@ -27,8 +27,8 @@ struct ActivePiece : intrusive::set_base_hook<intrusive::link_mode<intrusive::no
   std::uint32_t piece = 0;
 };
 
-/// One pass over the plane: Shamos and Hoey's, which compares pieces that become neighbours. Goes
-/// on at contacts, as if the pieces kept their order there, as long as there is one.
+/// One sweep over the plane (Shamos and Hoey), which compares pieces that become neighbours.
+/// Continues after contacts as if the pieces kept their order there, as long as an order exists.
 class ArcSweeper {
  public:
   ArcSweeper(const Noding& noding, const NodedRings& noded)
@@ -65,10 +65,10 @@ class ArcSweeper {
     MonotoneArc arc;
   };
 
-  /// Finds vertices that are equal to the tolerance, also of pieces that are never neighbours.
+  /// Finds vertices that are equal within the tolerance, even if their pieces are never neighbours.
   void merge_near_vertices(const std::vector<std::uint32_t>& order) {
-    // Looking further could take long where many vertices lie above each other, and the sweep finds
-    // most of the rest.
+    // A longer search could be slow if many vertices lie above each other. The sweep finds most of
+    // the others.
     constexpr std::size_t farthest = 8;
     const std::vector<Vec2>& points = cleaned_.points;
     for (std::size_t i = 0; i + 1 < order.size(); ++i) {
@@ -80,9 +80,9 @@ class ArcSweeper {
     }
   }
 
-  /// Whether two vertices are equal to the tolerance, but not yet in their coordinates. Those of
-  /// the input can differ where the local ones do not: an edge between the two would have no
-  /// direction.
+  /// Whether two vertices are equal within the tolerance but have different coordinates. Their
+  /// input coordinates can differ even if the local ones are equal; an edge between them would have
+  /// no direction.
   bool is_to_join(std::uint32_t v, std::uint32_t w) const {
     const Vec2 p = cleaned_.points[v];
     const Vec2 q = cleaned_.points[w];
@@ -90,12 +90,12 @@ class ArcSweeper {
     return !noded_.passing[v] && !noded_.passing[w] && noded_.originals[v] != noded_.originals[w];
   }
 
-  /// Two vertices, different in their coordinates, are one.
+  /// Records that two vertices with different coordinates are to be merged.
   void join(std::uint32_t v, std::uint32_t w) {
     if (noded_.passing[v]) contacts_.push_back({noded_.edges[v], w, {}});
     if (noded_.passing[w]) contacts_.push_back({noded_.edges[w], v, {}});
     if (noded_.passing[v] && noded_.passing[w]) {
-      // Both edges get the one of the two.
+      // Both edges get the same vertex.
       contacts_.back() = {noded_.edges[v], v, {}};
       contacts_[contacts_.size() - 2] = {noded_.edges[w], v, {}};
     } else if (!noded_.passing[v] && !noded_.passing[w]) {
@@ -103,7 +103,7 @@ class ArcSweeper {
     }
   }
 
-  /// Of the pieces that end at an event, any (null: none do) and how many.
+  /// The pieces that end at an event: any one of them (null: none) and their number.
   struct Ends {
     ActivePiece* any = nullptr;
     std::size_t count = 0;
@@ -177,7 +177,7 @@ class ArcSweeper {
       unused_.push_back(block_[i]);
     }
     if (starts_.empty() && block_.empty()) {
-      // Points alone have no piece that is compared with its neighbours.
+      // Lone points have no piece that would be compared with its neighbours.
       for (const std::uint32_t vertex : group) {
         if (lower) touch(*lower, vertex);
         if (above != status_.end()) touch(*above, vertex);
@@ -205,8 +205,8 @@ class ArcSweeper {
     return *piece;
   }
 
-  /// Other pieces lie between those that end here. With contacts that are still to be noded this is
-  /// no wonder.
+  /// The error if other pieces lie between those that end here. If contacts are not noded yet, this
+  /// is no error.
   std::optional<Error> out_of_order(const Status::iterator& first, std::size_t ends,
                                     std::uint32_t vertex) {
     const Vec2 point = cleaned_.points[vertex];
@@ -238,7 +238,7 @@ class ArcSweeper {
     const double last_along = dot(chord, last - a.left);
     const Meetings found = meetings(a, b);
     for (std::size_t i = 0; i < found.size; ++i) {
-      // Of circles that are the same to rounding the meetings are of no meaning.
+      // The intersections of circles that are equal up to rounding are meaningless.
       const std::optional<Vec2> p = on_arc(a, found.points[i]);
       if (!p) continue;
       const double along = dot(chord, *p - a.left);
@@ -249,7 +249,8 @@ class ArcSweeper {
     return count;
   }
 
-  /// Notes where two neighbours touch behind their common left end. Error if they cross or overlap.
+  /// Records where two neighbours touch to the right of their common left end. Error if they cross
+  /// or overlap.
   std::optional<Error> compare(const ActivePiece& lower, const ActivePiece& upper) {
     if (lower.high + tolerance_ < upper.low) return std::nullopt;
     bool touches = touch(lower, upper.left_vertex);
@@ -302,8 +303,8 @@ class ArcSweeper {
     return std::nullopt;
   }
 
-  /// Notes that the edges of two pieces that lie on each other pass through each other's ends,
-  /// where these are not the same. What touch() looks at is as near up to rounding.
+  /// Records that the edges of two coincident pieces pass through each other's ends, unless these
+  /// are equal. The ends that touch() tests are as near up to rounding.
   bool note_overlap(const ActivePiece& lower, const ActivePiece& upper) {
     const auto first_of = [&](std::uint32_t v) {
       while (noded_.passing[v]) --v;
@@ -332,7 +333,7 @@ class ArcSweeper {
     return any;
   }
 
-  /// Notes a contact in the inside of both pieces. The stops are `on` one of them.
+  /// Records a contact in the interiors of both pieces. The stops are `on` one of them.
   template <class Stops, class Gap>
   void note_tangency(const ActivePiece& lower, const ActivePiece& upper, const MonotoneArc& on,
                      const Stops& stops, const std::array<int, 3>& signs, const Gap& gap) {
@@ -362,7 +363,7 @@ class ArcSweeper {
     return p == cleaned_.points[first] || p == cleaned_.points[last];
   }
 
-  /// Whether an edge lies together with another one from one of its vertices on to an end of both.
+  /// Whether an edge coincides with another one from one of its vertices to a common end.
   bool leads_to_common_end(std::uint32_t v, bool forward, const ActivePiece& other) const {
     const auto is_near = [&](Vec2 p) { return std::abs(other.arc.above_circle(p)) <= tolerance_; };
     while (noded_.passing[v]) {
@@ -376,14 +377,15 @@ class ArcSweeper {
     return has_end(other.piece, cleaned_.points[v]);
   }
 
-  /// Two edges lie together between two vertices of the first one, or at one. Whether they do so
-  /// from an end of both, and part on the other side: then they touch in that end only.
+  /// For two edges that coincide between two vertices of the first one, or at one vertex: whether
+  /// they coincide from a common end and separate on the other side. Then they touch only at that
+  /// end.
   bool part_from_common_end(std::uint32_t first, std::uint32_t last,
                             const ActivePiece& other) const {
     return leads_to_common_end(first, false, other) != leads_to_common_end(last, true, other);
   }
 
-  /// Notes that a vertex lies on a piece, if it does and is none of its ends.
+  /// Records that a vertex lies on a piece, if it does and is not one of its ends.
   bool touch(const ActivePiece& piece, std::uint32_t vertex) {
     const MonotoneArc& arc = piece.arc;
     const Vec2 p = cleaned_.points[vertex];
@@ -408,7 +410,8 @@ class ArcSweeper {
     return true;
   }
 
-  /// What is found behind a contact counts only after noding.
+  /// Ignores an error that follows a contact, because only the next round, after noding, can
+  /// confirm it.
   std::optional<Error> pending_or(Error error) const {
     if (contacts_.empty() && merges_.empty()) return error;
     return pending();
@@ -449,7 +452,8 @@ class ArcSweeper {
 }  // namespace
 
 Result<SweptArcs> sweep_arcs(const CleanRings& cleaned, bool node_crossings, double reach) {
-  // Nearly always one round more than there are layers of contacts that hide each other.
+  // Nearly always, the number of rounds is one more than the depth of contacts that hide each
+  // other.
   constexpr int most_rounds = 64;
   Noding noding(cleaned, reach);
   if (auto error = noding.too_small()) return std::move(*error);
@@ -464,7 +468,7 @@ Result<SweptArcs> sweep_arcs(const CleanRings& cleaned, bool node_crossings, dou
       if (auto error = noding.apply(noded, found.contacts, {})) return std::move(*error);
       return true;
     };
-    // Once all crossings have been noded, the sweep finds whether one is left, which is faster.
+    // After the first round, the sweep itself detects remaining crossings, which is faster.
     if (node_crossings && round == 0) {
       const Result<bool> any = node_all();
       if (!any) return any.error();

@@ -19,15 +19,15 @@ struct SweptArcs {
   std::uint64_t repeated_edges = 0;  ///< of chains
 };
 
-/// What sweep() does, for outlines with arcs. Unlike there, contacts are decided to a tolerance
-/// (see tolerance_for), as no vertex lies exactly on an arc: vertices within it are one, an edge
-/// passes through a vertex within it, and two edges that come within it without crossing by more
-/// touch in one point. O((n + c) log n) for each of a few rounds, c the number of contacts; one
-/// round if nothing touches. Errors: crossing, overlap, no_area (a ring within the tolerance).
+/// sweep() for outlines with arcs. Because no vertex lies exactly on an arc, contacts are decided
+/// within a tolerance (see tolerance_for): vertices within it are merged, an edge passes through a
+/// vertex within it, and two edges that come within it, without crossing by more, touch in one
+/// point. O((n + c) log n) for each of a few rounds and c contacts; one round if nothing touches.
+/// Errors: crossing, overlap, no_area (a ring within the tolerance).
 ///
-/// With `node_crossings` edges are split where they cross first, which takes O(n log n + p) for p
-/// pairs of edges above each other, in each of a few rounds; of chains' edges that lie on each
-/// other one is kept. A `reach` above the tolerance takes its place.
+/// With `node_crossings`, first splits edges where they cross, which takes O(n log n + p) for p
+/// pairs of edges above each other, in each of a few rounds; keeps one of several coincident edges
+/// of chains. A `reach` above the tolerance replaces it.
 Result<SweptArcs> sweep_arcs(const CleanRings& cleaned, bool node_crossings = false,
                              double reach = 0);
 

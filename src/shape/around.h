@@ -15,15 +15,14 @@ inline double bulge_of(const PlanarGraph& graph, std::uint32_t half_edge) {
   return half_edge % 2 == 0 ? forward : 0 - forward;
 }
 
-/// What lies around a planar graph, within an enclosure, as the boundary that an engine walks
-/// along: one component for each face; the first, unbounded one has the enclosure as
-/// its outer loop.
+/// The region around a planar graph within an enclosure, as the boundary for an engine: one
+/// component per face. The enclosure is the outer loop of the first, unbounded one.
 ///
-/// build_shape() would not make this shape: an edge can be in it twice, once for each side, a
-/// segment by itself is a loop of two points, and a lone point a loop of one. The source of a point
-/// is {point of the planar graph, half-edge that begins there}, with no_index for what is missing,
-/// and for both at the enclosure. Loops come in spatial order. Requires an enclosure around the
-/// planar graph.
+/// build_shape() cannot make this shape: an edge may occur twice, once for each side, a lone
+/// segment is a loop of two points, and a lone point is a loop of one. The source of a point is
+/// {point of the planar graph, half-edge that begins there}; no_index stands for a missing
+/// half-edge, and for both at the enclosure. Loops are in spatial order. The enclosure must contain
+/// the planar graph.
 Shape around(const PlanarGraph& planar_graph, const Box& enclosure);
 
 }  // namespace medial

@@ -27,9 +27,9 @@ std::uint64_t count_reversed(const Arrangement& arrangement) {
   return count;
 }
 
-/// Polygons take the exact path, shapes with arcs or crossings the one with a tolerance.
-/// `may_merge`: whether arcs of one circle may follow each other now, because rings touch or edges
-/// were divided or vanished.
+/// Uses exact decisions for polygons, and a tolerance for shapes with arcs or crossings. Sets
+/// `may_merge` if consecutive arcs of one circle are possible, because rings touch or edges were
+/// divided or dropped.
 Result<Arrangement> arrange(CleanRings cleaned, const ShapeOptions& options, ShapeReport& report,
                             bool& may_merge) {
   may_merge = false;
@@ -80,10 +80,10 @@ bool may_be_filled(const Error& error) {
          error.code != ErrorCode::empty && error.code != ErrorCode::out_of_memory;
 }
 
-/// Built again, arcs of one circle that follow each other in a loop become one, which may touch
-/// more: until nothing changes, or after so many rounds. Errors: no_area, of a loop
-/// of which nothing is left then; crossing, where edges cross by little more than the tolerance, so
-/// that what is built is no shape; those of build_once().
+/// Builds the shape again, which merges consecutive arcs of one circle. A merged arc may touch
+/// more, so this is repeated until nothing changes, at most a fixed number of times. Errors:
+/// no_area (a loop vanishes); crossing (edges cross by little more than the tolerance, so the
+/// result is no shape); those of build_once().
 Result<Shape> with_arcs_merged(Shape shape) {
   constexpr int most_rounds = 16;
   bool may_merge = true;
@@ -112,9 +112,9 @@ Result<Shape> with_arcs_merged(Shape shape) {
   return shape;
 }
 
-/// Finds the vertices on straight lines that are corners only because noding rounded them, or the
-/// point before or after: where edges were split that go on straight, as what met them lies inside.
-/// Each would have a branch of the axis.
+/// Finds vertices on straight lines that are corners only because noding rounded them or a
+/// neighbour: noding split a straight edge there, and the crossing edge is now inside. Each such
+/// corner would have a branch of the axis.
 class FlatVertices {
  public:
   FlatVertices(std::span<const Ring> rings, const Shape& shape)

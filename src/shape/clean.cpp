@@ -30,7 +30,7 @@ std::optional<Error> append_distinct(const Ring& ring, std::uint32_t index, Clea
       return error_at(ErrorCode::not_finite, "a coordinate is not a finite number", source,
                       points[i]);
     }
-    const Vec2 point{points[i].x + 0.0, points[i].y + 0.0};  // makes -0 to 0
+    const Vec2 point{points[i].x + 0.0, points[i].y + 0.0};  // turns -0 into 0
     if (cleaned.points.size() > first && cleaned.points.back() == point) {
       ++report.repeated_points;
       continue;
@@ -46,8 +46,8 @@ std::optional<Error> append_distinct(const Ring& ring, std::uint32_t index, Clea
   return std::nullopt;
 }
 
-/// Drops the vertices at which the ring goes straight on. Dropping one changes no direction, so
-/// that every vertex can be judged by its neighbours in the full ring.
+/// Drops the vertices at which the ring is straight. Dropping a vertex changes no direction, so
+/// every vertex can be tested with its neighbours in the full ring.
 std::optional<Error> drop_collinear(std::uint32_t first, CleanRings& cleaned, ShapeReport& report) {
   std::vector<Vec2>& points = cleaned.points;
   const Vec2 start = points[first];
@@ -129,7 +129,7 @@ std::optional<Error> append_with_arcs(const Ring& ring, std::uint32_t index,
     cleaned.bulges.push_back(edge.bulge);
   }
   if (straight) {
-    // All bulges were too small: judge it as every other polygon.
+    // All bulges were too small: treat it as a polygon.
     const std::size_t first = cleaned.points.size() - edges.size();
     if (auto error = drop_collinear(static_cast<std::uint32_t>(first), cleaned, report)) {
       return error;
@@ -150,7 +150,7 @@ bool has_three_distinct(std::span<const Vec2> points) {
          });
 }
 
-/// The edges whose numbers are finite: what others are is judged later.
+/// The edges with finite numbers. Others are rejected later.
 std::vector<BulgeArc> edges_of(std::span<const Ring> rings) {
   std::vector<BulgeArc> edges;
   for (const Ring& ring : rings) {
@@ -164,7 +164,7 @@ std::vector<BulgeArc> edges_of(std::span<const Ring> rings) {
   return edges;
 }
 
-/// The points at which rings have more than one vertex, but for repeated ones, sorted.
+/// The points at which rings have more than one vertex, except repeated points; sorted.
 std::vector<Vec2> shared_points(std::span<const Ring> rings) {
   std::vector<Vec2> all, shared;
   for (const Ring& ring : rings)
@@ -189,7 +189,7 @@ Result<CleanRings> clean(std::span<const Ring> rings, ShapeReport& report) {
     return error_without_place(ErrorCode::too_large, "there are too many points");
   }
 
-  std::optional<QuarterMap> map;  // once asked for
+  std::optional<QuarterMap> map;  // computed on demand
   std::optional<std::vector<Vec2>> shared;
   const RingSurroundings around{[&] {
                                   if (!map) map = best_map(edges_of(rings));

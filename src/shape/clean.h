@@ -13,20 +13,20 @@ namespace medial {
 
 inline constexpr std::uint32_t no_index = std::numeric_limits<std::uint32_t>::max();
 
-/// What an edge counts in a fill rule: how often rings of the role `winding` run along it, forwards
-/// less backwards, and whether an odd number of other rings does.
+/// The weight of an edge in a fill rule: the number of rings of role `winding` that run along it,
+/// forward minus backward, and the parity of the number of other rings.
 struct EdgeWeight {
   std::int32_t winding = 0;
   bool odd = false;
 };
 
-/// The rings of the input without what does not matter: ring i is points[begin[i], begin[i + 1]).
-/// Edge v runs from vertex v to next(v). In each ring there are at least three vertices (two where
-/// it has arcs), neighbours differ, and no vertex lies in the inside of a straight run or, to
-/// rounding, of an arc of at most a half circle. No coordinate is -0.
+/// The cleaned rings of the input: ring i is points[begin[i], begin[i + 1]). Edge v runs from
+/// vertex v to next(v). Each ring has at least three vertices (two if it has arcs), neighbours
+/// differ, and no vertex lies inside a straight run or, up to rounding, inside an arc of at most a
+/// half circle. No coordinate is -0.
 ///
-/// Or, of a planar graph, open chains: the last vertex of each begins no edge, and one vertex is a
-/// point.
+/// For a planar graph, the rings are open chains: the last vertex of each starts no edge, and a
+/// chain of one vertex is a point.
 struct CleanRings {
   std::vector<Vec2> points;
   std::vector<double> bulges;         ///< of each edge, at most 1 in magnitude; empty: all straight
@@ -48,9 +48,9 @@ struct CleanRings {
   }
 };
 
-/// Drops closing points, repeated points and the vertices in the inside of straight runs and arcs,
-/// splits arcs of more than a half circle, and counts what was dropped in the report. O(n). Errors:
-/// empty, too_large, not_finite, too_few_points, no_area, of the first ring that has one.
+/// Drops closing points, repeated points and the vertices inside straight runs and arcs, splits
+/// arcs of more than a half circle, and counts dropped points in the report. O(n). Errors, of the
+/// first invalid ring: empty, too_large, not_finite, too_few_points, no_area.
 Result<CleanRings> clean(std::span<const Ring> rings, ShapeReport& report);
 
 /// An edge of a ring, by its first vertex.
@@ -60,15 +60,15 @@ struct RingEdge {
   VertexSource source;
 };
 
-/// What cleaning a ring asks about all of them.
+/// Properties of all rings, for cleaning one of them.
 struct RingSurroundings {
   std::function<QuarterMap()> map;  ///< the best one of all rings, if a circle may be cut anywhere
   std::function<bool(Vec2)> is_shared;  ///< whether rings have more than one vertex there
 };
 
-/// The same for the edges of one ring with arcs, each longer than zero. A bulge whose arc is
-/// straight to rounding becomes 0. A full circle becomes two half circles, from one of the vertices
-/// on that are furthest from the middle of their box, or from one that rings share.
+/// The same for the edges of one ring with arcs, none of length zero. A bulge whose arc is straight
+/// up to rounding becomes 0. A full circle becomes two half circles, which start at one of the
+/// vertices farthest from the centre of their box, or at a vertex that rings share.
 void clean_arcs(std::vector<RingEdge>& edges, const RingSurroundings& around, ShapeReport& report);
 
 }  // namespace medial

@@ -13,10 +13,10 @@
 namespace medial {
 namespace {
 
-/// Of bulges and sums of angles, relative.
+/// The relative error of bulges and of sums of angles.
 constexpr double slack = 64 * std::numeric_limits<double>::epsilon();
 
-/// The point of an arc halfway between its ends: the same, rounding included, in both directions.
+/// The point of an arc halfway between its ends; bitwise equal for both directions.
 Vec2 middle_of(const BulgeArc& arc) {
   return 0.5 * arc.start + 0.5 * arc.end - (arc.bulge / 2) * left_of(arc.chord());
 }
@@ -31,10 +31,10 @@ class Cleaner {
 
   void run() {
     straighten();
-    // Nothing is merged in a ring of two edges: it would vanish.
+    // Do not merge edges in a ring of two, which would vanish.
     if (edges_.size() > 2) drop_collinear();
     split_long_arcs();
-    measure();  // as they are divided now, since that is how they are measured if cleaned again
+    measure();  // again, with the current vertices, as another cleaning would measure them
     merge_cocircular();
   }
 
@@ -42,7 +42,7 @@ class Cleaner {
   void measure() {
     Box box{edges_[0].point, edges_[0].point};
     for (std::size_t i = 0; i < edges_.size(); ++i) {
-      const Vec2 middle = middle_of(arc(i));  // arcs may reach further out than their vertices
+      const Vec2 middle = middle_of(arc(i));  // arcs may reach farther than their vertices
       box.add(edges_[i].point);
       if (std::isfinite(middle.x) && std::isfinite(middle.y)) box.add(middle);
     }
@@ -85,12 +85,13 @@ class Cleaner {
     edges_ = std::move(result);
   }
 
-  /// As for rings without arcs: dropping a vertex changes no direction. Where arcs became straight,
-  /// it changes it within the play: what joined smoothly is no corner now.
+  /// As in rings without arcs, dropping a vertex changes no direction, except that directions may
+  /// change within `play_` where arcs became straight; a smooth joint must not become a corner
+  /// there.
   void drop_collinear() {
     const std::size_t count = edges_.size();
     std::vector<bool> dropped(count);
-    // Runs of straight edges begin behind an arc.
+    // Runs of straight edges begin after an arc.
     std::size_t first = 0;
     while (first < count && edges_[previous(first)].bulge == 0) ++first;
     std::size_t kept = first % count;
@@ -114,7 +115,7 @@ class Cleaner {
     edges_.resize(stay);
   }
 
-  /// Whether the vertices between two others, few, lie between them in one line, within the play.
+  /// Whether the few vertices between two others lie between them on one line, within `play_`.
   bool is_one_line(std::size_t from, std::size_t to) const {
     constexpr int most = 16;
     const Vec2 start = edges_[from].point, way = edges_[to].point - start;
@@ -130,8 +131,8 @@ class Cleaner {
     return true;
   }
 
-  /// Whether an arc may continue the one before it on the same circle. Of the shorter one,
-  /// direction and curvature mean no more than its length resolves.
+  /// Whether an arc may continue the previous one on the same circle. The accuracy of the shorter
+  /// arc's direction and curvature is limited by its length.
   bool continues(std::size_t i) const {
     const BulgeArc first = arc(previous(i)), second = arc(i);
     if (!(first.bulge * second.bulge > 0)) return false;
@@ -142,15 +143,15 @@ class Cleaner {
     return dot(arriving, leaving) > 0 && std::abs(cross(arriving, leaving)) * shorter <= 2 * play_;
   }
 
-  /// Replaces each run of arcs on one circle by one arc, or by two if it is more than a half
-  /// circle. Where another ring has a vertex, too, one stays: there they touch. All that decides is
-  /// the same from other starts, in both directions, and under mirror images, quarter turns and
-  /// powers of two, rounding included: so is what is kept.
+  /// Replaces each run of arcs on one circle by one arc, or by two if it exceeds a half circle.
+  /// Keeps a vertex where another ring also has one, because they touch there. All tests are
+  /// bitwise independent of the starting point, the direction, reflections, quarter turns and
+  /// scaling by powers of two, and so is the result.
   void merge_cocircular() {
     const std::size_t count = edges_.size();
     std::vector<std::size_t> ends;  // of runs
     ends.reserve(count);
-    bool is_touched = false;  // in one of them, where the ring would go on
+    bool is_touched = false;  // another ring touches inside a run
     for (std::size_t i = 0; i < count; ++i) {
       const bool goes_on = continues(i);
       if (goes_on && !around_.is_shared(edges_[i].point)) continue;
@@ -169,7 +170,7 @@ class Cleaner {
   }
 
   void replace_edges(std::vector<RingEdge> edges) {
-    // Back to the old start, where it is still a vertex, so that all else stays in its order.
+    // Return to the old start, if it is still a vertex, so that the order is unchanged.
     const auto lowest = std::min_element(
         edges.begin(), edges.end(),
         [](const RingEdge& a, const RingEdge& b) { return a.source.vertex < b.source.vertex; });
@@ -178,7 +179,7 @@ class Cleaner {
     edges_ = std::move(edges);
   }
 
-  /// The vertices furthest from a point, mostly one.
+  /// The vertices farthest from a point, usually one.
   std::vector<std::size_t> furthest_from(Vec2 p) const {
     std::vector<std::size_t> result;
     double furthest = 0;
@@ -191,7 +192,7 @@ class Cleaner {
     return result;
   }
 
-  /// Arcs that follow each other. Indices go on behind the ring's end.
+  /// Consecutive arcs. Indices continue past the ring's end.
   struct Run {
     std::size_t begin, count;
   };
@@ -203,8 +204,8 @@ class Cleaner {
     return sum;
   }
 
-  /// Appends one arc, or two alike, where a run allows it; else its halves and, if they have an arc
-  /// between them, that one.
+  /// Appends one arc, or two equal ones, if the run allows it; otherwise its halves, and the arc
+  /// between them, if there is one.
   void append_run(Run run, std::vector<RingEdge>& result) {
     RingEdge first = edge(run.begin);
     const Vec2 stop = edge(run.begin + run.count).point;
@@ -236,19 +237,19 @@ class Cleaner {
     }
   }
 
-  /// Two half circles, and where their common diameter lies. Its extents are the same in every
-  /// image.
+  /// Two half circles, with the position of their common diameter, whose extents are the same in
+  /// every image.
   struct Halves {
     std::vector<RingEdge> edges;
     double longer = 0, shorter = 0;  ///< the diameter's extents in x and y
-    /// A mirror image that is no quarter turn is this far from the diameter; the sign says which
-    /// of the two it is.
+    /// The distance from the diameter to its mirror image, unless that is a quarter turn of it; the
+    /// sign distinguishes the two.
     double aside = 0;
   };
 
-  /// Replaces a ring of one circle by two half circles, from one of some vertices on. The graph
-  /// depends on where they meet, up to quarter turns. So of several places the one is taken that is
-  /// the same in every image; if a mirror image would have another, none is.
+  /// Replaces a ring that is one circle by two half circles that start at one of some vertices. The
+  /// graph depends on where they meet, up to quarter turns. So the vertex is chosen in the same way
+  /// in every image; if a mirror image would have another one, the ring is not replaced.
   bool merge_circle(const std::vector<std::size_t>& starts) {
     constexpr double twice_around = 4 * std::numbers::pi;
     if (angle_of({0, edges_.size()}) > 0.75 * twice_around) return false;
@@ -278,13 +279,13 @@ class Cleaner {
     return false;
   }
 
-  /// Two half circles, from one vertex on, on the circle through it, another one and, within the
-  /// play, all others; none where there is no such circle.
+  /// Two half circles that start at one vertex, on the circle through it, through another vertex
+  /// and, within `play_`, through all others; none if there is no such circle.
   Halves half_circles(std::size_t from, std::size_t to) const {
     RingEdge first = edges_[from], second = edges_[to];
     const double sign = first.bulge > 0 ? 1 : -1;
     const std::size_t count = (to + edges_.size() - from) % edges_.size();
-    // The arc on one side of the chord, whichever way the ring runs.
+    // The arc on one side of the chord, independent of the ring's direction.
     const bool is_second = (sign > 0) == around_.map().mirrors();
     Bulges bulges = is_second ? Bulges(second.point, first.point, play_)
                               : Bulges(first.point, second.point, play_);
@@ -310,9 +311,9 @@ class Cleaner {
    public:
     Bulges(Vec2 from, Vec2 to, double play) : from_(from), to_(to), play_(play) {}
 
-    /// An arc through p turns by twice the angle by which the chord to p turns to the one from p
-    /// on. That angle changes by |to - from| / (|p - from| |to - p|) of the way that p is moved.
-    /// `beyond`: the arc from `to` on to `from` passes p.
+    /// An arc through p turns by twice the angle between the chord to p and the chord from p. That
+    /// angle changes at the rate |to - from| / (|p - from| |to - p|) if p is moved. `beyond`: p is
+    /// on the arc from `to` to `from`.
     void add(Vec2 p, double sign, bool beyond) {
       const Vec2 before = p - from_, after = to_ - p;
       const double lengths = norm(before) * norm(after);
@@ -332,7 +333,7 @@ class Cleaner {
     }
 
     bool allows(double bulge) const { return bulge > 0 && least_ <= bulge && bulge <= most_; }
-    /// The one in the middle; 1 where it is that up to rounding.
+    /// The middle of the interval; 1 if it is 1 up to rounding.
     double middle() const {
       const double bulge = 0.5 * (least_ + most_);
       return std::abs(bulge - 1) <= slack && allows(1) ? 1 : bulge;
@@ -345,7 +346,7 @@ class Cleaner {
     double most_ = std::numeric_limits<double>::infinity();
   };
 
-  /// Adds what lies inside a run: its vertices, and the middles of its arcs.
+  /// Adds the inner vertices of a run and the midpoints of its arcs.
   void add_run(Run run, double sign, bool beyond, Bulges& bulges) const {
     for (std::size_t i = run.begin; i < run.begin + run.count; ++i) {
       const RingEdge& one = edge(i);
@@ -358,8 +359,8 @@ class Cleaner {
   const RingSurroundings& around_;
   ShapeReport& report_;
   std::vector<bool>
-      straightened_;     ///< of each edge: whether it was an arc, as straight as rounding
-  double rounding_ = 0;  ///< the spacing of doubles at the largest coordinate, about
+      straightened_;     ///< of each edge: whether it was an arc that is straight up to rounding
+  double rounding_ = 0;  ///< about the spacing of doubles at the largest coordinate
   /// Arcs this near to one circle become one: the tolerance cannot separate them.
   double play_ = 0;
   Vec2 middle_;  ///< of the vertices' box
@@ -368,7 +369,7 @@ class Cleaner {
 }  // namespace
 
 void clean_arcs(std::vector<RingEdge>& edges, const RingSurroundings& around, ShapeReport& report) {
-  // Arcs that have become one may continue the next, within the play of another box.
+  // A merged arc may continue the next one, within the play of another box.
   for (;;) {
     const std::uint64_t dropped = report.collinear_points;
     Cleaner(edges, around, report).run();

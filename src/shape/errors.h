@@ -16,7 +16,8 @@ inline Error error_without_place(ErrorCode code, std::string text) {
   return error;
 }
 
-/// Of an edge that crosses, or overlaps, the edge that starts at a vertex of another ring or chain.
+/// The text of the error that an edge crosses or overlaps the edge that starts at a vertex of
+/// another ring or chain.
 inline std::string text_of_edges(ErrorCode code, VertexSource other, const char* line = "ring") {
   return std::string("the edge that starts at this vertex ") +
          (code == ErrorCode::overlap ? "overlaps" : "crosses") +

@@ -1,6 +1,6 @@
 #pragma once
 
-// What coordinates the library takes: one pair of numbers for the engines and the certificate.
+// The limits of coordinates, for the engines and the certificate.
 
 #include <cmath>
 #include <optional>
@@ -11,27 +11,27 @@
 
 namespace medial {
 
-/// No coordinate may be larger than this in size,
+/// The largest absolute coordinate.
 constexpr double largest_coordinate = 1e100;
-/// and none but zero smaller than this in size, or than this share of the largest coordinate.
+/// The smallest absolute coordinate other than zero, both absolute and relative to the largest one.
 ///
-/// Different coordinates then differ by their spacing at least: 1e-116 in units of the input, and
-/// in the local frame, where the largest is about 1, as well. So the squares of all differences and
-/// the products of any two of them lie between 1e-232 and 1e201 (or are zero): nothing that is
-/// divided by them overflows or vanishes.
+/// Different coordinates then differ by at least their spacing: 1e-116, both in units of the input
+/// and in the local frame, where the largest coordinate is about 1. So the squares of all
+/// differences and their products are zero or between 1e-232 and 1e201, and quotients by them
+/// neither overflow nor underflow.
 constexpr double smallest_coordinate = 1e-100;
 
-/// Whether a finite coordinate is within them.
+/// Whether a finite coordinate is within the limits.
 inline bool is_within_limits(double value) {
   const double size = std::abs(value);
   return size <= largest_coordinate && (size == 0 || size >= smallest_coordinate);
 }
 
-/// The first coordinate of a shape that is beyond the limits, as an error `unsupported` with its
-/// place; none where all are within them. O(n).
+/// An error `unsupported` with the place of the first coordinate of a shape beyond the limits; none
+/// if all are within them. O(n).
 std::optional<Error> beyond_limits(const Shape& shape);
 
-/// The same of a planar graph and a box around it.
+/// The same for a planar graph and a box around it.
 std::optional<Error> beyond_limits(const PlanarGraph& planar_graph, const Box& box);
 
 }  // namespace medial

@@ -11,7 +11,7 @@
 
 namespace medial {
 
-/// The rings with a vertex of their own wherever they touch. Edge v runs from vertex v to next[v].
+/// The rings, each with its own vertex wherever they touch. Edge v runs from vertex v to next[v].
 struct Arrangement {
   std::vector<Vec2> points;
   std::vector<VertexSource> sources;
@@ -27,9 +27,9 @@ struct Arrangement {
   std::vector<Vec2> originals;
   std::vector<bool> passing;
   double tolerance = 0;  ///< in units of the input
-  // Only where the winding rule dropped edges (see winding.h); else empty.
+  // Only if the winding rule dropped edges (see winding.h); else empty.
   std::vector<bool> dropped;
-  std::vector<std::uint32_t> stands_for;  ///< of a dropped edge: one that borders the same face
+  std::vector<std::uint32_t> stands_for;  ///< of a dropped edge: a kept edge of the same face
 
   bool is_dropped(std::uint32_t edge) const { return !dropped.empty() && dropped[edge]; }
   /// In units of the input.
@@ -43,10 +43,10 @@ struct Arrangement {
 /// Inserts the splits into the rings. O(n + splits log splits).
 Arrangement insert_splits(CleanRings cleaned, Sweep sweep);
 
-/// The same for an outline with arcs, which has no splits any more. O(n).
+/// The same for an outline with arcs, whose splits have been applied. O(n).
 Arrangement arrange_arcs(SweptArcs swept);
 
-/// An edge as seen from one of its ends.
+/// An edge, seen from one of its ends.
 struct Ray {
   Vec2 far;
   std::uint32_t edge = 0;
@@ -59,14 +59,14 @@ struct Ray {
 Ray ray_from_start(const Arrangement& arrangement, std::uint32_t edge);
 Ray ray_from_end(const Arrangement& arrangement, std::uint32_t edge);
 
-/// Whether b comes after a when turning counter-clockwise about their common end, both being on the
-/// same side of it (left or right, or straight below or above).
+/// Whether b comes after a counter-clockwise around their common end. Both must be on the same side
+/// of it (left or right, or straight below or above).
 bool turns_left(Vec2 center, const Ray& a, const Ray& b);
 
 /// A closed walk along edges with the interior on the left.
 struct SplicedLoop {
   std::uint32_t first_edge = 0;  ///< begins at `first_vertex`
-  /// The first one in the order of the rings at which the loop does not go straight on.
+  /// The first vertex, in the order of the rings, at which the loop is not straight.
   std::uint32_t first_vertex = no_index;
   std::uint32_t size = 0;
   std::uint32_t leftmost = 0;  ///< the leftmost vertex
@@ -86,15 +86,15 @@ inline std::uint32_t tail(const Arrangement& arrangement, std::uint32_t edge) {
   return arrangement.interior_left[edge] ? edge : arrangement.next[edge];
 }
 
-/// The rays of all edges at one place, counter-clockwise, beginning downward. Requires all vertices
+/// The rays of all edges at one place, counter-clockwise from straight down. Requires all vertices
 /// of the place. O(t log t).
 void rays_around(const Arrangement& arrangement, std::span<const Touch> touches,
                  std::vector<Ray>& rays);
 
-/// Joins the edges into loops. At a place where loops touch, each loop turns so that it bounds one
-/// wedge of the interior: every loop is the border of one component of the open interior, and two
-/// loops of one component have no point in common. O(n + t log t) for t touching vertices.
-/// Error: crossing, where a ring with a role crosses another ring in a vertex.
+/// Joins the edges into loops. Where loops touch, each loop bounds one wedge of the interior, so
+/// every loop bounds one component of the open interior, and two loops of one component have no
+/// common point. O(n + t log t) for t touching vertices. Error: crossing (a ring with a role
+/// crosses another ring at a vertex).
 Result<SplicedLoops> splice(std::span<const Ring> rings, const Arrangement& arrangement);
 
 }  // namespace medial

@@ -8,7 +8,7 @@
 
 namespace medial {
 
-/// A vertex in the inside of an edge.
+/// A vertex in the interior of an edge.
 struct Split {
   std::uint32_t edge = 0;
   std::uint32_t vertex = 0;
@@ -27,8 +27,8 @@ struct LeftEnd {
   std::uint32_t below = 0;
 };
 
-/// What the sweep found. The splits cut the edges into pieces. Piece e < number of edges is the
-/// leftmost piece of edge e; piece (number of edges) + s is the one that begins at split s.
+/// The result of the sweep. The splits cut the edges into pieces. Piece e < number of edges is the
+/// leftmost piece of edge e; piece (number of edges) + s begins at split s.
 struct Sweep {
   std::vector<bool> interior_above;  ///< of each piece
   std::vector<Split> splits;         ///< in the order of the sweep
@@ -37,13 +37,14 @@ struct Sweep {
   std::uint32_t place_count = 0;     ///< of touching places
 };
 
-/// The vertices in the order of the sweep; those at one point by index. No coordinate may be -0.
+/// The vertices in sweep order; vertices at one point are ordered by index. No coordinate may be
+/// -0.
 std::vector<std::uint32_t> order_of_events(const std::vector<Vec2>& points);
 
-/// Sweeps the plane from left to right (Shamos and Hoey) and finds out on which side of each piece
-/// of an edge the interior lies, by the even-odd rule. Exact. O(n log n) for n vertices, whatever
-/// their position: an edge that crosses none can only be split by a vertex, and a vertex splits one
-/// at most. Errors: crossing (the insides of two edges cross), overlap (two edges share a stretch).
+/// Sweeps the plane from left to right (Shamos and Hoey) and determines on which side of each piece
+/// the interior lies, by the even-odd rule. Exact. O(n log n) for n vertices in any position: if no
+/// edges cross, only vertices split edges, and a vertex splits at most one. Errors: crossing (the
+/// interiors of two edges cross), overlap (two edges share more than a point).
 Result<Sweep> sweep(const CleanRings& cleaned);
 
 }  // namespace medial

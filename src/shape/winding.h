@@ -8,11 +8,11 @@
 
 namespace medial {
 
-/// Where a ring has the role `winding`, decides again what is interior: the points about which the
-/// rings of that role wind a number of times that is not 0, the even-odd rule for other rings
-/// changing that. Edges with the interior on both sides are dropped. Returns the number of rings of
-/// which nothing is left. O(n + t log t) for t touching vertices, and as much again for each
-/// dropped edge at a touching place, for the edges there.
+/// If a ring has the role `winding`, determines the interior again: the points with a nonzero
+/// winding number of the rings of that role, toggled by the even-odd rule for the other rings.
+/// Drops edges with interior on both sides. Returns the number of rings without remaining edges.
+/// O(n + t log t) for t touching vertices, plus the number of edges at each touching place for each
+/// edge dropped there.
 std::uint64_t apply_winding(std::span<const Ring> rings, Arrangement& arrangement);
 
 }  // namespace medial
