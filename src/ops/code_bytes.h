@@ -1,6 +1,7 @@
 #pragma once
 
-// Whole numbers as bytes: seven bits a byte, low ones first, the eighth bit where more follow.
+// Variable-length integers: seven bits per byte, low bits first; the eighth bit marks that more
+// bytes follow.
 
 #include <cstdint>
 #include <optional>
@@ -20,13 +21,13 @@ inline void put_number(Bytes& out, std::uint64_t value) {
   out.push_back(static_cast<std::uint8_t>(value));
 }
 
-/// Small in size becomes small: 0, -1, 1, -2, ...
+/// Zigzag encoding: 0, -1, 1, -2, ... become 0, 1, 2, 3, ...
 inline void put_signed(Bytes& out, std::int64_t value) {
   const auto bits = static_cast<std::uint64_t>(value);
   put_number(out, (bits << 1U) ^ (value < 0 ? ~std::uint64_t{0} : 0));
 }
 
-/// Reads what was put; gives nothing once the bytes have run out or make no number.
+/// Reads encoded numbers. Returns nothing if the bytes run out or encode no number.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}

@@ -1,6 +1,6 @@
 #pragma once
 
-// An axis as polylines of disks: what pack() codes.
+// An axis as polylines of disks, for pack().
 
 #include <algorithm>
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace medial::ops {
 
 /// A polyline of disks between two junctions.
 struct DiskLine {
-  std::uint32_t from = 0, to = 0;  ///< junctions; equal for a closed one
+  std::uint32_t from = 0, to = 0;  ///< junctions; equal for a closed line
   std::vector<Disk> disks;         ///< both ends included
 };
 
@@ -22,18 +22,17 @@ struct DiskGraph {
   std::vector<DiskLine> lines;
 };
 
-/// Of the error of disk_lines(): what samples may miss between them.
+/// The share of the error of disk_lines() for sampling.
 constexpr double sample_share = 1.0 / 16;
 
-/// The axis without what disks grown by `prune` cover at their base, as polylines: every disk of
-/// the axis lies in a disk of the polylines, grown by `prune` at most; and grown by `error` at most
-/// even where something was dropped. Conversely every disk of the polylines lies in one of the
-/// axis, grown by `error`. Requires error > 0,
-/// 0 <= prune <= (1 - sample_share) * error.
+/// The axis as polylines, without branches that the disk at their base covers if grown by `prune`.
+/// Every disk of the axis, including dropped ones, lies in a disk of the polylines grown by at most
+/// `error`, and every disk of the polylines lies in a disk of the axis grown by `error`. Requires
+/// error > 0, 0 <= prune <= (1 - sample_share) * error.
 DiskGraph disk_lines(const MedialAxis& axis, double prune, double error);
 
-/// Divides a line at its farthest point until all are near enough (Douglas and Peucker). What is
-/// left after many divisions, as of a zigzag that grows, is walked along instead.
+/// Divides a line at its farthest point until all points are close enough (Douglas and Peucker).
+/// After many divisions, as for a growing zigzag, walks along the rest instead.
 template <class Excess>
 class Simplifier {
  public:
@@ -45,7 +44,7 @@ class Simplifier {
   }
 
  private:
-  /// Appends what is kept between two points, and the last one.
+  /// Appends the kept points between two points, and the last one.
   void divide(std::uint32_t first, std::uint32_t last, std::uint32_t divisions) {
     constexpr std::uint32_t most = 128;
     const std::uint32_t at = farthest(first, last);
@@ -54,7 +53,7 @@ class Simplifier {
     divide(first, at, divisions + 1);
     divide(at, last, divisions + 1);
   }
-  /// The same with segments that doubling and halving find: each takes O(m log m) for m points.
+  /// The same with segments found by doubling and halving. A segment of m points takes O(m log m).
   void walk(std::uint32_t first, std::uint32_t last) {
     const auto reaches = [&](std::uint32_t to) { return farthest(first, to) == to; };
     while (first < last) {
@@ -72,8 +71,8 @@ class Simplifier {
       kept_.push_back(first);
     }
   }
-  /// The point between two others that is farthest from their segment, if one is too far; else the
-  /// last.
+  /// The point between two others that is farthest from their segment, if it is too far; else
+  /// `last`.
   std::uint32_t farthest(std::uint32_t first, std::uint32_t last) const {
     double worst = 0;
     std::uint32_t at = last;
@@ -90,9 +89,9 @@ class Simplifier {
   std::vector<std::uint32_t> kept_;
 };
 
-/// Which of the points 0 .. n - 1 to keep, first and last included, so that `excess(i, first,
-/// last)` is not positive for any i between neighbours that are kept: by how much point i is too
-/// far from the segment. O(n log n).
+/// The points of 0 .. n - 1 to keep, including the first and the last, such that `excess(i, first,
+/// last)` is not positive for any i between kept neighbours. excess() is the distance by which
+/// point i is too far from the segment. O(n log n).
 template <class Excess>
 std::vector<std::uint32_t> simplified(std::uint32_t n, const Excess& excess) {
   return Simplifier<Excess>(excess).run(n);

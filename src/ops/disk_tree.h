@@ -14,8 +14,8 @@
 
 namespace medial::ops {
 
-/// The disks at the nodes of an axis, for the search of the scale axis; those of each connected
-/// part by themselves.
+/// The disks at the nodes of an axis, in one tree per connected part, for searches of the scale
+/// axis.
 class DiskTree {
  public:
   /// `part` of each node, counted from 0. O(n log n).
@@ -38,14 +38,14 @@ class DiskTree {
     }
   }
 
-  /// The factor s at which `disk`, grown by it, lies in another disk of the part, grown too: the
-  /// least |p - q| / (r(q) - r(p)) over the disks with larger radii; infinite where there is none.
-  /// `other` is that disk, unchanged where there is none; before, any disk of the part that is
-  /// likely to be near to it.
+  /// The factor s at which another disk of the part, grown by s, contains `disk` grown by s: the
+  /// minimum of |p - q| / (r(q) - r(p)) over the disks with larger radii; infinite if there is
+  /// none. Sets `other` to that disk, if there is one. On input, `other` is any disk of the part
+  /// that is likely to be close to it.
   double vanishes_at(const Disk& disk, std::uint32_t part, Disk& other) const {
     return least(disk, part, other, factor(disk, other));
   }
-  /// Whether vanishes_at(disk, part, likely) is below `limit`; sooner than the value.
+  /// Whether vanishes_at(disk, part, likely) is below `limit`. Faster than computing the value.
   bool vanishes_below(double limit, const Disk& disk, std::uint32_t part, Disk likely) const {
     return factor(disk, likely) < limit || least(disk, part, likely, limit) < limit;
   }
@@ -53,7 +53,7 @@ class DiskTree {
  private:
   static constexpr std::size_t fan_out = 8;
 
-  /// The least factor that is below `best`, of `other` then; or else `best`.
+  /// The smallest factor below `best`, and sets `other` to its disk; or else `best`.
   double least(const Disk& disk, std::uint32_t part, Disk& other, double best) const {
     const Part& tree = parts_[part];
     Search search{tree, disk, best, other};
@@ -76,7 +76,7 @@ class DiskTree {
     std::vector<std::vector<Bound>> levels;  ///< the last one has one bound
   };
 
-  /// Below the root of this no disk of the bound lets `disk` vanish; infinite from `limit` on.
+  /// A lower bound for the squared factor of the disks in the bound; infinite if at least `limit`.
   static double least_squared(const Bound& bound, const Disk& disk, double limit) {
     const double more = bound.radius - disk.radius;
     if (!(more > 0)) return infinity;
@@ -85,7 +85,7 @@ class DiskTree {
     const double dx = std::max(std::max(low.x - p.x, p.x - high.x), 0.0);
     const double dy = std::max(std::max(low.y - p.y, p.y - high.y), 0.0);
     const double far = dx * dx + dy * dy, square = more * more;
-    // Most are far too far away, which needs no division to see.
+    // Most are much too far away; no division is needed to reject them.
     return far < limit * square ? far / square : infinity;
   }
   static double factor(const Disk& disk, const Disk& other) {

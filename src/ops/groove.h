@@ -1,6 +1,6 @@
 #pragma once
 
-// The parts of an axis that a tool follows, as paths in space, and their order.
+// The parts of an axis that a tool follows, as ordered paths in space.
 
 #include <cstdint>
 #include <vector>
@@ -23,20 +23,20 @@ struct Grooves {
   std::uint32_t junctions = 0;  ///< nodes of the axis, then places where parts begin or end
 };
 
-/// The parts of all edges where the radius is in [least, most]. Where an edge is curved, its chain
-/// stays within `chord` of it in (x, y, r), and every radius is less by sqrt(2) chord, so that the
-/// disks of all points between two of the chain are inside, too.
+/// The parts of all edges with radii in [least, most]. The chain of a curved edge stays within
+/// `chord` of it in (x, y, r), and every radius is reduced by sqrt(2) chord, so that all disks
+/// between two disks of the chain are inside the shape, too.
 Grooves grooves_of(const MedialAxis& axis, double least, double most, double chord);
 
-/// A part, and whether it is passed from `from` to `to`.
+/// A groove, and whether it is traversed from `from` to `to`.
 struct GrooveStep {
   std::uint32_t part = 0;
   bool forward = true;
 };
 
-/// Puts all parts into as few trails as there can be, each from junction to junction without
-/// passing a part twice, and the trails into an order with short ways in between: always the
-/// nearest one. Starts near a place. O(n log n) expected.
+/// Joins all grooves into the smallest possible number of trails, each from junction to junction,
+/// without repeating a groove. Orders the trails by always choosing the nearest one, beginning near
+/// `start`. O(n log n) expected.
 std::vector<std::vector<GrooveStep>> trails_of(const Grooves& grooves, Vec2 start);
 
 }  // namespace medial::ops

@@ -1,6 +1,6 @@
 #pragma once
 
-// The way around an axis: with the axis on the left and the boundary on the right.
+// The walk around an axis, with the axis on the left and the boundary on the right.
 
 #include <algorithm>
 #include <array>
@@ -19,21 +19,22 @@ namespace medial::ops {
 using HalfEdge = std::uint32_t;
 constexpr HalfEdge twin(HalfEdge half) { return half ^ 1U; }
 
-/// By what the half edges around a node are put in order.
+/// How the half edges around a node are ordered.
 enum class Around : std::uint8_t {
-  directions,  ///< in which they leave
-  /// The sites on their right, of exact axes: short edges have no direction but that of rounding.
+  directions,  ///< by the directions in which they leave
+  /// By the sites on their right, for exact axes, because the direction of a short edge is
+  /// rounding.
   sites,
 };
 
-/// Keeps a reference to the axis, which must live longer.
+/// Keeps a reference to the axis, which must outlive it.
 class HalfEdges {
  public:
   /// O(edges log(degree)).
   explicit HalfEdges(const MedialAxis& axis, Around order = Around::directions);
 
   HalfEdge count() const { return static_cast<HalfEdge>(next_.size()); }
-  /// The half edge after one that arrives: the one that leaves next, to the right.
+  /// The half edge that follows one that arrives at a node: the next one to the right.
   HalfEdge next(HalfEdge half) const { return next_[half]; }
   const Edge& edge(HalfEdge half) const { return axis_.edges[half / 2]; }
   std::uint32_t from(HalfEdge half) const { return edge(half).node[half % 2]; }
@@ -41,8 +42,8 @@ class HalfEdges {
   const Disk& disk(HalfEdge half, bool at_end) const {
     return axis_.nodes[at_end ? to(half) : from(half)].disk;
   }
-  /// Calls visit(walk) for each closed walk around the axis, a span of its half edges, by
-  /// increasing first half edge.
+  /// Calls visit(walk) for each closed walk around the axis, by increasing first half edge. A walk
+  /// is a span of half edges.
   template <class Visit>
   void each_walk(const Visit& visit) const {
     std::vector<bool> done(count(), false);
@@ -57,25 +58,25 @@ class HalfEdges {
     }
   }
 
-  /// Whether the right side is known as a site, exactly.
+  /// Whether the right side is an exact site.
   bool exact(HalfEdge half) const {
     return axis_.resolution == 0 && right_site(half) < axis_.sites.size();
   }
   std::uint32_t right_site(HalfEdge half) const { return edge(half).site[1 - half % 2]; }
 
-  /// The jet where a half edge begins, or where it ends; in its direction.
+  /// The jet at the beginning or end of a half edge, in its direction.
   AxisJet jet(HalfEdge half, bool at_end) const;
-  /// Where the disk at an end of a half edge touches the boundary on the right.
+  /// The point at which the disk at an end of a half edge touches the boundary on the right.
   Vec2 touch(HalfEdge half, bool at_end) const;
-  /// The angle of the disk's arc, counter-clockwise, from where the right side of a half edge ends
-  /// to where that of the next one begins; in [0, 2 pi]. 0 where the two are one point to rounding,
-  /// and where the sides of samples overlap.
+  /// The angle of the disk's arc, counter-clockwise, from the end of the right side of a half edge
+  /// to the beginning of the right side of the next one, in [0, 2 pi]. 0 if the two points are
+  /// equal up to rounding, or if the sides of samples overlap.
   double gap(HalfEdge half) const;
 
  private:
   void link_by_direction(std::span<const HalfEdge> leaving);
-  /// Links three edges where each pair of ends has a site of its own, as a rule; else changes
-  /// nothing.
+  /// Links three edges if each pair of them shares a site of its own, the usual case; otherwise
+  /// does nothing.
   bool link_three(std::span<const HalfEdge> leaving);
   void link_by_site(std::span<const HalfEdge> leaving);
   /// The direction in which a half edge leaves.
@@ -86,13 +87,13 @@ class HalfEdges {
 };
 
 /// The boundary of an axis as closed contours with the interior on the left, by increasing lowest
-/// edge: segments and arcs of an exact axis, straight pieces between the points of (3) of a sampled
-/// one, a circle around a node without edges. Arcs of its disks close gaps. `corner_angle` in
-/// degrees, that which the axis was computed with. O(edges log(degree)).
+/// edge: segments and arcs for an exact axis, straight pieces between the points of (3) for a
+/// sampled one, a circle around a node without edges. Arcs of disks close gaps. `corner_angle`, in
+/// degrees, is the one that the axis was computed with. O(edges log(degree)).
 std::vector<Contour> boundary_of(const MedialAxis& axis, double corner_angle);
 
-/// The sites from one to another along the boundary, both included, if each `goes_on` from the one
-/// before it and all others `may_lie_between`; else none.
+/// The sites from one to another along the boundary, both included, if each `goes_on` from the
+/// previous one and all inner ones `may_lie_between`; else none.
 template <class GoesOn, class MayLieBetween>
 std::vector<std::uint32_t> sites_between(const MedialAxis& axis, std::uint32_t before,
                                          std::uint32_t after, const GoesOn& goes_on,
@@ -104,7 +105,7 @@ std::vector<std::uint32_t> sites_between(const MedialAxis& axis, std::uint32_t b
   const auto passes = [&](std::uint32_t site) {
     return site < count && may_lie_between(axis.sites[site]);
   };
-  // A loop's numbers may begin anywhere in between.
+  // The numbers of a loop may wrap around anywhere in between.
   std::vector<std::uint32_t> chain{before}, back{after};
   const auto met = [&] { return joined(chain.back(), back.back()); };
   while (!met() && joined(chain.back(), chain.back() + 1) && passes(chain.back() + 1))
@@ -119,7 +120,7 @@ std::vector<std::uint32_t> sites_between(const MedialAxis& axis, std::uint32_t b
 /// The same jet in the other direction.
 AxisJet reversed(AxisJet jet);
 
-/// Feet of one disk that are apart by no more than this are one.
+/// The distance up to which two feet of one disk count as equal.
 double slack_of(const MedialAxis& axis, const Disk& disk);
 
 /// The feet of the disk at t of an edge, on the left and on the right: on the edge's sites, or by
@@ -127,8 +128,9 @@ double slack_of(const MedialAxis& axis, const Disk& disk);
 std::array<Vec2, 2> feet_at(const MedialAxis& axis, const Edge& edge, double t, const Disk& disk,
                             bool by_sites);
 
-/// Where a disk around `center` touches a site whose stretch of the boundary begins or ends there.
-/// Around the centre of an arc, within rounding, it touches all of it: that is its start or end.
+/// The point at which a disk around `center` touches a site whose part of the boundary begins or
+/// ends there. A disk around the centre of an arc, up to rounding, touches the whole arc; then it
+/// is the arc's start or end.
 Vec2 touch_of(const MedialAxis& axis, const Site& site, Vec2 center, bool ends);
 
 /// The arc of a disk from one point to another, counter-clockwise, as one piece or two.

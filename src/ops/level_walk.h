@@ -1,6 +1,6 @@
 #pragma once
 
-// The curves on which an axis has a given radius on its sides: the level sets of the clearance.
+// The level sets of the clearance, from an axis.
 
 #include <algorithm>
 #include <cstdint>
@@ -15,11 +15,11 @@
 
 namespace medial::ops {
 
-/// A closed curve of all points of one clearance, with the larger clearance on its left.
+/// A closed level curve of the clearance, with larger clearances on its left.
 struct OffsetRing {
   Ring ring;
-  std::uint32_t node = 0;  ///< of the axis: in the region on the left
-  /// One that the loop is an offset of; no_site for a circle around a node without edges.
+  std::uint32_t node = 0;  ///< a node of the axis in the region on the left
+  /// A site that the loop is an offset of; no_site for a circle around a node without edges.
   std::uint32_t site = 0;
 };
 
@@ -29,15 +29,15 @@ class LevelWalk {
   /// O(n). Keeps a reference to the axis.
   explicit LevelWalk(const MedialAxis& axis);
 
-  /// The smallest radius along an edge, less the axis's tolerance.
+  /// The smallest radius along an edge, minus the axis's tolerance.
   double lowest(std::uint32_t edge) const { return lowest_[edge]; }
 
-  /// About how many points the loops of all levels have.
+  /// The approximate number of points of the loops of all levels.
   std::uint64_t points_at(std::span<const double> levels) const;
 
-  /// Calls take(k, loops) for every level from the last to the first. Levels increase strictly.
-  /// A node is inside where its radius exceeds the level by more than the tolerance, an edge where
-  /// its lowest radius does: so what is exactly at the level is outside, whatever rounding did.
+  /// Calls take(k, loops) for every level from the last to the first. Levels increase strictly. A
+  /// node is inside if its radius exceeds the level by more than the tolerance, an edge if its
+  /// lowest radius does. So places exactly at the level are outside, in spite of rounding.
   template <class Take>
   void run(std::span<const double> levels, const Take& take) {
     crossed_.clear();
@@ -52,7 +52,7 @@ class LevelWalk {
 
  private:
   struct Face {
-    HalfEdge last;  ///< behind which the right site is another one, if that is anywhere
+    HalfEdge last;  ///< after it, the right site changes, if it changes anywhere
     double lowest;  ///< of its edges
   };
   /// The levels that an edge crosses: those in [lowest, largest of its radii).
@@ -76,21 +76,21 @@ class LevelWalk {
   double height(std::uint32_t node) const {
     return axis_.nodes[node].disk.radius - axis_.tolerance;
   }
-  /// Whether a walk along the half edge leaves what is above the level.
+  /// Whether a walk along the half edge leaves the region above the level.
   bool falls(HalfEdge half, double level) const {
     return !(height(halves_.to(half)) > level) || !(lowest_[half / 2] > level);
   }
 
   const MedialAxis& axis_;
   const HalfEdges halves_;
-  double largest_ = 0;                ///< of the coordinates, in size
+  double largest_ = 0;                ///< largest absolute coordinate
   std::vector<double> lowest_;        ///< of each edge
   std::vector<Face> faces_;           ///< one for each loop of the boundary that has edges
   std::vector<std::uint32_t> alone_;  ///< nodes without edges
-  std::vector<Crossing> waiting_;     ///< edges below the level under way, the highest one last
-  std::vector<Crossing> crossed_;     ///< those that cross it, in the order of the edges
-  std::vector<Vec2> rise_;            ///< where each half edge rises above the level under way
-  std::vector<bool> risen_;           ///< and whether it does, and was not walked yet
+  std::vector<Crossing> waiting_;     ///< edges below the current level, the highest one last
+  std::vector<Crossing> crossed_;     ///< edges that cross it, in the order of the edges
+  std::vector<Vec2> rise_;            ///< where each half edge rises above the current level
+  std::vector<bool> risen_;           ///< whether it does, and has not been walked yet
 };
 
 }  // namespace medial::ops

@@ -1,6 +1,6 @@
 #pragma once
 
-// Power series cut off after a fixed number of terms: all derivatives of a formula at once.
+// Truncated power series, which give all derivatives of a formula at once.
 
 #include <cmath>
 #include <cstddef>
@@ -16,7 +16,7 @@ struct PowerSeries {
   std::size_t size() const { return terms.size(); }
   double value() const { return terms[0]; }
 
-  /// d/du; the last term is lost and becomes 0.
+  /// d/du. The last term is unknown and becomes 0.
   PowerSeries derivative() const {
     PowerSeries out(size());
     for (std::size_t k = 1; k < size(); ++k) out.terms[k - 1] = static_cast<double>(k) * terms[k];

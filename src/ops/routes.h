@@ -18,20 +18,20 @@
 
 namespace medial::ops {
 
-/// What the part of an edge from one parameter to another costs; never negative.
+/// The cost of a part of an edge; never negative.
 double cost_of(const MedialAxis& axis, const PathPiece& piece, Route route);
 
-/// From where a search begins: a node, and what it costs to be there.
+/// A start of a search: a node with its initial cost.
 struct Start {
   std::uint32_t node = 0;
   double cost = 0;
 };
 
-/// The cost of a way, of what it costs up to an edge and of that edge.
+/// How the cost of a path follows from the cost up to an edge and the cost of that edge.
 enum class Adding : std::uint8_t { sum, most };
 
-/// Least costs from a set of starts (Dijkstra's algorithm, with a heap), on the edges that have a
-/// finite cost. Kept for use again, so that a search costs what it visits.
+/// Shortest paths from a set of starts (Dijkstra's algorithm with a heap), along edges of finite
+/// cost. Reuse the object: then a search takes time only for the nodes that it visits.
 class Search {
  public:
   Search(const MedialAxis& axis, const Incidence& incidence, std::span<const double> costs,
@@ -44,11 +44,11 @@ class Search {
         via_(axis.nodes.size(), none) {}
 
   void run(std::span<const Start> starts);
-  /// Infinite where no way leads.
+  /// Infinite if there is no path.
   double cost(std::uint32_t node) const { return cost_[node]; }
-  /// All nodes that were reached, by increasing cost.
+  /// All nodes reached, by increasing cost.
   std::span<const std::uint32_t> reached() const { return reached_; }
-  /// The way from a start to a node.
+  /// The path from a start to a node.
   std::vector<Step> way_to(std::uint32_t node) const;
 
  private:
@@ -64,11 +64,12 @@ class Search {
       heap_;
 };
 
-/// Makes parts of an axis, without its sites. Kept for use again, so that a part costs what it has.
+/// Makes parts of an axis, without its sites. Reuse the object: then a part takes time in
+/// proportion to its size.
 class PartMaker {
  public:
   explicit PartMaker(const MedialAxis& axis) : axis_(axis), node_of_(axis.nodes.size(), none) {}
-  /// Else as part_of(). O(pieces log(pieces)).
+  /// Like part_of(), without sites. O(pieces log(pieces)).
   MedialAxis part(std::span<const PathPiece> pieces);
 
  private:
@@ -81,15 +82,15 @@ AxisPath path_of(const MedialAxis& axis, std::span<const Step> steps);
 /// Sets the length and the narrowest radius from the pieces.
 void measure(const MedialAxis& axis, AxisPath& path);
 
-/// The place of the smallest or largest radius on an edge; the middle where it is constant. O(1).
+/// The place of the smallest or largest radius on an edge; the middle if it is constant. O(1).
 EdgePlace narrowest_place(const MedialAxis& axis, std::uint32_t edge);
 EdgePlace widest_place(const MedialAxis& axis, std::uint32_t edge);
 
 /// The smallest radius on a part of an edge.
 double narrowest_radius(const MedialAxis& axis, const PathPiece& piece);
 
-/// The parts of an edge where the radius is at least `clearance`, from node to node: at most two,
-/// none of them a single point.
+/// The parts of an edge with a radius of at least `clearance`, in order: at most two, none of them
+/// a single point.
 std::vector<PathPiece> wide_pieces(const MedialAxis& axis, std::uint32_t edge, double clearance);
 
 /// The width at a place, with the feet as seen along the edge or against it.

@@ -1,7 +1,7 @@
 #pragma once
 
-// A branch as runs: pieces along which the signs of the derivatives stay, then longer ones of one
-// class. See medial/features.h for what decides.
+// Divides a branch into runs: first pieces on which the derivatives keep their signs, then longer
+// runs of one class. See FeatureOptions in medial/features.h.
 
 #include <cstdint>
 #include <queue>
@@ -14,18 +14,18 @@
 
 namespace medial::ops {
 
-/// Means of f, f u, f u^2 and f^2 along a run, u from 0 at its start to 1: free of its length,
-/// whose powers would overflow.
+/// Means of f, f u, f u^2 and f^2 along a run, with u from 0 to 1. They do not contain powers of
+/// the length, which would overflow.
 struct Moments {
   double zero = 0, first = 0, second = 0, square = 0;
 };
 
-/// A part of a branch with what adds up along it.
+/// A part of a branch with sums along it.
 struct Run {
   EdgePlace from, to;
   double length = 0;
   Moments radius;
-  Moments direction;            ///< of the angle against the tangent at the start
+  Moments direction;            ///< of the angle from the tangent at the start
   double direction_change = 0;  ///< that angle at the end
   double bending = 0;           ///< integral of the curvature's size, breaks included
   Vec2 first_tangent, last_tangent;
@@ -37,8 +37,8 @@ struct Run {
   double mean_radius() const { return radius.zero; }
 };
 
-/// The quadratic function of u in [0, 1] nearest to f: slope at the middle and second derivative,
-/// and the root of the mean square of what it misses.
+/// The quadratic least-squares fit to f on [0, 1]: its slope at the middle, its second derivative,
+/// and its root mean square error.
 struct Fit {
   double slope = 0;
   double bend = 0;
@@ -46,13 +46,13 @@ struct Fit {
 };
 Fit fit(const Moments& moments);
 
-/// What a run is, by its fits.
+/// Classifies a run by its fits.
 void classify(Run& run, const FeatureOptions& options);
 
-/// The union of a run and the one that follows it, not classified.
+/// The union of two consecutive runs, not classified.
 Run joined(const Run& a, const Run& b);
 
-/// Cuts branches; one object for many of them, to spare allocations.
+/// Cuts branches into runs. Use one object for many branches, which saves allocations.
 class RunCutter {
  public:
   RunCutter(const MedialAxis& axis, const FeatureOptions& options)
@@ -63,7 +63,7 @@ class RunCutter {
   /// O(n log n).
   std::span<const Run> cut(std::span<const Step> steps, bool cyclic);
 
-  /// The pieces of the last call, before they were merged, added up: what holds of the whole.
+  /// Totals of the last call, over all pieces before merging.
   double length() const { return length_; }
   double radius_integral() const { return radius_integral_; }
   double smallest_radius() const { return smallest_; }
@@ -95,7 +95,7 @@ class RunCutter {
   const MedialAxis& axis_;
   FeatureOptions options_;
   std::vector<Run> runs_;
-  std::vector<Run> pieces_;  ///< of samples, before they were taken together
+  std::vector<Run> pieces_;  ///< of samples, before merging
   std::vector<std::uint32_t> next_, previous_, version_;
   std::priority_queue<Entry> heap_;
   std::vector<double> cuts_;

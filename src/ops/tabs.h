@@ -1,6 +1,6 @@
 #pragma once
 
-// Tabs: where they stand, and tool paths that spare them.
+// Tool paths that leave tabs standing.
 
 #include <vector>
 
@@ -9,17 +9,17 @@
 
 namespace medial::ops {
 
-/// Lifts the paths of a carving over its tabs, as far as its tool would cut into them. Exact to
+/// Lifts the paths of a carving over its tabs, only where the tool would cut into them. Exact to
 /// 1e-8 of the tool's radius and a tab's width.
 void spare_tabs(Carving& carving);
 
-/// Tabs, and what lies within `reach` of them, in a tree.
+/// A tree of tabs, for finding the places within `reach` of them.
 class TabTree {
  public:
   /// O(tabs log(tabs)).
   TabTree(const Tabs& tabs, double reach);
   double reach() const { return reach_; }
-  /// The tabs whose reach may meet a box. O(log(tabs)) each.
+  /// The tabs whose reach may meet a box. O(log(tabs)) per tab.
   std::vector<const TabLine*> near(const Box& box) const;
   /// Whether a tab is nearer than the reach.
   bool reaches(Vec2 p) const;

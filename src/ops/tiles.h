@@ -22,46 +22,49 @@ struct TileGrid {
   int levels = 0;  ///< below the root: 4^levels leaves
   double side() const { return std::max(box.high.x - box.low.x, box.high.y - box.low.y); }
   Box window(int level, std::uint32_t column, std::uint32_t row) const;
-  /// A share of a leaf's side, far above rounding: so far tiles keep off the borders of windows.
+  /// The distance that tiles keep from the borders of windows: a share of a leaf's side, far above
+  /// rounding.
   double slack() const { return std::ldexp(side(), -20 - levels); }
 };
 
-/// A straight edge of the boundary, with the interior on its left. Numbers follow each loop.
+/// A straight edge of the boundary, with the interior on its left. Edges are numbered along each
+/// loop.
 struct TileEdge {
   Vec2 from, to;
   std::uint64_t number = 0;
 };
 
-/// An edge of the axis, from its lower site to its higher one. Tiles have the same numbers for the
-/// same node, and for the same site: 2 k for edge k, 2 k + 1 for the vertex where it begins.
+/// An edge of the axis, from its lower site to its higher one. All tiles use the same number for a
+/// node, and for a site: 2 k for edge k, 2 k + 1 for the vertex where it begins.
 struct TileAxisEdge {
   std::array<std::uint64_t, 2> node, site;  ///< see Edge
   std::array<Disk, 2> disk;                 ///< of the nodes
-  std::array<std::uint32_t, 2> degree;      ///< of the nodes: how many edges the axis has there
+  std::array<std::uint32_t, 2> degree;      ///< of the nodes: their number of edges in the axis
   Disk control;
   double weight = 1;
 };
 
-/// What tiles cannot take, if anything: options out of their range, and too many levels for them.
+/// The error for options that tiles do not support or that are out of range, and for too many
+/// levels; none if all are valid.
 std::optional<Error> refuse_grid(const TileGrid& grid, const Options& options);
 
-/// The leaves that an edge meets, or comes near to: column and row of each.
+/// The leaves that an edge meets or almost meets, by column and row.
 std::vector<std::array<std::uint32_t, 2>> leaves_of(const TileGrid& grid, const TileEdge& edge);
 
 struct TilePart {
   std::vector<TileAxisEdge> axis;  ///< final
-  std::vector<TileEdge> open;      ///< what disks that are not final can touch, by number
+  std::vector<TileEdge> open;      ///< edges that disks that are not final can touch, by number
 };
 
-/// One tile: a leaf has all edges that its window meets, other tiles the open ones of their four
-/// children, by number and each once. Uses of the options the tolerance, relative to the grid's
-/// box, threads and cancel. O(n log n) expected. Errors: those of refuse_grid() and of
-/// voronoi_diagram().
+/// Computes one tile. `edges`, sorted by number and distinct, are all edges that meet the window of
+/// a leaf, or the open edges of the four children of another tile. Uses the tolerance (relative to
+/// the grid's box), threads and cancel of the options. O(n log n) expected. Errors: those of
+/// refuse_grid() and of voronoi_diagram().
 Result<TilePart> axis_of_tile(std::span<const TileEdge> edges, const TileGrid& grid, int level,
                               std::uint32_t column, std::uint32_t row, const Options& options = {});
 
 /// The axis of a shape whose point k is the start of edge k, from the final edges of all tiles, in
-/// any order; an edge may be there twice. Errors: internal, where edges are missing.
+/// any order; edges may be repeated. Errors: internal (edges are missing).
 Result<MedialAxis> join_tiles(const Shape& shape, std::vector<TileAxisEdge> edges,
                               const Options& options = {});
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Tool paths in the order of cutting, with the ways down into the material.
+// Tool paths in the order of cutting, with ramps and plunges into the material.
 
 #include <vector>
 
@@ -8,14 +8,14 @@
 
 namespace medial::ops {
 
-/// Puts paths one after the other, and joins those that are safely near.
+/// Appends paths to a carving, and joins paths whose link is safe.
 class Planner {
  public:
   /// `slope`: of ramps; infinite: none.
   Planner(Carving& carving, double slope, double chord)
       : carving_(carving), slope_(slope), chord_(chord) {}
 
-  /// What lies above `level` has been cut before, wherever a path of this pass goes.
+  /// Starts a pass. Material above `level` has been cut before, along all paths of this pass.
   void begin_pass(std::uint32_t pass, double level) {
     pass_ = pass;
     level_ = level;
@@ -26,8 +26,8 @@ class Planner {
   }
   bool started() const { return !carving_.paths.empty(); }
 
-  /// `reach`: up to what length the straight way to the path is inside of what is or may be cut at
-  /// its depth; below 0: the tool is lifted.
+  /// `reach`: the largest length of a straight link to the path that stays inside the region that
+  /// is or may be cut at its depth; below 0, the tool is lifted.
   void add(ToolPathKind kind, std::vector<ToolPoint> points, double reach);
 
  private:

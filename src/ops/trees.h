@@ -1,7 +1,7 @@
 #pragma once
 
-// The core of a graph, which holds all cycles and the ways between them, or the
-// deepest place of each part that is a tree; and the trees on it.
+// The core of a graph (all cycles and the paths between them, or the deepest place of each part
+// that is a tree), and the trees attached to it.
 
 #include <cstdint>
 #include <vector>
@@ -14,14 +14,13 @@
 
 namespace medial::ops {
 
-/// Removes edges at nodes that have one left, unless stays(node), until no such node remains: the
-/// outer ones first. Calls take(edge, leaf, inner node) for each. Returns how many are left at each
-/// node. O(n).
+/// Repeatedly removes edges at nodes of degree one, outer edges first, unless stays(node). Calls
+/// take(edge, leaf, inner node) for each. Returns the remaining degree of each node. O(n).
 template <class Stays, class Take>
 std::vector<std::uint32_t> take_off_leaves(const MedialAxis& axis, const Stays& stays,
                                            const Take& take) {
   std::vector<std::uint32_t> degree = degrees_of(axis);
-  // The exclusive or of the edges at a node is the last one left when its degree is 1.
+  // The exclusive or of the edges at a node of degree 1 is its only edge.
   std::vector<std::uint32_t> last(degree.size(), 0), leaves;
   for (std::uint32_t e = 0; e < axis.edges.size(); ++e)
     for (const std::uint32_t node : axis.edges[e].node) last[node] ^= e;
@@ -44,7 +43,7 @@ std::vector<std::uint32_t> take_off_leaves(const MedialAxis& axis, const Stays& 
 }
 
 struct Trees {
-  /// The edges of all trees, each after all that are farther out.
+  /// The edges of all trees, outer edges first.
   std::vector<std::uint32_t> order;
   /// Of each node: the edge that leads to the core, or none in the core.
   std::vector<std::uint32_t> inwards;

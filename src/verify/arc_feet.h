@@ -13,12 +13,12 @@ inline bool is_on_arc(const Site& site) {
   return site.kind() == SiteKind::arc && !(site.start == site.end);
 }
 
-/// Where the disks at the ends of each edge touch those of its sites that are arcs, as ways along
-/// these: what several checks ask for.
+/// The positions along arcs at which the disks at the ends of each edge touch those of its sites
+/// that are arcs. Several checks use them.
 class ArcFeet {
  public:
   explicit ArcFeet(const Problem& problem) : edges_(problem.axis.edges.data()) {
-    // Also those that are none of the boundary.
+    // Including sites that are not on the boundary.
     if (std::none_of(problem.axis.sites.begin(), problem.axis.sites.end(), is_on_arc)) return;
     at_.resize(problem.axis.edges.size());
     parallel_for(at_.size(), [&](std::size_t i) {

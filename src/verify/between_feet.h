@@ -12,14 +12,14 @@
 
 namespace medial::verify_detail {
 
-/// The directions from the centre of a disk in which disks between it and another one reach over
-/// places deeper than it does.
+/// The directions from the centre of a disk in which disks between it and another one cover places
+/// more deeply than it does.
 ///
-/// How deep a disk (c, r) reaches over a place x, r - |x - c|, is concave in c and r. So on the way
-/// to a disk (e, q) it never grows where it does not grow at first:
+/// The depth by which a disk (c, r) covers a place x, r - |x - c|, is concave in c and r. So on the
+/// way to a disk (e, q), it never increases if it does not increase at first:
 ///   (x - c) . (e - c) <= |x - c| (r - q).
-/// Elsewhere x lies in a sector around e - c, whose sides lead to where the lines touch the disk
-/// that touch both.
+/// Otherwise, x lies in a sector around e - c. The sides of the sector lead to the points where the
+/// common tangents of both disks touch the disk.
 class Sector {
  public:
   /// Coordinates are relative to the origin; boxes may be off by the slack.
@@ -40,7 +40,8 @@ class Sector {
     is_convex_ = cosine >= 0;
   }
 
-  /// Whether all of a box lies outside: behind one side of a convex sector, or both of another.
+  /// Whether a box lies entirely outside: beyond one side of a convex sector, or beyond both sides
+  /// of a reflex one.
   bool misses(const Bounds& bounds, std::size_t set) const {
     const double x = bounds.normal_x[set], y = bounds.normal_y[set];
     const Pair along = inward_x_ * y - inward_y_ * x, across = inward_x_ * x + inward_y_ * y;
@@ -52,14 +53,14 @@ class Sector {
   }
 
  private:
-  Pair inward_x_{}, inward_y_{};  ///< normals of the sides; none: everything or nothing lies inside
-  Pair limit_{};                  ///< how far along them the sides are
+  Pair inward_x_{}, inward_y_{};  ///< normals of the sides; zero: everything or nothing is inside
+  Pair limit_{};                  ///< positions of the sides along their normals
   bool is_convex_ = true;
 };
 
-/// Where disks of an edge of an axis may reach deeper than both disks at its ends do: in the
-/// sectors of both. That is beside its sites between their feet, however many others touch a disk
-/// at its end.
+/// The places that disks of an axis edge may cover more deeply than both disks at its ends: the
+/// intersection of the sectors of both ends. This is next to its sites, between their feet, even if
+/// many other sites touch a disk at its end.
 class BetweenFeet {
  public:
   BetweenFeet(const DiskHull& disks, Vec2 origin, double slack)
@@ -83,7 +84,7 @@ class BetweenFeet {
 
  private:
   std::array<Sector, 2> across_, to_control_;  ///< from each end, to the other and to the control
-  bool is_straight_;  ///< the disks are those between the ones at the ends, up to rounding
+  bool is_straight_;  ///< the disks interpolate those at the ends linearly, up to rounding
 };
 
 }  // namespace medial::verify_detail

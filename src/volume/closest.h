@@ -26,9 +26,9 @@ inline Closest closest_on_sides(Vec3 p, const Triangle& triangle) {
   return best;
 }
 
-/// The point of a closed triangle that is nearest to p, by the region of its plane that p lies over
-/// (Ericson 2005, Section 5.1.5). For corners and p up to 2^13 in size the point is off by less
-/// than 1e-11; triangles without an area give a point on a side.
+/// The point of a closed triangle nearest to p, by the region of its plane above which p lies
+/// (Ericson 2005, Section 5.1.5). If corners and p are below 2^13 in absolute value, the error is
+/// below 1e-11. For a triangle without area, the result lies on a side.
 inline Closest closest_point(Vec3 p, const Triangle& triangle) {
   const auto& [a, b, c] = triangle.corner;
   const auto at = [p](Vec3 point, bool inside = false) {

@@ -10,20 +10,20 @@
 
 namespace medial::volume {
 
-/// A closed complex as a set of the cells of a grid twice as fine: a coordinate is odd along the
-/// directions in which a cell extends. The voxel (x, y, z) is the cube (2x + 1, 2y + 1, 2z + 1),
-/// the cells around a cell are its faces and what it is a face of.
+/// A closed complex as a set of cells of a grid that is twice as fine. A coordinate is odd along
+/// the directions in which a cell extends. The voxel (x, y, z) is the cube (2x + 1, 2y + 1, 2z +
+/// 1). The neighbours of a cell are its faces and the cells of which it is a face.
 using CubicalComplex = VoxelSet;
 
-/// The faces of a cell, and those that it is a face of, as bits of a Neighbourhood.
+/// The faces of a cell, and the cells of which it is a face, as bits of a Neighbourhood.
 Neighbourhood faces_of(Cell cell);
 Neighbourhood cofaces_of(Cell cell);
 
-/// How many directions a cell extends in: 0 for a point, 3 for a cube.
+/// The dimension of a cell: 0 for a point, 3 for a cube.
 inline std::uint32_t dimension(Cell cell) { return (cell.x & 1U) + (cell.y & 1U) + (cell.z & 1U); }
 inline Cell cube_of(Cell voxel) { return {2 * voxel.x + 1, 2 * voxel.y + 1, 2 * voxel.z + 1}; }
 
-/// Calls take(other) for the cells around a cell that bits of a Neighbourhood stand for.
+/// Calls take(other) for the neighbours of a cell whose bits are set in a Neighbourhood.
 template <class Take>
 void each_cell(Cell cell, Neighbourhood bits, const Take& take) {
   for (; bits != 0; bits &= bits - 1) take(neighbour(cell, std::countr_zero(bits)));
@@ -43,11 +43,11 @@ CubicalComplex complex_of(const VoxelSet& voxels);
 /// Adds a cell and its faces.
 void insert_closed(CubicalComplex& complex, Cell cell);
 
-/// Collapses a complex onto sheets and curves by elementary collapses: a cell leaves with the only
-/// one that it is a face of. What lies farthest off the axis goes first; `off_axis` estimates how
-/// far, in edges of a voxel. What is in `kept`, a closed part of the complex, stays, but where it
-/// shuts cubes in; and curves stay where the axis passes, up to about two edges from open ends. The
-/// homotopy type does not change. O(n log n).
+/// Collapses a complex onto sheets and curves by elementary collapses, each of which removes a free
+/// face together with the only cell that it is a face of. Cells farthest from the axis go first;
+/// `off_axis` estimates the distance in edges of a voxel. Keeps the cells in `kept`, a closed part
+/// of the complex, unless they enclose cubes; and keeps curves where the axis passes, up to about
+/// two edges from open ends. Preserves the homotopy type. O(n log n).
 void collapse(CubicalComplex& complex, CubicalComplex kept, int longest,
               const std::function<double(Cell)>& off_axis, const Control& control);
 

@@ -7,19 +7,19 @@
 
 namespace medial::volume {
 
-/// What ends a computation early; thrown inside the layer only.
+/// Ends a computation early. Thrown only inside the layer.
 struct Interrupted {
   Error error;
 };
 
-/// The caller's wishes, asked now and then by the one thread that leads the computation.
+/// The caller's cancel flag, memory limit and progress callback. The leading thread polls it.
 class Control {
  public:
   explicit Control(const VoxelOptions& options) : options_(options) {}
 
   bool stopped() const { return options_.cancel != nullptr && options_.cancel->load(); }
 
-  /// Throws if the caller asked to stop or if more is held than was allowed.
+  /// Throws if the caller cancelled, or if `held_bytes` exceeds the limit.
   void check(std::uint64_t held_bytes) const {
     if (stopped()) throw Interrupted{{ErrorCode::cancelled, "cancelled", {}}};
     if (held_bytes > options_.memory)
@@ -28,7 +28,7 @@ class Control {
                          "more",
                          {}}};
   }
-  /// Reports the share of the work that is done; never less than before.
+  /// Reports the share of work done, which never decreases.
   void report(double share) {
     done_ = std::max(done_, std::min(share, 1.0));
     if (options_.progress) options_.progress(done_);

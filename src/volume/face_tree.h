@@ -1,6 +1,6 @@
 #pragma once
 
-// A tree of boxes over triangles, for the nearest ones and for pairs that may meet.
+// A tree of boxes over triangles, for nearest triangles and for pairs that may intersect.
 
 #include <algorithm>
 #include <array>
@@ -56,7 +56,7 @@ inline double squared_distance(Vec3 p, const Box3& box) {
   return x * x + y * y + z * z;
 }
 
-/// Boxes around boxes around a few faces each: halved at the median along the longest side.
+/// A tree of boxes with a few faces per leaf, split at the median along the longest side.
 class FaceTree {
  public:
   struct Node {
@@ -72,11 +72,11 @@ class FaceTree {
   /// The faces' indices, those of each leaf together.
   const std::vector<std::uint32_t>& order() const { return order_; }
 
-  /// Calls take(k) for each face order()[k] of the leaves in boxes that enter(box) lets in, until
-  /// it returns false. Returns whether it never did.
+  /// Calls take(k) for each face order()[k] of the leaves whose boxes enter(box) accepts, until it
+  /// returns false. Returns whether it never did.
   template <class Enter, class Take>
   bool visit(const Enter& enter, const Take& take) const {
-    // Halved at the median, 2^31 faces have fewer levels.
+    // A tree of 2^31 faces split at the median has fewer levels.
     std::array<std::uint32_t, 64> stack{0};
     for (std::size_t size = 1; size > 0;) {
       const std::uint32_t at = stack[--size];
@@ -99,7 +99,7 @@ class FaceTree {
     for (std::uint32_t i = 0; i < order_.size(); ++i) {
       const Box3 box = box_of_face(order_[i]);
       const auto take_pair = [&](std::uint32_t k) {
-        // Each pair once: at the one of the two that stands first in the order.
+        // Visit each pair once, from the face that comes first in the order.
         return k <= i || !box_of_face(order_[k]).meets(box) ||
                take(std::min(order_[i], order_[k]), std::max(order_[i], order_[k]));
       };

@@ -1,7 +1,7 @@
 #pragma once
 
-// Ridge following in space: the first medial voxel of a bounded set, then all that are connected
-// with it over neighbours (report, Section V.B.3).
+// Ridge following in space: finds the first medial voxel of a bounded set, then all that are
+// connected to it through neighbours (report, Section V.B.3).
 
 #include <cstdint>
 #include <optional>
@@ -15,42 +15,42 @@
 
 namespace medial::volume {
 
-/// A voxel of the axis and what is known of it.
+/// A voxel of the axis and its properties.
 struct MedialVoxel {
   std::uint64_t rank = 0;
   double radius = 0;   ///< in units of the grid
   double quality = 0;  ///< infinite for a bridge
   std::array<std::uint32_t, 2> face = {Voxel::no_face, Voxel::no_face};
-  std::uint8_t across = no_axis;  ///< the axis nearest to the normal of the sheet it lies on
+  std::uint8_t across = no_axis;  ///< the coordinate axis nearest to the normal of its sheet
 
   static constexpr std::uint8_t no_axis = 3;
 };
 
 class RidgeFollower {
  public:
-  /// Keeps references to all.
+  /// Keeps references to all arguments.
   RidgeFollower(const Grid& grid, const VoxelSet& interior, const FeetFinder& finder,
                 Control& control);
 
   /// Finds the first medial voxel of a bounded set, plane by plane from its middle layer outwards.
-  /// The report searches one plane and trusts that the axis meets it, which does not hold: the axis
-  /// of a ball is a point. A set may have no medial voxel at all; peel() leaves one of it.
-  /// Beside convex edges, where the surface turns by less than the angle, voxels next to the
-  /// surface have feet at the angle, too; they come first only where there is nothing else.
+  /// The report searches only one plane and assumes that the axis meets it, but the axis of a ball
+  /// is a point. A set may have no medial voxel at all; then peel() leaves one of its voxels. Next
+  /// to convex edges at which the surface turns by less than the angle, voxels next to the surface
+  /// have feet at the angle, too; they are used only if there is no other voxel.
   void find_first(const BoundedSet& set);
-  /// Finds what else of the axis has voxels: starts where the largest balls that touch the surface
-  /// below the outermost interior voxels have their centres. What the report trusts in, that the
-  /// axis is connected, does not hold for the part of it where feet lie at the angle or more.
+  /// Finds further parts of the axis, starting from the centres of the largest balls that touch the
+  /// surface below the outermost interior voxels. The report assumes that the axis is connected,
+  /// but the part of it with feet at the angle or more need not be.
   void find_islands();
-  /// Finds the rest, by a stack.
+  /// Finds all voxels that are connected to those found, with a stack.
   void follow();
-  /// Tests voxels that may be medial: those that are not count as bridges. Whether some are medial;
-  /// then follow() goes on from them. Requires voxels that are no medial ones yet.
+  /// Tests whether voxels are medial, and adds the others as bridges. Returns whether some are
+  /// medial; follow() then continues from them. Requires voxels that are not medial voxels yet.
   bool add_bridges(const std::vector<std::uint64_t>& ranks);
 
   /// The voxels below the tolerance.
   const VoxelSet& medial() const { return medial_; }
-  /// They and what was kept or added beside them, in no order to rely on.
+  /// The medial voxels and those kept or added in addition, in unspecified order.
   std::vector<MedialVoxel>& voxels() { return voxels_; }
   std::uint64_t tested() const { return tested_; }
   std::uint64_t distances() const;
@@ -59,19 +59,19 @@ class RidgeFollower {
  private:
   struct Candidate {
     std::uint64_t rank = 0;
-    std::uint32_t hint = 0;  ///< a face that is near
+    std::uint32_t hint = 0;  ///< a nearby face
   };
 
   bool find_first(const BoundedSet& set, bool firm);
-  /// Whether the exact axis beside a medial voxel has feet at the angle and a half or more.
+  /// Whether the exact axis next to a medial voxel has feet at 1.5 times the angle or more.
   bool is_firm(const Candidate& candidate);
-  /// Where the axis meets the ray from the surface through an outer voxel, if nothing of it is
-  /// found on the way there.
+  /// The voxel in which the axis meets the ray from the surface through an outer voxel, if no
+  /// medial voxel has been found along the ray up to there.
   std::optional<Cell> missed(Cell outer, std::uint32_t& hint, FeetFinder::Scratch& scratch) const;
-  /// The feet of voxels, in their order; in parallel.
+  /// Computes the feet of voxels in parallel; the result is in their order.
   const std::vector<Feet>& test(const std::vector<Candidate>& batch);
   void keep(const Candidate& candidate, const Feet& feet);
-  /// Puts the interior neighbours that were not tested on the stack.
+  /// Pushes the interior neighbours that have not been tested.
   void push_neighbours(Cell cell, std::uint32_t hint);
 
   const Grid& grid_;

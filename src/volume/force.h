@@ -1,6 +1,6 @@
 #pragma once
 
-// Force following inside a solid whose surface is charged (Ahuja and Chuang 1997, their outlook).
+// Force lines inside a solid with a charged surface (the outlook of Ahuja and Chuang 1997).
 
 #include "volume/control.h"
 #include "volume/face_tree.h"
@@ -15,9 +15,9 @@ class ForceField {
   /// Keeps references to both.
   ForceField(const Grid& grid, const FaceTree& tree, int order);
 
-  /// The direction of the force on p, of length 1. `radius` is the distance of the surface, which
-  /// must be positive. By quadrature over triangles that are small as seen from p; what lies so far
-  /// off that it adds less than a thousandth is left out.
+  /// The unit direction of the force on p. `radius`, the distance of the surface, must be positive.
+  /// Integrates over triangles that are small as seen from p, and omits those so distant that they
+  /// contribute less than a thousandth.
   Vec3 direction(Vec3 p, double radius) const;
 
  private:
@@ -27,10 +27,9 @@ class ForceField {
   double reach_;  ///< in multiples of the radius
 };
 
-/// Sheets swept by the force lines that start at convex edges, and curves: those that start at
-/// convex vertices, and where neighbouring lines of a sheet meet. In units of the grid. Convex
-/// edges are those at which the surface turns by `angle` or more. Lines end in minima of the
-/// potential.
+/// The sheets swept by the force lines from convex edges, and curves: the force lines from convex
+/// vertices, and the places where neighbouring lines of a sheet meet. In units of the grid. At a
+/// convex edge, the surface turns by `angle` or more. Lines end at minima of the potential.
 AxisSurface force_surface(const ForceField& field, const Grid& grid, const FeetFinder& finder,
                           double angle, Control& control);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// The solid in the units of the grid: the voxel (i, j, k) is the cube from (i, j, k) to
+// The solid in units of the grid, in which the voxel (i, j, k) is the cube from (i, j, k) to
 // (i + 1, j + 1, k + 1).
 
 #include <vector>

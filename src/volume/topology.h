@@ -1,6 +1,6 @@
 #pragma once
 
-// The topology of sets of voxels: 26 neighbours in the set, 6 outside it.
+// The topology of sets of voxels: 26-connectivity in the set, 6-connectivity outside it.
 
 #include <array>
 #include <vector>
@@ -23,8 +23,7 @@ struct ConnectedRuns {
   DisjointSets parts;  ///< of runs
 };
 
-/// Voxels of the set are connected over 26 neighbours, those of its complement over 6.
-/// O(rows + runs).
+/// Voxels of the set are 26-connected, voxels of its complement 6-connected. O(rows + runs).
 ConnectedRuns connected_runs(const VoxelSet& set, bool complement);
 
 /// The Betti numbers of the union of the set's closed cubes. Requires a set that is empty at the
@@ -37,9 +36,9 @@ inline constexpr std::array<Neighbourhood, 3> across_bits = {
     1U << bit_of(0, 0, -1) | 1U << bit_of(0, 0, 1)};
 inline constexpr Neighbourhood face_bits = across_bits[0] | across_bits[1] | across_bits[2];
 
-/// Whether a voxel may be removed without changing the topology: its topological numbers, the
-/// parts of the set among its neighbours and of the complement beside it, are both 1 (Bertrand and
-/// Malandain 1994). `around` has the voxel and its neighbours.
+/// Whether a voxel can be removed without changing the topology: both of its topological numbers,
+/// the numbers of components of the set among its neighbours and of the complement next to it, are
+/// 1 (Bertrand and Malandain 1994). `around` holds the voxel and its neighbours.
 bool is_simple(Neighbourhood around);
 
 }  // namespace medial::volume

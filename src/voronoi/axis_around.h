@@ -8,11 +8,11 @@
 
 namespace medial {
 
-/// The axis of what lies around a planar graph in an enclosure: `surroundings` is around(planar
-/// graph, enclosure). By the engine `disks`, whatever the options' method. A site that is a point
-/// of the planar graph has it as its ring; one that is an edge has the half-edge as its vertex; of
-/// the enclosure's, the ring is no_index. `divided`: edges turn by no more than a quarter around a
-/// point, with nodes in between.
+/// The axis of the region around a planar graph in an enclosure. `surroundings` is around(planar
+/// graph, enclosure). Uses the engine `disks`, whatever the options' method. The ring of a site
+/// that is a point of the planar graph is the point; the vertex of a site that is an edge is the
+/// half-edge; the ring of the enclosure's sites is no_index. `divided`: divides edges so that they
+/// turn by at most a quarter around a point.
 /// Errors: invalid_option, empty, too_large, unsupported (coordinates), cancelled, internal.
 Result<MedialAxis> axis_around(const PlanarGraph& planar_graph, const Shape& surroundings,
                                const Options& options, bool divided = true);

@@ -13,10 +13,10 @@ struct ChainStep {
   std::uint32_t from, to;     ///< nodes
 };
 
-/// Puts the steps along one site in order: from the one that no other leads to, or where they make
-/// a cycle, from any one. False where they are not connected. With `has_arcs` they may come through
-/// a node more than once: then what is touched first along the site comes first, by `foot_of`
-/// (nothing for a vertex), and what leads back to a node before what leaves it.
+/// Orders the steps along one site: from the step that no other leads to, or from any step of a
+/// cycle. Returns false if the steps are not connected. With `has_arcs`, they may pass through a
+/// node more than once. Then steps are ordered by their feet along the site (`foot_of`; nothing for
+/// a vertex), and a step that returns to a node comes before a step that leaves it.
 bool put_in_order(std::span<ChainStep> steps, bool has_arcs,
                   const std::function<double(const ChainStep&)>& foot_of);
 

@@ -10,16 +10,16 @@
 
 namespace medial::voronoi {
 
-/// An edge as a curve: rational quadratic, end weights 1. Its parameter is t / (1 - t) for the
-/// usual t from 0 to 1: where the control point weighs much, most of the curve is next to the ends,
-/// and t would lose its digits at one of them.
+/// An edge as a rational quadratic curve with end weights 1. Its parameter is t / (1 - t) for the
+/// usual t from 0 to 1. If the weight of the control point is large, most of the curve is at
+/// parameters next to the ends, and t would be inaccurate at one of them.
 struct ConicEdge {
   static constexpr double last = std::numeric_limits<double>::infinity();
   Disk from, control, to;
   double weight = 1;
 
   Disk at(double s) const;
-  /// The part between two parameters as a curve of the same kind, exactly.
+  /// The exact part between two parameters, as a curve of the same kind.
   ConicEdge part(double begin, double end) const;
 };
 
@@ -36,11 +36,11 @@ inline bool is_inside(const Box& box, Vec2 p) {
   return p.x > box.low.x && p.x < box.high.x && p.y > box.low.y && p.y < box.high.y;
 }
 
-/// A place on the border of a box, counter-clockwise from its low corner: side (0 below, 1 right,
-/// 2 above, 3 left) plus how much of it.
+/// A place on the border of a box, counter-clockwise from its low corner: the side (0 below, 1
+/// right, 2 above, 3 left) plus the fraction along it.
 double place_on_border(const Box& box, Vec2 p);
 
-/// The point of the border nearest to a point: moves it there exactly.
+/// Moves a point exactly onto the nearest place of the border.
 Vec2 onto_border(const Box& box, Vec2 p);
 
 /// Corner k of a box, counter-clockwise from the low one.

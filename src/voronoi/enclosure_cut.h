@@ -12,19 +12,19 @@
 
 namespace medial::voronoi {
 
-/// Control point and weight of a part of the bisector of two points, from its ends. The radius over
-/// the place s along it, seen from half a distance d between the points, is d cosh u, s being
-/// d sinh u: with e = r + s, which is d exp(u), at both ends all is in closed form, without
-/// cancellation. Between points very near to each other rounding moves the ends off the bisector,
-/// so that the line between them need not pass between the points; the control point does, and
-/// where it matters its weight is large.
+/// Computes the control point and weight of a part of the bisector of two points from its ends.
+/// With half the distance d of the points, the position along the bisector is s = d sinh u and the
+/// radius is d cosh u. In terms of e = r + s = d exp(u) at both ends, all formulas are closed and
+/// free of cancellation. If the points are very close, rounding moves the ends off the bisector, so
+/// the line between them need not pass between the points; the control point does, and its weight
+/// is large in that case.
 inline void take_control_of_points(Vec2 first, Vec2 second, ConicEdge& edge) {
   const Vec2 across = left_of(second - first);
   const double size = norm(across), squared = 0.25 * size * size, scale = 1 / size;
   const Vec2 middle = midpoint(first, second);
   const auto grown = [&](const Disk& disk) {
     const double s = scale * dot(disk.center - middle, across);
-    // No less than d, which rounding of the radius may make it.
+    // At least d, in spite of rounding of the radius.
     const double e = std::max(disk.radius + std::abs(s), 0.5 * size), other = squared / e;
     return s >= 0 ? e : other;
   };
@@ -34,9 +34,9 @@ inline void take_control_of_points(Vec2 first, Vec2 second, ConicEdge& edge) {
   edge.weight = std::max(1.0, 0.5 * sum / std::sqrt(product));
 }
 
-/// Cuts the edges of a planar graph's diagram off at its enclosure, and closes the faces along it.
+/// Clips the edges of a planar graph's diagram at its enclosure, and closes the faces along it.
 ///
-/// First add() for every edge, then close(), then add_to_face() for the edges around each site.
+/// Call add() for every edge, then close(), then add_to_face() for the edges around each site.
 class EnclosureCut {
  public:
   EnclosureCut(const PlanarGraph& planar_graph, const Box& enclosure, double tolerance,
@@ -49,44 +49,45 @@ class EnclosureCut {
         point_count_(static_cast<std::uint32_t>(planar_graph.points.size())),
         diagram_(diagram) {}
 
-  /// Whether a place is clearly inside the enclosure: nodes that are not are cut off, so that
-  /// nodes that are one up to rounding are cut off together.
+  /// Whether a place is clearly inside the enclosure. Other nodes are cut off, so that nodes that
+  /// are equal up to rounding are cut off together.
   bool holds(Vec2 p) const { return is_inside(inside_, p); }
 
-  /// Appends the edge, or the parts of it inside the enclosure, to the diagram. `node_at(end)`
-  /// gives the node of an end, and is asked for ends inside the enclosure only;
-  /// `take_control(part)` sets control point and weight of a part from its ends. Returns whether it
-  /// is all of the edge.
+  /// Appends the edge, or its parts inside the enclosure, to the diagram. `node_at(end)` gives the
+  /// node of an end, and is called only for ends inside the enclosure; `take_control(part)`
+  /// computes the control point and weight of a part from its ends. Returns whether the whole edge
+  /// is inside.
   template <class NodeAt, class TakeControl>
   bool add(const ConicEdge& curve, std::array<std::uint32_t, 2> site, bool spoke, NodeAt&& node_at,
            TakeControl&& take_control);
 
-  /// The same for the bisector of two points, which is straight, so that only its radius bends: as
-  /// a curve whose control point weighs much, it could not be cut well.
+  /// The same for the bisector of two points, which is straight with a curved radius. Clipping it
+  /// as a curve with a large weight would be inaccurate.
   template <class NodeAt>
   void add_bisector(Vec2 from, Vec2 to, std::array<std::uint32_t, 2> site, NodeAt&& node_at);
 
-  /// Adds the enclosure's own edges, from crossing to crossing and corner to corner. An internal
-  /// error where what was added does not go around the enclosure.
+  /// Adds the enclosure's own edges, from crossing to crossing and corner to corner. Error:
+  /// internal (the added edges do not go around the enclosure).
   Status close();
 
-  /// Appends an edge of the diagram to a face, and where it leaves the enclosure
-  /// the enclosure's edges up to where the face comes back: clockwise, those before the crossing.
+  /// Appends an edge of the diagram to a face. If the edge leaves the enclosure, also appends the
+  /// enclosure's edges up to the place where the face returns: clockwise, those before the
+  /// crossing.
   void add_to_face(std::uint32_t edge, bool forward, std::vector<std::uint32_t>& face) const {
     face.push_back(edge);
     const std::uint32_t node = diagram_.edges[edge].node[forward ? 1 : 0];
     if (node >= first_crossing_) add_enclosure_edges(node, face);
   }
-  /// Ends the face of a site: that of the only site in the enclosure goes all around.
+  /// Ends the face of a site. The face of a single site consists of all enclosure edges.
   void end_face(std::uint32_t site, std::vector<std::uint32_t>& face) const;
 
  private:
-  /// Where an edge leaves the enclosure.
+  /// A place where an edge leaves the enclosure.
   struct Crossing {
     double place;
     Disk disk;
     std::uint32_t before, after;  ///< sites beside it, counter-clockwise along the enclosure
-    std::uint32_t edge, end;      ///< of the diagram: which end of it that is
+    std::uint32_t edge, end;      ///< an edge of the diagram, and the end of it that is there
   };
 
   void add_crossing(const Disk& disk, std::array<std::uint32_t, 2> site, std::uint32_t edge,
@@ -122,8 +123,8 @@ bool EnclosureCut::add(const ConicEdge& curve, std::array<std::uint32_t, 2> site
     return true;
   }
   clip(curve, enclosure_, parts_);
-  // Whether a node is inside is decided for all of its edges alike; where it is so near to the
-  // enclosure that an edge saw it otherwise, a part without length makes up for that.
+  // All edges of a node must agree on whether it is inside. If the clipping of an edge near the
+  // enclosure disagrees, a part of length 0 compensates for that.
   const bool begins = holds(curve.from.center), ends_inside = holds(curve.to.center);
   if (begins && ends_inside && parts_.empty()) parts_.push_back({});
   if (begins && (parts_.empty() || parts_.front().from > 0)) parts_.insert(parts_.begin(), {0, 0});
@@ -139,7 +140,7 @@ bool EnclosureCut::add(const ConicEdge& curve, std::array<std::uint32_t, 2> site
       continue;
     }
     ConicEdge cut = curve.part(part.from, part.to);
-    // Rounding alone, between nodes at the enclosure.
+    // A part that exists only by rounding, between nodes at the enclosure.
     if (!from_node && !to_node &&
         std::max(std::abs(cut.to.center.x - cut.from.center.x),
                  std::abs(cut.to.center.y - cut.from.center.y)) <= 8 * tolerance_)

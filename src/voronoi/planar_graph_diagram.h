@@ -9,8 +9,8 @@
 
 namespace medial::voronoi {
 
-/// The enclosure that an engine walks in, for a diagram that is cut off at `enclosure`: so far away
-/// that inside of `enclosure` no place is nearer to it than to the planar graph.
+/// The enclosure for the engine, for a diagram that is cut off at `enclosure`: so far away that no
+/// place inside `enclosure` is nearer to it than to the planar graph.
 Box far_enclosure(const Box& enclosure);
 
 /// A site of the diagram: a point of the planar graph, or after all of them an edge.
@@ -19,10 +19,10 @@ Site site_of_planar_graph(const PlanarGraph& planar_graph, std::uint32_t site);
 /// Sets the kind of each node by its number of edges.
 void set_kinds(VoronoiDiagram& diagram);
 
-/// The Voronoi diagram of a planar graph within `enclosure`, of the axis of what lies around it in
-/// a farther enclosure, whose sites are numbered so and whose edges stand apart: the axis with its
-/// spokes, by the faces of the planar graph's sites, cut off. `shape` is around(planar graph,
-/// far_enclosure(enclosure)). Error: internal, where rounding leaves a face that does not close.
+/// The Voronoi diagram of a planar graph within `enclosure`, from the axis of the region around it
+/// in a farther enclosure: the axis with its spokes, in faces by site, cut off. The axis numbers
+/// its sites like axis_around(), and its edges are stored separately. `shape` is around(planar
+/// graph, far_enclosure(enclosure)). Error: internal (because of rounding, a face does not close).
 /// O(n) expected.
 Result<VoronoiDiagram> diagram_of(const PlanarGraph& planar_graph, const Shape& shape,
                                   const site::SiteNumbers& numbers, MedialAxis axis,

@@ -8,10 +8,10 @@
 namespace medial::voronoi {
 
 /// The Voronoi diagram of a planar graph without edges within `enclosure`, as the dual of its
-/// Delaunay triangulation. Which edges there are is exact; nodes closer together than the tolerance
-/// are one. Centres are off by a few roundings of their distance from their sites, and of their own
-/// coordinates. O(n log n) expected, some 3 n edges. Cancelled, it is incomplete.
-/// Error: internal, where rounding breaks it.
+/// Delaunay triangulation. The set of edges is exact; nodes closer together than the tolerance are
+/// merged. The error of a centre is a few roundings of its distance from its sites and of its own
+/// coordinates. O(n log n) expected; about 3 n edges. Incomplete if cancelled. Error: internal (the
+/// diagram is inconsistent because of rounding).
 Result<VoronoiDiagram> diagram_of_points(const PlanarGraph& planar_graph, const Options& options,
                                          const Box& enclosure);
 
