@@ -17,8 +17,8 @@
 namespace medial {
 namespace {
 
-/// How far an axis of pixels of an interior is from one part for each component and one cycle for
-/// each hole of its shape.
+/// By how much the numbers of parts and cycles of an interior's axis of pixels differ from the
+/// numbers of components and holes of its shape.
 std::uint64_t unresolved_in(const AxisItem& item) {
   const Shape& shape = item.shape;
   const MedialAxis& axis = item.axis;
@@ -40,7 +40,7 @@ std::uint64_t unresolved_in(const AxisItem& item) {
   return static_cast<std::uint64_t>(off);
 }
 
-/// How many pixels would do where some do not; see AxesReport.
+/// The number of pixels that would suffice if the given ones do not; see AxesReport.
 std::uint32_t pixels_for(const AxisItem& item) {
   const MedialAxis& axis = item.axis;
   const std::uint32_t pixels = raster::pixels_that_do(item.shape, axis.method, axis.resolution);
@@ -73,7 +73,7 @@ Result<Document<AxisItem>> compute_axes(Document<ShapeItem> shapes, AxesOptions 
     axes.items[i] = {std::move(from.shape), std::move(axis).value(), std::move(from.attributes)};
     return success();
   };
-  // What samples a shape may have much to do with few points.
+  // A sampled method may be slow for a shape of few points.
   const bool sampled = info_of(options.method).sampling != Sampling::curves;
   const int threads = sampled ? options.threads : threads_of(weights, options);
   AxesReport sum;

@@ -39,7 +39,7 @@ ArcReport& operator+=(ArcReport& sum, const ArcReport& part) {
   return sum;
 }
 
-/// The roles by which a rule decides what is inside.
+/// Sets the roles of rings for a rule.
 void apply_rule(RepairRule rule, std::vector<Ring>& rings) {
   for (Ring& ring : rings) {
     if (rule == RepairRule::non_zero)
@@ -49,14 +49,14 @@ void apply_rule(RepairRule rule, std::vector<Ring>& rings) {
   }
 }
 
-/// The boundary as contours, whatever it was read as.
+/// The boundary as contours: those given, or the rings.
 std::vector<Contour> contours_of(const std::vector<Ring>& rings, std::vector<Contour> contours) {
   for (const Ring& ring : rings)
     if (!ring.points.empty()) contours.push_back(contour_of(ring.points, ring.bulges, true));
   return contours;
 }
 
-/// Whether a repair may help.
+/// Whether a repair may resolve the error.
 bool is_tangled(const Error& error) {
   constexpr ErrorCode codes[] = {ErrorCode::crossing,     ErrorCode::overlap,
                                  ErrorCode::hole_outside, ErrorCode::nested_outer,
@@ -64,7 +64,7 @@ bool is_tangled(const Error& error) {
   return std::find(std::begin(codes), std::end(codes), error.code) != std::end(codes);
 }
 
-/// A shape of a feature's rings, which are given back as soon as they are not needed any more.
+/// The shape of a feature's rings. Frees the rings as soon as they are no longer needed.
 Result<Shape> shape_of(Feature& feature, const LoadOptions& options, LoadReport& report) {
   std::vector<Ring> rings = std::move(feature.rings);
   const bool curved = !feature.contours.empty() ||
@@ -77,7 +77,7 @@ Result<Shape> shape_of(Feature& feature, const LoadOptions& options, LoadReport&
     feature.contours = {};
   }
   const bool repaired = options.repair != RepairRule::none;
-  // A rule that was asked for decides on rings that do not cross as well.
+  // A requested rule also applies to rings that do not cross.
   if (repaired && options.repair != RepairRule::make_valid) apply_rule(options.repair, rings);
   if (!repaired || !curved) {
     auto shape = build_shape(rings, {}, &report.shapes);
@@ -88,16 +88,17 @@ Result<Shape> shape_of(Feature& feature, const LoadOptions& options, LoadReport&
   return build_shape(rings, {.node_crossings = true}, &report.shapes);
 }
 
-/// The sources that a feature knows of its rings in place of those in its rings.
+/// Replaces the sources, which are indices in the rings, by the feature's own sources.
 void keep_sources(Shape& shape, const Feature& feature,
                   const std::vector<std::size_t>& ring_begin) {
   if (feature.sources.empty() || feature.sources.size() != ring_begin.back()) return;
   for (VertexSource& source : shape.sources)
-    if (source.ring + 1 < ring_begin.size())  // the rings beyond are of curves
+    if (source.ring + 1 < ring_begin.size())  // later rings come from curves
       source = feature.sources[ring_begin[source.ring] + source.vertex];
 }
 
-/// The shape within smooth curves instead. Where they make none, the error names a fit that does.
+/// The shape bounded by smooth curves instead. If they bound none, the error suggests a fit that
+/// works.
 Result<Shape> smooth_shape(const std::vector<Contour>& contours, const LoadOptions& options,
                            LoadReport& report) {
   std::vector<std::vector<Vec2>> polygons;
@@ -162,15 +163,15 @@ std::string note_of_specks(std::size_t feature, std::uint64_t loops) {
          " left out";
 }
 
-/// A feature's shape, or why it has none; and what was left out of it.
+/// A feature's shape or error, and notes on omitted parts.
 struct Attempt {
   ShapeItem item;
   std::optional<Error> error;
   std::vector<std::string> notes;
 };
 
-/// Leaves out the rings of a polygon that enclose no area, with a note each. Their sources go, too,
-/// as they count points.
+/// Removes the rings of a polygon that enclose no area, with a note each, and their sources, which
+/// correspond to points.
 void drop_rings_without_area(Feature& feature, std::size_t index, Attempt& attempt) {
   std::vector<Ring> rings;
   for (std::size_t i = 0; i < feature.rings.size(); ++i) {
@@ -190,8 +191,8 @@ void drop_rings_without_area(Feature& feature, std::size_t index, Attempt& attem
   feature.rings = std::move(rings);
 }
 
-/// The polygon of a feature that a ring belongs to, from its outer ring on; all rings where they do
-/// not say what they are.
+/// The range of rings of the polygon that a ring belongs to, beginning with its outer ring; all
+/// rings if they have no roles.
 std::pair<std::size_t, std::size_t> polygon_around(const std::vector<Ring>& rings,
                                                    std::size_t ring) {
   const auto is = [&rings](std::size_t i, RingRole role) { return rings[i].role == role; };
@@ -202,8 +203,8 @@ std::pair<std::size_t, std::size_t> polygon_around(const std::vector<Ring>& ring
   return {begin, end};
 }
 
-/// The shape of a feature without those of its polygons that are invalid, alone or with others:
-/// while there is an error, the polygon that it names is left out. O(n log n) for each.
+/// The shape of a feature without its invalid polygons: while there is an error, removes the
+/// polygon that it names. O(n log n) for each.
 Result<ShapeItem> load_valid_polygons(Feature left, std::size_t index, const LoadOptions& options,
                                       LoadReport& report, Attempt& attempt) {
   std::vector<std::size_t> numbers(left.rings.size());  // of the rings that are left
@@ -230,8 +231,8 @@ Result<ShapeItem> load_valid_polygons(Feature left, std::size_t index, const Loa
   }
 }
 
-/// Takes over the valid items; the features with an error are left out, with a note each and one on
-/// all.
+/// Collects the valid items. Leaves out the features with an error, with a note for each and one
+/// with their number.
 Status take_valid(std::vector<Attempt> attempts, const Document<Feature>& features,
                   const LoadOptions& options, Document<ShapeItem>& shapes) {
   std::vector<std::size_t> kept;
@@ -297,7 +298,7 @@ Result<Document<ShapeItem>> load_shapes(Document<Feature> features, const LoadOp
     if (const auto done = progress.part(weights[i])) done(1);
     if (item) attempt.item = std::move(item).value();
     if (item) return success();
-    // What a drawing paints may be nothing.
+    // A drawing may paint nothing.
     const bool paints_nothing = filled && item.error().code == ErrorCode::no_area;
     if (!options.skip_invalid && !(paints_nothing && count > 1)) return std::move(item).error();
     attempt.error = std::move(item).error();

@@ -10,7 +10,7 @@
 namespace medial {
 namespace {
 
-/// A contour of straight pieces and arcs as it is.
+/// A contour of straight pieces and arcs as a chain, unchanged.
 Chain chain_of(const Contour& contour) {
   Chain chain;
   if (contour.points.empty()) return chain;
@@ -27,7 +27,7 @@ Chain chain_of(const Contour& contour) {
 Chain chain_of(Ring ring, const Contour& contour) {
   Chain chain{std::move(ring.points), std::move(ring.bulges), true};
   if (contour.open && contour.points.front() != contour.points.back()) {
-    // What closes it is its last edge.
+    // Drop the last edge, which closes it.
     chain.closed = false;
     if (!chain.bulges.empty()) chain.bulges.pop_back();
   }
@@ -42,8 +42,8 @@ std::pair<std::uint64_t, std::uint64_t> place_of(const LoosePieces& pieces, std:
           chain - static_cast<std::uint64_t>(first - pieces.feature.begin())};
 }
 
-/// An error that names a chain as ring, and perhaps another chain in its text, in terms of
-/// features.
+/// Translates an error that names a chain as its ring, and perhaps another chain in its text, to
+/// features and rings.
 Error in_terms_of_features(const LoosePieces& pieces, Error error) {
   if (!error.place.ring || *error.place.ring >= pieces.feature.size()) return error;
   std::tie(error.place.feature, error.place.ring) = place_of(pieces, *error.place.ring);
@@ -57,7 +57,7 @@ Error in_terms_of_features(const LoosePieces& pieces, Error error) {
   return error;
 }
 
-/// All of a feature as chains. Errors: those of approximate_by_arcs().
+/// The whole content of a feature as chains. Errors: those of approximate_by_arcs().
 Result<std::vector<Chain>> chains_of(const Feature& feature, const ArcOptions& options) {
   std::vector<Chain> chains = feature.chains;
   for (const Ring& ring : feature.rings) chains.push_back({ring.points, ring.bulges, true});

@@ -7,8 +7,8 @@
 namespace medial {
 namespace {
 
-/// Follows the cracks between foreground and background, the foreground on the right as one looks
-/// at the image. Each ring has a crack above a pixel; those are marked where a ring took them.
+/// Follows the cracks between foreground and background, with the foreground on the right as seen
+/// in the image. Each ring has a crack above a pixel; visited cracks of this kind are marked.
 class Tracer {
  public:
   Tracer(const Image& image, double neck)
@@ -34,8 +34,8 @@ class Tracer {
  private:
   /// The ring through the crack above pixel (x, y), from that crack's left end.
   Ring ring_from(std::int64_t x, std::int64_t y) {
-    // East, south, west, north: the step, and which pixel lies ahead on the left and right of it,
-    // seen from the point where the step begins.
+    // East, south, west, north: the step, and the pixels ahead on its left and right, relative to
+    // the point where the step begins.
     static constexpr std::array<std::array<int, 2>, 4> step = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
     static constexpr std::array<std::array<int, 2>, 4> left = {
         {{0, -1}, {0, 0}, {-1, 0}, {-1, -1}}};
@@ -48,7 +48,7 @@ class Tracer {
       if (direction == 0) taken_.set(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
       x += step[direction][0];
       y += step[direction][1];
-      // The foreground that is ahead on the left is connected, over the corner if need be.
+      // Foreground ahead on the left is connected, if necessary across the corner.
       const bool on_left = image_.at(x + left[direction][0], y + left[direction][1]);
       const bool on_right = image_.at(x + right[direction][0], y + right[direction][1]);
       const std::size_t next = (direction + (on_left ? 3 : on_right ? 0 : 1)) % 4;

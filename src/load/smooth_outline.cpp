@@ -5,28 +5,27 @@
 #include "base/in_flight.h"
 #include "medial/raster.h"
 
-// A smooth curve between the pixels. Between the centres of a foreground and a background pixel
-// that share a side lies that side's crack; the curve crosses the line between the two centres
-// once, in a point q that may move along it. The four centres around a pixel's corner are a cell,
-// and the curve passes a cell from one such point to another. Polygons through such points never
-// cross themselves or each other: they are the contours of marching squares. The curve is the
-// quadratic B-spline with the points as control points: each of its pieces is a parabola that
-// begins in the middle of one side of the polygon and ends in the middle of the next, tangent to
-// both.
+// A smooth curve between the pixels. A crack is the common side of a foreground and a background
+// pixel. The curve crosses the line between the two pixels' centres once, at a point q that may
+// move along this line. The four centres around a pixel's corner form a cell, which the curve
+// traverses from one such point to another. Polygons through such points never cross themselves or
+// each other: they are the contours of marching squares. The curve is the quadratic B-spline with
+// these control points: each piece is a parabola from the middle of one side of the polygon to the
+// middle of the next, tangent to both.
 //
-// It stays simple, too. A piece lies in the triangle of the two middles and q, so in the two cells
-// on both sides of q. Where only one strand passes a cell nothing else is there; where two do, at a
-// corner in which pixels touch, each stays on its own side of the diagonal between them if its
-// points move by a fifth of a pixel at most: coordinates of a strand that cuts off the upper left
-// of the cell [0, 1] x [0, 1] then have a sum of at most 0.85.
+// The curve is simple, too. A piece lies in the triangle of the two middles and q, and so in the
+// two cells on both sides of q. If only one strand traverses a cell, nothing else is there. If two
+// do, at a corner where pixels touch, each stays on its own side of the diagonal between them if
+// its points move by at most a fifth of a pixel: the coordinates of a strand that cuts off the
+// upper left of the cell [0, 1] x [0, 1] then have a sum of at most 0.85.
 
 namespace medial {
 namespace {
 
-constexpr double most_free = 0.45;  // how far a point moves; below 1/2, where it would meet a pixel
-constexpr double most_tight = 0.2;  // beside a corner with two strands
+constexpr double most_free = 0.45;  // largest move of a point; at 1/2, it would be a pixel's centre
+constexpr double most_tight = 0.2;  // the same next to a corner with two strands
 constexpr double most_distance = 0.5;  // of the curve from the cracks
-constexpr double most_share = 0.01;    // of the pixels' area that the curve may enclose besides it
+constexpr double most_share = 0.01;    // relative difference of the curve's area from the pixels'
 constexpr int sweeps = 60;
 
 /// A crack of a ring, from corner to corner of a pixel.
@@ -78,12 +77,12 @@ double twice_area(const std::vector<Vec2>& points) {
   return sum / 3;
 }
 
-/// Moves the points so that the polygon bends least: the sum of the squared differences between the
-/// directions of successive sides, each side divided by its length, falls step by step (Gauss and
-/// Seidel's method; lengths are those of the moment, but not below a quarter of a pixel). After k
-/// sweeps waves of about k^(1/4) 2 pi pixels are gone; stairs are shorter. Before each sweep all
-/// move alike where the curve encloses another area than the pixels: small shapes would swell or
-/// shrink.
+/// Moves the points to minimise the bending of the polygon: the sum of the squared differences
+/// between the unit directions of successive sides, by Gauss-Seidel sweeps (with the current
+/// lengths, but at least a quarter of a pixel). After k sweeps, waves of about k^(1/4) 2 pi pixels
+/// are smoothed; stairs are shorter. Before each sweep, moves all points equally if the enclosed
+/// area differs from that of the pixels by more than `most_share`; otherwise, small shapes would
+/// swell or shrink.
 void relax(std::vector<Crack>& cracks) {
   constexpr double shortest = 0.25;
   const std::size_t n = cracks.size();
@@ -115,7 +114,7 @@ void relax(std::vector<Crack>& cracks) {
         inverse[k] = inverse_length(around[k]);
         side[k] = inverse[k] * (points[around[k + 1]] - points[around[k]]);
       }
-      // The three bends that the point takes part in, and how much each changes as it moves.
+      // The three bends that depend on the point, and their derivatives by its position.
       const std::array change = {inverse[1], -inverse[1] - inverse[2], inverse[2]};
       double slope = 0, squares = 0;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -127,7 +126,7 @@ void relax(std::vector<Crack>& cracks) {
   }
 }
 
-/// The distance of a point from a parabola, not below the true one.
+/// An upper bound for the distance of a point from a parabola.
 double distance_to(Vec2 p, Vec2 a, Vec2 b, Vec2 c) {
   constexpr int steps = 32;
   double nearest = norm(p - a);
@@ -138,7 +137,7 @@ double distance_to(Vec2 p, Vec2 a, Vec2 b, Vec2 c) {
   return nearest;
 }
 
-/// Moves points back towards their cracks where the curve cuts a pixel's corner off too far.
+/// Moves points back towards their cracks where the curve cuts off too much of a pixel's corner.
 void keep_corners(std::vector<Crack>& cracks) {
   const std::size_t n = cracks.size();
   const auto middle = [&cracks, n](std::size_t i) {
@@ -162,7 +161,7 @@ void keep_corners(std::vector<Crack>& cracks) {
   }
 }
 
-/// Cuts offsets to multiples of 2^-40 pixels: those that tend to 0 would end as numbers far too
+/// Rounds offsets to multiples of 2^-40 pixels, because offsets that tend to 0 would become too
 /// small for coordinates.
 void cut_digits(std::vector<Crack>& cracks) {
   for (Crack& crack : cracks) crack.offset = std::trunc(0x1p40 * crack.offset) * 0x1p-40;

@@ -51,7 +51,7 @@ void scale(Document<Feature>& features, double factor) {
 
 Error refused(const char* text) { return {ErrorCode::invalid_option, text, {}}; }
 
-/// How long one unit of the features is, in millimetres; 0: unknown. Notes what that rests on.
+/// The length of one unit of the features, in millimetres; 0: unknown. Adds a note on assumptions.
 double length_of_unit(Document<Feature>& features) {
   if (features.unit == Unit::css_pixel)
     features.notes.push_back("no physical size is given; assumed: 96 pixels per inch");

@@ -22,7 +22,7 @@ using site::Joint;
 
 constexpr std::uint32_t no_index = 0xFFFFFFFF;
 
-/// A shape and its axis, and what all checks need to know of them.
+/// A shape and its axis, with data that all checks share.
 struct Problem {
   const Shape& shape;
   const MedialAxis& axis;
@@ -33,9 +33,9 @@ struct Problem {
   std::vector<std::uint32_t> next;       ///< of each point: the following one of its loop
   std::vector<std::uint32_t> previous;   ///< and the one before it
   std::vector<std::uint32_t> component;  ///< of each point
-  std::vector<Joint> joint;              ///< at each point; smooth where straight edges go on
+  std::vector<Joint> joint;              ///< at each point; smooth between collinear edges
   std::vector<double> blunt_angle;       ///< at each point where it is blunt, else 0; or empty
-  /// Of each site: the point of the shape that it is, or that its edge begins in; or no_index.
+  /// Of each site: the point of the shape that it is, or at which its edge begins; or no_index.
   std::vector<std::uint32_t> place;
   std::vector<std::uint32_t> degree;  ///< of each node
 
@@ -43,7 +43,7 @@ struct Problem {
       : shape(the_shape), axis(the_axis), box(the_box) {}
 
   Vec2 point(std::uint32_t i) const { return shape.points[i]; }
-  /// The boundary edge that begins in a point.
+  /// The boundary edge that begins at a point.
   BoundaryEdge edge(std::uint32_t i) const {
     return {shape.points[i], shape.points[next[i]], shape.bulge(i)};
   }
@@ -64,17 +64,17 @@ struct Problem {
   const Disk& disk(std::uint32_t node) const { return axis.nodes[node].disk; }
 };
 
-/// By how much the boundary turns to the left between two edges.
+/// The angle by which the boundary turns to the left between two edges.
 inline double turn_between(const BoundaryEdge& before, const BoundaryEdge& after) {
   const Vec2 arriving = end_tangent(before), leaving = start_tangent(after);
   return std::atan2(cross(arriving, leaving), dot(arriving, leaving));
 }
 
-/// How far points may lie outside a disk that touches both edges beside blunt joints, whose leaves
-/// are dropped. From its foot on either edge of one the boundary turns away from it by less than
-/// the joint's angle; at the end of an edge that joins smoothly, it may do so at once, by as much
-/// as rounding leaves open there. No more than the radius times all angles: directions of the feet
-/// differ by no more.
+/// A bound for the distance of boundary points outside a disk that touches both edges next to blunt
+/// joints, whose leaves are dropped. From the disk's foot on either edge of such a joint, the
+/// boundary turns away from the disk by less than the joint's angle; at the end of an edge that
+/// joins smoothly, it may turn at once, by the uncertainty of rounding there. At most the radius
+/// times the sum of all angles, because the directions of the feet differ by at most that.
 class OpenAtJoints {
  public:
   OpenAtJoints(const Problem& problem, double radius) : problem_(problem), radius_(radius) {}
@@ -87,7 +87,7 @@ class OpenAtJoints {
     const auto [shorter, longer] = std::minmax({length_of(before), length_of(after)});
     if (blunt) {
       angles_ += problem_.blunt_angle[joint];
-      // As high as the joint may be above the chord between feet on both edges.
+      // The largest height of the joint above the chord between feet on both edges.
       const double height = shorter * longer / (shorter + longer);
       sum_ += problem_.blunt_angle[joint] * std::min(radius_, height);
     } else {
@@ -101,7 +101,7 @@ class OpenAtJoints {
   double radius_, angles_ = 0, sum_ = 0;
 };
 
-/// What `work` makes of a site's arc: the boundary's, if it is one of those.
+/// Returns work(arc) for a site's arc, using the precomputed arc if the site is on the boundary.
 template <class Work>
 auto with_arc(const Problem& problem, std::uint32_t site, const Work& work) {
   const std::uint32_t place = problem.place[site];
@@ -111,16 +111,16 @@ auto with_arc(const Problem& problem, std::uint32_t site, const Work& work) {
 
 class ArcFeet;
 
-/// The largest of something, and where.
+/// The largest value of a measurement, and its place.
 struct Worst {
   double value = 0;
   Vec2 where;
   std::size_t index = 0;   ///< of the node, edge ... there
-  std::uint64_t over = 0;  ///< how many are over the tolerance
+  std::uint64_t over = 0;  ///< number of values over the tolerance
 
   void add(double amount, double tolerance, Vec2 point, std::size_t i = 0) {
     if (amount <= std::min(value, tolerance)) return;  // nearly always
-    // What cannot even be computed is as wrong as can be.
+    // A value that cannot be computed counts as infinitely wrong.
     if (std::isnan(amount)) amount = std::numeric_limits<double>::infinity();
     if (amount > tolerance) ++over;
     if (amount > value) {
@@ -139,13 +139,13 @@ struct Worst {
   }
 };
 
-/// A sentence in printf's manner.
+/// Formats a sentence like printf.
 std::string sentence(const char* format, ...) __attribute__((format(printf, 1, 2)));
 
-/// How many places a check works on before it hands its findings back.
+/// The number of places per block of findings.
 constexpr std::size_t block_size = 1024;
 
-/// Runs a check on `threads` threads; what it throws is a failure, and none at all a pass.
+/// Runs a check on `threads` threads. An exception is a failure; a check without failures passes.
 template <class Check>
 void certify(int threads, DiskCertificate& certificate, const Check& check) {
   try {
@@ -157,31 +157,32 @@ void certify(int threads, DiskCertificate& certificate, const Check& check) {
   certificate.passed = certificate.failures.empty();
 }
 
-/// Whether the shape can be worked with at all: its indices are in order, its coordinates finite.
+/// Whether the shape is well-formed: indices are in range and coordinates are finite.
 bool check_shape(const Shape& shape, Certificate& certificate);
-/// Whether the axis can be worked with at all: indices in range, numbers finite, radii not
-/// negative. `box` is the shape's.
+/// Whether the axis is well-formed: indices are in range, numbers finite, and radii not negative.
+/// `box` is the shape's.
 bool check_values(const Shape& shape, const Box& box, const MedialAxis& axis,
                   Certificate& certificate);
 
-/// Fills what Problem derives from shape and axis; reports sites that are no part of the boundary.
-/// `corner_angle` in radians.
+/// Computes the derived data of Problem, and reports sites that are not on the boundary.
+/// `corner_angle` is in radians.
 void prepare(Problem& problem, double corner_angle, Certificate& certificate);
 
-/// Parts and cycles against components and holes, of a part of an axis only that there are no more
-/// cycles than holes; kinds of nodes against their degrees.
+/// Checks connected parts against components and cycles against holes (for a part of an axis, only
+/// that there are no more cycles than holes), and the kinds of nodes against their degrees.
 void check_graph(const Problem& problem, bool part, Certificate& certificate);
-/// Leaves at all convex corners, elsewhere at arcs of largest curvature only; a foot on every
-/// reflex vertex.
+/// Checks that every convex corner has a leaf, that other leaves are at arcs of largest curvature,
+/// and that every reflex vertex has a foot.
 void check_vertices(const Problem& problem, Certificate& certificate);
-/// Radii against distances, on nodes and inside edges; contacts; sides; legality.
+/// Checks radii against distances, at nodes and inside edges; contacts; sides; legality.
 void check_disks(const Problem& problem, int samples_per_edge, Certificate& certificate);
-/// Of a sampled axis: the nodes' radii against the distance to the boundary, within the tolerance.
+/// For a sampled axis, checks the nodes' radii against the distance to the boundary, within the
+/// tolerance.
 void check_sampled_disks(const Problem& problem, Certificate& certificate);
-/// Every boundary point is the foot of some disk. Returns the area that blunt joints may leave
-/// open.
+/// Checks that every boundary point is the foot of some disk. Returns the area that blunt joints
+/// may leave uncovered.
 double check_coverage(const Problem& problem, const ArcFeet& feet, Certificate& certificate);
-/// The area of the union of the disks.
+/// Checks the area of the union of the disks.
 void check_area(const Problem& problem, const ArcFeet& feet, double open, Certificate& certificate);
 
 }  // namespace medial::verify_detail

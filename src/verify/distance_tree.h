@@ -22,12 +22,12 @@ struct NearEdges {
   std::array<std::uint32_t, most> index;  ///< among the shape's
 };
 
-/// Centres of disks, whose radii are expected.
+/// Centres of disks with their expected distances.
 struct Places {
   static constexpr std::size_t most = 16;
 
   Vec2 place(std::size_t i) const { return {x[i], y[i]}; }
-  /// Where their number is odd, the last one is looked at with a second one beside it.
+  /// If their number is odd, repeats the last one, because places are processed in pairs.
   void repeat_last() {
     for (auto* const of : {&x, &y, &radius, &distance}) (*of)[size] = (*of)[size - 1];
   }
@@ -35,43 +35,43 @@ struct Places {
   double tolerance;
   std::size_t size = 0;
   std::array<double, most> x, y, radius;
-  /// At first the distance to the nearer one of the sites, or infinite; then to the nearest edge.
+  /// On input, the distance to the nearer site, or infinity; on output, to the nearest edge.
   std::array<double, most> distance;
 };
 
-/// Of each of a shape's edges.
+/// The arcs among a shape's edges.
 EdgeArcs arcs_of(const Shape& shape);
 
-/// The nearest boundary edge of a shape: a tree over the edges in spatial order (the engines search
-/// along the boundary instead). Few edges are simply all looked at.
+/// Finds the nearest boundary edge of a shape, by a tree over the edges in spatial order. (The
+/// engines search in boundary order instead.) If there are few edges, tests all.
 class DistanceTree {
  public:
   explicit DistanceTree(const Shape& shape);
-  /// Of edges anywhere; those without length are points. `arcs`: whether any edge is not straight.
+  /// A tree of any edges; edges of length 0 are points. `arcs`: whether any edge is an arc.
   DistanceTree(std::vector<BoundaryEdge> edges, const Box& box, bool arcs);
-  /// Of a shape of which these are known; `arcs`, arcs_of() the shape, stay the caller's.
+  /// A tree of a shape's edges. Keeps a reference to `arcs`, which is arcs_of() the shape.
   DistanceTree(const Shape& shape, const Box& box, const EdgeArcs& arcs);
   DistanceTree(const DistanceTree&) = delete;
   DistanceTree& operator=(const DistanceTree&) = delete;
 
-  /// Distance from p to the nearest edge. `expected` is a guess at it: a query is fast where the
-  /// guess is not much too large and not too small. O(log n) expected then.
+  /// Distance from p to the nearest edge. `expected` is an estimate of it. O(log n) expected if the
+  /// estimate is neither too small nor much too large.
   double distance(Vec2 p, double expected) const;
-  /// Whether no edge is so near.
+  /// Whether all edges are farther than `distance`.
   bool is_farther(Vec2 p, double distance) const;
-  /// Finds the edges that disks, each larger by the tolerance, may reach; false if there are too
+  /// Finds the edges that disks grown by the tolerance may reach. Returns false if there are too
   /// many.
   bool find_near(const DiskHull& disks, double tolerance, NearEdges& near) const;
-  /// The same, but not of edges over which no disk reaches deeper than both at the ends.
+  /// The same, except edges that no disk covers more deeply than both disks at the ends.
   bool find_near_between_feet(const DiskHull& disks, double tolerance, NearEdges& near) const;
-  /// Finds the distances of disks' centres, of which these edges are near, sooner than one by one;
-  /// without `near`, one by one.
+  /// Computes the distances of disks' centres whose near edges are known, which is faster than
+  /// single queries; without `near`, uses single queries.
   void find_distances(const NearEdges* near, Places& places) const;
 
  private:
-  /// Beside each of four sets a disk that no edge of it reaches into, about a place behind the
-  /// centre that the set bends round. Next to the centre of very many edges, where every box and
-  /// slab is in reach, this says which of them are nearest.
+  /// For each of four sets, a disk into which no edge of the set reaches, around a place behind the
+  /// centre around which the set bends. Next to the common centre of very many edges, where every
+  /// box and slab is in reach, these disks show which sets are nearest.
   struct Clearances {
     double x[4]{}, y[4]{}, radius[4]{};
   };
@@ -105,12 +105,12 @@ class DistanceTree {
   std::vector<BoundaryEdge> fill_runs(std::vector<BoundaryEdge> edges, const Box& box);
   void build_levels(const std::vector<BoundaryEdge>& pieces, double size);
 
-  /// An arc as often as the tree has pieces of it; the last edge again where fewer are left.
+  /// Each arc occurs as often as the tree has pieces of it; the last edge fills the last run.
   std::vector<Run> runs_;
   std::vector<std::vector<Bounds>> levels_;  ///< levels_[0] bounds the runs; none of few edges
   std::vector<std::vector<Clearances>> clearances_;  ///< of levels_, or empty: few sets are round
   Vec2 origin_;
-  double slack_;  ///< what rounding may add to the distance from a box
+  double slack_;  ///< bound for the rounding error of the distance from a box
   EdgeArcs own_arcs_;
   const EdgeArcs* arcs_;
 };

@@ -10,12 +10,12 @@
 
 namespace medial::verify_detail {
 
-/// What the disks of nodes, or those inside edges, are measured against the boundary for.
+/// The measurements of the disks of nodes, or of the disks inside edges, against the boundary.
 struct Measured {
   Worst residual, intrusion, negative;
   std::uint64_t disks = 0;
 
-  /// Whether two disks are no worse than what is known.
+  /// Whether two disks are no worse than the current maxima.
   bool are_better(const Problem& problem, Pair radius, Pair distance) const {
     const auto within = [&](Pair amount, const Worst& worst) {
       return amount <= both(std::min(worst.value, problem.tolerance));
@@ -50,24 +50,24 @@ struct Findings {
   }
 };
 
-/// The arc of a site, if it is one of the boundary.
+/// The arc of a site, if it is an arc of the boundary.
 inline const Arc* arc_of(const Problem& problem, std::uint32_t site) {
   const std::uint32_t place = problem.place[site];
   const bool is_known = place != no_index && problem.axis.sites[site].kind() == SiteKind::arc;
   return is_known ? &problem.arcs[place] : nullptr;
 }
 
-/// Two parameters of a curve, and the Bernstein polynomials there for curves of weight 1, which
-/// most edges are.
+/// Two parameters of a curve, with the Bernstein polynomials there for curves of weight 1 (most
+/// edges).
 struct Parameters {
   Pair t, s;
   std::array<Pair, 3> polynomial;
-  std::size_t count;  ///< 1 where both are the same
+  std::size_t count;  ///< 1 if both are equal
 
   Parameters(Pair at, std::size_t the_count) : t(at), s(1 - at), count(the_count) {
     polynomial = weighted(1).first;
   }
-  /// The weighted polynomials, divided by their sum, and that.
+  /// The weighted polynomials divided by their sum, and the sum.
   std::pair<std::array<Pair, 3>, Pair> weighted(double weight) const {
     const Pair sum = s * s + 2 * s * t * weight + t * t;
     return {{s * s / sum, 2 * s * t * weight / sum, t * t / sum}, sum};
@@ -77,9 +77,9 @@ struct Parameters {
 /// The parameters of `samples` disks inside an edge.
 std::vector<Parameters> parameters_of(int samples);
 
-/// Measures disks of an edge against its sites and the boundary, and its legality. `near`: the
-/// boundary edges that may be nearer than the sites, if all of them are known. `counted`: the
-/// nodes at its ends that are measured with it, or no_index.
+/// Measures disks of an edge against its sites and the boundary, and its legality. `near`: all
+/// boundary edges that may be nearer than the sites, if known. `counted`: the nodes at its ends
+/// that are measured with it, or no_index.
 void measure_samples(const Problem& problem, const DistanceTree& boundary, std::uint32_t edge,
                      std::span<const Parameters> samples, const NearEdges* near,
                      const std::array<std::uint32_t, 2>& counted, Findings& findings);

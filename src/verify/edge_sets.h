@@ -8,10 +8,10 @@
 
 namespace medial::verify_detail {
 
-/// Boxes around four sets of edges side by side, so that a compiler can compare them at once. A
-/// box lies along the longest extent of its set or along the axes, whichever is the smaller: on a
-/// smooth boundary, boxes along the axes would let far too many edges near a contact pass.
-/// `across` is normal . (p - origin), `along` the same with the normal turned to the right.
+/// Boxes around four sets of edges, laid out for vectorised comparison. A box is aligned with the
+/// longest extent of its set or with the axes, whichever is smaller; on a smooth boundary,
+/// axis-aligned boxes would not exclude enough edges near a contact. `across` is normal . (p -
+/// origin), `along` the same with the normal turned to the right.
 struct Bounds {
   double normal_x[4], normal_y[4];
   double low_along[4], high_along[4], low_across[4], high_across[4];
@@ -26,7 +26,7 @@ struct Bounds {
   }
 };
 
-/// Four edges side by side.
+/// Four edges, laid out for vectorised comparison.
 struct Run {
   double start_x[4], start_y[4], end_x[4], end_y[4], bulge[4];
   std::uint32_t index[4];  ///< among the shape's

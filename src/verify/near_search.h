@@ -1,9 +1,10 @@
-// Which edges the disks of an edge of the axis may reach. Included twice by distance_tree.cpp, for
-// two and for four numbers at once, in namespaces that say what Several and Each are: GCC makes two
-// pairs of a vector of four numbers wherever a function is not compiled for wide registers itself.
+// Finds the boundary edges that the disks of an axis edge may reach. distance_tree.cpp includes
+// this file twice, for vectors of two and of four numbers, in namespaces that define Several and
+// Each. GCC splits a vector of four numbers into two pairs in functions not compiled for wide
+// registers.
 
-/// All disks of an edge, with room for rounding. The larger one of those at the ends is the one
-/// that other edges may be near to: they are looked at from its centre.
+/// A bound for all disks of an edge, with an allowance for rounding. Boundary edges are tested from
+/// the centre of the larger disk at its ends.
 class EdgeHull {
  public:
   EdgeHull(const DiskHull& disks, double slack) {
@@ -17,16 +18,16 @@ class EdgeHull {
       corner_[i] = {to.x, to.y, radius, radius * radius};
       reach = std::max(reach, norm(to) + radius);
     }
-    // Nothing reaches the infinite bounds of empty sets.
+    // A finite limit, so that the infinite bounds of empty sets are out of reach.
     limit_ = std::min((1 + 8 * epsilon) * reach * reach, std::numeric_limits<double>::max());
   }
 
-  /// Whether all of them lie in a disk whose size is a number.
+  /// Whether a disk of finite size contains all of them.
   bool is_bounded() const { return limit_ < std::numeric_limits<double>::max(); }
 
-  /// Whether disks may reach sets in their boxes. They do not if the box is out of reach from
-  /// the centre, or all disks lie on one side of it, or behind the line through the place of the
-  /// box nearest to the centre that is perpendicular to the way there.
+  /// Whether disks may reach sets in their boxes. They do not if the box is out of reach from the
+  /// centre, if all disks lie on one side of it, or if they all lie on the centre's side of the
+  /// line through the place of the box nearest to the centre, perpendicular to the direction there.
   Each reaches(const Bounds& bounds, std::size_t set, Vec2 origin) const {
     const Several normal_x = several_at(bounds.normal_x + set),
                   normal_y = several_at(bounds.normal_y + set);
@@ -59,9 +60,9 @@ class EdgeHull {
            (first_across <= high_across) & (last_across >= low_across);
   }
 
-  /// Whether no disk reaches edges of a run. Of an edge, all but the height of an arc lies
-  /// behind the line through the point of its chord nearest to the centre, or through its nearer
-  /// end, that is perpendicular to the way there.
+  /// Whether no disk reaches edges of a run. Except for the height of an arc, an edge lies beyond
+  /// the line through the point of its chord nearest to the centre, or through its nearer end,
+  /// perpendicular to the direction there.
   Each misses(const Run& run, std::size_t i) const {
     const Several start_x = several_at(run.start_x + i), start_y = several_at(run.start_y + i);
     const Several from_x = center_.x - start_x, from_y = center_.y - start_y;
@@ -85,7 +86,7 @@ class EdgeHull {
     }
     const Each straight = height == 0;
     if (bits(straight & ~missed) == 0) return missed;
-    // Next to a convex corner, the line of a straight edge decides more than that through its
+    // Next to a convex corner, the line of a straight edge excludes more than the line through its
     // nearer end.
     const Several across = along_x * from_y - along_y * from_x,
                   side = with_sign_of(all_of(1), across);
@@ -111,7 +112,7 @@ class EdgeHull {
   std::array<Corner, 3> corner_;  ///< the centre's first
 };
 
-/// Adds those edges of a run that disks may reach, each once.
+/// Adds the edges of a run that disks may reach, each once.
 inline void add_near(const EdgeHull& hull, const Run& run, std::uint32_t first, NearEdges& near) {
   const auto is_known = [&](std::uint32_t index) {
     for (std::size_t i = 0; i < near.size; ++i)
@@ -127,7 +128,7 @@ inline void add_near(const EdgeHull& hull, const Run& run, std::uint32_t first, 
     }
 }
 
-/// Adds edges that disks may reach, in those sets that are wanted; false if there are too many.
+/// Adds the edges in wanted sets that disks may reach. Returns false if there are too many.
 template <class Wanted>
 inline bool find_near(const EdgeHull& hull, const std::vector<Run>& runs,
                       const std::vector<std::vector<Bounds>>& levels, Vec2 origin,
