@@ -16,16 +16,16 @@ std::vector<std::array<double, 2>> burn(const MedialAxis& axis, std::span<const 
   for (std::uint32_t i = 0; i < fuses.size(); ++i)
     for (std::uint32_t side = 0; side < 2; ++side) ends[next[fuses[i].node[side]]++] = 2 * i + side;
 
-  // When the fire arrives at each end from the other one: that branch burns once all others there
-  // have. From where the fire does not go, because it comes from the other end sooner, it would
-  // arrive later than from everywhere else, so that this changes nothing.
+  // The time at which the fire arrives at each end from the other one, where the branch starts to
+  // burn once all others have burnt. If the fire never starts from that end, because it comes from
+  // this end sooner, its hypothetical arrival would be later than all others and changes nothing.
   std::vector<double> arrival(ends.size(), not_burnt);
   std::vector<std::uint32_t> known(axis.nodes.size(), 0), ready;
   std::vector<bool> sent(ends.size(), false);
   const auto earlier = [&](std::uint32_t a, std::uint32_t b) {
     return arrival[a] != arrival[b] ? arrival[a] < arrival[b] : a < b;
   };
-  // The last end at which the fire arrives at a node, and when it has at all others.
+  // The last end at which the fire arrives at a node, and the time of arrival at all other ends.
   const auto last_of = [&](std::uint32_t node) {
     std::uint32_t last = ends[begin[node]];
     double others = begin[node + 1] - begin[node] == 1 ? axis.nodes[node].disk.radius : 0;

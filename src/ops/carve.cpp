@@ -26,7 +26,7 @@ namespace {
 
 Error invalid_carving(const char* text) { return {ErrorCode::invalid_option, text, {}}; }
 
-/// The nearest point of an edge to p, as a share of the way (of the angle, of an arc).
+/// The point of an edge nearest to p, as a share of the length (of the angle for an arc).
 double nearest_share(const BulgeArc& edge, Vec2 p) {
   if (edge.bulge == 0) {
     const double along = dot(p - edge.start, edge.chord()) / squared_norm(edge.chord());
@@ -48,7 +48,7 @@ BulgeArc edge_of(const Ring& ring, std::size_t i) {
 /// The place of a ring that is nearest to a point.
 struct RingPlace {
   std::size_t edge = 0;
-  double share = 0;  ///< of the way along the edge
+  double share = 0;  ///< of the edge's length
   double squared_distance = infinity;
 };
 
@@ -67,10 +67,10 @@ RingPlace nearest_place(const Ring& ring, Vec2 p) {
   return best;
 }
 
-/// The rings of a region that are not cut yet.
+/// The rings of a region that have not been cut.
 class RingsLeft {
  public:
-  /// O(n log n) for n edges; O(1) of one ring.
+  /// O(n log n) for n edges; O(1) for one ring.
   explicit RingsLeft(std::span<const Ring> rings) : rings_(rings), left_(rings.size()) {
     if (rings.size() == 1) return;
     std::vector<Box> boxes;
@@ -85,7 +85,7 @@ class RingsLeft {
   }
   bool empty() const { return left_ == 0; }
   Vec2 first_point() { return (edges_ ? rings_[ring_of_[edges_->first()]] : rings_[0]).points[0]; }
-  /// The place that is nearest to a point, and its ring, which is then no longer left.
+  /// The remaining place nearest to a point, and its ring, which is removed.
   std::pair<const Ring*, RingPlace> take_nearest(Vec2 p) {
     --left_;
     if (!edges_) return {rings_.data(), nearest_place(rings_[0], p)};
@@ -109,7 +109,7 @@ class RingsLeft {
   std::optional<OpenBoxes> edges_;
 };
 
-/// A ring as a closed path that starts at a place of it.
+/// A ring as a closed path that starts at this place.
 std::vector<ToolPoint> path_from(const Ring& ring, const RingPlace& place, double z) {
   const std::size_t count = ring.points.size(), best = place.edge;
   const double share = place.share;
@@ -128,7 +128,7 @@ std::vector<ToolPoint> path_from(const Ring& ring, const RingPlace& place, doubl
   return path;
 }
 
-/// Where another tool was: within `reach` of the rings of a region, or inside it.
+/// The area that another tool has cleared: within `reach` of the rings of a region, or inside it.
 class ClearedBefore {
  public:
   ClearedBefore() = default;
@@ -148,9 +148,9 @@ class ClearedBefore {
   }
 
   bool is_nothing() const { return !tree_; }
-  /// Whether all around a ring of a clearance has been cut.
+  /// Whether the surroundings of a ring of this clearance have been cut.
   bool contains_ring(double clearance) const { return tree_ && !tabs_ && clearance >= least_; }
-  /// Whether all around a place has been cut, by its clearance or by what is near.
+  /// Whether the surroundings of a place have been cut, by its clearance or by the nearest rings.
   bool contains(Vec2 p, double clearance) const {
     if (!tree_ || (tabs_ && tabs_->reaches(p))) return false;
     if (clearance >= least_) return true;
@@ -168,10 +168,10 @@ class ClearedBefore {
   std::vector<BulgeArc> edges_;
   std::optional<BoxTree> tree_;
   double least_ = 0, reach_ = 0;
-  std::optional<ops::TabTree> tabs_;  ///< and beside them, where the other tool was not
+  std::optional<ops::TabTree> tabs_;  ///< the other tool did not cut next to these
 };
 
-/// The parts of a path at one clearance that are not cleared yet, sampled every `spacing`.
+/// The parts of a path at one clearance that have not been cleared, sampled every `spacing`.
 std::vector<std::vector<ToolPoint>> parts_left(std::vector<ToolPoint> path, double clearance,
                                                const ClearedBefore& cleared, double spacing) {
   if (cleared.is_nothing()) return {std::move(path)};
@@ -224,7 +224,8 @@ class Floors {
     for (std::uint32_t i = 0; i < offsets.regions.size(); ++i)
       if (offsets.regions[i].parent != no_region) children_[offsets.regions[i].parent].push_back(i);
   }
-  /// Always the tree of regions whose first ring is nearest; each region after its children.
+  /// Always takes the tree of regions whose first ring is nearest. Cuts each region after its
+  /// children.
   void cut_all() {
     std::vector<std::uint32_t> roots;
     for (std::uint32_t i = 0; i < offsets_.regions.size(); ++i)
@@ -247,7 +248,7 @@ class Floors {
  private:
   Vec2 place(std::uint32_t region) const { return offsets_.regions[region].rings[0].points[0]; }
 
-  /// Trees that are cut one after another.
+  /// Trees to choose from.
   struct Choice {
     Choice(const Floors& floors, std::vector<std::uint32_t> trees)
         : roots(std::move(trees)), left(boxes_of(floors, roots)) {}
@@ -267,10 +268,10 @@ class Floors {
     }
     std::vector<std::uint32_t> roots;
     OpenBoxes left;
-    std::vector<std::uint32_t> chain;  ///< from the root at hand to where it branches
+    std::vector<std::uint32_t> chain;  ///< from the current root to the first branching
   };
 
-  /// From the innermost region on.
+  /// Cuts a chain, beginning with the innermost region.
   void cut_chain(std::vector<std::uint32_t> chain) {
     std::reverse(chain.begin(), chain.end());
     const auto rings = [&](std::uint32_t i) { return offsets_.regions[i].rings.size(); };
@@ -281,8 +282,8 @@ class Floors {
       begin = end;
     }
   }
-  /// Regions in each other, inner ones first, that have as many rings: all that follow each other
-  /// from one boundary to its wall, then those towards another one.
+  /// Cuts nested regions with equal numbers of rings, inner ones first: all rings from one boundary
+  /// to its wall, then those towards the next one.
   void cut_rings(std::span<const std::uint32_t> regions) {
     std::vector<RingsLeft> left;
     for (const std::uint32_t i : regions) left.emplace_back(offsets_.regions[i].rings);
@@ -300,10 +301,10 @@ class Floors {
     for (auto& part : parts_left(std::move(path), region.clearance, cleared_, 0.5 * step_))
       add(ToolPathKind::clearing, std::move(part), region.clearance);
   }
-  /// Of points of one clearance.
+  /// Adds a path of constant clearance.
   void add(ToolPathKind kind, std::vector<ToolPoint> path, double clearance) {
-    // The tool may be where the clearance is at least flat_from: around a place of clearance c
-    // within c - flat_from.
+    // The tool may be at places with a clearance of at least flat_from, so within c - flat_from of
+    // a place of clearance c.
     constexpr double rounding = 1 + 1e-9;
     const double reach =
         last_clearance_ < 0 ? -1 : (last_clearance_ - flat_from_) + (clearance - flat_from_);
@@ -319,7 +320,7 @@ class Floors {
   double last_clearance_ = -1;  ///< of the last ring
 };
 
-/// Travel where rings and branches are cut as they come.
+/// The travel if rings and branches are cut in the order of the axis.
 double unordered_travel(const Offsets& offsets, const ops::Grooves& grooves) {
   double sum = 0;
   bool started = false;
@@ -336,7 +337,7 @@ double unordered_travel(const Offsets& offsets, const ops::Grooves& grooves) {
   return sum;
 }
 
-/// Of the axis's sites.
+/// The box around the axis's sites.
 Box box_of(const MedialAxis& axis) {
   Box box{axis.nodes[0].disk.center, axis.nodes[0].disk.center};
   for (const Site& site : axis.sites) {
@@ -346,12 +347,12 @@ Box box_of(const MedialAxis& axis) {
   return box;
 }
 
-/// Between the passes that clear a flat bottom of clearances above `flat_from`.
+/// The distance between the passes that clear a flat bottom with clearances above `flat_from`.
 double step_at(const CarveOptions& options, double tip, double flat_from) {
   return options.step > 0 ? options.step : tip > 0 ? tip : flat_from / 20;
 }
 
-/// One trail of grooves as a path of the tool, down to `floor`. `depth_of` is how deep it may go
+/// One trail of grooves as a path of the tool, down to `floor`. `depth_of` gives the largest depth
 /// in a disk.
 template <class DepthOf>
 std::vector<ToolPoint> path_along(const std::vector<ops::GrooveStep>& trail,
@@ -384,7 +385,7 @@ std::vector<ToolPoint> path_along(const std::vector<ops::GrooveStep>& trail,
   return points;
 }
 
-/// Disks that are the whole axis of a part, as of a circle, with radii in [least, most]: the tool
+/// Disks that are the whole axis of a part, such as a circle, with radii in [least, most]. The tool
 /// goes straight down there.
 std::vector<Disk> lone_disks(const MedialAxis& axis, double least, double most) {
   constexpr double rounding = 1e-9;
@@ -412,10 +413,10 @@ Result<Offsets> floor_rings(const MedialAxis& axis, double flat_from, double ste
   return inward_offsets(axis, *rings);
 }
 
-/// What a tool is, and how deep it may go at most.
+/// A tool and its largest depth.
 struct Tool {
   bool mill;
-  double depth;  ///< infinite where nothing limits it
+  double depth;  ///< infinite if unlimited
 };
 Tool tool_of(const CarveOptions& options, Carving& carving) {
   const double radius = options.tool > 0 ? options.tool / 2 : infinity;
@@ -430,7 +431,8 @@ Tool tool_of(const CarveOptions& options, Carving& carving) {
   return {tool.mill, depth};
 }
 
-/// What options.cleared says, of flat bottoms that begin at the clearance `floor`.
+/// The area cleared by the mill of options.cleared, in flat bottoms that begin at the clearance
+/// `floor`.
 Result<ClearedBefore> cleared_before(const MedialAxis& axis, const CarveOptions& options,
                                      const Carving& carving) {
   const double radius = options.cleared / 2;
@@ -449,7 +451,7 @@ Result<Carving> plan(const MedialAxis& axis, const CarveOptions& options) {
   const double tip = carving.tip_radius, slope = carving.slope;
   const double chord = options.chord > 0 ? options.chord : 1e-5 * diagonal(box_of(axis));
 
-  // As deep as the widest place lets the tool go.
+  // The depth that the widest place allows.
   double lowest = tool.depth;
   if (!tool.mill) lowest = std::min(lowest, std::max(deepest_disk(axis).radius - tip, 0.0) / slope);
   constexpr double most_passes = 1e4, rounding = 1e-9;
@@ -467,7 +469,7 @@ Result<Carving> plan(const MedialAxis& axis, const CarveOptions& options) {
   ops::Planner planner(
       carving, options.ramp < straight ? std::tan(options.ramp * std::numbers::pi / 180) : infinity,
       chord);
-  double cleared = tool.mill ? carving.flat_from : tip;  // the clearance up to which all is cut
+  double cleared = tool.mill ? carving.flat_from : tip;  // everything is cut up to this clearance
   for (std::uint32_t pass = 0; pass < carving.passes; ++pass) {
     const bool last = pass + 1 == carving.passes;
     const double floor = last ? tool.depth : (pass + 1) * options.pass_depth;
@@ -477,13 +479,13 @@ Result<Carving> plan(const MedialAxis& axis, const CarveOptions& options) {
       carving.deepest = std::max(carving.deepest, floor);
       Floors(*offsets, *before, carving, -floor, planner).cut_all();
     }
-    // An end mill needs the axis only where it is just as wide.
+    // An end mill follows the axis only where the shape is exactly as wide as the mill.
     const ops::Grooves grooves = ops::grooves_of(axis, cleared, carving.flat_from, chord);
     const Vec2 start = planner.started() || grooves.parts.empty()
                            ? planner.at()
                            : grooves.parts[0].disks[0].center;
     const auto depth_of = [&](const Disk& disk) {
-      // Chords are lifted, in narrow places above the surface.
+      // Chords are lifted; in narrow places, they are above the surface.
       const double deep = tool.mill ? floor : (disk.radius - tip) / slope;
       carving.deepest = std::max(carving.deepest, std::min(deep, floor));
       return deep;
@@ -534,7 +536,7 @@ Result<Carving> carve(const MedialAxis& axis, const CarveOptions& options) {
     return invalid_carving("the ramp must be in (0, 90] degrees");
   if (!options.tabs.lines.empty() && !(options.tabs.width > 0 && options.tabs.top >= 0))
     return invalid_carving("tabs need a width above 0, and a top below the surface");
-  constexpr double smallest_chord = 1e-8;  // the moves grow as the root of one over it
+  constexpr double smallest_chord = 1e-8;  // the number of moves grows as 1 / sqrt(chord)
   if (options.chord > 0 && options.chord < smallest_chord * diagonal(box_of(axis)))
     return invalid_carving(
         "the path tolerance (chord) must be at least 1e-8 of the diagonal of the axis's sites");
@@ -599,8 +601,8 @@ std::vector<ToolPoint> without_arcs(const ToolPath& path, double chord) {
     if (from.bulge == 0 || i + 1 == path.points.size()) continue;
     const BulgeArc arc{from.point, path.points[i + 1].point, from.bulge};
     if (arc.start == arc.end) continue;
-    // Half of the angle of a piece whose chord, or the meeting point of whose tangents, is as far
-    // away as may be.
+    // Half of the angle of a piece whose chord, or the intersection of whose tangents, is as far
+    // away as allowed.
     const double quarter = std::atan(std::abs(arc.bulge));
     const double share = std::min(chord * std::abs(curvature(arc)), 1.0);
     const double half = arc.bulge > 0 ? 2 * std::asin(std::sqrt(0.5 * share))
@@ -610,7 +612,7 @@ std::vector<ToolPoint> without_arcs(const ToolPath& path, double chord) {
     const bool tangents = arc.bulge < 0;
     const double apart = 2 * quarter / pieces;  // half of the angle of each piece
     for (double k = tangents ? 0.5 : 1; k < pieces; k += 1) {
-      // In the direction of the chord up to there; a meeting of tangents is further out.
+      // In the direction of the chord to that point; an intersection of tangents is farther out.
       const double turn = apart * k;
       const Vec2 on_arc = point_at_share(arc, k / pieces);
       if (!tangents) {

@@ -20,7 +20,7 @@
 namespace medial {
 namespace {
 
-/// Answers how far the boundary is.
+/// Finds distances to the boundary.
 class Boundary {
  public:
   explicit Boundary(const Shape& shape)
@@ -40,7 +40,7 @@ class Boundary {
   site::BoundaryTree tree_;
 };
 
-/// Where a ray from p in a direction of length 1 meets a site first, after `least`.
+/// The distance at which a ray from p in a unit direction first meets a site, beyond `least`.
 double hit(const Site& site, Vec2 p, Vec2 direction, double least) {
   const Vec2 chord = site.end - site.start, to = site.start - p;
   double first = infinity;
@@ -54,28 +54,28 @@ double hit(const Site& site, Vec2 p, Vec2 direction, double least) {
   // |p + s direction - centre| = radius, and on the arc's side of its chord.
   const BulgeArc arc{site.start, site.end, site.bulge};
   const double bend = curvature(arc);
-  const Vec2 centre = (1 / bend) * left_of(start_tangent(arc)) + to;  // seen from p
+  const Vec2 centre = (1 / bend) * left_of(start_tangent(arc)) + to;  // relative to p
   const double middle = dot(centre, direction), beside = cross(direction, centre);
   const double root = std::sqrt(1 / (bend * bend) - beside * beside);
   for (const double s : {middle - root, middle + root}) {
-    const Vec2 q = s * direction - to;  // seen from the start
+    const Vec2 q = s * direction - to;  // relative to the start
     if (s > least && s < first && cross(chord, q) * site.bulge <= 0) first = s;
   }
   return first;
 }
 
-/// What continues a line at its last node: the end of a straight edge there.
+/// The straight edge that continues a line at its last node.
 class Extension {
  public:
   explicit Extension(const MedialAxis& axis) : axis_(axis), sites_(boxes_of(axis)) {}
 
-  /// From the line's node, which its edges reach in `ahead`.
+  /// The end of the extension from the line's node, at which the line arrives in direction `ahead`.
   struct End {
     Vec2 point;
     std::uint32_t site;  ///< on which it lies
   };
   std::optional<End> from(const Disk& disk, Vec2 ahead) const {
-    constexpr double far = 2;  // radii: beyond, it is not this end that lies straight ahead
+    constexpr double far = 2;  // radii; farther places are not straight ahead of this end
     constexpr double touching = 1 + 1e-9;
     if (!(disk.radius > axis_.tolerance) || !(norm(ahead) > 0)) return std::nullopt;
     const Vec2 direction = (1 / norm(ahead)) * ahead;
@@ -117,7 +117,7 @@ class Extension {
   BoxTree sites_;
 };
 
-/// The direction in which a line arrives at its last node: from where it is one radius before.
+/// The direction in which a line arrives at its last node, from the point one radius before it.
 Vec2 ahead_of(const MedialAxis& line, bool at_end) {
   const std::size_t count = line.edges.size();
   const auto edge_at = [&](std::size_t i) -> const Edge& {
@@ -158,9 +158,9 @@ void extend(const Extension& extension, MedialAxis& line) {
   }
 }
 
-/// Samples of a line, each step at most a quarter of the radius but no shorter than a share of the
-/// whole: so that a straight step between two points in the inner halves of their disks stays in
-/// one of the disks.
+/// Samples of a line. Each step is at most a quarter of the radius, but not shorter than a share of
+/// the whole, so that a straight step between two points in the inner halves of their disks stays
+/// in one of the disks.
 std::vector<Disk> sample_line(const MedialAxis& line) {
   constexpr double steps_a_radius = 4, most_steps = 20000;
   const double shortest = total_length(line) / most_steps;
@@ -176,7 +176,7 @@ std::vector<Disk> sample_line(const MedialAxis& line) {
   return samples;
 }
 
-/// A sampled line to take averages of.
+/// A sampled line, for averages along it.
 class SampledLine {
  public:
   SampledLine(std::vector<Disk> samples, bool closed)
@@ -185,11 +185,11 @@ class SampledLine {
       at_[i] = at_[i - 1] + distance(samples_[i - 1].center, samples_[i].center);
     whole_ = at_.back() + distance(samples_.back().center, samples_.front().center);
   }
-  /// The length, once around.
+  /// The total length.
   double whole() const { return whole_; }
   const std::vector<Disk>& samples() const { return samples_; }
 
-  /// From a sample to the mean of the line around it, with Gaussian weights.
+  /// The vector from a sample to the Gaussian mean of the line around it.
   Vec2 to_mean(std::size_t i, double deviation) const {
     constexpr double reach = 3;  // standard deviations
     Vec2 sum;
@@ -216,8 +216,8 @@ class SampledLine {
     Vec2 center;
     double at;
   };
-  /// Sample k of the line that goes on around a cycle, or beyond an end mirrored in it: so ends
-  /// stay.
+  /// Sample k of the line continued around a cycle, or by point reflection in its ends, so that
+  /// ends do not move.
   Place place(std::ptrdiff_t k) const {
     const auto n = static_cast<std::ptrdiff_t>(samples_.size());
     if (k >= 0 && k < n)
@@ -253,7 +253,7 @@ MedialAxis smoothed(const Boundary& boundary, const MedialAxis& line, double rad
   const std::uint32_t component = line.nodes.front().component;
   for (std::size_t i = 0; i < count; ++i) {
     const Disk& here = samples[i];
-    // Where the line is thin it may move less, so it is averaged over less.
+    // In thin places, the line may move less, so it is averaged over a shorter length.
     Vec2 move = sampled.to_mean(i, radii * std::min(mean_radius, 2 * here.radius));
     if (!closed && (i == 0 || i == count - 1)) move = {};
     const double most = 0.5 * here.radius;

@@ -1,4 +1,4 @@
-// Partial collapse: what is wide stays a polygon, what is narrow becomes a line.
+// Partial collapse: wide parts stay polygons, narrow parts become lines.
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@
 namespace medial {
 namespace {
 
-/// The axis divided where its radius is half of the width, and which of the edges are wide.
+/// The axis divided where its radius is half of the width, with the wide edges marked.
 struct DividedAxis {
   MedialAxis axis;
   std::vector<bool> wide;
@@ -42,7 +42,7 @@ DividedAxis divided_at(const MedialAxis& axis, double radius) {
     add(i, done, 1, false);
   }
   DividedAxis divided{part_of(axis, pieces), std::move(wide)};
-  // A disk without edges stays one.
+  // A node without edges stays.
   const std::vector<std::uint32_t> degree = degrees_of(axis);
   for (std::size_t i = 0; i < axis.nodes.size(); ++i)
     if (degree[i] == 0 && axis.nodes[i].disk.radius >= radius)
@@ -70,7 +70,7 @@ class Collapse {
       if (wide_[i])
         for (const std::uint32_t node : axis_.edges[i].node) at_cut_[node] = true;
     for (const Part& part : narrow_parts()) {
-      // What would leave no line is no part of its own.
+      // A narrow part without lines does not count as a part.
       const std::size_t lines_before = lines_.size();
       if (!belongs_to_polygon(part)) add_lines(part);
       if (lines_.size() > lines_before) continue;
@@ -78,7 +78,7 @@ class Collapse {
     }
   }
 
-  /// The axis of what stays.
+  /// The axis of the polygons.
   MedialAxis polygons() const {
     std::vector<PathPiece> pieces;
     for (std::uint32_t i = 0; i < axis_.edges.size(); ++i)
@@ -91,11 +91,11 @@ class Collapse {
   MedialAxis lines() const { return part_of(axis_, lines_); }
 
  private:
-  /// Narrow edges, connected otherwise than through a wide place.
+  /// Narrow edges that are connected without passing a wide place.
   struct Part {
     std::vector<std::uint32_t> edges, nodes;  ///< increasing
     MedialAxis graph;                         ///< of them alone, numbered in order
-    std::vector<bool> at_cut;  ///< of the graph's nodes: whether something wide begins
+    std::vector<bool> at_cut;                 ///< of the graph's nodes: whether a wide part begins
 
     Vec2 center(std::uint32_t node) const { return graph.nodes[node].disk.center; }
     double radius(std::uint32_t node) const { return graph.nodes[node].disk.radius; }
@@ -140,7 +140,7 @@ class Collapse {
     }
   }
 
-  /// A corner, or a neck shorter than wide.
+  /// Whether the part is a corner, or a neck that is shorter than wide.
   bool belongs_to_polygon(const Part& part) const {
     const auto count = static_cast<std::uint32_t>(part.nodes.size());
     std::vector<std::uint32_t> cuts;
@@ -161,14 +161,14 @@ class Collapse {
     return true;
   }
 
-  /// Lines of one narrow part: all but the dead ends that protrude little from where they begin.
+  /// Adds the lines of one narrow part, without dead ends that protrude little from their bases.
   void add_lines(const Part& part) {
     const MedialAxis& graph = part.graph;
-    // Where nothing is wide, the search ends in the widest node.
+    // If nothing is wide, the widest node is the root.
     std::vector<bool> is_root = part.at_cut;
     if (std::find(is_root.begin(), is_root.end(), true) == is_root.end())
       is_root[deepest_node(graph)] = true;
-    // Edges that begin an arm which does not protrude.
+    // First edges of arms that do not protrude.
     std::vector<bool> dropped(graph.edges.size(), false);
     std::vector<double> reach;
     for (const Node& node : graph.nodes) reach.push_back(node.disk.radius);
@@ -180,7 +180,7 @@ class Collapse {
           dropped[edge] = decides && !(arm > (1 + trim_) * part.radius(inner));
           reach[inner] = std::max(reach[inner], arm);
         });
-    // What is left, seen from the roots and cycles.
+    // The remaining edges, from the roots and cycles outwards.
     const Incidence incidence(graph);
     std::vector<std::uint32_t> queue;
     std::vector<bool> seen(graph.nodes.size(), false), kept(graph.edges.size(), false);
@@ -201,7 +201,7 @@ class Collapse {
     clip(part, incidence, kept);
   }
 
-  /// A small part without any arm: its main path.
+  /// Adds the main path of a small part without arms.
   void add_main_path(const Part& part) {
     std::vector<PathPiece> pieces;
     for (const std::uint32_t edge : part.edges) pieces.push_back({edge, 0, 1});
@@ -210,7 +210,7 @@ class Collapse {
         lines_.push_back({part.edges[piece.edge], piece.from, piece.to});
   }
 
-  /// Lines end on the arc of the polygon's end, one radius from the cut.
+  /// Clips lines at the arc that ends the polygon, one radius from the cut.
   void clip(const Part& part, const Incidence& incidence, const std::vector<bool>& kept) {
     std::vector<PathPiece> pieces;
     for (const std::uint32_t edge : part.edges) pieces.push_back({edge, 0, 1});
@@ -264,11 +264,11 @@ Result<CollapsedShape> collapse_narrow(const MedialAxis& axis, double width, dou
   result.lines = collapse.lines();
   const MedialAxis kept = collapse.polygons();
   if (kept.nodes.empty()) return result;
-  // Where arcs meet in a cusp, no wider than rounding, their ends may overlap: then all tips are
-  // rounded by a disk that is small against the width.
+  // If arcs meet in a cusp that is narrower than rounding, their ends may overlap. Then all tips
+  // are rounded by a disk that is small relative to the width.
   const auto outline = [&](const MedialAxis& part) {
-    // Between sites that join smoothly an outline may have steps of some roundings, in any
-    // direction, that would overlap their neighbours.
+    // Between sites that join smoothly, an outline may have steps of a few roundings in any
+    // direction, which would overlap their neighbours.
     std::vector<Ring> rings;
     for (const Contour& contour : ops::boundary_of(part, corner_angle)) {
       rings.push_back(ops::ring_of(contour, 0x1p12 * axis.tolerance));

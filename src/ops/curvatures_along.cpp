@@ -1,4 +1,5 @@
-// The curvature of the boundary and its derivative, by the axis: Shaked and Bruckstein, (4) to (8).
+// The curvature of the boundary and its derivative, from the axis: Shaked and Bruckstein, (4) to
+// (8).
 
 #include <algorithm>
 #include <array>
@@ -9,7 +10,7 @@
 namespace medial {
 namespace {
 
-/// How many feet a derivative takes: the one in the middle, and two on either side of it.
+/// The number of feet for a derivative: the middle one, and two on either side.
 constexpr std::size_t window = 5;
 
 /// The first derivative at 0 of the polynomial with these values at these places, one of which is
@@ -34,7 +35,7 @@ double length_between(const BoundaryJet& a, const BoundaryJet& b) {
   return chord * (1 + turn * turn / 24);
 }
 
-/// Of a sampled branch, at its jets: curvatures by (7), and their derivative along the axis.
+/// Adds curvatures at the jets of a sampled branch by (7), with their derivatives.
 void add_samples(const std::vector<AxisJet>& jets, Side side, std::vector<FootCurvature>& out) {
   std::vector<BoundaryJet> feet;
   std::vector<double> places;
@@ -59,7 +60,7 @@ void add_samples(const std::vector<AxisJet>& jets, Side side, std::vector<FootCu
   }
 }
 
-/// Inside an exact edge.
+/// Adds curvatures inside an exact edge.
 void add_exact(const MedialAxis& axis, const Step& step, std::vector<FootCurvature>& out) {
   constexpr int samples = 8;
   const Edge& edge = axis.edges[step.edge];
@@ -71,8 +72,8 @@ void add_exact(const MedialAxis& axis, const Step& step, std::vector<FootCurvatu
     for (const Side side : {Side::left, Side::right}) {
       const auto values = boundary_curvatures(axis, edge, t, side, 1);
       if (!std::isfinite(values[0]) || !std::isfinite(values[1])) continue;
-      // + 0.0: no -0 in tables. A branch that runs against its edge has that one's left side on its
-      // right.
+      // + 0.0 avoids -0 in tables. If the branch traverses the edge backward, left and right are
+      // swapped.
       const bool left = (side == Side::left) == step.forward;
       out.push_back({left ? Side::left : Side::right, jet.disk, boundary_at(jet, side).point,
                      values[0] + 0.0, (side == Side::left ? -values[1] : values[1]) + 0.0});

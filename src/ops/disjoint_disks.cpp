@@ -1,6 +1,6 @@
-// The largest disks without overlap: each the deepest of what those before it leave. Branch and
-// bound over squares, exact without an axis: a square near which few sites lie is settled by the
-// disks that touch three of these, or two in opposite points.
+// The largest disjoint disks: each is the deepest disk in the shape minus the previous ones. Branch
+// and bound over squares, exact and without an axis: in a square with few sites nearby, the deepest
+// disk is one that touches three of them, or two at opposite points.
 
 #include <algorithm>
 #include <array>
@@ -23,16 +23,16 @@
 namespace medial {
 namespace {
 
-constexpr double anywhere = 8;           // no two places of the local frame are further apart
+constexpr double anywhere = 8;           // above all distances in the local frame
 constexpr double finest = 0x1p-50;       // local: the rounding of a centre
 constexpr std::size_t few_carriers = 8;  // enough to settle a square
-constexpr std::size_t few_sites = 16;    // near it; if they are more, so are the carriers
+constexpr std::size_t few_sites = 16;    // near it; more sites have too many carriers
 constexpr double root_of_2 = 1.4142135623730951;
 
 struct Square {
   Vec2 center;
   double half = 0;  ///< of its side
-  /// How far points of the square are from its centre, with room for contains().
+  /// A bound for the distance of points of the square from its centre, with slack for contains().
   double reach() const { return root_of_2 * half * (1 + 0x1p-19) + 4 * finest; }
   bool contains(Vec2 p) const {
     const double most = half * (1 + 0x1p-20) + finest;
@@ -40,7 +40,7 @@ struct Square {
   }
 };
 
-/// A shape less the disks taken from it, in the local frame.
+/// A shape minus the disks taken from it, in the local frame.
 class Region {
  public:
   Region(const Shape& shape, const LocalFrame& frame)
@@ -58,9 +58,9 @@ class Region {
     Vec2 foot;           ///< where it touches
     double to_boundary;  ///< the distance to the shape's boundary, from either side
   };
-  /// The room around c, which is at most `at_most` away from the shape's boundary. As a function of
-  /// c, the clearance has the Lipschitz constant 1. O(log n) expected, and one step for each disk
-  /// taken.
+  /// The room around c, whose distance from the shape's boundary is at most `at_most`. The
+  /// clearance is a function of c with the Lipschitz constant 1. O(log n) expected, plus one step
+  /// per disk taken.
   Room room(Vec2 c, double at_most) const {
     const auto hit = tree_.nearest(c, at_most * (1 + 0x1p-40) + finest);
     const double distance = std::sqrt(hit.squared_distance);
@@ -74,8 +74,8 @@ class Region {
     return room;
   }
 
-  /// The carriers that disks centred in a square may touch, within a distance of its centre; false
-  /// if there are many.
+  /// Finds the carriers, within a distance of its centre, that disks centred in a square may touch.
+  /// Returns false if there are many.
   bool carriers(const Square& square, double within, std::vector<site::Site>& found) const {
     const Vec2 c = square.center;
     found.clear();
@@ -92,7 +92,7 @@ class Region {
   }
 
  private:
-  /// The circle of a disk, with what the disk leaves on its left.
+  /// The circle of a disk, with the remaining region on its left.
   static site::Site circle(const Disk& disk) {
     return {disk.center + Vec2{disk.radius, 0}, {0, -1}, disk.radius, -1 / disk.radius};
   }
@@ -102,13 +102,13 @@ class Region {
     const auto next_loop = std::upper_bound(loop_begin_.begin(), loop_begin_.end(), i);
     return (i == *(next_loop - 1) ? *next_loop : i) - 1;
   }
-  /// Whether a place of the square may have its foot on an edge.
+  /// Whether a point of the square may have its foot on an edge.
   static bool faces_edge(const site::Site& edge, const Square& square) {
     if (edge.is_arc()) return true;
     const double s = dot(edge.direction, square.center - edge.point);
     return s >= -square.reach() && s <= edge.length + square.reach();
   }
-  /// Whether one may lie between the normals of the vertex where edge i begins.
+  /// Whether a point of the square may lie between the normals of the vertex where edge i begins.
   bool faces_vertex(std::uint32_t i, const Square& square) const {
     const Vec2 d = square.center - edges_[i].point;
     return cross(edges_[before(i)].end_normal(), d) <= square.reach() &&
@@ -125,9 +125,9 @@ class Region {
     return {edge.point, edge.end(), tangent / (1 + std::sqrt(1 + tangent * tangent))};
   }
 
-  /// Whether c, whose nearest edge is known, lies inside: on the left of the edge or, where one of
-  /// its ends is as near, in the wedge of a vertex, where loops touch maybe that of another passage
-  /// through the same point.
+  /// Whether c, with a known nearest edge, lies inside: on the left of the edge or, if one of its
+  /// ends is equally near, in the wedge of that vertex. Where loops touch, this may be the wedge of
+  /// another passage through the same point.
   bool is_inside(const site::BoundaryTree::Hit& hit, Vec2 c) const {
     const site::Site& edge = edges_[hit.site];
     const double reach = std::sqrt(hit.squared_distance) * (1 + 0x1p-40) + finest;
@@ -165,8 +165,8 @@ class Region {
   mutable std::vector<std::uint32_t> near_;
 };
 
-/// The deepest of the local maxima of the clearance in a square that these carriers explain. A
-/// largest disk touches three carriers, or two in the ends of a diameter, or is an arc's circle.
+/// The deepest local maximum of the clearance in a square with these carriers. A largest disk
+/// touches three carriers, or two at the ends of a diameter, or is an arc's circle.
 class LocalMaxima {
  public:
   LocalMaxima(const Region& region, const Square& square, double to_boundary,
@@ -202,14 +202,14 @@ class LocalMaxima {
     if (clear > deepest_.radius) deepest_ = {disk.center, clear};
   }
 
-  /// Numbers of twice the digits: the centre of an almost straight arc is far away.
+  /// In twofold precision, because the centre of an almost straight arc is far away.
   using Place = site::apollonius::Vector<Twofold>;
   static Place exact(Vec2 p) { return {p.x, p.y}; }
   static Place unit_normal(const site::Site& site) {
     const Place normal = exact(site.normal());
     return (Twofold(1) / sqrt(dot(normal, normal))) * normal;
   }
-  /// Of an arc, or a vertex.
+  /// The circle of an arc, or a vertex.
   struct Circle {
     Place center;
     Twofold radius = 0;
@@ -227,8 +227,8 @@ class LocalMaxima {
   }
   void consider_circle(const Circle& circle) { consider(circle.center, circle.radius); }
 
-  /// The disks whose diameter is a common normal of two carriers, unless both are lines: then one
-  /// that touches a third carrier, too, is as deep.
+  /// Considers the disks whose diameter is a common normal of two carriers, unless both are lines;
+  /// then a disk that touches a third carrier, too, is equally deep.
   void consider_diameters(const site::Site& a, const site::Site& b) {
     const bool a_is_line = !a.is_vertex() && !a.is_arc(), b_is_line = !b.is_vertex() && !b.is_arc();
     if (a_is_line && b_is_line) return;
@@ -246,7 +246,7 @@ class LocalMaxima {
     consider_along(first, (Twofold(1) / apart) * to, apart, second.radius);
   }
 
-  /// The disks between places of a circle and of another one, along the line of their centres.
+  /// Considers the disks between points of two circles on the line of their centres.
   void consider_along(const Circle& first, const Place& along, const Twofold& apart,
                       const Twofold& second_radius) {
     for (const Twofold& p : {first.radius, -first.radius})
@@ -254,9 +254,9 @@ class LocalMaxima {
         consider(first.center + (Twofold(0.5) * (p + q)) * along, Twofold(0.5) * (p - q));
   }
 
-  /// The disks between two concentric circles, all of them equally deep: one that touches a third
-  /// carrier, too, or is centred where the ring of centres leaves the square or, if it does not,
-  /// anywhere.
+  /// Considers the disks between two concentric circles, which are all equally deep: one that
+  /// touches a third carrier, too, or one centred where the circle of centres leaves the square or,
+  /// if it does not leave it, anywhere.
   void consider_ring(const Circle& first, const Circle& second) {
     const Place& middle = first.center;
     for (const Twofold& other : {second.radius, -second.radius}) {
@@ -265,7 +265,7 @@ class LocalMaxima {
       consider(middle + Place{ring, 0}, radius);
       for (const double side : {-square_.half, square_.half}) {
         const Place off = exact(square_.center + Vec2{side, side}) - middle;
-        // Not a number where it does not meet the side, which consider() refuses.
+        // NaN if the circle does not meet the side; consider() ignores that.
         const Twofold x = sqrt(ring * ring - off.y * off.y), y = sqrt(ring * ring - off.x * off.x);
         for (const double sign : {-1.0, 1.0}) {
           consider(middle + Place{Twofold(sign) * x, off.y}, radius);
@@ -281,14 +281,14 @@ class LocalMaxima {
   Disk deepest_;
 };
 
-/// What is known of a square.
+/// The state of a square.
 struct Candidate {
   Square square;
   double bound = 0;                            ///< of the clearance in it
   double to_boundary = 0;                      ///< of the distance of its places from it, a bound
   std::optional<Disk> deepest = std::nullopt;  ///< of the local maxima in it, once settled
   std::uint32_t quarters = 0;                  ///< the first of its four, once divided
-  std::uint32_t version = 0;                   ///< of what is known
+  std::uint32_t version = 0;                   ///< of this state
 
   double priority() const { return deepest ? deepest->radius : bound; }
 };
@@ -302,9 +302,8 @@ class Search {
     add({0.5 * (box.low + box.high), 0.5 * std::max(size.x, size.y)}, anywhere, anywhere);
   }
 
-  /// The deepest disk of what is left, which is then taken; none, too, if is_lost(). O(log n)
-  /// expected for each square that this looks at; only those near disks that were taken are looked
-  /// at again.
+  /// Returns and takes the deepest disk of the remaining region; none if is_lost(). O(log n)
+  /// expected for each square examined; only squares near taken disks are examined again.
   std::optional<Disk> next() {
     while (!heap_.empty() && heap_.front().priority >= smallest_ && !is_lost()) {
       std::pop_heap(heap_.begin(), heap_.end());
@@ -322,11 +321,10 @@ class Search {
     return std::nullopt;
   }
 
-  /// Whether no disk was taken yet and so many squares nearly tie that the axis finds it sooner.
+  /// Whether, before the first disk, so many squares nearly tie that the axis would be faster.
   bool is_lost() const { return candidates_.size() > most_; }
-  /// Goes on with as many squares as it takes.
+  /// Removes the limit on the number of squares.
   void persist() { most_ = std::numeric_limits<std::size_t>::max(); }
-  /// Of what is left.
   void take(const Disk& disk) {
     persist();
     region_.take(disk);
@@ -336,7 +334,7 @@ class Search {
  private:
   struct Entry {
     double priority;
-    std::uint32_t candidate;  ///< of equal ones the first goes first
+    std::uint32_t candidate;  ///< the lowest one first if bounds are equal
     std::uint32_t version;
 
     bool operator<(const Entry& other) const {
@@ -360,7 +358,7 @@ class Search {
     push(i);
   }
 
-  /// Squares that a disk comes near have other local maxima once it is taken.
+  /// Invalidates the local maxima of squares near a disk that has been taken.
   void unsettle(std::uint32_t i, const Disk& disk) {
     Candidate& candidate = candidates_[i];
     const double apart = distance(disk.center, candidate.square.center) - disk.radius;
@@ -393,10 +391,10 @@ class Search {
         add({square.center + Vec2{x, y}, half}, bound, to_boundary);
   }
 
-  /// No disk centred in the square reaches beyond two points of the boundary p and q, so its radius
-  /// is at most the root mean square of the distances to them: largest at a corner of the square.
-  /// Between two walls that leaves a term of second order where the Lipschitz bound has one of
-  /// first order.
+  /// No disk centred in the square contains the boundary points p and q in its interior, so its
+  /// radius is at most the root mean square of the distances to them, which is largest at a corner
+  /// of the square. Between two walls, this bound has a term of second order where the Lipschitz
+  /// bound has one of first order.
   double bound_by_feet(const Square& square, Vec2 p, double to_boundary) const {
     const Vec2 c = square.center;
     const Vec2 beyond = c + (square.reach() / distance(c, p)) * (c - p);

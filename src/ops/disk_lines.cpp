@@ -11,7 +11,8 @@
 namespace medial::ops {
 namespace {
 
-/// A disk of a branch, how far along it, and how far what was dropped there reaches beyond it.
+/// A disk of a branch, its position along the branch, and the distance by which dropped branches
+/// reach beyond it.
 struct Sample {
   Disk disk;
   double along = 0;
@@ -38,8 +39,8 @@ class DiskLiner {
       fuses.push_back({{branch.from, branch.to}, total});
     }
     const auto start = burn(axis_, fuses);
-    // What is dropped up to a node reaches beyond its disk; it must be known before lines are
-    // drawn.
+    // Dropped branches reach beyond the disk at their base by a distance that must be known before
+    // lines are made.
     for (std::size_t i = 0; i < branches_.size(); ++i)
       kept_.push_back(kept_part(branches_[i], fuses[i].length, start[i]));
     chain();
@@ -50,7 +51,7 @@ class DiskLiner {
   }
 
  private:
-  /// The samples of a branch: chords within a share of the error.
+  /// The samples of a branch, by chords within a share of the error.
   std::vector<Sample> samples_of(const Branch& branch) const {
     std::vector<Sample> samples;
     double along = 0;
@@ -72,8 +73,8 @@ class DiskLiner {
     return samples;
   }
 
-  /// By how much a fire that comes from the samples' front, started at `time`, is ahead of the
-  /// radius: this is how far what it left behind reaches beyond the disk, wherever it is.
+  /// The lead over the radius of a fire that starts at the samples' front at `time`. This is the
+  /// distance by which the part behind the fire reaches beyond the disk.
   static double ahead(const Sample& s, double time) { return time + s.along - s.disk.radius; }
 
   static Sample between(const Sample& a, const Sample& b, double t) {
@@ -83,7 +84,7 @@ class DiskLiner {
             0};
   }
 
-  /// How far along the fire from the front gets until it is `prune` ahead; it never falls back.
+  /// The position at which the fire from the front is `prune` ahead. Its lead never decreases.
   double reach(const std::vector<Sample>& samples, double time) const {
     std::size_t i = 0;
     while (i < samples.size() && ahead(samples[i], time) <= prune_) ++i;
@@ -120,8 +121,8 @@ class DiskLiner {
     samples.insert(samples.begin(), cut);
   }
 
-  /// The samples of a branch of this length that stay; empty where all of it is dropped. Notes at
-  /// its base what was.
+  /// The kept samples of a branch of this length; empty if all of it is dropped. Records the
+  /// dropped part at its base.
   std::vector<Sample> kept_part(const Branch& branch, double total,
                                 const std::array<double, 2>& start) {
     const bool from = start[0] < not_burnt, to = start[1] < not_burnt;
@@ -144,7 +145,7 @@ class DiskLiner {
     }
     if (front + back >= total) {
       if (!from || !to) return drop();
-      // One disk represents the whole tree: that in its middle.
+      // The disk in its middle represents the whole tree.
       const double middle = 0.5 * (start[1] + total - start[0]);
       const double low = std::min(total - back, front), high = std::max(total - back, front);
       Sample only = sample_at(samples, std::clamp(middle, low, high));
@@ -162,7 +163,7 @@ class DiskLiner {
     return samples;
   }
 
-  /// Joins what stays at nodes where two branches are left, and makes lines of the chains.
+  /// Joins kept branches at nodes where two remain, and makes lines of the chains.
   void chain() {
     around_.resize(axis_.nodes.size());
     for (std::uint32_t end = 0; end < 2 * kept_.size(); ++end)
@@ -181,7 +182,7 @@ class DiskLiner {
   const Disk& disk_of(std::uint32_t end) const {
     return (end % 2 == 0 ? kept_[end / 2].front() : kept_[end / 2].back()).disk;
   }
-  /// Whether what was kept of a branch reaches the node at its end.
+  /// Whether the kept part of a branch reaches the node at its end.
   bool reaches(std::uint32_t end) const {
     const Disk &node = axis_.nodes[node_of(end)].disk, &disk = disk_of(end);
     return node.center == disk.center && node.radius == disk.radius;
@@ -190,7 +191,7 @@ class DiskLiner {
     return reaches(end) && around_[node_of(end)].size() == 2;
   }
 
-  /// Makes a line of the chain from an end of a branch on.
+  /// Makes a line of the chain that starts at an end of a branch.
   void walk(std::uint32_t end) {
     std::vector<Sample> samples;
     const std::uint32_t first = junction_at(end);
@@ -247,7 +248,7 @@ class DiskLiner {
     };
     DiskLine line{from, to, {}};
     const auto n = static_cast<std::uint32_t>(samples.size());
-    // A closed line is cut at its farthest disk, so that no part begins where it ends.
+    // A closed line is cut at its farthest disk, so that no part is closed.
     for (const std::uint32_t i : simplified(n, excess)) line.disks.push_back(samples[i].disk);
     graph_.lines.push_back(std::move(line));
   }

@@ -30,7 +30,7 @@ struct Feet {
   std::array<Vec2, 2> right;
 };
 
-/// The site on one side of a step, if the axis is exact and knows it.
+/// The site on one side of a step, if the axis is exact and has sites.
 const Site* site_beside(const MedialAxis& axis, const Step& step, Side side) {
   const Edge& edge = axis.edges[step.edge];
   const std::uint32_t site = edge.site[(side == Side::left) == step.forward ? 0 : 1];
@@ -58,7 +58,8 @@ Feet feet_of(const MedialAxis& axis, const Step& step) {
   return feet;
 }
 
-/// The way along the boundary between two feet on one site: length, and the area beside the chord.
+/// The part of the boundary between two feet on one site: its length, and the area between it and
+/// its chord.
 struct Way {
   double length = 0;
   double area = 0;
@@ -103,7 +104,7 @@ class Describer {
     covered_.assign(axis_.nodes.size(), 0);
   }
 
-  /// Whether a branch runs from its deeper end as it stands.
+  /// Whether a branch must be reversed to run from its deeper end.
   bool runs_backwards(const Branch& branch) const {
     const double from = axis_.nodes[branch.from].disk.radius;
     const double to = axis_.nodes[branch.to].disk.radius;
@@ -143,7 +144,7 @@ class Describer {
     features_.branches.push_back(out);
   }
 
-  /// Lets a closed branch start with this edge.
+  /// Makes a closed branch start with this edge.
   void start_at(std::uint32_t edge, BranchFeatures& out) {
     const auto first = std::find_if(way_.begin(), way_.end(),
                                     [edge](const Step& step) { return step.edge == edge; });
@@ -175,8 +176,8 @@ class Describer {
     features_.runs.push_back(out);
   }
 
-  /// The boundary on both sides and the area between: with the spokes to their feet, the edges tile
-  /// the shape, except for sectors of disks that touch a whole arc.
+  /// Adds the boundary on both sides and the area between. With the spokes to their feet, the edges
+  /// tile the shape, except for sectors of disks that touch a whole arc.
   void add_sides(BranchFeatures& out) {
     Feet before, first;
     for (std::size_t i = 0; i < way_.size(); ++i) {
@@ -227,7 +228,8 @@ class Describer {
     features_.area += out.area;
   }
 
-  /// Where a disk touches an arc from one foot to the next, counter-clockwise, inside a branch.
+  /// Adds the part of an arc, counter-clockwise from one foot to the next, that a single disk
+  /// inside a branch touches.
   void add_gap(const Disk& disk, Vec2 from, Vec2 to, BoundarySection& section,
                BranchFeatures& out) const {
     if (from == to || distance(from, to) <= ops::slack_of(axis_, disk)) return;
@@ -236,9 +238,9 @@ class Describer {
     out.area += 0.5 * angle * disk.radius * disk.radius;
   }
 
-  /// Notes by how much of a disk at a branch's end the branch covers: from the right foot, as seen
-  /// from the disk, over the branch's direction to the left foot. What is left of an end's disk
-  /// belongs to the branch.
+  /// Records the angle of the disk at a branch's end that the branch covers: from the right foot,
+  /// as seen from the disk, across the branch's direction to the left foot. At an end point, the
+  /// rest of the disk belongs to the branch, too.
   void cover(std::uint32_t node, Vec2 direction, Vec2 right, Vec2 left, BranchFeatures& out) {
     const Disk& disk = axis_.nodes[node].disk;
     const PointKind kind = features_.points[node];
@@ -307,7 +309,7 @@ class Describer {
       const Disk& disk = axis_.nodes[i].disk;
       features_.largest_radius = std::max(features_.largest_radius, disk.radius);
       const double angle = 2 * std::numbers::pi - covered_[i];
-      // What is left of the disks at branching points, and shapes that are one disk.
+      // The remaining sectors of disks at branching points, and shapes that are one disk.
       if (degree_[i] == 1 || degree_[i] == 2) continue;
       if (angle * disk.radius <= ops::slack_of(axis_, disk)) continue;
       features_.area += 0.5 * angle * disk.radius * disk.radius;

@@ -18,7 +18,7 @@
 namespace medial::ops {
 namespace {
 
-/// How far a curve departs from its chord in (x, y, r): most at t = 1/2.
+/// The largest distance of a curve from its chord in (x, y, r), which is at t = 1/2.
 double deviation(const Curve& curve) {
   const double rise = curve.r2 - curve.r0, control_rise = curve.r1 - curve.r0;
   const double size = squared_norm(curve.p2) + rise * rise;
@@ -83,8 +83,8 @@ namespace {
 
 using Trail = std::vector<GrooveStep>;
 
-/// Trails in order, by their ends, each coordinate side by side. Behind the last one is a place to
-/// which no way leads.
+/// The order of trails, by their ends, with separate arrays for coordinates. A sentinel follows the
+/// last one.
 class TrailOrder {
  public:
   explicit TrailOrder(std::size_t count)
@@ -108,7 +108,7 @@ class TrailOrder {
     trail_[i] = i;
     if (i > 0) set_gap(i - 1);
   }
-  /// Turns a run of trails around.
+  /// Reverses a run of trails.
   void turn(std::size_t from, std::size_t to) {
     for (auto* const values : {&first_x_, &first_y_, &last_x_, &last_y_})
       reverse(*values, from, to);
@@ -150,7 +150,7 @@ class TrailOrder {
   void set_gap(std::size_t i) { gap_[i] = squared_norm(first(i + 1) - last(i)); }
 
   std::vector<double> first_x_, first_y_, last_x_, last_y_;
-  std::vector<double> gap_;  ///< the square of the way to the next one, or -1
+  std::vector<double> gap_;  ///< the squared distance to the next one, or -1
   std::vector<std::uint32_t> trail_;
   std::vector<std::uint8_t> turned_;
 };
@@ -166,8 +166,8 @@ TrailOrder order_of(const Grooves& grooves, const std::vector<Trail>& trails) {
   return order;
 }
 
-/// Shortens the ways between trails: turns runs of up to `window` trails around where that helps
-/// (2-opt), a few times over.
+/// Shortens the travel between trails by reversing runs of up to `window` trails (2-opt), in a few
+/// passes.
 void shorten_ways(const Grooves& grooves, Vec2 start, std::vector<Trail>& trails) {
   constexpr std::size_t window = 150;
   constexpr int passes = 4;
@@ -240,8 +240,8 @@ std::vector<std::vector<GrooveStep>> trails_of(const Grooves& grooves, Vec2 star
   std::vector<bool> done(parts.size(), false);
   std::vector<std::vector<GrooveStep>> trails;
   Vec2 at = start;
-  // A trail that begins at a junction of odd degree ends at another one: there is no way to need
-  // fewer. What then is left are closed trails.
+  // A trail that begins at a junction of odd degree ends at another one, so their number is
+  // minimal. The remaining trails are closed.
   for (const bool odd : {true, false}) {
     std::vector<std::uint32_t> ends;
     for (std::uint32_t j = 0; j < grooves.junctions; ++j)

@@ -68,8 +68,8 @@ bool HalfEdges::link_three(std::span<const HalfEdge> leaving) {
   return true;
 }
 
-/// The boundary between a half edge that arrives and the one that leaves next has one site as a
-/// rule, which pairs them. Where it has two, they follow each other as the feet do.
+/// Usually, the boundary between a half edge that arrives and the next one that leaves has one
+/// site, which pairs them. If it has two, they are ordered like their feet.
 void HalfEdges::link_by_site(std::span<const HalfEdge> leaving) {
   struct End {
     double key;  // the site, then the angle of its foot
@@ -115,7 +115,7 @@ void HalfEdges::link_by_site(std::span<const HalfEdge> leaving) {
   // The turn of one list against the other that brings the first foot to the next one
   // counter-clockwise: an arc that the disk touches all along may lie between the two.
   const auto ahead = [&](const End& end) {
-    constexpr double hardly = 1e-6;  // a step backwards by rounding
+    constexpr double hardly = 1e-6;  // a backward step caused by rounding
     const double turn = std::remainder(end.key - in_left[0].key, full_turn);
     return std::abs(turn < -hardly ? turn + full_turn : turn);
   };
@@ -148,7 +148,7 @@ double HalfEdges::direction(HalfEdge half) const {
     const Vec2 right = touch(half, false) - at.center, left = touch(twin(half), true) - at.center;
     if (distance(left, right) > apart * at.radius)
       return std::remainder(std::atan2(right.y, right.x) + left_turn(right, left) / 2, full_turn);
-    // Both feet in one place: straight towards it where the radius shrinks, or away from it.
+    // If both feet coincide, the direction is towards them if the radius shrinks, or else away.
     const Disk& other = disk(half, true);
     if (distance(other.center, at.center) <= apart * at.radius) {
       const Vec2 out = other.radius <= at.radius ? right + left : -(right + left);
@@ -161,7 +161,7 @@ double HalfEdges::direction(HalfEdge half) const {
 
 double HalfEdges::gap(HalfEdge half) const {
   const HalfEdge after = next_[half];
-  // Along one site, the boundary just goes on.
+  // Along one site, there is no gap.
   if (exact(half) && right_site(half) == right_site(after) && twin(half) != after) return 0;
   const Disk& at = disk(half, true);
   const Vec2 begin = touch(half, true), end = touch(after, false);
@@ -177,7 +177,7 @@ double HalfEdges::gap(HalfEdge half) const {
       return distance(begin, end) <= slack || angle > std::numbers::pi ? 0 : angle;
     return angle > std::numbers::pi ? angle : full_turn;
   }
-  // A disk that touches all around except in one point is a step backwards by rounding.
+  // A full turn up to rounding is a backward step.
   if (distance(begin, end) <= slack || full_turn - angle < hardly) return 0;
   if (angle <= std::numbers::pi || exact(half) || around_an_end) return angle;
   // Samples: a step backwards, or more than a half circle? The tangents and rates decide: a foot

@@ -19,8 +19,8 @@ namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 
-/// The line that touches the disks at both ends of a half edge on its right, from the one to the
-/// other. Requires that none of the disks holds the other.
+/// The common tangent, on the right of a half edge, of the disks at its ends. Requires that neither
+/// disk contains the other.
 struct Tangent {
   Vec2 normal;      ///< of length 1, out of the disks
   double rate = 0;  ///< the cosine of the angle between the normal and the way
@@ -36,7 +36,7 @@ Tangent tangent_of(const Disk& from, const Disk& to, Vec2 along) {
   return {normal, rate, from.center + from.radius * normal, to.center + to.radius * normal};
 }
 
-/// Where two tangents cross in their insides.
+/// The intersection of the interiors of two tangents.
 std::optional<Vec2> crossing_of(const Tangent& a, const Tangent& b) {
   const Vec2 u = a.end - a.begin, v = b.end - b.begin, w = b.begin - a.begin;
   const double size = cross(u, v);
@@ -49,7 +49,7 @@ std::optional<Vec2> crossing_of(const Tangent& a, const Tangent& b) {
 void add_arc(const Disk& disk, Vec2 normal, double angle, double chord, double most,
              std::vector<Vec2>& points) {
   constexpr double fewest = 8;  // of a whole circle
-  // A disk that is smaller than the chord is two points at most.
+  // A disk smaller than the chord gets at most two points.
   const double pieces =
       disk.radius > chord ? std::max(std::numbers::pi / std::acos(1 - chord / disk.radius), fewest)
                           : 2;
@@ -60,7 +60,7 @@ void add_arc(const Disk& disk, Vec2 normal, double angle, double chord, double m
   }
 }
 
-/// Whether three of the points make a triangle.
+/// Whether the points are not all collinear.
 bool has_area(const std::vector<Vec2>& points) {
   const Vec2 first = points.front();
   const auto other = ranges::find_if(points, [&](Vec2 p) { return !(p == first); });
@@ -69,7 +69,7 @@ bool has_area(const std::vector<Vec2>& points) {
          });
 }
 
-/// How the outline goes on from a half edge to the next one around a disk.
+/// The transition of the outline from a half edge to the next one around a disk.
 struct Turn {
   Tangent here, after;
   double gap = 0;  ///< from tangent to tangent, around the disk; negative where they overlap
@@ -82,7 +82,7 @@ struct Turn {
     double around = signed_angle(back, on);
     if (around <= 0 || same_edge) around += turn;
     gap = around - std::acos(-here.rate) - std::acos(after.rate);
-    // Once more around the disk covers nothing new.
+    // Another turn around the disk would cover nothing new.
     if (gap < -turn / 2) gap += turn;
     if (gap < 0) crossing = crossing_of(here, after);
   }
@@ -92,8 +92,8 @@ struct Turn {
   }
 };
 
-/// Where tangents of edges around a disk overlap without a crossing, one of the edges ends in a
-/// disk of its own, which the other edges cover. Returns, of each node, whether it is such a disk.
+/// If tangents of edges around a disk overlap without crossing, gives one of the edges a separate
+/// copy of the disk, which the other edges cover. Returns which nodes are such copies.
 std::vector<bool> detach(MedialAxis& axis, double off) {
   struct End {
     double angle;

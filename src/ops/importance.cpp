@@ -44,7 +44,7 @@ void Importance::find_vanishing() {
     other = likely;
     factor = disks_->vanishes_at(axis_.nodes[node].disk, trees_.part[node], other);
   };
-  // From the core outwards: neighbours vanish in the same disk, mostly.
+  // From the core outwards, because neighbours usually vanish in the same disk.
   for (std::uint32_t i = 0; i < axis_.nodes.size(); ++i)
     if (trees_.inwards[i] == none) find(i, axis_.nodes[trees_.deepest[trees_.part[i]]].disk);
   for (auto e = trees_.order.rbegin(); e != trees_.order.rend(); ++e) {
