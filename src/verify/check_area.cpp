@@ -18,7 +18,7 @@ namespace {
 /// Twice the area of the polygon c p q.
 double doubled_triangle(Vec2 c, Vec2 p, Vec2 q) { return cross(p - c, q - c); }
 
-/// A sum whose rounding does not grow with the number of its terms (Neumaier).
+/// A compensated sum (Neumaier), whose rounding error does not grow with the number of terms.
 class Sum {
  public:
   void add(double term) {
@@ -36,7 +36,7 @@ class Sum {
   double sum_ = 0, lost_ = 0;
 };
 
-/// Where the disk of an edge's end touches one of its sites.
+/// The point at which the disk of an edge's end touches one of its sites.
 struct FootPoint {
   Vec2 foot;
   double at = 0;  ///< of an arc: the way along it
@@ -54,7 +54,7 @@ FootPoint foot_point_of(const Problem& problem, const ArcFeet& feet, const Edge&
   });
 }
 
-/// How far rounding may move it along the boundary.
+/// A bound for its rounding error along the boundary.
 double slack_of(const Problem& problem, const Edge& edge, std::size_t side, std::size_t end) {
   if (!is_on_arc(problem.axis.sites[edge.site[side]])) return 0;
   return with_arc(problem, edge.site[side], [&](const Arc& arc) {
@@ -70,7 +70,7 @@ std::array<FootPoint, 2> foot_points_of(const Problem& problem, const ArcFeet& f
   if (site.kind() != SiteKind::segment)
     return {foot_point_of(problem, feet, edge, side, 0),
             foot_point_of(problem, feet, edge, side, 1)};
-  // foot() of two places at once.
+  // foot() for two places at once.
   const Vec2 d = site.end - site.start;
   const Pair x{from.center.x, to.center.x}, y{from.center.y, to.center.y};
   const Pair place = ((x - site.start.x) * d.x + (y - site.start.y) * d.y) / squared_norm(d);
@@ -81,7 +81,7 @@ std::array<FootPoint, 2> foot_points_of(const Problem& problem, const ArcFeet& f
   return {FootPoint{{foot_x[0], foot_y[0]}}, FootPoint{{foot_x[1], foot_y[1]}}};
 }
 
-/// The area between the boundary and the chord from one contact forward to another.
+/// The area between the boundary and its chord, from one contact to the next.
 double area_beside(const Site& site, const FootPoint& from, const FootPoint& to) {
   if (site.kind() != SiteKind::arc || from.foot == to.foot) return 0;
   const double quarter = 0.25 * curvature(edge_of(site));
@@ -90,7 +90,7 @@ double area_beside(const Site& site, const FootPoint& from, const FootPoint& to)
 }
 
 /// The areas on both sides of an edge, between the curve and the feet of its disks: the polygon of
-/// centres and feet, and what the curve and the boundary add to it beside their chords.
+/// centres and feet, plus the areas between the curve or the boundary and their chords.
 struct Sides {
   double left = 0, right = 0;
 };
@@ -99,7 +99,8 @@ Sides swept(const MedialAxis& axis, const Edge& edge, const FootPoints& contacts
   const Curve curve = curve_of(axis, edge);
   const Vec2 a = curve.origin, b = curve.end;
   const auto& [left, right] = contacts;
-  // The curve bulges to the right where the control point does: then the left side has more.
+  // If the control point is on the right, the curve bulges to the right, and the left side is
+  // larger.
   const double sliver = curve.area_beside_chord();
   return {0.5 * (doubled_triangle(a, b, left[1].foot) +
                  doubled_triangle(a, left[1].foot, left[0].foot)) +
@@ -109,7 +110,7 @@ Sides swept(const MedialAxis& axis, const Edge& edge, const FootPoints& contacts
               sliver + area_beside(axis.sites[edge.site[1]], right[0], right[1])};
 }
 
-/// Where a side of an edge ends at a node: its foot there, on a site.
+/// The end of a side of an edge at a node: its foot there, on a site.
 struct Spoke {
   std::uint32_t site;
   const Edge* edge;
@@ -118,11 +119,11 @@ struct Spoke {
   Vec2 foot{};
 };
 
-/// So many spokes are simply compared with each other.
+/// Up to this number, spokes are compared pairwise.
 constexpr std::size_t few_spokes = 8;
 
-/// Adds a spoke, or drops the one on the other side of the same foot: those of one site have one
-/// foot, which need not be known.
+/// Adds a spoke, or removes the one on the other side of the same foot. Spokes of one site have the
+/// same foot, which need not be known.
 void add_spoke(std::vector<Spoke>& spokes, const Spoke& spoke) {
   const auto other =
       spokes.size() > few_spokes ? spokes.end() : ranges::find_if(spokes, [&](const Spoke& s) {
@@ -133,8 +134,8 @@ void add_spoke(std::vector<Spoke>& spokes, const Spoke& spoke) {
   spokes.pop_back();
 }
 
-/// Whether all spokes stand in pairs on both sides of one foot, so that nothing lies between the
-/// swept areas around a node. That is the rule. O(k log k).
+/// Whether all spokes form pairs on both sides of one foot, so that there is nothing between the
+/// swept areas around a node, as usual. O(k log k).
 bool all_paired(std::vector<Spoke>& spokes) {
   if (spokes.size() <= few_spokes) {
     while (!spokes.empty()) {
@@ -149,7 +150,7 @@ bool all_paired(std::vector<Spoke>& spokes) {
     }
     return true;
   }
-  // By their bits feet have an order, whatever numbers they are; -0 becomes 0.
+  // Compare feet by their bits, which orders even NaN; -0 becomes 0.
   const auto place = [](const Spoke& spoke) {
     return std::pair(bit_cast<std::uint64_t>(spoke.foot.x + 0.0),
                      bit_cast<std::uint64_t>(spoke.foot.y + 0.0));
@@ -164,11 +165,11 @@ bool all_paired(std::vector<Spoke>& spokes) {
   return true;
 }
 
-/// Feet nearly coincide that are seen under a smaller angle from the disk's centre.
+/// Feet nearly coincide if their angle, seen from the disk's centre, is smaller than this.
 constexpr double nearly_one = 1e-3;
 
-/// The angle at an edge's end between its feet, on the side of the edge: of feet that nearly
-/// coincide about 0, or else in (0, 2 pi).
+/// The angle at an edge's end between its feet, on the side of the edge: about 0 if the feet nearly
+/// coincide, else in (0, 2 pi).
 double angle_between_feet(Vec2 center, Vec2 right, Vec2 left) {
   const double sine = doubled_triangle(center, right, left);
   const double cosine = dot(right - center, left - center);
@@ -176,8 +177,8 @@ double angle_between_feet(Vec2 center, Vec2 right, Vec2 left) {
   return angle <= -nearly_one ? angle + 2 * std::numbers::pi : angle;
 }
 
-/// A shape's own area and perimeter. Each loop's area is seen from a point of it: what lies far
-/// from a small loop would add more rounding than the loop has area.
+/// A shape's area and perimeter. Each loop's area is computed relative to a point of the loop; for
+/// a distant origin, the rounding error could exceed the area of a small loop.
 struct Extent {
   double area = 0, perimeter = 0;
 };
@@ -194,7 +195,7 @@ Extent extent_of(const Problem& problem) {
   return {area.value(), perimeter.value()};
 }
 
-/// What the edges' disks sweep.
+/// The areas that the edges' disks sweep.
 struct Swept {
   Sum area;
   std::size_t backward = 0, first = 0;  ///< edges that run backward along a site
@@ -232,12 +233,12 @@ Swept swept_by_edges(const Problem& problem, const ArcFeet& feet, double limit) 
   return all;
 }
 
-/// What the edges leave of the nodes' disks: every spoke of an edge ends one swept area, and
-/// the spokes around each node say what lies between.
+/// The sectors of the nodes' disks that the edges do not sweep. Every spoke of an edge ends one
+/// swept area; the spokes around each node bound the areas in between.
 ///
-/// What is left of the full angle are slices of the disk, at its contacts with arcs. Or they are
-/// due to rounding: where the axis passes from a segment to the vertex at its end, or several sites
-/// touch within the tolerance, the feet differ a little.
+/// The rest of the full angle consists of sectors of the disk at its contacts with arcs, or of gaps
+/// by rounding: if the axis passes from a segment to the vertex at its end, or several sites touch
+/// within the tolerance, the feet differ slightly.
 class Slices {
  public:
   Slices(const Problem& problem, const ArcFeet& feet)
@@ -269,7 +270,7 @@ class Slices {
     const auto around = incidence_.edges(node);
     for (std::size_t k = 0; k < around.size(); ++k) {
       const Edge& edge = problem_.axis.edges[around[k]];
-      // An edge from the node to itself stands here twice, first with its beginning.
+      // A loop edge occurs twice, first with its beginning.
       const bool again = k > 0 && around[k - 1] == around[k];
       visit(edge, edge.node[0] == node && !again ? 0 : 1);
     }
@@ -277,8 +278,8 @@ class Slices {
   Vec2 foot_on(const Edge& edge, std::size_t side, std::size_t end) const {
     return foot_point_of(problem_, feet_, edge, side, end).foot;
   }
-  /// Whether swept areas meet all around a node. Seen from there, an edge's area begins on its
-  /// right side and ends on its left.
+  /// Whether swept areas adjoin all around a node. Seen from the node, an edge's area begins on its
+  /// right side and ends on its left side.
   bool nothing_between(std::uint32_t node, std::vector<Spoke>& spokes) const {
     spokes.clear();
     for_each_end(node, [&](const Edge& edge, std::size_t end) {
@@ -288,9 +289,9 @@ class Slices {
     for (Spoke& spoke : spokes) spoke.foot = foot_on(*spoke.edge, spoke.side, spoke.end);
     return all_paired(spokes);
   }
-  /// What they leave of the full angle. Feet that nearly coincide leave open whether next to
-  /// nothing lies between them, on the side of their edge, or all the way around; but one edge at
-  /// most has all the way, and then nothing is left.
+  /// The angle that they do not cover. If feet nearly coincide, their edge covers either almost
+  /// nothing or almost the full angle. At most one edge covers the full angle, and then nothing is
+  /// left.
   double angle_between(std::uint32_t node) const {
     constexpr double whole = 2 * std::numbers::pi;
     const Vec2 center = problem_.disk(node).center;
@@ -304,13 +305,13 @@ class Slices {
     const bool is_open = angle >= whole - std::min(open, std::numbers::pi);
     return is_open && goes_on_around(node) ? angle - whole : angle;
   }
-  /// Where a swept area begins.
+  /// The beginning of a swept area.
   struct Begin {
     std::size_t place;
     Vec2 foot;
   };
-  /// Whether, from each foot at which a swept area ends, the boundary goes on to one at which an
-  /// area begins, in one place as seen from the node.
+  /// Whether, from each foot at which a swept area ends, the boundary continues to a foot at which
+  /// an area begins, both at one place as seen from the node.
   bool goes_on_around(std::uint32_t node) const {
     const auto place_of = [&](std::uint32_t site) {
       const bool is_edge = problem_.axis.sites[site].kind() != SiteKind::vertex;
@@ -329,8 +330,8 @@ class Slices {
     });
     return goes_on;
   }
-  /// Whether the boundary leads from a foot to one of some others near it, past vertices near it.
-  /// Vertices and the edges that begin there are numbered in turn.
+  /// Whether the boundary leads from a foot to one of several others near it, past vertices near
+  /// it. Vertices and the edges that begin there are numbered alternately.
   bool goes_on_from(std::size_t place, Vec2 foot, double near,
                     const std::vector<Begin>& others) const {
     constexpr int most_vertices = 64;
@@ -370,9 +371,9 @@ void check_area(const Problem& problem, const ArcFeet& feet, double open,
   edges.area.add(Slices(problem, feet).area());
   certificate.disks_area = edges.area.value();
 
-  // Neighbouring areas share their spokes, so only the feet's rounding, a part of the tolerance
-  // along the whole boundary, is left in the sum, on either side of it; and as much again for the
-  // terms'.
+  // Neighbouring areas share their spokes, so the error of the sum is only the rounding of the
+  // feet, a part of the tolerance along the whole boundary, in either direction; and as much again
+  // for the rounding of the terms.
   const double difference = certificate.disks_area - certificate.shape_area;
   if (!(std::abs(difference) <= limit + open))
     certificate.failures.push_back(

@@ -8,23 +8,24 @@
 namespace medial::verify_detail {
 namespace {
 
-/// The stretch of a boundary edge that the disks of one axis edge touch; a vertex is a stretch
-/// without length at the start of the edge that begins there.
+/// The part of a boundary edge that the disks of one axis edge touch. A vertex is a part of length
+/// 0 at the start of the edge that begins there.
 struct Stretch {
-  /// Ways along the boundary edge; beyond a straight one's ends, too.
+  /// Positions along the boundary edge; may be beyond the ends of a straight edge.
   double begin, end;
   std::uint32_t begin_node, end_node;  ///< whose disks touch there
-  /// Of disks around a vertex, which touch it one after the other: turn_of() the clockwise angle of
-  /// the first from the normal where the vertex is arrived at; an edge's come after them.
+  /// For disks around a vertex, which touch it one after the other: turn_of() the clockwise angle
+  /// from the normal of the edge that ends there to the first disk. Parts of edges come after them.
   double turn = std::numeric_limits<double>::infinity();
   double last_turn = turn;  ///< of the last one
 
   bool is_of_vertex() const { return turn < std::numeric_limits<double>::infinity(); }
 };
 
-/// Where one disk touches a boundary edge. Next to the centre of an arc, rounding alone decides
-/// where the foot lies: the disk touches all of the arc where it may lie. Of disks that touch the
-/// end of a straight edge, or all but do, the outermost comes last: feet on its line do not end.
+/// The part of a boundary edge that one disk touches. Next to the centre of an arc, where rounding
+/// decides the foot, it is the part of the arc where the foot may be. Of disks that touch, or
+/// almost touch, the end of a straight edge, the outermost comes last, because feet on its line may
+/// lie beyond the end.
 Stretch touched_by(const Problem& problem, const ArcFeet& feet, const Track& on, const Edge& edge,
                    std::size_t side, std::size_t end) {
   const std::uint32_t node = edge.node[end];
@@ -38,8 +39,8 @@ Stretch touched_by(const Problem& problem, const ArcFeet& feet, const Track& on,
   return {std::max(0.0, foot - slack), std::min(on.whole_way(), foot + slack), node, node};
 }
 
-/// Grows with the angle that has this sine and cosine, times one number, in [-1, 3): 1 for a
-/// quarter. What rounding puts before 0 is no full turn behind it.
+/// A monotone function of the angle with this sine and cosine (both times one number), in [-1, 3):
+/// 1 for a quarter. An angle that rounding makes slightly negative does not become a full turn.
 double turn_of(double sine, double cosine) {
   const double size = std::abs(sine) + std::abs(cosine);
   const double beside = size > 0 ? cosine / size : 1;
@@ -47,8 +48,8 @@ double turn_of(double sine, double cosine) {
   return cosine >= 0 ? beside - 1 : beside + 3;
 }
 
-/// The stretch of a boundary edge, or of the vertex it begins in, that an edge of the axis touches
-/// with the site on one of its sides.
+/// The part of a boundary edge, or of the vertex at which it begins, that an edge of the axis
+/// touches with the site on one of its sides.
 Stretch stretch_of(const Problem& problem, const ArcFeet& feet, std::uint32_t place,
                    const Edge& edge, std::size_t side) {
   const auto [from, to] = edge.node;
@@ -76,19 +77,19 @@ Stretch stretch_of(const Problem& problem, const ArcFeet& feet, std::uint32_t pl
   return all;
 }
 
-/// Where disks touch last before a gap in the boundary, or first behind it: way `at` along boundary
-/// edge `edge`. The disk of `node` is one of them.
+/// The last contact before a gap in the boundary, or the first one after it: at position `at` along
+/// boundary edge `edge`. The disk of `node` is one of the disks that touch there.
 struct Foot {
   std::uint32_t edge;
   double at;
   std::uint32_t node;
 };
 
-/// The edges of the axis that touch each boundary edge, or the vertex that it begins in.
+/// The edges of the axis that touch each boundary edge, or the vertex at which it begins.
 class Touching {
  public:
   Touching(const Problem& problem, const ArcFeet& feet) : problem_(problem), feet_(feet) {
-    // One place ahead, where the next one of each boundary edge goes until all are there.
+    // Shifted by one: insertion positions, which are the begins when all edges are inserted.
     begin_.assign(problem.shape.points.size() + 2, 0);
     for_each_contact([&](std::uint32_t, std::uint32_t place) { ++begin_[place + 2]; });
     for (std::size_t i = 2; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
@@ -97,7 +98,7 @@ class Touching {
         [&](std::uint32_t edge, std::uint32_t place) { edges_[begin_[place + 1]++] = edge; });
   }
 
-  /// The stretches of one boundary edge, in order along it.
+  /// The touched parts of one boundary edge, in order along it.
   void stretches(std::uint32_t place, std::vector<Stretch>& found) const {
     found.clear();
     for_each_edge(place, [&](const Edge& edge, std::size_t side) {
@@ -111,7 +112,7 @@ class Touching {
               [&](const Stretch& a, const Stretch& b) { return key(a) < key(b); });
   }
 
-  /// Adds the disks that touch the place of a foot, as far as rounding lets one tell.
+  /// Adds the disks that touch the place of a foot, up to rounding.
   void add_disks(const Foot& foot, std::vector<std::uint32_t>& nodes) const {
     const Track on = problem_.track(foot.edge);
     for_each_edge(foot.edge, [&](const Edge& edge, std::size_t side) {
@@ -133,7 +134,7 @@ class Touching {
   void for_each_edge(std::uint32_t place, const Visitor& visit) const {
     for (std::uint32_t k = begin_[place]; k < begin_[place + 1]; ++k) {
       const Edge& edge = problem_.axis.edges[edges_[k]];
-      // An edge that touches it with both sites stands here twice.
+      // An edge that touches it with both sites occurs twice.
       const bool again = k > begin_[place] && edges_[k - 1] == edges_[k];
       visit(edge, problem_.place[edge.site[0]] == place && !again ? 0 : 1);
     }
@@ -151,14 +152,13 @@ class Touching {
   std::vector<std::uint32_t> edges_;
 };
 
-/// How far p lies outside a disk; negative inside.
+/// The distance of p from a disk; negative inside.
 double outside(const Disk& disk, Vec2 p) { return distance(disk.center, p) - disk.radius; }
 
-/// The largest distance from a point of an edge between two ways along it to the union of two
-/// disks.
+/// The largest distance of the points of an edge between two positions from the union of two disks.
 ///
-/// With f and g the distances outside each: along a line or a circle, each rises and falls
-/// between the point next to the disk's centre and the one opposite to it. Between two such points
+/// Let f and g be the distances from the two disks. Along a line or a circle, each is monotone
+/// between the point nearest to the disk's centre and the opposite one. Between two such points,
 /// min(f, g) is largest at an end, or where f = g if one of them rises and the other falls.
 double uncovered(const Disk& a, const Disk& b, const Track& edge, double from, double to) {
   struct Outside {
@@ -207,14 +207,14 @@ double uncovered(const Disk& a, const Disk& b, const Track& edge, double from, d
   return worst;
 }
 
-/// The largest distance of the boundary from the disks, above what blunt joints leave open.
+/// The largest distance of the boundary from the disks, beyond the allowance for blunt joints.
 struct Uncovered {
   double value = 0;
   Vec2 where;
-  double excess = 0;  ///< above what is allowed there
-  double open = 0;    ///< area that blunt joints may leave open
+  double excess = 0;  ///< above the allowance
+  double open = 0;    ///< area that blunt joints may leave uncovered
 
-  /// At a way along an edge.
+  /// Adds a measurement at a position along an edge.
   void add(double amount, double allowed, const Track& edge, double way) {
     if (std::isnan(amount)) amount = std::numeric_limits<double>::infinity();
     value = std::max(value, amount);
@@ -224,15 +224,15 @@ struct Uncovered {
   }
 };
 
-/// A gap in the boundary from one foot to another, and how far it lies outside the disks there.
+/// A gap in the boundary from one foot to another, and its distance from the disks there.
 class Gap {
  public:
   Gap(const Problem& problem, const Touching& touching, const Foot& from, const Foot& to)
       : problem_(problem), touching_(touching), from_(from), to_(to) {}
 
-  /// The largest distance of a stretch of the gap from the disks that touch beside it. Two of them
-  /// mostly reach over it. Where others touch at the same places, rounding alone decides which two
-  /// are the outermost: each of them may be the one that reaches over it.
+  /// The largest distance of a part of the gap from the disks that touch next to it. Usually, two
+  /// of them cover it. If others touch at the same places, rounding decides which two are the
+  /// outermost, so any of them may cover it.
   double uncovered(const Track& edge, double from, double to, double most) {
     const auto by = [&](std::uint32_t a, std::uint32_t b) {
       return verify_detail::uncovered(problem_.disk(a), problem_.disk(b), edge, from, to);
@@ -244,7 +244,7 @@ class Gap {
     for (std::uint32_t& other : others_) {
       least = std::min({least, by(from_.node, other), by(other, to_.node)});
       if (least <= most) {
-        std::swap(other, others_.front());  // the next stretch asks it first
+        std::swap(other, others_.front());  // try it first for the next part
         break;
       }
     }
@@ -258,12 +258,12 @@ class Gap {
   std::vector<std::uint32_t> others_;  ///< nodes whose disks touch at either end
 };
 
-/// How far a stretch may lie outside the disks. A foot may lie the tolerance outside its disk;
-/// between the feet of different nodes a gap of width g, which rises by g^2 / (8 r) over their
-/// disks, may add as much again.
+/// The largest allowed distance from the disks. A foot may be outside its disk by the tolerance; a
+/// gap of width g between the feet of different nodes, which rises by g^2 / (8 r) over their disks,
+/// may add as much again.
 double cover_limit(const Problem& problem) { return 2 * problem.tolerance; }
 
-/// What blunt joints between two feet on different edges, or around a loop, leave open.
+/// The allowance for blunt joints between two feet on different edges, or around a loop.
 double open_between(const Problem& problem, const Foot& from, const Foot& to) {
   if (problem.blunt_angle.empty()) return 0;
   bool any = false;
@@ -282,8 +282,8 @@ double open_between(const Problem& problem, const Foot& from, const Foot& to) {
   return open.value();
 }
 
-/// The boundary from one foot on to another, against the disks that touch there, but for what blunt
-/// joints in between leave open.
+/// Measures the boundary from one foot to another against the disks that touch there, with the
+/// allowance for blunt joints in between.
 void cross_gap(const Problem& problem, const Touching& touching, const Foot& from, const Foot& to,
                bool wrapped, Uncovered& worst) {
   const bool around = from.edge != to.edge || wrapped;
@@ -299,7 +299,7 @@ void cross_gap(const Problem& problem, const Touching& touching, const Foot& fro
     advance(first, from.at, to.at);
     return;
   }
-  // Where nothing of the first edge is left, the next one begins at the same point.
+  // If nothing of the first edge remains, the next one begins at the same point.
   if (from.at < first.whole_way()) advance(first, from.at, first.whole_way());
   for (std::uint32_t edge = problem.next[from.edge]; edge != to.edge; edge = problem.next[edge]) {
     const Track whole = problem.track(edge);
@@ -308,11 +308,11 @@ void cross_gap(const Problem& problem, const Touching& touching, const Foot& fro
   advance(problem.track(to.edge), 0, to.at);
 }
 
-/// How far a disk that touches a reflex vertex lies beside the normal there of the edge that ends
-/// in it, or begins; in lengths that rounding leaves open, and 0 if it lies behind that. Rounding
-/// moves normals of short edges, and a disk that touches the line of an edge within the tolerance
-/// is taken to touch the edge. One that touches also the edge beyond, across a joint without a
-/// leaf, need not pass the normals in between.
+/// The distance of a disk that touches a reflex vertex from the normal of the edge that ends or
+/// begins there, in units of the uncertainty by rounding; 0 if the disk is behind the normal.
+/// Rounding moves normals of short edges, and a disk that touches the line of an edge within the
+/// tolerance counts as touching the edge. A disk that also touches the edge beyond, across a joint
+/// without a leaf, need not pass the normals in between.
 double beside_normal(const Problem& problem, std::uint32_t vertex, const Disk& disk, bool leaving) {
   double least = std::numeric_limits<double>::infinity();
   std::uint32_t point = vertex;
@@ -324,7 +324,7 @@ double beside_normal(const Problem& problem, std::uint32_t vertex, const Disk& d
     const Vec2 chord = problem.edge(leaving ? point : problem.previous[point]).chord();
     const double open = problem.tolerance * (1 + disk.radius / norm(chord)) +
                         std::sqrt(2 * disk.radius * problem.tolerance);
-    // Beyond a quarter of a turn, all the way to the vertex is missing.
+    // Beyond a quarter turn, the whole distance to the vertex is missing.
     least = std::min(least, (cross(tangent, off) > 0 ? ahead : norm(off)) / open);
     point = leaving ? problem.next[point] : problem.previous[point];
   } while (least > 1 && point != vertex &&
@@ -334,13 +334,13 @@ double beside_normal(const Problem& problem, std::uint32_t vertex, const Disk& d
   return least;
 }
 
-/// How much of the axis is missing around a reflex vertex, in lengths that rounding leaves open. In
-/// a right axis disks turn about it from the normal of the edge that ends there to the normal of
-/// the one that begins, and each edge of the axis begins where the one before ends. `before`: a
-/// disk that touches the boundary last before the vertex, or none.
+/// The length of the axis that is missing around a reflex vertex, in units of the uncertainty by
+/// rounding. In a correct axis, disks turn about the vertex from the normal of the edge that ends
+/// there to the normal of the edge that begins there, and each edge of the axis begins where the
+/// previous one ends. `before`: the last disk that touches the boundary before the vertex, or none.
 double missing_around(const Problem& problem, std::uint32_t vertex, const Disk* before,
                       const std::vector<Stretch>& stretches) {
-  const double tiny = 4 * problem.tolerance;  // smaller disks lie anywhere around it
+  const double tiny = 4 * problem.tolerance;  // smaller disks may lie anywhere around it
   const Stretch* last = nullptr;
   double missing = 0;
   for (const Stretch& stretch : stretches) {
@@ -357,7 +357,7 @@ double missing_around(const Problem& problem, std::uint32_t vertex, const Disk* 
   }
   if (last != nullptr)
     return std::max(missing, beside_normal(problem, vertex, problem.disk(last->end_node), true));
-  // No edge has the vertex: one disk touches it.
+  // No edge has the vertex as a site, so a single disk must touch it.
   double least = std::numeric_limits<double>::infinity();
   for (const Disk* disk :
        {before, stretches.empty() ? nullptr : &problem.disk(stretches[0].begin_node)})
@@ -367,12 +367,12 @@ double missing_around(const Problem& problem, std::uint32_t vertex, const Disk* 
   return std::isinf(least) ? 0 : least;
 }
 
-/// Walks once around a loop, from stretch to stretch. `lone_node` is a node without edges of each
-/// component, or no_index; `stretches` is room to work in.
+/// Walks once around a loop, from one touched part to the next. `lone_node` is a node without edges
+/// of each component, or no_index; `stretches` is working memory.
 void walk_loop(const Problem& problem, const Touching& touching,
                const std::vector<std::uint32_t>& lone_node, std::size_t loop,
                std::vector<Stretch>& stretches, Uncovered& worst, Worst& turns) {
-  constexpr double few = 2;  // a disk and the edge that it all but touches are off by one each
+  constexpr double few = 2;  // a disk and the edge that it almost touches are off by one each
   const std::uint32_t begin = problem.shape.loop_begin[loop],
                       end = problem.shape.loop_begin[loop + 1];
   bool any = false;
@@ -398,7 +398,7 @@ void walk_loop(const Problem& problem, const Touching& touching,
     cross_gap(problem, touching, reach, first, true, worst);
     return;
   }
-  // No edge touches it: a circle, which one disk fills.
+  // No edge touches the loop: it is a circle that one disk fills.
   const std::uint32_t lone = lone_node[problem.component[begin]];
   if (lone == no_index)
     worst.add(diagonal(problem.box), 0, problem.track(begin), 0);

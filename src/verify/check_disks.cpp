@@ -18,7 +18,7 @@
 namespace medial::verify_detail {
 namespace {
 
-/// Fails the certificate if something of `which` parts is `what`, over a limit in words.
+/// Fails the certificate if the worst value is over the limit, with a sentence made of these words.
 void report_worst(const Worst& worst, const char* what, const char* which, const std::string& limit,
                   Certificate& certificate) {
   if (worst.over > 0)
@@ -28,10 +28,10 @@ void report_worst(const Worst& worst, const char* what, const char* which, const
                  worst.where.x, worst.where.y, limit.c_str()));
 }
 
-/// The most points inside an edge that are checked.
+/// The largest number of points checked inside an edge.
 constexpr int most_samples = 1 << 20;
 
-/// As far as the boundary is expected from the centre of a disk.
+/// The expected distance of the boundary from the centre of a disk.
 double expected_distance(const Problem& problem, const Disk& disk) {
   return std::max(0.0, disk.radius) + problem.tolerance;
 }
@@ -43,10 +43,10 @@ void measure_node(const Problem& problem, const DistanceTree& boundary, std::siz
                node);
 }
 
-/// Whether the feet lie on the sides that the edge says, seen from its middle: how far the left
-/// foot lies on the right. The feet's chord is perpendicular to the edge; where the edge or the
-/// chord is not longer than a few tolerances, or than rounding moves the feet, its direction means
-/// nothing.
+/// Checks, in the middle of an edge, that the feet are on the sides that the edge states: returns
+/// the distance by which the left foot is on the right. The chord of the feet is perpendicular to
+/// the edge. If the edge or the chord is not longer than a few tolerances, or than the rounding
+/// error of the feet, its direction is meaningless.
 double turned_by(const Problem& problem, const Edge& edge, const Curve& curve, Vec2 center) {
   constexpr double few = 64;
   const Vec2 tangent = curve.velocity(0.5);
@@ -64,9 +64,9 @@ double turned_by(const Problem& problem, const Edge& edge, const Curve& curve, V
   return -cross(tangent, chord) / speed;
 }
 
-/// Whether a foot on an arc may be anywhere, as next to its centre; or may be at an end that joins
-/// the next edge smoothly, so that either may have the foot. In the centre of half a circle, both
-/// ends are equally near.
+/// Whether a foot on an arc may be anywhere, as for a disk next to its centre; or at an end where
+/// the arc joins the next edge smoothly, so that either edge may have the foot. In the centre of
+/// half a circle, both ends are equally near.
 bool has_open_foot(const Problem& problem, std::uint32_t site, const BoundaryEdge& arc,
                    Vec2 center) {
   constexpr double few = 64;
@@ -80,8 +80,9 @@ bool has_open_foot(const Problem& problem, std::uint32_t site, const BoundaryEdg
          few * problem.arcs[place].foot_slack(center, problem.tolerance) >= length_of(arc);
 }
 
-/// By how much a disk misses the carriers of its segments and arcs: where its foot lies beyond the
-/// end of one, the vertex there is touched instead.
+/// The largest amount by which the distance from a segment or arc exceeds the distance from its
+/// carrier. If it is positive, the foot lies beyond an end, and a correct disk would touch the
+/// vertex there instead.
 double missed_beyond_ends(const Problem& problem, const Edge& edge, Vec2 center) {
   double most = 0;
   for (const std::uint32_t i : edge.site) {
@@ -95,9 +96,9 @@ double missed_beyond_ends(const Problem& problem, const Edge& edge, Vec2 center)
   return most;
 }
 
-/// Whether turned_by() and missed_beyond_ends() are 0, or due to rounding: seen from the middle of
-/// the edge, whose tangent has the direction of its chord there, each site has its foot inside it
-/// and on the side that the edge says.
+/// Whether turned_by() and missed_beyond_ends() are 0 up to rounding: seen from the middle of the
+/// edge, where the tangent is parallel to the chord, each site has its foot in its interior and on
+/// the side that the edge states.
 bool feet_are_right(const Problem& problem, const Edge& edge, Vec2 chord, Vec2 center) {
   for (std::size_t side = 0; side < 2; ++side) {
     const Site& site = problem.axis.sites[edge.site[side]];
@@ -120,10 +121,12 @@ bool feet_are_right(const Problem& problem, const Edge& edge, Vec2 chord, Vec2 c
   return true;
 }
 
-/// Where very many boundary edges are near to disks, as next to the centre of a round polygon.
+/// Predicts places where very many boundary edges are near disks, such as the centre of a round
+/// polygon.
 class Crowd {
  public:
-  /// Whether the next edge is taken to be in it: the more of those before were, the more are.
+  /// Whether the next edge is assumed to be in a crowd. The more previous edges were in it, the
+  /// more are assumed to be.
   bool is_expected() { return left_ > 0 && left_-- > 0; }
   void found(bool here) {
     seen_ = here ? std::min(2 * seen_ + 1, 64) : 0;
@@ -134,8 +137,8 @@ class Crowd {
   int seen_ = 0, left_ = 0;
 };
 
-/// Whether the disks of nodes reach over no boundary edge by more than the tolerance, as far as it
-/// is known: in a crowd, very many edges of the axis may share a node.
+/// Caches whether the disk of a node reaches over a boundary edge by more than the tolerance,
+/// because in a crowd, very many edges of the axis may share a node.
 class Depths {
  public:
   explicit Depths(std::size_t nodes) : is_shallow_(nodes) {}
@@ -156,7 +159,7 @@ class Depths {
   std::vector<std::atomic<std::int8_t>> is_shallow_;  ///< 0: not known
 };
 
-/// The findings of edges that follow each other.
+/// The findings of consecutive edges.
 struct Block {
   Findings findings;
   Crowd crowd;
@@ -208,15 +211,15 @@ class EdgeCheck {
   }
 
  private:
-  /// Whether too many boundary edges are near to disks; finds them otherwise.
+  /// Whether too many boundary edges are near disks; otherwise, finds them.
   bool is_in_crowd() {
     if (crowd_.is_expected()) return true;
     const bool found = boundary_.find_near(hull_, problem_.tolerance, near_);
     crowd_.found(!found);
     return !found;
   }
-  /// Measures samples where too many boundary edges are near to disks. Where both disks at the ends
-  /// reach over none by more than the tolerance, only those between their feet matter.
+  /// Measures samples if too many boundary edges are near disks. If both disks at the ends reach
+  /// over none by more than the tolerance, only the edges between their feet matter.
   void measure_in_crowd(std::span<const Parameters> parameters,
                         const std::array<std::uint32_t, 2>& counted) {
     bool is_shallow = edge_.weight > 0;
@@ -242,7 +245,7 @@ class EdgeCheck {
     depths_.set(node, distance > least);
     return distance > least;
   }
-  /// Leaves of what is near only what may be nearer than the sites.
+  /// Keeps only those near edges that may be nearer than the sites.
   void leave_nearer() {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < near_.size; ++i) {
@@ -252,7 +255,8 @@ class EdgeCheck {
     }
     near_.size = kept;
   }
-  /// Whether a boundary edge is a site, or straight and wholly behind its end, which is one.
+  /// Whether a boundary edge is a site, or is straight and entirely behind its end, which is a
+  /// site.
   bool is_no_nearer(std::uint32_t place) const {
     for (const Own& own : own_) {
       if (place == own.at && (!own.is_vertex() || is_behind(problem_.edge(place)))) return true;
@@ -260,16 +264,16 @@ class EdgeCheck {
     }
     return false;
   }
-  /// Whether the whole edge of the axis lies behind where a straight boundary edge begins, so that
-  /// this is its nearest point.
+  /// Whether the whole edge of the axis lies behind the start of a straight boundary edge, which is
+  /// then its nearest point.
   bool is_behind(const BoundaryEdge& edge) const {
     return edge.bulge == 0 && std::all_of(hull_.begin(), hull_.end(), [&](const Disk& disk) {
              return dot(edge.chord(), disk.center - edge.start) <= 0;
            });
   }
 
-  /// Whether all disks of the edge touch its sites and reach over no other boundary edge, within
-  /// the tolerance: then they are legal, too. What it finds without a sample.
+  /// Whether bounds prove, without samples, that all disks of the edge touch its sites and reach
+  /// over no other boundary edge, within the tolerance. Then they are legal, too.
   bool is_proven() {
     if (!(edge_.weight > 0) || own_[0].at == no_index || own_[1].at == no_index) return false;
     for (const Disk& disk : hull_)
@@ -289,7 +293,7 @@ class EdgeCheck {
     findings_.inside.intrusion.add(gap + intrusion, tolerance, hull_[0].center, index_);
     return true;
   }
-  /// A bound on how far disks that touch the sites reach over a boundary edge.
+  /// A bound for the distance by which disks that touch the sites reach over a boundary edge.
   double intrusion_of(const WholeEdge& whole, std::uint32_t place) const {
     const BoundaryEdge edge = problem_.edge(place);
     const Arc* const arc = edge.bulge != 0 ? &problem_.arcs[place] : nullptr;
@@ -298,7 +302,7 @@ class EdgeCheck {
       least = std::min(least, bound);
       return least <= problem_.tolerance;
     };
-    // Its nearest point may be an end of a site, or beside the disks, or another end.
+    // Its nearest point may be an end of a site, an interior point, or another end.
     const bool at_start = is_end_of_site(place), at_end = is_end_of_site(problem_.next[place]);
     if ((at_start && is_found(whole.nearer_than_end(edge, arc, true))) ||
         (at_end && is_found(whole.nearer_than_end(edge, arc, false))) ||
@@ -308,7 +312,7 @@ class EdgeCheck {
     is_found(whole.nearer_than_end(edge, arc, false) + whole.intrusion(edge.end));
     return least;
   }
-  /// Whether a point is an end of a site, or one.
+  /// Whether a point is a site or an end of a site.
   bool is_end_of_site(std::uint32_t point) const {
     const auto ends_there = [&](const Own& own) { return point == own.at || point == own.end; };
     return ends_there(own_[0]) || ends_there(own_[1]);
@@ -322,7 +326,7 @@ class EdgeCheck {
   Findings& findings_;
   Crowd& crowd_;
   Depths& depths_;
-  /// Where the sites are on the boundary, or no_index.
+  /// The place of a site on the boundary, or no_index.
   struct Own {
     std::uint32_t at = no_index;      ///< the vertex, or where the edge begins
     std::uint32_t before = no_index;  ///< of a vertex: the edge that ends there

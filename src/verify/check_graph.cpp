@@ -14,7 +14,7 @@ namespace {
 
 bool finite(Vec2 p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 
-/// Counts offences and keeps the first: one sentence is about all.
+/// Counts offences and keeps the first one, for one sentence about all.
 struct Offences {
   std::size_t count = 0;
   std::size_t first = 0;
@@ -37,7 +37,7 @@ Joint joint_between(const BoundaryEdge& before, const BoundaryEdge& after, doubl
                         {after.start, after.end, after.bulge}, tolerance, corner_angle);
 }
 
-/// A corner or a leaf: what has to agree.
+/// A corner or a leaf, which must agree.
 struct Corner {
   Vec2 point;
   std::uint32_t component;
@@ -60,20 +60,20 @@ bool is_largest_between(const BoundaryEdge& before, const BoundaryEdge& after, c
   const Arc arc(rounder);
   const double radius = 1 / arc.curvature();
   const Vec2 center = rounder.start - radius * arc.from_center(rounder.start);
-  // The largest one touches the two in opposite places, on a line through the arc's centre.
+  // The largest disk touches both at opposite points, on a line through the arc's centre.
   const double away = other.bulge != 0
                           ? Arc(other).carrier_distance(center)
                           : cross(other.chord(), center - other.start) / norm(other.chord());
   return disk.radius >= 0.5 * (radius + away) - tolerance;
 }
 
-/// Whether an edge may end with a radius above 0: what lies between the two feet of its last disk
-/// is touched by that disk, and is an arc of convex curvature, the largest thereabouts because its
-/// circle lies inside; or a blunt joint, whose leaf is left out; or any joint but a corner, if no
-/// disk further on is larger; or a joint that is smooth, but convex within rounding, if the disk at
-/// the edge's other end does not touch that within the tolerance of a computation: else the axis
-/// would have ended there. Looks at `budget` boundary edges at most, and takes those away from it:
-/// no two leaves of a right axis look at the same one.
+/// Whether an edge may end with a radius above 0. The last disk must touch the boundary between its
+/// two feet, which must be: a convex arc of locally largest curvature (because its circle lies
+/// inside); or a blunt joint, whose leaf is omitted; or any joint except a corner, if no disk
+/// farther on is larger; or a smooth joint that is convex within rounding, if the disk at the
+/// edge's other end does not touch it within the tolerance of a computation (otherwise, the axis
+/// would have ended there). Examines at most `budget` boundary edges and subtracts their number: no
+/// two leaves of a correct axis examine the same edge.
 bool ends_at_arc(const Problem& problem, const Edge& edge, std::size_t end, std::size_t& budget) {
   const auto place = [&](std::size_t side) { return problem.place[edge.site[side]]; };
   const auto is_vertex = [&](std::size_t side) {
@@ -111,14 +111,14 @@ bool ends_at_arc(const Problem& problem, const Edge& edge, std::size_t end, std:
     arcs = arcs || passed.bulge > 0;
     if (problem.next[i] != place(left) || !is_vertex(left)) add_joint(problem.next[i]);
   }
-  // Rounding may end the axis on the bisector with the arc itself.
+  // Because of rounding, the axis may end on the bisector with the arc itself.
   const double limit = 2 * problem.tolerance + open.value();
   for (const std::size_t side : {right, left}) {
     const BoundaryEdge touched = problem.edge(place(side));
     arcs = arcs || (!is_vertex(side) && touched.bulge > 0 && deviation(touched) <= limit);
   }
-  // Between two edges that join bluntly there is no branch, unless the disk touches all of one, or
-  // is the largest.
+  // Two edges that join bluntly have no branch between them, unless the disk touches one of them
+  // entirely, or is the largest.
   bool blunt = open.value() > 0, largest = false;
   if (first == place(left) && !is_vertex(left) && !is_vertex(right)) {
     const BoundaryEdge before = problem.edge(place(right)), after = problem.edge(place(left));
@@ -160,14 +160,14 @@ bool check_shape(const Shape& shape, Certificate& certificate) {
 
 namespace {
 
-/// What an axis says of its own accuracy.
+/// Checks the tolerance and resolution that an axis states.
 void check_claims(const Box& box, const MedialAxis& axis, Certificate& certificate) {
   constexpr double largest_relative = 1e-3;
   if (!(axis.resolution >= 0 && axis.resolution <= diagonal(box)))
     certificate.failures.push_back(
         sentence("The axis claims a resolution of %.3g, larger than the shape.", axis.resolution));
-  // A tolerance is at most what a user may ask compute() for, or what the coordinates' spacing
-  // asks.
+  // A tolerance is at most the largest one that compute() accepts, or that the spacing of
+  // coordinates requires.
   if (!(axis.tolerance >= 0 &&
         axis.tolerance <= std::max(largest_relative * diagonal(box), 4 * spacing_in(box))))
     certificate.failures.push_back(sentence(
@@ -231,7 +231,7 @@ bool check_values(const Shape& shape, const Box& box, const MedialAxis& axis,
 
 namespace {
 
-/// What follows what on the boundary, and how edges join.
+/// Computes the order of points on the boundary, and the joints.
 void read_boundary(Problem& problem, double corner_angle, Certificate& certificate) {
   const Shape& shape = problem.shape;
   const auto count = static_cast<std::uint32_t>(shape.points.size());
@@ -261,14 +261,14 @@ void read_boundary(Problem& problem, double corner_angle, Certificate& certifica
   }
 }
 
-/// Finds the boundary points of sites. These mostly come in the order of the boundary, a vertex
-/// before the edge that begins there, so the points that follow are tried first: several loops may
-/// touch in one place. Otherwise points are looked up by their coordinates.
+/// Finds the boundary points of sites. Sites usually are in boundary order, a vertex before the
+/// edge that begins there, so the next points are tried first (several loops may touch at one
+/// place). Otherwise, looks points up by their coordinates.
 class PlaceFinder {
  public:
   explicit PlaceFinder(const Problem& problem) : problem_(problem), shape_(problem.shape) {}
 
-  /// The point that a site is, or that its edge begins in; no_index if there is none.
+  /// The point that a site is, or at which its edge begins; no_index if there is none.
   std::uint32_t place_of(const Site& site) {
     const auto count = static_cast<std::uint32_t>(shape_.points.size());
     std::uint32_t place = no_index;
@@ -340,7 +340,7 @@ void prepare(Problem& problem, double corner_angle, Certificate& certificate) {
 
 namespace {
 
-/// What one component's part of the graph consists of.
+/// Counts of one component's part of the graph.
 struct Count {
   std::uint64_t parts = 0, nodes = 0, edges = 0, holes = 0;
   std::uint64_t cycles() const { return edges + parts - nodes; }
@@ -374,7 +374,7 @@ Tally tally(const Problem& problem) {
     if (sets.find(i) == i) ++count.parts;
     if (axis.nodes[sets.find(i)].component != node.component) strangers.add(i);
     const std::uint32_t degree = problem.degree[i];
-    // A circle's axis is one node without an edge; a single pixel may be a part by itself.
+    // The axis of a circle is one node without edges; a single pixel may be a part.
     const bool alone =
         degree == 0 && (nodes_of[node.component] == 1 || axis.resolution > 0 || axis.exterior > 0);
     const bool fits = node.kind == NodeKind::leaf          ? degree == 1 || alone
@@ -452,7 +452,7 @@ void check_graph(const Problem& problem, bool part, Certificate& certificate) {
 
 namespace {
 
-/// The boundary point in which one site ends and another one begins; or no_index.
+/// The boundary point at which one site ends and another one begins, or no_index.
 std::uint32_t joint_between_sites(const Problem& problem, std::uint32_t before,
                                   std::uint32_t after) {
   const std::uint32_t a = problem.place[before], b = problem.place[after];
@@ -476,8 +476,8 @@ Corner corner_at(const Problem& problem, std::uint32_t i) {
   return {problem.point(i), problem.component[i]};
 }
 
-/// Corners and leaves as sorted lists: what is in only one of them is an offence. Nearly all leaves
-/// are found at the corners that their sites make, and are in no list.
+/// Compares sorted lists of corners and leaves: an entry in only one list is an offence. Nearly all
+/// leaves are matched with the corners of their sites directly, and are in no list.
 void check_leaves(const Problem& problem, Certificate& certificate) {
   const MedialAxis& axis = problem.axis;
   const auto count = static_cast<std::uint32_t>(problem.shape.points.size());
@@ -536,8 +536,8 @@ void check_leaves(const Problem& problem, Certificate& certificate) {
   report_leaves(problem, raised, turned, failures);
 }
 
-/// Which boundary points disks touch. A reflex vertex is touched by the disks of its own edges; or,
-/// where all of them have shrunk to a node, by the last disk on one of the segments that it ends.
+/// The boundary points that disks touch. The disks of its own edges touch a reflex vertex; or, if
+/// all of these edges have shrunk to a node, the last disk on one of the segments that end there.
 std::vector<bool> touched_points(const Problem& problem) {
   const MedialAxis& axis = problem.axis;
   std::vector<bool> touched(problem.shape.points.size(), false);
@@ -565,7 +565,7 @@ std::vector<bool> touched_points(const Problem& problem) {
 
 void check_reflex_vertices(const Problem& problem, Certificate& certificate) {
   const std::vector<bool> touched = touched_points(problem);
-  // Where an axis has shrunk to little, as that of a circle of many arcs, any disk will do.
+  // If an axis has shrunk almost to a point, as for a circle of many arcs, try any disk.
   constexpr std::size_t most_looks = 64;
   std::size_t looks = most_looks * (problem.axis.nodes.size() + touched.size());
   const auto touched_by_any = [&](std::uint32_t i) {
