@@ -12,8 +12,9 @@
 
 namespace medial::curve {
 
-/// The coordinates in which one piece is converted: close to the origin, and about 1 large. Going
-/// there and back is exact for points of the input's grid (see base/local_frame.h).
+/// The coordinates in which one piece is converted: close to the origin, and about 1 large. The
+/// transformation and its inverse are exact for points of the input's grid (see
+/// base/local_frame.h).
 struct PieceCoordinates {
   Vec2 half_origin;    ///< halves: the difference of two coordinates may be too large for a double
   double scale = 1;    ///< local units per half an input unit: a power of two
@@ -42,8 +43,8 @@ struct PieceCoordinates {
   double input_length(double local) const { return 2 * (inverse * local); }
 };
 
-/// Bounds on the curvature of the arcs at the ends of a piece, where it joins a neighbour smoothly
-/// that is more curved there: without them coarse arcs could hide that curvature jumps up.
+/// Bounds on the curvature of the arcs at the ends of a piece that smoothly joins a more curved
+/// neighbour. Without them, coarse arcs could hide a jump of the curvature.
 struct CurvatureLimits {
   double begin = 0;  ///< as an amount; infinite: none
   double end = 0;
@@ -56,7 +57,7 @@ struct SpiralOptions {
   CurvatureLimits limits;
 };
 
-/// Arcs end to end: each begins where the one before ends.
+/// Arcs end to end.
 struct ArcChain {
   std::vector<Vec2> points;    ///< where each arc begins, in units of the input
   std::vector<double> bulges;  ///< see Ring; 0: a segment

@@ -11,12 +11,12 @@ namespace {
 
 bool is_filled(EdgeWeight count) { return (count.winding != 0) != count.odd; }
 
-/// What counts on the left of a half-edge, given what does on its right.
+/// The weight on the left of a half-edge, given the weight on its right.
 EdgeWeight across(EdgeWeight right, EdgeWeight edge, bool forward) {
   return {right.winding + (forward ? edge.winding : -edge.winding), right.odd != edge.odd};
 }
 
-/// Which half-edges of a graph have a filled face on their left and none on their right.
+/// Finds the half-edges of a graph with a filled face on their left only.
 class Filling {
  public:
   explicit Filling(const WeightedGraph& weighted)
@@ -38,7 +38,8 @@ class Filling {
     return is_filled(*counts_[face_[half_edge]]) && !is_filled(*counts_[face_[half_edge ^ 1U]]);
   }
 
-  /// The boundary's half-edge after another one: the first one clockwise from where that came.
+  /// The half-edge after another one along the boundary: the first one clockwise from it at its
+  /// end.
   std::uint32_t after(std::uint32_t half_edge) const {
     std::uint32_t next = next_[half_edge];
     while (!bounds(next)) next = next_[next ^ 1U];
@@ -46,7 +47,7 @@ class Filling {
   }
 
  private:
-  /// From the unbounded face to its neighbours and on.
+  /// Visits all faces from neighbour to neighbour, beginning with the unbounded one.
   void count_faces() {
     std::vector<std::vector<std::uint32_t>> around(graph_.face_count);
     for (std::uint32_t h = 0; h < face_.size(); ++h) around[face_[h]].push_back(h);
@@ -90,8 +91,8 @@ FilledRings rings_of(const WeightedGraph& weighted) {
   return result;
 }
 
-/// The graph for growing distances within which things touch, until rounding can separate what is
-/// left: with_planar_graph() does the same.
+/// The planar graph with a growing touching distance, until rounding can separate all remaining
+/// elements, as in with_planar_graph().
 Result<WeightedGraph> noded(std::span<const Chain> chains, std::span<const EdgeWeight> weights,
                             double size, ShapeReport& report) {
   Result<WeightedGraph> graph = build_weighted_graph(chains, weights, 0, report);

@@ -16,12 +16,12 @@
 namespace medial {
 namespace {
 
-/// In tolerances: outlines with arcs have to be larger. A tangency is known to the square root of
-/// the tolerance times the size, and has to be far smaller than that size.
+/// The smallest size of an outline with arcs, in tolerances. The position of a tangency is known up
+/// to the square root of the tolerance times the size, which must be much smaller than the size.
 constexpr double least_size = 1 << 10;
 
-/// An angle of no meaning: edges and tangents of drawings are hardly ever upright after a turn by
-/// it.
+/// An arbitrary angle. After a rotation by it, edges and tangents of drawings are hardly ever
+/// vertical.
 constexpr double turn = 0.5931;
 
 Box box_of(const CleanRings& cleaned) {
@@ -35,7 +35,8 @@ Box box_of(const CleanRings& cleaned) {
   return box;
 }
 
-/// An arc, or it reversed: what is computed of it does not depend on its direction.
+/// The arc or its reverse, in a canonical direction, so that results do not depend on the
+/// direction.
 BulgeArc in_order(const BulgeArc& arc) {
   return lexicographic_less(arc.end, arc.start) ? arc.reversed() : arc;
 }
@@ -137,7 +138,7 @@ NodedRings Noding::monotone() const {
       }
       const BulgeArc arc{node.local, nodes_[next(ring, v)].local, node.bulge};
       auto upright = parallel_point(in_order(arc), {0, 1});
-      // An arc that hangs over by less than the tolerance stays whole.
+      // An arc that overhangs by less than the tolerance is not cut.
       if (upright && std::min(std::abs(upright->x - arc.start.x),
                               std::abs(upright->x - arc.end.x)) <= 2 * tolerance_) {
         upright.reset();
@@ -151,7 +152,7 @@ NodedRings Noding::monotone() const {
       Node passing = node;
       passing.local = {upright->x + 0.0, upright->y + 0.0};
       passing.original = to_input(*upright);
-      // No vertex of the input is higher: a loop never begins here.
+      // The highest vertex number, so that a loop never begins here.
       passing.source.vertex = std::numeric_limits<std::uint32_t>::max();
       result.passing.push_back(true);
       append(passing, v, 0 - partial_bulge(arc.reversed(), arc.end, *upright), ring);

@@ -8,13 +8,13 @@
 namespace medial {
 namespace {
 
-/// What is known of a face: twice its winding number, plus one where the even-odd rule of the other
-/// rings says inside.
+/// The state of a face: twice its winding number, plus one if it is inside by the even-odd rule of
+/// the other rings.
 using FaceState = std::int32_t;
 
 bool is_interior(FaceState state) { return (state >> 1 != 0) != ((state & 1) != 0); }
 
-/// Walks over the arrangement from each edge to those at its ends.
+/// Propagates face states over the arrangement from each edge to the edges at its ends.
 class Winder {
  public:
   Winder(std::span<const Ring> rings, Arrangement& arrangement) : arrangement_(arrangement) {
@@ -43,7 +43,8 @@ class Winder {
   std::uint64_t run() {
     for (const LeftEnd& end : arrangement_.left_ends) {
       if (known_[end.vertex]) continue;
-      // Nothing is left of this vertex: below its lowest ray is what is above the edge below.
+      // No edge is to the left of this vertex, so the face below its lowest ray is the one above
+      // the edge below.
       go_around(end.vertex, 0, end.below == no_index ? 0 : above(end.below));
       spread();
     }
@@ -70,7 +71,7 @@ class Winder {
     rays_around(arrangement_, touches, rays_);
   }
 
-  /// Sets the states around a vertex, given that clockwise of its ray number `first`.
+  /// Sets the states around a vertex, given the state clockwise of ray number `first`.
   void go_around(std::uint32_t vertex, std::size_t first, FaceState state) {
     collect(vertex);
     for (std::size_t i = 0; i < rays_.size(); ++i) {
@@ -145,8 +146,8 @@ class Winder {
     }
   }
 
-  /// Collects the dropped edges in one face from `first` on, and lets them stand for a kept edge
-  /// there; if there is none, for what the edge below them stands for.
+  /// Collects the dropped edges in one face, beginning with `first`, and sets their `stands_for` to
+  /// a kept edge of the face; if there is none, to that of the edge below them.
   void fill(std::uint32_t first, std::uint32_t below, std::vector<bool>& seen,
             std::vector<std::uint32_t>& group) {
     group.assign(1, first);
@@ -169,7 +170,7 @@ class Winder {
           return ray.edge == edge && ray.from_start == at_start;
         });
         const std::size_t start = static_cast<std::size_t>(here - rays_.begin());
-        // Counter-clockwise until an edge that stays.
+        // Go counter-clockwise to the next kept edge.
         for (std::size_t k = 1; k < rays_.size(); ++k) {
           const std::uint32_t other = rays_[(start + k) % rays_.size()].edge;
           if (!arrangement_.dropped[other]) {

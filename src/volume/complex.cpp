@@ -38,7 +38,7 @@ std::optional<Cell> only_coface(const CubicalComplex& complex, Cell cell) {
   return neighbour(cell, std::countr_zero(cofaces));
 }
 
-/// Elementary collapses of what is not kept.
+/// Elementary collapses of cells that are not kept.
 class Collapse {
  public:
   Collapse(CubicalComplex& complex, const CubicalComplex& kept, const Control& control)

@@ -30,8 +30,8 @@ FeetFinder::FeetFinder(const Grid& grid, const FaceTree& tree, bool sorted_list,
     triangles_.push_back(grid.triangle(face));
 }
 
-/// Whether all of a box lies within the angle around `direction` as seen from p: what is in there
-/// is no second foot.
+/// Whether a box lies within the angle around `direction` as seen from p, so that it contains no
+/// second foot.
 bool FeetFinder::in_cone(Vec3 p, Vec3 direction, const Box3& box) const {
   const Vec3 middle = 0.5 * (box.low + box.high) - p;
   const double radius2 = 0.25 * medial::squared_norm(box.high - box.low);

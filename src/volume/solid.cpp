@@ -65,7 +65,7 @@ std::optional<Error> refuse(const TriangleMesh& mesh) {
   return std::nullopt;
 }
 
-/// Gives equal vertices one index and drops what is unused and faces that lost a corner.
+/// Merges equal vertices, and drops unused vertices and faces that lost a corner.
 void join_vertices(Solid& solid) {
   TriangleMesh& mesh = solid.surface;
   std::vector<std::uint32_t> order(mesh.vertices.size());

@@ -55,8 +55,7 @@ void each_with_scratch(std::size_t count, const Work& work) {
   });
 }
 
-/// The voxels of a set and the part of the interior beside their faces, with the nearest face of
-/// each.
+/// The voxels of a set and the interior voxels next to their faces, with the nearest face of each.
 std::vector<Sample> sample(const Input& input, const VoxelSet& interior, const VoxelSet& kept) {
   VoxelSet near = kept;
   each_voxel(kept, [&](Cell cell) {

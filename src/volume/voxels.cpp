@@ -120,8 +120,8 @@ void link_voxels(const VoxelSet& set, const std::vector<MedialVoxel>& voxels, Vo
   }
 }
 
-/// Follows ridges until what was found can be joined by bridges that lead to nothing new. Returns
-/// the voxels of the axis and of bridges: with the topology of the interior.
+/// Follows ridges until bridges between the voxels found lead to no new medial voxels. Returns the
+/// voxels of the axis and of bridges, which have the topology of the interior.
 VoxelSet bridged(RidgeFollower& follower, const VoxelSet& interior, Control& control) {
   for (;;) {
     VoxelSet kept = peel(interior, follower.medial(), control);
@@ -148,7 +148,7 @@ Voxel voxel_of(const MedialVoxel& voxel, const Grid& grid, const Solid& solid) {
   return out;
 }
 
-/// Fills the axis with what is left of it, in the units of the input.
+/// Fills the axis with the remaining voxels, in units of the input.
 void collect(const VoxelSet& kept, std::vector<MedialVoxel> voxels, const Grid& grid,
              const Solid& solid, VoxelAxis& axis) {
   std::sort(voxels.begin(), voxels.end(),

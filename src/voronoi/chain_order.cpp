@@ -46,8 +46,8 @@ bool passes_twice(std::span<const Step> steps) {
   return std::adjacent_find(from.begin(), from.end()) != from.end();
 }
 
-/// As put_in_order(), with several steps from some nodes: what is touched first along the own
-/// site comes first, and what leads back to a node before what leaves it (Hierholzer).
+/// Like put_in_order(), if several steps begin at some nodes. Orders steps by their feet along the
+/// own site; a step that returns to a node comes before a step that leaves it (Hierholzer).
 bool put_loops_in_order(std::span<Step> steps, const FootOf& foot_of) {
   std::map<std::uint32_t, std::vector<std::size_t>> open;  // from each node, the first at the end
   std::map<std::uint32_t, int> surplus;

@@ -74,8 +74,8 @@ std::optional<Error> refuse(const PlanarGraph& planar_graph, const Options& opti
   return std::nullopt;
 }
 
-/// In tolerances: what is nearer to each other may be one for some disks; and what may at least
-/// have misled a walk that failed.
+/// In tolerances: below `told_apart`, some disks may not separate two elements; below `doubtful`,
+/// two elements may be the reason why a walk failed.
 constexpr double told_apart = 16, doubtful = 0x1p20;
 
 /// The ends of an edge, the lower one in the direction that it mostly runs in first.
@@ -190,7 +190,7 @@ Result<MedialAxis> run_around(const PlanarGraph& planar_graph, const Problem& su
                               std::vector<E>& edges) {
   auto [axis, is_certain] = disks::run_around(surroundings, edges);
   if (surroundings.is_cancelled()) return Error{ErrorCode::cancelled, "cancelled", {}};
-  // Double alone may be misled by what is too close.
+  // Decisions in double may be wrong if elements are too close.
   if (!is_certain)
     if (auto error = too_close(planar_graph, told_apart * surroundings.tolerance))
       return std::move(*error);

@@ -21,8 +21,9 @@ constexpr double endless = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t side_after(std::uint32_t side) { return (0b001001U >> (2 * side)) & 3U; }
 constexpr std::uint32_t side_before(std::uint32_t side) { return (0b010010U >> (2 * side)) & 3U; }
 
-/// The order of insertion: rounds of a random 32nd of what is left for later ones, each along the
-/// curve, every other one backward, so that a round begins where the last one ended.
+/// The order of insertion: each round is 32 times as large as the previous one, chosen at random,
+/// and follows the curve, every other one backward, so that a round begins where the last one
+/// ended.
 std::vector<std::uint32_t> insertion_order(std::span<const Vec2> points) {
   constexpr std::size_t smallest_round = 64, growth_bits = 5;
   std::size_t rounds = 1;
@@ -144,9 +145,9 @@ class Insertion {
     }
   }
 
-  /// All triangles in conflict with a point, from one of them on, and two new ones; and the sides
-  /// of what they cover. They form a tree, since no vertex lies between them. No code branches
-  /// on what is in conflict, which the processor could not predict.
+  /// Finds all triangles in conflict with a point, beginning with one of them, plus two new ones,
+  /// and the sides of the region that they cover. The triangles form a tree, because no vertex lies
+  /// inside the region. There are no branches on conflicts, which would be unpredictable.
   void find_cavity(Vec2 p, std::uint32_t first) {
     std::size_t inside = 0, sides = 0;
     const auto look = [&](std::uint32_t beyond) {

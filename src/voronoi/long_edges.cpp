@@ -170,9 +170,10 @@ class Pieces {
 }  // namespace
 
 void take_control(const Site& left, const Site& right, ConicEdge& part) {
-  // Rounding is measured against a size of about one. A parabola far from its vertex has that next
-  // to the segment, whose direction and distance would be lost as seen from there; an arc is about
-  // as large as what is seen of it.
+  // Compute relative to an origin at which sizes are about one. For a parabola, the origin is the
+  // vertex: far from it, the vertex is close to the segment, whose direction and distance would be
+  // inaccurate relative to the edge. An arc is about as large as its visible part, so the edge's
+  // end serves as origin.
   const bool has_arc = left.kind() == SiteKind::arc || right.kind() == SiteKind::arc;
   const Site& vertex = left.kind() == SiteKind::vertex ? left : right;
   const Vec2 origin = has_arc ? part.from.center : vertex.start;

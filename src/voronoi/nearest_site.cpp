@@ -38,7 +38,7 @@ SiteLocator::SiteLocator(std::span<const Site> sites) {
     }
     middle.push_back(midpoint(site.start, site.end));
   }
-  // As much again on all sides: what is asked for may lie beside the sites.
+  // Enlarge the box by its size on all sides, because queries may lie outside it.
   const double size = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
   index.frame = frame_of({box.low - Vec2{size, size}, box.high + Vec2{size, size}});
   for (const std::uint32_t i : z_order(middle)) {

@@ -450,14 +450,14 @@ class Assembly {
     });
   }
 
-  /// Appends what is along an own site, with the spokes at its ends, to a face.
+  /// Appends the edges along an own site, with the spokes at its ends, to a face.
   void add_own(std::uint32_t own, std::vector<std::uint32_t>& face) const {
     if (spoke_before_[own] != none) add_to_face(edge_count_ + spoke_before_[own], true, face);
     for (const Step& step : chain(own)) add_to_face(step.edge, step.forward != 0, face);
     if (spoke_after_[own] != none) add_to_face(edge_count_ + spoke_after_[own], false, face);
   }
 
-  /// Appends what is left of an edge.
+  /// Appends the parts of an edge inside the enclosure.
   void add_to_face(std::uint32_t e, bool forward, std::vector<std::uint32_t>& face) const {
     if ((place_[e] & is_cut) == 0) return face.push_back(place_[e]);
     const auto [begin, end] = parts_[place_[e] & ~is_cut];
