@@ -245,7 +245,7 @@ Event EventSearch::first_contact(Event event) {
   // Every round comes earlier, but one that looked beyond and those that grow; rounding could make
   // rounds repeat.
   for (int round = 0; round < most_rounds; ++round) {
-    if (is_in_point(event)) break;
+    if (is_in_point(event)) return {};
     const bool is_contact = event.kind == Event::Kind::contact;
     const bool asks_part = std::exchange(is_slow, false) && is_contact;
     Event asked = asks_part                   ? part_of_way(empty, event)
