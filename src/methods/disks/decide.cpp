@@ -47,14 +47,7 @@ bool Decider::decide(Step& step, const Disk& from) {
   Event& event = step.event;
   if (contacts_.is_polygon() && context_.joins_ties && !is_exact &&
       event.kind != Event::Kind::at_node && event.site < step.span.left) {
-    // Contacts that are near to each other leave open where they meet: in a tie of the node's own
-    // disk, there; but where one only passes on to the next, that may be anywhere.
-    const bool passes = step.span.continues_right(boundary_, event.site) ||
-                        step.span.continues_left(boundary_, event.site);
-    if (!passes && contacts_.is_clean_tie(step.span, from, event.site)) {
-      event.disk = from;
-      return step.is_tie = true;
-    }
+    // Contacts that are near to each other leave open where they meet.
     const auto disk = contacts_.clean_tie(step.span, event.disk, event.site);
     if (disk && distance(disk->center, from.center) > spread * context_.tolerance) {
       event.disk = *disk;
