@@ -326,6 +326,16 @@ TEST(AlmostSmoothJoint, ATieDoesNotTurnABranchBack) {
                      -0.06493500639266044, -0.06492636838275224, 0.9999807811085283}}});
 }
 
+/// Two half circles on the diameter of a third one: the edge between their common end and the large
+/// one is half of an ellipse, which is no single Bézier curve.
+TEST(AlmostSmoothJoint, AnEdgeIsHalfAnEllipse) {
+  for (const bool is_exact : {false, true})
+    for (const auto& [first, last] :
+         {Vec2{1.36, 2.48}, Vec2{1.3597522079507263, 2.4799193106262152}})
+      expect_verified({{{{0, 0}, {first, 0}, {last, 0}}, RingRole::any, {1, 1, 1}}},
+                      {.exact = is_exact, .threads = 1});
+}
+
 TEST(AlmostSmoothJoint, IsLeftToDisksByLee) {
   Options options{.method = method::Lee{}, .threads = 1};
   expect_verified({{{{5.259379083290482e-07, 0},

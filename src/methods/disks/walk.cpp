@@ -434,9 +434,36 @@ class Walker {
     for (const std::uint32_t i : {span.right, span.left})
       largest =
           std::max(largest, std::abs(site::carrier_distance(site(i), disk.center) - disk.radius));
+    Span rest = span;
+    if (const auto middle = middle_of_half_ellipse(span, from, disk))
+      add_edge(span, rest.node = add_node(*middle));
     const std::uint32_t node = add_node(disk);
-    add_edge(span, node);
+    add_edge(rest, node);
     return node;
+  }
+
+  /// The disk in the middle of an edge that leads around half of an ellipse, which is no single
+  /// Bézier curve: both foci lie on its chord, up to rounding. In double, the two pieces of a half
+  /// circle divide such an edge.
+  std::optional<Disk> middle_of_half_ellipse(const Span& span, const Disk& from,
+                                             const Disk& to) const {
+    constexpr double rounding = 0x1p-48;
+    const bool by_right = site(span.right).curvature > 0;
+    const Site &arc = site(by_right ? span.right : span.left),
+               &other = site(by_right ? span.left : span.right);
+    const Vec2 chord = to.center - from.center;
+    const auto is_on_chord = [&](Vec2 focus) {
+      return std::abs(cross(focus - from.center, chord)) <= rounding * norm(chord) &&
+             dot(focus - from.center, focus - to.center) < 0;
+    };
+    const bool is_ellipse =
+        arc.curvature > 0 && (other.is_vertex() || (other.is_arc() && other.curvature < 0));
+    if (!is_ellipse || !is_on_chord(focus_of(arc)) || !is_on_chord(focus_of(other)))
+      return std::nullopt;
+    const Vec2 normal = ((by_right ? 1 : -1) / norm(chord)) * left_of(chord);
+    const Vec2 foot = focus_of(arc) - (1 / arc.curvature) * normal;
+    const double radius = site::tangent_radius(foot, normal, other);
+    return Disk{foot + radius * normal, radius};
   }
 
   static std::uint32_t size(const Step& step) { return step.span.left - step.span.right; }
