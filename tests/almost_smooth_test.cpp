@@ -336,6 +336,16 @@ TEST(AlmostSmoothJoint, AnEdgeIsHalfAnEllipse) {
                       {.exact = is_exact, .threads = 1});
 }
 
+/// The same, turned: rounding crosses the two half circles where they meet. A disk that touches the
+/// end of one from outside of its circle was taken to touch the arc.
+TEST(AlmostSmoothJoint, ADiskOutsideOfACircleTouchesAnEnd) {
+  expect_verified({{{{0, 0},
+                     {-0.019449149179344299, -0.012231706002952956},
+                     {-0.06305179148314724, -0.039653712831840757}},
+                    RingRole::any,
+                    {1, 1, 1}}});
+}
+
 TEST(AlmostSmoothJoint, IsLeftToDisksByLee) {
   Options options{.method = method::Lee{}, .threads = 1};
   expect_verified({{{{5.259379083290482e-07, 0},
