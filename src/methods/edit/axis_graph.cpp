@@ -5,7 +5,7 @@
 namespace medial::edit {
 namespace {
 
-/// A number that is not in use, or the next one.
+/// Returns a number that is free, or else the next one.
 template <class T>
 std::uint32_t take(std::vector<std::uint32_t>& unused, std::vector<T>& all) {
   if (unused.empty()) {

@@ -11,17 +11,17 @@
 
 namespace medial::edit {
 
-/// Lists have room for so much more, that seldom an edit has to move them: one in so many.
+/// Lists reserve room for one more element per this many, so that few edits need to reallocate.
 constexpr std::size_t spare_share = 8;
 
-/// Makes room for so many in all; where there was too little, at least twice as much as before, so
-/// that growth costs O(1) for each.
+/// Reserves room for `count` elements in all, and at least doubles the capacity when it grows, so
+/// that adding an element costs O(1) amortized.
 template <class T>
 void make_room(std::vector<T>& all, std::size_t count) {
   if (count > all.capacity()) all.reserve(std::max(count, 2 * all.capacity()));
 }
 
-/// Lists of numbers, each number in one list, in which they can be added and removed in O(1).
+/// Lists of numbers with insertion and removal in O(1). Each number is in one list.
 class NumberLists {
  public:
   std::uint32_t first(std::uint32_t list) const {
@@ -44,20 +44,19 @@ class NumberLists {
   std::vector<std::array<std::uint32_t, 2>> links_;  ///< next, before
 };
 
-/// An axis in the local frame that can change. Nodes and edges keep their numbers; those of removed
-/// ones are given to new ones.
+/// A mutable axis in the local frame. Nodes and edges keep their numbers; the numbers of removed
+/// ones are reused.
 class AxisGraph {
  public:
   struct Edge {
-    std::array<std::uint32_t, 2> node{none, none};  ///< from, to; none: there is no such edge
-    std::array<std::uint32_t, 2> site{none,
-                                      none};  ///< on the left and on the right, as Rings has them
+    std::array<std::uint32_t, 2> node{none, none};  ///< from, to; none: the edge does not exist
+    std::array<std::uint32_t, 2> site{none, none};  ///< left and right, numbered as in Rings
     Disk control;
     double weight = 1;
   };
 
   AxisGraph() = default;
-  /// An axis in the local frame; `sites`: the numbers of its sites in Rings.
+  /// Copies an axis in the local frame. `sites` maps its sites to their numbers in Rings.
   AxisGraph(const MedialAxis& axis, const std::vector<std::uint32_t>& sites);
 
   std::size_t node_slots() const { return nodes_.size(); }
@@ -69,7 +68,7 @@ class AxisGraph {
   const Edge& edge(std::uint32_t i) const { return edges_[i]; }
   std::size_t degree(std::uint32_t node) const;
 
-  /// Calls visit(edge, k) for each edge whose node k the node is; twice for a loop.
+  /// Calls visit(edge, k) for each edge whose node k is `node`; twice for an edge that is a cycle.
   template <class Visit>
   void for_edges_at(std::uint32_t node, const Visit& visit) const {
     for (std::uint32_t end = at_node_.first(node); end != none; end = at_node_.next(end))
@@ -81,8 +80,8 @@ class AxisGraph {
       visit(end / 2, end % 2);
   }
 
-  /// Makes room, so that no change throws before so many nodes and edges are added; `sites`: so
-  /// many numbers of sites there are.
+  /// Reserves memory, so that adding up to `nodes` nodes and `edges` edges cannot throw. `sites` is
+  /// the number of sites.
   void make_room(std::size_t nodes, std::size_t edges, std::size_t sites);
   std::uint32_t add_node(const Disk& disk);
   std::uint32_t add_edge(const Edge& edge);
@@ -90,10 +89,10 @@ class AxisGraph {
   void remove_edge(std::uint32_t edge);
 
  private:
-  std::vector<Disk> nodes_;  ///< a radius below 0: there is no such node
+  std::vector<Disk> nodes_;  ///< a radius below 0: the node does not exist
   std::vector<Edge> edges_;
   std::vector<std::uint32_t> unused_nodes_, unused_edges_;
-  NumberLists at_node_, at_site_;  ///< of ends: 2 edge + k
+  NumberLists at_node_, at_site_;  ///< of edge ends: 2 edge + k
 };
 
 }  // namespace medial::edit

@@ -12,8 +12,8 @@
 
 namespace medial::edit {
 
-/// Boxes in the order of their numbers, in a tree whose boxes can change: a change is passed up as
-/// far as it matters, in O(log n). Neighbours in number should be neighbours in the plane.
+/// A tree of boxes whose boxes can change. A change updates the ancestors that it affects, in O(log
+/// n). The boxes are stored by number; consecutive numbers should be close in the plane.
 class BoxLevels {
  public:
   std::size_t size() const { return levels_.empty() ? 0 : levels_[0].size(); }
@@ -21,7 +21,7 @@ class BoxLevels {
   /// The box of all boxes.
   Box all() const { return levels_.empty() ? Box::nothing() : levels_.back()[0]; }
 
-  /// Sets a box, of an old number or of the next new one.
+  /// Sets the box of an existing number, or of the next new one.
   void set(std::uint32_t number, const Box& box) {
     put(0, number, box);
     std::size_t i = number;
@@ -44,8 +44,8 @@ class BoxLevels {
     if (!levels_.empty()) find_below(levels_.size() - 1, 0, query, visit);
   }
 
-  /// The number whose box's content is nearest to a point, and nearer than a limit;
-  /// `squared(number)` measures it.
+  /// The number of the element nearest to a point and nearer than a limit. `squared(number)`
+  /// returns its squared distance.
   template <class Squared>
   std::uint32_t nearest(Vec2 p, const Squared& squared, double limit = endless) const {
     Nearest best{none, limit};
@@ -109,7 +109,7 @@ class BoxLevels {
       nearest_below(level - 1, order[k].second, p, squared, best);
   }
 
-  std::vector<std::vector<Box>> levels_;  ///< from the boxes themselves up to one
+  std::vector<std::vector<Box>> levels_;  ///< from the boxes themselves up to the root
 };
 
 }  // namespace medial::edit

@@ -11,8 +11,8 @@ namespace {
 using Judgement = Rings::Judgement;
 using Verdict = Rings::Verdict;
 
-/// Adds the vertices of the loops at which the pieces of an edge begin. False where they do not
-/// lead from its start to its end.
+/// Adds the vertices of the loops at which the pieces of the edge `from`-`to` begin. Returns false
+/// if the pieces do not lead from start to end.
 bool add_pieces(const Rings& loops, Vec2 from, Vec2 to, std::vector<std::uint32_t>& chain) {
   while (!(from == to)) {
     std::uint32_t piece = none;
@@ -28,13 +28,13 @@ bool add_pieces(const Rings& loops, Vec2 from, Vec2 to, std::vector<std::uint32_
   return true;
 }
 
-/// Some contacts are compared with all others: beyond this, all is computed as fast.
+/// Contacts are compared pairwise. Above this number, computing the whole axis is as fast.
 bool takes_long(const Rings& loops, std::size_t contacts) {
   constexpr std::size_t few = 64, share = 16;
   return contacts > few && contacts * contacts > share * loops.size();
 }
 
-/// The places inside an edge, along it, each once.
+/// Sorts the places inside an edge along it and removes duplicates.
 void put_in_order(Vec2 from, Vec2 to, std::vector<Vec2>& places) {
   std::sort(places.begin(), places.end(), lexicographic_less);
   places.erase(std::unique(places.begin(), places.end()), places.end());
@@ -46,8 +46,9 @@ struct Side {
   bool has(Vec2 p) const { return p == from || p == to || lies_inside(p, from, to); }
 };
 
-/// What the edges of a detour sweep while the vertex moves straight to its place, or from or to the
-/// inside of an edge. Nothing else may be there but at the beginning and at the end.
+/// The area that the edges of a detour sweep while the vertex moves straight to its place, or to or
+/// from the inside of an edge. Only the edges at the beginning and at the end may touch other
+/// edges.
 struct Sweep {
   Triangle triangle;
   std::vector<Side> sides;  ///< the edges at the beginning and at the end
@@ -59,7 +60,7 @@ struct Sweep {
   }
 };
 
-/// Finds out what a detour touches.
+/// Finds the contacts of a detour.
 class Finder {
  public:
   Finder(const Rings& loops, const Detour& detour) : loops_(loops) { contacts_.detour = detour; }
@@ -105,7 +106,7 @@ class Finder {
     contacts_.judgement = {verdict, edge, point};
   }
 
-  /// The pieces of the old edges, which the loops may run along in the other direction.
+  /// Finds the pieces of the old edges; the loops may traverse them in the other direction.
   bool find_chain() {
     Detour& way = contacts_.detour;
     for (int turn = 0; turn < 2; ++turn) {
@@ -158,11 +159,11 @@ class Finder {
         return refuse(Verdict::crosses, s, crossing_of(edge.from, edge.to, a, b));
       if (run_along(edge.from, edge.to, a, b)) return refuse(Verdict::overlaps, s, a);
       if (!lies_inside(a, edge.from, edge.to)) continue;
-      if (loops_[s].flat) return refuse(Verdict::crosses, s, a);  // in the inside of both
+      if (loops_[s].flat) return refuse(Verdict::crosses, s, a);  // both points lie inside an edge
       touched_[i].push_back(a);
     }
     const bool is_divided = fresh && lies_inside(*fresh, a, b);
-    // What reaches from one side of a swept triangle to another one is passed, too.
+    // An edge that reaches from one side of a swept triangle to another is passed, too.
     const auto is_in = [&](const Sweep& sweep, Vec2 p, Vec2 q) {
       return sweep.has(p) && sweep.has(q);
     };
@@ -186,8 +187,8 @@ class Finder {
   std::vector<Sweep> sweeps_;
 };
 
-/// Whether something of the loops lies inside a ring that it does not cross, edges of its own left
-/// aside; also where that takes long to find out.
+/// Whether a ring that crosses no loop encloses a part of one, apart from the edges in `own`. Also
+/// returns true if finding out takes too long.
 bool encloses_any(const Rings& loops, const std::vector<Vec2>& ring,
                   const std::vector<std::uint32_t>& own) {
   constexpr std::size_t most = std::size_t{1} << 20;
@@ -215,7 +216,8 @@ bool encloses_any(const Rings& loops, const std::vector<Vec2>& ring,
   return found;
 }
 
-/// See Contacts::beside: the ring's first edge from where it touches something decides.
+/// See Contacts::beside. The edge of the ring after the first point at which it touches a loop
+/// decides.
 std::uint32_t find_beside(const Rings& loops, const std::vector<Vec2>& ring) {
   bool touches = false;
   std::uint32_t beside = none;
@@ -236,7 +238,7 @@ std::uint32_t find_beside(const Rings& loops, const std::vector<Vec2>& ring) {
   return site == none ? none : Rings::vertex_of(site);
 }
 
-/// Whether a ring is a loop as it is, but for vertices between two edges in one line.
+/// Whether a ring is a simple loop, except that vertices may lie between two collinear edges.
 bool is_simple(const std::vector<Corner>& corners) {
   Ring ring;
   for (const Corner& corner : corners) ring.points.push_back(corner.point);
@@ -294,7 +296,7 @@ Contacts contacts_after(const Rings& loops, const std::vector<Corner>& ring) {
       if (how == Meeting::cross) refused = {Verdict::crosses, s, crossing_of(from, to, a, b)};
       if (how == Meeting::touch && run_along(from, to, a, b)) refused = {Verdict::overlaps, s, a};
       if (!lies_inside(a, from, to)) return;
-      if (loops[s].flat) refused = {Verdict::crosses, s, a};  // in the inside of both
+      if (loops[s].flat) refused = {Verdict::crosses, s, a};  // both points lie inside an edge
       touched.push_back(a);
     });
     if (refused.edge != none) {

@@ -25,7 +25,7 @@ Editor::~Editor() = default;
 
 namespace {
 
-/// What work() returns on so many threads, or the error that it throws.
+/// The result of work() on `threads` threads, or the error that it throws.
 template <class T, class Work>
 Result<T> guarded(int threads, const Work& work) {
   return medial::guarded([&]() -> Result<T> { return on_threads(threads, work); });
@@ -55,21 +55,21 @@ Error no_such_vertex(std::uint32_t vertex) {
   return error_of(ErrorCode::invalid_option, "there is no such vertex", vertex);
 }
 
-/// A change of nothing.
+/// A change without effect.
 AxisChange unchanged(std::uint32_t vertex) {
   AxisChange nothing;
   nothing.vertex = vertex;
   return nothing;
 }
 
-/// What two arcs that follow each other become without the vertex between them: one that turns by
-/// as much, or a segment where that is a full circle.
+/// The bulge of the arc that replaces two consecutive arcs when the vertex between them is removed.
+/// It turns by the same angle; where that is a full circle, it is a segment.
 double joined_bulge(double first, double second) {
   const double both = std::atan(first) + std::atan(second);
   return std::abs(both) < 0.5 * std::numbers::pi ? std::tan(both) : 0;
 }
 
-/// The bulges of the two arcs of the circle through two points and one between them.
+/// The bulges of the two arcs of the circle through three points.
 std::array<double, 2> bulges_through(Vec2 start, Vec2 middle, Vec2 end) {
   return {std::tan(0.5 * signed_angle(end - start, end - middle)),
           std::tan(0.5 * signed_angle(middle - start, end - start))};

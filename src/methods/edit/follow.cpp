@@ -23,7 +23,7 @@ Error Editor::Parts::refusal(const Rings::Judgement& judgement) const {
 
 namespace {
 
-/// As build_shape() does.
+/// Replaces -0 by 0, as build_shape() does.
 void drop_signs_of_zeros(edit::Edit& edit) {
   constexpr double zero = 0;
   const auto drop = [](Vec2& p) { p = p + Vec2{zero, zero}; };
@@ -37,8 +37,8 @@ void drop_signs_of_zeros(edit::Edit& edit) {
 
 }  // namespace
 
-/// Whether all local coordinates of new places are exact, and none is so small that compute() may
-/// refuse it.
+/// Whether the local coordinates of all new points are exact, and none is so small that compute()
+/// may refuse it.
 bool Editor::Parts::fits_frame(const edit::Edit& edit) const {
   const Vec2 furthest{std::max(std::abs(box.low.x), std::abs(box.high.x)),
                       std::max(std::abs(box.low.y), std::abs(box.high.y))};
@@ -82,11 +82,11 @@ Result<AxisChange> Editor::Parts::change(edit::Edit edit) {
   drop_signs_of_zeros(edit);
   if (auto error = refuse(edit, edited())) return std::move(*error);
   if (!edit.seat && !edit.out.empty() && !edit.in.empty()) {
-    // Around holes, a loop stays an outer one.
+    // A loop that has holes stays an outer loop.
     const std::uint32_t loop = edited()[edit.out.front().number].loop;
     if (edited().hole_in(loop) != none) edit.seat = edited().seat_of(loop);
   }
-  // With arcs, all that comes near touches, and becomes one within the tolerance.
+  // With arcs, edges closer than the tolerance touch and are merged.
   const bool is_first_or_last_arc = edited().has_arcs_after(edit) != rings.has_arcs();
   const bool is_exact = !edit.is_of_loops() && !rings.has_arcs();
   if (is_first_or_last_arc || (!is_exact && !fits_frame(edit))) return rebuild(edit);
@@ -122,7 +122,7 @@ Result<AxisChange> Editor::Parts::change(edit::Edit edit) {
   return std::move(change);
 }
 
-/// Makes an edit of the rings that is this one of the loops.
+/// Applies an edit of the rings that corresponds to the edit `own` of the loops.
 Result<std::optional<Step>> Editor::Parts::follow(const edit::Edit& edit,
                                                   const edit::Edit& of_loops,
                                                   Rings::Verdict verdict) {
@@ -148,7 +148,8 @@ Result<std::optional<Step>> Editor::Parts::follow(const edit::Edit& edit,
   return step;
 }
 
-/// Makes an edit of the loops. None, and nothing has happened, where all has to be computed again.
+/// Applies an edit of the loops. Returns none, and changes nothing, if the whole axis must be
+/// recomputed.
 Result<std::optional<Step>> Editor::Parts::follow(const edit::Edit& edit, Rings::Verdict verdict) {
   const Box old_box = box;
   Box reach = box;
@@ -166,8 +167,8 @@ void Editor::Parts::set_box(const Box& other) {
   measures.radius_limit = radius_limit(box, rings.frame());
 }
 
-/// Computes all again after a change by which the shape has become much smaller, and the tolerance
-/// with it. Where that fails, the axis stays as it is.
+/// Recomputes everything after the shape, and with it the tolerance, has become much smaller. If
+/// that fails, the axis stays as it is.
 void Editor::Parts::refine(AxisChange& change) {
   Parts next = *this;
   if (!next.start_again()) return;
@@ -183,7 +184,8 @@ Result<AxisChange> Editor::Parts::undo() {
   if (inverse.empty()) return AxisChange{};
   const Rings& own = edited();
   edit::Edit last = inverse.back();
-  // build_shape() may have turned the loop round since. Of two vertices, both follow each other.
+  // build_shape() may have reversed the loop since. In a loop of two vertices, each follows the
+  // other.
   const auto is_turned = [&] {
     const Rings::Vertex& before = own[last.before];
     return before.next != (last.old != none ? last.old : last.after) ||
@@ -199,13 +201,13 @@ Result<AxisChange> Editor::Parts::undo() {
   }
   auto result = change(last);
   if (!result) return result;
-  inverse.pop_back();  // of this edit
+  inverse.pop_back();  // the entry that change() added
   inverse.pop_back();
   return result;
 }
 
-/// The sites whose disks an edit takes away, and nodes around a place where new ones come. Before
-/// the edit is made.
+/// Finds the sites whose disks an edit removes, and the nodes around the place of an insertion.
+/// Call it before the edit is applied.
 Editor::Parts::Seeds Editor::Parts::seeds_of(const edit::Edit& edit) const {
   Seeds seeds;
   seeds.before = rings.sites_around(edit);
@@ -214,7 +216,7 @@ Editor::Parts::Seeds Editor::Parts::seeds_of(const edit::Edit& edit) const {
     graph.for_edges_of_site(site, [&](std::uint32_t, std::size_t) { has = true; });
     return has;
   };
-  // An arc may have no edges: its disk is where those of its neighbours end.
+  // An arc may have no edges: its disk is then a node at which its neighbours' edges end.
   for (const Rings::Extent& one : seeds.before) {
     if (has_edges(one.site)) continue;
     std::uint32_t after = one.site, before = one.site;
@@ -233,8 +235,8 @@ Editor::Parts::Seeds Editor::Parts::seeds_of(const edit::Edit& edit) const {
   return seeds;
 }
 
-/// The disk that touches what is nearest to a place, and grows on until it is maximal, holds the
-/// place: it is on one of the edges of that site.
+/// The disk that touches the site nearest to a place, grown until it is maximal, contains the
+/// place. So that disk is on an edge of this site.
 void Editor::Parts::add_seeds_around(Vec2 place, Seeds& seeds) const {
   const std::uint32_t site = rings.around(place).site;
   seeds.parts += site == none ? 1 : -1;
@@ -242,8 +244,8 @@ void Editor::Parts::add_seeds_around(Vec2 place, Seeds& seeds) const {
   if (site != none) seeds.sites.push_back(site);
 }
 
-/// Makes an edit by which no loop changes its form, and repairs the axis. None, and nothing has
-/// happened, where all has to be computed again.
+/// Applies an edit that keeps the form of all loops, and repairs the axis. Returns none, and
+/// changes nothing, if the whole axis must be recomputed.
 std::optional<Step> Editor::Parts::follow(const edit::Edit& edit) {
   const Seeds seeds = seeds_of(edit);
   const edit::Edit back = rings.inverse(edit);
@@ -261,9 +263,9 @@ std::optional<Step> Editor::Parts::follow(const edit::Edit& edit) {
   return step;
 }
 
-/// Takes a vertex that jumps across others, or a loop, out, and puts it in again where it shall be.
-/// None, and nothing has happened, where one of the two changes the form of a loop, or crosses
-/// others.
+/// Removes a vertex that jumps across others, or a loop, and inserts it again at its new place.
+/// Returns none, and changes nothing, if one of the two steps changes the form of a loop or makes
+/// edges cross.
 std::optional<Step> Editor::Parts::follow_in_two(const edit::Edit& edit,
                                                  std::optional<Error>& refused) {
   edit::Edit out{edit.before, edit.after, edit.old, none, {}, {}, edit.out, {}};
@@ -303,7 +305,8 @@ std::optional<Step> Editor::Parts::follow_in_two(const edit::Edit& edit,
   return std::nullopt;
 }
 
-/// Finds what changes, and the new part of the axis. None where all has to be computed again.
+/// Finds the part that changes, and computes its new axis. None if the whole axis must be
+/// recomputed.
 std::optional<Step> Editor::Parts::repair(const Seeds& seeds,
                                           const std::vector<Rings::Extent>& after,
                                           std::uint32_t moved) {
@@ -347,7 +350,7 @@ std::optional<Step> Editor::Parts::repair(const Seeds& seeds,
   return std::nullopt;
 }
 
-/// The new parts of the axis in some windows.
+/// Computes the new parts of the axis in some windows.
 std::optional<edit::Repair> Editor::Parts::repair(const std::vector<edit::Window>& windows,
                                                   std::vector<std::uint32_t>& doubtful) const {
   edit::Repair all;
@@ -367,7 +370,7 @@ std::optional<edit::Repair> Editor::Parts::repair(const std::vector<edit::Window
   return all;
 }
 
-/// The axis of an outer loop without holes comes or goes as a whole.
+/// Adds or removes the whole axis of an outer loop without holes.
 std::optional<Step> Editor::Parts::repair_part(const edit::Edit& edit, const Seeds& seeds) {
   edit::Spread spread(graph, marks, ++mark);
   for (const Rings::Extent& one : seeds.before) spread.add_site(one.site);
@@ -408,8 +411,8 @@ std::optional<edit::Repair> Editor::Parts::axis_of_loops(
   return repair;
 }
 
-/// Puts the new part in the place of the old one; none, and nothing happens, where that would not
-/// give the axis so many more parts, less cycles.
+/// Replaces the old part of the axis by the new one. Returns none, and changes nothing, if the
+/// number of parts less cycles would not grow by `parts`.
 std::optional<Step> Editor::Parts::replace(const edit::Affected& affected,
                                            const edit::Repair& repair, int parts) {
   const auto fresh =
@@ -418,7 +421,7 @@ std::optional<Step> Editor::Parts::replace(const edit::Affected& affected,
   if (signed_size(fresh + affected.edges.size()) !=
       signed_size(affected.nodes.size() + repair.edges.size()) + parts)
     return std::nullopt;
-  // Memory may run out here, and nowhere below.
+  // Only this part may run out of memory.
   std::vector<std::uint32_t> number = repair.old_nodes;
   Step step;
   AxisChange& change = step.change;
@@ -441,7 +444,7 @@ std::optional<Step> Editor::Parts::replace(const edit::Affected& affected,
   return step;
 }
 
-/// Undoes the last replace(): in the opposite order all numbers come back as they were.
+/// Undoes the last replace(). Removing and adding in reverse order restores all numbers.
 void Editor::Parts::put_back(const Step& step) {
   const AxisChange& change = step.change;
   for (auto i = change.added_edges.rbegin(); i != change.added_edges.rend(); ++i)

@@ -9,12 +9,12 @@
 #include "methods/edit/rings.h"
 #include "methods/edit/segments.h"
 
-// Whether an edit keeps the form of a shape's loops.
+// Decides whether an edit keeps the form of a shape's loops.
 
 namespace medial::edit {
 namespace {
 
-/// In tolerances: what comes within it of an arc may touch it.
+/// In tolerances. Edges closer than this to an arc may touch it.
 constexpr double nearness = 64;
 
 /// How two segments with a common end `shared` meet: there only, or along each other.
@@ -25,8 +25,8 @@ Meeting meeting_at(Vec2 shared, Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   return is_along ? Meeting::touch : Meeting::apart;
 }
 
-/// Whether segments and arcs of at most a half circle keep further apart than a margin, but for an
-/// end that two share. Says no where that takes long to find out.
+/// Decides whether segments and arcs of at most a half circle stay further apart than a margin,
+/// except at an end that they share. Answers no if it would take too long to decide.
 class Apartness {
  public:
   explicit Apartness(double margin) : margin_(margin) {}
@@ -35,13 +35,13 @@ class Apartness {
     steps_ = 0;
     return keep_apart(a, b);
   }
-  /// Whether segments cross, and not only touch within the margin.
+  /// Whether two segments cross, rather than only touch within the margin.
   bool cross(const BulgeArc& a, const BulgeArc& b) const {
     return a.bulge == 0 && b.bulge == 0 &&
            meeting(a.start, a.end, b.start, b.end) == Meeting::cross &&
            end_distance(a, b) > margin_;
   }
-  /// Two that begin in one point.
+  /// The same for two edges that start at one point.
   bool apart_after_start(const BulgeArc& a, const BulgeArc& b) {
     steps_ = 0;
     return part(a, b);
@@ -62,11 +62,11 @@ class Apartness {
     const double share = std::clamp(dot(d, q) / squared_norm(d), 0.0, 1.0);
     return squared_norm(q - share * d);
   }
-  /// Between the chords.
+  /// The distance between the chords.
   static double chord_distance(const BulgeArc& a, const BulgeArc& b) {
     return meeting(a.start, a.end, b.start, b.end) != Meeting::apart ? 0 : end_distance(a, b);
   }
-  /// From an end of one of two segments to the other one.
+  /// The least distance from an end of one segment to the other segment.
   static double end_distance(const BulgeArc& a, const BulgeArc& b) {
     return std::sqrt(std::min({squared_distance(a, b.start), squared_distance(a, b.end),
                                squared_distance(b, a.start), squared_distance(b, a.end)}));
@@ -81,9 +81,9 @@ class Apartness {
     return keep_apart(first, other) && keep_apart(second, other);
   }
 
-  /// The way to an arc's point encloses with the tangent at the start half of the angle that the
-  /// arc turns by: where that is less than the angle between the tangents, no two such ways are
-  /// one.
+  /// The chord from the start to a point of an arc makes with the start tangent half of the angle
+  /// by which the arc turns up to there. If the turns add up to less than the angle between the
+  /// tangents, no two such chords coincide.
   bool part(const BulgeArc& a, const BulgeArc& b) {
     constexpr double least = 1e-9;
     const double angle = std::abs(signed_angle(start_tangent(a), start_tangent(b)));
@@ -99,12 +99,12 @@ class Apartness {
   int steps_ = 0;
 };
 
-/// How often a closed curve runs around a point that does not lie on it.
+/// The winding number of a closed curve around a point that is not on it.
 int turns_around(std::span<const BulgeArc> curve, Vec2 p) {
   double sum = 0;
   for (const BulgeArc& arc : curve) {
     const Vec2 from = arc.start - p, to = arc.end - p;
-    // What lies on the chord's line counts as on its right: there an arc may enclose it.
+    // Points on the line of the chord count as on its right: there an arc may enclose them.
     const int side = orientation(arc.start, arc.end, p) > 0 ? 1 : -1;
     sum += side * std::atan2(std::abs(cross(from, to)), dot(from, to));
     if (arc.bulge == 0 || (side < 0) != (arc.bulge > 0)) continue;
@@ -126,7 +126,7 @@ Box box_around(std::span<const BulgeArc> curve, double margin) {
   return box;
 }
 
-/// Whether build_shape() may take edges that meet as one, or an edge for something else.
+/// Whether build_shape() may merge adjacent edges, or drop or replace an edge.
 class Cleaning {
  public:
   explicit Cleaning(double tolerance) : tolerance_(tolerance) {}
@@ -150,8 +150,8 @@ class Cleaning {
   double tolerance_;
 };
 
-/// What edges from p to n by v sweep while v moves straight to its place, from or to the inside of
-/// an edge.
+/// The triangles that the edges from p to n by v sweep while v moves straight to its place, or to
+/// or from the inside of an edge.
 std::vector<Triangle> swept_by(const Edit& edit, Vec2 p, Vec2 v, Vec2 n) {
   const Vec2 x = edit.place;
   if (edit.old == none) return {{{p, x, n}}};
@@ -216,7 +216,7 @@ Rings::Judgement Rings::judge_straight(const Edit& edit) const {
     }
     if (result.verdict == Verdict::crosses) return;
     if (is_moving && meeting(v, x, a, b) != Meeting::apart) result.verdict = Verdict::unclear;
-    // Edges that touch at an end keep clear of what is swept where their other ends do.
+    // An edge that touches a new one at an end stays clear of the swept area if its other end does.
     if (s == edit.after || is_shared(a)) return;
     for (const Triangle& triangle : swept)
       if (triangle.has(a)) result.verdict = Verdict::unclear;
@@ -225,7 +225,7 @@ Rings::Judgement Rings::judge_straight(const Edit& edit) const {
 }
 
 Rings::Judgement Rings::judge(const Edit& edit) const {
-  if (!edit.out.empty() && !edit.in.empty()) return {Verdict::unclear, none, {}};  // one by one
+  if (!edit.out.empty() && !edit.in.empty()) return {Verdict::unclear, none, {}};  // in two steps
   if (!edit.out.empty()) return judge_out(edit);
   if (!edit.in.empty()) return judge_in(edit);
   const bool is_straight = !has_arcs() && edit.bulge[0] == 0 && edit.bulge[1] == 0;
@@ -242,7 +242,7 @@ struct FreshEdge {
 
 }  // namespace
 
-/// Where there are arcs, what comes within some tolerances of an edge may touch it.
+/// With arcs, edges within a few tolerances of each other may touch.
 Rings::Judgement Rings::judge_with_arcs(const Edit& edit) const {
   const Judgement unclear{Verdict::unclear, none, {}};
   if (edit.before == edit.after) return unclear;
@@ -250,7 +250,7 @@ Rings::Judgement Rings::judge_with_arcs(const Edit& edit) const {
   std::vector<FreshEdge> fresh;
   std::vector<BulgeArc> old{edge(edit.before)};
   if (edit.old != none) old.push_back(edge(edit.old));
-  std::vector<BulgeArc> swept = old;  // what is between the old edges and the new ones
+  std::vector<BulgeArc> swept = old;  // the boundary of the area between old and new edges
   if (edit.fresh != none) {
     fresh = {{{p, x, edit.bulge[0]}, edit.before, none}, {{x, n, edit.bulge[1]}, none, edit.after}};
   } else {
@@ -286,7 +286,7 @@ Rings::Judgement Rings::judge_with_arcs(const Edit& edit) const {
         return;
       }
     }
-    // What has touched the old edges may be something else without them.
+    // Edges that touched the old edges may change their form without them.
     for (std::size_t i = 0; i < old.size(); ++i) {
       const bool meets = (i == 0 && t == edit.before) || (i + 1 == old.size() && s == edit.after);
       if (!meets && !apartness.apart(old[i], other)) result.verdict = Verdict::unclear;
@@ -344,11 +344,11 @@ Seat Rings::find_seat_anew(const std::vector<Corner>& corners) const {
   return seat;
 }
 
-/// A loop can go where it encloses no other one.
+/// A loop can be removed if it encloses no other loop.
 Rings::Judgement Rings::judge_out(const Edit& edit) const {
   const std::uint32_t loop = vertices_[edit.out.front().number].loop;
   std::vector<BulgeArc> curve;
-  bool touches = false;  // what touches the loop may be something else without it
+  bool touches = false;  // edges that touch the loop may change their form without it
   Apartness apartness(nearness * joining_.tolerance);
   for_vertices(loop, [&](std::uint32_t v) {
     const BulgeArc one = edge(v);
@@ -366,7 +366,8 @@ Rings::Judgement Rings::judge_out(const Edit& edit) const {
   return {is_only ? Verdict::unclear : Verdict::keeps_form, none, {}};
 }
 
-/// A loop can come where it is one that build_shape() takes as it is, and meets and encloses none.
+/// A loop can be added if build_shape() takes it as it is, and it touches and encloses no other
+/// loop.
 Rings::Judgement Rings::judge_in(const Edit& edit) const {
   const Judgement unclear{Verdict::unclear, none, {}};
   std::vector<BulgeArc> curve;

@@ -13,7 +13,7 @@ namespace medial {
 namespace edit {
 namespace {
 
-/// Adds what a second change removes and adds to lists of a first one.
+/// Merges what a second change removes and adds into the lists of a first one.
 void join(std::vector<std::uint32_t>& removed, std::vector<std::uint32_t>& added,
           const std::vector<std::uint32_t>& then_removed,
           const std::vector<std::uint32_t>& then_added) {
@@ -60,8 +60,8 @@ Result<MedialAxis> local_axis(const Shape& shape, const Options& options, double
 
 namespace {
 
-/// For each site of an axis its number in Rings: with the names of the shape's points, or as these
-/// count.
+/// The number in Rings of each site of an axis: from the names of the vertices in the shape's
+/// sources, or with `counted` from the order of the shape's points.
 std::vector<std::uint32_t> site_numbers(const MedialAxis& axis, const Shape& shape, bool counted) {
   std::vector<std::uint32_t> sites;
   sites.reserve(axis.sites.size());
@@ -71,7 +71,7 @@ std::vector<std::uint32_t> site_numbers(const MedialAxis& axis, const Shape& sha
   return sites;
 }
 
-/// An error of a shape's image in the local frame, as one of the shape.
+/// Converts an error of a shape's image in the local frame to one of the shape.
 Error from_local(Error error, const Shape& shape, const LocalFrame& frame) {
   if (error.place.point) error.place.point = frame.to_input(*error.place.point);
   if (error.place.vertex && *error.place.vertex < shape.sources.size()) {
@@ -85,7 +85,7 @@ Error from_local(Error error, const Shape& shape, const LocalFrame& frame) {
 }  // namespace
 
 /// Computes the axis of a shape: the first one, or one built from the rings, whose sources name
-/// vertices; `touches`: edges of it do.
+/// vertices. `touches`: some of its edges touch.
 Status Editor::Parts::start(const Shape& shape, bool is_first, bool touches) {
   if (auto error = medial::refuse(shape, options)) return std::move(*error);
   box = bounding_box(shape);
@@ -116,7 +116,7 @@ Status Editor::Parts::start(const Shape& shape, bool is_first, bool touches) {
   return success();
 }
 
-/// Takes over the loops of a shape that was built from the rings.
+/// Adopts the loops of a shape that was built from the rings.
 void Editor::Parts::set_rings(const Shape& shape, const LocalFrame& frame,
                               const Rings::Joining& joining, bool touches) {
   if (touching) {
@@ -138,7 +138,7 @@ void Editor::Parts::list_all(std::vector<std::uint32_t>& nodes,
     if (graph.has_edge(i)) edges.push_back(i);
 }
 
-/// Computes all from the rings, as an edit has left them.
+/// Recomputes everything from the rings after an edit.
 Status Editor::Parts::start_again() {
   std::vector<std::vector<std::uint32_t>> numbers;
   const std::vector<Ring> all = edited().rings(numbers);
@@ -155,14 +155,14 @@ Status Editor::Parts::start_again() {
   for (VertexSource& source : shape->sources) source.vertex = numbers[source.ring][source.vertex];
   if (auto started = start(*shape, false, report.touching_vertices > 0); !started) {
     Error error = std::move(started).error();
-    error.place.ring.reset();  // the vertex has its number
+    error.place.ring.reset();  // the vertex number identifies it
     return error;
   }
-  for (edit::Edit& one : inverse) one.seat.reset();  // loops may count in another way now
+  for (edit::Edit& one : inverse) one.seat.reset();  // the order of the loops may have changed
   return success();
 }
 
-/// Computes all again after an edit; nothing happens where that fails.
+/// Recomputes everything after an edit. If that fails, nothing has changed.
 Result<AxisChange> Editor::Parts::rebuild(const edit::Edit& edit) {
   AxisChange change;
   change.vertex = subject_of(edit);

@@ -13,23 +13,23 @@
 
 namespace medial::edit {
 
-/// What an edit has changed, and what was there in the order of `change`.
+/// The effect of an edit, with the removed nodes and edges in the order of `change`.
 struct Step {
   AxisChange change;
   std::vector<Disk> nodes;
   std::vector<AxisGraph::Edge> edges;
 };
 
-/// Adds what a second change removes and adds to a first one.
+/// Merges a second change into a first one.
 void join(AxisChange& first, const AxisChange& second);
 
-/// The vertex that an edit is about: of a loop, its first one.
+/// The vertex that an edit reports: the first one if it is about a loop.
 std::uint32_t subject_of(const Edit& edit);
 
-/// An error at a vertex.
+/// Makes an error located at a vertex.
 Error error_of(ErrorCode code, const char* text, std::uint32_t vertex);
 
-/// What compute() makes of a shape's image in the local frame, where edges join as in the shape.
+/// Computes the axis of a shape's image in the local frame. Edges join as they do in the shape.
 Result<MedialAxis> local_axis(const Shape& shape, const Options& options, double joint_tolerance);
 
 }  // namespace medial::edit
@@ -40,11 +40,11 @@ using edit::AxisGraph;
 using edit::Rings;
 using edit::Step;
 
-/// What an editor holds. Sources: parts.cpp (all of the axis), follow.cpp (edits that it
-/// follows), weave.cpp (those after which other edges touch).
+/// The state of an editor. Sources: parts.cpp (computes the whole axis), follow.cpp (edits that are
+/// followed), weave.cpp (edits after which other edges touch).
 struct Editor::Parts {
   Options options;
-  Box box;      ///< of the shape, and of places where it was
+  Box box;      ///< of the shape, including places where it was before
   Rings rings;  ///< the loops of the shape
   AxisGraph graph;
   edit::Measures measures;
@@ -52,7 +52,7 @@ struct Editor::Parts {
   std::vector<edit::Edit> inverse;
   std::vector<std::uint32_t> marks;  ///< see Spread
   std::uint32_t mark = 0;
-  std::optional<edit::Touching> touching;  ///< where the rings that are edited are not the loops
+  std::optional<edit::Touching> touching;  ///< set if the edited rings differ from the loops
 
   /// The rings that are edited.
   const Rings& edited() const { return touching ? touching->rings() : rings; }
@@ -64,11 +64,11 @@ struct Editor::Parts {
   Result<AxisChange> undo();
 
   static std::optional<Error> refuse(const edit::Edit& edit, const Rings& own);
-  /// The part of the axis that an edit takes away is found from these sites on.
+  /// The sites from which the search for the affected part of the axis starts.
   struct Seeds {
     std::vector<Rings::Extent> before;  ///< sites that the edit can change
     std::vector<std::uint32_t> sites;
-    int parts = 0;  ///< that the axis gets: components less holes
+    int parts = 0;  ///< change of the number of parts less cycles: components less holes
     bool is_whole_part = false;
   };
   Seeds seeds_of(const edit::Edit& edit) const;
@@ -103,7 +103,7 @@ struct Editor::Parts {
                               int parts);
   void put_back(const Step& step);
   void list_all(std::vector<std::uint32_t>& nodes, std::vector<std::uint32_t>& edges) const;
-  /// The loop that a vertex lies on, from there on.
+  /// The corners of the loop of a vertex, starting at that vertex.
   std::vector<edit::Corner> corners_of(std::uint32_t vertex) const;
   Node node(std::uint32_t number) const;
   Edge edge(std::uint32_t number) const;

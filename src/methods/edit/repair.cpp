@@ -18,13 +18,13 @@ namespace {
 using disks::BridgeEnd;
 using disks::Element;
 
-/// How far a border's disk may be off, in tolerances: as the node of a tie.
+/// The largest error of a border's disk, in tolerances: that of the node of a tie.
 constexpr double border_error = 16;
-/// What no disk is off by, in the local frame.
+/// A bound on the error of any disk, in the local frame.
 constexpr double loose = 0x1p-20;
 
-/// The window's sites for exact decisions, as long as it and the rings are there. A site whose
-/// neighbour lies outside has none.
+/// The window's sites for exact decisions; valid as long as the window and the rings exist. If the
+/// next site is outside the window, `next` of a site is the site itself.
 exact::SiteLoops outline_of(const Rings& rings, const Window& window) {
   const std::vector<std::uint32_t>& names = window.names;
   exact::SiteLoops outline;
@@ -98,8 +98,8 @@ class Repairer {
                             border_error * measures_.fine_tolerance);
   }
 
-  /// Whether the window has tiny edges or joints that are almost smooth: next to them compute() may
-  /// measure the axis.
+  /// Whether the window has tiny edges or joints that are almost smooth. Next to them compute() may
+  /// need to measure the axis.
   bool has_doubtful_points() const {
     const auto edge = [&](std::uint32_t v) -> BulgeArc {
       return {rings_.local(v), rings_.local(rings_.corner_after(v)), rings_[v].bulge};
@@ -115,8 +115,7 @@ class Repairer {
     });
   }
 
-  /// Adds the nodes of borders that merge_ties() has made one with others of the part, and so has
-  /// moved.
+  /// Adds the nodes of borders that merge_ties() has merged with other nodes, and so moved.
   void find_moved(const disks::Graph& part, const std::vector<std::uint32_t>& nodes,
                   std::vector<std::uint32_t>& doubtful) const {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -126,7 +125,7 @@ class Repairer {
     }
   }
 
-  /// Whether the walk came to all bridges, and to each border by an edge.
+  /// Whether the walk reached all bridges, and each border along an edge.
   bool ends_well(const disks::Chunk& chunk, std::vector<std::uint32_t>& doubtful) const {
     std::vector<std::uint32_t> count(boundary_.bridges.size(), 0);
     count[0] = 1;
@@ -147,7 +146,7 @@ class Repairer {
     return degree;
   }
 
-  /// The border that a link leads to between these sites of the boundary; none where there is none.
+  /// The border to which a link between these sites of the boundary leads, or none.
   std::uint32_t border_between(std::uint32_t right, std::uint32_t left) const {
     if (right == boundary_.runs[0].last && left == 0) return 0;
     if (right + 2 != left || boundary_.elements[right + 1] != Element::bridge) return none;
@@ -155,8 +154,8 @@ class Repairer {
     return bridge < borders_.size() ? bridge : none;
   }
 
-  /// Of each border the node where the part ends there; none where it does not. The walk begins at
-  /// the first one.
+  /// The node at which the part ends at each border; none if it does not end there. The walk begins
+  /// at the first border.
   std::vector<std::uint32_t> border_nodes(const disks::Graph& part) const {
     const WorkVector<std::uint8_t> degree = disks::degrees_of(part);
     std::vector<std::uint32_t> nodes(borders_.size(), none);
@@ -164,7 +163,7 @@ class Repairer {
     for (const Edge& link : part.edges)
       for (std::size_t k = 0; k < 2; ++k) {
         if (degree[link.node[k]] != 1) continue;
-        // On the way to the node.
+        // as seen on the way to the node
         const std::uint32_t right = link.site[k], left = link.site[1 - k];
         const std::uint32_t border = border_between(right, left);
         if (border != none && border != 0) nodes[border] = link.node[k];
@@ -199,7 +198,7 @@ class Repairer {
     return repair;
   }
 
-  /// Of a border's node its disk as it is.
+  /// The disk of a node; for a border's node the disk of the existing axis.
   const Disk& disk_of(const Repair& repair, std::uint32_t node) const {
     const std::uint32_t old = repair.old_nodes[node];
     return old == none ? repair.disks[node] : graph_.disk(old);
@@ -209,8 +208,8 @@ class Repairer {
     return window_.names[boundary_.originals[site]];
   }
 
-  /// Whether the disks at the ends of an edge touch its sites, if not the pieces that it names.
-  /// Next to arcs, several near ties may add up to more than a tolerance: compute() measures such
+  /// Whether the disks at the ends of an edge touch its sites, though perhaps other pieces of them.
+  /// Next to arcs, several near ties may add up to more than one tolerance: compute() measures such
   /// an axis.
   bool touches(const disks::Graph& part, const Edge& link) const {
     const double slack = boundary_.has_arcs ? 2 * measures_.tolerance : loose;
@@ -227,8 +226,8 @@ class Repairer {
                                     slack);
   }
 
-  /// Adds the nodes of borders that merge_ties() might make one with their new neighbours, were the
-  /// edges between them in the window's inside.
+  /// Adds the nodes of borders that merge_ties() might merge with their new neighbours if the edges
+  /// between them were inside the window.
   void find_doubtful(const Repair& repair, std::vector<std::uint32_t>& doubtful) const {
     constexpr std::size_t enough = 3;  // edges: one of them has a third site
     std::vector<std::array<std::uint32_t, enough>> edges(repair.disks.size());
@@ -259,7 +258,7 @@ class Repairer {
       }
   }
 
-  /// Whether a disk may be an arc's own circle: as round, and through both ends.
+  /// Whether a disk may be an arc's own circle: it has its curvature and passes through both ends.
   bool is_own_circle(const site::Site& site, const Disk& disk) const {
     constexpr double alike = 0x1p-33, tolerances = 1 << 12;
     const double slack = tolerances * measures_.fine_tolerance;
@@ -271,8 +270,8 @@ class Repairer {
            is_on_disk(site.point) && is_on_disk(site.end());
   }
 
-  /// Whether merge_ties() may make one of two nodes of which not both branch: they are no further
-  /// apart than their disks may move, or one of them is the own disk of an arc.
+  /// Whether merge_ties() may merge two nodes of which at least one does not branch: either they
+  /// are closer than their disks may move, or the border's disk is the own circle of an arc.
   bool may_be_hub(const AxisGraph::Edge& edge, const Disk& border, const Disk& inner) const {
     constexpr double reach = 16;  // tolerances
     std::array<Vec2, 2> outward;
@@ -285,8 +284,8 @@ class Repairer {
     return !(distance(border.center, inner.center) > reach * measures_.tolerance * play);
   }
 
-  /// Whether one disk may touch four sites within the tolerance, of which each of two touches
-  /// three, as merge_ties() has it.
+  /// Whether one disk may touch four sites within the tolerance if each of two disks touches three
+  /// of them, by the rule of merge_ties().
   bool may_be_one(const Disk& from, const Disk& to,
                   const std::array<std::uint32_t, 4>& sites) const {
     if (std::count(sites.begin(), sites.end(), none) > 0) return true;

@@ -22,7 +22,7 @@ Box box_of(const BulgeArc& edge) {
 
 namespace {
 
-/// Whether a ring that does not cross itself runs so.
+/// Whether a ring that does not cross itself runs counter-clockwise.
 bool turns_left(const std::vector<Corner>& corners) {
   const auto is_arc = [](const Corner& corner) { return corner.bulge != 0; };
   if (std::none_of(corners.begin(), corners.end(), is_arc)) {
@@ -157,7 +157,7 @@ void Rings::set_touches(std::uint32_t v, bool touches) {
 }
 
 site::Joint Rings::joint_at(std::uint32_t v) const {
-  // From corner to corner, as the shape has them: how smooth a joint is depends on the lengths.
+  // From corner to corner, as in the shape: the lengths of the edges decide how smooth a joint is.
   const std::uint32_t from = corner_before(v), to = corner_after(v);
   const BulgeArc before{vertices_[from].point, vertices_[v].point, vertices_[from].bulge},
       after{vertices_[v].point, vertices_[to].point, vertices_[v].bulge};
@@ -302,8 +302,8 @@ Rings::Around Rings::around(Vec2 place) const {
   if (v == none) return {};
   Around found = beside(v, place);
   if (has_arcs()) return found;
-  // The place is inside if it is on the left of the nearest edge, and of others that end with it.
-  // Of edges that are as near up to rounding, which one is nearest does not matter if they agree.
+  // The place is inside if it is on the left of the nearest edge. If several edges are equally near
+  // up to rounding, the order does not matter as long as they agree.
   constexpr double endless = std::numeric_limits<double>::infinity();
   const auto distance_if = [&](bool is_asked, std::uint32_t edge) {
     return is_asked ? squared_distance(edge, place) : endless;
@@ -323,7 +323,7 @@ Rings::Around Rings::around(Vec2 place) const {
     const bool is_own = loops_[vertices_[edge].loop].component == own;
     return distance_if(is_own && is_on_left(edge, place), edge);
   });
-  if (facing == none) return found;  // loops whose directions are not those of a shape
+  if (facing == none) return found;  // the loops do not have the directions of a shape's
   found.site = beside(facing, place).site;
   if (found.site == none) found.site = 2 * corner_to(facing) + 1;
   return found;
@@ -349,13 +349,13 @@ Rings::Around Rings::beside(std::uint32_t v, Vec2 place) const {
 }
 
 std::uint32_t Rings::arc_of(const Disk& circle) const {
-  constexpr double near = 1 << 12;  // tolerances: rounded, the circle's arcs are so far off
+  constexpr double near = 1 << 12;  // tolerances: the rounding error of the circle's arcs
   const double slack = near * joining_.tolerance;
-  // Short segments may join the arcs, so not at one place of the circle.
+  // Short segments may join the arcs, so a search at one point of the circle could miss them.
   const Vec2 center = frame_.to_input(circle.center);
   const double reach = frame_.inverse * circle.radius + slack;
   std::uint32_t arc = none;
-  double least = std::numeric_limits<double>::infinity();  // that a circle is off by
+  double least = std::numeric_limits<double>::infinity();  // deviation of a circle so far
   boxes_.find({center - Vec2{reach, reach}, center + Vec2{reach, reach}}, [&](std::uint32_t v) {
     const BulgeArc edge = local_edge(v);
     const site::Site piece = site::pieces_of(edge.start, edge.end, edge.bulge).first();
@@ -468,7 +468,7 @@ void Rings::apply(const Edit& edit, bool is_followed) {
   for (const std::uint32_t v : {edit.before, edit.fresh, edit.after})
     if (v != none) judged.push_back(v);
   judge(judged);
-  // Whether `before` and `after` are flat decides how long the edges beyond them are.
+  // The lengths of the edges beyond `before` and `after` depend on whether these are flat.
   for (const std::uint32_t v : {corner_before(edit.before), corner_after(edit.after)})
     vertices_[v].joint = joint_at(v);
   for (const std::uint32_t v : judged) set_box(v);

@@ -10,7 +10,7 @@
 #include "base/predicates.h"
 #include "medial/geometry.h"
 
-// How segments and triangles meet; exact.
+// Exact tests of how segments and triangles meet.
 
 namespace medial::edit {
 
@@ -27,8 +27,8 @@ inline bool holds(const Box& box, Vec2 p) {
 struct Triangle {
   std::array<Vec2, 3> corner;
 
-  /// Whether a point lies inside or on the border; a little too often where the corners lie on one
-  /// line.
+  /// Whether a point is inside or on the boundary. May also return true for points outside if the
+  /// corners are collinear.
   bool has(Vec2 p) const {
     Box box = box_of(corner[0], corner[1]);
     box.add(corner[2]);
@@ -43,11 +43,11 @@ struct Triangle {
   }
 };
 
-/// Where two segments cross: a place on the second one, as an end of the first may be far away.
+/// The crossing of two segments, as a point of the second one: an end of the first may be far away.
 inline Vec2 crossing_of(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   const auto away = [&](Vec2 p) { return std::max(std::abs(p.x - c.x), std::abs(p.y - c.y)); };
   if (away(b) < away(a)) std::swap(a, b);
-  const Vec2 half = 0.5 * b - 0.5 * a;  // which does not overflow
+  const Vec2 half = 0.5 * b - 0.5 * a;  // does not overflow
   const double size = std::max(std::abs(half.x), std::abs(half.y));
   const Vec2 way{half.x / size, half.y / size};
   const double of_c = cross(c - a, way), of_d = cross(d - a, way);
@@ -69,7 +69,7 @@ inline Meeting meeting(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   return are_apart ? Meeting::apart : Meeting::touch;
 }
 
-/// Whether a point lies strictly inside a segment.
+/// Whether a point is strictly inside a segment.
 inline bool lies_inside(Vec2 p, Vec2 a, Vec2 b) {
   return holds(box_of(a, b), p) && orientation(a, b, p) == 0 && strictly_between(a, p, b);
 }
@@ -82,7 +82,7 @@ inline bool run_along(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   return lexicographic_less(higher(lower(a, b), lower(c, d)), lower(higher(a, b), higher(c, d)));
 }
 
-/// Whether a direction from the centre lies strictly inside the wedge from one to another one,
+/// Whether a direction from the centre is strictly inside the wedge from `from` to `to`,
 /// counter-clockwise.
 inline bool is_in_wedge(Vec2 center, Vec2 from, Vec2 to, Vec2 p) {
   const int turn = orientation(center, from, to);
@@ -92,14 +92,14 @@ inline bool is_in_wedge(Vec2 center, Vec2 from, Vec2 to, Vec2 p) {
   return after_from > 0;
 }
 
-/// Whether the ray from a point to the right crosses a segment; of a ring, an odd number of edges
-/// where the point lies inside.
+/// Whether the ray from a point to the right crosses a segment. The point is inside a ring if an
+/// odd number of its edges cross the ray.
 inline bool crosses_ray(Vec2 a, Vec2 b, Vec2 p) {
   return (a.y > p.y) != (b.y > p.y) && (orientation(a, b, p) > 0) == (b.y > a.y);
 }
 
-/// Whether a ring that does not cross itself, but may touch itself, runs counter-clockwise: all of
-/// its edges lead from its least point to the right, and it leaves that along the lowest of them.
+/// Whether a ring that does not cross itself, but may touch itself, runs counter-clockwise: no
+/// vertex is to the left of its least point, and the ring leaves that point along the lowest edge.
 inline bool is_counter_clockwise(std::span<const Vec2> ring) {
   const Vec2 least = *std::min_element(ring.begin(), ring.end(), lexicographic_less);
   Vec2 lowest = least;

@@ -68,8 +68,8 @@ std::optional<Seat> Touching::seat_beside(std::uint32_t of_loops, const Rings& l
   return rings_.seat_beside(drawn);
 }
 
-/// No two edges have the same ends and bulges: these tell which edge of the loops is one of the
-/// rings.
+/// No two edges have the same ends and bulges, so these identify the edge of the loops that is an
+/// edge of the rings.
 std::optional<Edit> Touching::of_vertices(const Edit& edit, const Rings& loops) const {
   const auto number_there = [&](std::uint32_t v) {
     const std::uint32_t number = number_of(v);
@@ -122,14 +122,14 @@ std::optional<Edit> Touching::of_vertices(const Edit& edit, const Rings& loops) 
   return own;
 }
 
-/// Whether a ring is a loop.
+/// Whether a ring is also a loop.
 bool Touching::is_loop(const std::vector<Corner>& corners, const Rings& loops) const {
   bool is_forward = true, is_backward = true;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const std::uint32_t v = number_of(corners[i].number);
     const std::uint32_t after = number_of(corners[i + 1 < corners.size() ? i + 1 : 0].number);
     if (v == none || after == none || !loops.has(v) || !loops.has(after)) return false;
-    if (loops[v].touches) return false;  // what touches it may be flat then
+    if (loops[v].touches) return false;  // a vertex that touches it may become flat
     const double bulge = corners[i].bulge;
     is_forward = is_forward && loops[v].next == after && loops[v].bulge == bulge;
     is_backward = is_backward && loops[after].next == v && loops[after].bulge == -bulge;
@@ -156,7 +156,7 @@ void Touching::apply(const Edit& edit, const Rings& loops) {
   edit::make_room(numbers_, rings_.size() + fresh);
   edit::make_room(of_loops_, loops.size() + fresh);
   if (edit.out.empty() || edit.in.empty()) return rings_.apply(edit, false);
-  // One by one, as memory may run out.
+  // In two steps, as memory may run out.
   Edit out = edit, in = edit;
   out.in.clear();
   in.out.clear();

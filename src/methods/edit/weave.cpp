@@ -5,14 +5,14 @@
 #include "methods/edit/parts.h"
 #include "methods/edit/weaver.h"
 
-// Edits after which other edges touch than before.
+// Edits that change which edges touch.
 
 namespace medial {
 
 using edit::join;
 
-/// Whether a vertex comes to lie in one line with its neighbours where its ring may cross itself:
-/// in a vertex it may do that, in the inside of edges not.
+/// Whether a vertex becomes collinear with its neighbours at a point where its ring may cross
+/// itself. A ring may do so at a vertex, but not inside an edge.
 bool Editor::Parts::straightens_crossing(const edit::Edit& edit) const {
   if (edit.is_of_loops() || rings.has_arcs()) return false;
   const Rings& own = edited();
@@ -36,7 +36,7 @@ bool Editor::Parts::straightens_crossing(const edit::Edit& edit) const {
          is_crossing(edit.after, &Rings::Vertex::next, way.fresh.value_or(way.from));
 }
 
-/// An edit of a vertex by its places; equal points of a ring are one.
+/// The coordinates of an edit of a vertex; equal points of a ring are one.
 edit::Detour Editor::Parts::detour_of(const edit::Edit& edit) const {
   const Rings& own = edited();
   edit::Detour way{own[edit.before].point, own[edit.after].point, {}, {}};
@@ -47,8 +47,8 @@ edit::Detour Editor::Parts::detour_of(const edit::Edit& edit) const {
   return way;
 }
 
-/// Makes an edit of a vertex whose edges begin or cease to touch others. None, and nothing has
-/// happened, where all has to be computed again.
+/// Applies an edit of a vertex whose edges begin or cease to touch others. Returns none, and
+/// changes nothing, if the whole axis must be recomputed.
 std::optional<Step> Editor::Parts::weave(const edit::Edit& edit, const edit::Contacts& contacts) {
   const bool is_first = !touching;
   const edit::Detour way = detour_of(edit);
@@ -82,18 +82,18 @@ std::optional<Step> Editor::Parts::weave(const edit::Edit& edit, const edit::Con
   return step;
 }
 
-/// Notes which vertices of the rings and of the loops are the same after an edit.
+/// Records which vertices of the rings and of the loops correspond after an edit.
 void Editor::Parts::note(std::uint32_t of_rings, std::uint32_t of_loops,
                          const std::vector<Vec2>& places) {
   touching->note(places, rings);
   touching->set_number(of_rings, of_loops);
 }
 
-/// Makes an edit of the loops.
+/// Applies an edit to the loops.
 std::optional<Step> Editor::Parts::weave(const edit::Contacts& contacts, edit::Weaver& weaver) {
   Seeds seeds;
   seeds.before = rings.sites_at(contacts.places);
-  // The disks that hold something of a ring that comes touch what it touches, or is nearest to it.
+  // Disks that contain a part of the new ring touch a site that it touches, or the nearest one.
   if (!contacts.ring.empty()) {
     for (const Rings::Extent& one : seeds.before) seeds.sites.push_back(one.site);
     if (seeds.before.empty()) {
@@ -116,7 +116,7 @@ std::optional<Step> Editor::Parts::weave(const edit::Contacts& contacts, edit::W
   return step;
 }
 
-/// Takes the vertex out, and puts it in again where it shall be.
+/// Removes the vertex, and inserts it again at its new place.
 std::optional<Step> Editor::Parts::weave_in_two(const edit::Edit& edit, const edit::Detour& way) {
   const auto keeps_form = [](const edit::Contacts& contacts) {
     return contacts.judgement.verdict == Rings::Verdict::keeps_form;
@@ -155,7 +155,7 @@ std::optional<Step> Editor::Parts::weave_in_two(const edit::Edit& edit, const ed
   return std::nullopt;
 }
 
-/// A loop goes and another one comes, each of them with what it touches.
+/// One loop is removed and another one added, each with its contacts.
 struct Editor::Parts::LoopWeave {
   Parts& parts;
   const edit::Edit& edit;
@@ -218,8 +218,8 @@ struct Editor::Parts::LoopWeave {
   }
 };
 
-/// Takes a loop out, and puts one in, that touch others. None, and nothing has happened, where all
-/// has to be computed again, and where the new one crosses others.
+/// Removes a loop and adds one, both of which may touch others. Returns none, and changes nothing,
+/// if the whole axis must be recomputed, or if the new loop crosses others.
 std::optional<Step> Editor::Parts::weave_loops(const edit::Edit& edit,
                                                std::optional<Error>& refused) {
   const bool is_first = !touching;
@@ -245,8 +245,8 @@ std::optional<Step> Editor::Parts::weave_loops(const edit::Edit& edit,
   return std::nullopt;
 }
 
-/// Makes an edit of a vertex of a small loop that changes its form: the loop gives way to another
-/// one. None, and nothing has happened, where all has to be computed again.
+/// Applies an edit of a vertex that changes the form of a small loop, by replacing the loop.
+/// Returns none, and changes nothing, if the whole axis must be recomputed.
 std::optional<Step> Editor::Parts::replace_loop(const edit::Edit& edit) {
   constexpr std::size_t small = 64, share = 16;
   const std::uint32_t loop = edited()[edit.before].loop, size = edited().loop_size(loop);

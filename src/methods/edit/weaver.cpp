@@ -79,7 +79,7 @@ bool Weaver::make(const Contacts& contacts) {
   return true;
 }
 
-/// Takes the old edges away from what they touch.
+/// Separates the old edges from all that they touch.
 void Weaver::part(const Contacts& contacts) {
   for (std::size_t i = 1; i < contacts.chain.size(); ++i) {
     const std::uint32_t own = contacts.chain[i];
@@ -92,14 +92,14 @@ void Weaver::part(const Contacts& contacts) {
   }
 }
 
-/// An edge that was divided for others alone, which have gone from there, is whole again.
+/// Joins the two halves of an edge that was divided only for other edges, which no longer touch it.
 void Weaver::make_whole(Vec2 place, std::uint32_t own) {
   std::vector<std::uint32_t> others = vertices_at(loops_, place);
   others.erase(std::remove(others.begin(), others.end(), own), others.end());
   if (others.size() == 1 && vertices_at(drawn_, place).empty()) drop(others[0]);
 }
 
-/// Puts a vertex into the edge that a place lies inside of, if any.
+/// Inserts a vertex into the edge inside which a point lies, if any.
 void Weaver::divide_at(Vec2 place) {
   std::uint32_t divided = none;
   loops_.for_edges_in({place, place}, [&](std::uint32_t s) {
@@ -108,7 +108,7 @@ void Weaver::divide_at(Vec2 place) {
   if (divided != none) insert_after(divided, new_vertex(), place);
 }
 
-/// Parts a ring from all that it touches, and takes it out.
+/// Separates a ring from all that it touches, and removes it.
 bool Weaver::take_out(const Contacts& contacts) {
   const std::vector<std::uint32_t>& chain = contacts.chain;
   for (std::size_t i = 0; i < chain.size(); ++i) {
@@ -129,7 +129,7 @@ bool Weaver::take_out(const Contacts& contacts) {
   return true;
 }
 
-/// Puts a ring in, and joins it to all that it touches.
+/// Adds a ring, and joins it to all that it touches.
 bool Weaver::put_in(const Contacts& contacts) {
   for (const std::uint32_t corner : contacts.corners) divide_at(contacts.ring[corner]);
   Edit come;
@@ -150,7 +150,7 @@ bool Weaver::put_in(const Contacts& contacts) {
   return true;
 }
 
-/// Puts the fresh vertex in its place, and a vertex into the edge that it touches there.
+/// Moves the fresh vertex to its place, and inserts a vertex into the edge that it touches there.
 void Weaver::set_middle(const Contacts& contacts) {
   if (!contacts.detour.fresh) return;
   const Vec2 place = *contacts.detour.fresh;
@@ -159,14 +159,14 @@ void Weaver::set_middle(const Contacts& contacts) {
     insert_after(contacts.chain[0], fresh_, place);
   } else {
     vertex(fresh_).point = place;
-    vertex(loops_[fresh_].before);  // for take_back(), as its edge changes
+    vertex(loops_[fresh_].before);  // saved for take_back(), as its edge changes
     loops_.set_box(loops_[fresh_].before);
     loops_.set_box(fresh_);
   }
   divide_at(place);
 }
 
-/// Joins the edges at a vertex to others at its place: where they lie in a wedge of the interior,
+/// Joins the edges at a vertex with others at its place: if they lie in a wedge of the interior,
 /// they divide it.
 bool Weaver::join_at(std::uint32_t own) {
   const Vec2 place = loops_[own].point;
@@ -177,14 +177,14 @@ bool Weaver::join_at(std::uint32_t own) {
     const auto is_inside = [&](Vec2 p) { return is_in_wedge(place, end_of(v), start_of(v), p); };
     const bool has_start = is_inside(start_of(own)), has_end = is_inside(end_of(own));
     if (has_start != has_end) return false;
-    // Of two wedges that hold each other's edges, all that is in both is interior.
+    // If each of two wedges contains the other's edges, their intersection is interior.
     if (has_start && is_in_wedge(place, end_of(own), start_of(own), start_of(v)))
       return exchange(loops_[own].before, loops_[v].before, true);
   }
   return true;
 }
 
-/// All at once: how a vertex joins its edges depends on which of its neighbours are flat.
+/// Updates all vertices at once: how a vertex joins its edges depends on which neighbours are flat.
 void Weaver::judge_places() {
   std::vector<std::uint32_t> all;
   for (const Vec2 place : places_) {
@@ -195,7 +195,7 @@ void Weaver::judge_places() {
   loops_.judge(all);
 }
 
-/// Of two edges that end at one place, each goes on as the other one did.
+/// Exchanges the successors of two edges that end at the same point.
 bool Weaver::exchange(std::uint32_t first, std::uint32_t second, bool joins) {
   const std::uint32_t after_first = loops_[first].next, after_second = loops_[second].next;
   link(first, after_second);
@@ -206,7 +206,7 @@ bool Weaver::exchange(std::uint32_t first, std::uint32_t second, bool joins) {
   return merge(loop_of_first, loop_of_second, joins);
 }
 
-/// The loop of two vertices has become two.
+/// Divides the loop of two vertices, which exchange() has made two.
 bool Weaver::split(std::uint32_t first, std::uint32_t second, bool joins) {
   std::uint32_t count = 0, u = first, v = second;
   do {
@@ -218,8 +218,8 @@ bool Weaver::split(std::uint32_t first, std::uint32_t second, bool joins) {
   const std::uint32_t old = loops_[small].loop;
   const Seat seat = loops_.seat_beside(none);
   if (seat.loop == loops_.loops_.size()) loops_.loops_.emplace_back();
-  // Below the lowest edge at its leftmost place is the outside of a loop, whatever is yet to be
-  // joined there: an outer loop leaves along that edge, a hole arrives.
+  // Below the lowest edge at its leftmost point is the outside of a loop, whatever is joined there
+  // later: an outer loop leaves along that edge, a hole arrives.
   bool is_hole = false;
   Vec2 leftmost = loops_[small].point;
   std::optional<Vec2> lowest;
@@ -255,7 +255,7 @@ bool Weaver::is_place(Vec2 p) const {
   return std::find(places_.begin(), places_.end(), p) != places_.end();
 }
 
-/// An outer loop becomes one of a new component, with the holes inside it; `but`: one that is not.
+/// Makes an outer loop and the holes inside it a new component; `but` is not one of these holes.
 bool Weaver::move_holes(std::uint32_t outer, std::uint32_t component, std::uint32_t but) {
   constexpr std::size_t most = std::size_t{1} << 20;
   const std::uint32_t old = loops_.component(outer);
@@ -266,7 +266,7 @@ bool Weaver::move_holes(std::uint32_t outer, std::uint32_t component, std::uint3
     if (hole.size == 0 || !hole.hole || hole.component != old || l == but) continue;
     looks += loops_.loop_size(outer) + places_.size();
     if (looks > most) return false;
-    // Not where loops are yet to be joined.
+    // Avoid points at which loops are yet to be joined.
     std::uint32_t free = hole.first;
     for (std::uint32_t i = 0; i < hole.size && is_place(loops_[free].point); ++i)
       free = loops_[free].next;
@@ -282,7 +282,8 @@ bool Weaver::move_holes(std::uint32_t outer, std::uint32_t component, std::uint3
   return true;
 }
 
-/// Two loops have become one. What joins is one component before, what parts becomes one.
+/// Merges two loops, which exchange() has made one. If edges join, the loops belong to one
+/// component before; if they part, they become one component.
 bool Weaver::merge(std::uint32_t first, std::uint32_t second, bool joins) {
   const bool is_first_larger = loops_.loop_size(first) > loops_.loop_size(second);
   const std::uint32_t large = is_first_larger ? first : second,
@@ -290,7 +291,7 @@ bool Weaver::merge(std::uint32_t first, std::uint32_t second, bool joins) {
   const Loop gone = loops_.loops_[small];
   if ((gone.component == loops_.component(large)) != joins) return false;
   std::uint32_t v = gone.first;
-  // The smaller one's vertices are a run of the new loop; those of the other one are skipped.
+  // The smaller loop's vertices are consecutive in the new loop; the walk skips those of the other.
   while (loops_[loops_[v].before].loop == small) v = loops_[v].before;
   for (; loops_[v].loop == small; v = loops_[v].next) vertex(v).loop = large;
   loop(small) = {};
@@ -298,7 +299,7 @@ bool Weaver::merge(std::uint32_t first, std::uint32_t second, bool joins) {
   whole.size += gone.size;
   std::uint32_t from = gone.component, to = whole.component;
   if (whole.hole != gone.hole) {
-    if (!joins && gone.hole) std::swap(from, to);  // that of the hole
+    if (!joins && gone.hole) std::swap(from, to);  // from the hole's component
     whole.hole = !joins;
   }
   whole.component = to;

@@ -8,25 +8,26 @@
 
 namespace medial::edit {
 
-/// Makes such an edit of the loops: parts the old edges from all that they touch, and joins the new
-/// ones to all that they touch, so that the interior's wedges around each place follow each other.
-/// In O(k log n), and O(m) where a loop of m vertices is cut off another one or joins a larger one.
+/// Applies an edit with contacts to the loops: separates the old edges from all that they touch,
+/// and joins the new ones to all that they touch, so that the wedges of the interior around each
+/// point follow each other. O(k log n), and O(m) if a loop of m vertices is cut off another one or
+/// merged into a larger one.
 class Weaver {
  public:
-  /// `drawn`: the rings that are edited, as they are after the edit.
+  /// `drawn` are the edited rings, after the edit.
   Weaver(Rings& loops, const Rings& drawn) : loops_(loops), drawn_(drawn), size_(loops.size()) {}
 
-  /// False where it takes long to find out which loops are in which. Then, and where it throws,
-  /// take_back() is to be called.
+  /// Returns false if it would take too long to find out which loops contain which. Then, and if it
+  /// throws, call take_back().
   bool make(const Contacts& contacts);
-  /// Everything becomes as it was.
+  /// Restores the state before make().
   void take_back();
   /// The vertex of the loops that is the fresh one, and the one that has moved; or none.
   std::uint32_t fresh() const { return fresh_; }
   std::uint32_t moved() const { return moved_; }
-  /// Of a ring that has come: the vertices of the loops that are its corners.
+  /// The vertices of the loops that are the corners of the ring that was added.
   const std::vector<std::uint32_t>& corners() const { return corners_; }
-  /// So many more components the interior has now, less holes.
+  /// The change of the number of components less holes.
   int parts() const { return parts_; }
 
  private:
@@ -55,12 +56,12 @@ class Weaver {
 
   Rings& loops_;
   const Rings& drawn_;
-  const std::size_t size_;  ///< how many vertices there were before
+  const std::size_t size_;  ///< the number of vertices before
   std::vector<Vec2> places_;
   std::uint32_t fresh_ = none, moved_ = none;
   std::vector<std::uint32_t> corners_;
   int parts_ = 0;
-  // What was there before, in the order of the changes.
+  // The previous values, in the order of the changes.
   std::vector<std::pair<std::uint32_t, Vertex>> old_vertices_;
   std::vector<std::pair<std::uint32_t, Loop>> old_loops_;
 };

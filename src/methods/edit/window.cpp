@@ -13,7 +13,7 @@ namespace {
 
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-/// Part of a site, or the disk of a bridge.
+/// A part of a site, or the disk of a bridge.
 struct Piece {
   std::uint32_t site = none;  ///< none: a bridge
   double from = -endless, to = endless;
@@ -21,7 +21,7 @@ struct Piece {
 };
 using Cycle = std::vector<Piece>;
 
-/// Puts the pieces of the boundary between the borders together, and connects what is apart.
+/// Assembles the pieces of the boundary between the borders, and connects separate cycles.
 class Assembly {
  public:
   Assembly(const Rings& rings, const AxisGraph& graph, const Affected& affected,
@@ -31,8 +31,8 @@ class Assembly {
   std::optional<std::vector<Window>> windows(const std::vector<std::uint32_t>& loops, int parts) {
     if ((affected_.nodes.empty() && parts <= 0) || !find_cycles()) return std::nullopt;
     add_whole_loops(loops);
-    // Each window's first sequence goes around it, all others around holes in it: of what comes
-    // there, the nodes and borders less the edges are one less the holes.
+    // The first cycle of a window goes around it, all others around holes in it. In the new part of
+    // each window, nodes + borders - edges = 1 - holes.
     const auto signed_size = [](const auto& list) {
       return static_cast<std::ptrdiff_t>(list.size());
     };
@@ -47,7 +47,7 @@ class Assembly {
   }
 
  private:
-  /// Where a border's disk touches the end of a piece.
+  /// The end of a piece, where a border's disk touches it.
   struct End {
     std::uint32_t site;
     double place;
@@ -57,8 +57,8 @@ class Assembly {
     }
   };
 
-  /// Where along a site a disk touches it: the parameter on an edge, whose pieces follow each
-  /// other, on a vertex the angle by which the normal has turned to the right since the edge
+  /// The position along a site at which a disk touches it: the parameter on an edge, counted across
+  /// its pieces; on a vertex, the angle by which the normal has turned to the right since the edge
   /// before.
   double place_on(std::uint32_t number, Vec2 center) const {
     const site::Pieces pieces = rings_.pieces(number);
@@ -79,7 +79,7 @@ class Assembly {
     return graph_.disk(affected_.borders[border].node);
   }
 
-  /// The closed sequences of pieces and borders. False where one does not close.
+  /// Finds the closed sequences of pieces and borders. Returns false if one does not close.
   bool find_cycles() {
     const auto& borders = affected_.borders;
     for (std::uint32_t i = 0; i < borders.size(); ++i)
@@ -101,7 +101,7 @@ class Assembly {
     return true;
   }
 
-  /// Adds the pieces from a border on to the next one, and returns that.
+  /// Adds the pieces from a border to the next one, and returns that border.
   std::uint32_t add_between(std::uint32_t border, Cycle& cycle) {
     std::uint32_t site = affected_.borders[border].left;
     double from = place_on(site, disk_of(border).center);
@@ -121,7 +121,7 @@ class Assembly {
 
   bool add_loop(std::uint32_t loop) { return loops_.insert(loop).second; }
 
-  /// The loops that no border touches.
+  /// Adds the loops that no border touches.
   void add_whole_loops(const std::vector<std::uint32_t>& loops) {
     std::vector<std::uint32_t> found = loops;
     for (const std::uint32_t edge : affected_.edges)
@@ -141,7 +141,7 @@ class Assembly {
     }
   }
 
-  /// A disk that touches an edge of one cycle and something in another one.
+  /// A disk that touches an edge of one cycle and a site of another.
   struct Connection {
     std::size_t piece, cycle, other_piece;
     double place, other_place;
@@ -149,11 +149,11 @@ class Assembly {
   };
 
   bool takes_long() const {
-    constexpr std::size_t most_looks = 256;  // at each piece
+    constexpr std::size_t most_looks = 256;  // per piece
     return looks_ > most_looks * most_pieces_;
   }
 
-  /// Connects two cycles. False where no disk is found that does.
+  /// Connects two cycles. Returns false if no disk connects any.
   bool connect_any() {
     for (std::size_t i = cycles_.size(); i-- > 0;) {
       std::swap(cycles_[i], cycles_.back());
@@ -162,8 +162,8 @@ class Assembly {
     return false;
   }
 
-  /// Connects the last cycle with another one. False where no disk is found that does, and where
-  /// to look for one takes longer than it may.
+  /// Connects the last cycle with another one. Returns false if no disk does, or if the search
+  /// takes too long.
   bool connect_last() {
     const Cycle& last = cycles_.back();
     std::size_t pieces = 0;
@@ -180,9 +180,10 @@ class Assembly {
     return false;
   }
 
-  /// The disk that touches a piece of the last cycle at some place, if it touches another cycle.
+  /// The disk that touches a piece of the last cycle at a chosen point, if it touches another
+  /// cycle.
   std::optional<Connection> connection(std::size_t piece) const {
-    constexpr double share = 0.3819660112501051;  // of no meaning to anybody who draws
+    constexpr double share = 0.3819660112501051;  // golden section, hardly a special point
     const Piece& own = cycles_.back()[piece];
     const site::Pieces edge = rings_.pieces(own.site);
     const double from = std::max(own.from, 0.0), to = std::min(own.to, length_of(edge));
@@ -224,7 +225,7 @@ class Assembly {
     return edge.first().length + (edge.count > 1 ? edge.last().length : 0);
   }
 
-  /// Of an edge touched in an end that is a site of its own, that one.
+  /// The vertex, if an edge is touched at an end that is a site of its own; else the edge.
   std::uint32_t owner(std::uint32_t number, Vec2 center) const {
     if (!Rings::is_edge(number)) return number;
     const double s = place_on(number, center);
@@ -253,7 +254,7 @@ class Assembly {
                  added.end());
   }
 
-  /// One cycle that is left, from its first border on, as a boundary.
+  /// Makes a boundary of a remaining cycle, starting at its first border.
   Window window(Cycle& cycle) const {
     Window window;
     const std::size_t borders = affected_.borders.size();
@@ -341,7 +342,7 @@ class Assembly {
   std::set<std::uint32_t> loops_;
   std::vector<Disk> connections_;
   std::size_t pieces_ = 0, most_pieces_ = 0;
-  std::size_t looks_ = 0;  ///< at pieces, to connect cycles
+  std::size_t looks_ = 0;  ///< pieces visited in order to connect cycles
 };
 
 }  // namespace
