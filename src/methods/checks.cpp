@@ -17,7 +17,7 @@
 namespace medial {
 namespace {
 
-/// Whether every component has one outer loop, and every hole lies in one of them.
+/// Whether every component has one outer loop, and every hole is in a component.
 bool has_one_outer_loop_each(const Shape& shape) {
   std::vector<bool> bounded(shape.component_count(), false);
   for (std::size_t i = 0; i < shape.loop_count(); ++i) {
@@ -57,7 +57,7 @@ bool is_consistent(const Shape& shape) {
       if (!shape.bulges.empty())
         doubled += 2 * area_beside_chord({start, end, shape.bulges[shape.loop_begin[i] + j]});
     }
-    // Rounding may turn a needle around.
+    // Rounding may reverse the orientation of a needle.
     const double rounding =
         static_cast<double>(points.size()) * std::numeric_limits<double>::epsilon() * size;
     if (!(shape.hole[i] ? doubled <= rounding : doubled >= -rounding)) return false;
@@ -65,7 +65,7 @@ bool is_consistent(const Shape& shape) {
   return true;
 }
 
-/// What the method does not take, by the table.
+/// The error if the method does not support the options, by the table.
 std::optional<Error> refuse_untaken(const Options& options) {
   const MethodInfo& takes = info_of(options.method);
   if (options.exact && !takes.exact())
@@ -96,7 +96,7 @@ std::optional<Error> refuse(const Shape& shape, const Options& options) {
   if (!(options.corner_angle >= 0 && options.corner_angle <= 10))
     return Error{ErrorCode::invalid_option, "the corner angle must be in [0, 10] degrees", {}};
   if (shape.points.empty()) return Error{ErrorCode::empty, "the shape is empty", {}};
-  // Every point is at most two sites, and every site bounds at most three nodes.
+  // Every point makes at most two sites, and every site bounds at most three nodes.
   if (shape.points.size() > std::numeric_limits<std::uint32_t>::max() / 8)
     return Error{ErrorCode::too_large, "the shape has more than 2^29 vertices", {}};
   if (auto error = beyond_limits(shape)) return error;
@@ -110,8 +110,8 @@ bool has_arcs(const Shape& shape) {
 }
 
 bool is_tiny_edge(const BulgeArc& local) {
-  // In the local frame, whose size is about 1: of an angle of 2^-50 (some roundings) over 2^-26,
-  // half the square is 2^-49, which is less than the tolerance. So is half the square of 2^-26.
+  // The local frame is about one unit large. An angle of 2^-50 (some roundings) over 2^-26 has half
+  // the square 2^-49, which is less than the tolerance; so is half the square of 2^-26.
   constexpr double smallest = 0x1p-26;
   return squared_norm(local.chord()) < smallest * smallest ||
          std::abs(curvature(local)) * smallest > 1;
@@ -136,7 +136,7 @@ bool is_almost_smooth(site::Joint joint, const BulgeArc& before, const BulgeArc&
 namespace {
 
 /// Calls look(point, before, after) for all points of a shape with arcs, with the edges before and
-/// after each in local units. O(n).
+/// after it in local units. O(n).
 template <class Look>
 void for_each_joint(const Problem& problem, const Look& look) {
   const Shape& shape = problem.shape;
@@ -177,12 +177,12 @@ std::vector<std::size_t> almost_smooth_joints(const Problem& problem,
 
 namespace {
 
-/// What has_right_topology() finds in a block of edges.
+/// The findings of has_right_topology() in a block of edges.
 struct TopologyFindings {
   std::uint64_t joined = 0;
   bool stays = true;                  ///< no edge leaves its component
-  std::vector<std::uint32_t> others;  ///< edges between blocks, joined after all threads
-  /// Of each component, how many edges: in runs, as most blocks are of one.
+  std::vector<std::uint32_t> others;  ///< between blocks; joined after all threads have finished
+  /// The number of edges of each component, in runs, as most blocks are in one component.
   std::vector<std::pair<std::uint32_t, std::uint64_t>> edges;
 };
 
@@ -200,10 +200,10 @@ bool has_right_topology(const Shape& shape, std::span<const Node> nodes, std::sp
     if (node.component >= counts.size()) return false;
     ++counts[node.component].nodes;
   }
-  // Most edges lead from node to node of about their own number: threads join these, each in a
-  // block of nodes of its own.
+  // Most edges connect nodes whose numbers are close to the edge's. Each thread joins these within
+  // a block of nodes.
   constexpr std::size_t block = 1 << 14;
-  // Each component has a node more than edges, so that numbers drift apart.
+  // Each component has one node more than edges, so the numbers drift apart.
   const double share = static_cast<double>(edges.size()) / static_cast<double>(nodes.size());
   const auto block_of = [&](std::uint32_t node) {
     return static_cast<std::uint32_t>(share * node) / block;
@@ -233,7 +233,7 @@ bool has_right_topology(const Shape& shape, std::span<const Node> nodes, std::sp
     for (const std::uint32_t e : found.others)
       joined += parts.join_uncounted(edges[e].node[0], edges[e].node[1]) ? 1 : 0;
   };
-  if (edges.size() <= block) {  // without a list, which small shapes would notice
+  if (edges.size() <= block) {  // small shapes would notice the cost of a list
     TopologyFindings all;
     for (std::size_t e = 0; e < edges.size(); ++e) look_at(e, all);
     add(all);
@@ -242,8 +242,8 @@ bool has_right_topology(const Shape& shape, std::span<const Node> nodes, std::sp
       add(found);
   }
   if (!stays) return false;
-  // As no edge leaves its component and each component has a node, each is one part then;
-  // a connected graph has edges - nodes + 1 independent cycles.
+  // No edge leaves its component and each component has a node, so each is one part; a connected
+  // graph has edges - nodes + 1 independent cycles.
   return nodes.size() - joined == counts.size() &&
          std::all_of(counts.begin(), counts.end(), [](const Count& count) {
            return count.nodes > 0 && count.edges + 1 == count.nodes + count.holes;

@@ -21,7 +21,7 @@
 namespace medial {
 namespace {
 
-/// The exterior's boundary, if the shape's is there as contours, one for each loop.
+/// The contours of the exterior's boundary, one for each loop, if those of the shape are known.
 std::vector<Contour> exterior_contours(const Problem& problem, const Exterior& exterior) {
   std::vector<Contour> contours;
   if (problem.contours.size() != problem.shape.loop_count()) return contours;
@@ -36,7 +36,7 @@ std::vector<Contour> exterior_contours(const Problem& problem, const Exterior& e
   return contours;
 }
 
-/// The axis of the enclosure less the shape, without what touches the enclosure.
+/// The axis of the enclosure less the shape, without the parts that touch the enclosure.
 Result<MedialAxis> compute_exterior(const Problem& problem) {
   const Options& options = problem.options;
   const auto margin = checked_margin_for(problem.box, options.margin);
@@ -48,8 +48,7 @@ Result<MedialAxis> compute_exterior(const Problem& problem) {
   const std::vector<Contour> contours = exterior_contours(problem, *exterior);
   auto axis = compute(exterior->shape, inside, contours);
   if (!axis) return axis;
-  // The sites of the enclosure: those that begin and end in its corners, however a method numbers
-  // them.
+  // The sites of the enclosure begin and end in its corners, however a method numbers them.
   std::vector<Vec2> corners;
   for (std::size_t i = 0; i < exterior->of_enclosure.size(); ++i)
     if (exterior->of_enclosure[i]) corners.push_back(exterior->shape.points[i]);

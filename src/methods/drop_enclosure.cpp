@@ -18,7 +18,7 @@ void drop_enclosure(const std::vector<bool>& site_of_enclosure, const Box& enclo
   axis.sites.resize(count);
 
   std::vector<bool> lost(axis.nodes.size(), false), needed(axis.nodes.size(), false);
-  // A sampled axis misses the enclosure by less where it follows it.
+  // A sampled axis that follows the enclosure misses it by less than this.
   const double slack = 1e-7 * diagonal(enclosure);
   const auto touches_enclosure = [&](const Edge& edge) {
     if (edge.site[0] == no_site && edge.site[1] == no_site) {

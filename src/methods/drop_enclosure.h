@@ -7,10 +7,10 @@
 
 namespace medial {
 
-/// Removes what the enclosure of an exterior, a rectangle, has added to its axis: the sites marked,
-/// the edges that have one of them, or whose disks touch the enclosure where edges have no sites,
-/// and the nodes that had no other edges. The kinds of the nodes left follow their numbers of
-/// edges. O(size of the axis).
+/// Removes from the axis of an exterior all that the enclosure, a rectangle, has added: the marked
+/// sites; the edges that have such a site or, if edges have no sites, whose disks touch the
+/// enclosure; and the nodes left without edges. Updates the kinds of the remaining nodes. O(size of
+/// the axis).
 void drop_enclosure(const std::vector<bool>& site_of_enclosure, const Box& enclosure,
                     MedialAxis& axis);
 

@@ -15,10 +15,10 @@
 
 namespace medial {
 
-/// The share of the progress left that one attempt gets; the rest is for what comes after it.
+/// The share of the remaining progress that one attempt gets; the rest is for later attempts.
 inline constexpr double attempt_share = 0.9;
 
-/// A callback that maps 0..1 to a part of the progress bar. Empty like `tell`, which must outlive
+/// A callback that maps 0..1 to a part of the progress bar. Empty if `tell` is; `tell` must outlive
 /// it.
 std::function<void(double)> part_of_progress(const std::function<void(double)>& tell, double begin,
                                              double length);
@@ -34,43 +34,43 @@ struct Problem {
   std::span<const Contour> contours;  ///< the smooth boundary, if the caller has it
   Box box;                            ///< of the shape
   LocalFrame frame;
-  double tolerance = 0;        ///< disks with residuals below it touch
-  double joint_tolerance = 0;  ///< the same for joints: it does not depend on the options
+  double tolerance = 0;        ///< a disk whose residual is below it touches
+  double joint_tolerance = 0;  ///< the same for joints; independent of the options
   /// The local tolerance that the local coordinates alone allow. Far from the origin it is finer
-  /// than local_tolerance(), since only the way back to the input's coordinates rounds.
+  /// than local_tolerance(), since only the conversion back to input coordinates rounds.
   double fine_tolerance = 0;
   double radius_limit = 0;  ///< local; no disk inside the shape is larger
 
   double local_tolerance() const { return frame.scale * tolerance; }
   Box local_box() const { return {frame.to_local(box.low), frame.to_local(box.high)}; }
-  /// The numbers of the sites, computed by the first call. Not thread-safe. O(n).
+  /// The numbers of the sites; the first call computes them. Not thread-safe. O(n).
   const site::SiteNumbers& numbers() const&;
   site::SiteNumbers numbers() &&;
   /// The sites as the result lists them.
   std::vector<Site> result_sites() const { return site::result_sites(shape, numbers()); }
-  /// The options of the method, which must be this one.
+  /// The options of the method. Requires that this method was chosen.
   template <class Own>
   const Own& own() const {
     return std::get<Own>(options.method);
   }
   bool is_cancelled() const { return options.cancel != nullptr && options.cancel->load(); }
-  /// A callback for an attempt, of which so many come before. It maps 0..1 to the part of the
-  /// progress bar that these left, and keeps a tenth for later ones. Empty where the caller wants
-  /// none.
+  /// A progress callback for an attempt that `before` others precede. It maps 0..1 to the part of
+  /// the progress bar that these left, and keeps a tenth of it for later attempts. Empty if the
+  /// caller wants no progress.
   std::function<void(double)> progress_of_attempt(int before) const;
 
  private:
   mutable std::optional<site::SiteNumbers> numbers_;
 };
 
-/// Whether compute_in_parts() hands out parts; otherwise the axis is a single one.
+/// Whether compute_in_parts() hands out parts of the axis, rather than the whole axis at once.
 bool comes_in_parts(const Shape& shape, const Options& options);
 
-/// What a method makes of a problem.
+/// The result of a method.
 struct Outcome {
   MedialAxis axis;
-  /// Whether compute() is to check that the graph has one part for each component and one cycle for
-  /// each hole: not where the method has done so, nor where it need not be so.
+  /// Whether compute() must check that the graph has one part for each component and one cycle for
+  /// each hole. False if the method has checked it, or if it need not hold.
   bool to_check = true;
 };
 

@@ -44,7 +44,7 @@ Error crossing_or(const Problem& problem, Error error) {
 }
 
 Error error_of_wrong_axis(const MedialAxis& axis, const char* text) {
-  // In tolerances: disks that are smaller cannot always be distinguished from rounding.
+  // In tolerances. Smaller disks cannot always be distinguished from rounding.
   constexpr double narrow = 16;
   const Node* narrowest = nullptr;
   for (const Node& node : axis.nodes)

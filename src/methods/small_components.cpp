@@ -21,12 +21,12 @@ namespace {
 
 using Loops = LoopsBySize::Loops;
 
-/// The longer side of a box: mirror images and quarter turns have the same.
+/// The longer side of a box, which mirror images and quarter turns share.
 double longer_side(const Box& box) {
   return std::max(box.high.x - box.low.x, box.high.y - box.low.y);
 }
 
-/// Some components of a shape, in order.
+/// A shape of some components, in order.
 Shape shape_of(const Shape& whole, const Loops& loops) {
   Shape shape;
   shape.loop_begin.push_back(0);
@@ -49,7 +49,7 @@ Shape shape_of(const Shape& whole, const Loops& loops) {
   return shape;
 }
 
-/// Some components of a problem as a problem of their own. The whole's numbers must be known.
+/// A problem that consists of some components of another problem, whose numbers must be known.
 class Piece {
  public:
   Piece(const Problem& whole, const Loops& loops, std::function<void(double)> progress)
@@ -70,9 +70,9 @@ class Piece {
 
   const Problem& problem() const { return problem_; }
 
-  /// The whole's number of a site.
+  /// The number of a site in the whole problem.
   std::uint32_t site(std::uint32_t own) const { return names_[own]; }
-  /// Gives nodes the whole's numbers of their components.
+  /// Replaces the component numbers of nodes by those of the whole problem.
   void name_components(std::vector<Node>& nodes) const {
     for (Node& node : nodes) node.component = component_[node.component];
   }
@@ -85,8 +85,8 @@ class Piece {
   Options options_;
   Shape shape_;
   Problem problem_;
-  std::vector<std::uint32_t> component_;  ///< of each, the whole's
-  std::vector<std::uint32_t> names_;      ///< of each site, the whole's
+  std::vector<std::uint32_t> component_;  ///< the whole's number of each component
+  std::vector<std::uint32_t> names_;      ///< the whole's number of each site
 };
 
 std::size_t points_of(const Shape& shape, const Loops& loops) {
@@ -95,8 +95,8 @@ std::size_t points_of(const Shape& shape, const Loops& loops) {
   return points;
 }
 
-/// Where the next small components end that follow each other from `begin` on and have at least so
-/// many points, or are the last.
+/// The end of the next batch of small components: it begins at `begin` and has at least `points`
+/// points, or ends with the last component.
 std::size_t end_of_batch(const Shape& shape, const LoopsBySize& loops, std::size_t begin,
                          std::size_t points) {
   std::size_t end = begin;
@@ -105,14 +105,14 @@ std::size_t end_of_batch(const Shape& shape, const LoopsBySize& loops, std::size
   return end;
 }
 
-/// Computes the small components, batch after batch, some at the same time: take(piece, outcome,
-/// batch) for each component of one, in order, and then use(batch) for each batch, in order.
+/// Computes the small components in batches, several at the same time. Calls take(piece, outcome,
+/// batch) for each component of a batch, in order, and then use(batch) for each batch, in order.
 template <class Batch, class Take, class Use>
 Status run_small(const Problem& problem, const LoopsBySize& loops, const Take& take,
                  const Use& use) {
   const MethodRow& method = solver_of(problem.options);
-  constexpr std::size_t of_batch = 1 << 11;  // points; what a thread does in turn
-  constexpr std::size_t together = 1 << 7;   // batches that are in memory at the same time
+  constexpr std::size_t of_batch = 1 << 11;  // points; the work of a thread at a time
+  constexpr std::size_t together = 1 << 7;   // batches in memory at the same time
   std::size_t done = points_of(problem.shape, loops.large);
   for (std::size_t begin = 0; begin < loops.small.size();) {
     std::vector<std::size_t> bounds{begin};
@@ -146,7 +146,7 @@ Status run_small(const Problem& problem, const LoopsBySize& loops, const Take& t
   return success();
 }
 
-/// The progress of the large components, a share of the whole's.
+/// The progress of the large components: a share of the whole progress.
 std::function<void(double)> progress_of_large(const Problem& problem, const LoopsBySize& loops) {
   if (!problem.options.progress) return nullptr;
   const double share = static_cast<double>(points_of(problem.shape, loops.large)) /
@@ -154,7 +154,7 @@ std::function<void(double)> progress_of_large(const Problem& problem, const Loop
   return [&problem, share](double done) { problem.options.progress(share * done); };
 }
 
-/// The axes of some components together.
+/// The axes of several components together.
 struct Sum {
   MedialAxis axis;
   bool to_check = false;  ///< see Outcome
@@ -176,7 +176,7 @@ void append(Sum&& part, Sum& sum) {
   to.statistics += from.statistics;
 }
 
-/// The same of a piece, with the whole's numbers.
+/// Appends the axis of a piece, with the whole's numbers.
 void append(const Piece& piece, Outcome&& outcome, Sum& sum) {
   piece.name_components(outcome.axis.nodes);
   for (Edge& edge : outcome.axis.edges)
@@ -188,7 +188,7 @@ void append(const Piece& piece, Outcome&& outcome, Sum& sum) {
 
 std::optional<LoopsBySize> small_components(const Problem& problem) {
   constexpr double small_share = 0x1p-10;
-  constexpr std::size_t most_points = 1 << 16;  // a longer one is handed out while it grows
+  constexpr std::size_t most_points = 1 << 16;  // a larger component is handed out while it grows
   const Shape& shape = problem.shape;
   const Options& options = problem.options;
   if (shape.component_count() < 2 || options.tolerance > 0 || has_arcs(shape) ||
@@ -196,7 +196,8 @@ std::optional<LoopsBySize> small_components(const Problem& problem) {
     return std::nullopt;
   const double least = small_share * longer_side(problem.box);
   LoopsBySize loops;
-  std::vector<std::uint32_t> place(shape.component_count(), none);  // of each, in loops.small
+  std::vector<std::uint32_t> place(shape.component_count(),
+                                   none);  // index of each component in loops.small
   std::vector<std::size_t> points(shape.component_count());
   for (std::size_t i = 0; i < shape.loop_count(); ++i)
     points[shape.component[i]] += shape.loop(i).size();
@@ -219,7 +220,7 @@ std::optional<LoopsBySize> small_components(const Problem& problem) {
 }
 
 Result<Outcome> run_divided(const Problem& problem, const LoopsBySize& loops) {
-  problem.numbers();  // from here on several threads ask for them
+  problem.numbers();  // several threads use them from here on
   Sum sum;
   if (!loops.large.empty()) {
     const Piece piece(problem, loops.large, progress_of_large(problem, loops));

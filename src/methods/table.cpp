@@ -16,8 +16,8 @@
 namespace medial {
 namespace {
 
-/// As measured (docs/lee.md). Of the vertices of coasts and mazes about half are reflex, of smooth
-/// shapes mostly fewer. O(n).
+/// A rule from measurements (docs/lee.md). About half of the vertices of coasts and mazes are
+/// reflex, mostly fewer of smooth shapes. O(n).
 bool is_lee_faster(const Problem& problem) {
   constexpr double most_reflex = 0.4;
   const Shape& shape = problem.shape;

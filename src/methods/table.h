@@ -4,20 +4,21 @@
 
 namespace medial {
 
-/// What the table of methods holds for each (table.cpp): a new method is a folder, its options in
+/// A row of the table of methods (table.cpp). A new method needs a folder, its options in
 /// medial/methods.h, and a row.
 struct MethodRow {
   MethodInfo info;
   Method defaults;
-  /// What the method cannot take of the problem beyond what `info` says, if anything.
+  /// The error if the method does not support the problem for a reason that `info` does not state.
   std::optional<Error> (*refuse)(const Problem& problem);
-  /// Requires what compute() and refuse() have checked. Cut short, with any content, where the
-  /// caller cancels.
+  /// Requires that compute() and refuse() have checked the problem. If the caller cancels, it stops
+  /// early, with any content.
   Result<Outcome> (*run)(const Problem& problem);
 };
 
 const MethodRow& row_of(const Method& method);
-/// The row of the method that computes: with Options::exact that of `disks`, for all that take it.
+/// The row of the method that computes the axis: with Options::exact that of `disks`, for all
+/// methods that support it.
 const MethodRow& solver_of(const Options& options);
 
 }  // namespace medial

@@ -7,7 +7,7 @@
 
 namespace medial {
 
-/// All nodes, edges and sites of an axis as its one part; the rest of it stays.
+/// Moves all nodes, edges and sites of an axis into one part; the other members stay.
 inline AxisPart whole_part(MedialAxis& axis) {
   AxisPart part;
   part.axis = std::move(axis);

@@ -22,7 +22,7 @@ InOrder in_order(std::uint32_t a, std::uint32_t b) {
 
 }  // namespace
 
-/// No foot moves along a spoke, and hardly any from a corner that is nearly flat: there the
+/// Along a spoke, no foot moves; from a corner that is nearly flat, hardly any does. There the
 /// distance from the joint orders the disks.
 site::Bisector ArcContacts::bisector(std::uint32_t i, std::uint32_t j) const {
   site::Bisector bisector(site(j), site(i));
@@ -71,7 +71,8 @@ site::SmoothPlace ArcContacts::joint_of(std::uint32_t a, std::uint32_t b) const 
   return site::smooth_place(site(before), site(after));
 }
 
-/// Where two edges, one after the other, meet nearly in one line: with the mean of their normals.
+/// The point at which two consecutive edges meet almost collinearly, with the mean of their
+/// normals.
 std::optional<site::SmoothPlace> ArcContacts::flat_corner(std::uint32_t a, std::uint32_t b) const {
   constexpr double flat = 0.999;
   const auto [i, j] = in_order(a, b);
@@ -91,7 +92,7 @@ Disk ArcContacts::own_circle(std::uint32_t arc) const {
   return {site(arc).point + radius * site(arc).normal(), radius};
 }
 
-/// The disk that touches the boundary in a place, and another element's carrier.
+/// The disk that touches the boundary at a point, and the carrier of another element.
 std::optional<Disk> ArcContacts::disk_at(const site::SmoothPlace& place, std::uint32_t other,
                                          double limit) const {
   const double radius = site::tangent_radius(place.point, place.normal, site(other));
@@ -99,9 +100,10 @@ std::optional<Disk> ArcContacts::disk_at(const site::SmoothPlace& place, std::ui
   return Disk{place.point + radius * place.normal, radius};
 }
 
-/// The disks that touch three elements, two or more of which are joined smoothly: the own circle of
-/// one that is joined to both others and no flatter, up to rounding; or a disk at a joint, no
-/// larger than the circles of arcs that are joined there. False where none are joined.
+/// Adds the disks that touch three elements of which two or more are joined smoothly: the own
+/// circle of an element that is joined to both others and is at least as curved, up to rounding; or
+/// a disk at a joint, no larger than the circles of the arcs joined there. Returns false if none
+/// are joined.
 bool ArcContacts::add_at_joint(const Three& three, Disks& found) const {
   std::size_t joined = 0, apart = 0, other = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -135,7 +137,7 @@ bool ArcContacts::add_at_joint(const Three& three, Disks& found) const {
   return true;
 }
 
-/// The disks that touch three elements, no two of which are joined smoothly.
+/// Adds the disks that touch three elements, no two of which are joined smoothly.
 void ArcContacts::add_tangent_disks(const Three& three, Disks& found) {
   for (const std::uint32_t i : three) {
     if (!elements_.is_convex_arc(i)) continue;
@@ -147,7 +149,7 @@ void ArcContacts::add_tangent_disks(const Three& three, Disks& found) {
   const auto disks = site::tangent_disks(site(three[0]), site(three[1]), site(three[2]));
   for (std::size_t i = 0; i < disks.count; ++i)
     if (disks.disk[i].radius <= limits_.radius_limit) add_if_touching(disks.disk[i], three, found);
-  // Of carriers that are nearly tangent, the equations may have lost all.
+  // If carriers are nearly tangent, rounding may have lost all solutions.
   for (std::size_t k = 0; k < 3 && found.count == 0; ++k)
     if (const auto place = flat_corner(three[(k + 1) % 3], three[(k + 2) % 3]))
       if (const auto disk = disk_at(*place, three[k], limits_.radius_limit))

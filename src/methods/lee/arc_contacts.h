@@ -12,14 +12,14 @@
 
 namespace medial::lee {
 
-/// What all merges of a shape share.
+/// The limits that all merges of a shape share.
 struct MergeLimits {
   double tolerance = 0;     ///< in the local frame
   double radius_limit = 0;  ///< no disk inside the shape is larger
 };
 
-/// What disks touch in a shape with arcs (docs/lee.md, Arcs): questions of a merge curve about two
-/// or three elements.
+/// Answers what disks touch in a shape with arcs (docs/lee.md, Arcs), for the two or three elements
+/// of a merge curve.
 class ArcContacts {
  public:
   ArcContacts(const Elements& elements, const MergeLimits& limits, Statistics& statistics)
@@ -36,13 +36,13 @@ class ArcContacts {
   };
   Disks disks_of(const std::array<std::uint32_t, 3>& three);
 
-  /// Whether a disk that touches the carrier of an element touches the element: its foot lies on an
-  /// edge, in the wedge of a reflex vertex, or beyond it within the tolerance. A disk larger than a
-  /// convex arc's circle does not touch the arc's inside.
+  /// Whether a disk that touches an element's carrier touches the element: its foot is on the edge,
+  /// in the wedge of a reflex vertex, or beyond it within the tolerance. A disk larger than a
+  /// convex arc's circle does not touch the inside of the arc.
   bool touches(std::uint32_t i, const Disk& disk) const;
 
-  /// Whether a known disk touches an element, and not only the end of an edge. Of disks next to
-  /// arcs less is known than of others: their bulges round, too.
+  /// Whether a known disk touches an element, rather than only the end of an edge. Disks next to
+  /// arcs are less accurate than others, since bulges are rounded, too.
   bool is_tied(std::uint32_t i, const Disk& disk) const;
   double tie() const { return 0.25 * limits_.tolerance; }
 

@@ -13,10 +13,9 @@
 namespace medial::lee {
 namespace {
 
-/// Lists of about this many chains are merged by one task, all their levels: they stay in its
-/// cache.
+/// One task merges all levels of a list of about this many chains, which fits into its cache.
 constexpr std::uint32_t block_size = 1024;
-/// Lists of 2 to the power of this many chains at most are merged level by level.
+/// Lists of at most 2^levels_at_bottom chains are merged level by level.
 constexpr int levels_at_bottom = 3;
 
 /// The halving of one loop's chains.
@@ -24,19 +23,19 @@ struct Halving {
   std::uint32_t first = 0;
   std::uint32_t count = 0;
 
-  /// Lists of this level hold one chain at most.
+  /// On this level, no list has more than one chain.
   int deepest() const { return static_cast<int>(std::bit_width(count - 1)); }
   std::uint32_t boundary(int level, std::uint64_t i) const {
     return first + static_cast<std::uint32_t>((count * i) >> level);
   }
-  /// Of the merges of some levels, in chains times levels.
+  /// The work of merging some levels, in chains times levels.
   std::uint64_t work(int begin_level, int end_level) const {
     return std::uint64_t{count} * static_cast<std::uint64_t>(end_level - begin_level);
   }
 };
 
-/// Disks that may touch all of a list that is next: that of the last list which one disk touched,
-/// and that of the next such list, if it is known already.
+/// Disks that may touch all of the next list: the disk that touched the last list solved in closed
+/// form, and that of the next such list, if it is known already.
 struct RoundDisks {
   std::optional<Disk> last;
   std::optional<Disk> next;
@@ -45,7 +44,7 @@ struct RoundDisks {
 /// The lists of the first levels of a halving, numbered level by level.
 struct Lists {
   static std::size_t number(int level, std::uint64_t i) { return (std::size_t{1} << level) + i; }
-  std::vector<bool> solved;           ///< in closed form, by itself or as a part
+  std::vector<bool> solved;           ///< in closed form, alone or as a part of a larger list
   std::vector<RoundDisks> of_blocks;  ///< of the lists of the last level
 };
 
@@ -59,10 +58,10 @@ class Conquest {
     }
   }
 
-  /// Whether a merge has found a diagram broken: then there is nothing more to merge.
+  /// Whether a merge has found that a diagram is broken: the remaining merges are skipped.
   bool is_broken() const { return broken_.load(std::memory_order_relaxed); }
 
-  /// Merges list i of a level out of its halves; one half may be empty.
+  /// Merges the halves of list i of a level; one half may be empty.
   void merge_halves(const Halving& halving, int level, std::uint64_t i, Statistics& statistics) {
     const std::uint32_t first = halving.boundary(level, i),
                         middle = halving.boundary(level + 1, 2 * i + 1),
@@ -73,7 +72,7 @@ class Conquest {
     if (level == 0) last_edge_ = edge;
   }
 
-  /// All merges below one list.
+  /// Does all merges below one list.
   void merge_below(const Halving& halving, int level, std::uint64_t i, RoundDisks known) {
     Statistics own;
     merge_parts(halving, level, i, std::max(level, halving.deepest() - levels_at_bottom), known,
@@ -83,7 +82,7 @@ class Conquest {
     report(halving.work(level, halving.deepest()) >> level);
   }
 
-  /// One level after another, on this thread.
+  /// Merges one level after another, on this thread.
   std::uint32_t merge_measured(const Halving& halving, std::vector<Level>& levels) {
     const int deepest = halving.deepest();
     levels.resize(std::max(levels.size(), static_cast<std::size_t>(deepest)));
@@ -120,8 +119,8 @@ class Conquest {
   }
 
  private:
-  /// The lists down to some level that are known in closed form, the largest first; a block of a
-  /// circle with very many sides turns too little to tell its disk by itself.
+  /// Solves the lists of the first levels that have a closed form, the largest first. A block of a
+  /// circle with very many sides turns too little to determine its disk by itself.
   Lists solve_fans(const Halving& halving, int block_level) {
     const std::uint64_t blocks = std::uint64_t{1} << block_level;
     Lists lists{std::vector<bool>(2 * blocks), std::vector<RoundDisks>(blocks)};
@@ -156,13 +155,13 @@ class Conquest {
     return lists;
   }
 
-  /// Merges a list from its parts at level `bottom`: two lists as soon as both are there, while
-  /// they are in the cache.
+  /// Merges a list from its parts at level `bottom`. Merges two lists as soon as both are ready,
+  /// while they are in the cache.
   void merge_parts(const Halving& halving, int level, std::uint64_t i, int bottom,
                    RoundDisks& known, Statistics& statistics) {
     for (std::uint64_t j = i << (bottom - level);
          j < (i + 1) << (bottom - level) && !is_stopped();) {
-      // The list that is solved next, and its level: as large as it can be in closed form.
+      // The next list to solve, and its level: the largest one that has a closed form.
       int k = std::max(level, bottom - std::countr_zero(j));
       while (k < bottom && !is_fan(halving, k, j >> (bottom - k), known)) ++k;
       if (k == bottom) merge_bottom(halving, bottom, j, known, statistics);
@@ -173,7 +172,8 @@ class Conquest {
     }
   }
 
-  /// All merges below one short list: level by level, but for parts that a disk beside it touches.
+  /// Does all merges below one short list, level by level, except for parts that a disk next to the
+  /// list touches.
   void merge_bottom(const Halving& halving, int level, std::uint64_t i, RoundDisks& known,
                     Statistics& statistics) {
     const int deepest = halving.deepest();

@@ -4,8 +4,8 @@
 
 namespace medial::lee {
 
-/// Begins with the diagrams of the chains: the spokes, and nothing else. A disk that touches a
-/// chain twice would enclose a boundary that turns to the left, which a chain does not.
+/// Starts with the diagrams of the chains, which contain only spokes: a disk that touches a chain
+/// twice would enclose a boundary that turns left, and a chain has none.
 Diagram::Diagram(const Elements& all)
     : elements(all), top(all.size(), {none, none}), free(all.chains.size() - 1) {
   reserve_large(edges, 2 * std::size_t{all.size()});

@@ -12,12 +12,14 @@
 
 namespace medial::lee {
 
-/// Bit for bit: a tie that has been joined.
+/// Whether two disks are equal bit for bit, as those of a joined tie are.
 inline bool is_same(const Disk& a, const Disk& b) {
   return a.center == b.center && a.radius == b.radius;
 }
 
-/// How far the foot on a site moves forward from one disk to another: seen from the centres, along
+/// The distance by which the foot on a site moves forward from one disk to another, measured at the
+/// centres along the site's normals; for an arc, at the centre nearer to the arc's own, which has
+/// no foot.
 /// the site's normals, and of an arc from the centre nearer to its own, in which there is no foot.
 inline double advance(const site::Site& site, Vec2 from, Vec2 to) {
   if (!site.is_arc()) return dot(site.direction, to - from);
@@ -40,7 +42,7 @@ struct ListEdge {
   Disk inner;
 };
 
-/// Places of a Diagram without an edge, linked by inward[0].
+/// The free places of a Diagram, linked by inward[0].
 struct FreePlaces {
   std::uint32_t first = none;
   std::uint32_t last = none;
@@ -57,13 +59,14 @@ struct Diagram {
   explicit Diagram(const Elements& all);
 
   const Elements& elements;
-  std::vector<ListEdge> edges;  ///< two places for each element; some are free
-  /// Of each element: the outermost edge in which it is element[0], and element[1].
+  std::vector<ListEdge> edges;  ///< two places per element; some are free
+  /// The outermost edges of each element: the one in which it is element[0], and that in which it
+  /// is element[1].
   std::vector<std::array<std::uint32_t, 2>> top;
-  /// Of the list that begins with a chain.
+  /// of the list that begins with a chain
   std::vector<FreePlaces> free;
 
-  /// The elements on both sides of the place where a chain begins, and the disk there that touches
+  /// The elements on both sides of the point where a chain begins, and the disk there that touches
   /// both.
   struct Gate {
     std::array<std::uint32_t, 2> element;
@@ -77,7 +80,7 @@ struct Diagram {
   }
 
   /// Whether the edge separates a reflex vertex from its own edge, or two edges that join smoothly.
-  /// At a bridge there is no such edge: elements lie in between.
+  /// A bridge has no such edge: elements are in between.
   bool is_spoke(const ListEdge& edge) const {
     if (elements.have_arcs())
       return elements.beside(edge.element[0], edge.element[1]) == Beside::smooth;

@@ -15,7 +15,7 @@ void add(Elements& elements, const site::Site& site, std::uint32_t original) {
   elements.originals.push_back(original);
 }
 
-/// Ends a list that began with a chain and an element.
+/// Ends a list, given the chain and the element with which it began.
 void end_loop(Elements& elements, std::uint32_t first_chain, std::uint32_t first,
               std::uint32_t component) {
   std::uint32_t size = elements.size() - first;
@@ -25,7 +25,7 @@ void end_loop(Elements& elements, std::uint32_t first_chain, std::uint32_t first
       {first_chain, static_cast<std::uint32_t>(elements.chains.size()), component, size});
 }
 
-/// False where the loop has no convex vertex.
+/// Adds a loop. Returns false if it has no convex vertex.
 bool add_loop(const Problem& problem, std::size_t l, Elements& elements) {
   const site::SiteNumbers& numbers = problem.numbers();
   const site::LoopEdges loop(problem.shape, l, problem.frame);
@@ -47,8 +47,8 @@ bool add_loop(const Problem& problem, std::size_t l, Elements& elements) {
   return true;
 }
 
-/// Half of the tangent of a disk at its foot on a site, as long as the disk's radius: before the
-/// foot, or from it on.
+/// One half of the tangent of a disk at its foot on a site, as long as the disk's radius: the half
+/// before the foot or the half after it.
 site::Site half_tangent(const Disk& disk, const site::Site& touched, bool is_before) {
   const Vec2 foot = site::foot(touched, disk.center);
   const Vec2 normal = (1 / distance(disk.center, foot)) * (disk.center - foot);
@@ -77,7 +77,7 @@ Beside beside_of(const disks::Boundary& boundary, std::uint32_t before, std::uin
                                        : Beside::no;
 }
 
-/// How the elements of a run's list join, those of a shape with arcs.
+/// Adds how consecutive elements of a run join, for a shape with arcs.
 void add_joints(const disks::Boundary& boundary, const disks::Boundary::SiteRange& run,
                 std::uint32_t first, Elements& elements) {
   elements.joints.resize(elements.size(), Beside::no);
@@ -90,14 +90,14 @@ void add_joints(const disks::Boundary& boundary, const disks::Boundary::SiteRang
   elements.around[first] = elements.around[element] = beside_of(boundary, run.last, run.first);
 }
 
-/// Whether a chain begins at an element, other than the first one of a list, or after a bridge.
+/// Whether a chain begins at an element that is not the first of its list. False after a bridge.
 bool begins_chain(const disks::Boundary& boundary, std::uint32_t i) {
   if (boundary.elements[i - 1] == disks::Element::bridge) return false;
   return boundary.is_corner(i - 1) || beside_of(boundary, i - 1, i) == Beside::blunt ||
          std::max(boundary.sites[i - 1].curvature, boundary.sites[i].curvature) > 0;
 }
 
-/// All components, with their holes.
+/// Adds all components, with their holes.
 void add_connected(const Problem& problem, Elements& elements) {
   const disks::Boundary boundary = disks::connected_boundary(problem);
   std::uint32_t component = 0;
@@ -124,7 +124,7 @@ std::optional<Elements> elements_of(const Problem& problem) {
   Elements elements;
   elements.sites.reserve(problem.numbers().count);
   elements.originals.reserve(problem.numbers().count);
-  // Without holes and arcs: of each vertex that is no site.
+  // Without holes and arcs, each vertex that is not a site begins a chain.
   elements.chains.reserve(2 * shape.points.size() - problem.numbers().count + 1);
   if (shape.hole_count() > 0 || has_arcs(shape))
     add_connected(problem, elements);

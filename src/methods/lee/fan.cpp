@@ -16,7 +16,7 @@ bool touches(const site::Site& segment, const Disk& disk, double slack) {
          foot >= 0 && foot <= segment.length;
 }
 
-/// Segments of a list, one after another.
+/// Consecutive segments of a list.
 using Segments = std::span<const site::Site>;
 
 bool touches_all(const Segments& segments, const Disk& disk, double slack) {
@@ -24,8 +24,8 @@ bool touches_all(const Segments& segments, const Disk& disk, double slack) {
                      [&](const site::Site& s) { return touches(s, disk, slack); });
 }
 
-/// The disk that touches the first segment, the last and the one in the middle; a third of the way
-/// around a polygon, that of each third.
+/// The disk that touches the first, the middle and the last segment; for a closed polygon, the
+/// segments at 0, 1/3 and 2/3 of it.
 std::optional<Disk> disk_of_three(const Segments& segments, double radius_limit) {
   constexpr double nearly_parallel = 0.999;
   const bool is_closed = site::meets(segments.back(), segments.front());
@@ -37,7 +37,8 @@ std::optional<Disk> disk_of_three(const Segments& segments, double radius_limit)
   return disks.disk[0];
 }
 
-/// How many of the segments beside a list are in reach, found in steps that grow and then shrink.
+/// Counts the segments next to a list that the disk touches, in steps that first grow and then
+/// shrink.
 template <class IsTouched>
 std::uint32_t reach(std::uint32_t step, std::uint32_t limit, const IsTouched& is_touched) {
   std::uint32_t far = 0;
@@ -48,15 +49,16 @@ std::uint32_t reach(std::uint32_t step, std::uint32_t limit, const IsTouched& is
   return far;
 }
 
-/// The disk that touches all segments of [begin, end), if there is one: best that of three far
-/// apart that it touches, beyond the list as well, so that it fits to the lists beside it.
+/// The disk that touches all segments of [begin, end), if there is one. It is computed from three
+/// segments that are as far apart as possible, also beyond the list, so that it fits the
+/// neighbouring lists.
 std::optional<Disk> common_disk(const Elements& elements, std::uint32_t begin, std::uint32_t end,
                                 double radius_limit, double slack) {
   const Segments all(elements.sites);
   const Segments list = all.subspan(begin, end - begin);
   std::optional<Disk> disk = disk_of_three(list, radius_limit);
   if (!disk || !touches_all(list, *disk, slack)) return std::nullopt;
-  // The further apart, the better known, and the more it touches.
+  // A wider range determines the disk better, and so the disk touches more segments.
   for (std::uint32_t low = begin, high = end;;) {
     const std::uint32_t size = high - low;
     const std::uint32_t before =
@@ -86,7 +88,7 @@ std::uint32_t fan_of(Diagram& diagram, std::uint32_t first, std::uint32_t end, d
     if (!disk) return none;
     known = disk;
   }
-  // Places 2 i for B(e_i, e_i+1), 2 i + 1 for B(e_begin, e_i+1).
+  // Place 2 i holds B(e_i, e_i+1), place 2 i + 1 B(e_begin, e_i+1).
   diagram.edges[std::size_t{2} * begin] = {
       {begin, begin + 1}, {none, none}, {elements.sites[begin + 1].point, 0}};
   diagram.top[begin + 1][1] = 2 * begin;

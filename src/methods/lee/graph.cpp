@@ -11,7 +11,7 @@
 namespace medial::lee {
 namespace {
 
-/// The curve of an edge from `from` to `to`, its ends.
+/// The curve of an edge that ends at `from` and `to`.
 site::Control control_of(const Graph& graph, std::uint32_t edge, const Disk& from, const Disk& to) {
   const auto& [i, j] = graph[edge].element;
   const Elements& elements = graph.elements();
@@ -33,8 +33,8 @@ Edge result_edge(const Graph& graph, const LocalFrame& frame, std::uint32_t edge
 
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-/// By how far the disk in the middle of an edge misses its elements or reaches over them; or their
-/// carriers, where a bridge has divided the elements but not the edge.
+/// The largest gap or overlap between the disk in the middle of an edge and its elements, or their
+/// carriers if a bridge has divided the elements but not the edge.
 double residual_in_middle(const Graph& graph, std::uint32_t edge, const Disk& from,
                           const site::Control& control, const Disk& to) {
   const double scale = 1 / (2 + 2 * control.weight), weight = 2 * control.weight * scale;
@@ -56,14 +56,14 @@ Disk to_input(const LocalFrame& frame, const Disk& disk) {
   return {frame.to_input(disk.center), frame.inverse * disk.radius};
 }
 
-/// One more edge at a node.
+/// Updates the kind of a node to which an edge is added.
 void add_edge(NodeKind& kind, bool is_first) {
   kind = is_first                 ? NodeKind::leaf
          : kind == NodeKind::leaf ? NodeKind::site_change
                                   : NodeKind::branching;
 }
 
-/// Numbers a result's nodes in the order in which they are asked for.
+/// Numbers a result's nodes in the order of the requests.
 class Numbers {
  public:
   Numbers(const Graph& graph, const LocalFrame& frame, std::vector<Node>& nodes)
@@ -81,7 +81,7 @@ class Numbers {
     return number;
   }
 
-  /// Makes two ends one node; false where both are nodes already.
+  /// Makes two ends one node. Returns false if both are nodes already.
   bool unite(std::uint32_t a, std::uint32_t b, std::uint32_t component) {
     if (number_[a] == none) std::swap(a, b);
     if (number_[b] != none) return false;
@@ -90,11 +90,11 @@ class Numbers {
     return true;
   }
 
-  /// Makes the inner end of an edge its outer end.
+  /// Merges the inner end of an edge with its outer end.
   void join(std::uint32_t edge) { number_[edge] = joined; }
   bool is_joined(std::uint32_t edge) const { return number_[edge] == joined; }
 
-  /// Where an edge ends, if those without length are left out; found again at once next time.
+  /// The end of an edge, skipping edges without length; compresses the path for the next call.
   std::uint32_t end_past_joined(Graph& graph, std::uint32_t edge) const {
     std::uint32_t end = graph.to(edge);
     while (is_joined(end)) end = graph.to(end);
@@ -114,13 +114,14 @@ class Numbers {
   std::vector<std::uint32_t> number_;
 };
 
-/// The two edges that begin at the disk of a bridge, mostly pieces of one: outward along the first,
-/// from where the second one ends.
+/// The two edges that begin at the disk of a bridge. They are mostly pieces of one edge, which
+/// leads outward along the first from the end of the second.
 struct Bridged {
   std::uint32_t edge = none, other = none;
   std::uint32_t component = 0;
 
-  /// Whether they are. Where the bridge touches a joint its disk is a node, and they are two edges.
+  /// Whether they are pieces of one edge. If the bridge touches a joint, its disk is a node between
+  /// two edges.
   bool are_one(const Graph& graph) const {
     const std::vector<std::uint32_t>& originals = graph.elements().originals;
     const auto& [i, j] = graph[edge].element;
@@ -143,9 +144,9 @@ std::vector<Bridged> bridged_edges(const Graph& graph) {
   return all;
 }
 
-/// The edges around every site: around each element those with earlier elements, inner ones first,
-/// then those with later ones, outer ones first; a site's elements, if bridges touch it, one after
-/// another.
+/// The edges around every site. Around each element: edges shared with earlier elements, inner ones
+/// first, then edges shared with later ones, outer ones first. If bridges touch a site, its
+/// elements follow each other.
 class Faces {
  public:
   Faces(const Graph& graph, VoronoiDiagram& diagram)
@@ -171,7 +172,7 @@ class Faces {
     diagram.face_edges.resize(at);
   }
 
-  /// The node where an edge begins: both spokes of a vertex at the same one.
+  /// The node where an edge begins: the same one for both spokes of a vertex.
   std::uint32_t from(std::uint32_t edge) const {
     const std::uint32_t first = graph_[edge].element[0];
     if (!graph_.is_spoke(edge) || !elements_.is_vertex(first)) return edge;
@@ -184,7 +185,7 @@ class Faces {
     diagram_.face_edges[next_[element[0]][1]++] = number;
   }
 
-  /// An edge along which a bridge lies is there twice, once in each of two pieces.
+  /// An edge that a bridge divides is stored twice, once for each piece.
   void join_pieces() {
     std::vector<std::uint32_t>& edges = diagram_.face_edges;
     std::uint32_t kept = 0, begin = 0;
@@ -199,8 +200,8 @@ class Faces {
   }
 
  private:
-  /// Sorts the elements by their sites. A hole's list begins and ends within a vertex: its last
-  /// pieces are the first ones of the site.
+  /// Sorts the elements by their sites. The list of a hole begins and ends within a vertex: its
+  /// last pieces are the first ones of the site.
   void order_elements() {
     first_.assign(diagram_.sites.size() + 2, 0);
     for (const std::uint32_t site : elements_.originals)
@@ -224,7 +225,7 @@ class Faces {
   const Elements& elements_;
   VoronoiDiagram& diagram_;
   std::vector<std::uint32_t> first_, order_;  ///< the elements of each site
-  /// Where each element's next edge goes: with an earlier element, and with a later one.
+  /// The position of each element's next edge: with an earlier element, and with a later one.
   std::vector<std::array<std::uint32_t, 2>> next_;
 };
 
@@ -236,9 +237,10 @@ Graph::Graph(Diagram& diagram, const std::vector<std::uint32_t>& last_edges, dou
     is_whole_ = close(elements().loops[l], last_edges[l]);
 }
 
-/// An edge is below the one that begins at its outer end in one of its two stacks, and on top of
-/// the other. So stacks of earlier elements are turned over, those of later ones only walked down;
-/// element by element backward, so that an edge is met in the former first.
+/// An edge is below the edge that begins at its outer end in one of its two stacks, and on top of
+/// it in the other. So the stacks of earlier elements are reversed, and those of later ones only
+/// traversed. Elements are visited in reverse order, so that an edge is first met in a stack of the
+/// former kind.
 bool Graph::close(const Elements::ChainLoop& loop, std::uint32_t last_edge) {
   const std::uint32_t begin = begin_of(loop), end = end_of(loop);
   const std::uint32_t last_corner = diagram_.free[loop.first_chain].first;
@@ -286,7 +288,7 @@ bool Graph::runs_backward(std::uint32_t edge, double slack) const {
   const Vec2 from = disk(edge).center, end = disk(to(edge)).center;
   const auto forward = [&](const site::Site& site) {
     if (!site.is_vertex()) return advance(site, from, end);
-    // Around a vertex, normals turn to the right.
+    // Around a vertex, normals turn right.
     const Vec2 a = from - site.point, b = end - site.point;
     const double further = std::sqrt(std::max(squared_norm(a), squared_norm(b)));
     return further > 0 ? cross(b, a) / further : 0;
@@ -327,13 +329,13 @@ void complete(const Graph& graph, const LocalFrame& frame, VoronoiDiagram& diagr
 
 namespace {
 
-/// Two nodes within the tolerance.
+/// Whether two nodes are equal within the tolerance.
 bool is_one(const Disk& a, const Disk& b, double tolerance) {
   return squared_norm(a.center - b.center) <= tolerance * tolerance &&
          std::abs(a.radius - b.radius) <= tolerance;
 }
 
-/// How many edges the axis has if none is without length, for memory.
+/// The number of edges of the axis if each has a length, to reserve memory.
 std::size_t most_edges(const Elements& elements) {
   std::size_t kept = 0;
   for (const Elements::ChainLoop& loop : elements.loops) kept += 2 * std::size_t{loop.size} - 3;
@@ -343,12 +345,13 @@ std::size_t most_edges(const Elements& elements) {
       kept -= elements.around[elements.chains[loop.first_chain]] != Beside::no ? 1 : 0;
   } else {
     for (const site::Site& site : elements.sites) kept -= site.is_vertex() ? 2 : 0;
-    kept += elements.passages.size();  // at each, a vertex has one spoke
+    kept += elements.passages.size();  // at each passage, a vertex has one spoke
   }
   return kept;
 }
 
-/// The edge that a bridge divides, or the two from its disk where that is a node.
+/// Calls `add` for the edge that a bridge divides, or for both edges if the bridge's disk is a
+/// node.
 template <class Add, class BecomeOne>
 void add_bridged(Graph& graph, const Bridged& one, Numbers& numbers, const Add& add,
                  const BecomeOne& become_one) {
@@ -382,7 +385,7 @@ double complete(Graph& graph, const LocalFrame& frame, double tolerance, MedialA
   bridged.erase(std::remove_if(bridged.begin(), bridged.end(), has_no_length), bridged.end());
   double largest_residual = 0, in_middle = 0;
   reserve_large(axis.edges, kept);
-  reserve_large(axis.nodes, kept + elements.loops.size());  // one tree a loop
+  reserve_large(axis.nodes, kept + elements.loops.size());  // one tree per loop
   const auto add = [&](std::uint32_t edge, std::uint32_t from, std::uint32_t component) {
     const std::uint32_t end = end_of(edge);
     const Disk& to = graph.disk(end);
@@ -393,7 +396,7 @@ double complete(Graph& graph, const LocalFrame& frame, double tolerance, MedialA
     if (elements.have_arcs())
       in_middle =
           std::max(in_middle, residual_in_middle(graph, edge, graph.disk(from), control, to));
-    // Of the three elements of a Voronoi point, all are of edges that end there.
+    // Each of the three elements of a Voronoi point belongs to an edge that ends there.
     for (const std::uint32_t element : graph[edge].element)
       largest_residual = std::max(
           largest_residual,
@@ -407,7 +410,7 @@ double complete(Graph& graph, const LocalFrame& frame, double tolerance, MedialA
       inside = edge;
       if (!numbers.is_joined(edge)) add(edge, edge, loop.component);
     });
-    // All arcs of one circle.
+    // All arcs are on one circle.
     if (axis.edges.size() == before && inside != none)
       numbers.of_end(end_of(inside), loop.component);
   }

@@ -11,25 +11,24 @@
 namespace medial::lee {
 
 /// The diagram of whole polygons as a graph, in place and in the local frame: a tree for every
-/// component, in which every edge knows the one that begins at its outer end. So a node is named by
-/// the place of the edge that begins there; a component's last corner, where no edge begins, takes
-/// a free place. An edge along which a bridge lies is two here, which begin at the bridge's disk.
+/// component, in which every edge knows the edge that begins at its outer end. The place of that
+/// edge names the node; a component's last corner, where no edge begins, uses a free place. An edge
+/// that a bridge divides is two edges here, which begin at the bridge's disk.
 class Graph {
  public:
-  /// `last_edges`: what conquer() returned. The stacks of earlier elements are gone afterwards.
-  /// O(N).
+  /// `last_edges` is the result of conquer(). Consumes the stacks of earlier elements. O(N).
   Graph(Diagram& diagram, const std::vector<std::uint32_t>& last_edges, double tolerance);
   /// Whether the diagram is one of whole polygons: every list of N elements has 2 N - 3 edges
-  /// (Lemma 3), where only the terminating bisector ends in a corner. Nothing else may be asked
-  /// of a graph that is not.
+  /// (Lemma 3), and only the terminating bisector ends in a corner. If not, no other member may be
+  /// called.
   bool is_whole() const { return is_whole_; }
 
   const Elements& elements() const { return diagram_.elements; }
   const ListEdge& operator[](std::uint32_t edge) const { return diagram_.edges[edge]; }
-  /// The number of places: every node and every edge is less.
+  /// The number of places. The numbers of all nodes and edges are smaller.
   std::size_t places() const { return diagram_.edges.size(); }
   bool is_spoke(std::uint32_t edge) const { return diagram_.is_spoke(diagram_.edges[edge]); }
-  /// Whether no edge of the axis goes along an edge: a spoke, or one to a blunt joint.
+  /// Whether an edge is not part of the axis: it is a spoke, or leads to a blunt joint.
   bool is_beside_axis(std::uint32_t edge) const {
     const auto& [i, j] = diagram_.edges[edge].element;
     return elements().have_arcs() ? elements().beside(i, j) != Beside::no : is_spoke(edge);
@@ -43,24 +42,24 @@ class Graph {
     const ListEdge& e = diagram_.edges[edge];
     return e.inward[0] == none && e.inner.radius > 0;
   }
-  /// The elements whose polygons meet in a Voronoi point: of the edge that begins there, and of
-  /// those that end there.
+  /// The elements whose polygons meet in a Voronoi point: those of the edge that begins there, and
+  /// of the edges that end there.
   std::array<std::uint32_t, 3> touched(std::uint32_t node) const {
     const ListEdge& edge = diagram_.edges[node];
     return {edge.element[0], edge.element[1], diagram_.edges[edge.inward[0]].element[1]};
   }
 
-  /// The edges between Voronoi points that could be one: closer together than `furthest` radii, or
-  /// than the tolerance; or with a foot that moves the wrong way by more than the tolerance, as
-  /// between segments nearly on one line, which leave open where along it a disk touches them.
+  /// The edges whose Voronoi points might be one: they are closer than `furthest` radii or than the
+  /// tolerance, or a foot moves in the wrong direction by more than the tolerance, as between
+  /// nearly collinear segments, along which rounding does not determine the position of the disk.
   const std::vector<std::uint32_t>& doubtful_edges() const { return doubtful_edges_; }
   static constexpr double furthest = 1e-4;
-  /// Whether the foot of an edge's disks moves the wrong way on one of its elements by more than
-  /// `slack`, from its inner to its outer end.
+  /// Whether the foot of an edge's disks moves in the wrong direction on one of its elements by
+  /// more than `slack`, from the inner to the outer end.
   bool runs_backward(std::uint32_t edge, double slack) const;
 
-  /// Calls work(edge) for all edges of a loop, in the order of their first elements, and in the
-  /// order of the foot on each.
+  /// Calls work(edge) for all edges of a loop, ordered by their first elements and by the feet on
+  /// each.
   template <class Work>
   void for_edges(const Elements::ChainLoop& loop, const Work& work) const {
     for (std::uint32_t i = begin_of(loop), end = end_of(loop); i < end; ++i)
@@ -85,12 +84,12 @@ class Graph {
   std::vector<std::uint32_t> doubtful_edges_;
 };
 
-/// The result in units of the input: all of the graph, with the faces of the diagram's sites.
+/// Writes the whole graph in units of the input, with the faces of the diagram's sites.
 void complete(const Graph& graph, const LocalFrame& frame, VoronoiDiagram& diagram);
 
-/// The medial axis: the graph less its spokes (Corollary 3). Edges without length, of cocircular
-/// elements, become one node: ends whose disks agree within `tolerance`. Such edges are lost from
-/// the graph. Returns the largest residual in the middle of an edge with an arc, in the local
+/// Writes the medial axis: the graph less its spokes (Corollary 3). Edges without length between
+/// cocircular elements, whose end disks agree within `tolerance`, become one node and are removed
+/// from the graph. Returns the largest residual in the middle of an edge with an arc, in the local
 /// frame.
 double complete(Graph& graph, const LocalFrame& frame, double tolerance, MedialAxis& axis);
 

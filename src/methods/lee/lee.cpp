@@ -14,8 +14,8 @@
 namespace medial::lee {
 namespace {
 
-/// Whether a side is so short, against the tolerance, that rounding turns it, or an arc's bend is
-/// less than rounding.
+/// Whether a side is so short, compared with the tolerance, that rounding may turn it, or an arc
+/// bends by less than rounding.
 bool has_short_sides(const Problem& problem) {
   constexpr double shortest = 16;  // tolerances
   const double least = shortest * problem.tolerance;
@@ -28,15 +28,15 @@ bool has_short_sides(const Problem& problem) {
   return false;
 }
 
-/// A shape's diagram, and what its results are completed from.
+/// The diagram of a shape, from which results are completed.
 class Solution {
  public:
   explicit Solution(const Problem& problem) : problem_(problem) {}
   Solution(const Solution&) = delete;  // its members refer to each other
   Solution& operator=(const Solution&) = delete;
 
-  /// Lee, Section II: the list of elements, the diagrams of the chains, merges. False where
-  /// rounding may have decided what disks touch, and where the caller cancels.
+  /// Lee, Section II: lists the elements, makes the diagrams of the chains, and merges. Returns
+  /// false if rounding may have decided what disks touch, or if the caller cancels.
   bool solve(std::vector<Level>* levels) {
     Stopwatch watch;
     auto elements = elements_of(problem_);
@@ -52,7 +52,7 @@ class Solution {
     return is_right;
   }
 
-  /// Leaves the statistics only.
+  /// Frees everything but the statistics.
   void free_graph() {
     graph.reset();
     diagram_.reset();
@@ -62,7 +62,7 @@ class Solution {
   Statistics statistics;
 
  private:
-  /// Merges the chains and closes the graph; false where rounding breaks a diagram, or where the
+  /// Merges the chains and closes the graph. Returns false if rounding breaks a diagram, or if the
   /// caller cancels.
   bool merge_all(std::vector<Level>* levels) {
     diagram_.emplace(elements_);
@@ -84,7 +84,7 @@ class Solution {
   std::optional<Graph> graph;
 };
 
-/// The axis, where double decides what its disks touch.
+/// The axis, if double precision decides what its disks touch.
 std::optional<MedialAxis> axis_in_double(const Problem& problem, std::vector<Level>* levels) {
   Solution solution(problem);
   if (!solution.solve(levels)) return std::nullopt;

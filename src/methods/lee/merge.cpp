@@ -11,9 +11,9 @@
 namespace medial::lee {
 namespace {
 
-/// The merge curve's way through two diagrams (Section II): the current bisector B(e_a, e_b), with
-/// a on side 0, the earlier list, and b on side 1. On side s, the edges still to be crossed are in
-/// the stack of the current element in which it is element[1 - s].
+/// Traces the merge curve through two diagrams (Section II). The current bisector is B(e_a, e_b),
+/// with a on side 0, the earlier list, and b on side 1. On side s, the stack of the current
+/// element, in which it is element[1 - s], holds the edges that the curve may still cross.
 template <bool with_arcs>
 class MergeCurve {
  public:
@@ -50,7 +50,7 @@ class MergeCurve {
       if (!is_same(disk_, crossing->disk))
         is_stored_ = is_same(diagram_.edges[crossed].inner, crossing->disk);
       disk_ = crossing->disk;
-      // The curve runs below an edge or crosses it, as long as its disks are inside the shape.
+      // While its disks are inside the shape, the curve runs below an edge or crosses it.
       if (top(1 - side) != none && is_behind(1 - side, diagram_.edges[top(1 - side)])) return edge;
       current_[side] = diagram_.edges[crossed].element[side];
       if (diagram_.top[current_[side]][side] != crossed) return none;  // two edges cross
@@ -60,14 +60,14 @@ class MergeCurve {
   }
 
  private:
-  /// The order of disks on a bisector.
+  /// The parameter that orders the disks on a bisector.
   struct Straight {
     Vec2 direction;
     double position(Vec2 center) const { return dot(direction, center); }
   };
   using Along = std::conditional_t<with_arcs, site::Bisector, Straight>;
 
-  /// Outward along B(e_i, e_j), i < j.
+  /// The bisector B(e_i, e_j), i < j, outward.
   Along along(std::uint32_t i, std::uint32_t j) const {
     if constexpr (with_arcs)
       return contacts_.bisector(i, j);
@@ -75,24 +75,24 @@ class MergeCurve {
       return {direction_along(site(j), site(i))};
   }
 
-  /// Where the merge curve leaves a Voronoi polygon.
+  /// The point where the merge curve leaves a Voronoi polygon.
   struct Crossing {
     Disk disk;
     double position = 0;   ///< on the current bisector
     std::size_t side = 0;  ///< of the edge that it crosses
   };
 
-  /// What the other edges tell of the current disk.
+  /// The state of the current disk, according to the other edges.
   enum class State {
     inside,
-    tied_wrongly,  ///< a stored disk, taken for a tie, that reaches over the boundary
+    tied_wrongly,  ///< a stored disk, taken for a tie, reaches over the boundary
     outside,       ///< not inside the shape: the merge curve ends
     broken         ///< two Voronoi edges cross
   };
 
   const site::Site& site(std::uint32_t i) const { return diagram_.elements.sites[i]; }
   std::uint32_t& top(std::size_t side) { return diagram_.top[current_[side]][1 - side]; }
-  /// Begins the edge between the current elements; `none` where there is no place for it.
+  /// Begins the edge between the current elements. Returns `none` if there is no free place.
   std::uint32_t add_edge() {
     const std::uint32_t place = free_.first;
     if (place == none) return none;
@@ -107,10 +107,10 @@ class MergeCurve {
     return place;
   }
 
-  /// Drops the outermost edges of one side with no disk inside the shape: those where the
-  /// disk at the inner end reaches over the element on the other side, and those that lie behind,
-  /// in the part that the current disk cuts off. Drops nothing where it is the current disk that is
-  /// not inside the shape: the first edge that does not lie behind decides.
+  /// Drops the outermost edges of one side that have no disk inside the shape: those whose inner
+  /// disk reaches over the element on the other side, and those behind, in the part that the
+  /// current disk cuts off. Drops nothing if it is the current disk that is not inside the shape:
+  /// the first edge that is not behind decides.
   State drop_covered(std::size_t side) {
     std::uint32_t kept = top(side);
     for (; kept != none; kept = diagram_.edges[kept].inward[1 - side]) {
@@ -126,14 +126,14 @@ class MergeCurve {
     return drop_while(side, [&] { return top(side) != kept; }) ? State::inside : State::broken;
   }
 
-  /// Takes the merge curve back, from its last edge, to before it came to a stored disk, and drops
-  /// the edges that begin in that. Returns the edge that is the last one then, or `none` where
-  /// edges cross. O(1) for every edge that goes; these are no more than the elements of both lists.
+  /// Takes the merge curve back, from its last edge to before a stored disk, and drops the edges
+  /// that begin in that disk. Returns the edge that is then the last one, or `none` if edges cross.
+  /// O(1) per dropped edge; there are no more of them than elements in both lists.
   std::uint32_t go_back(std::uint32_t last) {
     const Disk wrong = disk_;
     is_stored_ = false;
     for (;;) {
-      // An edge of the merge curve begins where another one crosses an edge of one list.
+      // An edge of the merge curve begins where the one before crosses an edge of a list.
       const ListEdge& edge = diagram_.edges[last];
       const std::size_t side = diagram_.edges[edge.inward[0]].element[1] < middle_ ? 0 : 1;
       const std::uint32_t crossed = edge.inward[side], before = edge.inward[1 - side];
@@ -150,7 +150,7 @@ class MergeCurve {
     }
   }
 
-  /// Drops the outermost edges of one side as long as they are to go; false where edges cross.
+  /// Drops the outermost edges of one side while `is_to_go` holds. Returns false if edges cross.
   template <class IsToGo>
   bool drop_while(std::size_t side, const IsToGo& is_to_go) {
     while (is_to_go())
@@ -158,7 +158,7 @@ class MergeCurve {
     return true;
   }
 
-  /// Drops an edge that is the outermost one of both its elements; false where it is not.
+  /// Drops an edge that is the outermost one of both its elements. Returns false if it is not.
   bool drop(std::uint32_t place) {
     ListEdge& edge = diagram_.edges[place];
     for (const std::size_t k : {0u, 1u}) {
@@ -171,15 +171,15 @@ class MergeCurve {
     return true;
   }
 
-  /// How far Voronoi points of three elements that hardly determine one may be off: a rounding
+  /// A bound on the error of Voronoi points that their three elements hardly determine: a rounding
   /// divided by the square of the angle between their feet, for up to 1e6 of them around a disk.
   double vagueness() const {
     constexpr double in_radii = 1e-5;
     return limits_.tolerance + in_radii * disk_.radius;
   }
 
-  /// By how far a disk's foot on its element of one side has passed an edge's inner end, and so all
-  /// of the edge; negative where it has not. No edge passes the ends of its elements.
+  /// The distance by which a disk's foot on its element of one side has passed an edge's inner end,
+  /// and so all of the edge; negative if it has not. No edge passes the ends of its elements.
   double passed(std::size_t side, const Disk& disk, const ListEdge& edge) const {
     if (edge.inner.radius == 0) return -disk.radius;
     const site::Site& own = site(current_[side]);
@@ -198,26 +198,27 @@ class MergeCurve {
     return passed(side, disk_, edge) > vagueness();
   }
 
-  /// What a stored disk touches: far less than ties.h allows, which then joins such disks.
+  /// The tolerance for what a stored disk touches: far smaller than that of ties.h, which joins
+  /// such disks later.
   double tie() const {
     if constexpr (with_arcs)
       return contacts_.tie();
     else
       return 0.0625 * limits_.tolerance;
   }
-  /// Whether a stored disk touches an element, and not only the end of a segment, maybe from
-  /// behind.
+  /// Whether a stored disk touches an element, possibly from behind, rather than only the end of a
+  /// segment.
   bool is_tied(std::uint32_t i, const Disk& disk) const {
     return std::abs(gap(i, disk)) <= tie() &&
            std::abs(carrier_distance(site(i), disk.center) - disk.radius) <= limits_.tolerance;
   }
   double gap(std::uint32_t i, const Disk& disk) const { return site::gap(site(i), disk); }
 
-  /// Where the current bisector crosses the outermost edge on one side, if it does.
+  /// The crossing of the current bisector with the outermost edge on one side, if any.
   std::optional<Crossing> crossing_with(std::size_t side, const Along& bisector, double reached) {
     const ListEdge& edge = diagram_.edges[top(side)];
     const std::uint32_t third = edge.element[side], other = current_[1 - side];
-    // A disk that is behind by rounding only is not: ties.h looks after it.
+    // A disk that is behind only by rounding counts as not behind: ties.h handles it.
     const auto not_behind = [&](const Disk& disk) -> std::optional<Crossing> {
       const double position = bisector.position(disk.center);
       if (position > reached) return Crossing{disk, position, side};
@@ -275,8 +276,8 @@ class MergeCurve {
     return best;
   }
 
-  /// Where the curve leaves a polygon first. Where the positions are not known well, the other
-  /// side's element decides: it must not reach into the disk.
+  /// The first point at which the curve leaves a polygon. If the positions are not certain, the
+  /// element of the other side decides: it must not reach into the disk.
   std::optional<Crossing> first_crossing(const Along& bisector, double reached) {
     std::array<std::optional<Crossing>, 2> crossing;
     const auto reach_over = [&](std::size_t side) {
@@ -287,7 +288,7 @@ class MergeCurve {
       if (top(side) == none) continue;
       crossing[side] = crossing_with(side, bisector, reached);
       if (side == 1 || !crossing[0] || top(1) == none) continue;
-      // Most often the other edge has clearly not been reached: that spares its disk.
+      // Mostly, the other edge has clearly not been reached: then its disk need not be computed.
       const ListEdge& edge = diagram_.edges[top(1)];
       if (!diagram_.is_spoke(edge) && reach_over(0) <= -tie() &&
           passed(1, crossing[0]->disk, edge) <= 0)
@@ -299,8 +300,7 @@ class MergeCurve {
                                                                        : crossing[first];
   }
 
-  /// Whether a disk that touches an edge's elements lies outward of its inner end, up to
-  /// rounding.
+  /// Whether a disk that touches an edge's elements is outward of its inner end, up to rounding.
   bool is_outward(const ListEdge& edge, const Disk& disk) const {
     if constexpr (with_arcs)
       if (edge.inner.radius == 0) return true;
@@ -309,7 +309,7 @@ class MergeCurve {
            distance(disk.center, edge.inner.center) <= vagueness();
   }
 
-  /// Whether a disk that touches the carrier of an element touches the element: its foot lies on a
+  /// Whether a disk that touches an element's carrier touches the element: its foot is on a
   /// segment, in the wedge of a reflex vertex, or beyond it within the tolerance.
   bool touches(std::uint32_t i, const Disk& disk) const {
     const site::Site& s = site(i);
@@ -336,8 +336,8 @@ class MergeCurve {
   std::array<std::uint32_t, 2> current_{};
   std::uint32_t middle_ = 0;  ///< the first element of the later list
   Disk disk_;
-  bool is_stored_ = false;      ///< whether the current disk is one of an edge that was crossed
-  std::uint32_t may_undo_ = 0;  ///< edges that may still be taken back
+  bool is_stored_ = false;      ///< the current disk is one of a crossed edge
+  std::uint32_t may_undo_ = 0;  ///< number of edges that may still be taken back
 };
 
 }  // namespace
@@ -346,7 +346,7 @@ std::uint32_t merge(Diagram& diagram, std::uint32_t first, std::uint32_t middle,
                     const MergeLimits& limits, Statistics& statistics) {
   auto& free = diagram.free[first];
   const auto& more = diagram.free[middle];
-  // A chain of k elements has k - 1 edges and k + 1 free places: there are always some.
+  // A chain of k elements has k - 1 edges and k + 1 free places: some are always left.
   diagram.edges[free.last].inward[0] = more.first;
   free.last = more.last;
   const auto& chains = diagram.elements.chains;

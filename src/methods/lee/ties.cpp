@@ -13,7 +13,7 @@
 namespace medial::lee {
 namespace {
 
-/// Voronoi points that may be one, with bounds on how well each is known.
+/// Voronoi points that may be one point, with bounds on their errors.
 class Ties {
  public:
   Ties(Graph& graph, double slack) : graph_(graph), elements_(graph.elements()), slack_(slack) {
@@ -28,7 +28,8 @@ class Ties {
 
   bool empty() const { return edges_.empty(); }
 
-  /// From the best known point outward, all that its disk touches become its disk. O(points).
+  /// Starts at the most accurate point: all points whose elements its disk touches get this disk.
+  /// O(points).
   void join() {
     number_points();
     const std::vector<std::uint32_t> order = best_known_first();
@@ -56,12 +57,12 @@ class Ties {
     }
   }
 
-  /// Where the borders of such sets have changed places, so that an edge runs backward, its inner
-  /// end moves to its outer one, or else the other way, with a little more slack; and then the
-  /// edges around it are looked at again. O(edges).
+  /// Handles edges that run backward because the borders of such sets have changed places: moves
+  /// the inner end of the edge to its outer end, or else the other way round, with a little more
+  /// slack; then checks the edges around it again. O(edges).
   void straighten(double more_slack) {
     slack_ = more_slack;
-    constexpr std::size_t most_moves = 16;  // of an edge, on average
+    constexpr std::size_t most_moves = 16;  // per edge, on average
     std::vector<std::uint32_t> open(points_.size());
     std::iota(open.begin(), open.end(), 0u);
     for (std::size_t moves = 0; !open.empty() && moves < most_moves * edges_.size();) {
@@ -123,7 +124,7 @@ class Ties {
     });
   }
 
-  /// The points, in steps of a power of two of how well they are known.
+  /// The points, sorted by accuracy in powers of two.
   std::vector<std::uint32_t> best_known_first() const {
     constexpr int worst = 127;
     std::vector<std::uint8_t> rank(points_.size());
@@ -140,8 +141,8 @@ class Ties {
     return order;
   }
 
-  /// Whether a disk could stand for a Voronoi point: it touches the elements, and their carriers,
-  /// so that no edge is bent.
+  /// Whether a disk can replace a Voronoi point: it touches the elements, and their carriers, so
+  /// that no edge bends.
   bool touches(std::uint32_t node, const Disk& disk) const {
     const auto touched = graph_.touched(node);
     return std::all_of(touched.rbegin(), touched.rend(), [&](std::uint32_t element) {
@@ -152,7 +153,7 @@ class Ties {
   }
 
   /// Twice the area of the triangle of the unit vectors to a Voronoi point's feet: the determinant
-  /// of its equations; no number in the centre of an arc.
+  /// of its equations. Not a number at the centre of an arc.
   double spread(std::uint32_t node) const {
     std::array<Vec2, 3> g;
     const auto touched = graph_.touched(node);
@@ -179,7 +180,7 @@ void join_ties(Graph& graph, double tolerance) {
 }
 
 bool is_right_locally(const Graph& graph, double slack) {
-  // Of a tie that is not one disk, the points may be the one or the other in a mirror image.
+  // If a tie is not exactly one disk, a mirror image may choose other points of it.
   constexpr double near = 32, narrow = 16;
   const auto is_near_tie = [&](std::uint32_t edge) {
     const Disk &from = graph.disk(edge), &to = graph.disk(graph.to(edge));
@@ -188,7 +189,7 @@ bool is_right_locally(const Graph& graph, double slack) {
   const auto& doubtful = graph.doubtful_edges();
   if (std::any_of(doubtful.begin(), doubtful.end(), is_near_tie)) return false;
   const Elements& elements = graph.elements();
-  // By how far a disk misses what a node touches; negative where it reaches over.
+  // The distance by which a disk misses the elements of a node; negative if it reaches over them.
   const auto reach = [&](std::uint32_t node, const Disk& disk, double& least, double& most) {
     for (const std::uint32_t i : graph.touched(node)) {
       const double gap = site::gap(elements.sites[i], disk);
@@ -196,7 +197,7 @@ bool is_right_locally(const Graph& graph, double slack) {
       most = std::isnan(gap) ? std::numeric_limits<double>::infinity() : std::max(most, gap);
     }
   };
-  // Beside the centre of an arc a disk may touch the arc's end and reach over its circle.
+  // Next to the centre of an arc, a disk may touch the arc's end and reach over its circle.
   const auto reaches_over_circle = [&](std::uint32_t node) {
     const Disk& disk = graph.disk(node);
     const auto touched = graph.touched(node);
@@ -210,7 +211,7 @@ bool is_right_locally(const Graph& graph, double slack) {
     graph.for_edges(loop, [&](std::uint32_t edge) {
       const bool from_node = graph.disk(edge).radius > 0 && !graph.begins_at_bridge(edge);
       if (from_node) reach(edge, graph.disk(edge), least, most);
-      // Where a shape is not much wider than the tolerance, rounding turns its sides.
+      // If a shape is not much wider than the tolerance, rounding turns its sides.
       const bool is_narrow = graph.disk(edge).radius <= narrow * slack;
       if (from_node && (is_narrow || reaches_over_circle(edge)))
         most = std::numeric_limits<double>::infinity();
