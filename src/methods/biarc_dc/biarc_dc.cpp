@@ -30,15 +30,15 @@ Report report_of(const Division& division) {
   return report;
 }
 
-/// Where rounding alone may decide what disks touch, if anywhere: at an edge so short that its
-/// direction has few digits, at an arc as small, or at arcs of almost one circle, three in a row or
-/// two that turn by about half a circle. O(n).
+/// A place where rounding alone may decide what disks touch, if any: an edge so short that its
+/// direction has few digits, an arc as small, or arcs of almost one circle, either three in a row
+/// or two that turn by about half a circle. O(n).
 std::optional<Vec2> doubtful_place(const Problem& problem) {
   const Shape& shape = problem.shape;
   constexpr double few_digits = 0x1p-24;   // of the size
-  constexpr double short_edge = 0x1p-6;    // of that
+  constexpr double short_edge = 0x1p-6;    // of the size of the shape
   constexpr double near_circle = 1 << 16;  // tolerances
-  constexpr double far_turn = 0.75;        // the sum of two bulges: about half a circle
+  constexpr double far_turn = 0.75;        // sum of two bulges: about half a circle
   const double least = few_digits * diagonal(problem.box);
   const double near = near_circle * problem.joint_tolerance;
   for (std::size_t loop = 0; loop < shape.loop_count(); ++loop) {
@@ -77,8 +77,8 @@ struct Attempt {
   bool is_certain = false;
 };
 
-/// Aichholzer et al., Section 3: sites, divide by random maximal disks, conquer, curves. Where the
-/// axis will be verified, its edges need their curves whatever the options say.
+/// One attempt (Aichholzer et al., Section 3): sites, divide by random maximal disks, conquer,
+/// curves. If the axis will be verified, its edges get their curves whatever the options say.
 Result<Attempt> attempt(const Problem& problem, std::uint64_t seed, bool verified, Report* report) {
   MedialAxis axis;
   axis.method = "biarc-dc";
@@ -108,7 +108,7 @@ Result<Attempt> attempt(const Problem& problem, std::uint64_t seed, bool verifie
   return Attempt{std::move(axis), is_certain};
 }
 
-/// The axis as the options ask for it: with its conics, or straight until conic_of().
+/// The axis as the options request it: with its conics, or straight until conic_of() is called.
 MedialAxis finished(MedialAxis axis, bool curves) {
   if (curves) return axis;
   for (Edge& edge : axis.edges) {

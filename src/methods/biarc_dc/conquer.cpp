@@ -20,7 +20,7 @@ namespace {
 using Bone = Skeleton::Bone;
 using site::Site;
 
-/// Evaluates base cases one by one. The first nodes are the dividing disks; new ones follow.
+/// Evaluates base cases one by one. The first nodes are the dividing disks; the new nodes follow.
 class Evaluator {
  public:
   Evaluator(const Context& shared, const Division& division)
@@ -79,7 +79,7 @@ class Evaluator {
     }
   }
 
-  /// Appends what was evaluated.
+  /// Appends the results.
   void append_to(Skeleton& skeleton, Statistics& statistics) {
     const std::size_t known = nodes_.earlier.size();
     const auto shift = static_cast<std::uint32_t>(skeleton.nodes.size() - known);
@@ -103,8 +103,8 @@ class Evaluator {
     edges_.push_back({from, to, right, left});
   }
 
-  /// The branching of a base case, or the passage to another site: what comes first on the way from
-  /// the dividing disk after the third site.
+  /// Adds the branching of a base case, or the node at which the third site replaces one of the
+  /// two: the first of these on the way from the dividing disk after the third site.
   std::uint32_t add_meeting_node(const BaseShape& base) {
     const Subshape subshape{base.element, base.component};
     const std::uint32_t last = base.element[2].disk_after;
@@ -118,7 +118,7 @@ class Evaluator {
   std::vector<Bone> edges_;
 };
 
-/// Nodes that turned out to be one.
+/// Groups of nodes that turned out to be one.
 class Nodes {
  public:
   explicit Nodes(std::size_t count) : parent_(count) {
@@ -128,14 +128,15 @@ class Nodes {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  /// From now on `i` counts as `j`.
+  /// Replaces node `i` by node `j`.
   void join(std::uint32_t i, std::uint32_t j) { parent_[find(i)] = find(j); }
 
  private:
   std::vector<std::uint32_t> parent_;
 };
 
-/// Of a site that a cutting disk divides, both parts count as one.
+/// Whether two edges are between the same sites. Both parts of a site that a cutting disk divides
+/// count as one.
 bool between_same_sites(const SiteOutline& outline, const Bone& a, const Bone& b) {
   const auto same = [&](std::uint32_t x, std::uint32_t y) {
     return x == y ||
@@ -145,7 +146,7 @@ bool between_same_sites(const SiteOutline& outline, const Bone& a, const Bone& b
          (same(a.right, b.left) && same(a.left, b.right));
 }
 
-/// Takes out the edges without length, whose ends become one node.
+/// Removes the edges without length, and merges their ends.
 void contract(const Context& context, const Division& division, Skeleton& skeleton) {
   Nodes nodes(skeleton.nodes.size());
   for (const auto& [old, disk] : division.equal) nodes.join(old, disk);
@@ -162,26 +163,26 @@ void contract(const Context& context, const Division& division, Skeleton& skelet
     edge.from = nodes.find(edge.from);
     edge.to = nodes.find(edge.to);
   }
-  // Nodes joined to others are dropped.
+  // Drop the nodes that were merged into others.
   for (std::uint32_t i = 0; i < skeleton.nodes.size(); ++i)
     if (nodes.find(i) != i) skeleton.component[i] = none;
 }
 
-/// Nodes no further apart than this many tolerances may be one that many sites touch.
+/// In tolerances. Nodes that are closer may be one node that many sites touch.
 constexpr double tie_reach = 64;
-/// A disk as large as an arc's own circle, but for this, has its foot on the arc anywhere.
+/// If a disk's radius equals an arc's within this share, its foot may be anywhere on the arc.
 constexpr double same_circle = 1e-7;
 
-/// A site that a node's disk touches, or ought to.
+/// A site that a node's disk touches, or should touch.
 struct TieContact {
   std::uint32_t node, site;
   friend auto operator<=>(const TieContact&, const TieContact&) = default;
 };
 
-/// The disk nearest to touching all of some sites: the given one, if it misses none by more than
-/// `tolerance`, as contacts on both sides of a channel leave open where along it a disk is; or else
-/// by least squares: moving the centre by (x, y) and the radius by z makes the gap to a site larger
-/// by outward.x x + outward.y y - z. None if that misses one.
+/// The disk that best touches all given sites. Returns `near` if it misses none by more than
+/// `tolerance`: contacts on both sides of a channel do not determine the position along it.
+/// Otherwise solves by least squares: moving the centre by (x, y) and the radius by z increases the
+/// gap to a site by outward.x x + outward.y y - z. None if the result misses a site.
 std::optional<Disk> disk_touching(const Context& context, std::span<const TieContact> touches,
                                   const Disk& near, double tolerance) {
   const auto touches_all = [&](const Disk& disk) {
@@ -213,10 +214,10 @@ std::optional<Disk> disk_touching(const Context& context, std::span<const TieCon
 }
 
 /// Moves the node of each tie to the disk that touches all its sites, and marks whether there is
-/// one. `touches`: sorted.
+/// one. `touches` must be sorted.
 void fit_ties(const Context& context, const std::vector<TieContact>& touches, Skeleton& skeleton,
               std::vector<std::uint8_t>& is_tie) {
-  std::vector<std::size_t> begins;  // of each tie
+  std::vector<std::size_t> begins;  // of the ties in `touches`
   for (std::size_t i = 0; i < touches.size(); ++i)
     if (i == 0 || touches[i].node != touches[i - 1].node) begins.push_back(i);
   begins.push_back(touches.size());
@@ -232,15 +233,16 @@ void fit_ties(const Context& context, const std::vector<TieContact>& touches, Sk
   });
 }
 
-/// Makes one node of several that are some tolerances apart where one disk touches all their sites
-/// (regular polygons): each of them saw the sites of its sub-shape only. So may a single node whose
-/// dividing disk misses a site of another sub-shape by some tolerances; it moves to all its sites.
+/// Merges nodes that are some tolerances apart if one disk touches all their sites (as in regular
+/// polygons): each of them saw only the sites of its sub-shape. Also moves a single node whose
+/// dividing disk misses a site of another sub-shape by some tolerances, so that it touches all its
+/// sites.
 void join_ties(const Context& context, Skeleton& skeleton) {
   const auto is_short = [&](const Bone& edge) {
     const Disk &a = skeleton.nodes[edge.from], &b = skeleton.nodes[edge.to];
-    // Where two disks around d apart touch a vertex, those between them reach over it by
-    // d^2 / (8 radius): an eighth of the tolerance at most. In a row of short edges that adds up,
-    // so they are no more than candidates: one disk must touch all their sites.
+    // If two disks at distance d touch a vertex, the disks between them reach over it by d^2 / (8
+    // radius), here at most an eighth of the tolerance. In a row of short edges the errors add up,
+    // so such nodes are only candidates: one disk must touch all their sites.
     const double reach = std::min(tie_reach * context.tolerance,
                                   std::sqrt(context.tolerance * std::min(a.radius, b.radius)));
     return a.radius > 0 && b.radius > 0 && distance(a.center, b.center) <= reach &&
@@ -253,7 +255,7 @@ void join_ties(const Context& context, Skeleton& skeleton) {
     };
     return std::max(gap(edge.right), gap(edge.left)) > context.tolerance;
   };
-  // Most edges are long and miss nothing: what is left is few.
+  // Most edges are long and miss nothing, so few remain.
   constexpr std::size_t grain = 4096;
   std::vector<std::uint8_t> is_suspect(skeleton.edges.size());
   parallel_ranges(skeleton.edges.size(), grain, [&](std::size_t i, std::size_t end) {
@@ -293,7 +295,7 @@ void join_ties(const Context& context, Skeleton& skeleton) {
       if (skeleton.component[*node] == none) *node = nodes.find(*node);
 }
 
-/// Takes out the nodes that only divide an edge: both edges become one.
+/// Removes the nodes that only divide an edge, and joins both edges.
 void dissolve(const SiteOutline& outline, Skeleton& skeleton) {
   struct Ends {
     std::array<std::uint32_t, 2> edge{none, none};
@@ -322,7 +324,7 @@ void dissolve(const SiteOutline& outline, Skeleton& skeleton) {
   std::erase_if(skeleton.edges, [](const Bone& edge) { return edge.from == none; });
 }
 
-/// Numbers the nodes that are left.
+/// Renumbers the remaining nodes.
 void compact(Skeleton& skeleton) {
   std::vector<std::uint32_t> number(skeleton.nodes.size());
   std::uint32_t kept = 0;

@@ -9,7 +9,7 @@
 
 namespace medial::biarc_dc {
 
-/// The axis before its curves are worked out: nodes, and edges between two sites of the outline.
+/// The axis before its curves are computed: nodes, and edges between two sites of the outline.
 struct Skeleton {
   struct Bone {
     std::uint32_t from = 0;
@@ -22,11 +22,12 @@ struct Skeleton {
   std::vector<Bone> edges;
 };
 
-/// The conquer step: evaluates the base cases and glues them together at the dividing disks. Disks
-/// that coincide become one node, and those that divide an edge none.
+/// The conquer step: evaluates the base cases and connects them at the dividing disks. Merges disks
+/// that coincide, and removes those that only divide an edge.
 Skeleton conquer(Context& context, const Division& division);
 
-/// The edges, with or without their conics, and the nodes with their kinds, in units of the input.
+/// Adds the edges, with or without their conics, and the nodes with their kinds, in units of the
+/// input.
 void add_edges(const Skeleton& skeleton, const Context& context, const LocalFrame& frame,
                bool curves, MedialAxis& axis);
 

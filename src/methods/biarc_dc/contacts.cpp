@@ -22,16 +22,16 @@ Seam seam_at(const Subshape& subshape, const Place& place) {
   return {i, next, subshape.elements[i].to, subshape.elements[next].from};
 }
 
-/// How a disk touches an element, if it does within the tolerance.
+/// How a disk touches an element, or none if it is further away than the tolerance.
 std::optional<Touch> touch_of(const Context& context, const Subshape& subshape, std::size_t i,
                               const MaximalDisk& maximal) {
-  // A disk as large as an arc's circle that touches the arc covers all of it.
+  // A disk that has an arc's radius and touches the arc covers all of it.
   constexpr double same_circle = 1e-7;
   const Disk& disk = maximal.disk;
-  // What a disk misses by e a disk touches that is e / c further on, where the gap closes c times
-  // as fast as the disk moves. Both may be one where that is less than the root of the tolerance
-  // times the radius (see join_ties()). With this e they are for c of an eleventh and more; from a
-  // radius of 128 tolerances on, e is the tolerance.
+  // If a disk misses an element by e, and the gap closes c times as fast as the disk moves, the
+  // disk that touches it is e / c further on. Both may be one if that is less than sqrt(tolerance *
+  // radius) (see join_ties()). With this e, that holds for c above 1/11; from a radius of 128
+  // tolerances on, e is the tolerance.
   constexpr double share = 0x1p-7;
   const double reach = disk.radius + std::clamp(std::sqrt(share * context.tolerance * disk.radius),
                                                 context.rounding(), context.tolerance);
@@ -73,14 +73,14 @@ std::optional<Touch> touch_of(const Context& context, const Subshape& subshape, 
     const auto on_circle = [&](double s) {
       return std::abs(distance(site.at(s), disk.center) - disk.radius) <= context.tolerance;
     };
-    // A disk through both ends only ends beside the centre of the arc.
+    // A disk that passes through both ends only has its centre next to that of the arc.
     touch.on_circle = on_circle(element.from) && on_circle(element.to) &&
                       on_circle(0.5 * (element.from + element.to));
   }
   return touch;
 }
 
-/// All touched elements in boundary order; those of known contacts always.
+/// Finds all touched elements in boundary order; always includes those of known contacts.
 void find_touched(Context& context, const Subshape& subshape, const MaximalDisk& maximal,
                   std::vector<Touch>& touches) {
   touches.clear();
@@ -104,7 +104,7 @@ void find_touched(Context& context, const Subshape& subshape, const MaximalDisk&
     if (const std::size_t i = subshape.find(site); i < subshape.size()) look_at(i);
 }
 
-/// Where a run of touched elements, joined without a corner, is really touched if no contact is
+/// The contact in a run of touched elements that are joined without a corner, if no contact is
 /// sure: in a reflex vertex or inside the nearest element, or else at a joint.
 Seam contact_in_run(const Context& context, const Subshape& subshape,
                     const std::vector<const Touch*>& run) {
@@ -120,7 +120,8 @@ Seam contact_in_run(const Context& context, const Subshape& subshape,
     const Touch& touch = *run[j];
     const Element& element = subshape.elements[touch.element];
     const bool has_before = j > 0, has_after = j + 1 < run.size();
-    // A vertex is not nearer than a neighbour that is touched inside, up to rounding.
+    // A vertex counts as further away than a neighbour that is touched inside: rounding decides
+    // between them.
     const bool at_joint = is_vertex(touch) ? (has_before && is_inside(*run[j - 1])) ||
                                                  (has_after && is_inside(*run[j + 1]))
                                            : (has_before && touch.parameter <= element.from) ||
@@ -134,8 +135,8 @@ Seam contact_in_run(const Context& context, const Subshape& subshape,
   return seam_at(subshape, {run[0]->element, false, run[0]->parameter});
 }
 
-/// Of the copies of a reflex vertex, and of edges that end there, only what has the disk in its
-/// range of directions is touched.
+/// Of the copies of a reflex vertex, and of the edges that end there, keeps only the one whose
+/// range of directions contains the disk.
 void drop_other_copies(Context& context, const Subshape& subshape, Vec2 center,
                        const DiskList& disks, std::vector<Seam>& seams) {
   constexpr double same_place = 16;  // tolerances
@@ -176,7 +177,7 @@ bool find_contacts(Context& context, const Subshape& subshape, const MaximalDisk
   if (all) return false;
   if (count == 0) return true;
 
-  /// Whether a touched element continues the one before in the list.
+  /// Whether a touched element continues the previous one in the list.
   const auto continues = [&](std::size_t j) {
     const std::size_t before = subshape.before(touches[j].element);
     return touches[j == 0 ? count - 1 : j - 1].element == before &&

@@ -13,16 +13,16 @@
 namespace medial::biarc_dc {
 namespace {
 
-/// Random disks tried on a small sub-shape before all its branchings are.
+/// The number of random disks tried on a small sub-shape before all its branchings.
 constexpr int most_tries = 8;
 
-/// A cut of a large sub-shape is taken if none of the parts has more than this share of it.
+/// A cut of a large sub-shape is accepted if no part has more than this share of it.
 constexpr double most_share = 0.75;
 
-/// A sub-shape of at most this many elements is divided by one task to the end.
+/// One task divides a sub-shape of at most this many elements completely.
 constexpr std::size_t task_size = 4096;
 
-/// A disk, where it touches, and the part that has most elements: from one seam to the next.
+/// A disk, its contacts, and the largest part: from one seam to the next.
 struct Cut {
   MaximalDisk maximal;
   std::vector<Seam> seams;
@@ -34,17 +34,17 @@ struct Cut {
   Gate gate() const { return {begin().first, end().last, maximal.disk}; }
 };
 
-/// Divides a list of sub-shapes.
+/// Divides a list of sub-shapes into base cases.
 class Divider {
  public:
-  /// `earlier`: the dividing disks around the list.
+  /// `earlier` are the dividing disks around the list.
   Divider(const Context& shared, std::span<const Disk> earlier, std::uint64_t seed)
       : context_(shared), random_(seed), disks_{earlier, {}} {
     context_.statistics = {};
   }
 
-  /// Divides the last sub-shape of the list until none is left. False where rounding leaves a
-  /// sub-shape that no disk divides.
+  /// Divides the last sub-shape of the list until the list is empty. Returns false if rounding
+  /// leaves a sub-shape that no disk divides.
   bool divide(Parts& list, const std::atomic<bool>* cancel) {
     while (!list.empty()) {
       if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) return true;
@@ -54,7 +54,7 @@ class Divider {
     }
     return true;
   }
-  /// Divides a sub-shape once, into parts(); a base case has none. False as above.
+  /// Divides a sub-shape once, into parts(); a base case has none. Returns false as divide() does.
   bool cut(const Subshape& subshape) {
     parts_.clear();
     const auto base = base_shape_of(subshape, context_.outline, disks_, context_.tolerance);
@@ -73,15 +73,15 @@ class Divider {
   }
   const Parts& parts() const { return parts_; }
 
-  /// The result, once there is nothing left to divide.
+  /// The result, after everything is divided.
   Division division;
   std::optional<Vec2> stuck;  ///< a place of a sub-shape that no disk divides
   std::vector<Disk>& disks() { return disks_.own; }
   const Statistics& statistics() const { return context_.statistics; }
 
  private:
-  /// The parts that a disk divides the sub-shape into, all of them smaller. False where rounding
-  /// leaves no such disk.
+  /// Finds the parts into which a disk divides the sub-shape, all of them smaller. Returns false if
+  /// rounding leaves no such disk.
   bool find_parts(const Subshape& subshape) {
     if (subshape.size() > most_scanned) {
       const Cut cut = balanced_cut(subshape);
@@ -107,9 +107,8 @@ class Divider {
     return false;
   }
 
-  /// The paper's cut and walk: of some random disks the one whose parts are most alike, and from
-  /// there a walk along the axis, into the part that has most elements, until none has too many.
-  /// O(sqrt n) disks in expectation.
+  /// The paper's cut and walk: takes the most balanced of some random disks, and walks from there
+  /// along the axis into the largest part, until no part is too large. Expected O(sqrt n) disks.
   Cut balanced_cut(const Subshape& subshape) {
     const auto most = static_cast<std::size_t>(most_share * static_cast<double>(subshape.size()));
     const auto tries = static_cast<int>(0.25 * std::sqrt(static_cast<double>(subshape.size())));
@@ -144,7 +143,7 @@ class Divider {
     return cut;
   }
 
-  /// From a random artificial arc into the sub-shape.
+  /// A gate from a random artificial arc into the sub-shape.
   std::optional<Gate> some_gate(const Subshape& subshape) {
     std::size_t i = random_.below(static_cast<std::uint32_t>(subshape.size()));
     for (std::size_t step = 0; step < subshape.size(); ++step, i = subshape.next(i))
@@ -155,8 +154,8 @@ class Divider {
     return {subshape.next(i), i, disks_[subshape.elements[i].disk_after]};
   }
 
-  /// A random arc's joint with a reflex vertex, or else its middle; none if there are only reflex
-  /// vertices.
+  /// The joint of a random arc with a reflex vertex, or else its middle. None if there are only
+  /// reflex vertices.
   std::optional<Place> random_place(const Subshape& subshape) {
     std::size_t i = random_.below(static_cast<std::uint32_t>(subshape.size()));
     for (std::size_t step = 0; step < subshape.size(); ++step, i = subshape.next(i)) {
@@ -183,19 +182,20 @@ class Divider {
     return divides(maximal.disk, subshape, seams_);
   }
 
-  /// Splits at a disk. False if that does not make all parts smaller.
+  /// Splits at a disk. Returns false, and keeps the sub-shape whole, if this does not make all
+  /// parts smaller.
   bool divides(const Disk& disk, const Subshape& subshape, const std::vector<Seam>& seams) {
     const auto number = static_cast<std::uint32_t>(disks_.earlier.size() + disks_.own.size());
     parts_.clear();
     split(subshape, seams, number, parts_);
-    // A part has no joints but those of the whole.
+    // All joints of a part are joints of the whole.
     for (std::size_t i = 0; i < parts_.size(); ++i)
       if (parts_[i].size() >= subshape.size() && parts_[i].measure() >= subshape.measure())
         return false;
     disks_.own.push_back(disk);
     division.component.push_back(subshape.component);
     if (seams.size() >= 4) ++division.multi_branchings;
-    // An artificial arc beside what is cut out belongs to the same disk.
+    // An artificial arc inside a seam that is cut out belongs to the same disk.
     for (const Seam& seam : seams)
       for (std::size_t i = seam.last; i != seam.first; i = subshape.next(i))
         if (!subshape.elements[i].is_joined())
@@ -211,7 +211,8 @@ class Divider {
     return true;
   }
 
-  /// The artificial arc between the two elements that a non-reducing disk touches.
+  /// The artificial arc between the two elements that a disk touches, if the disk does not reduce
+  /// the sub-shape.
   std::optional<std::size_t> artificial_arc_behind(const MaximalDisk& maximal,
                                                    const Subshape& subshape) const {
     if (maximal.count != 2) return std::nullopt;
@@ -238,7 +239,7 @@ Parts whole_shape(const SiteOutline& outline) {
   return parts;
 }
 
-/// Where the disks of a task are that follow the first `known` ones, in the list of all.
+/// Maps the disks of a task that follow the first `known` ones to the list of all disks.
 struct Renumbering {
   std::size_t known;
   std::uint32_t shift;
@@ -247,7 +248,7 @@ struct Renumbering {
   }
 };
 
-/// Appends what a task made of its sub-shapes.
+/// Appends the result of a task.
 void append(Division& part, const std::vector<Disk>& disks, const Renumbering& renumber,
             Division& all) {
   for (auto& [one, other] : part.equal) {
@@ -271,7 +272,7 @@ void append(Division& part, const std::vector<Disk>& disks, const Renumbering& r
   all.divided_elements += part.divided_elements;
 }
 
-/// Where lists of about task_size elements begin, and the end.
+/// The beginnings of lists of about task_size elements, and the end.
 std::vector<std::size_t> task_begins(const Parts& parts) {
   std::vector<std::size_t> begins{0};
   std::size_t elements = 0;
@@ -284,14 +285,14 @@ std::vector<std::size_t> task_begins(const Parts& parts) {
   return begins;
 }
 
-/// Divides parts side by side, each with random numbers of its own.
+/// Divides parts in parallel, each with its own random numbers.
 class Round {
  public:
   Round(Context& context, Division& all, std::size_t count)
       : context_(context), all_(all), known_(all.disks), tasks_(count) {}
 
-  /// Calls divide(divider, task) for each task; false where one of them is. Tasks after that are
-  /// left out, none before: so the place where it is stuck does not depend on the threads.
+  /// Calls divide(divider, task) for each task. Returns false if a task fails; later tasks may then
+  /// be skipped, but none before it, so that the reported place does not depend on the threads.
   template <class Divide>
   bool run(std::uint64_t seed, const Divide& divide) {
     std::atomic<std::size_t> failed = tasks_.size();
@@ -307,7 +308,7 @@ class Round {
     context_.stuck = tasks_[failed]->stuck;
     return false;
   }
-  /// Appends the results of all tasks, and calls take(parts, renumbering) for the parts of each.
+  /// Appends the results of all tasks, and calls take(parts, renumbering) for each.
   template <class Take>
   void collect(const Take& take) {
     for (auto& task : tasks_) {

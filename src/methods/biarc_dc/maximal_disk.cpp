@@ -17,15 +17,15 @@ using site::Site;
 
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 
-/// Halving an interval of doubles more often than this cannot change it.
+/// After this many halvings, an interval of doubles cannot change any more.
 constexpr int most_halvings = 128;
 
-/// Arcs of one circle: their curvatures differ by rounding at most.
+/// The curvatures of arcs of one circle differ by at most this share, by rounding.
 constexpr double same_curvature = 1e-9;
 
-/// Rounding may put a disk a little behind the one where a bisector begins; what is further behind
-/// is another solution. Next to the centre of the arc whose foot gives positions, a disk's
-/// error counts for more, by the radius over the distance from there.
+/// The distance by which rounding may put a disk behind the one where a bisector begins; a disk
+/// further behind is another solution. Near the centre of the arc whose foot gives positions,
+/// errors are magnified by the radius over the distance from the centre.
 double slack(const Context& context, const Bisector& bisector, const Disk& from) {
   double factor = 4;
   if (bisector.reference != nullptr) {
@@ -51,14 +51,14 @@ Disk polished(Context& context, Disk disk, const Site& a, const Site& b, const S
   return disk;
 }
 
-/// How fast, along the bisector, the disk grows over a third site.
+/// The rate at which the disk grows over a third site along the bisector.
 double closing(const Bisector& bisector, const Disk& disk, const Site& third) {
   return dot(site::outward(bisector.right, disk.center) - site::outward(third, disk.center),
              bisector.tangent(disk.center));
 }
 
-/// The disk on the bisector that touches the carrier of `third`, between positions `low` and
-/// `high`: the first one that begins to reach over it.
+/// The disk on the bisector that touches the carrier of `third`, between the position of `from` and
+/// `high`: the first one after which disks reach over it.
 std::optional<Disk> contact_with_carrier(Context& context, const Bisector& bisector,
                                          const Disk& from, double high, const Site& third) {
   ++context.statistics.apollonius;
@@ -89,7 +89,7 @@ Site end_near(const Site& site, Vec2 center) {
   return site::make_vertex(at_end ? site.end() : site.point);
 }
 
-/// Where closed forms fail: halves the way from a disk that does not overlap the site to one that
+/// Used if closed forms fail: bisects between a disk that does not overlap the site and one that
 /// does. Always ends.
 Disk bracket(Context& context, const Bisector& bisector, const Disk& from, const Site& third,
              double high) {
@@ -113,8 +113,8 @@ Disk bracket(Context& context, const Bisector& bisector, const Disk& from, const
   return touches(better, third, context.tolerance) ? better : disk;
 }
 
-/// The disk on a bisector, ahead of `from`, that first touches a third site, which the disk
-/// `overlapping`, further on, reaches over.
+/// The first disk on a bisector after `from` that touches a third site. `overlapping`, further on,
+/// reaches over that site.
 Disk first_contact(Context& context, const Bisector& bisector, const Disk& from, const Site& third,
                    const Disk& overlapping) {
   if (touches(from, third, context.tolerance)) return from;
@@ -133,13 +133,13 @@ Disk first_contact(Context& context, const Bisector& bisector, const Disk& from,
   return bracket(context, bisector, from, third, high);
 }
 
-/// A disk, and whether it fits into the circles of the arcs that it touches at one place.
+/// A disk, and whether it fits into the circles of the arcs that it touches at one point.
 struct EndDisk {
   Disk disk;
   bool fits = true;
 };
 
-/// The disk that touches the boundary at the last place that a foot moving on an element gets to,
+/// The disk that touches the boundary at the last point that a foot on an element reaches,
 /// `forward` or backward, and touches the carrier of `other`.
 std::optional<EndDisk> disk_at_end(const Context& context, const Subshape& subshape, std::size_t i,
                                    bool forward, const Site& other, const DiskList& disks) {
@@ -165,15 +165,15 @@ std::optional<EndDisk> disk_at_end(const Context& context, const Subshape& subsh
   }
   if (passes) largest = std::max(largest, next.curvature);
   const double radius = site::tangent_radius(foot, normal, other);
-  constexpr double widest = 1e-7;  // a disk fits into an arc's circle up to this
-  // In a narrow wedge the disk at the end may be far larger than the shape's.
+  constexpr double widest = 1e-7;  // a disk fits into an arc's circle up to this share
+  // In a narrow wedge, the disk at the end may be far larger than any disk in the shape.
   constexpr double far_end = 0x1p20;
   if (!(radius <= far_end * context.radius_limit)) return std::nullopt;
   return EndDisk{{foot + radius * normal, radius}, radius * largest <= 1 + widest};
 }
 
-/// Of the copies of a reflex vertex that cutting disks leave, the one that a disk around `center`
-/// touches; `k` if none is in the sub-shape.
+/// Of the copies of a reflex vertex that cutting disks make, the one that a disk around `center`
+/// touches; `k` if the sub-shape has none.
 std::size_t facing_copy(Context& context, const Subshape& subshape, std::size_t k, Vec2 point,
                         Vec2 center, const DiskList& disks) {
   constexpr double same_place = 0x1p-48;
@@ -188,9 +188,9 @@ std::size_t facing_copy(Context& context, const Subshape& subshape, std::size_t 
   return k;
 }
 
-/// Where a disk touches element `k` or, where cutting disks have divided the boundary, another copy
-/// of the vertex that it touches: a vertex whose range of directions it is not in, or the end of a
-/// site of which the element is a part further on.
+/// The place where a disk touches element `k`. If cutting disks have divided the boundary, it may
+/// be another copy of the touched vertex: because the disk is not in the vertex's range of
+/// directions, or because the foot is at the end of the site, beyond the element.
 Place place_or_copy(Context& context, const Subshape& subshape, std::size_t k, const Disk& disk,
                     const DiskList& disks) {
   const Element& element = subshape.elements[k];
@@ -206,8 +206,8 @@ Place place_or_copy(Context& context, const Subshape& subshape, std::size_t k, c
   return copy == k ? place : Place{copy, false, 0};
 }
 
-/// Where a disk touches element `k`, or its neighbour if the nearest point of both is their joint
-/// within rounding but lies inside the neighbour.
+/// The place where a disk touches element `k`, or its neighbour if the nearest point of the element
+/// is their joint within rounding, but that of the neighbour is in its inside.
 Place place_on(Context& context, const Subshape& subshape, std::size_t k, const Disk& disk,
                const DiskList& disks) {
   int direction = 0;
@@ -240,8 +240,8 @@ Place place_on(Context& context, const Subshape& subshape, std::size_t k, const 
   return {k, false, 0};
 }
 
-/// The dividing disk, if any, beyond which a disk would touch element `k`. Where many sites are
-/// nearly touched by one disk, three that enclose small angles may ask for a disk there; the
+/// The dividing disk, if any, that the walk passes before a disk touches element `k`. If one disk
+/// nearly touches many sites, three of them that enclose small angles may yield such a disk; the
 /// dividing disk, which they touch within the tolerance, is their branching then.
 const Disk* disk_passed(const Context& context, const Subshape& subshape, std::size_t k,
                         const Disk& disk, const DiskList& disks) {
@@ -271,11 +271,11 @@ bool faces(const Context& context, const Subshape& subshape, std::size_t k, Vec2
 
 namespace {
 
-/// The sites from one element of a sub-shape to another, in boundary order, and those of other
-/// sub-shapes in between.
+/// A range of sites in boundary order from one element of a sub-shape to another, including those
+/// of other sub-shapes in between.
 struct Range {
   std::uint32_t first, last;
-  std::optional<std::pair<std::uint32_t, std::uint32_t>> rest = {};  ///< past the list's end
+  std::optional<std::pair<std::uint32_t, std::uint32_t>> rest = {};  ///< beyond the end of the list
 
   Range(const Subshape& subshape, std::size_t from, std::size_t to)
       : first(subshape.elements[from].site), last(subshape.elements[to].site) {
@@ -283,7 +283,7 @@ struct Range {
     rest = {subshape.elements.front().site, last};
     last = subshape.elements.back().site;
   }
-  /// The site nearest to a disk's centre, of those that it overlaps by more than `slack`.
+  /// The site nearest to a disk's centre, among those that the disk overlaps by more than `slack`.
   site::BoundaryTree::Hit nearest(const site::BoundaryTree& tree, const Disk& disk,
                                   double slack) const {
     const auto hit = tree.nearest(disk.center, disk.radius - slack, first, last);
@@ -294,7 +294,7 @@ struct Range {
   }
 };
 
-/// The disk at one place of a sub-shape's boundary, while elements make it smaller.
+/// The disk that touches a sub-shape's boundary at one place; elements make it smaller.
 struct DiskAtPlace {
   Context& context;
   const Subshape& subshape;
@@ -322,9 +322,10 @@ struct DiskAtPlace {
   }
   void set(double radius) { disk = {foot + radius * normal, radius}; }
 
-  /// What joins the place smoothly is touched nowhere else. (Two neighbours of monotonic curvature
-  /// have nested circles, and a disk that touches both sides of a reflex vertex has it inside.)
-  /// Leaves out this many elements after the one of the place, in boundary order, and before it.
+  /// The number of elements to skip after the place, in boundary order, and before it: elements
+  /// that join the place smoothly touch the disk nowhere else. (Two neighbours of monotonic
+  /// curvature have nested circles, and a disk that touches both sides of a reflex vertex contains
+  /// it.)
   std::size_t beside_after() const {
     const std::size_t k = place.at_joint ? subshape.next(place.element) : place.element;
     return (place.at_joint ? 1 : 0) + (context.joins_smoothly(subshape.elements[k]) ? 1 : 0);
@@ -333,7 +334,7 @@ struct DiskAtPlace {
     return context.joins_smoothly(subshape.elements[subshape.before(place.element)]) ? 1 : 0;
   }
 
-  /// Whether the site makes the disk smaller.
+  /// Makes the disk smaller, so that it touches a site. Returns false if it already is.
   bool shrink(std::uint32_t site) {
     if (place.at_joint && context.ends_at(site, foot)) return false;
     const double smaller = site::touching_radius(foot, normal, context.outline.sites[site]);
@@ -352,9 +353,9 @@ struct DiskAtPlace {
     }
   }
 
-  /// The same by the tree. A disk that is maximal in the sub-shape is so in the shape: it does not
-  /// matter which sites make it smaller, as long as the last one is of the sub-shape. False where
-  /// rounding has it otherwise.
+  /// The same as scan(), by the tree. A disk that is maximal in the sub-shape is maximal in the
+  /// shape, so it does not matter which sites make it smaller, as long as the last one belongs to
+  /// the sub-shape. Returns false if rounding prevents this.
   bool search() {
     const std::size_t n = subshape.size();
     const Range range(subshape, (place.element + 1 + beside_after()) % n,
@@ -369,8 +370,8 @@ struct DiskAtPlace {
   }
 };
 
-/// Of an arc whose own circle reaches over nothing up to rounding, the neighbour with a smaller
-/// circle, if there is one: the axis ends in the centre of that.
+/// If an arc's own circle reaches over nothing up to rounding, a neighbour with a smaller circle,
+/// if any: the axis ends in the centre of that circle.
 std::optional<Place> rounder_neighbor(const Context& context, const Subshape& subshape,
                                       const Place& place) {
   const auto is_smooth = [&](std::size_t k) {
@@ -413,15 +414,15 @@ MaximalDisk maximal_disk(Context& context, const Subshape& subshape, const Place
 
 namespace {
 
-/// How far the walk along a bisector goes: to a disk that touches a third place, or is as large as
-/// any disk in the shape.
+/// The end of a walk along a bisector: a disk that touches a third place, or is as large as any
+/// disk in the shape.
 struct Stop {
   Disk disk;
   double position = nowhere;
   std::optional<Place> third = {};
 };
 
-/// The walk from a gate to what it ends at, between the gate's two elements.
+/// The walk from a gate, between the gate's two elements, to its end.
 struct BranchWalk {
   Context& context;
   const Subshape& subshape;
@@ -434,16 +435,17 @@ struct BranchWalk {
   bool passes_right = context.joins_smoothly(subshape.elements[right]);
   bool passes_left = context.joins_smoothly(subshape.elements[before]);
 
-  /// Whether a disk that reaches over no part of an element does so over its arc's circle.
+  /// Whether a disk overlaps an arc's circle, but no part of the arc.
   bool reaches_over_circle(const Disk& disk, std::size_t element) const {
     const Site& site = context.site(subshape.elements[element]);
     return site.is_arc() && !overlaps(disk, site, context.rounding()) &&
            site::carrier_distance(site, disk.center) < disk.radius - context.rounding();
   }
 
-  /// As long as both feet are on their elements, disks further on reach over all that the disks
-  /// before them do; so the scan begins where the first foot gets to its end. At a joint it passes
-  /// on to the neighbour there; elsewhere only rounding lets the disk reach over no neighbour.
+  /// While both feet are on their elements, each disk reaches over everything that the disks before
+  /// it reach over. So the scan starts at the first foot that reaches the end of its element. At a
+  /// joint, the neighbour continues; elsewhere, only rounding lets the disk reach over no
+  /// neighbour.
   Stop end_of_feet() const {
     Stop stop;
     const auto bound_by = [&](std::size_t own, std::size_t other, bool forward,
@@ -454,8 +456,8 @@ struct BranchWalk {
       Disk disk = at_end->disk;
       double there = bisector.position(disk.center);
       if (there < low - slack(context, bisector, from)) return;
-      // At a convex joint the disk reaches over the neighbour, which a disk before it touches.
-      // Beside the centre of an arc only the arc's circle shows that.
+      // At a convex joint, the disk reaches over the neighbour, which an earlier disk touches. Near
+      // the centre of an arc, only the arc's circle shows this.
       const std::size_t neighbor = forward ? after : before;
       const bool is_convex = subshape.elements[forward ? right : before].is_joined() &&
                              !(forward ? passes_right : passes_left) && neighbor != other;
@@ -478,8 +480,8 @@ struct BranchWalk {
     return stop;
   }
 
-  /// Where arcs of one circle lie between the two, the axis ends in its centre. Joints so near to
-  /// each other would leave the disk open.
+  /// If arcs of one circle are between the two elements, the axis ends in the centre of the circle.
+  /// Joints so close to each other would not determine the disk.
   std::optional<Stop> apex() const {
     const double bend = context.site(subshape.elements[after]).curvature;
     if (!(bend > 0 && 1 / bend <= context.radius_limit)) return std::nullopt;
@@ -499,7 +501,7 @@ struct BranchWalk {
                 Place{roundest, false, 0.5 * arc.length}};
   }
 
-  /// Whatever the disk reaches over moves it back to where it touches that.
+  /// Moves the disk back along the bisector to where it touches the element that it reaches over.
   void move_back(Stop& stop, std::size_t k) const {
     const Site& site = context.site(subshape.elements[k]);
     stop.disk = first_contact(context, bisector, from, site, stop.disk);
@@ -507,7 +509,7 @@ struct BranchWalk {
     stop.third = Place{k, false, site::foot_parameter(site, stop.disk.center)};
   }
 
-  /// Whether an element is, or ends in, another copy of the vertex `right` or `left`.
+  /// Whether an element is another copy of the vertex `right` or `left`, or ends in one.
   bool ends_at_vertex(std::size_t k) const {
     for (const Site* site : {&bisector.right, &bisector.left})
       if (site->is_vertex() && context.ends_at(subshape.elements[k].site, site->point)) return true;
@@ -523,8 +525,8 @@ struct BranchWalk {
     }
   }
 
-  /// The scan by the tree. False where rounding has it that an element in another sub-shape is
-  /// reached, or one twice.
+  /// The same as scan(), by the tree. Returns false if, by rounding, it reaches an element of
+  /// another sub-shape, or one element twice.
   bool search(Stop& stop) const {
     const std::size_t first = passes_right ? subshape.next(after) : after,
                       last = passes_left ? subshape.before(before) : before;
@@ -539,7 +541,7 @@ struct BranchWalk {
     return true;
   }
 
-  /// The first disk from the gate on that touches a third place.
+  /// The first disk after the gate that touches a third place.
   Stop first_stop() const {
     if (const auto at_apex = apex()) return *at_apex;
     const Stop at_end = end_of_feet();
@@ -551,7 +553,7 @@ struct BranchWalk {
     return stop;
   }
 
-  /// The disk and its places on both elements and the third one, each once.
+  /// The disk and its places on both elements and on the third one, without duplicates.
   MaximalDisk result(const Disk& disk, const Place& third) const {
     MaximalDisk maximal{disk};
     const auto add = [&](const Place& place) {

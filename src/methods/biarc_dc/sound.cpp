@@ -15,7 +15,7 @@
 namespace medial::biarc_dc {
 namespace {
 
-/// Disks smaller than this, of a local frame about one unit large, are where rounding decides.
+/// In the local frame, which is about one unit large: rounding decides what smaller disks touch.
 constexpr double narrow = 0x1p-26;
 
 class Checker {
@@ -36,16 +36,16 @@ class Checker {
   bool is_right(const Skeleton::Bone& edge) const {
     const Disk &from = skeleton_.nodes[edge.from], &to = skeleton_.nodes[edge.to];
     if (!touches_both(edge, from) || !touches_both(edge, to) || !feet_advance(edge)) return false;
-    // Two disks near to each other cover those between them, but for slivers.
+    // Two disks that are close to each other cover the disks between them, except for slivers.
     if (distance(from.center, to.center) < 0.5 * std::min(from.radius, to.radius)) return true;
     const Disk middle = middle_of(edge);
     return touches_both(edge, middle) && is_empty(middle, skeleton_.component[edge.from]);
   }
-  /// An edge as it leaves a node.
+  /// An edge, as seen from one of its nodes.
   struct Way {
     std::uint32_t right, left;
   };
-  /// The ways from each node, one node after the other.
+  /// The edges of all nodes, one node after another.
   struct Ways {
     std::vector<Way> list;
     std::vector<std::uint32_t> begin;
@@ -66,8 +66,8 @@ class Checker {
     }
     return all;
   }
-  /// Whether no edge is missing at a node: counter-clockwise round it, nothing is left to walk
-  /// between the left site of one edge and the right site of the next.
+  /// Whether no edge is missing at a node: counter-clockwise around it, no site remains between the
+  /// left site of one edge and the right site of the next one.
   bool are_all(std::uint32_t node, std::span<Way> ways) const {
     for (Way& way : ways) way = {part_at(way.right, node), part_at(way.left, node)};
     std::sort(ways.begin(), ways.end(),
@@ -76,14 +76,14 @@ class Checker {
       if (!nothing_between(ways[i].left, ways[(i + 1) % ways.size()].right, node)) return false;
     return true;
   }
-  /// Whether an edge may end in a disk: all that lies between its two sites lies on the disk's
-  /// circle, and one of that, or of the two, is a convex arc.
+  /// Whether an edge may end in a disk: everything between its two sites is on the disk's circle,
+  /// and some site there, or one of the two, is a convex arc.
   bool ends_at_arc(const Skeleton::Bone& edge, const Disk& leaf) const {
     return lies_on(leaf, edge.right, edge.left) || lies_on(leaf, edge.left, edge.right);
   }
 
  private:
-  /// Of a site that cutting disks divide, the part that a node's disk touches.
+  /// The part of a site, which cutting disks may have divided, that a node's disk touches.
   std::uint32_t part_at(std::uint32_t site, std::uint32_t node) const {
     const Disk& disk = skeleton_.nodes[node];
     if (!outline_.is_cut(site)) return site;
@@ -114,20 +114,21 @@ class Checker {
   bool touches(const Disk& disk, std::uint32_t site) const {
     return std::abs(site::gap(outline_.sites[site], disk)) <= 2 * slack_;
   }
-  /// Whether a node's disk touches all from a site that it touches to the next such site, or is a
-  /// point in a convex corner.
+  /// Whether a node's disk touches everything from one touched site to the next, or is a point in a
+  /// convex corner.
   bool nothing_between(std::uint32_t first, std::uint32_t last, std::uint32_t node) const {
     const Disk& disk = skeleton_.nodes[node];
     const SiteOutline::SiteRange cycle = outline_.cycles[skeleton_.component[node]];
     if (disk.radius == 0)
       return outline_.joints[first] == Joint::corner && next(first, cycle) == last;
-    // A cutting disk that is a node touches both parts of a site in one place.
+    // A cutting disk that is a node touches both parts of a site at one point.
     if (outline_.originals[first] == outline_.originals[last] && outline_.is_cut(first) &&
         outline_.is_cut(last) && !lies_on_circle(disk, first))
       return true;
     while (first != last) {
       const bool is_joined = outline_.disk_after[first] == none;
-      // No leaf leads into a blunt joint: a disk that touches both its edges may miss its point.
+      // No leaf leads into a blunt joint: a disk that touches both its edges may miss the point
+      // itself.
       const bool is_blunt = is_joined && outline_.joints[first] == Joint::blunt;
       if (is_joined && !is_blunt && !is_on(disk, outline_.sites[first].end())) return false;
       first = next(first, cycle);
@@ -150,15 +151,15 @@ class Checker {
     return site == cycle.last ? cycle.first : site + 1;
   }
 
-  /// Whether the feet move forward on the right site and backward on the left one, but for what the
-  /// tolerance leaves open.
+  /// Whether the feet move forward on the right site and backward on the left one, within the
+  /// tolerance.
   bool feet_advance(const Skeleton::Bone& edge) const {
     const Vec2 from = skeleton_.nodes[edge.from].center, to = skeleton_.nodes[edge.to].center;
     const double slack = 4 * slack_;
     return site::foot_advances(outline_.sites[edge.right], from, to, slack) &&
            site::foot_advances(outline_.sites[edge.left], to, from, slack);
   }
-  /// The disk in the middle of an edge.
+  /// The disk at the middle of an edge.
   Disk middle_of(const Skeleton::Bone& edge) const {
     const Disk &from = skeleton_.nodes[edge.from], &to = skeleton_.nodes[edge.to];
     const auto control =
@@ -167,7 +168,8 @@ class Checker {
     return {scale * (from.center + to.center + inner * control.point.center),
             scale * (from.radius + to.radius + inner * control.point.radius)};
   }
-  /// From the inside. Edges at one part of a cut site may have grown into the other.
+  /// Both must be touched from the inside. Edges at one part of a cut site may extend to the other
+  /// part.
   bool touches_both(const Skeleton::Bone& edge, const Disk& disk) const {
     const auto touches = [&](std::uint32_t site) {
       const site::Site& own = outline_.sites[site];
@@ -199,10 +201,10 @@ class Checker {
   const SiteOutline& outline_;
   const site::BoundaryTree& tree_;
   double slack_;
-  std::vector<std::uint32_t> parts_;  ///< sites beside cutting disks, by their originals
+  std::vector<std::uint32_t> parts_;  ///< sites next to cutting disks, sorted by their originals
 };
 
-/// Whether holds(i) for all i below `count`.
+/// Whether holds(i) is true for all i below `count`.
 template <class Holds>
 bool all_of(std::size_t count, const Holds& holds) {
   constexpr std::size_t grain = 2048;

@@ -6,8 +6,8 @@
 namespace medial::biarc_dc {
 namespace {
 
-/// What an element is and what follows it, in three bits; a sub-shape's word has those of all its
-/// elements, after a leading 1.
+/// The kind of an element and of what follows it, in three bits. A sub-shape's word consists of the
+/// letters of all its elements, after a leading 1.
 constexpr std::uint32_t letter(bool is_vertex, char follower) {
   const std::uint32_t after = follower == '|' ? 0 : follower == '-' ? 1 : follower == '^' ? 2 : 3;
   return 4 * (is_vertex ? 1U : 0U) + after;
@@ -25,7 +25,7 @@ char follower_of(const Element& element, const SiteOutline& outline) {
   return joint == Joint::smooth ? '-' : joint == Joint::reflex ? 'v' : '^';
 }
 
-/// The word of a sub-shape, read from element `begin` on.
+/// The word of a sub-shape, starting at element `begin`.
 std::uint32_t word_of(const Subshape& subshape, const SiteOutline& outline, std::size_t begin) {
   std::uint32_t word = 1;
   for (std::size_t step = 0, i = begin; step < subshape.size(); ++step, i = subshape.next(i)) {
@@ -54,8 +54,8 @@ constexpr std::array<Spelling, base_case_count - 1> spellings{{{word_of("S-S|S|"
                                                                {word_of("V|V|V|"), BaseCase::l},
                                                                {word_of("S^S|"), BaseCase::m}}};
 
-/// Whether all of a sub-shape lies on its only dividing disk, or bends away from it: between two
-/// contacts, a boundary turns to the left by the angle between them.
+/// Whether all of a sub-shape is on its only dividing disk, or bends away from it: between two
+/// contacts, a boundary turns left by the angle between them.
 bool is_cap(const Subshape& subshape, const SiteOutline& outline, const DiskList& disks,
             double tolerance) {
   std::uint32_t disk = none;
@@ -135,7 +135,7 @@ void split(const Subshape& subshape, std::span<const Seam> seams, std::uint32_t 
     const Seam &begin = seams[j], &end = seams[j + 1 == seams.size() ? 0 : j + 1];
     const std::size_t count = subshape.count(begin.first, end.last);
     parts.begin(subshape.component);
-    // Of a part that passes the end of the list, what comes first there.
+    // If a part passes the end of the list, its elements at the beginning of the list come first.
     const bool wraps = begin.first > end.last;
     if (wraps) parts.add(subshape.elements.first(end.last + 1));
     parts.add(
@@ -167,7 +167,7 @@ std::optional<BaseShape> base_shape_of(const Subshape& subshape, const SiteOutli
     base.base_case = found->base_case;
     for (std::size_t step = 0, i = begin; step < subshape.size(); ++step, i = subshape.next(i))
       base.element[step] = subshape.elements[i];
-    // Only an arc of locally maximal curvature has a centre where the axis ends.
+    // Only an arc of locally largest curvature has an end of the axis in its centre.
     const auto curvature = [&](std::size_t i) {
       return outline.sites[base.element[i].site].curvature;
     };

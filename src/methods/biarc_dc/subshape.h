@@ -11,8 +11,8 @@
 
 namespace medial::biarc_dc {
 
-/// A non-artificial arc of a sub-shape, a part of one site, and what follows it: the joint that the
-/// outline has there, or the artificial arc of a dividing disk.
+/// A non-artificial arc of a sub-shape, which is a part of one site, and its end: the joint of the
+/// outline there, or the artificial arc of a dividing disk.
 struct Element {
   std::uint32_t site = 0;
   std::uint32_t disk_after = none;  ///< dividing disk of the artificial arc; none: a joint
@@ -32,19 +32,20 @@ struct Subshape {
   std::size_t size() const { return elements.size(); }
   std::size_t next(std::size_t i) const { return i + 1 == elements.size() ? 0 : i + 1; }
   std::size_t before(std::size_t i) const { return i == 0 ? elements.size() - 1 : i - 1; }
-  /// How many elements there are from one to another, both included.
+  /// The number of elements from one to another, including both.
   std::size_t count(std::size_t first, std::size_t last) const {
     return (last >= first ? last - first : last + elements.size() - first) + 1;
   }
   /// The element that is a part of a site; size() if there is none. O(log n).
   std::size_t find(std::uint32_t site) const;
-  /// What every division must make smaller: non-artificial arcs and the joints between them. Two
-  /// contacts inside arcs add two arcs and no joint; so only a part of two arcs without a joint,
-  /// the base cases b, h and i, leaves the other part as large as the whole (docs/biarc-dc.md).
+  /// Every division must reduce this: the number of non-artificial arcs and of the joints between
+  /// them. Two contacts inside arcs add two arcs and no joint; so only a part of two arcs without a
+  /// joint, the base cases b, h and i, leaves the other part as large as the whole
+  /// (docs/biarc-dc.md).
   std::size_t measure() const;
 };
 
-/// Sub-shapes one after the other, in one array.
+/// Sub-shapes stored one after another in one array.
 class Parts {
  public:
   bool empty() const { return parts_.empty(); }
@@ -63,14 +64,14 @@ class Parts {
     elements_.clear();
     parts_.clear();
   }
-  /// Begins a part, to which the elements are added that come next.
+  /// Begins a part, to which add() then adds elements.
   void begin(std::uint32_t component) { parts_.push_back({elements_.size(), component}); }
   void add(const Element& element) { elements_.push_back(element); }
   void add(std::span<const Element> elements) {
     elements_.insert(elements_.end(), elements.begin(), elements.end());
   }
   void append(const Parts& others);
-  /// The element, counted in boundary order, of the last part.
+  /// The i-th element of the last part, in boundary order.
   Element& of_last(std::size_t i) { return elements_[parts_.back().begin + i]; }
 
  private:
@@ -83,9 +84,9 @@ class Parts {
 };
 
 /// A place where a dividing disk touches the boundary of a sub-shape: one part ends there, with the
-/// element `last` at parameter `to`, and another begins with `first` at `from`. They are the same
-/// element where the disk touches inside of one, neighbours at a joint, and further apart where all
-/// that is in between lies on the disk's circle.
+/// element `last` at parameter `to`, and another begins with `first` at `from`. Both are the same
+/// element if the disk touches its inside, neighbours at a joint, and further apart if everything
+/// between them is on the disk's circle.
 struct Seam {
   std::size_t last = 0;
   std::size_t first = 0;
@@ -97,8 +98,9 @@ struct Seam {
 /// shape.
 void split(const Subshape& subshape, std::span<const Seam> seams, std::uint32_t disk, Parts& parts);
 
-/// Whether element `i` is an arc of locally largest curvature, where the axis ends, but not in the
-/// disk's centre. A disk that nearly all of such an arc touches may still be far from its end.
+/// Whether element `i` is an arc of locally largest curvature, where the axis ends, and its centre
+/// is not the disk's. A disk that touches nearly all of such an arc may still be far from its
+/// centre.
 bool ends_elsewhere(const Subshape& subshape, const SiteOutline& outline, std::size_t i,
                     const Disk& disk, double tolerance);
 
@@ -118,20 +120,20 @@ enum class BaseCase : std::uint8_t {
   k,    ///< S|V|V|
   l,    ///< V|V|V|
   m,    ///< S^S|      ends in a corner
-  cap,  ///< nothing: all of it touches its only dividing disk (the paper's footnote 3)
+  cap,  ///< nothing: all of it is on its only dividing disk (the paper's footnote 3)
 };
 constexpr std::size_t base_case_count = 14;
 /// "a" to "m", "cap".
 const char* name_of(BaseCase base_case);
 
-/// A base case with its elements in the order in which BaseCase spells them.
+/// A base case, with its elements in the order of BaseCase.
 struct BaseShape {
   BaseCase base_case = BaseCase::cap;
   std::uint32_t component = 0;
   std::array<Element, 3> element;
 };
 
-/// The dividing disks so far: those that a list goes on from, and its own.
+/// The dividing disks so far: those that precede a list, and the list's own.
 struct DiskList {
   std::span<const Disk> earlier;
   std::vector<Disk> own;
@@ -145,7 +147,7 @@ struct DiskList {
   }
 };
 
-/// Which base case a sub-shape is, if it is one. `disks`: the dividing disks.
+/// The base case that a sub-shape is, or none. `disks` are the dividing disks.
 std::optional<BaseShape> base_shape_of(const Subshape& subshape, const SiteOutline& outline,
                                        const DiskList& disks, double tolerance);
 
