@@ -1,4 +1,4 @@
-// The axis of one shape: computing it, its arrays, questions to it.
+// Axes of single shapes: computation, arrays, queries.
 
 #include "faces/axes.h"
 
@@ -10,7 +10,7 @@
 namespace medial::js {
 namespace {
 
-constexpr std::size_t fine_work = 4000;  // below so many points, one thread may be as fast as several
+constexpr std::size_t fine_work = 4000;  // with fewer points, one thread may be as fast as several
 
 Options options_from(const char* given) {
   Named named(given);
@@ -28,7 +28,7 @@ Options options_from(const char* given) {
   return options;
 }
 
-/// Polylines along all branches: rows of x, y, radius; where each begins; the branch's nodes.
+/// Polylines along all branches: rows of x, y, radius; the first row of each; the branch's nodes.
 void answer_lines(const MedialAxis& axis, double chord, double step) {
   std::vector<Disk> disks;
   std::vector<double> begin{0};
@@ -49,7 +49,7 @@ Json& add_statistics(Json& json, const Statistics& from) {
       .add("seconds", from.seconds);
 }
 
-/// By name and without a unit, for each measure its default threshold.
+/// The default threshold of each measure, by name and without a unit.
 std::string measures() {
   Json json;
   for (const PruneMeasure measure : prune_measures())
@@ -72,7 +72,7 @@ MEDIAL_JS AxisOf* medial_axis(const ShapeOf* of, const char* given) {
 }
 
 /// The addresses and numbers of nodes, edges and sites, then tolerance, resolution, exterior,
-/// length, branches; text: method and statistics.
+/// length, branches. The text has the method and statistics.
 MEDIAL_JS int medial_axis_numbers(const AxisOf* of) {
   return answered([&] {
     const MedialAxis& axis = of->axis;
@@ -123,7 +123,7 @@ MEDIAL_JS int medial_nearest(AxisOf* of, const double* points, std::size_t count
   });
 }
 
-/// The place whose disk touches the boundary nearest to a point: edge, t, and its disk.
+/// The maximal disk that touches the boundary nearest to a point: edge, t, and the disk.
 MEDIAL_JS int medial_place_at(const AxisOf* of, double x, double y) {
   return answered([&] {
     answer().tables = {{}};
@@ -136,7 +136,7 @@ MEDIAL_JS int medial_place_at(const AxisOf* of, double x, double y) {
 }
 
 /// The disk at a parameter of an edge, and its feet on both sites: x, y, radius, left x, y, right
-/// x, y; feet only where sites are known.
+/// x, y. Feet only if the sites are known.
 MEDIAL_JS int medial_disk_at(const AxisOf* of, std::uint32_t edge, double t) {
   return answered([&] {
     const MedialAxis& axis = of->axis;
@@ -154,7 +154,7 @@ MEDIAL_JS int medial_disk_at(const AxisOf* of, std::uint32_t edge, double t) {
   });
 }
 
-/// An axis from records of a stored one, as they lie in memory.
+/// Makes an axis from the records of a stored one, as they are in memory.
 MEDIAL_JS AxisOf* medial_restored_axis(const ShapeOf* of, const char* method, double tolerance,
                                        double resolution, double exterior, const Site* sites,
                                        std::size_t site_count, const Node* nodes,
@@ -177,7 +177,7 @@ MEDIAL_JS ShapeOf* medial_shape_of(const AxisOf* of) {
   return answered([&] { return new ShapeOf{of->shape}; });
 }
 
-/// The methods as rows of name, summary and what they take, in the text.
+/// The methods, as rows of name, summary and supported input, in the text.
 MEDIAL_JS int medial_methods() {
   return answered([&] {
     for (const MethodInfo& method : methods())

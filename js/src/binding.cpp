@@ -1,4 +1,4 @@
-// Answers, errors and options, which all calls have.
+// Answers, errors and options of all calls.
 
 #include "binding.h"
 
@@ -26,7 +26,7 @@ std::string quoted(std::string_view text) {
   return result + '"';
 }
 
-/// As JSON has numbers; what is not finite becomes null.
+/// A number in JSON; null if it is not finite.
 std::string literal(double value) {
   if (!std::isfinite(value)) return "null";
   std::array<char, 32> text{};

@@ -1,8 +1,8 @@
 #pragma once
 
-// What all bindings share. JavaScript calls plain C functions: handles are pointers, options are
-// text such as "order=2;exact=1", and an answer waits in tables of numbers and in a text of JSON
-// until the next call. A function that returns 0 has failed: the text is then the error.
+// Shared by all bindings. JavaScript calls plain C functions: handles are pointers, options are
+// text such as "order=2;exact=1", and an answer stays in tables of numbers and a text of JSON until
+// the next call. A function that returns 0 has failed: the text is then the error.
 
 #include <concepts>
 #include <cstdint>
@@ -21,7 +21,7 @@
 
 namespace medial::js {
 
-/// An error on its way to JavaScript, where it becomes a MedialError.
+/// An error to be thrown in JavaScript as a MedialError.
 struct Failure {
   Error error;
 };
@@ -34,7 +34,7 @@ T value_of(Result<T> result) {
   throw Failure{{code, std::move(text), {}}};
 }
 
-/// JSON, written member after member.
+/// Writes JSON, member after member.
 class Json {
  public:
   Json& add(std::string_view name, double value);
@@ -50,7 +50,7 @@ class Json {
   std::string text_ = "{";
 };
 
-/// What the last call gives back.
+/// The results of the last call.
 struct Answer {
   std::vector<std::vector<double>> tables;
   std::string text;
@@ -58,7 +58,7 @@ struct Answer {
 Answer& answer();
 void answer_error(const Error& error);
 
-/// Runs work(); an error becomes the answer, and the result 0.
+/// Runs work(). An error becomes the answer, and the result is 0.
 template <class Work>
 auto answered(const Work& work) -> decltype(work()) {
   answer() = {};
@@ -74,7 +74,7 @@ auto answered(const Work& work) -> decltype(work()) {
   return {};
 }
 
-/// Options by name, taken one by one; what is left is refused.
+/// Options by name, taken one by one; unknown ones are refused.
 class Named {
  public:
   explicit Named(const char* text);
@@ -87,7 +87,7 @@ class Named {
     if (take_number(name, value)) to = whole<Whole>(name, value);
     return *this;
   }
-  /// As JavaScript writes an array: with commas in between.
+  /// Separates elements by commas, like JavaScript's text of an array.
   template <std::size_t count>
   Named& take(std::string_view name, std::array<double, count>& to) {
     take_numbers(name, to);
@@ -116,12 +116,12 @@ class Named {
 using SharedShape = std::shared_ptr<const Shape>;
 struct ShapeOf {
   SharedShape shape;
-  std::vector<Contour> contours = {};  ///< for methods that follow them
+  std::vector<Contour> contours = {};  ///< for methods that follow curves
 };
 struct AxisOf {
   SharedShape shape;
   MedialAxis axis;
-  std::unique_ptr<AxisLocator> locator = {};  ///< built at the first question
+  std::unique_ptr<AxisLocator> locator = {};  ///< built by the first query
 };
 struct PathOf {
   AxisPath path;
@@ -144,7 +144,7 @@ inline std::span<const Vec2> points_at(const double* coordinates, std::size_t co
   static_assert(sizeof(Vec2) == 2 * sizeof(double));
   return {reinterpret_cast<const Vec2*>(coordinates), count};
 }
-/// Numbers of records that are doubles only, as a table.
+/// Records that consist of doubles only, as a table of numbers.
 template <class Row>
 std::vector<double> table_of(std::span<const Row> rows) {
   const auto* const first = reinterpret_cast<const double*>(rows.data());

@@ -35,7 +35,7 @@ std::string text_of(const Certificate& from) {
       .text();
 }
 
-/// Rows, one a branch: see the names in JavaScript.
+/// One row per branch; JavaScript has the names of the columns.
 std::vector<double> branch_rows(const AxisFeatures& from) {
   std::vector<double> rows;
   for (const BranchFeatures& r : from.branches)
@@ -128,7 +128,7 @@ MEDIAL_JS int medial_distance(const ShapeOf* a, const ShapeOf* b, int samples) {
   });
 }
 
-/// Rows of steepness and bend of each branch.
+/// One row per branch: steepness and bend.
 MEDIAL_JS int medial_legality(const AxisOf* of, int samples) {
   return answered([&] {
     std::vector<double> rows;
@@ -139,10 +139,10 @@ MEDIAL_JS int medial_legality(const AxisOf* of, int samples) {
   });
 }
 
-/// The diagram of points and lines: rows of the sites (kind, start, end, chain, vertex, bulge), of
-/// the nodes (x, y, radius); edges (nodes, sites, spoke, on the enclosure); their polylines of x,
-/// y, radius and where they begin; the faces' outlines and where they begin; low and high corner
-/// of the enclosure.
+/// The diagram of points and lines: rows of sites (kind, start, end, chain, vertex, bulge), nodes
+/// (x, y, radius) and edges (nodes, sites, spoke, on the enclosure); the edges' polylines of x, y,
+/// radius, and the first row of each; the faces' outlines, and the first point of each; low and
+/// high corner of the enclosure.
 MEDIAL_JS int medial_voronoi(const double* coordinates, const std::uint32_t* begin,
                              std::size_t count, const std::uint8_t* closed, const double* bulges,
                              bool node_crossings, double margin, double chord) {
@@ -189,7 +189,7 @@ MEDIAL_JS PotentialField* medial_field(const ShapeOf* of, double order) {
       [&] { return new PotentialField(value_of(PotentialField::make(*of->shape, order))); });
 }
 
-/// Rows of log potential, direction x and y, clearance; NaN where nothing is.
+/// Rows of log potential, direction x and y, clearance; NaN outside of the field.
 MEDIAL_JS int medial_field_sample(const PotentialField* field, const double* points,
                                   std::size_t count) {
   return answered([&] {

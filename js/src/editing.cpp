@@ -7,7 +7,7 @@
 namespace medial::js {
 namespace {
 
-/// Records as they lie in memory, as a table.
+/// Records, as they are in memory, as a table.
 template <class T>
 std::vector<double> bytes_of(const std::vector<T>& records) {
   static_assert(sizeof(T) % sizeof(double) == 0);
@@ -16,7 +16,7 @@ std::vector<double> bytes_of(const std::vector<T>& records) {
   return table;
 }
 
-/// The records of these numbers, by a function of the editor.
+/// The records with these numbers, from a function of the editor.
 template <class T, class Get>
 int answer_those(const std::uint32_t* numbers, std::size_t count, const Get& get) {
   return answered([&] {
@@ -33,7 +33,7 @@ int answer_those(const std::uint32_t* numbers, std::size_t count, const Get& get
   });
 }
 
-/// The vertex and whether everything was computed again; then the numbers that an edit has changed.
+/// The vertex, whether everything was recomputed, and the numbers of what an edit has changed.
 template <class Work>
 int answer_change(const Work& work) {
   return answered([&] {
@@ -93,7 +93,7 @@ MEDIAL_JS int medial_editor_undo(Editor* editor) {
   return answer_change([&] { return editor->undo(); });
 }
 
-/// x, y and the bulge of the edge after it; nothing where there is no such vertex.
+/// x, y and the bulge of the edge after the vertex; nothing if it does not exist.
 MEDIAL_JS int medial_editor_vertex(const Editor* editor, std::uint32_t vertex) {
   return answered([&] {
     answer().tables.emplace_back();

@@ -1,4 +1,4 @@
-// What follows from an axis: parts of it, lines, widths, offsets, tool paths, checks.
+// Results derived from an axis: parts of it, lines, widths, offsets, tool paths, checks.
 
 #include <algorithm>
 #include <cmath>
@@ -40,8 +40,8 @@ PathOf* longest(std::vector<AxisPath> paths) {
   return new PathOf{std::move(*best)};
 }
 
-/// Rings of all regions: points, bulges, where rings begin; of each region where its rings begin,
-/// its clearance, parent, area and length.
+/// The rings of all regions: points, bulges, the first point of each ring; for each region its
+/// first ring, its clearance, parent, area and length.
 void answer_regions(const std::vector<OffsetRegion>& regions) {
   std::vector<Vec2> points;
   std::vector<double> bulges, begin{0}, rows;
@@ -87,7 +87,7 @@ MEDIAL_JS AxisOf* medial_prune(const AxisOf* of, const char* given) {
   });
 }
 
-/// The largest threshold that keeps some of each edge.
+/// For each edge, the largest threshold that keeps some of it.
 MEDIAL_JS int medial_significance(const AxisOf* of, const char* measure) {
   return answered([&] {
     const PruneOrder order(of->axis, measure_from(measure));
@@ -122,8 +122,8 @@ MEDIAL_JS ShapeOf* medial_rebuild(const AxisOf* of, const char* given) {
   });
 }
 
-/// The polygons (the result) of the parts that are wide enough; the axis of the others is
-/// the address in the table.
+/// The result is the polygons of the parts that are wide enough; the table has the address of the
+/// axis of the others.
 MEDIAL_JS ShapeOf* medial_collapse(const AxisOf* of, double width, double trim) {
   return answered([&] {
     CollapsedShape result = value_of(collapse_narrow(of->axis, width, trim));
@@ -136,7 +136,7 @@ MEDIAL_JS ShapeOf* medial_collapse(const AxisOf* of, double width, double trim) 
 
 // Lines.
 
-/// The main path of each part: the addresses of the paths.
+/// The main path of each part, as addresses.
 MEDIAL_JS int medial_main_paths(const AxisOf* of, const char* given) {
   return answered([&] {
     MainPathOptions options;
@@ -170,8 +170,8 @@ MEDIAL_JS PathOf* medial_path_between(const AxisOf* of, double x0, double y0, do
   });
 }
 
-/// The path as an axis of one chain; the table has its length, narrowest radius, and whether it is
-/// closed.
+/// The path as an axis of one chain; the table has its length, its narrowest radius, and whether it
+/// is closed.
 MEDIAL_JS AxisOf* medial_centre_line(const AxisOf* of, const PathOf* path, bool extend,
                                      double smooth) {
   return answered([&] {
@@ -214,7 +214,7 @@ MEDIAL_JS int medial_mean_width(const AxisOf* of, const PathOf* path) {
   });
 }
 
-/// Rows of a width's, then opens_to and around_hole.
+/// Rows of a width's numbers, then opens_to and around_hole.
 MEDIAL_JS int medial_necks(const AxisOf* of, double widening) {
   return answered([&] {
     if (!(widening > 1)) refuse(ErrorCode::invalid_option, "widening is above 1");
@@ -272,7 +272,7 @@ MEDIAL_JS int medial_buffer(const double* coordinates, const std::uint32_t* begi
 
 // Tool paths.
 
-/// Rows of x, y, z, bulge; where paths begin; their kinds and passes; text: numbers of the whole.
+/// Rows of x, y, z, bulge; the first row of each path; kinds and passes. The text has totals.
 MEDIAL_JS int medial_carve(const AxisOf* of, const char* given) {
   return answered([&] {
     CarveOptions options;

@@ -1,4 +1,4 @@
-// Shapes and contours of curves.
+// Shapes, and contours of curves.
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace medial::js {
 namespace {
 
-/// Reads numbers one after another.
+/// Reads numbers one by one.
 class Numbers {
  public:
   Numbers(const double* first, std::size_t count) : rest_(first, count) {}
@@ -40,9 +40,9 @@ void add_bezier(Contour& contour, Numbers& numbers, bool rational) {
   contour.bezier_to(control, weights);
 }
 
-/// Contours as a row of numbers: 0 begins one (role, x, y), 1 is a line (x, y), 2 an arc (x, y,
-/// bulge), 3 a Bezier curve (degree, control points), 4 the same with a weight after each, 5 an
-/// elliptical arc (center, both half axes, angles).
+/// Contours as a row of numbers: 0 begins a contour (role, x, y), 1 is a line (x, y), 2 an arc (x,
+/// y, bulge), 3 a Bezier curve (degree, control points), 4 the same with a weight after each point,
+/// 5 an elliptical arc (centre, both half axes, angles).
 std::vector<Contour> contours_from(Numbers numbers) {
   std::vector<Contour> contours;
   while (!numbers.empty()) {
@@ -76,7 +76,7 @@ ShapeOf* new_shape(Shape shape, std::vector<Contour> contours = {}) {
 
 }  // namespace
 
-/// Rings as they are.
+/// Makes a shape from rings without changing them.
 MEDIAL_JS ShapeOf* medial_shape(const double* coordinates, const std::uint32_t* begin,
                                 std::size_t count, const std::uint8_t* roles,
                                 const double* bulges) {
@@ -86,7 +86,8 @@ MEDIAL_JS ShapeOf* medial_shape(const double* coordinates, const std::uint32_t* 
   });
 }
 
-/// Rings and contours that are repaired, fitted or approximated first. The text has the notes.
+/// Makes a shape from rings and contours, which are first repaired, fitted or approximated. The
+/// text has the notes.
 MEDIAL_JS ShapeOf* medial_load(const double* coordinates, const std::uint32_t* begin,
                                std::size_t count, const std::uint8_t* roles, const double* bulges,
                                const double* contours, std::size_t contours_size,
@@ -112,7 +113,7 @@ MEDIAL_JS ShapeOf* medial_load(const double* coordinates, const std::uint32_t* b
   });
 }
 
-/// A shape from the arrays of a stored one; compute() checks them.
+/// Makes a shape from the arrays of a stored one; compute() checks them.
 MEDIAL_JS ShapeOf* medial_restored_shape(const double* points, std::size_t count,
                                          const double* bulges, const std::uint32_t* sources,
                                          const std::uint32_t* begin, const std::uint32_t* component,
@@ -165,7 +166,7 @@ MEDIAL_JS int medial_shape_numbers(const ShapeOf* of) {
   });
 }
 
-/// Closed rings with arcs as chords: points, and where rings begin.
+/// Closed rings with arcs as chords: points, and the first point of each ring.
 MEDIAL_JS int medial_outline(const ShapeOf* of, double chord) {
   return answered([&] {
     std::vector<Vec2> points;

@@ -1,5 +1,5 @@
-// Threads, by emscripten's pthreads without its JavaScript: what that would do is done here and in
-// js/lib/threads.mjs. A thread is a worker with an instance of the module on the same memory.
+// Threads, by emscripten's pthreads without its JavaScript: this file and js/lib/threads.mjs
+// replace it. A thread is a worker with an instance of the module on the same memory.
 
 #include "src/base/threads.h"
 
@@ -16,11 +16,11 @@
 #define MEDIAL_FROM_JS(name) extern "C" __attribute__((import_module("medial"), import_name(#name)))
 
 MEDIAL_FROM_JS(can_wait) int medial_can_wait();
-/// Returns 0, or an error's number.
+/// Returns 0, or an error number.
 MEDIAL_FROM_JS(start_thread)
 int medial_start_thread(pthread_t thread, void* stack, void* (*begin)(void*), void* given);
 
-// What emscripten's libraries have and need.
+// Symbols that emscripten's libraries define and need.
 extern "C" {
 void _emscripten_thread_init(pthread_t thread, int in_page, int first, int can_wait, int profiled);
 void _emscripten_thread_free_data(pthread_t thread);
@@ -30,7 +30,7 @@ void __wasm_init_tls(void* storage);
 
 namespace {
 
-/// Makes this instance's thread what emscripten calls a thread, with variables of its own.
+/// Makes this instance's thread a thread of emscripten, with variables of its own.
 void become(pthread_t thread, bool first, bool can_wait) {
   const bool in_page = !can_wait;
   _emscripten_thread_init(thread, in_page, first, can_wait, 0);
@@ -50,7 +50,7 @@ int __pthread_create_js(pthread_t thread, const pthread_attr_t* /*attributes*/,
   std::size_t size = 0;
   pthread_getattr_np(thread, &attributes);
   pthread_attr_getstack(&attributes, &lowest, &size);
-  int error = EAGAIN;  // without memory for its stack
+  int error = EAGAIN;  // no memory for its stack
   if (lowest != nullptr)
     error = medial_start_thread(thread, static_cast<char*>(lowest) + size, begin, given);
   if (error != 0) _emscripten_thread_free_data(thread);
@@ -65,21 +65,22 @@ void emscripten_unwind_to_js_event_loop() { __builtin_trap(); }
 
 namespace medial::js {
 
-/// Before all other calls, in the first instance.
+/// Call it before all other functions, in the first instance.
 MEDIAL_JS void _initialize() { __wasm_call_ctors(); }
 
-/// In a new worker, which has set its instance's stack.
+/// Call it in a new worker, which has set its instance's stack.
 MEDIAL_JS void medial_run_thread(pthread_t thread, void* (*begin)(void*), void* given) {
   become(thread, false, true);
-  pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, nullptr);  // or it would wake ten times a second
+  pthread_setcancelstate(PTHREAD_CANCEL_DISABLE,
+                         nullptr);  // otherwise it would wake ten times a second
   begin(given);
 }
 
 MEDIAL_JS void medial_start_threads(int count) { allow_startable_threads(count); }
 MEDIAL_JS int medial_threads() { return effective_threads(0); }
 
-/// For the tests: how many of `count` tasks catch what they throw, by its type; 0 if what another
-/// one throws does not come out.
+/// For the tests: the number of `count` tasks that catch their own exception by its type; 0 if an
+/// exception of another task does not propagate.
 MEDIAL_JS int medial_tasks_that_catch(int count) {
   std::atomic<int> right{0};
   parallel_for(static_cast<std::size_t>(count), [&](std::size_t i) {

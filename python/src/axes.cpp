@@ -1,4 +1,4 @@
-// The axis of one shape: computing it, its arrays, questions to it.
+// Axes of single shapes: computation, arrays, queries.
 
 #include "faces/axes.h"
 
@@ -11,7 +11,7 @@
 namespace medial::python {
 namespace {
 
-/// Moves options by name into variables, and refuses what is left.
+/// Moves options by name into variables, and refuses unknown ones.
 class Named {
  public:
   explicit Named(const nb::dict& from) : left_(nb::borrow<nb::dict>(from.attr("copy")())) {}
@@ -44,7 +44,7 @@ std::unique_ptr<AxisOf> compute_axis(const ShapeOf& of, const Options& given,
   return share(of.shape, value_of(std::move(axis)));
 }
 
-/// An axis from the arrays of a stored one.
+/// Makes an axis from the arrays of a stored one.
 std::unique_ptr<AxisOf> restored(const ShapeOf& of, const std::string& method, double tolerance,
                                  double resolution, double exterior, bool part,
                                  const Values<std::uint8_t>& sites,
@@ -61,8 +61,8 @@ std::unique_ptr<AxisOf> restored(const ShapeOf& of, const std::string& method, d
   return share(of.shape, value_of(faces::sound(std::move(axis))), part);
 }
 
-/// Polylines along all branches, within a chord or with steps: rows of x, y, radius; where each
-/// polyline begins.
+/// Polylines along all branches, within a chord or with steps: rows of x, y, radius, and the first
+/// row of each polyline.
 std::pair<Array<double, 2>, Array<std::int64_t>> lines(const AxisOf& self, double chord,
                                                        double step) {
   positive_chord(chord);
@@ -76,7 +76,7 @@ std::pair<Array<double, 2>, Array<std::int64_t>> lines(const AxisOf& self, doubl
   return {rows_of<double>(std::move(disks)), array_of(std::move(begin))};
 }
 
-/// What nearest() returns for a point.
+/// The result of nearest() for a point.
 struct Nearest {
   double x, y, radius, distance, t;
   std::int64_t edge;
@@ -112,7 +112,7 @@ Array<double> edge_lengths(const AxisOf& self) {
   return array_of(std::move(lengths));
 }
 
-/// The steps of all branches: edge and direction, and where each branch begins.
+/// The steps of all branches (edge and direction), and the first step of each branch.
 nb::tuple branch_steps(const AxisOf& self) {
   std::vector<std::uint32_t> edges;
   std::vector<std::uint8_t> forward;
@@ -156,7 +156,7 @@ void bind_compute(nb::module_& module) {
              [](const ShapeOf& of, const Options& options, const std::vector<Contour>& contours) {
                return compute_axis(of, options, contours);
              });
-  // The shortest way: one ring, no curves.
+  // The fast path: one ring, no curves.
   module.def("axis_of_ring", [](const Coordinates& ring, const Options& options) {
     const Ring rings[1] = {rings_of(ring, {}, {}, {}).front()};
     auto shape = value_of(without_lock([&] { return build_shape(rings); }));

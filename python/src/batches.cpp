@@ -1,4 +1,4 @@
-// Operations on many features at once, from rings to numbers: no Python object for a feature.
+// Operations on many features at once, from rings to numbers, without a Python object per feature.
 
 #include <cmath>
 #include <functional>
@@ -10,9 +10,9 @@
 namespace medial::python {
 namespace {
 
-/// What an operation makes of features: rows of numbers, and offsets that divide them: the rows,
-/// what these offsets make of them, and so on up to the features. Attributes belong to the parts
-/// that the first offsets make.
+/// The result of an operation for features: rows of numbers and levels of offsets. The first
+/// offsets group rows into parts, the next ones group these parts, and so on up to the features.
+/// Attributes belong to the parts of the first level.
 struct Table {
   std::size_t columns = 0;
   std::vector<double> values, attributes;
@@ -24,7 +24,7 @@ struct Table {
 
   void add(std::initializer_list<double> row) { values.insert(values.end(), row); }
   void add(const Disk& disk) { add({disk.center.x, disk.center.y, disk.radius}); }
-  /// Ends a part of a level; 0 is made of rows.
+  /// Ends a part of a level. Parts of level 0 consist of rows.
   void end(std::size_t level) {
     const std::size_t size = level == 0 ? values.size() / columns : begin[level - 1].size() - 1;
     begin[level].push_back(static_cast<std::int64_t>(size));
@@ -38,7 +38,7 @@ struct Table {
   }
 };
 
-/// Appends what it makes of a shape, or fails and appends nothing.
+/// Appends the result for a shape. If it fails, it appends nothing.
 using Work = std::function<Status(const Shape&, const Options&, Table&)>;
 struct Operation {
   Table empty;
@@ -58,7 +58,8 @@ class Given {
   const nb::dict& from_;
 };
 
-/// How far lines may be from curves: of a shape's diagonal, or in units of the input.
+/// The largest distance of lines from curves: a share of a shape's diagonal, or in units of the
+/// input.
 struct Chord {
   double share, absolute;
   explicit Chord(const Given& given)
@@ -83,7 +84,7 @@ MainPathOptions main_path_options(const Given& given) {
           route_from(given.get<std::string>("route"))};
 }
 
-/// A line each: rows of x, y, radius.
+/// One line per feature: rows of x, y, radius.
 Operation centerlines(const Given& given) {
   const CentreLineOptions line_options{given.get<bool>("extend"),
                                        length_as(given.get<double>("smooth"), "smooth")};
@@ -102,7 +103,8 @@ Operation centerlines(const Given& given) {
   return {Table(3, 1), work};
 }
 
-/// A row each: the mean, the least and the largest width along the centre line, and its length.
+/// One row per feature: the mean, the least and the largest width along the centre line, and its
+/// length.
 Operation widths(const Given& given) {
   const auto samples = given.get<std::size_t>("samples");
   if (samples == 0) refuse(ErrorCode::invalid_option, "samples must be at least 1");
@@ -162,7 +164,7 @@ Operation offsets(const Given& given) {
   return {Table(2, 3), work};
 }
 
-/// Lines, a branch each, of rows of x, y, radius.
+/// One line per branch: rows of x, y, radius.
 Operation pruned(const Given& given) {
   const PruneOptions prune_options{measure_from(given.get<std::string>("measure")),
                                    given.get<std::optional<double>>("threshold"),
@@ -187,7 +189,7 @@ Operation pruned(const Given& given) {
   return {Table(3, 2), work};
 }
 
-/// Lines, a branch each, of rows of x, y, radius; with what features() says of a branch in numbers.
+/// One line per branch: rows of x, y, radius; with the numbers of features() for the branch.
 Operation branch_tables(const Given& given) {
   const auto work = [chord = Chord(given)](const Shape& shape, const Options& options,
                                            Table& table) -> Status {
@@ -224,7 +226,8 @@ Operation branch_tables(const Given& given) {
   return {Table(3, 2), work};
 }
 
-/// Lines of two rows of x, y, across the centre line; with their place along it, width, length.
+/// Lines of two rows of x, y, across the centre line; with the position along it, the width, and
+/// the length.
 Operation transects(const Given& given) {
   const auto count = given.get<std::size_t>("count");
   const auto work = [count, path_options = main_path_options(given)](
@@ -258,7 +261,7 @@ Operation operation_from(const std::string& name, const Given& given) {
   refuse(ErrorCode::invalid_option, "there is no such operation");
 }
 
-/// Appends what the operation makes of features [first, last).
+/// Appends the results of the operation for features [first, last).
 void add_range(const Features& features, std::size_t first, std::size_t last,
                const Options& options, const Operation& operation, Table& table) {
   std::vector<Ring> rings;

@@ -1,6 +1,6 @@
 #pragma once
 
-// What all bindings share: arrays without copies, errors as exceptions, work without the
+// Shared by all bindings: arrays without copies, errors as exceptions, work without the
 // interpreter's lock.
 
 #include <nanobind/nanobind.h>
@@ -44,20 +44,20 @@ inline std::span<const Vec2> points_of(const Coordinates& coordinates) {
   return {reinterpret_cast<const Vec2*>(coordinates.data()), coordinates.shape(0)};
 }
 
-/// The elements of a vector as bytes, for NumPy to see as records; `owner` keeps them alive.
+/// The elements of a vector as bytes, which NumPy views as records; `owner` keeps them alive.
 template <class T>
 Bytes bytes_of(const std::vector<T>& values, nb::handle owner) {
   return Bytes(values.data(), {values.size() * sizeof(T)}, owner);
 }
 
-/// A vector, and what keeps it alive for arrays of NumPy.
+/// A vector, and the owner that keeps it alive for NumPy arrays.
 template <class T>
 std::pair<std::vector<T>&, nb::capsule> owned(std::vector<T> values) {
   auto* const kept = new std::vector<T>(std::move(values));
   const auto free = [](void* vector) noexcept { delete static_cast<std::vector<T>*>(vector); };
   return {*kept, nb::capsule(kept, free)};
 }
-/// A vector as a NumPy array that owns it; with several columns as rows of those; as bytes.
+/// A NumPy array that owns a vector: its elements, rows of `columns` elements, or its bytes.
 template <class T>
 Array<T> array_of(std::vector<T> values) {
   const auto [all, owner] = owned(std::move(values));
@@ -75,7 +75,7 @@ Bytes records_of(std::vector<T> values) {
   return bytes_of(all, owner);
 }
 
-/// An error on its way to Python, where it becomes a MedialError.
+/// An error to be raised in Python as a MedialError.
 class Failure : public std::exception {
  public:
   explicit Failure(Error error) : error_(std::move(error)) {}
@@ -86,7 +86,7 @@ class Failure : public std::exception {
   Error error_;
 };
 
-/// The value of a result, or its error thrown.
+/// The value of a result; throws its error.
 template <class T>
 T value_of(Result<T> result) {
   if (!result) throw Failure(std::move(result).error());
@@ -115,7 +115,7 @@ T option_as(nb::handle value, const std::string& name) {
   }
 }
 
-/// How far lines may be from curves. Errors: invalid_option.
+/// The largest distance of lines from curves. Errors: invalid_option.
 inline double positive_chord(double chord) {
   if (!(chord > 0)) refuse(ErrorCode::invalid_option, "chord is positive");
   return chord;
@@ -135,12 +135,12 @@ auto without_lock(const Work& work) {
   return work();
 }
 
-constexpr std::size_t long_work = 20'000;  ///< for more points, checks for interrupts
-constexpr int most_threads = 1024;         ///< what compute() takes, for work of many shapes too
-constexpr int fine_work = 1000;            ///< below so many, one thread is as fast as several
+constexpr std::size_t long_work = 20'000;  ///< with more points, checks for interrupts
+constexpr int most_threads = 1024;         ///< the limit of compute(), also for work on many shapes
+constexpr int fine_work = 1000;            ///< with fewer points, one thread is as fast as several
 
-/// Runs work(cancel) without the interpreter's lock. Of large size in a thread of its own:
-/// meanwhile this one lets Python handle signals, and an interrupt cancels the work.
+/// Runs work(cancel) without the interpreter's lock. Large work runs in a thread of its own:
+/// meanwhile this thread lets Python handle signals, and an interrupt cancels the work.
 template <class Work>
 auto run(std::size_t size, const Work& work) {
   std::atomic<bool> cancel{false};
@@ -180,7 +180,7 @@ auto run(std::size_t size, const Work& work) {
   return *std::move(result);
 }
 
-/// A shape that axes of it share.
+/// A shape that its axes share.
 using SharedShape = std::shared_ptr<const Shape>;
 
 /// A shape and its axis, or a part of it: pruned, cut or smoothed.
@@ -189,7 +189,7 @@ struct AxisOf {
   MedialAxis axis;
   bool part = false;
 
-  /// Built at the first question; several threads may ask.
+  /// Built by the first query; several threads may need it.
   const AxisLocator& locator() const {
     std::call_once(once_, [&] { locator_ = std::make_unique<AxisLocator>(axis); });
     return *locator_;
@@ -212,7 +212,7 @@ struct PathOf {
   AxisPath path;
 };
 
-/// The tool paths of a shape, and those of an end mill before a V.
+/// The tool paths of a shape, and those of an end mill that clears before a V.
 struct CarvingOf {
   SharedShape shape;
   Carving carving, clearing;
@@ -222,7 +222,7 @@ inline std::unique_ptr<AxisOf> share(SharedShape shape, MedialAxis axis, bool pa
   return std::make_unique<AxisOf>(std::move(shape), std::move(axis), part);
 }
 
-/// Options of compute() by their names in Python; those of the method in `own`.
+/// The options of compute() by their names in Python; those of the method are in `own`.
 Options options_of(const std::string& method, double tolerance, double corner_angle, bool exact,
                    int threads, bool exterior, double margin, const nb::dict& own);
 /// Rings of coordinates: ring i is [begin[i], begin[i + 1]); roles and bulges may be absent.
@@ -234,15 +234,15 @@ std::vector<Ring> rings_of(const Coordinates& coordinates,
 RepairRule repair_from(const std::optional<std::string>& name);
 Route route_from(const std::string& name);
 PruneMeasure measure_from(const std::string& name);
-/// Appends polylines along all branches, within a chord or with steps, and where each ends.
+/// Appends polylines along all branches, within a chord or with steps, and the end of each.
 void add_lines(const MedialAxis& axis, double chord, double step, std::vector<Disk>& disks,
                std::vector<std::int64_t>& begin);
 
-/// A code of shapes or images as its streams, and back.
+/// Converts a code of shapes or images to its streams and back.
 nb::list streams_of(const ShapeCode& code);
 ShapeCode code_of(const std::vector<nb::bytes>& streams);
 
-// Each adds the functions and classes of its topic to the module.
+// Each function adds the functions and classes of its topic to the module.
 void bind_shapes(nb::module_& module);
 void bind_axes(nb::module_& module);
 void bind_collections(nb::module_& module);

@@ -1,11 +1,11 @@
-// Tool paths: carving with a V or an end mill, clearing before a V, tabs.
+// Tool paths: carving with a V-bit or an end mill, clearing before a V-bit, tabs.
 
 #include "binding.h"
 
 namespace medial::python {
 namespace {
 
-/// Moves options by name into numbers of `options`; what is no option of carve() is refused.
+/// Moves options by name into `options`, and refuses those that carve() does not have.
 CarveOptions carve_options(const nb::dict& given) {
   CarveOptions options;
   for (const auto& [key, value] : given) {
@@ -26,7 +26,7 @@ CarveOptions carve_options(const nb::dict& given) {
   return options;
 }
 
-/// How many tabs, and their width and height.
+/// The number of tabs, their width and height.
 struct TabsGiven {
   TabOptions options;
   double width = 0, height = 0;
@@ -66,7 +66,7 @@ std::unique_ptr<CarvingOf> carved(const AxisOf& self, const nb::dict& given,
   return result;
 }
 
-/// For each path its kind, its pass, and rows of x, y, z, bulge.
+/// The kind and the pass of each path, and its rows of x, y, z, bulge.
 nb::list paths_of(const Carving& carving) {
   nb::list paths;
   constexpr std::array<const char*, 5> kinds{"clearing", "wall", "groove", "ramp", "plunge"};
@@ -88,7 +88,7 @@ nb::dict numbers_of(const Carving& carving) {
   return numbers;
 }
 
-/// The middles of tabs: rows of three points.
+/// The middles of tabs, as rows of three points.
 Array<double, 2> tabs_of(const CarvingOf& self) {
   std::vector<TabLine> lines = self.carving.tabs.lines;
   return rows_of<double>(std::move(lines));

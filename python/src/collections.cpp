@@ -1,4 +1,4 @@
-// The axes of many features at once, as one struct of arrays.
+// The axes of many features at once, as a struct of arrays.
 
 #include <algorithm>
 #include <numeric>
@@ -9,7 +9,7 @@
 namespace medial::python {
 namespace {
 
-/// The axes of features, one after another. Indices in nodes and edges are those of one feature.
+/// The axes of features, concatenated. Indices in nodes and edges count within one feature.
 struct AxesOf {
   std::vector<Node> nodes;
   std::vector<Edge> edges;
@@ -99,14 +99,15 @@ std::unique_ptr<AxesOf> axes_of(const Coordinates& coordinates, const Values<std
                                 const nb::object& progress) {
   const Features features = features_of(coordinates, ring, polygon, feature, bulges);
   const std::size_t count = features.count();
-  // One thread computes block after block, and needs no parts to be joined.
+  // One thread computes block after block into one part, so nothing needs to be joined.
   const bool in_order = effective_threads(options.threads) == 1;
   std::vector<AxesOf> parts(in_order ? 1 : (count + block - 1) / block);
   for_each_block(features, options, progress,
                  [&](std::size_t first, std::size_t last, const Options& own) {
                    add_range(features, first, last, own, parts[in_order ? 0 : first / block]);
                    if (!in_order || first > 0) return;
-                   // What the first block needs, extrapolated; what is not used costs no memory.
+                   // Extrapolates the size of the first block; reserved memory that stays unused
+                   // costs nothing.
                    parts[0].reserve(1.05 * features.weight(0, count) /
                                     std::max(features.weight(first, last), 1.0));
                  });
@@ -114,7 +115,7 @@ std::unique_ptr<AxesOf> axes_of(const Coordinates& coordinates, const Values<std
       without_lock([&] { return parts.empty() ? AxesOf{} : joined(parts); }));
 }
 
-/// The nodes and edges of a feature, in the memory of the one before.
+/// Gets the nodes and edges of a feature, and reuses the memory of the previous one.
 void take_graph(const AxesOf& all, std::size_t i, MedialAxis& axis) {
   axis.nodes.assign(all.nodes.begin() + all.node_begin[i],
                     all.nodes.begin() + all.node_begin[i + 1]);
@@ -136,7 +137,7 @@ MedialAxis axis_of(const AxesOf& all, std::size_t i) {
           {}};
 }
 
-/// The arrays of axes without errors, and back.
+/// Converts to and from arrays of axes without errors.
 nb::tuple state_of(const AxesOf& all) {
   return nb::make_tuple(
       all.method, records_of(all.nodes), records_of(all.edges), records_of(all.sites),
@@ -175,8 +176,8 @@ std::unique_ptr<AxesOf> restored_axes(const std::string& method, const Values<st
   return all;
 }
 
-/// Polylines along the branches of features [first, last): rows of x, y, radius, or `flat` of x, y;
-/// where lines begin; where features begin among the lines.
+/// Polylines along the branches of features [first, last): rows of x, y, radius, or if `flat` of x,
+/// y; the first row of each line; the first line of each feature.
 nb::tuple lines_of(const AxesOf& all, double chord, bool relative, std::size_t first,
                    std::size_t last, bool flat) {
   positive_chord(chord);
@@ -205,7 +206,7 @@ nb::tuple lines_of(const AxesOf& all, double chord, bool relative, std::size_t f
                         array_of(std::move(feature_begin)));
 }
 
-/// Rows of (length of the axis, largest radius, x, y of it) for each feature.
+/// One row per feature: length of the axis, largest radius, and its x, y.
 Array<double, 2> summary(const AxesOf& all) {
   std::vector<std::array<double, 4>> rows;
   without_lock([&] {

@@ -1,4 +1,4 @@
-// From an axis to other things: shapes, offsets, tool paths, codes, certificates.
+// Results derived from an axis: shapes, offsets, tool paths, codes, certificates.
 
 #include <cmath>
 
@@ -24,8 +24,8 @@ ShapeOf rebuilt(const AxisOf& self, const std::string& by, std::uint64_t points,
   })));
 }
 
-/// One region: its clearance, its parent (-1: none), points and bulges of its rings, where rings
-/// begin.
+/// One region: its clearance, its parent (-1: none), points and bulges of its rings, and the first
+/// point of each ring.
 nb::tuple tuple_of(const OffsetRegion& region) {
   std::vector<Vec2> points;
   std::vector<double> bulges;
@@ -127,7 +127,7 @@ std::unique_ptr<AxisOf> unpacked(const std::vector<nb::bytes>& streams) {
   return share(std::make_shared<const Shape>(std::move(shape)), std::move(axes.front()));
 }
 
-/// Rows of steepness and bend of each branch.
+/// One row per branch: steepness and bend.
 Array<double, 2> legal(const AxisOf& self, int samples) {
   std::vector<std::array<double, 2>> rows;
   for (const Legality& one : without_lock([&] { return legality(self.axis, samples); }))
@@ -135,8 +135,8 @@ Array<double, 2> legal(const AxisOf& self, int samples) {
   return rows_of<double>(std::move(rows));
 }
 
-/// The boundary's curvature at feet: where branches begin among the rows of side (0 left, 1 right),
-/// disk, foot, curvature and its derivative along the boundary.
+/// The boundary's curvature at feet: the first row of each branch, and rows of side (0 left, 1
+/// right), disk, foot, curvature, and its derivative along the boundary.
 nb::tuple curvatures(const AxisOf& self) {
   std::vector<std::array<double, 8>> rows;
   std::vector<std::int64_t> begin{0};
@@ -152,7 +152,7 @@ nb::tuple curvatures(const AxisOf& self) {
   return nb::make_tuple(rows_of<double>(std::move(rows)), array_of(std::move(begin)));
 }
 
-/// Placements of a shape beside another one: angle, mirrored, move, bay, saved, gap.
+/// Placements of a shape next to another one: angle, mirrored, move, bay, saved, gap.
 nb::list nested(const ShapeOf& fixed, const ShapeOf& moving, double gap, bool mirror,
                 std::size_t best) {
   nb::list list;

@@ -5,7 +5,7 @@
 namespace medial::python {
 namespace {
 
-/// The records of these numbers, by a function of the editor.
+/// The records with these numbers, from a function of the editor.
 template <class T, class Get>
 Bytes those(const Values<std::int64_t>& numbers, const char* missing, const Get& get) {
   std::vector<T> found;
@@ -28,7 +28,7 @@ nb::tuple change_of(Result<AxisChange> result) {
                         change.everything);
 }
 
-/// A ring from x and y one after the other, and the bulges of its edges or none.
+/// A ring from interleaved x and y, and the bulges of its edges or none.
 Ring ring_of(const Values<double>& points, const Values<double>& bulges) {
   const std::span<const double> xy = span_of(points), own = span_of(bulges);
   Ring ring;
@@ -44,8 +44,8 @@ std::unique_ptr<AxisOf> axis_of(const Editor& self) {
 }  // namespace
 
 void bind_editing(nb::module_& module) {
-  // One thread at a time may edit. Edits hold the interpreter's lock, and where Python has none,
-  // that of the object.
+  // Only one thread at a time may edit. Edits hold the interpreter's lock, or in Python without
+  // one, the object's lock.
   const nb::lock_self lock;
   nb::class_<Editor>(module, "Editor")
       .def(

@@ -1,11 +1,11 @@
-// What a shape is made of, and how alike two shapes are.
+// The parts of a shape, and the similarity of two shapes.
 
 #include "binding.h"
 
 namespace medial::python {
 namespace {
 
-/// A table by columns.
+/// A table as columns.
 class Columns {
  public:
   template <class Rows, class Value>

@@ -74,7 +74,7 @@ Array<double, 2> distances(const Pixels& pixels, bool cracks, bool frame, bool s
   return {all.data(), {pixels.shape(0), pixels.shape(1)}, owner};
 }
 
-/// The outline of the foreground: points, and where rings begin.
+/// The outline of the foreground: points, and the first point of each ring.
 nb::tuple outline_of(const Pixels& pixels, double neck) {
   const std::vector<Ring> rings =
       value_of(without_lock([&] { return pixel_outline(image_of(pixels), neck); }));
@@ -95,7 +95,8 @@ nb::tuple disk_image(const AxisOf& self, std::uint32_t pixels, bool y_down) {
   return nb::make_tuple(array_of_image(from.image), t[1], nb::make_tuple(t[0], low));
 }
 
-/// Streams of a code of squares, the number of squares, and of pixels that none covers.
+/// The streams of a code of squares, the number of squares, and the number of pixels that none
+/// covers.
 nb::tuple packed_image(const Pixels& pixels, std::uint32_t error) {
   SquareReport report;
   const ShapeCode code =

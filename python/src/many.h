@@ -1,6 +1,6 @@
 #pragma once
 
-// What functions of many features share: their rings, their errors, blocks of them.
+// Shared by functions of many features: their rings, their errors, blocks of them.
 
 #include <algorithm>
 #include <numeric>
@@ -11,13 +11,13 @@
 
 namespace medial::python {
 
-constexpr std::size_t block = 256;  ///< features that one thread computes at a time
+constexpr std::size_t block = 256;  ///< number of features that one thread computes at a time
 
-/// Features as rings of coordinates with offsets, as shapely.to_ragged_array() has them.
+/// Features as rings of coordinates with offsets, in the format of shapely.to_ragged_array().
 struct Features {
   std::span<const Vec2> points;
-  std::span<const std::int64_t> ring, polygon, feature;  ///< feature: empty, a polygon each
-  std::span<const double> bulges;                        ///< of each point's edge; empty: straight
+  std::span<const std::int64_t> ring, polygon, feature;  ///< feature: empty if each polygon is one
+  std::span<const double> bulges;  ///< of the edge after each point; empty: straight
 
   std::size_t count() const { return feature.empty() ? polygon.size() - 1 : feature.size() - 1; }
   std::pair<std::size_t, std::size_t> polygons(std::size_t i) const {
@@ -29,7 +29,7 @@ struct Features {
     return static_cast<double>(ring[static_cast<std::size_t>(polygon[to])] -
                                ring[static_cast<std::size_t>(polygon[from])]);
   }
-  /// The rings of a feature; the space of `rings` is used again.
+  /// The rings of a feature; reuses the memory of `rings`.
   void rings(std::size_t i, std::vector<Ring>& rings) const {
     std::size_t used = 0;
     const auto [from, to] = polygons(i);
@@ -81,7 +81,7 @@ inline Features features_of(const Coordinates& coordinates, const Values<std::in
   return all;
 }
 
-/// Features, and what went wrong there.
+/// Features, and the errors that occurred.
 using FeatureErrors = std::vector<std::pair<std::int64_t, Error>>;
 
 inline nb::list list_of(const FeatureErrors& errors) {
@@ -96,8 +96,8 @@ inline nb::list list_of(const FeatureErrors& errors) {
   return list;
 }
 
-/// Calls work(first, last, options) for all blocks of features, options with the threads of the
-/// block; in order where there is one thread. Reports the features done.
+/// Calls work(first, last, options) for all blocks of features, with the number of threads for the
+/// block; in order if there is one thread. Reports the number of finished features.
 template <class Work>
 void for_each_block(const Features& features, const Options& options, const nb::object& progress,
                     const Work& work) {
@@ -106,10 +106,10 @@ void for_each_block(const Features& features, const Options& options, const nb::
   for (std::size_t b = 0; b < blocks; ++b)
     weights.push_back(features.weight(b * block, std::min(count, (b + 1) * block)) + 1);
   const bool reports = !progress.is_none();
-  std::optional<nb::python_error> raised;  // by `progress`, which ends the work
+  std::optional<nb::python_error> raised;  // by `progress`; ends the work
   std::atomic<bool> failed{false};
-  // One thread at a time calls `progress`, also where Python has no lock, and for those that do not
-  // wait: `progress` may compute, too, and a thread of that work may come here.
+  // One thread at a time calls `progress`, also in Python without a lock. The others do not wait:
+  // `progress` may compute, too, and a thread of that work may get here.
   std::atomic<std::size_t> unreported{0};
   std::atomic_flag busy;
   const auto report = [&](std::size_t done) -> Status {

@@ -18,7 +18,7 @@ nb::object point_or_none(const Place& place) {
   return nb::make_tuple(place.point->x, place.point->y);
 }
 
-/// Bytes that are no UTF-8, as in the name of a file, are kept as os.fsdecode() does.
+/// Keeps bytes that are not UTF-8, as in file names, like os.fsdecode().
 nb::object text_of(const std::string& text) {
   return nb::steal(
       PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "surrogateescape"));
@@ -36,7 +36,8 @@ void raise(const Error& error) {
 }  // namespace
 
 NB_MODULE(_core, module) {
-  // Whoever holds an object or a function when the interpreter ends would make it print a list.
+  // If a program still holds an object or a function when the interpreter ends, nanobind would
+  // print a list.
   nb::set_leak_warnings(std::getenv("MEDIAL_LEAK_WARNINGS") != nullptr);
   nb::register_exception_translator([](const std::exception_ptr& thrown, void*) {
     try {

@@ -1,4 +1,4 @@
-// Ways along an axis: main paths, widths, necks, pruning.
+// Paths along an axis: main paths, widths, necks, pruning.
 
 #include <cmath>
 
@@ -49,7 +49,7 @@ std::vector<PathOf> paths_of(const AxisOf& self, double trim, const std::string&
   return paths;
 }
 
-/// A path as plain values, and back.
+/// Converts a path to and from plain values.
 using PathState = std::tuple<std::vector<std::tuple<std::uint32_t, double, double>>, bool, double,
                              double, double>;
 
@@ -83,7 +83,7 @@ std::unique_ptr<AxisOf> line_of(const AxisOf& self, const PathOf& path, bool ext
   return share(self.shape, std::move(line), true);
 }
 
-/// What a path leaves out of the ways around holes that leave it and come back.
+/// The side channels of a path: ways around holes that leave it and come back.
 std::unique_ptr<AxisOf> channels_of(const AxisOf& self, const PathOf& path) {
   auto part = without_lock([&] { return part_of(self.axis, side_channels(self.axis, path.path)); });
   return share(self.shape, std::move(part), true);
@@ -97,7 +97,8 @@ WidthRow row_of(const LocalWidth& width) {
           feet[0].x, feet[0].y,     feet[1].x,     feet[1].y};
 }
 
-/// Rows at lengths along a path: feet of disks, or the ends of transects across the course.
+/// Rows at given lengths along a path: the feet of disks, or the ends of transects across the
+/// course.
 Array<double, 2> widths(const AxisOf& self, const PathOf& path, const Values<double>& lengths,
                         bool across) {
   const auto at = span_of(lengths);
@@ -116,7 +117,7 @@ Array<double, 2> widths(const AxisOf& self, const PathOf& path, const Values<dou
   return rows_of<double>(std::move(rows));
 }
 
-/// Rows of a width's, then opens_to, around_hole, edge, t.
+/// Rows of a width's numbers, then opens_to, around_hole, edge, t.
 Array<double, 2> neck_rows(const AxisOf& self, double widening) {
   if (!(widening > 1)) refuse(ErrorCode::invalid_option, "widening must be above 1");
   std::vector<std::array<double, 12>> rows;
@@ -158,7 +159,7 @@ std::optional<Place> place_at(const AxisOf& self, const Point& p) {
   return Place{place->edge, place->t};
 }
 
-/// The middle of the side that begins at a vertex of a ring of the input, if the shape has it.
+/// The middle of the side that begins at a vertex of an input ring, if the shape has it.
 std::optional<Point> middle_of_side(const ShapeOf& of, std::uint32_t ring, std::uint32_t vertex) {
   const Shape& shape = *of.shape;
   for (std::size_t i = 0; i < shape.loop_count(); ++i) {

@@ -1,4 +1,4 @@
-// Shapes and contours of curves.
+// Shapes, and contours of curves.
 
 #include "binding.h"
 #include "faces/axes.h"
@@ -14,7 +14,7 @@ RingRole role_from(std::uint8_t role) {
   return static_cast<RingRole>(role);
 }
 
-/// A shape and, for methods that follow them, its contours.
+/// A shape and its contours, for methods that follow curves.
 struct Loaded {
   ShapeOf shape;
   std::vector<Contour> contours;
@@ -54,8 +54,8 @@ ShapeOf shape_of(const Coordinates& coordinates, const std::optional<Values<std:
   return {std::make_shared<const Shape>(value_of(std::move(shape)))};
 }
 
-/// A shape from the arrays of a stored one. build_shape() does not run: the result is checked by
-/// compute() and by what reads it, as far as arrays show.
+/// Makes a shape from the arrays of a stored one. Does not run build_shape(): compute() and other
+/// readers check the result as far as its arrays allow.
 ShapeOf restored(const Coordinates& points, const Values<double>& bulges,
                  const Values<std::uint32_t>& sources, const Values<std::uint32_t>& begin,
                  const Values<std::uint32_t>& component, const Values<std::uint8_t>& hole) {
@@ -80,7 +80,8 @@ ShapeOf restored(const Coordinates& points, const Values<double>& bulges,
   return {std::make_shared<const Shape>(std::move(shape))};
 }
 
-/// The boundary as closed rings of points with arcs as chords: points, and where rings begin.
+/// The boundary as closed rings of points, with arcs as chords: points, and the first point of each
+/// ring.
 std::pair<Array<double, 2>, Array<std::int64_t>> outline(const Shape& shape, double chord) {
   positive_chord(chord);
   std::vector<Vec2> points;
@@ -92,7 +93,7 @@ std::pair<Array<double, 2>, Array<std::int64_t>> outline(const Shape& shape, dou
   return {rows_of<double>(std::move(points)), array_of(std::move(begin))};
 }
 
-/// A contour as plain values, and back.
+/// Converts a contour to and from plain values.
 using ContourState = std::tuple<std::vector<std::array<double, 2>>, std::vector<double>,
                                 std::vector<std::pair<std::uint32_t, double>>, std::uint8_t>;
 
@@ -129,7 +130,7 @@ void bind_contour(nb::module_& module) {
     for (const auto& p : points) result.push_back(point_of(p));
     return result;
   };
-  const nb::lock_self lock;  // without the interpreter's lock two threads may add pieces
+  const nb::lock_self lock;  // without the interpreter's lock, two threads may add pieces at once
   nb::class_<Contour>(module, "Contour")
       .def(nb::init<>())
       .def(

@@ -1,6 +1,6 @@
 #pragma once
 
-// The distance of many points from the boundary of a shape, negative outside.
+// Distances of many points from the boundary of a shape, negative outside.
 
 #include <cmath>
 
@@ -9,8 +9,8 @@
 
 namespace medial::python {
 
-/// Each point takes O(log n) expected: the nearest edge decides the side, except at joints of arcs,
-/// where clearance() does.
+/// Expected O(log n) per point. The nearest edge decides the side, except at joints of arcs, where
+/// clearance() does.
 class SignedDistance {
  public:
   explicit SignedDistance(const Shape& shape)
@@ -49,7 +49,7 @@ class SignedDistance {
     const bool inside = distance(p, center) < distance(site.start, center);
     return inside == (site.bulge > 0);
   }
-  /// Nearest is the vertex at the end of the edge `first`.
+  /// The signed distance of a point whose nearest point is the vertex at the end of the edge `first`.
   double at_vertex(Vec2 p, std::uint32_t first, const NearestSite& found) const {
     const Site &a = sites_[first], &b = sites_[after_[first]];
     if (found.distance == 0) return 0;
@@ -59,7 +59,7 @@ class SignedDistance {
   }
 
   const Shape& shape_;
-  std::vector<std::uint32_t> before_, after_;  ///< of each edge, the edges beside it in its loop
+  std::vector<std::uint32_t> before_, after_;  ///< the edges before and after each edge
   std::vector<Site> sites_;
   SiteLocator locator_;
 };

@@ -1,4 +1,4 @@
-// The axis of closed meshes, on voxels.
+// The axis of closed meshes, from voxels.
 
 #include <algorithm>
 
@@ -21,7 +21,7 @@ nb::tuple tuple_of(const VoxelTopology& topology) {
   return nb::make_tuple(topology.components, topology.tunnels, topology.cavities);
 }
 
-/// Vertices, radii, triangles and lines of sheets and curves.
+/// The vertices, radii, triangles and lines of sheets and curves.
 nb::tuple tuple_of(AxisSurface surface) {
   return nb::make_tuple(rows_of<double>(std::move(surface.vertices)),
                         array_of(std::move(surface.radii)),

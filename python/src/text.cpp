@@ -1,4 +1,4 @@
-// Files and texts that medial::text reads and writes.
+// Files and texts in the formats that medial::text reads and writes.
 
 #include <nanobind/stl/variant.h>
 
@@ -14,11 +14,12 @@
 namespace medial::python {
 namespace {
 
-/// The name of a file, in the encoding of the system.
+/// The name of a file, in the system's encoding.
 using Path = nb::bytes;
 std::string text_of(const Path& path) { return {path.c_str(), path.size()}; }
 
-/// All rings of some features: points, where rings begin, roles, bulges (none: straight), contours.
+/// All rings of some features: points, the first point of each ring, roles, bulges (none:
+/// straight), contours.
 nb::tuple tuple_of(std::vector<Feature> features) {
   std::vector<Vec2> points;
   std::vector<double> bulges;
@@ -49,7 +50,7 @@ nb::tuple rings_of_text(const std::string& text) {
   return tuple_of(std::move(read.items));
 }
 
-/// How a file is read, by the names of Python.
+/// The options of reading, by their names in Python.
 io::SourceOptions reading(const std::optional<std::string>& repair,
                           std::optional<double> arc_tolerance, double fit, const std::string& layer,
                           std::optional<double> close, const std::string& unit, int threads) {
@@ -68,7 +69,7 @@ io::SourceOptions reading(const std::optional<std::string>& repair,
   return options;
 }
 
-/// Shapes with the attributes of each; notes.
+/// Shapes with their attributes, and notes.
 nb::tuple shapes_of(
     const std::function<Result<Document<ShapeItem>>(const std::atomic<bool>*)>& load) {
   Document<ShapeItem> loaded = value_of(run(long_work, load));
@@ -79,7 +80,7 @@ nb::tuple shapes_of(
   return nb::make_tuple(shapes, loaded.notes);
 }
 
-/// The shapes of a file, or of a text in the font `path`.
+/// The shapes of a file, or of a text in the font at `path`.
 nb::tuple shapes_of_file(const Path& file, const std::string& text, io::SourceOptions options) {
   options.text = text;
   const std::string path = text_of(file);
@@ -89,7 +90,7 @@ nb::tuple shapes_of_file(const Path& file, const std::string& text, io::SourceOp
   });
 }
 
-/// What read_document() makes of the file of a drawing.
+/// The result of read_document() for a drawing.
 Result<Document<ShapeItem>> load_drawing(const io::Drawing& drawing,
                                          const io::SourceOptions& options) {
   Result<Document<Feature>> features = io::features_of(drawing, options.read);
@@ -165,14 +166,14 @@ void bind_drawing(nb::module_& module) {
   module.def("shapes_of_drawing", &shapes_of_drawing, nb::arg("drawing"), nb::arg("reading"));
 }
 
-/// As writers of tables know numbers again.
+/// The shortest text that writers of tables recognize as this number.
 std::string shortest(double number) {
   std::array<char, 32> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
   return {text.data(), end};
 }
 
-/// What Python says of a shape: texts, and numbers to be written as texts.
+/// Attributes from Python: texts, and numbers to be written as texts.
 using Given = std::vector<std::pair<std::string, std::variant<double, std::string>>>;
 
 Attributes attributes_of(const Given& given) {
@@ -197,7 +198,7 @@ nb::list native(Result<Document<AxisItem>> file) {
   return list;
 }
 
-/// Where a document goes: a file, or without a path a text.
+/// The destination of a document: a file, or without a path a text.
 class Output {
  public:
   explicit Output(const std::optional<Path>& path) {
@@ -206,7 +207,7 @@ class Output {
   io::Destination destination() {
     return path_ ? io::Destination(*path_) : io::Destination(&text_);
   }
-  /// The text, or None.
+  /// The text, or None if a file was written.
   nb::object result(Status written) {
     value_of(std::move(written));
     return path_ ? nb::none() : nb::object(nb::str(text_.data(), text_.size()));
@@ -242,7 +243,7 @@ nb::object write_shape(const ShapeOf& self, const Given& attributes,
   }));
 }
 
-/// The program of one tool, or of a mill and a V, in millimetres or inches.
+/// The program of one tool, or of an end mill and a V-bit, in millimetres or inches.
 nb::object write_carving(const CarvingOf& self, const std::optional<Path>& path,
                          const std::string& format, const std::array<double, 2>& zero, bool y_down,
                          bool inches, const io::MachineOptions& machine) {

@@ -1,4 +1,4 @@
-// One tile of a shape: for engines that give tiles to many machines.
+// One tile of a shape, for engines that distribute tiles over many machines.
 
 #include "ops/tiles.h"
 
@@ -23,7 +23,7 @@ TileGrid grid_of(const std::array<double, 4>& box, int levels) {
   return grid;
 }
 
-/// Errors: what no tile of the grid would take.
+/// Errors: data that no tile of the grid accepts.
 void check(const std::array<double, 4>& box, int levels, double tolerance) {
   Options options;
   options.tolerance = tolerance;
@@ -42,9 +42,9 @@ Array<std::int64_t, 2> leaves(const EdgeRows& edges, const std::array<double, 4>
   return rows_of<std::int64_t>(std::move(rows));
 }
 
-/// Of the final edges rows of two nodes, two sites and two degrees, and rows of two disks, the
-/// control point and the weight; and the numbers of the edges that stay open. The edges given come
-/// by number.
+/// Computes a tile from the numbered edges. Returns the final edges as rows of two nodes, two sites
+/// and two degrees, and rows of two disks, the control point and the weight; and the numbers of the
+/// edges that stay open.
 nb::tuple tile(const EdgeRows& edges, const Values<std::int64_t>& numbers,
                const std::array<double, 4>& box, int levels, int level, std::uint32_t column,
                std::uint32_t row, double tolerance) {

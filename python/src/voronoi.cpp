@@ -7,7 +7,7 @@
 namespace medial::python {
 namespace {
 
-/// A diagram with what it was computed from.
+/// A diagram and its input.
 struct VoronoiOf {
   PlanarGraph planar_graph;
   VoronoiDiagram diagram;
@@ -53,7 +53,7 @@ std::unique_ptr<VoronoiOf> diagram_of(
   return result;
 }
 
-/// The diagram inside a polygon, by the method `lee` where double decides.
+/// The diagram inside a polygon, by the method `lee` if double precision decides.
 std::unique_ptr<VoronoiOf> diagram_inside(const ShapeOf& of, const Options& given) {
   auto diagram = run(of.shape->points.size(), [&](const std::atomic<bool>* cancel) {
     Options options = given;
@@ -63,7 +63,7 @@ std::unique_ptr<VoronoiOf> diagram_inside(const ShapeOf& of, const Options& give
   return std::make_unique<VoronoiOf>(VoronoiOf{{}, value_of(std::move(diagram))});
 }
 
-/// The faces as rings: points, where each face begins (an empty face has none).
+/// The faces as rings: points, and the first point of each face (an empty face has none).
 nb::tuple outlines(const VoronoiOf& self, double chord) {
   positive_chord(chord);
   std::vector<Vec2> points;
@@ -79,7 +79,7 @@ nb::tuple outlines(const VoronoiOf& self, double chord) {
   return nb::make_tuple(rows_of<double>(std::move(points)), array_of(std::move(begin)));
 }
 
-/// The edges as polylines of x, y, radius; where each begins.
+/// The edges as polylines of x, y, radius; and the first row of each.
 nb::tuple edge_lines(const VoronoiOf& self, double chord) {
   positive_chord(chord);
   std::vector<Disk> disks;
@@ -107,7 +107,7 @@ nb::tuple edge_columns(const VoronoiOf& self) {
                         array_of(std::move(frame)));
 }
 
-/// For each point the nearest site, its distance, and the foot on it.
+/// For each point, the nearest site, its distance, and the foot on it.
 nb::tuple nearest_sites(const SiteLocator& locator, const Coordinates& points) {
   std::vector<std::int64_t> sites;
   std::vector<double> distances;
@@ -166,7 +166,7 @@ nb::list buffers(const Coordinates& coordinates, const Values<std::int64_t>& beg
   return list;
 }
 
-/// Rows of log potential, direction x and y, clearance; NaN where nothing is.
+/// Rows of log potential, direction x and y, clearance; NaN outside of the field.
 Array<double, 2> sampled(const PotentialField& field, const Coordinates& points) {
   std::vector<std::array<double, 4>> rows;
   without_lock([&] {

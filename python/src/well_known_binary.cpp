@@ -1,4 +1,4 @@
-// Polygons from well-known binary, of OGC and EWKB, as rings with offsets.
+// Reads polygons from well-known binary, OGC or EWKB, as rings with offsets; writes geometries.
 
 #include <bit>
 #include <cstring>
@@ -9,7 +9,7 @@ namespace medial::python {
 namespace {
 
 constexpr std::uint32_t polygon_type = 3, multi_polygon_type = 6, collection_type = 7;
-constexpr int deepest = 32;  ///< collections in collections
+constexpr int deepest = 32;  ///< nesting of collections
 
 class Reader {
  public:
@@ -49,7 +49,7 @@ class Reader {
     if (swapped_) std::ranges::reverse(bytes);
     return std::bit_cast<T>(bytes);
   }
-  /// A count of things of at least `size` bytes.
+  /// A number of items that take at least `size` bytes each.
   std::uint32_t count(std::size_t size) {
     const auto n = number<std::uint32_t>();
     if (n > rest_.size() / size) fail(ErrorCode::malformed, "well-known binary ends too early");
@@ -93,7 +93,7 @@ class Reader {
   bool swapped_ = false;
 };
 
-/// The polygons of geometries that lie one after another in `data`, from offset to offset.
+/// The polygons of the geometries that `data` holds one after another, divided by offsets.
 nb::tuple read_all(const Values<std::uint8_t>& data, const Values<std::int64_t>& offsets) {
   Reader reader;
   const auto bytes = span_of(data);
@@ -109,8 +109,9 @@ nb::tuple read_all(const Values<std::uint8_t>& data, const Values<std::int64_t>&
                         list_of(reader.errors));
 }
 
-/// Writes the geometries of features: parts of parts of rows, of which x and y are taken. As many
-/// levels of offsets as the type is deep: a line string one, a line of lines two, polygons three.
+/// Writes the geometries of features from rows, of which it uses x and y. The type decides the
+/// number of levels of offsets: one for line strings, two for multi line strings, three for multi
+/// polygons.
 class Writer {
  public:
   Writer(const Values<double>& values, std::size_t columns,
