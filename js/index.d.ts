@@ -28,7 +28,7 @@ export type Repair = "make_valid" | "even_odd" | "non_zero";
 export interface ShapeOptions {
   /** The bulge of the edge after each vertex: the tangent of a quarter of its angle; 0: straight. */
   bulges?: ArrayLike<number>;
-  /** The rule that decides what is inside where rings cross; without it, that is an error. */
+  /** The fill rule where rings cross; without it, crossing rings are an error. */
   repair?: Repair;
   /** The largest distance of arcs from free-form curves, as a share of the diagonal. */
   arcTolerance?: number;
@@ -38,7 +38,7 @@ export interface ShapeOptions {
 
 export interface AxisOptions extends ShapeOptions {
   method?: Method;
-  /** A disk touches a site at a distance below this share of the diagonal; 0: by rounding. */
+  /** A disk touches a site if it is closer than this share of the diagonal; 0: chosen by rounding. */
   tolerance?: number;
   /** A convex joint with an arc is a corner if it turns by more than this, in degrees. */
   cornerAngle?: number;
@@ -47,7 +47,7 @@ export interface AxisOptions extends ShapeOptions {
   /** Computes the axis of the exterior: around the shape and in its holes. */
   exterior?: boolean;
   margin?: number;
-  /** At most so many of the threads that there are; 0: all, for 4,000 points and more. */
+  /** The largest number of threads to use; 0: all, for 4,000 points and more. */
   threads?: number;
   /** For `ridge` and `brushfire`: the side of a pixel, or the number along the longer side. */
   resolution?: number;
@@ -72,7 +72,7 @@ export interface AxisOptions extends ShapeOptions {
   firstMaximum?: number;
 }
 
-/** An input or an option that cannot be computed. */
+/** Thrown for an input or an option that cannot be computed. */
 export class MedialError extends Error {
   constructor(text: string, code?: string, place?: object);
   /** A stable name, such as "crossing" or "invalid_option". */
@@ -84,7 +84,7 @@ export class MedialError extends Error {
   readonly point?: [number, number];
 }
 
-/** Owns memory of the module, which the garbage collector frees, or free() at once. */
+/** Owns memory of the module. The garbage collector frees it; free() does so at once. */
 export class Handle {
   free(): void;
 }
@@ -161,7 +161,7 @@ export class Shape extends Handle {
   readonly area: number;
   readonly componentCount: number;
   readonly holeCount: number;
-  /** What a native file says besides the geometry, by name; loads() fills it, dumps() writes it. */
+  /** The attributes in a native file, by name; loads() fills them, dumps() writes them. */
   readonly attributes: Map<string, string>;
   /** The reference system as WKT, the unit of lengths, and whether y points down. */
   readonly document: { crs?: string; unit?: string; yDown?: boolean };
@@ -304,7 +304,7 @@ export class Field extends Handle {
 }
 export function field(x: MedialAxis | Geometry, order?: number): Field;
 export function curveAxis(x: Geometry, options?: AxisOptions): MedialAxis;
-/** What an edit has changed. Apply removals first: new nodes and edges may get their numbers. */
+/** The effect of an edit. Apply removals first: new nodes and edges may reuse their numbers. */
 export interface Change {
   removedNodes: Uint32Array;
   removedEdges: Uint32Array;
@@ -312,7 +312,7 @@ export interface Change {
   addedEdges: Uint32Array;
   /** The vertex moved, inserted or removed. */
   vertex: number;
-  /** All was computed again, and all earlier nodes and edges are removed. */
+  /** Everything was recomputed, and all earlier nodes and edges are removed. */
   everything: boolean;
 }
 /**
@@ -327,11 +327,11 @@ export class Editor extends Handle {
   /** Inserts a vertex on the edge that begins at the vertex `before`. */
   insert(before: number, point: Position): Change;
   remove(vertex: number): Change;
-  /** Of the edge that begins at a vertex: the tangent of a quarter of its angle, 0 straight. */
+  /** Sets the bulge of the edge that begins at a vertex: the tangent of a quarter of its angle, 0: straight. */
   setBulge(vertex: number, bulge: number): Change;
-  /** A hole or an outer loop, by where it lies; its vertices count on from `Change.vertex`. */
+  /** Inserts a hole or an outer loop, depending on its place. Its vertices are numbered from `Change.vertex` on. */
   insertLoop(points: Position[] | ArrayLike<number>, bulges?: ArrayLike<number>): Change;
-  /** The loop that a vertex lies on. */
+  /** Removes the loop of a vertex. */
   removeLoop(vertex: number): Change;
   moveLoop(vertex: number, by: Position): Change;
   /** Undoes the last edit that is not undone yet; without one, changes nothing. */

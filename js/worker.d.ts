@@ -35,7 +35,7 @@ export type RemoteEditor = {
 
 export type WorkerModule = Functions & {
   Editor(...given: ConstructorParameters<typeof medial.Editor>): Promise<RemoteEditor>;
-  /** Ends the worker; what it has not answered is rejected. */
+  /** Ends the worker, and rejects all pending calls. */
   terminate(): void;
 };
 /**

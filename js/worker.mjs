@@ -1,4 +1,4 @@
-// The functions of the package in a worker, so that long work leaves the page alone.
+// The functions of the package in a worker, so that long computations do not block the page.
 //
 //   const medial = await inWorker({ threads: 0 });
 //   const { nodes, edges, lines } = await medial.axis(shape, { method: "lee" });
@@ -57,7 +57,7 @@ export async function inWorker({ threads = 1 } = {}) {
 
 const left = new FinalizationRegistry(({ editor, call }) => call("free", [], editor).catch(() => {}));
 
-/** What stands for an editor of the worker: the same methods, each giving a promise. */
+/** A proxy for an editor in the worker: the same methods, each of which returns a promise. */
 function remote_editor(editor, call) {
   const methods = [
     "move", "insert", "remove", "setBulge", "insertLoop", "removeLoop", "moveLoop", "undo", "copy",

@@ -4,7 +4,7 @@ import { Handle, MedialError, answer_json, answer_text, call, encoded, memory, n
 import { NO_SITE, Records } from "./records.mjs";
 import { read, rings_of_lists } from "./read.mjs";
 
-/** Chords of lines and outlines are this share of the diagonal away from curves at most. */
+/** The largest distance of chords from curves, as a share of the diagonal. */
 const CHORD = 1e-4;
 
 /** Rows of `width` numbers, each as an array. */
@@ -14,7 +14,7 @@ export function rows(numbers, width) {
   );
 }
 
-/** Pieces of an array of rows, by where they begin. */
+/** Divides an array of rows into pieces, given their first rows. */
 export function split(numbers, begin, width) {
   return Array.from({ length: begin.length - 1 }, (_, i) =>
     numbers.subarray(begin[i] * width, begin[i + 1] * width),
@@ -42,7 +42,7 @@ export class Shape extends Handle {
     if (x instanceof Shape) this.#take(x);
   }
 
-  /** The result of a call as a shape; its attributes are those of another one. */
+  /** The result of a call as a shape, with the attributes of another one. */
   static of(address, like) {
     const shape = new Shape(address, MADE);
     if (like) shape.#take(like);
@@ -54,7 +54,7 @@ export class Shape extends Handle {
     this.#document = { ...document };
   }
 
-  /** What a native file says of it besides the geometry: texts by name; crs, unit, yDown. */
+  /** Attributes from a native file: texts by name; crs, unit, yDown. */
   get attributes() {
     return (this.#attributes ??= new Map());
   }
@@ -143,7 +143,7 @@ export class Shape extends Handle {
   }
 }
 
-/** The address of a geometry as a shape, by build_shape() or, where options ask for more, load_shapes(). */
+/** The address of a geometry as a shape, by build_shape() or, if options require it, load_shapes(). */
 function load(x, given) {
   const given_bulges = given.bulges?.length ? Float64Array.from(given.bulges) : null;
   const bulges = given_bulges ?? (x instanceof Shape && x.bulges.length ? x.bulges : null);
@@ -206,7 +206,7 @@ export class MedialAxis extends Handle {
   get tolerance() {
     return this.#number(6);
   }
-  /** 0 of an exact axis; otherwise the step of a sampled one. */
+  /** The step of a sampled axis; 0 for an exact one. */
   get resolution() {
     return this.#number(7);
   }
@@ -220,7 +220,7 @@ export class MedialAxis extends Handle {
     this.#number(0);
     return this.#text;
   }
-  /** What it is the axis of. */
+  /** The shape of the axis. */
   get shape() {
     return (this.ofShape ??= Shape.of(call("shape_of", this.address)));
   }
@@ -261,7 +261,7 @@ export class MedialAxis extends Handle {
     return { x, y, radius, feet: rows(Float64Array.from(feet), 2) };
   }
 
-  /** Where the maximal disk is that touches the boundary nearest to a point. */
+  /** The place of the maximal disk that touches the boundary nearest to a point. */
   placeAt([x, y]) {
     call("place_at", this.address, x, y);
     const [edge, t, ...disk] = table();
@@ -278,7 +278,7 @@ export class MedialAxis extends Handle {
     return new MedialAxis(call("clearance_part", this.address, clearance), this.ofShape, true);
   }
 
-  /** By how much each edge matters: the largest threshold of prune() that keeps some of it. */
+  /** The significance of each edge: the largest threshold of prune() that keeps some of it. */
   significance(measure = "prominence") {
     call("significance", this.address, encoded(measure));
     return table();

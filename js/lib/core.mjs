@@ -2,7 +2,7 @@
 
 import { can_wait, imports, own_memory, shared_memory, threads_of_machine, with_memory, worker_starter } from "./threads.mjs";
 
-/** An input or an option that has no answer. */
+/** An input or an option that cannot be computed. */
 export class MedialError extends Error {
   constructor(text, code = "invalid_option", place = {}) {
     const { feature, ring, vertex, point } = place;
@@ -17,7 +17,7 @@ export class MedialError extends Error {
 
 const most_threads = 64; // each has a stack of 4 MB
 
-let module; // what the WebAssembly module exports
+let module; // the exports of the WebAssembly module
 let heap; // its memory
 let parts; // it, compiled
 let starting;
@@ -35,7 +35,7 @@ export async function init(source, second) {
   await completing;
 }
 
-/** The same, but waits for the first part only: until complete(), what needs more throws an error. */
+/** The same, but waits only for the first part: until complete(), functions that need more throw an error. */
 export function begin(
   source = new URL("./medial.wasm", import.meta.url),
   second = new URL("./medial-rest.wasm", import.meta.url),
@@ -70,7 +70,7 @@ async function start(source, second) {
   parts = [compiled];
   if (!WebAssembly.Module.imports(compiled).some((one) => one.module === "placeholder")) return;
   completing = add_second(second, heap === shared);
-  completing.catch(() => {}); // those who wait for it get the error
+  completing.catch(() => {}); // callers that wait for it get the error
 }
 
 /** Its functions take the places of the placeholders in the module's table. */
@@ -121,7 +121,7 @@ function start_thread(thread, stack, begin, given) {
   return 0;
 }
 
-/** Stands for the functions of the second part. */
+/** A placeholder for the functions of the second part. */
 function placeholder() {
   is_incomplete = true;
   throw incomplete();
@@ -170,7 +170,7 @@ export function camel(object) {
 /** A text as the module reads it: an argument of call(). */
 export const encoded = (value) => bytes.encode(`${value}\0`);
 
-/** Options as the module reads them: names in the spelling of C++, without those left undefined. */
+/** Options in the module's format: names in the spelling of C++, without undefined ones. */
 export function options(given) {
   const rows = Object.entries(given)
     .filter(([, value]) => value !== undefined && value !== null)
@@ -225,7 +225,7 @@ export const number_of = (name, ...values) => loaded()[`medial_${name}`](...valu
 // Objects of the module are freed when JavaScript's garbage collector takes their owners.
 const registry = new FinalizationRegistry(({ free, address }) => module[free](address));
 
-/** What owns an object of the module. */
+/** Owns an object of the module. */
 export class Handle {
   #address;
   #free;
@@ -236,7 +236,7 @@ export class Handle {
     registry.register(this, { free: this.#free, address }, this);
   }
 
-  /** The object's address; an error once it is freed. */
+  /** The object's address. Throws an error after it is freed. */
   get address() {
     if (this.#address === 0) throw new MedialError("the object is freed", "invalid_option");
     return this.#address;

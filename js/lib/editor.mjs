@@ -21,7 +21,7 @@ function place(point) {
 
 /** A shape with its axis, which follows when vertices, edges and loops change. */
 export class Editor extends Handle {
-  #said; // what a file says of the shape
+  #said; // attributes of the shape from its file
 
   constructor(x, { tolerance = 0, ...others } = {}) {
     for (const name of Object.keys(others)) throw new MedialError(`there is no option '${name}'`, "invalid_option");
@@ -41,32 +41,32 @@ export class Editor extends Handle {
   move(vertex, to) {
     return this.#change("move", whole(vertex), ...place(to));
   }
-  /** A vertex on the edge that begins at the vertex `before`. */
+  /** Inserts a vertex on the edge that begins at the vertex `before`. */
   insert(before, point) {
     return this.#change("insert", whole(before), ...place(point));
   }
   remove(vertex) {
     return this.#change("remove", whole(vertex));
   }
-  /** Of the edge that begins at a vertex: the tangent of a quarter of its angle, 0 straight. */
+  /** Sets the bulge of the edge that begins at a vertex: the tangent of a quarter of its angle, 0: straight. */
   setBulge(vertex, bulge) {
     return this.#change("set_bulge", whole(vertex), number(bulge));
   }
-  /** A hole or an outer loop, by where it lies; its vertices count on from the change's. */
+  /** Inserts a hole or an outer loop, depending on its place. Its vertices are numbered from `change.vertex` on. */
   insertLoop(points, bulges) {
     const { coordinates } = rings_of_lists([points], () => 0);
     const own = bulges && Float64Array.from(bulges, number);
     if (own && own.length !== coordinates.length / 2) throw new MedialError("a loop has a bulge for each point", "malformed");
     return this.#change("insert_loop", coordinates, coordinates.length / 2, own);
   }
-  /** The loop that a vertex lies on. */
+  /** Removes the loop of a vertex. */
   removeLoop(vertex) {
     return this.#change("remove_loop", whole(vertex));
   }
   moveLoop(vertex, by) {
     return this.#change("move_loop", whole(vertex), ...place(by));
   }
-  /** Undoes the last edit, and those before, one by one; nothing where there is none. */
+  /** Undoes the last edit; further calls undo earlier ones. Does nothing if there is none. */
   undo() {
     return this.#change("undo");
   }
@@ -81,7 +81,7 @@ export class Editor extends Handle {
     const [x, y] = table();
     return x === undefined ? null : [x, y];
   }
-  /** The bulge of the edge that begins at a vertex; null where there is no such vertex. */
+  /** The bulge of the edge that begins at a vertex; null if it does not exist. */
   bulge(vertex) {
     call("editor_vertex", this.address, whole(vertex));
     return table()[2] ?? null;
@@ -103,7 +103,7 @@ export class Editor extends Handle {
     return this.#records("site", numbers);
   }
 
-  /** All of the axis as it is now, with its shape; nodes and edges count from 0 without gaps. */
+  /** A copy of the current axis with its shape; nodes and edges are numbered from 0 without gaps. */
   get axis() {
     const address = call("editor_axis", this.address);
     return new MedialAxis(address, Shape.of(call("shape_of", address), this.#said));

@@ -1,4 +1,4 @@
-// What follows from an axis: parts of it, lines, widths, offsets, tool paths, checks.
+// Results derived from an axis: parts of it, lines, widths, offsets, tool paths, checks.
 
 import { Handle, MedialError, answer_json, call, encoded, options, table } from "./core.mjs";
 import { MedialAxis, Shape, axis, axis_of, flat_points, rows, shape_of, split } from "./axis.mjs";
@@ -21,7 +21,7 @@ export function rebuild(x, { by, points, chord, cornerAngle } = {}) {
   return Shape.of(call("rebuild", x.address, options({ by, points, chord, cornerAngle })), x.ofShape);
 }
 
-/** The shape without what pruning its axis drops. */
+/** The shape without the parts that pruning its axis drops. */
 export function smooth(x, measure, threshold, given) {
   return rebuild(prune(x, measure, threshold, given));
 }
@@ -98,7 +98,7 @@ export function centerline(x, given = {}) {
   return new Line(of, new Path(call("path_between", of.address, ...start, ...end, encoded(route))), given);
 }
 
-/** The way between two places along which the largest disk can pass. */
+/** The path between two places that lets the largest disk pass. */
 export function widestPath(x, start, end, given) {
   const of = axis_of(x);
   return new Line(of, new Path(call("path_between", of.address, ...start, ...end, encoded("widest"))), given);
@@ -125,7 +125,7 @@ export function meanWidth(x, given) {
   return answer_json();
 }
 
-/** Places narrower than what lies on both sides of them. */
+/** Necks: places that are narrower than the shape on both sides of them. */
 export function necks(x, widening = 1.1) {
   call("necks", axis_of(x).address, widening);
   return rows(table(), 10).map((r) => ({
@@ -181,7 +181,7 @@ export function offset(x, distances) {
 
 const chain_arguments = ({ coordinates, begin, closed }) => [coordinates, begin, closed.length, closed, null];
 
-/** What lies nearer than distances to points and lines. */
+/** The points within given distances of points and lines. */
 export function buffer(x, distances, { nodeCrossings = false } = {}) {
   const values = numbers(distances);
   call("buffer", ...chain_arguments(chains_of(x)), nodeCrossings, values, values.length);
@@ -206,7 +206,7 @@ export function carve(x, given = {}) {
   return { paths, ...result, toGcode: (settings) => gcode(paths, settings) };
 }
 
-// Checks, and what a shape is made of.
+// Checks, and the features of a shape.
 
 /** Checks an axis against its shape, or another one. */
 export function verify(x, { shape, tolerance, samples, cornerAngle, part = x.part } = {}) {
@@ -224,7 +224,7 @@ const RUN = [
   "radiusFrom", "xTo", "yTo", "radiusTo",
 ];
 
-/** What a shape is made of: counts and sums, its branches and their runs. */
+/** The features of a shape: counts and sums, its branches and their runs. */
 export function features(x) {
   call("features", axis_of(x).address);
   const tables = [table(0), table(1)];
@@ -245,7 +245,7 @@ export function features(x) {
   return result;
 }
 
-/** The axes of one shape by several methods: counts, lengths, seconds, and what went wrong. */
+/** The axes of one shape by several methods: counts, lengths, seconds, and errors. */
 export function compare(x, methods = ["disks", "lee", "biarc-dc"], given = {}) {
   const shape = shape_of(x);
   return methods.map((method) => {
@@ -266,7 +266,7 @@ export function distance(a, b, samples = 7) {
   return answer_json();
 }
 
-/** Of each branch by how much it misses two conditions that every axis meets; 0 or less: not. */
+/** By how much each branch violates two conditions that hold for every axis; 0 or less: not at all. */
 export function legality(x, samples = 8) {
   call("legality", x.address, samples);
   return rows(table(), 2).map(([steepness, bend]) => ({ steepness, bend }));

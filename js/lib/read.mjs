@@ -1,4 +1,4 @@
-// Whatever has a polygon in it, as rings of coordinates or as rows of curves.
+// Reads polygons of any supported format as rings of coordinates or rows of curves.
 
 import { MedialError } from "./core.mjs";
 import { curves_of_path } from "./svg_path.mjs";
@@ -9,7 +9,7 @@ const HOLE = 2;
 
 const malformed = () => new MedialError("coordinates are pairs of x and y", "malformed");
 
-/** Calls a reader; what is wrong with its input is a MedialError. */
+/** Calls a reader; turns errors of its input into a MedialError. */
 function checked(reader, x) {
   try {
     return reader(x);

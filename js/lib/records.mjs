@@ -2,7 +2,7 @@
 
 export const NODE_KINDS = ["leaf", "site_change", "branching"];
 export const SITE_KINDS = ["segment", "vertex", "arc"];
-/** In place of a site, where a sampled axis does not record what its disks touch. */
+/** Stands for a site in a sampled axis, which does not record the sites that its disks touch. */
 export const NO_SITE = 0xffffffff;
 
 // Fields by their place in a record: of doubles, 32-bit indices and bytes.

@@ -60,7 +60,7 @@ export function with_memory(part, shared) {
  * uses nothing from outside.
  */
 function surroundings() {
-  /** A clock, and what is `own` to an instance. The module's libraries can do more, which is never called. */
+  /** A clock, and the functions in `own`, which differ between instances. The module calls no others of its libraries. */
   function imports(part, memory, own) {
     const clock_time_get = (_id, _precision, at) => {
       const now = BigInt(Math.round(performance.now() * 1e6));

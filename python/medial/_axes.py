@@ -224,7 +224,7 @@ class Axes:
         def __getitem__(self, i: slice) -> list[MedialAxis]: ...
 
     def __getitem__(self, i: int | slice) -> MedialAxis | list[MedialAxis]:
-        """The axis of one feature, or a list of those of a slice. Raises the error of a feature."""
+        """The axis of one feature, or a list of axes for a slice. Raises the error of a feature."""
         if isinstance(i, slice):
             return [self[at] for at in range(len(self))[i]]
         at = range(len(self))[i]
@@ -234,7 +234,7 @@ class Axes:
         return MedialAxis._of(self._core.axis(at, shape), self._input.attributes.get(at, {}))
 
     def __iter__(self) -> Iterator[MedialAxis]:
-        """The axis of each feature. Where there is an error it is raised, and `next` goes on after it."""
+        """The axis of each feature. Raises the error of a feature; `next` then continues after it."""
         return map(self.__getitem__, range(len(self)))
 
     def __reduce__(self) -> tuple[Any, ...]:

@@ -96,12 +96,12 @@ class MedialAxis:
 
     @property
     def shape(self) -> Shape:
-        """The shape that this is the axis of, with the attributes that it had."""
+        """The shape of this axis, with its attributes."""
         return Shape._of(self._core.shape(), self._attributes)
 
     @property
     def method(self) -> str:
-        """The name of the method that computed it."""
+        """The name of the method that computed the axis."""
         return self._core.method()
 
     @property
@@ -672,7 +672,7 @@ def axis(
         Keeps apart nodes closer than the tolerance. ``disks`` then computes the axis, whatever the
         method.
     exterior : bool
-        Compute the axis of the exterior: what lies around the shape and in its holes.
+        Compute the axis of the exterior, around the shape and in its holes.
     margin : float
         The distance of the exterior's enclosure from the shape; 0: half of the longer side.
     threads : int, optional

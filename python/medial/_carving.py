@@ -148,7 +148,7 @@ def carve(x: Any, *, angle: float = 90, depth: float = 0, tool: float = 0, tip: 
         The distance between clearing passes, and the largest error of straight moves; 0: chosen by
         the tool.
     exterior : bool
-        Cut what lies around the shape and in its holes, up to a rectangle.
+        Cut the surroundings of the shape, up to a rectangle, and its holes.
     margin : float
         The distance of that rectangle from the shape; 0: half of its longer side.
     clear_tool, clear_pass_depth : float

@@ -22,7 +22,7 @@ _CURVES = ("POINT", "LINE", "CIRCLE", "ARC", "ELLIPSE", "LWPOLYLINE", "POLYLINE"
 
 
 def _lines(data: bytes, tag: Any) -> Iterator[Any]:
-    """The tags of a text. Not by ezdxf's loader, which guesses what a damaged group code was."""
+    """The tags of a text. Does not use ezdxf's loader, which guesses damaged group codes."""
     lines = iter(data.splitlines())
     for at, (code, value) in enumerate(zip(lines, lines, strict=False)):
         try:
@@ -37,7 +37,7 @@ def _lines(data: bytes, tag: Any) -> Iterator[Any]:
 
 
 def _kept(tags: Iterator[Any]) -> Iterator[Any]:
-    """The names of all entities, and the tags of those that are read."""
+    """The names of all entities, and the tags of the supported ones."""
     name = section = ""
     for tag in tags:
         code, value = tag

@@ -139,7 +139,7 @@ class Editor:
         return Change(*self._core.set_bulge(vertex, bulge))
 
     def insert_loop(self, points: npt.ArrayLike, bulges: npt.ArrayLike | None = None) -> Change:
-        """Inserts a hole or an outer loop, by where it lies.
+        """Inserts a hole or an outer loop, depending on its place.
 
         Its vertices have the numbers from ``Change.vertex`` on, in their order.
 
@@ -165,7 +165,7 @@ class Editor:
         return Change(*self._core.insert_loop(places.reshape(-1), own))
 
     def remove_loop(self, vertex: int) -> Change:
-        """Removes the loop that a vertex lies on.
+        """Removes the loop of a vertex.
 
         Parameters
         ----------
@@ -184,7 +184,7 @@ class Editor:
         return Change(*self._core.remove_loop(vertex))
 
     def move_loop(self, vertex: int, by: Sequence[float]) -> Change:
-        """Moves the loop that a vertex lies on.
+        """Moves the loop of a vertex.
 
         Parameters
         ----------

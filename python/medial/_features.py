@@ -115,7 +115,7 @@ class Placement:
 
 
 def nest(fixed: Any, moving: Any, *, gap: float = 0, mirror: bool = True, best: int = 5) -> list[Placement]:
-    """Places a shape so that peninsulas of either lie in bays of the other.
+    """Places a shape so that peninsulas of either shape are in bays of the other.
 
     Parameters
     ----------

@@ -22,7 +22,7 @@ from ._shape import Shape
 
 
 def _completed(items: list[tuple[_core.Axis, list[tuple[str, str]]]]) -> list[MedialAxis]:
-    """Axes; computes those that a file lacks."""
+    """The axes of a file; computes missing ones."""
     found = [MedialAxis._of(core, dict(attributes)) for core, attributes in items]
     return [a if len(a.nodes) or not len(a.shape.points) else axis(a.shape) for a in found]
 
@@ -135,7 +135,7 @@ def _taken(found: tuple[list[Any], list[str]]) -> list[Shape]:
 
 
 def _in_python(text: str) -> str:
-    """An error text with options of the command line replaced by those of Python."""
+    """An error text with the options of the command line replaced by the options of Python."""
     text = text.replace("; --units gives it one", ": leave out `unit`, and scale the shapes")
     return text.replace("--close=GAP", "close=GAP").replace("--close ", "close=math.inf ")
 

@@ -48,7 +48,7 @@ def _cells(places: Floats) -> Floats:
 class LocalProjections:
     """Projections of the features of a GeoSeries in longitudes and latitudes.
 
-    One for all features if they lie close together; else one for those of each cell of the globe.
+    One for all features if they are close together; otherwise one for the features of each cell of the globe.
     Coordinates that are not finite have no say in it.
     """
 

@@ -251,7 +251,7 @@ def centerlines(x: Any, *, trim: float = 1, route: str = "roomy", extend: bool =
 
 
 def network(x: Any, *, trim: float = 1) -> MedialAxis:
-    """The network of all paths, those around holes included, without forks in corners.
+    """The network of all paths, including those around holes, without forks in corners.
 
     Parameters
     ----------

@@ -149,7 +149,7 @@ def offset_passes(x: Any, step: float, *, first: float | None = None, until: flo
     ----------
     x : MedialAxis or geometry
     step, first : float
-        The distance between passes, and that of the first pass (by default `step`), in units of the
+        The distance between passes, and of the first pass (by default `step`), in units of the
         input.
     until : float, optional
         The largest distance of any pass.

@@ -52,7 +52,7 @@ class Pack:
 
 
 def pack(x: Any, error: float) -> Pack:
-    """Codes a shape so that the unpacked one is within the distance `error` of it.
+    """Codes a shape; the unpacked shape is within the distance `error` of it.
 
     For images, use `medial.image.pack`.
 

@@ -12,7 +12,7 @@ from ._shape import Shape, load
 
 
 def _without_specks(x: Any, share: float) -> MedialAxis:
-    """The axis of x; if a share is given, that of x without specks."""
+    """The axis of x; with a share, the axis of x without specks."""
     if not share:
         return axis_of(x)
     shape = x.shape if isinstance(x, MedialAxis) else Shape(x)
@@ -29,7 +29,7 @@ def prune(x: Any, measure: str = "prominence", threshold: float | None = None, *
     measure : str
         A name of `prune_measures`.
     threshold : float, optional
-        By default that of the measure; see `prune_measures`.
+        By default the threshold of the measure; see `prune_measures`.
     keep : int, optional
         Instead: keep at most this many branches, and always the cycles.
     tips : bool
@@ -128,7 +128,7 @@ def rebuild(x: MedialAxis, by: str = "outline", *, points: int = 0, chord: float
     chord : float
         Replace arcs by chords within this distance, in units of the input; 0: keep arcs.
     corner_angle : float
-        That the axis was computed with.
+        The value with which the axis was computed.
 
     Raises
     ------
@@ -156,7 +156,7 @@ def collapse(x: Any, width: float, *, trim: float = 1,
     trim : float
         Corners that protrude by at most this many half widths stay with the polygons.
     corner_angle : float
-        That the axis was computed with.
+        The value with which the axis was computed.
 
     Returns
     -------

@@ -44,7 +44,7 @@ class Shape:
     Attributes
     ----------
     attributes : dict
-        What `read` found besides the geometry: the layer of a drawing, the `id` of a path, the
+        Data that `read` found besides the geometry: the layer of a drawing, the `id` of a path, the
         properties of GeoJSON. Ignored by ``==``.
 
     Examples
@@ -106,7 +106,7 @@ class Shape:
 
     @property
     def area(self) -> float:
-        """The area, without that of holes."""
+        """The area, without the holes."""
         return self._core.area()
 
     @property
@@ -288,14 +288,14 @@ class Shape:
 
 
 def is_missing(value: Any) -> bool:
-    """Whether it is None, or what stands for a missing value in Python, NumPy or pandas."""
+    """Whether a value is missing: None, or a missing value of NumPy or pandas."""
     if isinstance(value, (Real, Decimal, np.datetime64, np.timedelta64)):
         return bool(value != value)
     return value is None or type(value).__name__ in ("NAType", "NaTType")
 
 
 def stated(attributes: Mapping[str, Any]) -> list[tuple[str, float | str]]:
-    """Attributes as files hold them: as the command line reads them, without those that are missing."""
+    """Attributes in the form of files: as the command line reads them, without missing ones."""
     pairs: list[tuple[str, float | str]] = []
     for name, value in attributes.items():
         if is_missing(value):

@@ -185,7 +185,7 @@ def voronoi(
         Rows of x and y (points), shapely geometries, GeoJSON, or a list of lines.
     method : {"disks", "lee"}
         ``"disks"``: of all points and lines, within an enclosure; ``"lee"``: inside a polygon.
-        Where rounding decides, `disks` computes that, too.
+        If rounding decides, `disks` computes the diagram instead.
     enclosure : (min x, min y, max x, max y), optional
         The rectangle that bounds the diagram, in units of the input. `frame` is an alias.
     margin : float

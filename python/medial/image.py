@@ -61,7 +61,7 @@ def medial_axis(image: npt.ArrayLike, mask: npt.ArrayLike | None = None,
     image : array
         Foreground where it is not 0.
     mask : array, optional
-        Where the image is used; elsewhere the result is a copy of the image.
+        The part of the image to process; elsewhere the result is a copy of the image.
     return_distance : bool
         Return the distance transform, too.
     rng

@@ -20,7 +20,7 @@ export class Camera {
       this.#center[1] + (this.#rest[1] - (py - this.height / 2) / this.scale),
     ];
   }
-  /** What a loop over many points needs: screen = (plane - center) * scale + half. */
+  /** The map for loops over many points: screen = (plane - center) * scale + half. */
   get transform() {
     const [cx, cy] = this.#center;
     const { scale, width, height } = this;
@@ -47,7 +47,7 @@ export class Camera {
     this.scale = wanted;
     this.#carry();
   }
-  /** Shows a box, with a margin; it is what zoom 1 means. */
+  /** Shows a box, with a margin, and makes this view zoom 1. */
   fit([x0, y0, x1, y1], margin = [0, 0, 0, 0]) {
     const [top, right, bottom, left] = margin;
     const [w, h] = [Math.max(x1 - x0, 1e-300), Math.max(y1 - y0, 1e-300)];

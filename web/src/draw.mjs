@@ -1,4 +1,4 @@
-// Draws the scene: the shape, what is switched on, the axis, and what the pointer is over.
+// Draws the scene: the shape, the overlays that are switched on, the axis, and the item under the pointer.
 
 import { arc_of, next_of, point_of, size_of } from "./model.mjs";
 import { SHADES, add_part, clipped, conic } from "./pieces.mjs";
@@ -16,7 +16,7 @@ export function read_theme() {
   return theme;
 }
 
-/** Adds a ring to a path; of many points in one pixel only the first is drawn. */
+/** Adds a ring to a path; if several points are in one pixel, only the first one is drawn. */
 export function trace_ring(path, ring, camera) {
   const { cx, cy, dx, dy, scale } = camera.transform;
   const { xy, edges } = ring;
@@ -55,7 +55,7 @@ function far_ring(ring, camera) {
   return false;
 }
 
-/** The same of a ring that leaves the screen by far: cut to a box around it (Sutherland, Hodgman). */
+/** The same for a ring that extends far beyond the screen: clips it to a box (Sutherland, Hodgman). */
 function trace_far(path, ring, camera) {
   let points = flat_outline(ring, camera);
   const pad = 100;
@@ -79,7 +79,7 @@ function trace_far(path, ring, camera) {
   path.closePath();
 }
 
-/** Points on the screen, with bent edges as chords that are finer the nearer the view is. */
+/** Points on the screen. Bent edges become chords, which are finer at a higher zoom. */
 function flat_outline(ring, camera) {
   const points = [];
   for (let i = 0; i < size_of(ring); ++i) {
@@ -289,7 +289,7 @@ function draw_error(c, point, camera, theme) {
   c.stroke();
 }
 
-/** What burns: the shape less what is nearer to the boundary than the fire has come. */
+/** The area that has not burnt yet: points of the shape further from the boundary than the fire. */
 function draw_fire(c, scene, camera, theme, shape) {
   c.save();
   c.clip(shape, "evenodd");
@@ -300,7 +300,7 @@ function draw_fire(c, scene, camera, theme, shape) {
   c.restore();
 }
 
-/** All that stays while the pointer moves: the shape, its axis, and what is shown with them. */
+/** Everything that stays the same while the pointer moves: the shape, its axis, and the overlays. */
 export function draw_base(c, scene, camera, theme) {
   c.fillStyle = theme.paper;
   c.fillRect(0, 0, camera.width, camera.height);
@@ -342,7 +342,7 @@ export function draw_part(c, scene, camera, theme, part) {
   c.stroke(line);
 }
 
-/** What the pointer is over, and what is being drawn. */
+/** The item under the pointer, and the ring that is being drawn. */
 export function draw_over(c, scene, camera, theme) {
   for (const disk of scene.disks ?? []) draw_disk(c, disk, camera, theme);
   if (scene.show.vertices) draw_vertices(c, scene, camera, theme);
@@ -492,7 +492,7 @@ function trace_part(live, camera, part) {
   return tracer;
 }
 
-/** Chains of edges as paths; of many points in one pixel only the first is drawn. */
+/** Chains of edges as paths; if several points are in one pixel, only the first one is drawn. */
 class Tracer {
   fill = new Path2D();
   line = new Path2D();

@@ -22,7 +22,7 @@ function rings_of_geojson(object) {
   return polygons(object).flat().map((ring) => ring_of(points_of(ring)));
 }
 
-/** All rings of a well-known text, whatever nests them. */
+/** All rings of a well-known text, at any depth. */
 function rings_of_wkt(text) {
   const rings = [...text.matchAll(/\(([^()]+)\)/g)].map(([, row]) =>
     row.split(",").map((point) => point.trim().split(/\s+/).map(Number)),
@@ -50,7 +50,7 @@ function rings_of_rows(text) {
   });
 }
 
-/** Rings of whatever a text holds. */
+/** The rings in a text of any supported format. */
 export function rings_of_text(text) {
   const start = text.trimStart();
   if (start.startsWith("{")) {
@@ -65,7 +65,7 @@ export function rings_of_text(text) {
 
 const SVG = "http://www.w3.org/2000/svg";
 
-/** Takes away what would run or load something once the drawing is in the page. */
+/** Removes elements and attributes that would run or load something once the drawing is in the page. */
 function make_harmless(element) {
   const link = element.getAttribute("href") ?? element.getAttribute("xlink:href") ?? "#";
   const is_foreign = element.namespaceURI !== SVG || element.matches("script, foreignObject, image, feImage, style, animate, set");
@@ -178,7 +178,7 @@ export async function rings_of_words(words, font_file) {
   if (font_file) {
     const loaded = await import("opentype.js");
     const font = (loaded.parse ? loaded : loaded.default).parse(await font_file.arrayBuffer());
-    // Glyph by glyph: the package does not know every rule of substitution that fonts have.
+// Glyph by glyph: the package does not support all rules of substitution in fonts.
     let x = 0;
     return [...words].flatMap((letter) => {
       const glyph = font.charToGlyph(letter);
@@ -211,7 +211,7 @@ export async function rings_of_file(file) {
   return rings_of_text(await file.text());
 }
 
-// Out.
+// Output.
 
 export const number = (value) => String(+value.toPrecision(12));
 

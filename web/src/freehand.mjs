@@ -1,6 +1,6 @@
 // A line drawn by hand as a closed smooth curve.
 
-/** Points without those that are within `reach` of the line between others (Douglas and Peucker). */
+/** Drops points within `reach` of the simplified line (Douglas and Peucker). */
 export function simplified(points, reach) {
   const keep = new Uint8Array(points.length);
   keep[0] = keep[points.length - 1] = 1;

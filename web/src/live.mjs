@@ -20,11 +20,11 @@ export class Live {
   before = new Int32Array(0);
   ring = new Int32Array(0);
   index = new Int32Array(0);
-  /** What was changed since it was last drawn: boxes; null where it is all. */
+  /** The boxes that changed since the last drawing; null if everything did. */
   changed = null;
-  /** False where the shape leaves vertices out, as in the middle of straight lines. */
+  /** False if the shape lacks vertices of the drawing, such as those between collinear edges. */
   has_all = true;
-  /** False where an edit of the editor has failed to come through to here. */
+  /** False if an edit changed the editor but failed to update these arrays. */
   is_in_step = true;
 
   constructor(medial, rings) {
@@ -131,7 +131,7 @@ export class Live {
 
   // Edits.
 
-  /** Whether the editor knows the vertices that an edit is about. */
+  /** Whether the editor has the vertices of an edit. */
   knows({ kind, ring, index }) {
     if (kind === "ring") return this.#known(ring).length > 0;
     if (kind === "bend") return this.#edge_at(ring, index + 1) >= 0;
@@ -154,7 +154,7 @@ export class Live {
     return a >= 0 && b >= 0 && this.next[b] === a ? b : -1;
   }
 
-  /** Lets the axis follow. What is refused throws a MedialError, and changes nothing. */
+  /** Applies an edit to the axis. Throws a MedialError, and changes nothing, if it is refused. */
   follow(edit) {
     const { editor } = this;
     const { kind, ring, index, point } = edit;
@@ -173,7 +173,7 @@ export class Live {
     this.#take_any(change);
     this.is_in_step = true;
   }
-  /** A whole ring; its vertices come to their places, whatever rounding makes of the sums. */
+  /** Moves a whole ring. Its vertices get exactly the given places, without rounding errors of sums. */
   #follow_ring({ ring, xy, by }) {
     const known = this.#known(ring).map((i) => ({ v: this.numbers[ring][i], x: xy[2 * i], y: xy[2 * i + 1] }));
     const [{ v: first, x, y }] = known;
@@ -209,7 +209,7 @@ export class Live {
     this.#read(shape, (k) => sources[2 * k + 1]);
   }
 
-  /** Lets `largest` follow where the largest disk has become smaller, in O(n). */
+  /** Updates `largest` after the largest disk has become smaller, in O(n). */
   find_largest() {
     let largest = 0;
     for (let e = 0; e < this.edges.room; ++e)
@@ -319,7 +319,7 @@ export class Live {
     this.changed.push(Math.min(x0, cx, x1), Math.min(y0, cy, y1), Math.max(x0, cx, x1), Math.max(y0, cy, y1));
   }
 
-  // Questions.
+  // Queries.
 
   /** The vertices whose edges may meet a box; until the next call is_found() knows them. */
   in_box(box) {

@@ -70,7 +70,7 @@ if (studio.scene.error?.code === "incomplete") studio.ask("axis");
 const tools = new Tools(studio, say);
 const player = new Player(studio);
 
-/** For screen readers. */
+/** Announces a text to screen readers. */
 function say(text) {
   $("live").textContent = text;
 }
@@ -329,7 +329,7 @@ addEventListener("drop", (event) => {
   if (file) open(file);
 });
 
-// The line below, and what the pointer is over.
+// The status line, and the item under the pointer.
 
 const short = (x) => (Math.abs(x) >= 1e5 || (Math.abs(x) < 1e-3 && x !== 0) ? x.toExponential(3) : String(+x.toPrecision(5)));
 studio.addEventListener("computed", () => {
@@ -370,7 +370,7 @@ studio.addEventListener("changed", () => {
 const panel = connect_panel(studio, tell);
 start_tour(studio, { show: (text) => show(rings_of_text(text)), panel, player });
 
-// What was drawn before anybody listened.
+// Shows the drawing that was made before the listeners were added.
 for (const name of ["computed", "derived", "changed"]) studio.emit(name);
 studio.ask("theme");
 panel.read();

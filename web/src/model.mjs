@@ -76,7 +76,7 @@ export function with_bend(ring, i, share) {
   return with_edge(ring, i, edge.map((v, k) => v + by[k % 2]));
 }
 
-/** A ring with a vertex more inside of edge i. */
+/** A ring with one more vertex, inside edge i. */
 export function with_vertex(ring, i, [x, y]) {
   const xy = new Float64Array(ring.xy.length + 2);
   xy.set(ring.xy.subarray(0, 2 * i + 2));
@@ -87,7 +87,7 @@ export function with_vertex(ring, i, [x, y]) {
   return { xy, edges };
 }
 
-/** A ring without a vertex; null where too few would stay. */
+/** A ring without a vertex; null if too few vertices would remain. */
 export function without_vertex(ring, i) {
   const count = size_of(ring);
   if (count <= 3) return null;
@@ -154,7 +154,7 @@ export function samples(ring, i, edge, count = 16) {
   });
 }
 
-/** Points along an edge, bent as said or straight, with its ends. */
+/** Points along an edge, bent as given or straight, including its ends. */
 export function line_of(ring, i, edge) {
   return [point_of(ring, i), ...(edge ? samples(ring, i, edge) : []), point_of(ring, next_of(ring, i))];
 }

@@ -10,7 +10,7 @@ const REST = 120;
 
 export class Painter {
   #layer = document.createElement("canvas");
-  #drawn = null; // what the layer shows
+  #drawn = null; // the state that the layer shows
   #cost = 0;
   /** How often the layer was drawn as a whole, how many parts of it, and the pixels of these. */
   counts = { wholes: 0, parts: 0, pixels: 0 };
@@ -21,7 +21,7 @@ export class Painter {
     this.redraw = redraw;
   }
 
-  /** `whole`: more than the view and what `scene.live` has noted is out of date. */
+  /** `whole`: other parts than the view and the changes in `scene.live` are out of date. */
   paint(c, scene, camera, theme, whole) {
     const { show, fire, stale, grid_step } = scene;
     const key = JSON.stringify([c.canvas.width, c.canvas.height, camera.width, show, fire, stale, show.grid && grid_step]);
@@ -68,7 +68,7 @@ export class Painter {
     requestAnimationFrame(() => (this.#cost = performance.now() - begin)); // until it is on the screen
   }
 
-  /** The view has moved: by whole pixels, so that most of the layer stays, or otherwise. */
+  /** Updates the layer after the view has moved. If it moved by whole pixels, most of the layer stays. */
   #draw_moved(c, scene, camera, theme, ratio, key, move, is_edited) {
     const [dx, dy] = [move.x * ratio, move.y * ratio];
     const is_whole = move.scale === 1 && [dx, dy].every((d) => Math.abs(d - Math.round(d)) < 0.01);
@@ -123,16 +123,16 @@ export class Painter {
   }
 }
 
-/** Whether so little is in view that its edges are found by their places. */
+/** Whether few enough edges are in view to search for them by place. */
 const is_near = (live, camera) => live.boundary.share(camera.view) < 1 / 16;
 
-/** Whether parts can be drawn alone: an axis that follows, and nothing shown beside it. */
+/** Whether parts can be drawn alone: the axis follows edits, and no overlay is shown. */
 function can_part(scene) {
   const { live, stale, fire, field, cells, regions, carving, whole, pieces, others } = scene;
   return live && !stale && !fire && !field && !cells && !regions && !carving && !whole && !pieces && !others?.length;
 }
 
-/** What takes a place of the screen in one view to its place in another: scale, then shift. */
+/** The map of screen positions from one view to another: scale, then shift. */
 function move_of(from, to) {
   const scale = to.scale / from.scale;
   return {

@@ -1,4 +1,4 @@
-// The panel: settings of the axis and of what is shown beside it.
+// The panel: settings of the axis and of the overlays.
 
 import { Relief } from "./relief.mjs";
 import { settings_distance } from "./studio.mjs";

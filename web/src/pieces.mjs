@@ -81,7 +81,7 @@ export function add_part(rows, shades, curve, s, t, factor) {
 export function conic(path, x0, y0, x, y, x1, y1, w, right, bottom) {
   const bend = Math.hypot(x0 - 2 * x + x1, y0 - 2 * y + y1);
   if (bend < 0.2 || w === 1) {
-    // What leaves the screen by far is cut: canvases hold their coordinates in few digits.
+    // Clips pieces that extend far beyond the screen: canvases store coordinates with few digits.
     if (Math.max(Math.abs(x0), Math.abs(y0), Math.abs(x1), Math.abs(y1), Math.abs(x), Math.abs(y)) > 2e4)
       return cut(path, x0, y0, x, y, x1, y1, w, right, bottom);
     path.moveTo(x0, y0);

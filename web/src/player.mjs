@@ -32,7 +32,7 @@ export class Player {
     this.running = null;
     this.#press();
   }
-  /** Back to how it was before. */
+  /** Restores the state before the animation. */
   clear() {
     this.stop();
     this.kind = null;

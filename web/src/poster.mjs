@@ -20,7 +20,7 @@ export function poster(medial) {
   return `<svg id="poster" aria-hidden="true" viewBox="${box}"><path class="area" d="${shape}"/>${lines.join("")}<path class="line" d="${shape}"/></svg>`;
 }
 
-/** The colours of the shades, between those of a style sheet. */
+/** The colours of the shades, interpolated between the colours of a style sheet. */
 export function ramp_of(colours) {
   const stops = colours.trim().split(/\s+/).map((hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16)));
   return Array.from({ length: SHADES }, (_, i) => {

@@ -91,7 +91,7 @@ export class Quads {
     return this.side / (1 << (LEVELS - 1));
   }
 
-  /** What find() costs less than, about: the share of the whole that a box covers. */
+  /** An approximate upper bound on the cost of find(): the share of the whole that a box covers. */
   share([x0, y0, x1, y1]) {
     const part = (a, b, from) => Math.max(0, Math.min(b, from + this.side) - Math.max(a, from)) / this.side;
     return part(x0, x1, this.x) * part(y0, y1, this.y);

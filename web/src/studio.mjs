@@ -11,7 +11,7 @@ import { Pieces } from "./pieces.mjs";
 
 /** Above this many vertices an axis that does not follow edits waits until the pointer rests. */
 const LARGE = 30_000;
-/** Above this many edges what needs the whole axis is not asked for on the way. */
+/** With more edges, overlays that need the whole axis are not computed during a drag. */
 const MANY = 60_000;
 const REST = 160; // milliseconds
 
@@ -65,7 +65,7 @@ export class Studio extends EventTarget {
     if (done && this.#settled && rings !== this.#settled) this.history.add({ before: this.#settled, after: rings });
     if (done) this.#settle();
   }
-  /** What was changed since the last step becomes one. */
+  /** Makes the changes since the last step a step of the history. */
   done() {
     if (this.scene.rings !== this.#settled) return this.change(this.scene.rings);
     this.#keep_edits();
@@ -181,7 +181,7 @@ export class Studio extends EventTarget {
     const whole = ["method", "exact", "exterior", "compare"].includes(name);
     this.ask(whole ? "axis" : "derived");
   }
-  /** Shows all, clear of what lies over the canvas. */
+  /** Shows the whole drawing, clear of the panels over the canvas. */
   fit() {
     const wide = innerWidth > 760;
     const panel = !document.body.classList.contains("no-panel");
@@ -248,7 +248,7 @@ export class Studio extends EventTarget {
     }, REST);
   }
 
-  /** Computes the axis of the drawing; what cannot have one keeps the last axis, pale. */
+  /** Computes the axis of the drawing. If it has none, the last axis stays, pale. */
   compute() {
     const begin = performance.now();
     try {
@@ -315,7 +315,7 @@ export class Studio extends EventTarget {
     return threshold > 0 || offset > 0 || carve > 0 || center || cells || field || disks || Boolean(compare);
   }
 
-  /** What follows from the axis: the pruned part, offsets, cells and so on. */
+  /** Computes the overlays from the axis: the pruned part, offsets, cells and so on. */
   #derive() {
     const { scene, settings } = this;
     for (const name of ["whole", "pieces", "regions", "cells", "others", "carving", "field", "disks"]) scene[name] = null;
@@ -336,7 +336,7 @@ export class Studio extends EventTarget {
     if (settings.compare) this.#attempt(() => this.#beside());
     this.emit("derived");
   }
-  /** What an axis cannot have (of pixels, of the exterior) is left out, and said. */
+  /** Leaves out overlays that an axis (of pixels, of the exterior) does not support, with a message. */
   #attempt(work) {
     try {
       work();
@@ -422,7 +422,7 @@ export class Studio extends EventTarget {
   }
 }
 
-/** Options of the methods that have none of their own that suit a drawing. */
+/** Adds a number of pixels for the methods on pixels, whose defaults do not suit a drawing. */
 function own_options(given) {
   const pixels = { ridge: 500, brushfire: 400 }[given.method];
   return pixels ? { ...given, pixels } : given;

@@ -3,7 +3,7 @@
 import { curves_of_path } from "medial-axis/lib/svg_path.mjs";
 import { size_of } from "./model.mjs";
 
-/** Rings of path data; `map` takes its places to the plane. */
+/** Rings of path data; `map` maps its points to the plane. */
 export function flat_path(text, map) {
   const rows = curves_of_path(text);
   const rings = [];

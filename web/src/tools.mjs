@@ -58,12 +58,12 @@ export class Tools {
     this.studio.ask();
   }
 
-  // What lies under the pointer.
+  // The item under the pointer.
 
   #place(event) {
     return [event.offsetX, event.offsetY];
   }
-  /** The place in the plane, on the grid or on a vertex where that is wanted. */
+  /** The point in the plane, snapped to the grid or to a vertex on request. */
   #plane(at, except) {
     const point = this.camera.toPlane(...at);
     if (!this.snap) return point;
@@ -175,7 +175,7 @@ export class Tools {
     this.studio.ask();
   }
 
-  /** A ring that stays while edits change the one of the drawing. */
+  /** A copy of a ring, which edits of the drawing do not change. */
   #as_it_is(ring) {
     const { xy, edges } = this.scene.rings[ring];
     return { xy: xy.slice(), edges };
@@ -239,7 +239,7 @@ export class Tools {
     const { hot } = this.scene;
     if (hot?.kind === "edge") this.scene.hot = { ...hot, handles: this.#handles(hot) };
   }
-  /** Lets the axis follow a vertex, the two of an edge, its bend, or a ring. False where it cannot. */
+  /** Applies a move of a vertex, an edge, its bend, or a ring to the axis. False if the axis cannot follow. */
   #follow(drag, to, dx, dy) {
     const { ring, ring_before: before } = drag;
     const count = size_of(before);
@@ -259,7 +259,7 @@ export class Tools {
     };
     if (drag.kind === "vertex") return this.studio.edit([{ kind: "move", ring, index: drag.index, point: to }]);
     const all = drag.kind === "edge" ? [moved(drag.index), moved((drag.index + 1) % count)] : Array.from({ length: count }, (_, i) => moved(i));
-    // What is ahead goes first, so as not to be run over.
+    // The vertex ahead moves first, so that the other one does not run over it.
     const now = this.scene.rings[ring];
     const ahead = ({ index, point }) => (point[0] - now.xy[2 * index]) * point[0] + (point[1] - now.xy[2 * index + 1]) * point[1];
     return this.studio.edit(all.sort((a, b) => ahead(b) - ahead(a)));
@@ -453,7 +453,7 @@ export class Tools {
     this.chosen = null;
     this.scene.hot = null;
   }
-  /** What a tool draws without a pointer: a ring in the middle of the view, to be changed by keys. */
+  /** The ring that a tool draws without a pointer: in the middle of the view, to be changed by keys. */
   #in_the_middle() {
     const { width, height, scale } = this.camera;
     const center = this.camera.toPlane(width / 2, height / 2);
@@ -467,7 +467,7 @@ export class Tools {
     this.#add(ring);
     this.#show_chosen({ kind: "vertex", ring: this.scene.rings.length - 1, index: 0 });
   }
-  /** Moves the vertex that is chosen, its whole ring, or the view. */
+  /** Moves the selected vertex, its whole ring, or the view. */
   #arrow(key, factor, of_ring = false) {
     const [dx, dy] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[key];
     if (!this.chosen) return this.camera.pan(-dx * 40 * Math.sqrt(factor), dy * 40 * Math.sqrt(factor));
