@@ -60,7 +60,7 @@ export function with_memory(part, shared) {
  * uses nothing from outside.
  */
 function surroundings() {
-  /** A clock, and the functions in `own`, which differ between instances. The module calls no others of its libraries. */
+  /** A clock, and the functions in `own`, which differ by instance. The module calls no other imports. */
   function imports(part, memory, own) {
     const clock_time_get = (_id, _precision, at) => {
       const now = BigInt(Math.round(performance.now() * 1e6));

@@ -16,8 +16,8 @@ namespace {
 using curve::Bezier;
 using curve::bezier_of;
 
-/// Twice the area of the polygon of all control points: its sign is the curve's for smooth curves
-/// that do not cross themselves, or so nearly that the samples below decide.
+/// Twice the area of the polygon of all control points. Its sign is the orientation of a smooth
+/// curve that does not cross itself, unless it is so close to 0 that the samples below decide.
 double doubled_area(const Contour& contour) {
   constexpr int samples = 8;
   double sum = 0;
@@ -33,7 +33,7 @@ double doubled_area(const Contour& contour) {
   return sum;
 }
 
-/// Where a piece begins, or ends.
+/// The beginning or the end of a piece.
 struct End {
   Vec2 point, tangent;
 };
@@ -42,7 +42,7 @@ End end_of(const Bezier& curve, bool last) {
   return {jet.point, (1 / norm(jet.first)) * jet.first};
 }
 
-/// Pieces that turn by less where they join, in radians, join smoothly.
+/// The angle, in radians, below which two pieces join smoothly.
 double smooth_turn(const Bezier& before, const Bezier& after) {
   return before.degree == 1 && after.degree == 1 ? 1e-7 : 1e-3;
 }
@@ -52,7 +52,7 @@ double smooth_turn(const Bezier& before, const Bezier& after) {
 Contour normalized(const Contour& contour) {
   Box box = Box::nothing();
   for (const Vec2 p : contour.points) box.add(p);
-  // Straight pieces as short as this are rounding, where curves should close.
+  // Straight pieces this short are rounding errors where a curve should close.
   const double rounding = 1e-9 * diagonal(box);
   Contour out;
   out.role = contour.role;
@@ -62,7 +62,7 @@ Contour normalized(const Contour& contour) {
     const Vec2 end = contour.points[piece.first + piece.degree];
     if (piece.degree == 1 && distance(start, end) <= rounding) continue;
     if (piece.bulge != 0) {
-      // Halves of at most a half circle: control point where the tangents meet.
+      // Halves are at most a half circle; the control point is where the tangents meet.
       std::vector<BulgeArc> parts{{start, end, piece.bulge}};
       while (std::abs(parts.front().bulge) > 0.5) {
         std::vector<BulgeArc> halves;
@@ -85,7 +85,7 @@ Contour normalized(const Contour& contour) {
     if (contour.weights.empty()) {
       out.bezier_to(points);
     } else {
-      // bezier_to() takes weights relative to a first one of 1.
+      // bezier_to() expects weights relative to a first weight of 1.
       std::vector<double> weights(contour.weights.begin() + piece.first + 1,
                                   contour.weights.begin() + piece.first + 1 + piece.degree);
       for (double& weight : weights) weight /= contour.weights[piece.first];
@@ -101,7 +101,7 @@ Contour normalized(const Contour& contour) {
 }
 
 Status find_cusp(const Contour& contour) {
-  constexpr double sharpest = 1e-3;  // between the tangents of a cusp
+  constexpr double sharpest = 1e-3;  // angle between the tangents of a cusp
   for (const Vec2 p : contour.points)
     if (!std::isfinite(p.x) || !std::isfinite(p.y))
       return Error{ErrorCode::not_finite, "a control point is not finite", {}};
@@ -171,7 +171,7 @@ Boundary::Boundary(std::vector<Piece> pieces, std::uint64_t spent)
   way_ = 0.05 * size();
   find_jumps();
   find_tips();
-  // Tips lie between the samples.
+  // Tips are between the samples.
   for (const Tip& tip : tips_) extend(at(tip.u).point);
 }
 
@@ -188,7 +188,7 @@ void Boundary::find_frame() {
 }
 
 void Boundary::find_jumps() {
-  constexpr double largest_jump = 1e-2;  // of the curvature, or of 1 / size
+  constexpr double largest_jump = 1e-2;  // relative to the curvature, or to 1 / size
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
     const std::size_t last = (i + pieces_.size() - 1) % pieces_.size();
     const BoundaryPoint before = evaluate(last, 1), after = evaluate(i, 0);
@@ -217,7 +217,7 @@ BoundaryPoint Boundary::evaluate(std::size_t piece, double share) const {
   ++evaluations_;
   if (pieces_[piece].kind != Piece::Kind::gap)
     return curve_axis::point_of(pieces_[piece], share, way_);
-  // What goes on beyond a foot of a bridge by a step or so shows on which side of it a branch is.
+  // The boundary within about a step beyond a foot of a bridge shows on which side a branch is.
   const bool first = share < 0.5;
   const std::size_t n = pieces_.size(), other = (piece + (first ? n - 1 : 1)) % n;
   const double end = first ? 1 : 0, way = way_ * (share - (1 - end));
@@ -296,9 +296,9 @@ double Boundary::above(double u, double base) const {
   return moved;
 }
 
-/// Maxima lie where the curvature is stationary inside a piece, or where pieces join. Between two
-/// neighbouring candidates the curvature is monotone. Corners and bridges are more than any maximum
-/// next to them, fans are less.
+/// Finds the maxima of curvature. They are stationary points of the curvature inside a piece, or
+/// joints of pieces. Between two consecutive candidates the curvature is monotone. Corners and
+/// bridges rank above all maxima next to them, fans below.
 void Boundary::find_tips() {
   struct Candidate {
     double u, sharpness;
@@ -323,7 +323,7 @@ void Boundary::find_tips() {
     }
     all.push_back({base + 1, evaluate(i, 1).turn});
   }
-  // Values that differ by rounding are equal. Equal neighbours are one plateau: an arc, or several
+  // Values that differ by rounding are equal. Equal neighbours form one plateau: an arc, or several
   // candidates of which the middle one counts.
   const auto is_less = [&](const Candidate& a, const Candidate& b) {
     const double amount = std::min(std::abs(a.sharpness), std::abs(b.sharpness));
@@ -333,7 +333,8 @@ void Boundary::find_tips() {
   const auto u_of = [&](std::size_t i) {
     return all[i % n].u + period() * static_cast<double>(i / n);
   };
-  std::size_t start = 0;  // a candidate that is lower than its successor: no plateau runs over it
+  std::size_t start =
+      0;  // a candidate lower than its successor, so that no plateau continues across it
   while (start < n && !is_less(all[start], all[(start + 1) % n])) ++start;
   if (start == n) return;  // constant curvature
   bool rising = true;

@@ -10,47 +10,50 @@
 
 namespace medial::curve_axis {
 
-/// A point of the boundary; the shape lies to the left of the tangent. Ways are lengths, but in the
-/// fan of a reflex vertex, whose one point has all normals in between: there a way is an angle.
+/// A point of the boundary; the shape is to the left of the tangent. Distances along the boundary
+/// ("ways") are lengths, except in the fan of a reflex vertex: its single point has all normals in
+/// between, and a way is an angle there.
 struct BoundaryPoint {
-  double u = 0;  ///< parameter: piece plus parameter on it; any multiple of the period may be added
+  double u = 0;  ///< piece plus parameter on it; modulo the period
   Vec2 point;
   Vec2 tangent;      ///< unit length, towards increasing u
-  double speed = 0;  ///< way by u
-  double along = 1;  ///< length of boundary by way: 0 in a fan
-  double turn = 0;   ///< of the tangent by way: the curvature, positive where the shape is convex
+  double speed = 0;  ///< derivative of the way by u
+  double along = 1;  ///< derivative of the boundary length by the way: 0 in a fan
+  double turn =
+      0;  ///< rotation of the tangent per way: the curvature, positive where the shape is convex
   Vec2 normal() const { return left_of(tangent); }  ///< inwards
-  /// Along less turn times radius: 1 - K R, positive before the centre of curvature.
+  /// 1 - K R, which is positive before the centre of curvature; in general `along` - `turn` *
+  /// radius.
   double slack(double radius) const { return along - turn * radius; }
 };
 
-/// A part of the boundary that one parameter runs along.
+/// A part of the boundary with one range of the parameter.
 struct Piece {
   enum class Kind : std::uint8_t {
     curve,
     fan,  ///< of a reflex vertex
-    gap,  ///< from one foot of a bridge to the other: on either half the loop of its end goes on
+    gap,  ///< from one foot of a bridge to the other: each half continues the loop at its end
   };
   Kind kind = Kind::curve;
   curve::Bezier curve;
-  Vec2 point, tangent;     ///< of a fan: the vertex, and the tangent that arrives there
+  Vec2 point, tangent;     ///< of a fan: the vertex, and the tangent of the arriving edge
   double from = 0;         ///< of a curve: the parameters of this part of it;
   double to = 1;           ///< of a fan: angles, turned from that tangent
   std::size_t source = 0;  ///< number of the contour's piece; of a gap: of its bridge
 };
 
-/// The point at a share of the way along a curve or a fan. `fan_way`: of a radian.
+/// The point at a share of the way along a curve or a fan. `fan_way` is the way per radian in fans.
 BoundaryPoint point_of(const Piece& piece, double share, double fan_way);
 
-/// The pieces of a contour as normalized() gives it, with fans at its reflex vertices.
+/// The pieces of a contour from normalized(), with fans at its reflex vertices.
 std::vector<Piece> pieces_of(const Contour& contour);
 
-/// Where a branch begins, with both feet: see the branch's first disk.
+/// The start of a branch, with both feet: see the first disk of the branch.
 struct Tip {
   enum class Kind : std::uint8_t {
     maximum,  ///< of the curvature: both feet are one
     corner,   ///< convex: the disk has no radius
-    arc,      ///< a circular arc, more curved than what is next to it: from its end to its end
+    arc,      ///< a circular arc, more curved than its neighbours; the feet are its ends
     bridge,   ///< the disk touches two loops
   };
   Kind kind = Kind::maximum;
@@ -58,40 +61,41 @@ struct Tip {
   double u = 0;  ///< in the middle, in [0, period)
 };
 
-/// A closed boundary as a function of one cyclic parameter: a loop counter-clockwise, or several
-/// that gaps connect. Pieces of a loop join in one direction, in a fan or in a convex corner.
+/// A closed boundary as a function of one cyclic parameter: a counter-clockwise loop, or several
+/// loops that gaps connect. Consecutive pieces of a loop join smoothly, in a fan, or in a convex
+/// corner.
 class Boundary {
  public:
-  /// `spent`: evaluations that count as done already.
+  /// `spent` is a number of evaluations to start counting from.
   explicit Boundary(std::vector<Piece> pieces, std::uint64_t spent = 0);
-  /// One loop, as normalized() gives it.
+  /// One loop from normalized().
   explicit Boundary(const Contour& contour) : Boundary(pieces_of(contour)) {}
 
   double period() const { return static_cast<double>(pieces_.size()); }
-  /// In a joint, as the piece behind it has it, or as the one before.
+  /// The point at u. At a joint, that of the piece after or before it.
   BoundaryPoint at(double u) const;
   BoundaryPoint before(double u) const;
-  /// In a joint, as the more curved one of the two has it.
+  /// The point at u. At a joint, that of the more curved piece.
   BoundaryPoint sharper_at(double u) const;
-  /// The parameter about this way further along the boundary (backwards if negative), to the first
-  /// order: with the speed at u, and behind each joint that lies on the way with the speed there,
-  /// for the parameter's speed jumps where pieces join.
+  /// The parameter about `way` further along the boundary (backwards if negative), to first order:
+  /// uses the speed at u, and after each joint on the way the speed there, since the speed jumps at
+  /// joints.
   double advanced(double u, double way) const;
-  /// The way to the next joint where fans begin or end or the curvature jumps; infinite if that is
-  /// not the next one.
+  /// The way to the next joint, if fans begin or end or the curvature jumps there; infinite
+  /// otherwise.
   double way_to_jump(double u, bool forward) const;
   /// By increasing u.
   const std::vector<Tip>& tips() const { return tips_; }
   Vec2 low() const { return low_; }
   Vec2 high() const { return high_; }
   double size() const { return distance(low_, high_); }
-  /// Points of all pieces, no farther apart along the boundary than this, nearly.
+  /// Points on all pieces, with at most about this spacing along the boundary.
   std::vector<Vec2> samples(double spacing) const;
   const Piece& piece(double u) const { return pieces_[index_of(u)]; }
-  /// The number of the contours' piece plus the parameter on it.
+  /// The number of the contour's piece plus the parameter on it.
   double source_of(double u) const;
 
-  /// How often a piece was evaluated so far: the work done.
+  /// The number of evaluations of pieces so far: a measure of the work.
   std::uint64_t evaluations() const { return evaluations_; }
 
   /// The value congruent to u in [base, base + period).
@@ -106,18 +110,18 @@ class Boundary {
   void extend(Vec2 p);
 
   std::vector<Piece> pieces_;
-  std::vector<bool> corner_, jump_;  ///< where each piece begins
+  std::vector<bool> corner_, jump_;  ///< at the beginning of each piece
   std::vector<Tip> tips_;
-  mutable std::uint64_t evaluations_ = 0;  ///< one thread at a time has a boundary
+  mutable std::uint64_t evaluations_ = 0;  ///< a boundary is used by one thread at a time
   Vec2 low_, high_;
-  double way_ = 0;  ///< of a radian in fans, and through gaps
+  double way_ = 0;  ///< per radian in fans, and across gaps
 };
 
 /// The contour counter-clockwise, arcs as rational quadratics, closed.
 Contour normalized(const Contour& contour);
 
-/// What keeps a contour from being followed, with the place: a cusp, or numbers that are not
-/// finite; success if nothing does.
+/// Returns an error with the place if a contour has a cusp, or numbers that are not finite, so that
+/// the method cannot follow it.
 Status find_cusp(const Contour& contour);
 
 }  // namespace medial::curve_axis

@@ -10,10 +10,10 @@
 namespace medial::curve_axis {
 namespace {
 
-/// Places of a curve that are tried first, and how many of the best are improved.
+/// The number of points of a curve that are tried first; the best of them are then improved.
 constexpr int samples = 32;
 constexpr std::size_t most_improved = 24;
-/// Parts of pieces are at least this share of them.
+/// No part of a divided piece is shorter than this share of it.
 constexpr double least_part = 1e-6;
 
 struct Foot {
@@ -21,7 +21,7 @@ struct Foot {
   double share = 0;
 };
 
-/// The share in [low, high] with the least value of a function that falls and rises.
+/// The minimum in [low, high] of a function that first falls and then rises.
 template <class F>
 double least(const F& f, double low, double high) {
   for (int round = 0; round < 80; ++round) {
@@ -37,7 +37,7 @@ class Bridges {
   Bridges(std::span<const Contour> contours, Vec2 direction) : direction_(direction) {
     std::size_t before = 0;
     for (std::size_t i = 0; i < contours.size(); ++i) {
-      // Holes have the shape on their left, too.
+      // The shape is also to the left of holes.
       loops_.push_back(pieces_of(i == 0 ? contours[i] : reversed(contours[i])));
       for (Piece& piece : loops_.back()) piece.source += before;
       before += contours[i].pieces.size();
@@ -74,7 +74,7 @@ class Bridges {
   BoundaryPoint at(const Foot& foot) const { return at(foot.loop, foot.piece, foot.share); }
   static bool is_inside(double share) { return share > least_part && share < 1 - least_part; }
 
-  /// The share of a fan with this normal.
+  /// The position of a normal in a fan, as a share.
   static double share_of(const Piece& fan, Vec2 normal) {
     return signed_angle(fan.tangent, -left_of(normal)) / fan.to;
   }
@@ -97,7 +97,7 @@ class Bridges {
       best.share = least([&](double share) { return -height(best.piece, share); },
                          std::max(0.0, best.share - 1.0 / samples),
                          std::min(1.0, best.share + 1.0 / samples));
-      // The end of a curve is the vertex of the fan next to it.
+      // The end of a curve is the vertex of the adjacent fan.
       const std::size_t count = loops_[loop].size();
       if (best.share > 1 - least_part) best.piece = (best.piece + 1) % count;
       if (best.share < least_part) best.piece = (best.piece + count - 1) % count;
@@ -108,7 +108,7 @@ class Bridges {
     return best;
   }
 
-  /// The other foot of the largest disk that touches here.
+  /// The other foot of the largest disk that touches the boundary at `foot`.
   std::optional<Foot> opposite(const Foot& foot) const {
     const BoundaryPoint here = at(foot);
     const auto radius = [&](Vec2 p) {
@@ -143,7 +143,7 @@ class Bridges {
         return radius(at(one.foot.loop, one.foot.piece, share).point);
       };
       if (loops_[one.foot.loop][one.foot.piece].kind == Piece::Kind::fan) {
-        one.radius *= 1 - 1e-12;  // and not the ends of the curves next to it
+        one.radius *= 1 - 1e-12;  // prefer the fan to the ends of the adjacent curves
         continue;
       }
       one.foot.share = least(of_share, std::max(0.0, one.foot.share - 1.0 / samples),
@@ -162,7 +162,7 @@ class Bridges {
     return other;
   }
 
-  /// Newton's method on (14), with the one foot held.
+  /// Newton's method on (14), with one foot fixed.
   double stabilised(const BoundaryPoint& held, Foot foot) const {
     for (int round = 0; round < 20; ++round) {
       const BoundaryPoint here = at(foot);
@@ -184,7 +184,7 @@ class Bridges {
     cycle_.push_back(part);
   }
 
-  /// From one foot on to the next one, once around the loop if that is the same.
+  /// Appends the boundary from one foot to the next, once around the loop if they are the same.
   void append_way(const Foot& from, const Foot& to) {
     std::size_t piece = from.piece;
     double share = from.share;
@@ -206,8 +206,8 @@ class Bridges {
     ++gaps_;
   }
 
-  /// A loop from its cut at this bridge on, or from its beginning, with what its other cuts lead
-  /// to.
+  /// Appends a loop, starting at its cut at this bridge or at its beginning, with the loops that
+  /// its other cuts lead to.
   void append_loop(std::size_t loop, std::size_t bridge) {
     const std::vector<Cut>& cuts = cuts_[loop];
     std::size_t entry = 0;

@@ -7,17 +7,18 @@
 
 namespace medial::curve_axis {
 
-/// A loop and its holes as one cyclic boundary: what lies between the loops is cut open along one
-/// bridge for each hole, a disk inside of the shape that touches the hole and another loop. Around
-/// the boundary each bridge is passed twice, on one side and on the other, through a gap, and the
-/// axis is a tree.
+/// Makes one cyclic boundary of a loop and its holes, by cutting the region between the loops along
+/// one bridge per hole: a disk inside the shape that touches the hole and another loop. The
+/// boundary passes each bridge twice, once on each side, through a gap, and the axis becomes a
+/// tree.
 ///
-/// A hole's foot is its point farthest along `direction` (a unit vector): the disk there lies
-/// beyond the hole and touches another loop, which reaches farther still. The other foot is sought
-/// on all boundary, at `samples` places of a piece and by Newton's method on (14) from the nearest.
+/// A hole's foot is its furthest point along `direction` (a unit vector): the disk there is beyond
+/// the hole and touches another loop, which extends further. The other foot is searched on the
+/// whole boundary, at `samples` points of each piece and then by Newton's method on (14) from the
+/// nearest.
 ///
-/// Requires loops as normalized() gives them, the first one around the others. Empty where a foot
-/// is too close to a joint for the parts to be two pieces: another direction will do.
+/// Requires loops from normalized(), the outer one first. Returns nothing if a foot is too close to
+/// a joint for the piece to be divided: try another direction.
 std::vector<Piece> bridged(std::span<const Contour> loops, Vec2 direction);
 
 }  // namespace medial::curve_axis

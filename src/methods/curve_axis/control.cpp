@@ -6,19 +6,19 @@
 namespace medial::curve_axis {
 namespace {
 
-/// Disks whose centres are nearer than this share of the size are one: points are zeros of (14) to
-/// rounding, so two that differ are a step apart.
+/// Disks are equal if their centres are closer than this share of the size: points are zeros of
+/// (14) up to rounding, so distinct points are a step apart.
 constexpr double same_disk = 1e-8;
-/// How far from the points on both sides of it a junction may lie, in steps.
+/// The largest distance of a junction from the points on both sides of it, in steps.
 constexpr double junction_reach = 4;
-/// Parameters that differ by less are one.
+/// Parameters are equal if they differ by less.
 constexpr double same_parameter = 1e-7;
-/// Points that all generations together may find before the axis is given up: some 200 bytes each.
+/// The largest number of points that all generations together may find: some 200 bytes each.
 constexpr std::size_t most_points = std::size_t{1} << 21;
-/// The most evaluations of the boundary, and those more for each of its pieces: some seconds. A
-/// boundary of 300 maxima takes a tenth.
+/// The largest number of evaluations of the boundary, in total and in addition for each of its
+/// pieces: some seconds. A boundary of 300 maxima takes a tenth of that.
 constexpr double most_evaluations = 2e7, most_evaluations_a_piece = 2e3;
-/// Times that generations are taken up again before the rest of the boundary is given up.
+/// How often generations are resumed before the rest of the boundary is given up.
 constexpr int most_resumptions = 16;
 
 double between(double a, double b, double share) { return a + share * (b - a); }
@@ -40,11 +40,11 @@ Status Control::run() {
   const std::vector<Tip>& tips = boundary_.tips();
   const std::size_t count = tips.size();
   const auto cancelled = [&] { return cancel_ != nullptr && cancel_->load(); };
-  // No branch steps over a bridge.
+  // Branches do not step over a bridge.
   std::vector<int> bridges(count, -1);
   for (std::size_t i = 0; i < count; ++i)
     if (tips[i].kind == Tip::Kind::bridge) bridges[i] = start(tips[i]);
-  // Clockwise, as the paper has it.
+  // Clockwise, as in the paper.
   for (std::size_t i = 0; i < count; ++i) {
     if (cancelled()) return Error{ErrorCode::cancelled, "cancelled", {}};
     const std::size_t which = (options_.first_maximum % count + count - i) % count;
@@ -56,7 +56,7 @@ Status Control::run() {
     if (segment < 0) segment = start(tips[which]);
     if (grow(segment) == Stop::complete) return success();
   }
-  // A branch that stopped before one that was taken back later may go on now.
+  // A branch that stopped at another one, which was then taken back, may continue now.
   for (int round = 0; round < most_resumptions; ++round) {
     for (const int segment : in_use()) {
       if (cancelled()) return Error{ErrorCode::cancelled, "cancelled", {}};
@@ -117,7 +117,7 @@ int Control::start(const Tip& tip) {
     any_ = created;
     return created;
   }
-  // Before the segment that begins next.
+  // Insert before the next segment.
   int next = any_, segment = any_;
   do {
     if (boundary_.above(last(segment).left.u, tip.u) < boundary_.above(last(next).left.u, tip.u))
@@ -137,14 +137,13 @@ Control::Stop Control::grow(int segment) {
     if (++points_ > most_points || is_exhausted()) return Stop::exhausted;
     const AxisPoint here = last(segment);
     const std::optional<AxisPoint> there = generator_.next(here);
-    // Feet that meet do so in the tip; next to it (14) may also end in its trivial zero, one foot
-    // on the other.
+    // Feet that meet do so in the tip; next to it, (14) may also converge to its trivial zero,
+    // where one foot is on the other.
     const bool ends =
         !there || there->right.u >= there->left.u + boundary_.period() - same_parameter;
     const bool alone = at(segment).next == segment || is_last_tip(at(segment).next, segment);
     if (ends && alone && end_in_tip(segment, here)) return Stop::complete;
-    // (10) fails at a maximum, too, that a foot steps over and whose circle is smaller than the
-    // disk.
+    // (10) is also violated if a foot steps over a maximum whose circle is smaller than the disk.
     if (ends || steps_over_twist(here, *there)) {
       if (const int joined = join_tip(segment, here); joined >= 0) {
         segment = joined;
@@ -208,7 +207,8 @@ std::optional<Control::Stop> Control::resolve_conflicts(int& segment, const Axis
 }
 
 bool Control::is_same_disk(const AxisPoint& there, const AxisPoint& back) const {
-  // Disks of symmetric shapes touch more than two places: branches may come from elsewhere.
+  // Disks of symmetric shapes touch more than two points, so the branches may come from other
+  // sides.
   const double size = boundary_.size(), feet = std::sqrt(same_disk);
   return distance(there.disk.center, back.disk.center) <= same_disk * size &&
          distance(there.left.point, back.right.point) <= feet * size &&
@@ -220,7 +220,7 @@ std::optional<Generator::Junction> Control::junction_at(const Conflict& contact,
                                                         const AxisPoint& there) const {
   const AxisPoint& old = last(contact.neighbour);
   const AxisPoint& active = contact.active;
-  // In a tip both feet are one: the branch's next point shows where they part.
+  // In a tip both feet coincide; the next point of the branch shows how they separate.
   const bool is_tip = old.left.u == old.right.u;
   const AxisPoint outer = is_tip ? generator_.next(old).value_or(old) : old;
   const double left = contact.on_right
@@ -231,12 +231,13 @@ std::optional<Generator::Junction> Control::junction_at(const Conflict& contact,
   const double shift = contact.foot - (contact.on_right ? old.left.u : old.right.u);
   const double middle = (contact.on_right ? outer.left.u : outer.right.u) + shift;
   auto junction = generator_.junction(left, middle, right);
-  // The first point after a tip may be farther off than a step.
+  // The first point after a tip may be more than a step away.
   const auto reach = [&](const AxisPoint& last_one, const AxisPoint& next_one) {
     return std::max(junction_reach * step_,
                     2 * distance(last_one.disk.center, next_one.disk.center));
   };
-  // Within a few steps of the last points of both, from before which it is reached.
+  // The junction must be within a few steps of the last points of both branches, and be reached
+  // from before it.
   const bool here_it_is = junction && junction->disk.radius > 0 &&
                           junction->right < junction->left + boundary_.period() &&
                           junction->left < junction->middle && junction->middle < junction->right &&
@@ -247,7 +248,7 @@ std::optional<Generator::Junction> Control::junction_at(const Conflict& contact,
 }
 
 double Control::first_foot(double u, double begin, double end) const {
-  // A junction may lie a little beyond the place where one of its branches had stopped.
+  // A junction may be a little beyond the place where one of its branches stopped.
   const double inside = boundary_.above(u, begin);
   return inside <= end ? u - (inside - begin) : boundary_.above(begin, u);
 }
@@ -278,7 +279,7 @@ std::optional<Control::Conflict> Control::first_contact(int segment, const AxisP
 }
 
 int Control::join(int segment, const Conflict& contact, const Generator::Junction& junction) {
-  // Points of both that lie beyond it are none of the axis's.
+  // Points of both branches beyond the junction are not part of the axis.
   const auto trim = [&](int branch, bool shares_right) {
     std::vector<AxisPoint>& points = at(branch).branch;
     const double n = boundary_.period();
@@ -298,7 +299,7 @@ int Control::join(int segment, const Conflict& contact, const Generator::Junctio
   const int second = contact.on_right ? contact.neighbour : segment;
   const int before = at(first).previous, after = at(second).next;
   segments_.push_back({{point}, first, second, junction.middle, before, after});
-  if (before == second) {  // there were only these two
+  if (before == second) {  // these two were the only ones
     at(created).previous = at(created).next = created;
   } else {
     at(before).next = created;
@@ -310,7 +311,7 @@ int Control::join(int segment, const Conflict& contact, const Generator::Junctio
 }
 
 bool Control::is_last_tip(int tip, int segment) const {
-  // In needles a branch may get no further than a share of a step.
+  // In needles, a branch may get no further than a fraction of a step.
   return at(tip).next == segment && at(segment).next == tip && at(tip).first_child < 0 &&
          !at(tip).from_bridge &&
          distance(at(tip).branch.front().disk.center, last(tip).disk.center) <= step_;
@@ -327,7 +328,7 @@ int Control::join_tip(int segment, const AxisPoint& here) {
     const AxisPoint& tip = last(neighbour);
     const std::optional<AxisPoint> first = generator_.next(tip);
     if (!first) continue;
-    // The feet of the tip's first point, seen from this branch's.
+    // The feet of the tip's first point, relative to the feet of this branch.
     const double tip_u = on_right ? boundary_.above(tip.left.u, here.right.u)
                                   : -boundary_.above(-tip.right.u, -here.left.u);
     const double shift = tip_u - (on_right ? tip.left.u : tip.right.u);
@@ -341,21 +342,21 @@ int Control::join_tip(int segment, const AxisPoint& here) {
                           junction->right < junction->left + boundary_.period() &&
                           (on_right ? junction->middle < tip_u && tip_u < junction->right
                                     : junction->left < tip_u && tip_u < junction->middle);
-    // This branch may have gone on beyond it, by a step or so: join() takes that back.
+    // This branch may have passed the junction by about a step: join() takes that back.
     const double reach =
         std::max(junction_reach * step_, 2 * distance(tip.disk.center, first->disk.center));
     if (!in_order || distance(junction->disk.center, here.disk.center) > junction_reach * step_ ||
         distance(junction->disk.center, tip.disk.center) > reach ||
         junction->disk.radius < tip.disk.radius)
       continue;
-    // The way from the tip to it, in steps.
+    // The way from the tip to the junction, in steps.
     const double left = (on_right ? junction->middle : junction->left) - shift;
     const double right = (on_right ? junction->right : junction->middle) - shift;
     const double way = distance(junction->disk.center, tip.disk.center);
     const int steps = static_cast<int>(std::ceil(way / step_));
     const AxisPoint origin = tip;  // the branch grows
     for (int i = 1; i < steps; ++i) {
-      // Feet part like the root of the way.
+      // The feet separate like the square root of the way.
       const double share = std::sqrt(static_cast<double>(i) / steps);
       const auto point = generator_.stabilised(between(origin.left.u, left, share),
                                                between(origin.right.u, right, share));
@@ -407,7 +408,7 @@ bool Control::steps_over_twist(const AxisPoint& from, const AxisPoint& to) const
   const double radius = std::min(from.disk.radius, to.disk.radius);
   const std::vector<Tip>& tips = boundary_.tips();
   const auto twisted = [&](double low, double high) {
-    // The first tip from `low` on, and its followers.
+    // The first tip after `low`, and those that follow.
     const double n = boundary_.period(), start = boundary_.above(low, 0);
     auto next = std::lower_bound(tips.begin(), tips.end(), start,
                                  [](const Tip& tip, double u) { return tip.u < u; });
@@ -420,7 +421,8 @@ bool Control::steps_over_twist(const AxisPoint& from, const AxisPoint& to) const
     }
     return false;
   };
-  // A foot that stops in a tip, where the curvature jumps, has come to it; from there it goes on.
+  // A foot that stops in a tip, where the curvature jumps, has reached it, and continues from
+  // there.
   return twisted(to.left.u - same_parameter, from.left.u - same_parameter) ||
          twisted(from.right.u + same_parameter, to.right.u + same_parameter);
 }
@@ -431,7 +433,7 @@ bool Control::is_sharper(const Tip& tip, double radius) const {
 }
 
 bool Control::end_in_tip(int segment, const AxisPoint& from) {
-  // What is left of the boundary has to lie along the last disk: otherwise it has axis of its own.
+  // The rest of the boundary must be along the last disk: otherwise it has an axis of its own.
   constexpr int samples = 32;
   const double rest = from.left.u + boundary_.period() - from.right.u;
   for (int i = 1; i < samples; ++i) {
@@ -439,7 +441,7 @@ bool Control::end_in_tip(int segment, const AxisPoint& from) {
     if (std::abs(distance(p, from.disk.center) - from.disk.radius) > junction_reach * step_)
       return false;
   }
-  // Two tips, with circles smaller than the disk, are ends of two branches.
+  // Two tips, with circles smaller than the disk, are the ends of two branches.
   std::vector<Tip> tips;
   for (const Tip& tip : boundary_.tips()) {
     const double u = boundary_.above(tip.u, from.right.u);

@@ -20,47 +20,49 @@ namespace medial {
 namespace curve_axis {
 namespace {
 
-/// The control point of a quadratic in x, y and r that has the axis's directions at both ends.
+/// The control point of a quadratic in (x, y, r) that has the axis' directions at both ends.
 Disk control_between(const AxisPoint& a, const AxisPoint& b) {
   const Vec2 chord = b.disk.center - a.disk.center;
   const Disk middle{midpoint(a.disk.center, b.disk.center), (a.disk.radius + b.disk.radius) / 2};
   const double sine = cross(a.tangent, b.tangent);
   const double ahead = cross(chord, b.tangent) / sine, back = cross(a.tangent, chord) / sine;
   const double length = norm(chord);
-  // Parallel, or an inflection in between: straight.
+  // If the directions are parallel, or there is an inflection in between, the edge is straight.
   if (!(ahead > 0 && back > 0 && ahead < length && back < length)) return middle;
   const double radius =
       (a.disk.radius + ahead * a.radius_rate + b.disk.radius - back * b.radius_rate) / 2;
   return {a.disk.center + ahead * a.tangent, radius};
 }
 
-/// Between two points the graph's quadratic is off by less than this share of the size.
+/// The largest deviation of the graph's quadratics from the axis between two points, as a share of
+/// the size.
 constexpr double between_points = 1e-8;
-/// Points farther apart than this many steps get others in between.
+/// In steps. Points are inserted between points further apart than this.
 constexpr double longest_step = 1.5;
-/// So do points between which the boundary turns by more, in radians: next to tips the axis's own
-/// scale is the way to the tip.
+/// Points are also inserted if the boundary turns by more than this in between, in radians: next to
+/// tips, the scale of the axis is the distance to the tip.
 constexpr double largest_turn_between = 0.0125;
-/// So do points between which the axis's second derivatives are this share of themselves off a
-/// straight line: differences of seven points are to tell the curvatures of the boundary.
+/// Points are also inserted if the axis' second derivatives deviate from linear by more than this
+/// share: differences of seven points must determine the curvatures of the boundary.
 constexpr double bend_between = 1e-4;
-/// But none where those differences lose more to rounding of the disks, a share of the size, than
-/// they gain.
+/// No points are inserted if those differences would lose more by the rounding of the disks, this
+/// share of the size, than they gain.
 constexpr double disk_rounding = 3e-16;
-/// Points much nearer to each other than their neighbours add rounding to differences, little else.
+/// Points much closer to each other than their neighbours mainly add rounding errors to
+/// differences.
 constexpr double shortest_step = 0.25;
-/// The least number of ways between points on a smooth run: jets_along() takes seven points.
+/// The least number of intervals on a smooth run: jets_along() needs seven points.
 constexpr std::size_t smooth_run = 6;
-/// Disks whose centres are nearer than this share of the size are one node: in symmetric shapes,
-/// junctions of more than three branches.
+/// Disks whose centres are closer than this share of the size are one node: junctions of more than
+/// three branches in symmetric shapes.
 constexpr double one_node = 1e-12;
-/// How often the way between two points of the generation is halved at most.
+/// How often the interval between two generated points may be halved.
 constexpr int most_halvings = 12;
-/// What first points after a tip are sought with: see Generator::first_after().
+/// The turns with which Generator::first_after() searches for first points after a tip.
 constexpr double largest_tip_turn = 0.05, least_tip_turn = 1e-4;
 
-/// How far a point of the axis between a and b lies from the quadratic that joins them, in the
-/// plane or in its radius.
+/// The distance of a point of the axis between a and b from the quadratic that connects them, in
+/// the plane or in the radius.
 double distance_to_quadratic(const AxisPoint& a, const AxisPoint& b, const Disk& between) {
   const Disk control = control_between(a, b);
   const Vec2 chord = b.disk.center - a.disk.center;
@@ -75,19 +77,19 @@ double distance_to_quadratic(const AxisPoint& a, const AxisPoint& b, const Disk&
   return std::max(distance(center, between.center), std::abs(radius - between.radius));
 }
 
-/// R_aa + K_A s and R_aa - K_A s: (7) for the left and for the right foot, solved for them. Nothing
-/// that is a number in a tip.
+/// R_aa + K_A s and R_aa - K_A s, from (7) for the left and for the right foot. Not a number in a
+/// tip.
 std::array<double, 2> bends_of(const AxisPoint& p) {
   const double square = (1 - p.radius_rate) * (1 + p.radius_rate), radius = p.disk.radius;
   return {-p.left.turn * square / p.left.slack(radius),
           -p.right.turn * square / p.right.slack(radius)};
 }
 
-/// Whether second derivatives change too much from a to b for differences of seven points to tell
-/// them, and nearer points would help; `between` lies about in the middle. Those differences are
-/// off by `disk_rounding` / h^2 for points h apart, and where a foot comes near to its centre of
-/// curvature and second derivatives grow as d^(-1/2), at the distance d to there, by about 350 x^3
-/// of them, with x their share that the middle is off the straight line between a and b.
+/// Whether second derivatives change too much from a to b for differences of seven points, and
+/// closer points would help; `between` is about in the middle. The error of the differences is
+/// `disk_rounding` / h^2 for points h apart. If a foot comes close to its centre of curvature, at
+/// the distance d, second derivatives grow as d^(-1/2), and the relative error is about 350 x^3,
+/// where x is the relative deviation of the middle from linear.
 bool bends_unevenly(const AxisPoint& a, const AxisPoint& b, const AxisPoint& between, double size) {
   const auto at_a = bends_of(a), at_b = bends_of(b), here = bends_of(between);
   const double most = std::max({std::abs(here[0]), std::abs(here[1]), 1 / size});
@@ -98,7 +100,7 @@ bool bends_unevenly(const AxisPoint& a, const AxisPoint& b, const AxisPoint& bet
   return x > bend_between && 350 * x * x * x * most * h * h > disk_rounding * size;
 }
 
-/// The segments' branches as a graph and as lists of points.
+/// Assembles the segments' branches as a graph and as lists of points.
 class Assembly {
  public:
   Assembly(const Boundary& boundary, const Control& control, double step)
@@ -111,7 +113,7 @@ class Assembly {
       if (end.left.u != end.right.u) turn_round(end, 0);
       add(roots[0], node_of(end), end);
     } else {
-      // Both branches of a meeting end in its disk, which is the last point of the first.
+      // Both branches of a meeting end in its disk, the last point of the first branch.
       const AxisPoint& meeting = segment(roots[0]).branch.back();
       const Segment& other = segment(roots[1]);
       const bool in_bridge = other.from_bridge && other.branch.size() == 1;
@@ -144,7 +146,7 @@ class Assembly {
     return static_cast<std::uint32_t>(result_.axis.nodes.size() - 1);
   }
 
-  /// The node that both branches of a bridge share.
+  /// The node that both branches at a bridge share.
   std::uint32_t node_of_bridge(const Segment& from) {
     const std::size_t bridge = boundary_.piece(from.branch.front().left.u).source;
     if (bridges_.size() <= bridge) bridges_.resize(bridge + 1, no_node);
@@ -152,7 +154,7 @@ class Assembly {
     return bridges_[bridge];
   }
 
-  /// A segment's branch from its first point to a node that is there already.
+  /// Adds a segment's branch, from its first point to an existing node.
   void add(int index, std::uint32_t end_node, const AxisPoint& end) {
     const Segment& from = segment(index);
     std::vector<AxisPoint> points;
@@ -189,15 +191,16 @@ class Assembly {
     waiting_.push_back({from.second_child, first, seen_between(junction, true, from.middle)});
   }
 
-  /// Whether the way from b to c is only the rest of a step, compared with that from a to b.
+  /// Whether the interval from b to c is only the rest of a step, compared with that from a to b.
   static bool is_close(const AxisPoint& a, const AxisPoint& b, const AxisPoint& c) {
     return distance(b.disk.center, c.disk.center) <
            shortest_step * distance(a.disk.center, b.disk.center);
   }
 
-  /// A branch with more points, where the generation's are too few for quadratics between them, and
-  /// one where a foot passes from one piece of the boundary to the next: there the axis's third
-  /// derivative jumps. Between two of those are enough for differences that cross none.
+  /// A branch with additional points: between points that are too far apart for quadratics, and
+  /// where a foot passes from one piece of the boundary to the next, since the axis' third
+  /// derivative jumps there. Each run between two such points has enough points for differences
+  /// within the run.
   std::vector<AxisPoint> refined(const std::vector<AxisPoint>& points) const {
     std::vector<AxisPoint> out{points.front()};
     std::vector<AxisPoint> run{points.front()};
@@ -232,7 +235,7 @@ class Assembly {
     return out;
   }
 
-  /// The first point after a and before b with a foot where two pieces join.
+  /// The first point between a and b with a foot at a joint of two pieces.
   std::optional<AxisPoint> next_joint(const AxisPoint& a, const AxisPoint& b) const {
     const double left = left_of_end(a, b), right = right_of_end(a, b);
     const double left_joint = std::ceil(a.left.u) - 1, right_joint = std::floor(a.right.u) + 1;
@@ -252,7 +255,7 @@ class Assembly {
                                : by_right;
   }
 
-  /// The feet of b in the turn of the boundary that leads there from a.
+  /// The feet of b, in the period of the parameter in which a leads to b.
   double left_of_end(const AxisPoint& a, const AxisPoint& b) const {
     return -boundary_.above(-b.left.u, -a.left.u);
   }
@@ -260,7 +263,7 @@ class Assembly {
     return boundary_.above(b.right.u, a.right.u);
   }
 
-  /// Whether a point lies on the way from a to b.
+  /// Whether a point is between a and b.
   bool is_between(const std::optional<AxisPoint>& p, const AxisPoint& a, const AxisPoint& b) const {
     const double most = longest_step * distance(a.disk.center, b.disk.center);
     return p && p->left.u < a.left.u && p->left.u > left_of_end(a, b) && p->right.u > a.right.u &&
@@ -270,7 +273,7 @@ class Assembly {
   }
 
   /// Appends points between a and b until the quadratics are within the tolerance of the axis,
-  /// after `wanted` halvings at least. Where no point is found the way stays as it is.
+  /// after at least `wanted` halvings. If no point is found, the interval stays.
   void halve(const AxisPoint& a, const AxisPoint& b, int done, int wanted,
              std::vector<AxisPoint>& out) const {
     if (done == most_halvings) return;
@@ -287,10 +290,10 @@ class Assembly {
     halve(*middle, b, done + 1, wanted, out);
   }
 
-  /// A point of the axis about half way from a to b.
+  /// A point of the axis about halfway from a to b.
   std::optional<AxisPoint> point_between(const AxisPoint& a, const AxisPoint& b) const {
     const double left = left_of_end(a, b), right = right_of_end(a, b);
-    // Feet at a tip part like the root of the way.
+    // At a tip, the feet separate like the square root of the way.
     const bool from_tip = a.left.u == a.right.u, to_tip = b.left.u == b.right.u;
     const double share = from_tip ? std::numbers::sqrt2 / 2
                          : to_tip ? 1 - std::numbers::sqrt2 / 2
@@ -298,7 +301,7 @@ class Assembly {
     auto middle = generator_.stabilised(a.left.u + share * (left - a.left.u),
                                         a.right.u + share * (right - a.right.u));
     if (is_between(middle, a, b)) return middle;
-    // The feet's ways differ too much for that: a step from one end.
+    // The ways of the feet differ too much: take a step from one end instead.
     if (!from_tip && !to_tip)
       middle = Generator(boundary_, distance(a.disk.center, b.disk.center) / 2).next(a);
     if (from_tip)
@@ -316,8 +319,8 @@ class Assembly {
     return is_between(middle, a, b) ? middle : std::nullopt;
   }
 
-  /// The same point, seen along the axis in the other direction; its left foot's parameter is moved
-  /// by some turns of the boundary.
+  /// The same point, seen along the axis in the other direction. Adds `turns` to the parameter of
+  /// its left foot.
   static void turn_round(AxisPoint& point, double turns) {
     std::swap(point.left, point.right);
     point.left.u += turns;
@@ -325,8 +328,8 @@ class Assembly {
     point.radius_rate = -point.radius_rate;
   }
 
-  /// A junction as the end of one of its two older branches: with that branch's feet, of which the
-  /// middle one is the right or the left one, and with its direction.
+  /// A junction as the end of one of its two older branches: with the feet of that branch, of which
+  /// one is the middle foot, and with its direction.
   AxisPoint seen_between(const AxisPoint& junction, bool is_second, double middle) const {
     AxisPoint out = generator_.point_of(is_second ? boundary_.at(middle) : junction.left,
                                         is_second ? junction.right : boundary_.at(middle));
@@ -355,12 +358,12 @@ class Assembly {
 /// A component's loops as normalized() gives them, the outer one first.
 using Loops = std::vector<Contour>;
 
-/// Which contours bound which component. Errors: see compute_curve_axis().
+/// Assigns contours to components. Errors: see compute_curve_axis().
 Result<std::vector<Loops>> loops_of(std::span<const Contour> contours,
                                     const method::CurveAxis& options) {
   if (!(options.step >= 1e-6 && options.step <= 0.1))
     return Error{ErrorCode::invalid_option, "the step must be in [1e-6, 0.1]", {}};
-  // Segments are looked up one by one: the time grows with the square of the tips.
+  // Segments are searched linearly: the time grows with the square of the number of tips.
   constexpr std::size_t most_pieces = 20000;
   std::size_t pieces = 0;
   for (const Contour& contour : contours) pieces += contour.pieces.size();
@@ -373,7 +376,7 @@ Result<std::vector<Loops>> loops_of(std::span<const Contour> contours,
     normal.push_back(normalized(contour));
     if (Status cusp = find_cusp(normal.back()); !cusp) return cusp.error();
   }
-  // Crossings, and whatever else makes no shape.
+  // Finds crossings, and other errors of the shape.
   const auto rings = approximate_by_arcs(contours);
   if (!rings) return rings.error();
   const auto shape = build_shape(*rings);
@@ -393,10 +396,10 @@ Result<std::vector<Loops>> loops_of(std::span<const Contour> contours,
   return all;
 }
 
-/// A branch that took a wrong turn, or one that is missing, leaves disks that the boundary reaches
-/// into. Success if no point of the boundary, at distances of `spacing` of the size, lies deeper
-/// inside of a node's disk than `slack` of the size; the farthest of generation and graph from the
-/// axis is far less. O((n + points) log n) but for points near a disk's box and not in the disk.
+/// Checks that no point of the boundary, at distances of `spacing` of the size, is deeper inside a
+/// node's disk than `slack` of the size, as happens if a branch took a wrong turn or is missing.
+/// The distance of generation and graph from the axis is far less. O((n + points) log n), except
+/// for points in the box of a disk but not in the disk.
 Status check_disks(const Boundary& boundary, const MedialAxis& axis) {
   constexpr double spacing = 1e-3, slack = 1e-5;
   const std::vector<Vec2> points = boundary.samples(spacing * boundary.size());
@@ -421,7 +424,7 @@ Status check_disks(const Boundary& boundary, const MedialAxis& axis) {
   return success();
 }
 
-/// The axis of a circle: without a tip the curvature is the same everywhere.
+/// The axis of a circle: a boundary without a tip has the same curvature everywhere.
 CurveAxis centre_of(const Boundary& boundary, double step) {
   CurveAxis result;
   result.axis.method = "curve-axis";
@@ -432,7 +435,7 @@ CurveAxis centre_of(const Boundary& boundary, double step) {
   return result;
 }
 
-/// How often the method restarts after an axis that has gone astray.
+/// How often the method restarts after a failed attempt.
 constexpr int most_attempts = 5;
 
 Result<CurveAxis> attempt(const Boundary& boundary, const method::CurveAxis& options,
@@ -446,20 +449,20 @@ Result<CurveAxis> attempt(const Boundary& boundary, const method::CurveAxis& opt
   return result;
 }
 
-/// The direction of the bridges in an attempt: one that drawings hardly have.
+/// The direction of the bridges in an attempt: one that drawings hardly contain.
 Vec2 direction_of(int round) {
   const double angle = 2.9 + 1.7 * round;
   return {std::cos(angle), std::sin(angle)};
 }
 
-/// The method on one component, again with shorter steps and other bridges where it goes astray.
+/// Applies the method to one component; if it fails, again with shorter steps and other bridges.
 Result<CurveAxis> follow(const Loops& loops, const method::CurveAxis& options,
                          const std::atomic<bool>* cancel) {
   Result<CurveAxis> result =
       Error{ErrorCode::unsupported,
             "the loops around the holes cannot be entered: no disk connects them; use disks",
             {}};
-  // What has gone astray does so at some steps only, and from some tips.
+  // Failures occur only with some steps, and from some tips.
   method::CurveAxis again = options;
   std::uint64_t spent = 0;
   std::uint64_t failures = 0;
@@ -471,7 +474,7 @@ Result<CurveAxis> follow(const Loops& loops, const method::CurveAxis& options,
     if (next.ok())
       if (Status right = check_cycles(next->axis, loops.size() - 1); !right) next = right.error();
     spent = boundary.evaluations();
-    // The first error is the most useful one.
+    // Report the first error, which is the most useful one.
     if (next.ok()) next->rules.restarts = failures;
     if (failures == 0 || next.ok() || next.error().code == ErrorCode::cancelled)
       result = std::move(next);
@@ -504,8 +507,8 @@ void append(CurveAxis& all, std::uint32_t component, Vec2 origin, CurveAxis part
   all.rules += part.rules;
 }
 
-/// Moves loops near the origin, where fewer digits are lost; no point is rounded. The place that
-/// is at the origin then.
+/// Moves loops close to the origin, where fewer digits are lost; no point is rounded. Returns the
+/// point that is then at the origin.
 Vec2 take_home(Loops& loops) {
   Box box = Box::nothing();
   for (const Contour& loop : loops)

@@ -4,12 +4,13 @@
 
 namespace medial {
 
-/// A point of the axis as the generation process of method::CurveAxis finds it.
+/// A point of the axis, from the generation process of method::CurveAxis.
 struct CurveAxisPoint {
   double length = 0;  ///< along its branch, from the branch's first point
   Disk disk;
-  double left = 0;   ///< where the disk touches the boundary: index of the contour's piece plus the
-  double right = 0;  ///< parameter on it; holes count on from the outer contour, and run clockwise
+  double left = 0;  ///< where the disk touches the boundary: index of the contour's piece plus the
+  double right =
+      0;  ///< parameter on it; holes continue the count of the outer contour, and run clockwise
 };
 
 /// How often each rule of the control process was applied (Section 5.2 of the paper).
@@ -32,32 +33,32 @@ struct CurveAxisRules {
 
 struct CurveAxis {
   /// A graph without sites through all points of the branches; `resolution` is the largest step
-  /// between two of them. Each edge is a quadratic with the axis's tangents at its ends, so between
-  /// them it misses the axis by a multiple of the fourth power of the step.
+  /// between two points. Each edge is a quadratic with the axis' tangents at its ends, so its
+  /// distance from the axis is proportional to the fourth power of the step.
   MedialAxis axis;
   /// The discrete parametric axis: one for each chain of edges between leaves and branchings.
   std::vector<std::vector<CurveAxisPoint>> branches;
   CurveAxisRules rules;
 };
 
-/// The medial axis of closed curves, followed from the boundary's maxima of curvature and convex
-/// corners, and into loops around holes from disks that touch two loops: after Shaked and
-/// Bruckstein, "The Curve Axis", 1996. Each point is a zero of (14), as exact as the curve. The
-/// contours have any orientation and order. Time grows with the number of points, and with the
-/// square of that of tips.
+/// Computes the medial axis of closed curves. Follows it from the boundary's maxima of curvature
+/// and convex corners, and into cycles around holes from disks that touch two loops: after Shaked
+/// and Bruckstein, "The Curve Axis", 1996. Each point is a zero of (14), as exact as the curve. The
+/// contours may have any orientation and order. The time grows with the number of points, and with
+/// the square of the number of tips.
 ///
 /// Errors: not_finite, invalid_option, cancelled, too_large (20,000 pieces, 2^21 points, some
 /// seconds of work), unsupported (a cusp, with the place; contours that touch; a circle; a disk
 /// that the boundary enters by more than 1e-5 of the size, or boundary that no branch reaches: the
-/// method has gone astray), crossing and others of build_shape().
+/// method has failed), crossing and others of build_shape().
 Result<CurveAxis> compute_curve_axis(std::span<const Contour> contours,
                                      const method::CurveAxis& options = {},
                                      const std::atomic<bool>* cancel = nullptr);
 
 namespace curve_axis {
 
-/// Success if an axis is in one part and has as many cycles as its component has holes. Errors:
-/// unsupported, as the method has gone astray.
+/// Checks that an axis is connected and has as many cycles as its component has holes. Errors:
+/// unsupported, as the method has failed.
 Status check_cycles(const MedialAxis& axis, std::size_t holes);
 
 /// The method `curve-axis` (docs/curve-axis.md) on the problem's contours, or on the shape's own

@@ -19,21 +19,21 @@ bool crosses(ErrorCode code) {
          code == ErrorCode::hole_outside || code == ErrorCode::nested_outer;
 }
 
-/// With two digits, as it is named.
+/// The distance as text, with two digits.
 std::string text_of(double within) {
   std::string text(16, '\0');
   text.resize(static_cast<std::size_t>(std::snprintf(text.data(), text.size(), "%.2g", within)));
   return text;
 }
 
-/// Whether the method follows the fit within the distance that `text` names.
+/// Whether the method succeeds on the fit within the distance in `text`.
 bool follows(Polygons polygons, const std::string& text, method::CurveAxis options,
              const std::atomic<bool>* cancel) {
   const auto curves = curve::fit_loops(polygons, std::strtod(text.c_str(), nullptr));
   return curves && follow_all(*curves, options, cancel).ok();
 }
 
-/// The first fit that the method follows, of some multiples of `options.fit`; empty: none.
+/// The first fit on which the method succeeds, of some multiples of `options.fit`; empty: none.
 std::string next_fit(Polygons polygons, const method::CurveAxis& options,
                      const std::atomic<bool>* cancel) {
   for (const double factor :
@@ -45,7 +45,7 @@ std::string next_fit(Polygons polygons, const method::CurveAxis& options,
   return {};
 }
 
-/// The closest fit that the method follows, of some shares of the diagonal; empty: none.
+/// The closest fit on which the method succeeds, of some shares of the diagonal; empty: none.
 std::string closest_fit(Polygons polygons, const method::CurveAxis& options,
                         const std::atomic<bool>* cancel) {
   Box box = Box::nothing();
@@ -68,7 +68,8 @@ Error with_fit_that_does(Error error, Polygons polygons, const method::CurveAxis
                          const std::atomic<bool>* cancel) {
   const bool is_fit = options.fit > 0;
   if (is_fit && crosses(error.code)) {
-    // The loops and vertices that cross are those of the fit: their numbers would mean nothing.
+    // The crossing loops and vertices belong to the fit: their numbers would mean nothing to the
+    // caller.
     const auto point = error.place.point;
     error = {ErrorCode::unsupported, "the smooth curves of the fit cross here", {}};
     error.place.point = point;

@@ -12,19 +12,19 @@ namespace {
 constexpr int most_rounds = 30;
 /// Corrections below this share of the boundary's size are rounding.
 constexpr double converged = 1e-15;
-/// Close to a tip (14) is flat: rounding moves the feet by more. Corrections below this share that
-/// shrink no further have come as near as they can.
+/// Close to a tip, (14) is flat: rounding moves the feet by more. Below this share, an iteration
+/// has converged when the corrections no longer shrink.
 constexpr double nearly_converged = 1e-8;
-/// A step turns neither foot's normal by more than this: predictions stay within reach of (14).
+/// The largest turn of either foot's normal in a step, so that predictions stay in reach of (14).
 constexpr double largest_turn = 0.05;
 /// Half of the angle between the normals at the first two feet on both sides of a maximum.
 constexpr double first_turn = 0.05;
-/// No foot of a first point is nearer to its tip than this share of the other one's way.
+/// No foot of a first point is closer to its tip than this share of the other foot's way.
 constexpr double least_share = 0x1p-40;
 
-/// No step is a smaller share of the longest.
+/// The least step, as a share of the longest.
 constexpr double least_step = 1e-7;
-/// Feet nearer to each other than this share of the boundary's size are one.
+/// Feet are equal if they are closer than this share of the boundary's size.
 constexpr double same_place = 1e-9;
 
 Vec2 right_of(Vec2 v) { return -left_of(v); }
@@ -44,20 +44,21 @@ class Convergence {
   double last_ = std::numeric_limits<double>::infinity();
 };
 
-/// (14) and its derivatives by the ways that the feet advance on their sides. On the zero set these
-/// are (1 - cos) (1 - K R), with the angle between the two normals, and in fans (1 - cos) R.
+/// (14) and its derivatives by the ways by which the feet advance. On the zero set these are (1 -
+/// cos) (1 - K R), with the angle between the two normals, and in fans (1 - cos) R.
 struct Symmetry {
   double value, by_left, by_right;
 };
 Symmetry symmetry(const BoundaryPoint& l, const BoundaryPoint& r) {
   const Vec2 chord = l.point - r.point;
-  const Vec2 sum = r.tangent - l.tangent;  // the left foot goes against the boundary
+  const Vec2 sum = r.tangent - l.tangent;  // the left foot moves backward along the boundary
   return {dot(chord, sum), -l.along * dot(l.tangent, sum) + l.turn * dot(chord, l.normal()),
           -r.along * dot(r.tangent, sum) + r.turn * dot(chord, r.normal())};
 }
 
-/// Whether two feet are one, the trivial zero of (14): a disk has one point for each normal. Steps
-/// towards that zero end with normals up to some 1e-7 apart; those of junctions are 1e-4 or more.
+/// Whether two feet coincide, the trivial zero of (14): a disk has one point for each normal. Steps
+/// towards that zero end with normals up to some 1e-7 apart; at junctions they are 1e-4 or more
+/// apart.
 bool are_one(const BoundaryPoint& a, const BoundaryPoint& b) {
   constexpr double same_normal = 1e-5;
   return norm(a.tangent - b.tangent) < same_normal;
@@ -89,14 +90,14 @@ AxisPoint Generator::at(const Tip& tip) const {
   if (tip.kind == Tip::Kind::maximum) return at_maximum(tip.u);
   const BoundaryPoint left = boundary_.before(tip.left), right = boundary_.at(tip.right);
   if (tip.kind != Tip::Kind::corner) return point_of(left, right);
-  // The axis halves the angle; R_a is the sine of that half.
+  // The axis bisects the angle; R_a is the sine of its half.
   const Vec2 sum = left.normal() + right.normal();
   return {left, right, {left.point, 0}, (1 / norm(sum)) * sum, norm(sum) / 2};
 }
 
 std::optional<AxisPoint> Generator::first_after_corner(double u, double share) const {
   const BoundaryPoint left = boundary_.before(u), right = boundary_.at(u);
-  // The way of the feet that takes the centre on by a step, on the pieces next to the corner.
+  // The way of the feet that moves the centre by a step, on the pieces next to the corner.
   const double sine = norm(right.tangent - left.tangent) / 2;
   double way = share * std::min({step_ * sine, left.speed / 4, right.speed / 4});
   for (int halvings = 0; halvings < 8; ++halvings, way /= 2) {
@@ -106,10 +107,10 @@ std::optional<AxisPoint> Generator::first_after_corner(double u, double share) c
   return std::nullopt;
 }
 
-/// (13) is 0 / 0 in a tip. The foot on the side where the curvature falls off less leads, by a way
-/// that turns the normal as far as asked for. The other one is where (14) first changes its sign
-/// from the tip on: at about that way where the curvature falls off alike, at its square where the
-/// curvature jumps. Farther off, where the other side turns back, normals become parallel.
+/// (13) is 0 / 0 in a tip. The foot on the side where the curvature decreases less goes first, by a
+/// way that turns the normal by the given angle. The other foot is at the first sign change of (14)
+/// from the tip: at about the same way if the curvature decreases alike, at the square of it if the
+/// curvature jumps. Further away, where the other side turns back, the normals become parallel.
 std::optional<AxisPoint> Generator::first_after(const AxisPoint& tip, double turn_at_most) const {
   if (tip.disk.radius == 0) return first_after_corner(tip.left.u, turn_at_most / first_turn);
   const double u = tip.left.u, peak = tip.left.turn;
@@ -137,7 +138,7 @@ std::optional<AxisPoint> Generator::first_after(const AxisPoint& tip, double tur
     }
     const auto point =
         right_leads ? with_right(follower(high), right.u) : with_left(left.u, follower(high));
-    // (10): where the curvature rises again within the way, the branch is shorter than that.
+    // (10): if the curvature increases again within the way, the branch is shorter than that.
     if (!point || !(point->disk.radius > 0) || !(point->left.slack(point->disk.radius) > 0) ||
         !(point->right.slack(point->disk.radius) > 0))
       continue;
@@ -151,7 +152,7 @@ std::optional<AxisPoint> Generator::first_after(const AxisPoint& tip, double tur
 
 std::optional<AxisPoint> Generator::next(AxisPoint here) const {
   if (here.left.u == here.right.u) return first_after(here, first_turn);
-  // A foot next to where rates jump stands behind that.
+  // A foot next to a jump of the rates is treated as behind it.
   const double no_way = same_place * boundary_.size();
   if (boundary_.way_to_jump(here.left.u, false) < no_way)
     here.left = boundary_.before(std::ceil(here.left.u) - 1);
@@ -167,10 +168,10 @@ std::optional<AxisPoint> Generator::next(AxisPoint here) const {
   step = std::min(step, largest_turn / (std::abs(here.right.turn) * right_rate));
   step = std::min(
       step, 16 * step_ / std::max(here.left.along * left_rate, here.right.along * right_rate));
-  // Other rates hold behind a jump: the foot that comes there first stops in it.
+  // After a jump, the rates differ: the foot that reaches a jump first stops there.
   const double left_jump = boundary_.way_to_jump(here.left.u, false) / left_rate;
   const double right_jump = boundary_.way_to_jump(here.right.u, true) / right_rate;
-  // Where the rates outgrow every step the feet stand before a twist: (10) ends there.
+  // If the rates exceed every step, the feet are before a twist, where (10) ends the branch.
   for (int halvings = 0; halvings < 8; ++halvings, step /= 2) {
     if (!(step > least_step * step_)) return std::nullopt;
     const double jump = std::min(left_jump, right_jump), way = std::min(step, jump);
@@ -179,7 +180,7 @@ std::optional<AxisPoint> Generator::next(AxisPoint here) const {
     const auto point = jump > step              ? stabilised(left, right)
                        : left_jump < right_jump ? with_left(std::ceil(here.left.u) - 1, right)
                                                 : with_right(left, std::floor(here.right.u) + 1);
-    // Both feet advance, and the centre moves on about as far as it should.
+    // Both feet must advance, and the centre must move by about the step.
     if (point && point->left.u < here.left.u && point->right.u > here.right.u &&
         point->disk.radius > 0 && distance(point->disk.center, here.disk.center) < 2 * way &&
         distance(point->disk.center, here.disk.center) > way / 2)
@@ -223,7 +224,7 @@ std::optional<AxisPoint> Generator::with_one_foot(double fixed, double moving,
   return std::nullopt;
 }
 
-/// (14) for the three pairs. By the signs of the derivatives above the three equations are
+/// Solves (14) for the three pairs. By the signs of the derivatives, the three equations are
 /// independent at a junction.
 std::optional<Generator::Junction> Generator::junction(double left, double middle,
                                                        double right) const {
@@ -231,7 +232,7 @@ std::optional<Generator::Junction> Generator::junction(double left, double middl
   for (int round = 0; round < most_rounds; ++round) {
     const BoundaryPoint a = boundary_.before(left), b = boundary_.at(middle),
                         c = boundary_.at(right);
-    // Derivatives by lengths along increasing u: a left foot counts the other way.
+    // Derivatives by lengths along increasing u: the left foot moves the other way.
     const Symmetry ab = symmetry(a, b), bc = symmetry(b, c), ac = symmetry(a, c);
     const double m[3][3] = {{-ab.by_left, ab.by_right, 0},
                             {0, -bc.by_left, bc.by_right},
@@ -247,7 +248,7 @@ std::optional<Generator::Junction> Generator::junction(double left, double middl
     if (!(largest < boundary_.size())) break;
     if (convergence.reached(largest)) {
       if (are_one(a, b) || are_one(b, c)) break;
-      // The middle one of three radii of one disk: from the pair that is farthest apart.
+      // Each of the three pairs gives the disk; use the pair whose feet are furthest apart.
       const AxisPoint whole = point_of(a, c), first = point_of(a, b), second = point_of(b, c);
       const double ab_apart = distance(a.point, b.point), bc_apart = distance(b.point, c.point);
       const double ac_apart = distance(a.point, c.point);
