@@ -9,7 +9,7 @@
 namespace medial::potential {
 namespace {
 
-/// The point of the axis whose disk holds p, with p as near to its centre as may be.
+/// The point of the axis whose disk contains p, with p as close to its centre as possible.
 std::uint32_t seen_from(const Skeleton& axis, Vec2 p) {
   std::pair<double, std::uint32_t> best{std::numeric_limits<double>::infinity(), 0};
   for (std::uint32_t i = 0; i < axis.points.size(); ++i) {
@@ -28,11 +28,12 @@ std::vector<AxisWay> ways_between(const Skeleton& axis, const Skeleton& skeleton
   for (std::uint32_t i = 0; i < axis.links.size(); ++i)
     for (const std::uint32_t end : axis.links[i]) links[end].push_back(i);
   std::vector<AxisWay> ways;
-  // Breadth first from all points at once: each link that no point is reached by is in a way.
+  // Breadth-first search from all points at once. Each link that the search does not use is in a
+  // way.
   std::vector<std::uint32_t> seed(count, none), reached_by(count, none), queue;
   for (const std::uint32_t point : points) {
     const std::uint32_t start = seen_from(axis, skeleton.points[point].place);
-    if (seed[start] != none) {  // both are in its disk
+    if (seed[start] != none) {  // both ends are in its disk
       ways.push_back(
           {seed[start], point, {skeleton.points[seed[start]].place, skeleton.points[point].place}});
       continue;

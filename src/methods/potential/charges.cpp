@@ -12,15 +12,16 @@
 namespace medial::potential {
 namespace {
 
-/// How many of `count` pieces are on the left: whole leaves, so that most of them are full.
+/// The number of pieces, out of `count`, on the left: whole leaves, so that most of them are full.
 std::uint32_t left_half(std::size_t count) {
   const std::size_t leaves = (count + Charges::leaf_size - 1) / Charges::leaf_size;
   return static_cast<std::uint32_t>(Charges::leaf_size * ((leaves + 1) / 2));
 }
 
-/// Halves across the longer side of what the middles of pieces span, down to leaves: along the
-/// boundary, sets of holes would be too wide to be seen from afar. It depends on the places, and on
-/// the order of charges that have one.
+/// Sorts pieces in space: halves them by the middle across the longer side of the box of their
+/// middles, recursively down to leaves. In boundary order, sets would span several holes and be too
+/// wide to be summed from afar. The result depends on the places, and on the order of charges at
+/// the same place.
 void sort_in_space(const std::vector<Vec2>& middles, std::span<std::uint32_t> order) {
   Box box = Box::nothing();
   for (const std::uint32_t i : order) box.add(middles[i]);

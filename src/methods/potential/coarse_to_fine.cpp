@@ -14,8 +14,8 @@
 namespace medial::potential {
 namespace {
 
-/// Which points of a closed line to keep, so that no other is further than `tolerance` from what
-/// they make (Douglas and Peucker): at least three, in order.
+/// The points of a closed line to keep, so that no other point is further than `tolerance` from the
+/// simplified line (Douglas and Peucker): at least three, in order.
 std::vector<std::uint32_t> kept_points(const std::vector<Vec2>& points, double tolerance) {
   const auto count = static_cast<std::uint32_t>(points.size());
   const auto furthest = [&](std::uint32_t first, std::uint32_t last, const auto& away) {
@@ -28,7 +28,7 @@ std::vector<std::uint32_t> kept_points(const std::vector<Vec2>& points, double t
   const std::uint32_t opposite = furthest(0, count, from_start).second;
   std::vector<std::uint32_t> kept = {0, opposite};
   std::vector<std::pair<std::uint32_t, std::uint32_t>> stack = {{0, opposite}, {opposite, count}};
-  std::pair<double, std::uint32_t> aside{-1, 0};  // the furthest of those that were left out
+  std::pair<double, std::uint32_t> aside{-1, 0};  // the furthest of the points that were left out
   while (!stack.empty()) {
     const auto [first, last] = stack.back();
     stack.pop_back();
@@ -56,7 +56,7 @@ struct Polygon {
   Shape shape;
 };
 
-/// The polygon within `tolerance` of a region's border; nothing where it crosses itself.
+/// The polygon within `tolerance` of a region's boundary; none if it crosses itself.
 std::optional<Polygon> approximation(const Region& region, double tolerance) {
   Region result;
   std::vector<Ring> rings;
@@ -85,7 +85,7 @@ std::optional<Polygon> approximation(const Region& region, double tolerance) {
   return Polygon{std::move(result), std::move(*shape)};
 }
 
-/// By force lines, or in the limit of high orders; nothing where neither gives one.
+/// The skeleton by force lines, or in the limit of high orders; none if neither finds one.
 std::optional<Skeleton> first_skeleton(const Polygon& polygon, const Charges& charges,
                                        const SkeletonOptions& options) {
   std::vector<Skeleton> limits;
@@ -112,8 +112,8 @@ std::optional<Skeleton> first_skeleton(const Polygon& polygon, const Charges& ch
   return descended(std::move(limit), charges, search);
 }
 
-/// Moves a skeleton to the valleys of another border. Points that are outside of it go: what is
-/// next to them downward takes their links.
+/// Moves a skeleton to the valleys of another boundary. Removes points outside of it, and attaches
+/// their links to the next point downward.
 void move_to(const Region& region, const Charges& charges, double step, Skeleton& skeleton) {
   SuccessorOptions search;
   search.order = skeleton.order;
@@ -172,7 +172,7 @@ void move_to(const Region& region, const Charges& charges, double step, Skeleton
 
 std::optional<Skeleton> trace_coarse_to_fine(const Region& region, const Charges& charges,
                                              const SkeletonOptions& options, double coarse) {
-  // Below this a polygon's valleys are where the border's are, but for a search's accuracy.
+  // Below this distance, a polygon's valleys equal the boundary's up to the accuracy of a search.
   const double least = options.step / 64;
   std::optional<Skeleton> skeleton;
   for (double tolerance = coarse; tolerance > least; tolerance /= 2) {

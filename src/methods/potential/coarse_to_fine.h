@@ -8,12 +8,12 @@
 
 namespace medial::potential {
 
-/// Coarse to fine ([ahuja1997], Section 4.1.3, Fig. 8): the skeleton of a polygon within `coarse`
-/// of the border, whose points then restart on polygons that are nearer and nearer to it, each
-/// within half of the last one's distance, and on the border at last: the skeleton of the border
-/// less the branches of what the first polygon leaves out. Connected, with one cycle for each hole;
-/// nothing where no polygon is further than a step's accuracy from the border. O(n) forces for each
-/// of O(log n) polygons and each point.
+/// Coarse to fine ([ahuja1997], Section 4.1.3, Fig. 8): computes the skeleton of a polygon within
+/// `coarse` of the boundary. Its points then restart on closer and closer polygons, each within
+/// half of the previous distance, and finally on the boundary. The result is the skeleton of the
+/// boundary less the branches to features that the first polygon omits. It is connected, with one
+/// cycle per hole. None if no polygon is further than a step's accuracy from the boundary. O(n)
+/// forces for each of O(log n) polygons and each point.
 std::optional<Skeleton> trace_coarse_to_fine(const Region& region, const Charges& charges,
                                              const SkeletonOptions& options, double coarse);
 

@@ -15,7 +15,7 @@ struct PotentialField::Parts {
   std::vector<potential::Region> regions;
   std::vector<potential::Charges> charges;
 
-  /// The region around a point of the frame.
+  /// The charges of the region that contains a point of the frame.
   const potential::Charges* around(Vec2 p) const {
     for (std::size_t i = 0; i < regions.size(); ++i)
       if (encloses(regions[i], p)) return &charges[i];
@@ -78,7 +78,7 @@ std::vector<Vec2> PotentialField::streamline(Vec2 p, double step, std::size_t mo
     const Vec2 second = evaluator.force(parts_->order).force;
     if (!(norm(second) > 0)) break;
     const Vec2 direction = (1 / norm(second)) * second;
-    if (i > 0 && dot(direction, before) < 0) break;  // past a valley's floor, or at a minimum
+    if (i > 0 && dot(direction, before) < 0) break;  // past the floor of a valley, or at a minimum
     here = here + length * direction;
     before = direction;
     line.push_back(parts_->frame.to_input(here));

@@ -12,13 +12,13 @@
 namespace medial::potential {
 namespace {
 
-/// The force of one piece and its derivatives, from its integral J and its ends' r^-order.
+/// Adds the force of one piece and its derivatives, from its integral J and r^-order at its ends.
 void add_piece(double order, Vec2 t, double x1, double x2, double y, double integral, double p1,
                double p2, Force& sum) {
   const double s1 = p1 / (x1 * x1 + y * y), s2 = p2 / (x2 * x2 + y * y);
   const double along = (p2 - p1) / order, across = y * integral;
   const double a = x2 * s2 - x1 * s1, b = -y * (s2 - s1), c = -order * integral - a;
-  // (a, b; b, c) turned into the frame of the plane.
+  // (a, b; b, c) rotated into the frame of the plane.
   const double xx = t.x * t.x, xy = t.x * t.y, yy = t.y * t.y;
   sum.force = sum.force + along * t + across * left_of(t);
   sum.xx += a * xx - 2 * b * xy + c * yy;
@@ -42,7 +42,7 @@ constexpr std::array<double, 11> arctangent = {1.0,
 
 using Lanes = std::array<double, Charges::leaf_size>;
 
-/// Forces of many pieces, added side by side.
+/// Forces of many pieces, summed in lanes.
 struct LaneForces {
   alignas(32) Lanes x{}, y{}, xx{}, xy{}, yy{};
 
@@ -61,7 +61,7 @@ struct LaneForces {
   }
 };
 
-/// Takes numbers to half this power: whole ones by squares.
+/// Raises numbers to half of this power; integer powers by repeated squaring.
 MEDIAL_WIDE void raise(Lanes& lanes, std::size_t count, double power) {
   const auto whole = static_cast<unsigned>(power);
   if (whole != power) {
@@ -84,10 +84,10 @@ double half_power(double x, double power) {
   return lanes[0];
 }
 
-/// Some pieces side by side, with r^-n, r^-2 at both ends and J(n) of each, for an order n that
-/// rises by two.
+/// Some pieces in lanes, with r^-n and r^-2 at both ends and J(n) of each, for an order n that
+/// increases by two.
 struct Block {
-  /// The ends of the pieces as seen from a place, in units of the nearest charge's distance.
+  /// Loads the ends of the pieces relative to a place, in units of the nearest charge's distance.
   MEDIAL_WIDE void load(const Charges& charges, std::uint32_t begin, std::uint32_t end, Vec2 place,
                         double inverse) {
     count = end - begin;
@@ -102,7 +102,7 @@ struct Block {
     }
   }
 
-  /// To the nearest points of the pieces.
+  /// The squared distances to the nearest points of the pieces.
   MEDIAL_WIDE void squared_distances(Lanes& squares) const {
     for (std::size_t k = 0; k < count; ++k) {
       const double beyond = std::max(std::max(x1[k], -x2[k]), 0.0);
@@ -110,7 +110,7 @@ struct Block {
     }
   }
 
-  /// To order 1, with (6) without a difference.
+  /// Starts at order 1, with (6) without cancellation.
   MEDIAL_WIDE void start_at_one() {
     for (std::size_t k = 0; k < count; ++k) {
       const double length = x2[k] - x1[k], square = y[k] * y[k];
@@ -129,14 +129,14 @@ struct Block {
     }
   }
 
-  /// To order 0, with the angle under which each piece is seen: four times that of the tangent v,
-  /// or what that is less than two right angles.
+  /// Starts at order 0, with the angle that each piece subtends: four times the angle with the
+  /// tangent v, or two right angles less that.
   MEDIAL_WIDE void start_at_zero() {
     for (std::size_t k = 0; k < count; ++k) {
       const double square = y[k] * y[k];
       const double square1 = x1[k] * x1[k] + square, square2 = x2[k] * x2[k] + square;
       const double size = std::abs(y[k]), scalar = square + x1[k] * x2[k];
-      // The tangent of half the angle is area / whole; that of a quarter needs no division more.
+      // area / whole is the tangent of half the angle; that of a quarter needs no further division.
       const double area = (x2[k] - x1[k]) * size, product = square1 * square2;
       const double root = std::sqrt(product), whole = root + std::abs(scalar);
       const double v = area / (whole + std::sqrt(2 * root * whole)), z = v * v;
@@ -153,9 +153,9 @@ struct Block {
     }
   }
 
-  /// To r^-n; J is left out.
+  /// Starts with r^-n, without J.
   MEDIAL_WIDE void start_at_powers(double n) {
-    // Further away there is nothing, so no power falls below the normal range.
+    // No piece is further away, so no power is below the normal range.
     const double least = std::pow(1e-60, 1 / n);
     for (std::size_t k = 0; k < count; ++k) {
       const double square = y[k] * y[k];
@@ -168,7 +168,7 @@ struct Block {
     raise(p2, count, n);
   }
 
-  /// J(n) of the pieces that lie steeply aside; -1 of others.
+  /// Computes J(n) of the pieces that are steeply aside; -1 for others.
   MEDIAL_WIDE void integrate_steep(const SteepTail& tail, Lanes& integrals) const {
     const double widest = tail.widest();
     for (std::size_t k = 0; k < count; ++k) {
@@ -182,7 +182,7 @@ struct Block {
     }
   }
 
-  /// To the order of `series`.
+  /// Starts at the order of `series`.
   void start_at(const LowOrder& series) {
     for (std::size_t k = 0; k < count; ++k) {
       const double square = y[k] * y[k];
@@ -196,7 +196,7 @@ struct Block {
     series.integrals(of(x1), of(x2), of(y), of(p1), of(p2), of(j));
   }
 
-  /// (5) of order n and its derivatives, of all pieces.
+  /// Adds (5) of order n and its derivatives, for all pieces.
   MEDIAL_WIDE void add_force(double n, LaneForces& total) const {
     const double inverse_n = 1 / n;
     for (std::size_t k = 0; k < count; ++k) {
@@ -207,7 +207,7 @@ struct Block {
       const double a = x2[k] * s2 - x1[k] * s1;
       const double b = -y[k] * (s2 - s1);
       const double c = -n * j[k] - a;
-      // (a, b; b, c) turned into the frame of the plane.
+      // (a, b; b, c) rotated into the frame of the plane.
       const double xx = tx[k] * tx[k], xy = tx[k] * ty[k], yy = ty[k] * ty[k];
       total.xx[k] += a * xx - 2 * b * xy + c * yy;
       total.yy[k] += a * yy + 2 * b * xy + c * xx;
@@ -248,13 +248,13 @@ struct Block {
   alignas(32) Lanes x1, x2, y, tx, ty, j, p1, p2, q1, q2, inverse_square;
 };
 
-/// Four numbers side by side (GCC and clang), also where the processor takes fewer at a time.
+/// Four numbers in lanes (GCC and clang), also if the processor has narrower vectors.
 using Four = double __attribute__((vector_size(32)));
 constexpr std::size_t four = 4;
 
 double sum_of(const Four& v) { return v[0] + v[1] + (v[2] + v[3]); }
 
-/// x^n: for whole n by squares, which take a fraction of the time of std::pow.
+/// x^n, for integer n by repeated squaring, which takes a fraction of the time of std::pow.
 double power_of(double x, double n) {
   auto rest = static_cast<unsigned>(n);
   if (rest != n) return std::pow(x, n);
@@ -279,8 +279,8 @@ struct FourComplex {
   friend FourComplex operator*(double a, const FourComplex& b) { return {a * b.x, a * b.y}; }
 };
 
-/// Sets of charges far away, side by side, by their moments up to one degree. Those that are not
-/// there have none.
+/// Sets of distant charges in lanes, by their moments up to one degree. Empty lanes have no
+/// moments.
 struct FarSets {
   void load(std::size_t i, const Charges& charges, std::uint32_t node, Vec2 place, double inverse) {
     moments[i] = &charges.moments[node];
@@ -301,8 +301,8 @@ struct FarSets {
   }
 
   /// With z from the charges' centre, h half of the order and c_j the coefficients of (1 - x)^-h,
-  /// the force as a complex number is the sum of (1 + k / h) c_j c_k M_jk z^(-h - j)
-  /// conj(z)^(-h - 1 - k). Its derivative by z is half the trace of those by the coordinates.
+  /// the force as a complex number is the sum of (1 + k / h) c_j c_k M_jk z^(-h - j) conj(z)^(-h -
+  /// 1 - k). Its derivative by z is half the trace of its derivatives by the coordinates.
   MEDIAL_WIDE void add_force(double h, const std::array<double, Moments::degree + 1>& c,
                              Force& total) const {
     FourComplex force{}, derivative{}, power{};
@@ -329,7 +329,7 @@ struct FarSets {
       derivative = derivative + (h * (h + 1)) * sum + (2 * h + 1) * first + second;
       trace = trace + twice * ((h * g) * sum.x + (h + g) * first.x + second.x);
       if (l == 0) continue;
-      // With j and k swapped.
+      // With j and k exchanged.
       force = force + (g * sum + first).conjugate();
       derivative = derivative + ((g * (g + 1)) * sum + (2 * g + 1) * first + second).conjugate();
     }
@@ -347,7 +347,7 @@ struct FarSets {
     total.yy -= half_trace - turned;
   }
 
-  FourComplex to_place{}, inverse_way{};  ///< the way in units of the nearest charge's distance
+  FourComplex to_place{}, inverse_way{};  ///< in units of the nearest charge's distance
   Four inverse_square{};
   Four scaled_square = Four{} + 1.0;
   double unit = 1;
@@ -357,7 +357,7 @@ struct FarSets {
 };
 const Moments FarSets::nothing;
 
-/// Up to here the recurrence is short, and charges far away add much.
+/// Up to this order the recurrence is short, and distant charges contribute much.
 constexpr double least_alone = 12;
 
 }  // namespace
@@ -373,8 +373,8 @@ void Evaluator::gather(double low, double high) {
   near_.clear();
   for (auto& sets : far_) sets.clear();
   work_ += cost_of_force;
-  // What a unit of charge may be off, and from where on it adds less than that to any of the
-  // orders.
+  // The error allowed per unit of charge, and the distance beyond which charges add less than that
+  // for any of the orders.
   const double share = error_ / (charges_.length() * inverse_);
   const double reach = std::pow(share, -1 / (low + 1));
   // The remainder of Taylor's expansion to the degree p, of 1 / (1 - x)^(n + 1), is at most
@@ -386,7 +386,7 @@ void Evaluator::gather(double low, double high) {
   }
   const auto add_set = [&](std::uint32_t index, double ratio, double gap) {
     const double first = power_of(1 / gap, low + 1) * ratio;
-    // From degree to degree the bound rises at first, if it does, and then falls.
+    // The bound may first rise with the degree, and then falls.
     const double last = binomial.back() * power_of(ratio, Moments::degree);
     if (!(first * std::min(binomial[0], last) < share)) return false;
     std::size_t p = 0;
@@ -446,7 +446,7 @@ void Evaluator::add_far(double order, Force& total) const {
 void Evaluator::sum(double start, double low, std::span<Force> forces) {
   if (start != 0 && start != 1 && !(start_ && start_->order() == start)) start_.emplace(start);
   const double high = low + static_cast<double>(forces.size()) - 1;
-  // Upward, the recurrence multiplies errors by 1 / |y| an order: up to 1e7 is borne.
+  // Upward, the recurrence multiplies errors by 1 / |y| per order: a total of 1e7 is acceptable.
   const double flat = start == 1 && high < 3 ? 0 : std::pow(1e-7, 1 / high);
   Block block;
   std::vector<LaneForces> lanes(forces.size());
@@ -454,9 +454,9 @@ void Evaluator::sum(double start, double low, std::span<Force> forces) {
     block.load(charges_, range.begin, range.end, place_, inverse_);
     for (std::size_t k = 0; flat > 0 && k < block.count; ++k) {
       if (std::abs(block.y[k]) >= flat) continue;
-      if (block.x1[k] < 0 && block.x2[k] > 0) continue;  // as near as the nearest: |y| >= 1
+      if (block.x1[k] < 0 && block.x2[k] > 0) continue;  // as close as the nearest charge: |y| >= 1
       sum_steep(static_cast<std::uint32_t>(range.begin + k), start, low, forces);
-      block.x1[k] = block.x2[k] = block.y[k] = 1;  // nothing
+      block.x1[k] = block.x2[k] = block.y[k] = 1;  // contributes nothing
     }
     block.start_from(start, start_ ? &*start_ : nullptr);
     for (double n = start;; n += 2) {
@@ -484,7 +484,7 @@ void Evaluator::sum_steep(std::uint32_t piece, double start, double low,
   double p1 = half_power(1 / square1, n), p2 = half_power(1 / square2, n);
   const SteepTail tail(n);
   double j = tail(x1, square / (x1 * x1), p1) - tail(x2, square / (x2 * x2), p2);
-  // Mirrored where the piece lies behind.
+  // Mirrored if the piece is behind.
   const Vec2 forward = ahead ? t : -t;
   for (;;) {
     if (n > 0)
@@ -508,7 +508,7 @@ void Evaluator::sum_one(double order, Force& total) {
   const double start = std::fmod(order, 2);
   if (!is_high && start != 0 && start != 1 && !(start_ && start_->order() == start))
     start_.emplace(start);
-  // What lies further away than the square root of this adds less than the far field may.
+  // Charges further away than the square root of this add less than the far field's error.
   const double nothing = std::pow(charges_.length() * inverse_ / error_, 2 / (order + 1));
   Block block;
   LaneForces lanes;
@@ -553,7 +553,7 @@ Force Evaluator::direction(double order) {
   if (order >= least_alone) return force(order);
   error_ = rough_field;
   Force rough = force(order);
-  const double least = norm(rough.force) - rough_field;  // no smaller, whatever the error
+  const double least = norm(rough.force) - rough_field;  // a lower bound, whatever the error
   if (rough_share * least < rough_field) {
     error_ = std::max(rough_share * least, far_field);
     rough = force(order);
@@ -574,7 +574,7 @@ void Evaluator::forces(int first, std::span<Force> forces) {
 
 Evaluator::Field Evaluator::field(double order) {
   if (order <= 2) return {force(order), low_log_potential(order)};
-  // The potential follows from the derivatives of the force two orders below.
+  // The potential follows from the derivatives of the force of two orders less.
   Field result;
   Force lower;
   if (order < HighOrder::least_order) {
@@ -604,7 +604,7 @@ double Evaluator::low_log_potential(double order) const {
     } else if (order == 2) {
       total += segment_integral(0, x1, x2, y);
     } else {
-      // (n - 1) J(n - 2) is what (9) leaves of the next order.
+      // (9) gives (n - 1) J(n - 2) from the next order.
       const double r1 = std::hypot(x1, y), r2 = std::hypot(x2, y);
       total += (order * y * y * segment_integral(order, x1, x2, y) - x2 * std::pow(r2, -order) +
                 x1 * std::pow(r1, -order)) /

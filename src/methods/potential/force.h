@@ -23,12 +23,12 @@ struct Force {
   Vec2 force;
   double xx = 0, xy = 0, yy = 0;
 
-  /// The potential of order + 2, in the same units; about the force beside one side alone.
+  /// The potential of order + 2, in the same units; approximately the force next to one side alone.
   double potential(double order) const { return -(xx + yy) / order; }
   double determinant() const { return xx * yy - xy * xy; }
   Vec2 derivative(Vec2 v) const { return {xx * v.x + xy * v.y, xy * v.x + yy * v.y}; }
-  /// That at a place `way` from here, in units of the distance to the nearest charge, which is
-  /// there `ratio` times what it is here: to first order, the derivatives as here.
+  /// The force at `way` from here, in units of the distance to the nearest charge, which changes by
+  /// the factor `ratio`. First order; the derivatives stay the same.
   Force moved(Vec2 way, double ratio, double order) const {
     const double scale = std::pow(ratio, order), steep = scale * ratio;
     return {scale * (force + derivative(way)), steep * xx, steep * xy, steep * yy};
@@ -50,43 +50,45 @@ class Evaluator {
  public:
   explicit Evaluator(const Charges& charges) : charges_(charges) {}
 
-  /// Where the next forces are asked for. Returns the nearest charge.
+  /// Sets the place of the next forces. Returns the nearest charge.
   Charges::Nearest place(Vec2 p);
 
-  /// The n-force at the place. Requires a place on no charge and order in [1, largest_order].
+  /// The n-force at the place. Requires that no charge is at the place, and order in [1,
+  /// largest_order].
   Force force(double order);
-  /// The same where its direction matters: off by rough_share of its size at most, or by what
-  /// force() may be off by.
+  /// The same if only its direction matters: the error is at most rough_share of its size, or the
+  /// error of force().
   Force direction(double order);
-  /// Those of the whole orders first, first + 1, ... as many as `forces` holds. One pass for all.
+  /// Computes the forces of the orders first, first + 1, ... as many as `forces` has, in one pass.
   void forces(int first, std::span<Force> forces);
   struct Field {
     Force force;
     double log_potential = 0;  ///< the logarithm of the potential (7)
   };
-  /// Both at the place, of one order. Requires order in [1, largest_order].
+  /// The force and the potential of one order at the place. Requires order in [1, largest_order].
   Field field(double order);
 
   static constexpr double far_field = 1e-7;
   static constexpr double rough_field = 5e-4, rough_share = 2e-3;
 
-  /// What all forces have cost: the charges that were summed one by one, and as much as
-  /// `cost_of_force` of them for each force and `cost_of_set` for each set that adds as moments.
-  /// The same on every machine.
+  /// The cost of all forces: the number of charges that were summed one by one, plus
+  /// `cost_of_force` per force and `cost_of_set` per set that was summed by moments. Independent of
+  /// the machine.
   std::uint64_t work() const { return work_; }
   static constexpr std::uint64_t cost_of_force = 16, cost_of_set = 12;
 
  private:
-  /// Which pieces to sum one by one, and which sets by their moments, for orders in [low, high].
+  /// Chooses the pieces to sum one by one and the sets to sum by moments, for orders in [low,
+  /// high].
   void gather(double low, double high);
   void add_far(double order, Force& sum) const;
   /// The logarithm of the potential of an order up to 2, piece by piece.
   double low_log_potential(double order) const;
-  /// Adds the near pieces' forces of the orders start, start + 2, ... from `low` on; forces[i]
-  /// takes that of order low + i.
+  /// Adds the forces of the near pieces for the orders start, start + 2, ... from `low` on;
+  /// forces[i] is that of order low + i.
   void sum(double start, double low, std::span<Force> forces);
-  /// Adds the near pieces' force of one order: without the recurrence where the integral itself is
-  /// as quick.
+  /// Adds the force of the near pieces for one order: without the recurrence if the integral itself
+  /// is as fast.
   void sum_one(double order, Force& sum);
   void sum_steep(std::uint32_t piece, double start, double low, std::span<Force> forces) const;
 
@@ -97,13 +99,13 @@ class Evaluator {
   Vec2 place_;
   double inverse_ = 1;             ///< of the distance to the nearest charge
   double error_ = far_field;       ///< that the far field may add
-  std::optional<LowOrder> start_;  ///< of the recurrence at orders that are no whole numbers
-  std::optional<SteepTail> tail_;  ///< of the last order that came alone
+  std::optional<LowOrder> start_;  ///< start of the recurrence at fractional orders
+  std::optional<SteepTail> tail_;  ///< of the last order that was computed alone
   std::optional<HighOrder> high_;
   std::uint64_t work_ = 0;
   std::vector<Range> near_;
   std::array<std::vector<std::uint32_t>, Moments::degree + 1>
-      far_;  ///< sets by the degree that does
+      far_;  ///< sets by the degree that is sufficient
 };
 
 }  // namespace medial::potential

@@ -6,15 +6,15 @@
 namespace medial::potential {
 namespace {
 
-/// The step of Newton's method to where there is no force, in units of the distance to the border.
+/// The step of Newton's method to a point without force, in units of the distance to the boundary.
 Vec2 newton(const Force& force) {
   const Vec2 f = force.force;
   return (-1 / force.determinant()) *
          Vec2{force.yy * f.x - force.xy * f.y, force.xx * f.y - force.xy * f.x};
 }
 
-/// The same, but downhill where the potential bends down: straight to a valley's floor, and along
-/// it. The force falls as fast in one of two directions at least.
+/// The same, but downhill where the potential is concave: straight to the floor of a valley, and
+/// along it. In at least one of two directions, the force falls as fast.
 Vec2 downhill(const Force& force) {
   const double angle = 0.5 * std::atan2(2 * force.xy, force.xx - force.yy);
   const Vec2 along{std::cos(angle), std::sin(angle)}, across = left_of(along);
@@ -33,7 +33,7 @@ Vec2 blend(Vec2 direction, Vec2 force) {
 }  // namespace
 
 Vec2 valley_direction(const Force& force, double order) {
-  // The Hessian of V^(-1/n), nearly a distance, is that of the potential and this.
+  // The Hessian of V^(-1/n), which is nearly a distance, is that of the potential plus this.
   const double growth = (order + 1) / force.potential(order);
   const Vec2 f = force.force;
   const double half = 0.5 * (force.xx - force.yy + growth * (f.x * f.x - f.y * f.y));
@@ -66,7 +66,7 @@ bool ForceLines::advance(Vec2 p, Vec2 direction, double step, Vec2& q, Force& fo
     if (std::abs(g) <= sine_enough * size) return true;
     const double slope = cross(aside, force.force) + cross(moved, force.derivative(aside)) / radius;
     if (!(slope < 0)) {
-      // Lines part here, so an explicit step is a stable one.
+      // Lines diverge here, so an explicit step is stable.
       const Vec2 halfway = p + 0.5 * step * direction;
       const Vec2 way = unit(force_at(halfway, radius).force);
       if (!(radius > 0) || dot(way, direction) < 0.5) return false;
@@ -77,9 +77,9 @@ bool ForceLines::advance(Vec2 p, Vec2 direction, double step, Vec2& q, Force& fo
     const double change = -g / slope;
     t += change;
     if (!(std::abs(t) <= 0.6 * step)) return false;
-    // The force near by follows from its derivatives where the rest of Taylor's series is less than
-    // half of the sine that counts. A charge's force r^-(n + 1) has second derivatives of up to
-    // (n + 1) (n + 2) r^-(n + 3), in units of the distance; together they are no more than the
+    // The force nearby follows from its derivatives if the remainder of Taylor's series is less
+    // than half of the relevant sine. The force r^-(n + 1) of a charge has second derivatives of up
+    // to (n + 1) (n + 2) r^-(n + 3), in units of the distance; together they are at most the
     // potential times these, up to a quarter for r that falls by less than 0.2 / (n + 3).
     const double near = std::abs(change) / radius, n = options_.order;
     const double rest = 0.5 * 1.25 * (n + 1) * (n + 2) * near * near * force.potential(n);
@@ -106,7 +106,7 @@ std::optional<ValleyPoint> ForceLines::critical_point(Vec2 p, bool minimum, doub
     const Vec2 move = minimum ? radius * downhill(force) : radius * newton(force);
     const double size = norm(move);
     const double longest = 0.4 * reach(radius);
-    // Back and forth: a valley floor too flat for the arithmetic.
+    // Oscillates: the floor of the valley is too flat for the arithmetic.
     const double share = (i > 30 ? 0.5 : 1) * std::min(1.0, longest / size);
     if (size <= 1e-8 * radius || (i == 59 && size <= 0.01 * radius)) {
       if (minimum ? determinant > 0 : determinant < 0)
@@ -116,13 +116,13 @@ std::optional<ValleyPoint> ForceLines::critical_point(Vec2 p, bool minimum, doub
     }
     p = p + share * move;
     if (!minimum && i > 40) return std::nullopt;
-    // Down a level valley there is none for a long way.
+    // On the level floor of a valley, there may be no minimum for a long way.
     if (distance(p, start) > furthest) return std::nullopt;
   }
   return std::nullopt;
 }
 
-/// One line while it is followed.
+/// The state of a line while it is followed.
 class ForceLines::Walk {
  public:
   Walk(ForceLines& lines, Vec2 p, Vec2 direction, double share, Start start)
@@ -147,10 +147,10 @@ class ForceLines::Walk {
 
  private:
   enum class Next : std::uint8_t {
-    on,     ///< with the step's result
-    again,  ///< with another step
-    ended,  ///< the trail is whole
-    stuck,  ///< no step leads on
+    on,     ///< accept the step
+    again,  ///< try another step
+    ended,  ///< the trail is complete
+    stuck,  ///< no step continues the line
   };
   struct Spot {
     Vec2 p;
@@ -169,7 +169,7 @@ class ForceLines::Walk {
     trail_.points.push_back({here_.p, here_.radius, direction_, kind});
   }
 
-  /// Down to the floor, where steps so short would zigzag across the valley.
+  /// Moves to the floor if steps would be so short that they zigzag across the valley.
   bool settles() {
     const Vec2 before = direction_;
     if (!(scale_ < 0.15 && !settled_ &&
@@ -183,7 +183,7 @@ class ForceLines::Walk {
     return true;
   }
 
-  /// A step along the force, or a shorter one; an explicit one at last.
+  /// Proposes a step along the force, or a shorter one; finally an explicit one.
   Next propose() {
     const auto [from, direction, length] = ahead();
     const bool good =
@@ -204,14 +204,14 @@ class ForceLines::Walk {
     return Next::on;
   }
 
-  /// Where an implicit step begins, its direction and its length.
+  /// The start of an implicit step, its direction and its length.
   struct Ahead {
     Vec2 from, direction;
     double length;
   };
-  /// By the last two places, where the force turns little from one to the next: the formula of
-  /// second order that stays in narrow valleys, too, BDF2. If the force goes on turning as it did,
-  /// the first place that is tried is the step's end.
+  /// Extrapolates from the last two places if the force turns little between them: BDF2, the
+  /// formula of second order that also stays in narrow valleys. If the force keeps turning at the
+  /// same rate, the first place that is tried is the step's end.
   Ahead ahead() const {
     constexpr double straight = 0.98;    // the cosine of the sharpest turn
     constexpr double largest_ratio = 2;  // of steps: stable below 1 + sqrt(2)
@@ -223,30 +223,31 @@ class ForceLines::Walk {
     const Vec2 next = unit(now + ratio * cross(before, now) * left_of(now));
     return {here_.p + ratio * ratio * share * last, next, (1 + ratio) * share * step()};
   }
-  /// The direction of the force, or against it while the line climbs.
+  /// The direction of the force, or its opposite while the line climbs.
   Vec2 heading(const Spot& spot) const { return (climbing_ ? -1 : 1) * unit(spot.force.force); }
 
-  /// False on the border.
+  /// Returns false at the boundary.
   bool step_explicitly() {
     there_.p = here_.p + step() * unit(here_.force.force);
     there_.force = lines_.force_at(there_.p, there_.radius);
     return there_.radius > 0;
   }
 
-  /// What the force at the end of the step means: a saddle climbed, a minimum, an end.
+  /// Evaluates the force at the end of the step: a saddle that was climbed to, a minimum, or an
+  /// end.
   Next judge() {
     if (climbing_ && dot(there_.force.force, moved_) > 0) {
       climbing_ = false;
       if (!trail_.points.empty()) trail_.points.back().kind = ValleyPoint::Kind::saddle;
     }
     const bool turned = dot(there_.force.force, moved_) < 0;
-    // Up to the border: no saddle is ahead. Necks wider than this are passed.
+    // Reached the boundary: there is no saddle ahead. Wider necks are passed.
     constexpr double narrowest = 1e-4;
     if (climbing_ && here_.radius < narrowest * lines_.options_.step) return Next::ended;
     return turned && !climbing_ ? meet_turned_force() : Next::on;
   }
 
-  /// The force has turned: a minimum or a saddle lies near, or the step was too long.
+  /// Handles a force that has turned: a minimum or a saddle is near, or the step was too long.
   Next meet_turned_force() {
     if (there_.force.determinant() > 0 || here_.force.determinant() > 0) {
       const auto minimum = lines_.critical_point(
@@ -278,10 +279,10 @@ class ForceLines::Walk {
   bool is_near(const ValleyPoint& point) const {
     return distance(point.place, here_.p) <= 2 * lines_.reach(here_.radius);
   }
-  /// From either end of a step to all that is near.
+  /// The search radius around either end of a step.
   double furthest() const { return 3 * lines_.reach(here_.radius); }
 
-  /// The line all but meets a saddle: on, to the side that the line is on.
+  /// Continues a line that almost meets a saddle, to the side on which the line is.
   void pass(const ValleyPoint& saddle) {
     direction_ = dot(here_.force.force, saddle.tangent) < 0 ? -saddle.tangent : saddle.tangent;
     trail_.points.push_back({saddle.place, saddle.radius, direction_, ValleyPoint::Kind::valley});
@@ -291,7 +292,7 @@ class ForceLines::Walk {
     record(ValleyPoint::Kind::valley);
   }
 
-  /// Takes the step, and ends in a valley that is known.
+  /// Takes the step, and ends the line if it meets a known valley.
   Next go() {
     if (scale_ >= 0.15) settled_ = false;
     const Vec2 way = there_.p - here_.p;
@@ -315,12 +316,12 @@ class ForceLines::Walk {
   ForceLines& lines_;
   const double share_;
   Trail trail_;
-  Spot before_;  ///< where the last step began, if the line goes on from it
+  Spot before_;  ///< the start of the last step, if the line continues from it
   Spot here_;
   Spot there_;  ///< the end of the step
   Vec2 direction_;
   Vec2 moved_;              ///< the direction of the step
-  double turn_ = 1;         ///< between it and the last one's: the cosine
+  double turn_ = 1;         ///< the cosine between it and the last direction
   double scale_ = longest;  ///< of the step, in units of the longest here
   bool begins_ = true;
   bool climbing_;
@@ -353,7 +354,7 @@ bool ForceLines::settle(Vec2& p, double& radius, Force& force, Vec2& direction) 
 void ForceLines::keep(std::uint32_t from, const Trail& trail) {
   std::uint32_t last = from;
   for (const ValleyPoint& point : trail.points) {
-    // A minimum may be made of the last point.
+    // The last point may have become a minimum.
     if (trail.end != no_point && point.place == graph_.skeleton.points[trail.end].place) break;
     const std::uint32_t index = graph_.add_point(point);
     graph_.add_link(last, index);

@@ -24,7 +24,7 @@ Neighbors neighbors_of(const Skeleton& skeleton) {
   return around;
 }
 
-/// The points of a skeleton that stay, and the links between them.
+/// The remaining points of a skeleton, and the links between them.
 Skeleton kept(const Skeleton& skeleton, const std::vector<bool>& stays) {
   Skeleton result;
   result.order = skeleton.order;
@@ -39,7 +39,7 @@ Skeleton kept(const Skeleton& skeleton, const std::vector<bool>& stays) {
   return result;
 }
 
-/// Disks along a branch, both nodes included: steps of no more than `step`.
+/// Disks along a branch, including both nodes, with steps of at most `step`.
 std::vector<Disk> along(const MedialAxis& axis, const Branch& branch, double step) {
   std::vector<Disk> disks;
   for (const auto& [edge, forward] : branch.steps) {
@@ -50,8 +50,8 @@ std::vector<Disk> along(const MedialAxis& axis, const Branch& branch, double ste
   return disks;
 }
 
-/// Which of the disks along a branch to keep between its ends: steps follow the radius where that
-/// is small, as force lines' do. Of a closed branch at least two, so that it stays a cycle.
+/// The disks to keep along a branch, besides its ends: steps follow the radius where it is small,
+/// as those of force lines do. Keeps at least two of a closed branch, so that it stays a cycle.
 std::vector<Disk> thinned(const std::vector<Disk>& disks, double step, bool closed) {
   constexpr double least = 1.0 / 16;
   std::vector<Disk> result;
@@ -81,7 +81,7 @@ class LimitMaker {
 
   std::vector<Skeleton> make() {
     for (const Branch& branch : branches(exact_)) add(branch);
-    // A circle's axis is its centre.
+    // The axis of a circle is its centre.
     for (std::uint32_t i = 0; i < exact_.nodes.size(); ++i)
       if (skeletons_[exact_.nodes[i].component].points.empty()) node(i);
     return std::move(skeletons_);
@@ -123,12 +123,12 @@ class LimitMaker {
   const MedialAxis& exact_;
   const std::span<const Region> regions_;
   const LocalFrame local_;
-  const double step_;                   ///< a share of a region's size
-  std::vector<std::uint32_t> numbers_;  ///< of each node, its point
+  const double step_;                   ///< relative to a region's size
+  std::vector<std::uint32_t> numbers_;  ///< the point of each node
   std::vector<Skeleton> skeletons_;
 };
 
-/// Where the force leads from a place: to where it turns, on the floor of a valley or at a minimum.
+/// Follows the force from a place to where it turns, on the floor of a valley or at a minimum.
 Vec2 foot_of_force(const Charges& charges, Vec2 p, double order, double step) {
   constexpr int most_steps = 1000;
   Evaluator evaluator(charges);
@@ -151,19 +151,19 @@ double link_distance(const Skeleton& skeleton, const std::array<std::uint32_t, 2
   return distance(p, a + t * b);
 }
 
-/// Drops branches that reach less than `least` beyond the disk of the branching that they leave: a
-/// valley of low order leads to no bump that small. Parts and cycles stay.
+/// Drops branches that extend less than `least` beyond the disk of their branching: no valley of
+/// low order leads to such a small bump. Keeps parts and cycles.
 Skeleton pruned(const Skeleton& skeleton, double least) {
   const Neighbors around = neighbors_of(skeleton);
   const std::size_t count = around.size();
   std::vector<std::size_t> degree(count);
-  std::vector<double> reach(count);  // of what has been dropped there
+  std::vector<double> reach(count);  // of the dropped part there
   std::vector<bool> stays(count, true);
   for (std::size_t i = 0; i < count; ++i) {
     reach[i] = skeleton.points[i].radius;
     degree[i] = around[i].size();
   }
-  /// From a tip to the branching that its branch leaves.
+  /// The way from a tip to the branching where its branch starts.
   const auto way_from = [&](std::uint32_t tip) {
     std::vector<std::uint32_t> way = {tip};
     for (std::uint32_t before = tip; degree[way.back()] == (way.size() == 1 ? 1U : 2U);) {
@@ -188,7 +188,8 @@ Skeleton pruned(const Skeleton& skeleton, double least) {
     --degree[base];
     return true;
   };
-  // Once a branching has only two branches left, these are one, which may have to go, too.
+  // If a branching has only two branches left, they become one branch, which may have to be
+  // dropped, too.
   for (bool dropped = true; dropped;) {
     dropped = false;
     for (std::uint32_t i = 0; i < count; ++i)
@@ -249,7 +250,7 @@ class Descent {
     moves_[i] = *place - point.place;
   }
 
-  /// From each tip inward, what has no valley; the last point stays.
+  /// Drops points without a valley, starting at each tip; the last point stays.
   void drop_tips() {
     stays_.assign(moves_.size(), true);
     std::vector<std::size_t> degree(moves_.size());
@@ -262,7 +263,7 @@ class Descent {
       if (degree[tip] != 1) continue;
       const auto next = *std::find_if(around_[tip].begin(), around_[tip].end(),
                                       [&](std::uint32_t k) { return stays_[k]; });
-      // A corner is the tip of the valley next to it.
+      // The tip of the valley next to a corner is the corner.
       const bool is_end = skeleton_.points[tip].kind != ValleyPoint::Kind::valley;
       if (found_[is_end ? next : tip] == Found::yes) continue;
       if (is_end && skeleton_.points[next].kind != ValleyPoint::Kind::valley) continue;
@@ -271,7 +272,7 @@ class Descent {
     }
   }
 
-  /// The mean of the neighbours' moves, where a point has none of its own.
+  /// Moves a point that has no move of its own by the mean of its neighbours' moves.
   void spread() {
     std::vector<Vec2> next = moves_;
     for (std::size_t i = 0; i < moves_.size(); ++i) {
@@ -281,14 +282,14 @@ class Descent {
       for (const std::uint32_t k : around_[i])
         if (stays_[k]) sum = sum + moves_[k], ++count;
       if (count > 0) next[i] = (1 / count) * sum;
-      // No further than a valley is sought.
+      // No further than valleys are searched for.
       const double size = norm(next[i]), furthest = widest_move * skeleton_.points[i].radius;
       if (size > furthest) next[i] = (furthest / size) * next[i];
     }
     moves_ = std::move(next);
   }
 
-  /// Radii and tangents of the points at their new places.
+  /// Computes radii and tangents of the points at their new places.
   void measure() {
     const Neighbors around = neighbors_of(skeleton_);
     Evaluator evaluator(charges_);
@@ -328,7 +329,7 @@ Skeleton branch_at(const Skeleton& limit, const Charges& charges, Vec2 from, dou
     nearest = std::min(nearest, {link_distance(limit, limit.links[i], foot), i});
   const Neighbors around = neighbors_of(limit);
   std::vector<bool> stays(limit.points.size());
-  // Both ways along the branch, as far as points have two neighbours.
+  // Both ways along the branch, while points have two neighbours.
   std::vector<std::uint32_t> queue(limit.links[nearest.second].begin(),
                                    limit.links[nearest.second].end());
   for (std::size_t k = 0; k < queue.size(); ++k) {
@@ -353,7 +354,7 @@ Skeleton descended(Skeleton skeleton, const Charges& charges, const SuccessorOpt
   constexpr double ratio = 4, least = 0.25;
   skeleton = pruned(skeleton, least * options.step);
   SuccessorOptions search = options;
-  search.furthest = 0.5 * options.step;  // for each order
+  search.furthest = 0.5 * options.step;  // per order
   for (double order = limit_order; order > options.order; order /= ratio) {
     search.order = order;
     Descent(skeleton, charges, search).run();
