@@ -328,8 +328,8 @@ class Assembly {
     point.radius_rate = -point.radius_rate;
   }
 
-  /// A junction as the end of one of its two older branches: with the feet of that branch, of which
-  /// one is the middle foot, and with its direction.
+  /// A junction as the end of one of its two older branches: with the feet of that branch, one of
+  /// them the middle foot, and with its direction.
   AxisPoint seen_between(const AxisPoint& junction, bool is_second, double middle) const {
     AxisPoint out = generator_.point_of(is_second ? boundary_.at(middle) : junction.left,
                                         is_second ? junction.right : boundary_.at(middle));

@@ -28,13 +28,13 @@
 namespace medial::potential {
 namespace {
 
-/// The sites of a region's pieces, by their numbers in the result.
+/// Maps the pieces of a region to the numbers of their sites in the result.
 class SiteNames {
  public:
   SiteNames(const Shape& shape, const site::SiteNumbers& numbers)
       : shape_(shape), numbers_(numbers) {}
 
-  /// The site that is nearest to p, of which `piece` is known to be the nearest charge.
+  /// The site nearest to p, given the nearest charge `piece`.
   std::uint32_t nearest(const Charge& piece, Vec2 p) const {
     const Vec2 along = piece.end - piece.start;
     const double t = dot(p - piece.start, along) / squared_norm(along);
@@ -47,8 +47,8 @@ class SiteNames {
     return numbers_.edge[edge];
   }
 
-  /// Of all other sites the one with the charge nearest to p: at the end of a slit, two sites are
-  /// all but in one place. O(n).
+  /// The site with the nearest charge to p, except `own`: at the end of a slit, two sites almost
+  /// coincide. O(n).
   std::uint32_t other(const Region& region, Vec2 p, std::uint32_t own) const {
     std::pair<double, std::uint32_t> best{std::numeric_limits<double>::infinity(), own};
     for (const Charge& piece : region.pieces) {
@@ -68,12 +68,13 @@ class SiteNames {
   const site::SiteNumbers& numbers_;
 };
 
-/// Between valley points whose successors lie further apart than this many steps, others are put.
+/// Points are inserted between valley points whose successors are further apart than this many
+/// steps.
 constexpr double widest_gap = 1.5;
 constexpr int most_halvings = 3;
 
-/// The points, with minima moved to those of the final order. Points near a minimum move along, by
-/// less the further away they are: a branch must not overshoot its end.
+/// The points, with minima moved to the minima of the final order. Points near a minimum move with
+/// it, less with increasing distance, so that a branch does not overshoot its end.
 std::vector<ValleyPoint> shifted(const Skeleton& skeleton, const Charges& charges,
                                  const SuccessorOptions& options) {
   std::vector<ValleyPoint> points = skeleton.points;
@@ -83,14 +84,15 @@ std::vector<ValleyPoint> shifted(const Skeleton& skeleton, const Charges& charge
     neighbors[to].push_back(from);
   }
   Evaluator evaluator(charges);
-  constexpr double reach = 4;  // of the shift, in lengths of it
+  constexpr double reach = 4;  // in multiples of the shift
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     if (skeleton.points[i].kind != ValleyPoint::Kind::minimum) continue;
     const Vec2 place = skeleton.points[i].place;
     const Vec2 shift = minimum_near(evaluator, skeleton.points[i], options) - place;
     const double size = norm(shift);
     if (!(size > 0)) continue;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> queue = {{i, i}};  // and from where
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> queue = {
+        {i, i}};  // a point, and the point before it
     for (std::size_t k = 0; k < queue.size(); ++k) {
       const auto [here, before] = queue[k];
       const double away = distance(skeleton.points[here].place, place);
@@ -103,11 +105,11 @@ std::vector<ValleyPoint> shifted(const Skeleton& skeleton, const Charges& charge
   return points;
 }
 
-/// Where the valleys through two points meet: their junction, if that is no further from either
-/// than they are apart. Points on a line that joined another valley early cut off its corner.
+/// The junction where the valleys through two points meet, if it is no further from either point
+/// than they are apart. Points on a line that joined another valley too early cut off its corner.
 std::optional<Successor> junction_between(Evaluator& evaluator, const Successor& a,
                                           const Successor& b) {
-  constexpr double broad = 64;  // an order whose valleys are wider than points are off
+  constexpr double broad = 64;  // an order whose valleys are wider than the error of points
   const auto valley_at = [&](const Successor& point) {
     evaluator.place(point.place);
     return valley_direction(evaluator.force(broad), broad);
@@ -123,18 +125,19 @@ std::optional<Successor> junction_between(Evaluator& evaluator, const Successor&
   return is_inside ? std::optional<Successor>({place, radius, a.order}) : std::nullopt;
 }
 
-/// The successors of all points, and of further ones between them where they part.
+/// The successors of all points, and of points that are inserted where they diverge.
 struct Refined {
   std::vector<Successor> points;
   std::vector<std::array<std::uint32_t, 2>> links;
 };
 
-/// Nothing where that costs more than `most_work`.
+/// None if the cost exceeds `most_work`.
 std::optional<Refined> successors_of(const Skeleton& skeleton, const Charges& charges,
                                      const SuccessorOptions& options, std::uint64_t most_work) {
   Refined result;
   std::atomic<std::uint64_t> work = 0;
-  // What all threads have done is looked at between batches, so it is the same for any number.
+  // Checks the work of all threads between batches, so that the result does not depend on their
+  // number.
   const auto in_batches = [&](std::size_t count, const auto& act) {
     constexpr std::size_t batch = 512, grain = 16;
     for (std::size_t begin = 0; begin < count && work <= most_work; begin += batch)
@@ -187,7 +190,7 @@ std::optional<Refined> successors_of(const Skeleton& skeleton, const Charges& ch
   return result;
 }
 
-/// Makes one point of linked ones that have come to the same place: a link needs a direction.
+/// Merges linked points that have come to the same place, since a link needs a direction.
 Refined joined(Refined axis) {
   DisjointSets sets(axis.points.size());
   for (const auto& [from, to] : axis.links)
@@ -214,9 +217,10 @@ Refined unmoved(const Skeleton& skeleton) {
   return refined;
 }
 
-/// The two sites that a link passes between, on its left first: what is nearest halfway to the
-/// border, at right angles to it. Where a link that is shorter than the accuracy of its ends points
-/// at the border, that is one site; then what lies across from it is the other.
+/// The two sites between which a link passes, the left one first: the nearest sites at the points
+/// halfway to the boundary, perpendicular to the link. If a link is shorter than the error of its
+/// ends and points at the boundary, both are the same site; then the other one is the site across
+/// from it.
 std::array<std::uint32_t, 2> sites_beside(const Successor& inner, Vec2 along, const Region& region,
                                           const Charges& charges, const SiteNames& names) {
   const auto nearest = [&](Vec2 p) {
@@ -234,20 +238,20 @@ std::array<std::uint32_t, 2> sites_beside(const Successor& inner, Vec2 along, co
   return is_left ? std::array{touched[0], across} : std::array{across, touched[0]};
 }
 
-/// Where an axis near the medial axis is asked for, lines make those of this many edges at most:
-/// more lines cost seconds, as each of their forces is a sum over more edges.
+/// For an axis close to the medial axis, lines are used up to this many edges. Above, they take
+/// seconds, as each of their forces is a sum over more edges.
 constexpr std::size_t most_lined = 2000;
 
-/// What forces for such lines, and for moving their points, may cost in a shape: some three fifths
-/// of a second. What is left then starts on the exact axis.
+/// The largest cost of the forces for such lines, and for moving their points, per shape: about 0.6
+/// seconds. The rest then starts on the exact axis.
 constexpr std::uint64_t most_work = 18'000'000;
 constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
 
-/// How the points of an axis are found; what verify() refuses is found in the next way.
+/// How the points of an axis are found. If verify() refuses the result, the next way is used.
 enum class Way : std::uint8_t {
   lines,   ///< by force lines, or from coarse to fine
   limit,   ///< from the limit of high orders
-  unmoved  ///< that limit itself
+  unmoved  ///< that limit, without moving its points
 };
 
 class Tracing {
@@ -314,7 +318,7 @@ class Tracing {
     return joined(*successors_of(limit, charges, search(region, limit), unlimited));
   }
 
-  /// Asks for the exact axis once, whether there is one or not.
+  /// Computes the exact axis once; remembers if there is none.
   std::optional<Error> find_limits() {
     if (!limits_.empty() || no_limits_) return no_limits_;
     const Options& options = problem_.options;
@@ -334,8 +338,8 @@ class Tracing {
     return own_.order > 0 ? std::min(own_.order, line_order) : line_order;
   }
 
-  /// By force lines, or from coarse to fine; nothing where these do not connect all. Between
-  /// parallel sides low orders have a force where higher ones have none left.
+  /// By force lines, or from coarse to fine; none if the result is not connected. Between parallel
+  /// sides, low orders have a force where it vanishes for higher ones.
   std::optional<Skeleton> traced(std::uint32_t component, const Charges& charges) {
     const Region& region = regions_[component];
     SkeletonOptions options;
@@ -364,7 +368,7 @@ class Tracing {
     options.order = own_.order;
     options.angle = own_.angle * std::numbers::pi / 180;
     options.movement = own_.movement * region.size;
-    // Points on a valley of some order are no worse than that.
+    // Points on a valley of this order are at least as accurate.
     options.least_order = skeleton.order;
     options.step = own_.step * region.size;
     options.accuracy = options.step / 64;
@@ -372,7 +376,7 @@ class Tracing {
     return options;
   }
 
-  /// What was asked for of a whole limit.
+  /// The requested part of a whole limit.
   Skeleton wanted(std::uint32_t component, const Charges& charges) const {
     const Skeleton& limit = limits_[component];
     const LocalFrame& frame = problem_.frame;
@@ -385,7 +389,7 @@ class Tracing {
     return limit;
   }
 
-  /// Makes the points of one component nodes of the axis, and their links edges between the
+  /// Adds the points of one component as nodes of the axis, and their links as edges between the
   /// nearest charges on both sides.
   void append(MedialAxis& axis, std::uint32_t component, const Refined& refined,
               const Charges& charges) const {
@@ -409,9 +413,9 @@ class Tracing {
   const method::Potential& own_;
   const SiteNames names_;
   std::vector<Region> regions_;
-  std::vector<Skeleton> limits_;  ///< of all components, once they are needed
+  std::vector<Skeleton> limits_;  ///< of all components; computed on demand
   std::optional<Error> no_limits_;
-  /// For force lines to the axis, unless these were asked for.
+  /// for force lines to the axis, unless the caller requested these
   std::uint64_t work_left_ = own_.base_order > 0 || own_.coarse > 0 ? unlimited : most_work;
 };
 

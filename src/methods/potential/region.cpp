@@ -9,7 +9,7 @@
 namespace medial::potential {
 namespace {
 
-/// How many chords of equal length stay within `chord` of an arc; at most 64.
+/// The number of chords of equal length that are within `chord` of an arc; at most 64.
 int chords_of(const BulgeArc& arc, double chord) {
   if (arc.bulge == 0) return 1;
   const double sagitta = std::abs(arc.bulge) * distance(arc.start, arc.end) / 2;
@@ -25,7 +25,8 @@ Vec2 point_at(const BulgeArc& arc, double t) {
   return arc.start + reach * turned(tangent, std::cos(angle / 2), std::sin(angle / 2));
 }
 
-/// By how much the border turns where it is at least half as curved as at a bend, in radians.
+/// The turn, in radians, of the boundary around a bend where it is at least half as curved as
+/// there.
 double turn_around(const site::LoopEdges& loop, std::uint32_t bend, double k) {
   const auto turn = [&](std::uint32_t i) {
     const BulgeArc arc{loop.local(i), loop.local(loop.next(i)), loop.bulge(i)};

@@ -24,8 +24,8 @@ class Circle {
   }
   Vec2 at(Vec2 direction) const { return center_ + radius_ * direction; }
 
-  /// The directions in which valleys lead away, in turns, ascending: there the force along the
-  /// circle goes from forward to backward.
+  /// The directions, in turns and ascending, in which valleys leave the minimum: there, the force
+  /// along the circle changes from forward to backward.
   std::vector<double> valleys() {
     constexpr int first_looks = 16;
     for (int i = 0; i <= first_looks; ++i) {
@@ -47,7 +47,7 @@ class Circle {
     const Look* before = &looks_.front();
     for (const Look& here : looks_) {
       if (is_lost(here)) continue;
-      // On a floor without slope the force has no direction: that is its middle.
+      // On a floor without slope, the force has no direction: the zero is its middle.
       if (before->aside > 0 && here.aside < 0) found.push_back(between(*before, here));
       before = &here;
     }
@@ -73,7 +73,7 @@ class Circle {
     return {turns, cross(out, direction), 2 * std::numbers::pi * turning * dot(out, direction)};
   }
 
-  /// Looks where two looks leave open how often the sine changes its sign in between.
+  /// Looks between two looks if they do not determine how often the sine changes its sign.
   void look_between(Look a, Look b, int depth) {
     const bool is_lost = (a.aside == 0) != (b.aside == 0);
     if (depth == 0 || !(is_lost || may_change_more(a, b))) return;
@@ -83,8 +83,8 @@ class Circle {
     look_between(middle, b, depth - 1);
   }
 
-  /// Whether it may do so more often than its signs at both ends tell: not where it rises, or
-  /// falls, at both, nor where the tangents there meet before they reach zero.
+  /// Whether the sine may change its sign more often than the signs at both ends show. Not if it
+  /// rises, or falls, at both ends, nor if the tangents there meet before they reach zero.
   static bool may_change_more(const Look& a, const Look& b) {
     if (a.aside == 0) return false;
     const double way = a.aside > 0 ? 1 : -1;
@@ -96,7 +96,7 @@ class Circle {
     return begins - falls * std::clamp(meeting, 0.0, width) <= 0;
   }
 
-  /// Where the sine is 0 between two looks, by false position.
+  /// A zero of the sine between two looks, by false position.
   double between(Look a, Look b) {
     constexpr int most_looks = 4;
     constexpr double widest = 1.0 / 16, accuracy = 1e-3;
@@ -145,7 +145,7 @@ std::vector<bool> SaddleSearch::new_cycle(std::uint32_t from, std::span<const Ve
       if (a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) > p.x) around[*hole] = !around[*hole];
     }
   }
-  // Less the cycles that are known, as sets: what is left must be a new one.
+  // Subtract the known cycles, as sets: what remains must be a new one.
   for (const std::vector<bool>& known : cycles_) {
     const auto pivot = std::find(known.begin(), known.end(), true) - known.begin();
     if (!around[static_cast<std::size_t>(pivot)]) continue;
@@ -175,7 +175,7 @@ bool SaddleSearch::wanted(std::uint32_t from, std::span<const ValleyPoint> betwe
 
 void SaddleSearch::traverse() {
   const auto done = [&] { return complete() || lines_.exhausted(); };
-  // Minima that are found on the way come after these.
+  // Minima found on the way are appended to the list.
   for (; traversed_ < graph_.skeleton.points.size() && !done(); ++traversed_) {
     const std::uint32_t m = traversed_;
     const ValleyPoint minimum = graph_.skeleton.points[m];
@@ -188,7 +188,7 @@ void SaddleSearch::traverse() {
       const std::uint32_t known =
           graph_.joined(p, radius, direction, 2 * ForceLines::merge_share, true);
       if (known != no_point) {
-        // A line that passed the minimum by, or one that leads from it.
+        // A line that passed the minimum, or one that leaves it.
         if (wanted(m, {}, known)) graph_.add_link(m, known);
         continue;
       }
@@ -201,7 +201,8 @@ void SaddleSearch::traverse() {
 }
 
 void SaddleSearch::pass_necks(const Charges& charges) {
-  // What is as near as the corner to the middle of the way is no nearer than rounding.
+  // A corner whose distance is this close to the distance of the middle of the way is no nearer, up
+  // to rounding.
   constexpr double as_near = 0.999;
   for (const std::uint32_t piece : region_.reflex) {
     if (complete() || lines_.exhausted()) return;
@@ -211,7 +212,7 @@ void SaddleSearch::pass_necks(const Charges& charges) {
     const Vec2 middle = after.start + 0.5 * across;
     const double radius = lines_.distance_at(middle);
     if (!(radius > 0 && radius >= as_near * 0.5 * norm(across))) continue;
-    // The valleys through a neck that is wide beside a step need not pass its middle.
+    // The valleys through a neck that is wide compared with a step need not pass its middle.
     if (graph_.crossed(middle - 0.25 * across, middle + 0.25 * across, radius) != no_point)
       continue;
     const Vec2 tangent = left_of(unit(across));
@@ -247,7 +248,7 @@ Trail SaddleSearch::line_from(Vec2 place) {
 }
 
 void SaddleSearch::connect(const Skeleton& axis) {
-  std::vector<std::uint32_t> parts;  // a point of each, a minimum where there is one
+  std::vector<std::uint32_t> parts;  // a point of each part, a minimum if it has one
   std::vector<std::uint32_t> number(graph_.skeleton.points.size(), no_point);
   for (std::uint32_t i = 0; i < number.size(); ++i) {
     std::uint32_t& part = number[graph_.part(i)];
@@ -273,8 +274,8 @@ bool SaddleSearch::lead_apart(std::span<const Vec2> way, const Trail& first, con
   return is_new(first.end, between, last.end, cycle);
 }
 
-/// Where lines from both ends of a way lead to places that are not connected, or around a hole,
-/// those from some place in between part at a saddle.
+/// If lines from both ends of a way lead to places that are not connected, or around a hole, lines
+/// from some place in between diverge at a saddle.
 void SaddleSearch::part_lines(std::span<const Vec2> way, const Trail& first, const Trail& last) {
   if (!lead_apart(way, first, last)) return;
   std::array<Vec2, 3> halved{way.front(), midpoint(way.front(), way.back()), way.back()};
@@ -282,7 +283,7 @@ void SaddleSearch::part_lines(std::span<const Vec2> way, const Trail& first, con
     constexpr double near = 1.0 / 64;
     const ValleyPoint& one = graph_.skeleton.points[first.end];
     const ValleyPoint& two = graph_.skeleton.points[last.end];
-    // On a floor without slope each line ends where it begins.
+    // On a floor without slope, each line ends where it begins.
     if (distance(one.place, two.place) <= lines_.reach(std::min(one.radius, two.radius)) &&
         wanted(first.end, {}, last.end))
       return graph_.add_link(first.end, last.end);
@@ -290,7 +291,7 @@ void SaddleSearch::part_lines(std::span<const Vec2> way, const Trail& first, con
       return join(way.front(), first, way.back(), last);
     way = halved;
   }
-  // From the place in the middle, or else from the next one whose line ends somewhere.
+  // Start from the place in the middle, or from another one whose line has an end.
   std::size_t middle = way.size() / 2;
   Trail line = line_from(way[middle]);
   for (std::size_t i = 1; line.end == no_point && i + 1 < way.size() && !lines_.exhausted(); ++i)

@@ -10,8 +10,8 @@
 namespace medial::potential {
 namespace {
 
-/// How many forces the lines may take: about a second for a border of 2,000 edges. Mazes take 35 an
-/// edge; beyond that size each force is a sum over more edges.
+/// The number of forces that the lines may use: about a second for a boundary of 2,000 edges. Mazes
+/// take 35 per edge; above that size each force is a sum over more edges.
 std::uint64_t forces_of(const Region& region) {
   const auto edges = std::uint64_t{region.edges()};
   return 20000 + 10 * edges + 50 * std::min<std::uint64_t>(edges, 2000) +
@@ -19,7 +19,7 @@ std::uint64_t forces_of(const Region& region) {
 }
 
 /// Drops minima with one line that have a junction within two steps: they come from lines that met
-/// the same valley in two places. What is left stays connected and keeps its cycles.
+/// the same valley at two places. The rest stays connected and keeps its cycles.
 void drop_hooks(Skeleton& skeleton, double step) {
   constexpr double reach = 2;
   const std::size_t count = skeleton.points.size();
@@ -82,7 +82,7 @@ class Tracer {
     if (graph_.skeleton.points.empty()) trace_side();
   }
 
-  /// Along the exact axis, which is asked for only where lines leave something apart.
+  /// Connects parts along the exact axis, which is computed only if lines leave parts unconnected.
   void connect() {
     if (complete() || lines_.exhausted() || !options_.axis) return;
     if (const Skeleton* axis = options_.axis()) saddles_.connect(*axis);
@@ -104,7 +104,7 @@ class Tracer {
   }
 
  private:
-  /// The first point inside of a convex corner: on its bisector, as far as both its edges are
+  /// The first point inside a convex corner: on its bisector, where both its edges are still
   /// nearest.
   bool corner_start(std::uint32_t piece, Vec2& p, Vec2& direction) {
     const Charge& after = region_.pieces[piece];
@@ -137,7 +137,7 @@ class Tracer {
     }
   }
 
-  /// From the middle of the first piece.
+  /// A line from the middle of the first piece.
   void trace_side() {
     const Charge& side = region_.pieces.front();
     const Vec2 foot = midpoint(side.start, side.end);
@@ -147,7 +147,7 @@ class Tracer {
     lines_.follow(foot + height * inward, inward, 0.1);
   }
 
-  /// By the side of what is nearest.
+  /// Decides by the side of the nearest piece.
   bool is_inside(Vec2 p) const {
     const Charge& piece = region_.pieces[charges_.nearest(p).piece];
     return cross(piece.end - piece.start, p - piece.start) > 0;
@@ -159,7 +159,7 @@ class Tracer {
       const auto& [center, bend] = circle;
       double radius = 0;
       const Force force = lines_.force_at(center, radius);
-      // Only the centre of a maximal disk is a leaf; chords are a little nearer than their arc.
+      // Only the centre of a maximal disk is a leaf; chords are slightly nearer than their arc.
       if (!(radius > 0.99 * bend - region_.chord && is_inside(center))) continue;
       const Trail trail = lines_.follow(center, unit(force.force), ForceLines::merge_share);
       const std::uint32_t leaf =

@@ -7,15 +7,16 @@
 namespace medial::potential {
 namespace {
 
-/// Valleys of an order from here on are sharp enough for a much higher order at once.
+/// From this order on, valleys are sharp enough to go to a much higher order at once.
 constexpr double searched_below = 24;
-/// From order to order of one point.
+/// Between successive orders of one point.
 constexpr double ratio = 4;
 
 /// The angle between two forces.
 double angle_between(Vec2 a, Vec2 b) { return std::atan2(std::abs(cross(a, b)), dot(a, b)); }
 
-/// Of the force at a point of a valley; the valley's where that is weak or aside.
+/// The direction of the force at a point of a valley; that of the valley if the force is weak or
+/// aside.
 Vec2 direction_of(Evaluator& evaluator, const ValleyPoint& point, double order) {
   evaluator.place(point.place);
   const Force force = evaluator.force(order);
@@ -31,10 +32,10 @@ class Section {
   struct Look {
     double place = 0;   ///< from the point, to the left of the valley
     double radius = 0;  ///< distance to the border
-    double aside = 0;   ///< the sine from the valley to the force; falls where a valley is passed
-    double slope = 0;   ///< of that
-    double way = 0;     ///< to where it is about 0
-    bool lost = false;  ///< the force, in the arithmetic: on the middle line of a corridor
+    double aside = 0;   ///< the sine from the valley to the force; decreases across a valley
+    double slope = 0;   ///< derivative of that sine
+    double way = 0;     ///< the estimated way to its zero
+    bool lost = false;  ///< the force is lost in rounding: on the middle line of a corridor
   };
 
   Section(Evaluator& evaluator, const ValleyPoint& point, double order)
@@ -61,10 +62,10 @@ class Section {
   }
 
  private:
-  /// Between two walls alike, a way x from the valley, the force's tangent is t tanh(k x) with
-  /// k = n t / (r sqrt(1 + t^2)). What it is and how it changes here gives t, and so x: near the
-  /// valley this is Newton's step, which is never shorter, and from where one wall alone counts it
-  /// still leads there.
+  /// Between two equal walls, at a way x from the valley, the tangent of the force is t tanh(k x)
+  /// with k = n t / (r sqrt(1 + t^2)). Its value and derivative here give t, and so x. Near the
+  /// valley this is Newton's step, which is never shorter; where only one wall matters, it still
+  /// leads to the valley.
   double way_to_valley(const Look& look) const {
     const double square = 1 - look.aside * look.aside, far = 2 * look.radius;
     if (!(look.slope < 0 && square > 0)) return std::copysign(far, look.aside);
@@ -84,7 +85,7 @@ class Section {
 }  // namespace
 
 int adaptive_order(Evaluator& evaluator, double angle, int most) {
-  // Orders come in ever larger blocks, since most points need but a few.
+  // Orders are computed in growing blocks, since most points need only a few.
   constexpr int first_block = 6;
   std::array<Force, most_searched_order + 2> forces;
   int known = 0;
@@ -139,27 +140,27 @@ std::optional<Vec2> valley_across(Evaluator& evaluator, const ValleyPoint& point
   constexpr int most_looks = 60;
   const double furthest = std::min(widest_move * radius, options.furthest);
   Section section(evaluator, point, order);
-  // The valley lies between these: the force leads to the left at one, back at the other.
+  // Bounds of the valley: the force leads to the left at one, to the right at the other.
   std::optional<Section::Look> right, left;
-  double wide = std::numeric_limits<double>::infinity();  // when last halved
+  double wide = std::numeric_limits<double>::infinity();  // width at the last halving
   int halved = 0;
   double place = std::clamp(guess, -furthest, furthest);
   for (int i = 0; i < most_looks; ++i) {
     const Section::Look here = section.look(place);
     if (!(here.radius > 0)) return std::nullopt;
     if (i == 0 && here.lost) return point.place;
-    // On a ridge the sine rises.
+    // On a ridge the sine increases.
     if (std::abs(here.aside) <= perpendicular && !(here.slope > 0)) return section.at(place);
     (here.aside > 0 ? right : left) = here;
-    // Across a valley the sine bends as a hyperbolic tangent, so Newton's step is no shorter than
-    // the way.
+    // Across a valley the sine behaves like a hyperbolic tangent, so Newton's step is no shorter
+    // than the way.
     if (here.slope < 0 && std::abs(here.aside) <= -0.5 * options.accuracy * here.slope)
       return section.at(place + here.way);
     if (right && left) {
       const double width = left->place - right->place;
       const double share = right->aside / (right->aside - left->aside);
       if (width <= options.accuracy) return section.at(right->place + share * width);
-      // False position where that leads out; kept honest by halving.
+      // False position if that is outside; halving guarantees progress.
       double next = (place + here.way - right->place) / width;
       if (!(next > 0 && next < 1)) next = share;
       if (width <= 0.5 * wide) {
@@ -192,7 +193,7 @@ Successor generalized_successor(Evaluator& evaluator, const ValleyPoint& point,
     result.order = options.order;
     result.place = successor(evaluator, here, options.order, options);
   } else {
-    // The valley's own order says nothing of what a higher one would change.
+    // The valley's own order does not show how a higher order would move the point.
     double order = ratio * options.least_order;
     if (order < searched_below) {
       evaluator.place(here.place);
@@ -202,7 +203,7 @@ Successor generalized_successor(Evaluator& evaluator, const ValleyPoint& point,
     order = std::min(order, options.most_order);
     Vec2 move;
     for (;;) {
-      // Ways fall as 1 / n.
+      // Ways decrease as 1 / n.
       const double guess = dot(move, left_of(here.tangent)) / ratio;
       result.place = successor(evaluator, here, order, options, guess);
       result.order = order;

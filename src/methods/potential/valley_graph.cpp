@@ -68,7 +68,7 @@ void ValleyGraph::add_link(std::uint32_t from, std::uint32_t to) {
 }
 
 std::vector<Vec2> ValleyGraph::way(std::uint32_t from, std::uint32_t to) const {
-  // Breadth first, from the far end, so that the way comes out in order.
+  // Breadth-first search from the far end, so that the way is found in order.
   std::vector<std::uint32_t> after(skeleton.points.size(), no_point);
   std::vector<std::uint32_t> queue = {to};
   after[to] = to;
@@ -124,7 +124,7 @@ std::uint32_t ValleyGraph::crossed(Vec2 p, Vec2 q, double radius) const {
     const Vec2 a = skeleton.points[from].place, b = skeleton.points[to].place;
     const double at_a = cross(q - p, a - p), at_b = cross(q - p, b - p);
     const double at_p = cross(b - a, p - a), at_q = cross(b - a, q - a);
-    // Both ends on one line are no crossing; one is.
+    // If both ends are on one line, they do not cross; if one is, they do.
     if (at_a * at_b > 0 || at_p * at_q > 0 || (at_a == 0 && at_b == 0)) return;
     found = std::abs(at_a) < std::abs(at_b) ? from : to;
   });

@@ -13,12 +13,13 @@ namespace medial::potential {
 
 constexpr std::uint32_t no_point = std::numeric_limits<std::uint32_t>::max();
 
-/// Links of a skeleton near a place: a hash of cells whose size follows the distance to the border,
-/// because steps do.
+/// The links of a skeleton near a place: a hash of cells whose size depends on the distance to the
+/// boundary, as the length of steps does.
 class LinkIndex {
  public:
   void add(std::uint32_t link, Vec2 a, Vec2 b, double scale);
-  /// The links in the cells that `reach` around p meets, some more than once.
+  /// The links in the cells that meet the square of size `reach` around p; some occur more than
+  /// once.
   template <class Take>
   void near(Vec2 p, double reach, double scale, const Take& take) const;
 
@@ -28,28 +29,28 @@ class LinkIndex {
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
 };
 
-/// A skeleton that grows: its points by place, its connected parts, what belongs to which minimum.
+/// A growing skeleton: its points by place, its connected parts, and the minima.
 class ValleyGraph {
  public:
-  /// `step`: the longest.
+  /// `step` is the longest step.
   explicit ValleyGraph(double step) : limit_(step) {}
 
-  /// How long a step is where the border is `radius` away.
+  /// The length of a step at the distance `radius` from the boundary.
   double reach(double radius) const { return std::min(limit_, radius); }
 
   std::uint32_t add_point(const ValleyPoint& point);
   void add_link(std::uint32_t from, std::uint32_t to);
-  /// The minimum at this place, known or new.
+  /// The minimum at this place, known or newly added.
   std::uint32_t minimum_at(const ValleyPoint& point);
 
-  /// The valley that a line at q joins if it comes nearer to one than `share` of a step: its next
-  /// point downward. Only one that leads the same way, unless `any_way`.
+  /// The valley that a line joins at q if it is closer than `share` of a step: the valley's next
+  /// point downward. It must lead in the same direction, unless `any_way`.
   std::uint32_t joined(Vec2 q, double radius, Vec2 direction, double share, bool any_way) const;
 
-  /// The valley that a step from p to q crosses: the nearer end of its link.
+  /// The valley that the step from p to q crosses: the nearer end of its link.
   std::uint32_t crossed(Vec2 p, Vec2 q, double radius) const;
 
-  /// The places along a way between two connected points, both ends included. O(points).
+  /// The places along a way between two connected points, including both ends. O(points).
   std::vector<Vec2> way(std::uint32_t from, std::uint32_t to) const;
   std::uint32_t part(std::uint32_t point) { return parts_.find(point); }
   bool connected(std::uint32_t a, std::uint32_t b) { return parts_.find(a) == parts_.find(b); }

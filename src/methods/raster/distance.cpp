@@ -27,7 +27,7 @@ constexpr MaskTable make_masks() {
 }
 constexpr MaskTable masks = make_masks();
 
-/// The columns from one multiple of 64 on, as wide as stays in the fastest cache.
+/// The width of a strip of columns, starting at a multiple of 64, that stays in the fastest cache.
 constexpr std::size_t strip_words = 16;
 
 /// Both scans of the columns of words [first, last): down, counting from the background above, and
@@ -47,7 +47,7 @@ void scan_columns(const Image& image, std::size_t first, std::size_t last, bool 
         const auto& mask = masks[(row[word] >> (8 * byte)) & 255];
         const std::size_t at = (word - first) * 64 + byte * 8;
         for (std::size_t i = 0; i < 8; ++i) {
-          // Counting stops at the largest value: no_background stays that.
+          // Counting stops at the largest value, so that no_background does not change.
           const ColumnDistance one = above[at + i] != no_background;
           here[at + i] = static_cast<ColumnDistance>((above[at + i] + one) & mask[i]);
         }
@@ -72,7 +72,7 @@ struct Parabola {
   std::int64_t height = 0;  ///< squared
 };
 
-/// The lower envelope of parabolas that come from the left to the right, and its values.
+/// The lower envelope of parabolas that are added from left to right, and its values.
 class Envelope {
  public:
   explicit Envelope(std::size_t capacity) : parabolas_(capacity) {}
@@ -80,7 +80,7 @@ class Envelope {
   void clear() { size_ = 0; }
   bool empty() const { return size_ == 0; }
 
-  /// Adds one further right than all before, and drops those that it leaves nowhere lowest.
+  /// Adds a parabola to the right of all others, and drops those that are nowhere lowest any more.
   void add(Parabola next) {
     while (size_ >= 2 && is_hidden(parabolas_[size_ - 2], parabolas_[size_ - 1], next)) --size_;
     parabolas_[size_++] = next;
@@ -88,7 +88,7 @@ class Envelope {
 
   /// Restarts with a sweep of value_at() to the right.
   void rewind() { lowest_ = 0; }
-  /// The lowest value at x, which never decreases from call to call.
+  /// The envelope at x; x must not decrease from call to call.
   std::int64_t value_at(std::int64_t x) {
     std::int64_t value = evaluate(parabolas_[lowest_], x);
     while (lowest_ + 1 < size_) {
@@ -119,8 +119,8 @@ class Envelope {
 
 std::int64_t square(std::int64_t value) { return value * value; }
 
-/// Distances to pixels in the run [begin, end) of foreground pixels of a row. What lies beyond the
-/// background pixels at both ends of the run is further away than those.
+/// Distances to pixels in the run [begin, end) of foreground pixels of a row. Pixels beyond the
+/// background pixels at both ends of the run are further away than those.
 void measure_pixels(const ColumnDistance* column, std::int64_t begin, std::int64_t end,
                     std::int64_t width, bool border, Envelope& envelope, std::uint32_t* out) {
   envelope.clear();

@@ -10,13 +10,13 @@
 
 namespace medial::brushfire {
 
-/// Where the fire burns: the tiles in which, or near which, something changed since all rules were
-/// last asked there. Asking the others again would give the same answer: nothing goes. So a pass
-/// over the front is a pass over the image, and each deleted pixel costs O(1) tiles.
+/// The front of the fire: the tiles in or near which something changed since all rules were last
+/// applied there. Applying the rules to other tiles would not delete anything. So a pass over the
+/// front is equivalent to a pass over the image, and each deleted pixel costs O(1) tiles.
 class Front {
  public:
-  /// `reach`: how many pixels away a change can change what goes; 1 or 2. The tiles must outlive
-  /// the front, and change by burn() only.
+  /// `reach` is the largest distance, in pixels, at which a change affects a rule: 1 or 2. The
+  /// tiles must outlive the front, and may change only by burn().
   Front(Tiles& tiles, int reach)
       : tiles_(tiles),
         listed_(tiles.size(), 0),
@@ -34,7 +34,7 @@ class Front {
     }
   }
 
-  /// Starts the next pass; false if nothing is left to do.
+  /// Starts the next pass. Returns false if nothing is left to do.
   bool advance() {
     for (const std::size_t i : current_) listed_[i] &= static_cast<std::uint8_t>(~in_current);
     current_.clear();
@@ -49,8 +49,9 @@ class Front {
     for (const std::uint32_t i : current_) work(i);
   }
 
-  /// Deletes at once what rule(i) gives for each tile of the front: all rules see the image as it
-  /// was. Tiles near to changes join the front of this pass and of the next one.
+  /// Deletes the pixels that rule(i) returns for each tile of the front, all at once: the rules see
+  /// the image before the deletion. Tiles close to changes join the front of this pass and of the
+  /// next one.
   template <class Rule>
   void burn(const Rule& rule) {
     doomed_.clear();

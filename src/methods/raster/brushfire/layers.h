@@ -8,9 +8,9 @@
 
 namespace medial::brushfire {
 
-/// The runs in layers, each in their order, so that runs of two sets in one layer never touch, not
-/// even in a corner: thinned together, two components that touch on the grid would become one.
-/// One layer where nothing touches. O(runs log runs).
+/// The runs in layers, each in order, so that runs of two sets in one layer never touch, not even
+/// at a corner: if two components that touch on the grid were thinned together, they would become
+/// one. One layer if nothing touches. O(runs log runs).
 std::vector<std::vector<raster::PixelRun>> layers_of(const std::vector<raster::PixelRun>& runs);
 
 /// Whether the runs of each component of the shape, as a set of pixels with eight neighbours each,

@@ -1,12 +1,13 @@
 #pragma once
 
-// Which pixels may go, of the 64 pixels of a tile at once: bit i of each value says it of pixel i.
+// The rules that decide which pixels may be deleted, for the 64 pixels of a tile at once: bit i is
+// pixel i.
 
 #include "methods/raster/brushfire/tiles.h"
 
 namespace medial::brushfire {
 
-/// Where exactly one of four holds.
+/// The pixels at which exactly one of four is set.
 constexpr Tile exactly_one(Tile a, Tile b, Tile c, Tile d) {
   return (a ^ b ^ c ^ d) & ~((a & b) | (c & d));
 }
@@ -34,9 +35,10 @@ constexpr Tile not_an_end(const Neighbors& p) {
 /// Whether a four-neighbour is background.
 constexpr Tile at_border(const Neighbors& p) { return ~(p.n & p.e & p.s & p.w); }
 
-/// Guo and Hall's A1: the crossing number is 1; of the pairs of neighbours that follow each other,
-/// counted in both ways, two or three hold foreground in the way with fewer; and what keeps two
-/// pixels' width from going at once, which looks to the other side in every second pass.
+/// Guo and Hall's A1: the crossing number is 1; of the pairs of consecutive neighbours, counted in
+/// both ways, two or three contain foreground in the way with fewer; and a condition that keeps
+/// lines two pixels wide from vanishing at once, which looks to the other side in every second
+/// pass.
 constexpr Tile guo_hall(const Neighbors& p, bool first) {
   const auto two_or_three = [](Tile a, Tile b, Tile c, Tile d, Tile& two, Tile& four) {
     const Tile ab = a & b, cd = c & d;

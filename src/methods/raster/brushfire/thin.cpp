@@ -15,8 +15,8 @@ using brushfire::Neighbors;
 using brushfire::Tile;
 using brushfire::Tiles;
 
-/// One pass of the fire after another, until nothing more burns. `pass(front)` deletes what goes in
-/// one pass through Front::burn().
+/// Runs passes of the fire until nothing burns any more. `pass(front)` deletes the pixels of one
+/// pass by Front::burn().
 template <class Pass>
 Status burn_down(Tiles& tiles, int reach, const BrushfireOptions& options, const Pass& pass) {
   Front front(tiles, reach);
@@ -76,7 +76,8 @@ Status marking(Tiles& tiles, const BrushfireOptions& options) {
 /// corner, if two of them meet in nothing more than the corner. Of these the first stays, in the
 /// order of rows. What stays holds the critical kernel (Bertrand and Couprie 2008).
 Status simultaneous(Tiles& tiles, const BrushfireOptions& options) {
-  Tiles goes(tiles);  // what the rule lets go, as far as it is known; correct beyond the front
+  Tiles goes(
+      tiles);  // the pixels that the rule deletes, as far as computed; correct beyond the front
   return burn_down(tiles, 2, options, [&](Front& front) {
     front.for_each([&](std::size_t i) {
       const Neighbors p = tiles.neighbors(i);

@@ -10,14 +10,15 @@
 
 namespace medial::ridge {
 
-/// No grid has more pixels: three bit maps of this size are 768 MiB.
+/// The largest number of pixels of a grid: three bit maps of this size take 768 MiB.
 constexpr std::uint64_t most_pixels = std::uint64_t{1} << 31;
-/// Nor does a boundary cross more rows and columns of them: each crossing takes some 400 bytes.
+/// The largest number of rows and columns that the boundary may cross: each crossing takes some 400
+/// bytes.
 constexpr double most_crossings = 0x1p23;
 
-/// The grid that is asked for: the shape's box in the middle, with a margin of a pixel at
-/// least. Errors: invalid_option (see PixelGrid), too_large (more than most_pixels), unsupported
-/// (pixels below the coordinates' own spacing).
+/// The requested grid, with the shape's box in the middle and a margin of at least a pixel. Errors:
+/// invalid_option (see PixelGrid), too_large (more than most_pixels), unsupported (pixels smaller
+/// than the spacing of the coordinates).
 Result<raster::Grid> grid_for(const Box& box, const PixelGrid& wanted);
 
 /// The grid with the local coordinates of its pixels.

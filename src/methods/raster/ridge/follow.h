@@ -12,8 +12,7 @@
 
 namespace medial::ridge {
 
-/// What the report's medial map holds of a pixel (A.1.e), for medial pixels only. Lengths are
-/// local.
+/// The entry of the report's medial map for a pixel (A.1.e); medial pixels only. Lengths are local.
 struct Found {
   raster::Pixel pixel;
   /// How far from equidistant to its two edges: the lower the better. A pixel more where no point
@@ -38,7 +37,7 @@ struct MedialMap {
     medial.set(pixel.pixel);
   }
   const Found& at(raster::Pixel p) const { return found[place.at(p) - 1]; }
-  /// Keeps a medial pixel from going: better than all others.
+  /// Keeps a medial pixel from being removed, by giving it the best quality.
   void pin(raster::Pixel p) {
     found[place.at(p) - 1].quality = -std::numeric_limits<double>::infinity();
   }
@@ -59,17 +58,17 @@ class Follower {
   Follower(const EdgeOutline& outline, const LocalGrid& local, const raster::BitMap& boundary,
            NearestEdges& search, RidgeRule rule, const std::atomic<bool>* cancel);
 
-  /// Finds one medial pixel of a set: step 7 of A.3, straight up and down from a pixel inside it;
-  /// and where there is none, any of the set. Whether there is one.
+  /// Finds one medial pixel of a set by step 7 of A.3: straight up and down from a pixel inside it.
+  /// Returns false if there is none; the caller then checks all pixels of the set.
   bool find_first(raster::Pixel seed);
-  /// Decides one pixel that is in no boundary map, once; whether it is medial.
+  /// Decides once whether a pixel that is not in the boundary map is medial.
   bool check(raster::Pixel p);
-  /// Step 8: all medial pixels that are connected with those found but not yet followed.
+  /// Step 8: finds all medial pixels that are connected with those found but not yet followed.
   void follow();
 
   const MedialMap& map() const { return map_; }
   MedialMap& map() { return map_; }
-  /// What a medial pixel would hold of any pixel; its quality unbounded.
+  /// The entry that a pixel would have if it were medial, with unbounded quality.
   Found measured(raster::Pixel p);
 
  private:

@@ -9,7 +9,7 @@
 
 namespace medial::ridge {
 
-/// The axis in the necks: a point in each gate, and what is linked with what.
+/// The axis in the necks: a point in each gate, and the links.
 struct Passages {
   struct Point {
     Vec2 center;  ///< local
@@ -26,10 +26,10 @@ struct Passages {
   std::vector<std::array<End, 2>> links;
 };
 
-/// Places a point of the axis in each gate, and at each meeting of gates and interior pixels links
-/// all with one of them. Of the interior pixels at a meeting one becomes medial and stays: one that
-/// is medial already if there is any; otherwise with a way of medial pixels to the next that is.
-/// Call after all medial pixels are found and before thinning.
+/// Places a point of the axis in each gate, and links all gates and interior pixels that meet. Of
+/// the interior pixels at a meeting, one becomes medial and stays: one that is already medial if
+/// possible; otherwise with a way of medial pixels to the next one. Call after all medial pixels
+/// are found and before thinning.
 Passages pass_necks(const Necks& necks, const EdgeOutline& outline, const LocalGrid& local,
                     const InteriorSets& sets, NearestEdges& search, Follower& follower);
 

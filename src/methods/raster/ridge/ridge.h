@@ -8,14 +8,14 @@
 
 namespace medial::ridge {
 
-/// What the report's experiments measure: the four phases of Section IV, in seconds of the thread's
-/// processor time, and sizes.
+/// The measurements of the report's experiments: the four phases of Section IV, in seconds of the
+/// thread's processor time, and sizes.
 struct Report {
   double seconds_start = 0;   ///< digitising, vertex types, combining edges, lines
   double seconds_first = 0;   ///< inner points and first medial pixels
   double seconds_follow = 0;  ///< the rest of them
   double seconds_thin = 0;
-  double seconds_necks = 0;  ///< finding them, which is no part of the report's phases
+  double seconds_necks = 0;  ///< finding them; not one of the report's phases
   std::uint64_t columns = 0, rows = 0;
   std::uint64_t sets = 0;              ///< bounded sets of interior pixels
   std::uint64_t empty_sets = 0;        ///< without a medial pixel
@@ -27,7 +27,7 @@ struct Report {
   std::uint64_t distances = 0;         ///< computed by the sorted list
 };
 
-/// What the method cannot take of the options, if anything.
+/// The error if the method does not support the options.
 std::optional<Error> refuse(const Problem& problem);
 
 /// The method `ridge` (docs/ridge.md): ridge following after Volkmann and St. Clair [volkmann1987].
